@@ -1,0 +1,31 @@
+// How a computation ended: a value, never an exception and never a log line.
+#pragma once
+#include <string>
+
+namespace rheocyte {
+
+/// Why the solver stopped. Starts as `not_started`: success has to be said, never assumed.
+enum class Status {
+  not_started,
+  converged,
+  iteration_limit,     ///< Newton did not converge although the continuation step was reduced to its least value
+  mesh_folded,         ///< the liquid's mesh overlaps itself at every step size
+  surface_unstable,    ///< the bare surface wrinkles (Biot): the smooth branch ends before the wanted state
+  branch_ended,        ///< the tangent turns back: no state on this branch beyond
+  singular_matrix,     ///< the factorisation failed
+  not_finite,          ///< NaN or infinity in residual or state
+  accuracy_not_reached,///< converged on every mesh that was tried, but the error estimate stays above the wanted one
+  stopped,             ///< by a signal
+};
+
+/// What happened to the user's case.
+struct Outcome {
+  Status status = Status::not_started;
+  std::string message;  ///< one sentence: what, at which value, what to try
+  double reached = 0;   ///< fraction of the wanted compliance 1/E that was reached, 1 when converged
+};
+
+/// The stable name that stands in result.json, e.g. "converged", "surface-unstable".
+const char* name(Status);
+
+}  // namespace rheocyte

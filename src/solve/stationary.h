@@ -1,0 +1,61 @@
+// The stationary shape of one cell: from the sphere to the wanted state by itself (docs/theory.md, sec. 4).
+#pragma once
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "case/problem.h"
+#include "shape/contour.h"
+#include "shape/measures.h"
+#include "solve/outcome.h"
+
+namespace rheocyte {
+
+/// Where the time went and how large the systems were.
+struct SolveStatistics {
+  int unknowns = 0;            ///< of the finest system
+  int newton_iterations = 0;   ///< over all continuation steps and meshes
+  int factorisations = 0;
+  int continuation_steps = 0;
+  int degree = 0;              ///< polynomial degree of the finest system
+  int elements = 0;
+  double assembly_s = 0, factorisation_s = 0, total_s = 0;
+};
+
+/// One step along the branch, for progress and for later use.
+struct BranchPoint {
+  double compliance;      ///< wanted modulus / modulus of this step: 0 = rigid, 1 = the wanted state
+  double deformation;
+  int newton_iterations;
+};
+
+/// Everything that is known of a stationary state; dimensionless, in the units of case/problem.h.
+struct StationaryState {
+  Outcome outcome;
+  ShapeMeasures shape;                 ///< of the contour; lengths in R
+  Contour contour;                     ///< barycentre at x = 0
+  double cell_velocity = 0;            ///< in U
+  double pressure_drop = 0;            ///< over the simulated channel, in S
+  double additional_pressure_drop = 0; ///< the part that is due to the cell
+  double channel_length = 0;           ///< simulated, in R
+  double relative_volume_change = 0;
+  double least_meridional_stretch = 1; ///< over the surface
+  double residual = 0;                 ///< of the last Newton iteration, relative to the traction on the cell
+  double estimated_error = 0;          ///< relative, of the deformation
+  SolveStatistics statistics;
+  std::vector<BranchPoint> branch;
+  /// Writes fields.vtu (velocity, pressure, stress, displacement on the deformed mesh, high-order cells) in
+  /// physical units (um, m/s, Pa).
+  std::function<void(const std::string& path, const Scales&)> write_fields;
+};
+
+/// Called after each continuation step.
+using ProgressCallback = std::function<void(const BranchPoint&)>;
+
+/// Solves the problem from the unstressed sphere. Never throws for a numerical failure: the state then holds the
+/// last converged shape on the branch and the outcome says why it stopped. `stop` is polled once an iteration.
+StationaryState solve_stationary(const Problem&, const ProgressCallback& = {}, const std::atomic<bool>* stop = nullptr);
+
+}  // namespace rheocyte
