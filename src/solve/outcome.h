@@ -8,14 +8,14 @@ namespace rheocyte {
 enum class Status {
   not_started,
   converged,
-  iteration_limit,     ///< Newton did not converge although the continuation step was reduced to its least value
-  mesh_folded,         ///< the liquid's mesh overlaps itself at every step size
-  surface_unstable,    ///< the bare surface wrinkles (Biot): the smooth branch ends before the wanted state
-  branch_ended,        ///< the tangent turns back: no state on this branch beyond
-  singular_matrix,     ///< the factorisation failed
-  not_finite,          ///< NaN or infinity in residual or state
-  accuracy_not_reached,///< converged on every mesh that was tried, but the error estimate stays above the wanted one
-  stopped,             ///< by a signal
+  iteration_limit,       ///< Newton did not converge although the continuation step was reduced to its least value
+  mesh_folded,           ///< the liquid's mesh overlaps itself at every step size
+  surface_unstable,      ///< the bare surface wrinkles (Biot): the smooth branch ends before the wanted state
+  branch_ended,          ///< the tangent turns back: no state on this branch beyond
+  singular_matrix,       ///< the factorisation failed
+  not_finite,            ///< NaN or infinity in residual or state
+  accuracy_not_reached,  ///< converged on every mesh that was tried, but the error estimate stays above the wanted one
+  stopped,               ///< by a signal
 };
 
 /// What happened to the user's case.
@@ -24,6 +24,9 @@ struct Outcome {
   std::string message;  ///< one sentence: what, at which value, what to try
   double reached = 0;   ///< fraction of the wanted compliance 1/E that was reached, 1 when converged
 };
+
+/// One sentence for the user: what happened, where, what to try. `deformation` is that of the last good state.
+std::string explanation(const Outcome&, double deformation, double estimated_error);
 
 /// The stable name that stands in result.json, e.g. "converged", "surface-unstable".
 const char* name(Status);

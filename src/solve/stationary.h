@@ -15,18 +15,21 @@ namespace rheocyte {
 
 /// Where the time went and how large the systems were.
 struct SolveStatistics {
-  int unknowns = 0;            ///< of the finest system
-  int newton_iterations = 0;   ///< over all continuation steps and meshes
+  int unknowns = 0;           ///< of the finest system
+  int newton_iterations = 0;  ///< over all continuation steps and meshes
   int factorisations = 0;
   int continuation_steps = 0;
-  int degree = 0;              ///< polynomial degree of the finest system
+  int degree = 0;  ///< polynomial degree of the finest system
   int elements = 0;
-  double assembly_s = 0, factorisation_s = 0, total_s = 0;
+  double assembly_s = 0;       ///< integrals over elements: residuals and tangents
+  double factorisation_s = 0;  ///< condensation of elements and sparse LU, numeric
+  double substitution_s = 0;   ///< solves with the factors
+  double total_s = 0;          ///< wall time, set-up included
 };
 
 /// One step along the branch, for progress and for later use.
 struct BranchPoint {
-  double compliance;      ///< wanted modulus / modulus of this step: 0 = rigid, 1 = the wanted state
+  double compliance;  ///< wanted modulus / modulus of this step: 0 = rigid, 1 = the wanted state
   double deformation;
   int newton_iterations;
 };
@@ -34,21 +37,22 @@ struct BranchPoint {
 /// Everything that is known of a stationary state; dimensionless, in the units of case/problem.h.
 struct StationaryState {
   Outcome outcome;
-  ShapeMeasures shape;                 ///< of the contour; lengths in R
-  Contour contour;                     ///< barycentre at x = 0
-  double cell_velocity = 0;            ///< in U
-  double pressure_drop = 0;            ///< over the simulated channel, in S
-  double additional_pressure_drop = 0; ///< the part that is due to the cell
-  double channel_length = 0;           ///< simulated, in R
+  ShapeMeasures shape;                  ///< of the contour; lengths in R
+  Contour contour;                      ///< barycentre at x = 0
+  double cell_velocity = 0;             ///< in U
+  double pressure_drop = 0;             ///< over the simulated channel, in S
+  double additional_pressure_drop = 0;  ///< the part that is due to the cell
+  double channel_length = 0;            ///< simulated, in R
   double relative_volume_change = 0;
-  double least_meridional_stretch = 1; ///< over the surface
-  double residual = 0;                 ///< of the last Newton iteration, relative to the traction on the cell
-  double estimated_error = 0;          ///< relative, of the deformation
+  double least_meridional_stretch = 1;  ///< over the surface
+  double biot_ratio = 1;                ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
+  double residual = 0;                  ///< of the last Newton iteration, relative to the traction on the cell
+  double estimated_error = 0;           ///< relative, of the deformation
   SolveStatistics statistics;
   std::vector<BranchPoint> branch;
   /// Writes fields.vtu (velocity, pressure, stress, displacement on the deformed mesh, high-order cells) in
-  /// physical units (um, m/s, Pa).
-  std::function<void(const std::string& path, const Scales&)> write_fields;
+  /// physical units (um, m/s, Pa); false if that failed.
+  std::function<bool(const std::string& path, const Scales&)> write_fields;
 };
 
 /// Called after each continuation step.

@@ -1,0 +1,75 @@
+# Libraries that bring no CMake targets of their own, or targets that we want thinner. All are imported, so their
+# headers count as system headers and our warnings do not reach into them.
+#
+#   rheocyte::openblas   BLAS with openblas_set_num_threads
+#   rheocyte::umfpack    sparse LU of SuiteSparse
+#   rheocyte::jet        dual numbers ceres::Jet: headers only, libceres is not linked
+#   rheocyte::toml       toml++: headers only
+#   rheocyte::dealii     deal.II (only where deal.II was found)
+#
+# and RHEOCYTE_PYTHON_EXECUTABLE, an interpreter that has matplotlib and numpy.
+
+# rheocyte_import(<target> [LIBRARY <name>] HEADER <file> [SUFFIXES <folder>...] PACKAGE <Debian package>)
+function(rheocyte_import target)
+  cmake_parse_arguments(arg "" "LIBRARY;HEADER;PACKAGE" "SUFFIXES" ${ARGN})
+  string(TOUPPER "RHEOCYTE_${target}" prefix)
+  find_path(${prefix}_INCLUDE_DIR ${arg_HEADER} PATH_SUFFIXES ${arg_SUFFIXES})
+  mark_as_advanced(${prefix}_INCLUDE_DIR)
+  set(location ${${prefix}_INCLUDE_DIR})
+  if(arg_LIBRARY)
+    find_library(${prefix}_LIBRARY ${arg_LIBRARY} PATH_SUFFIXES ${arg_SUFFIXES})
+    mark_as_advanced(${prefix}_LIBRARY)
+    set(location ${${prefix}_LIBRARY})
+  endif()
+  if(NOT ${prefix}_INCLUDE_DIR OR NOT location)
+    message(FATAL_ERROR "${arg_HEADER} or its library was not found. Debian's package is called ${arg_PACKAGE}; "
+                        "./quickstart installs it.")
+  endif()
+  if(arg_LIBRARY)
+    add_library(rheocyte::${target} UNKNOWN IMPORTED)
+    set_target_properties(rheocyte::${target} PROPERTIES IMPORTED_LOCATION ${location})
+  else()
+    add_library(rheocyte::${target} INTERFACE IMPORTED)
+  endif()
+  target_include_directories(rheocyte::${target} INTERFACE ${${prefix}_INCLUDE_DIR})
+endfunction()
+
+rheocyte_import(openblas LIBRARY openblas HEADER openblas_config.h SUFFIXES openblas-pthread PACKAGE libopenblas-dev)
+rheocyte_import(umfpack LIBRARY umfpack HEADER umfpack.h SUFFIXES suitesparse PACKAGE libsuitesparse-dev)
+# Named explicitly, so that UMFPACK's BLAS is OpenBLAS whatever the system's default BLAS is.
+target_link_libraries(rheocyte::umfpack INTERFACE rheocyte::openblas)
+
+rheocyte_import(jet HEADER ceres/jet.h PACKAGE libceres-dev)
+target_link_libraries(rheocyte::jet INTERFACE Eigen3::Eigen)
+
+rheocyte_import(toml HEADER toml++/toml.h PACKAGE libtomlplusplus-dev)
+target_compile_definitions(rheocyte::toml INTERFACE TOML_HEADER_ONLY=1)
+
+# deal.II's own flags (C++17, its optimisation and warnings) stay with deal.II. DEBUG chooses the library with
+# assertions. It names some two hundred libraries to link; only those that are really called become ours.
+if(deal.II_FOUND)
+  include(${DEAL_II_TARGET_CONFIG})
+  add_library(rheocyte::dealii INTERFACE IMPORTED)
+  target_include_directories(rheocyte::dealii INTERFACE ${DEAL_II_INCLUDE_DIRS})
+  target_compile_definitions(rheocyte::dealii INTERFACE ${DEAL_II_USER_DEFINITIONS} $<$<CONFIG:Debug>:DEBUG>)
+  target_link_options(rheocyte::dealii INTERFACE -Wl,--as-needed)
+  target_link_libraries(rheocyte::dealii INTERFACE
+                        $<IF:$<CONFIG:Debug>,${DEAL_II_TARGET_DEBUG},${DEAL_II_TARGET_RELEASE}>)
+endif()
+
+# Debian's interpreter first: another python3 that stands earlier in PATH often lacks the packages.
+if(NOT RHEOCYTE_PYTHON_EXECUTABLE)
+  find_program(RHEOCYTE_PATH_PYTHON python3)
+  mark_as_advanced(RHEOCYTE_PATH_PYTHON)
+  foreach(candidate IN ITEMS /usr/bin/python3 ${RHEOCYTE_PATH_PYTHON})
+    execute_process(COMMAND ${candidate} -c "import matplotlib, numpy" RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
+    if(failed EQUAL 0)
+      set(RHEOCYTE_PYTHON_EXECUTABLE ${candidate} CACHE FILEPATH "Python interpreter with matplotlib and numpy")
+      break()
+    endif()
+  endforeach()
+endif()
+if(NOT RHEOCYTE_PYTHON_EXECUTABLE)
+  message(WARNING "No Python 3 with matplotlib and numpy was found: results will have no pictures. "
+                  "Debian's packages are called python3-matplotlib and python3-numpy.")
+endif()

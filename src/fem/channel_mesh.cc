@@ -1,0 +1,128 @@
+#include "fem/channel_mesh.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "fem/topology.h"
+
+namespace rheocyte {
+namespace {
+
+std::vector<double> uniform(int n) {
+  std::vector<double> breaks(n + 1);
+  for (int i = 0; i <= n; ++i) breaks[i] = double(i) / n;
+  return breaks;
+}
+
+/// Breaks in [0, 1] whose intervals grow by the constant factor that multiplies 1 to `ratio` over all of them.
+std::vector<double> graded(int n, double ratio) {
+  if (std::abs(ratio - 1) < 1e-3) return uniform(n);
+  std::vector<double> breaks = uniform(n);
+  for (double& b : breaks) b = (std::pow(ratio, b) - 1) / (ratio - 1);
+  return breaks;
+}
+
+/// Height of the first layer of liquid on the surface, relative to the width of the elements there. Taller elements
+/// resolve the liquid's answer to short waves of the surface along it but not across it: the surface then loses
+/// stability numerically, long before the solid does.
+constexpr double first_layer_height = 0.5;
+
+/// Layers from the surface to the box, each twice as high as the one below it.
+std::vector<double> liquid_layers(const ChannelGeometry& geometry, const Subdivision& n) {
+  const double width = geometry.radius() * geometry.angle(Sector::front, 1) / n.front;
+  const double first = first_layer_height * width / (geometry.box() - geometry.radius());
+  const int layers = std::max(1, int(std::lround(std::log2(1 + 1 / first))));
+  return graded(layers, std::pow(2.0, layers));
+}
+
+bool runs_outward_first(Block block) {
+  return block != Block::ring_rear && block != Block::rear && block != Block::upstream;
+}
+
+/// Numbers equal points once (to 1e-9 R).
+class VertexNumbers {
+ public:
+  unsigned number(const Point& x) {
+    const auto key = std::array{std::lround(x(0) * 1e9), std::lround(x(1) * 1e9)};
+    const auto [it, is_new] = numbers_.try_emplace(key, unsigned(points.size()));
+    if (is_new) points.emplace_back(x(0), x(1));
+    return it->second;
+  }
+  std::vector<dealii::Point<2>> points;
+
+ private:
+  std::map<std::array<long, 2>, unsigned> numbers_;
+};
+
+}  // namespace
+
+Point MeshElement::map(const ChannelGeometry& geometry, double xi1, double xi2) const {
+  const auto [o, a] = parameters(xi1, xi2);
+  return geometry.map(block, o, a);
+}
+
+std::array<double, 2> MeshElement::parameters(double xi1, double xi2) const {
+  const double o = outward_first ? xi1 : xi2, a = outward_first ? xi2 : xi1;
+  return {outward[0] + o * (outward[1] - outward[0]), along[0] + a * (along[1] - along[0])};
+}
+
+ChannelMesh::~ChannelMesh() = default;
+
+ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& subdivision)
+    : geometry_(geometry), subdivision_(subdivision), topology_(std::make_unique<Topology>()) {
+  const Subdivision& n = subdivision;
+  const auto front = uniform(n.front), top = uniform(n.top), ring = uniform(n.ring);
+  const auto layers = liquid_layers(geometry, n);
+  const auto axial = graded(n.axial, 1.3);
+  add_block(Block::core, front, top);
+  add_block(Block::ring_front, ring, front);
+  add_block(Block::ring_top, ring, top);
+  add_block(Block::ring_rear, ring, front);
+  add_block(Block::front, layers, front);
+  add_block(Block::top, layers, top);
+  add_block(Block::rear, layers, front);
+  add_block(Block::downstream, axial, front);
+  add_block(Block::upstream, axial, front);
+
+  VertexNumbers vertices;
+  std::vector<dealii::CellData<2>> cells;
+  for (const MeshElement& element : elements_) {
+    dealii::CellData<2> cell;
+    for (int k = 0; k < 4; ++k) cell.vertices[k] = vertices.number(element.map(geometry_, k % 2, k / 2));
+    cells.push_back(cell);
+  }
+  topology_->triangulation.create_triangulation(vertices.points, cells, dealii::SubCellData());
+}
+
+void ChannelMesh::add_block(Block block, const std::vector<double>& outward, const std::vector<double>& along) {
+  for (std::size_t i = 0; i + 1 < outward.size(); ++i) {
+    for (std::size_t j = 0; j + 1 < along.size(); ++j) {
+      elements_.push_back({block, runs_outward_first(block), {outward[i], outward[i + 1]}, {along[j], along[j + 1]}});
+    }
+  }
+}
+
+NodeNumbers ChannelMesh::number_nodes(int degree) const {
+  const dealii::FE_Q<2> fe(degree);
+  dealii::DoFHandler<2> dofs(topology_->triangulation);
+  dofs.distribute_dofs(fe);
+  const auto hierarchic = dealii::FETools::lexicographic_to_hierarchic_numbering<2>(degree);
+
+  NodeNumbers numbers;
+  numbers.count = int(dofs.n_dofs());
+  numbers.of_element.resize(elements_.size());
+  std::vector<dealii::types::global_dof_index> indices(fe.n_dofs_per_cell());
+  for (const auto& cell : dofs.active_cell_iterators()) {
+    cell->get_dof_indices(indices);
+    auto& nodes = numbers.of_element[cell->active_cell_index()];
+    for (unsigned i = 0; i < indices.size(); ++i) nodes.push_back(int(indices[hierarchic[i]]));
+  }
+  return numbers;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,60 @@
+// The mesh of cell and channel: quadrilaterals that subdivide the blocks of the geometry.
+#pragma once
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "fem/channel_geometry.h"
+
+namespace rheocyte {
+
+/// How finely the blocks are divided.
+struct Subdivision {
+  int front = 2;  ///< elements along the front's surface, the same at the rear
+  int top = 4;    ///< elements along the top's surface
+  int ring = 1;   ///< layers of the cell round its core
+  int axial = 2;  ///< elements from the box to each end of the channel
+};
+
+/// One quadrilateral: a rectangle [outward] x [along] of a block's parameters.
+struct MeshElement {
+  Block block;
+  bool outward_first;  ///< whether the element's first coordinate runs outward (kept right-handed)
+  std::array<double, 2> outward, along;
+
+  /// Point of the undeformed mesh for element coordinates in [0,1]^2.
+  Point map(const ChannelGeometry&, double xi1, double xi2) const;
+  /// The same point in the block's parameters (outward, along).
+  std::array<double, 2> parameters(double xi1, double xi2) const;
+};
+
+/// Numbers of the Gauss-Lobatto nodes of continuous elements of one degree: row e lists element e's (p+1)^2 nodes,
+/// first coordinate fastest.
+struct NodeNumbers {
+  int count = 0;
+  std::vector<std::vector<int>> of_element;
+};
+
+class ChannelMesh {
+ public:
+  ChannelMesh(const ChannelGeometry&, const Subdivision&);
+  ~ChannelMesh();
+
+  const ChannelGeometry& geometry() const { return geometry_; }
+  const Subdivision& subdivision() const { return subdivision_; }
+  const std::vector<MeshElement>& elements() const { return elements_; }
+  NodeNumbers number_nodes(int degree) const;
+
+  struct Topology;  ///< holds the deal.II triangulation; defined in topology.h for this floor's output
+  const Topology& topology() const { return *topology_; }
+
+ private:
+  void add_block(Block, const std::vector<double>& outward, const std::vector<double>& along);
+
+  ChannelGeometry geometry_;
+  Subdivision subdivision_;
+  std::vector<MeshElement> elements_;
+  std::unique_ptr<Topology> topology_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,194 @@
+#include "fem/discretisation.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace rheocyte {
+namespace {
+
+constexpr double tiny = 1e-10;
+
+/// Local nodes of the edge outward = side (0 or 1), in the order of `along`.
+std::vector<int> edge_nodes(const MeshElement& element, const std::vector<int>& nodes, int degree, int side) {
+  std::vector<int> edge;
+  for (int k = 0; k <= degree; ++k) {
+    const int i = element.outward_first ? side * degree : k, j = element.outward_first ? k : side * degree;
+    edge.push_back(nodes[j * (degree + 1) + i]);
+  }
+  return edge;
+}
+
+}  // namespace
+
+Discretisation::Discretisation(const ChannelMesh& mesh, int degree, const Liquid& liquid)
+    : mesh_(&mesh), reference_(degree), nodes_(mesh.number_nodes(degree)), points_(nodes_.count) {
+  const VectorXd& s = reference_.nodes_1d;
+  for (std::size_t e = 0; e < mesh.elements().size(); ++e) {
+    for (int k = 0; k < reference_.nodes(); ++k) {
+      points_[nodes_.of_element[e][k]] =
+          mesh.elements()[e].map(mesh.geometry(), s(k % (degree + 1)), s(k / (degree + 1)));
+    }
+  }
+  number_unknowns(flag_nodes(), liquid);
+  find_edges();
+  for (std::size_t e = 0; e < mesh.elements().size(); ++e) {
+    elements_.push_back(is_cell(mesh.elements()[e].block) ? cell_element(int(e)) : liquid_element(int(e)));
+  }
+}
+
+std::vector<Discretisation::NodeFlags> Discretisation::flag_nodes() const {
+  std::vector<NodeFlags> flags(nodes_.count);
+  const double end = mesh_->geometry().half_length();
+  for (int i = 0; i < nodes_.count; ++i) {
+    const Point& x = points_[i];
+    flags[i].axis = x(1) < tiny;
+    flags[i].wall = x(1) > 1 - tiny;
+    flags[i].inlet = x(0) < -end + tiny;
+    flags[i].outlet = x(0) > end - tiny;
+  }
+  for (std::size_t e = 0; e < nodes_.of_element.size(); ++e) {
+    const bool cell = is_cell(mesh_->elements()[e].block);
+    for (int k = 0; k < reference_.nodes(); ++k) {
+      NodeFlags& f = flags[nodes_.of_element[e][k]];
+      (cell ? f.cell : f.liquid) = true;
+      f.interior = f.interior || reference_.is_interior(k);
+    }
+  }
+  for (NodeFlags& f : flags) f.surface = f.cell && f.liquid;
+  return flags;
+}
+
+void Discretisation::number_unknowns(const std::vector<NodeFlags>& flags, const Liquid& liquid) {
+  const int modes = reference_.pressures(), elements = int(nodes_.of_element.size());
+  displacement_.assign(2 * nodes_.count, -1);
+  velocity_.assign(2 * nodes_.count, Slot{});
+  pressure_.assign(elements * modes, -1);
+  const auto number_nodes = [&](bool interior) {
+    for (int i = 0; i < nodes_.count; ++i) {
+      const NodeFlags& f = flags[i];
+      if (f.interior != interior) continue;
+      if (f.cell) {
+        displacement_[2 * i] = unknowns_++;
+        if (!f.axis) displacement_[2 * i + 1] = unknowns_++;
+      } else {
+        if (!f.wall && !f.inlet) velocity_[2 * i].unknown = unknowns_++;
+        if (!f.wall && !f.inlet && !f.outlet && !f.axis) velocity_[2 * i + 1].unknown = unknowns_++;
+      }
+    }
+  };
+  number_nodes(false);
+  for (int e = 0; e < elements; ++e) pressure_[e * modes] = unknowns_++;
+  cell_velocity_ = unknowns_++;
+  outer_unknowns_ = unknowns_;
+  number_nodes(true);
+  for (int e = 0; e < elements; ++e) {
+    for (int k = 1; k < modes; ++k) pressure_[e * modes + k] = unknowns_++;
+  }
+  // Walls and inlet move backwards past the cell.
+  for (int i = 0; i < nodes_.count; ++i) {
+    if (flags[i].cell || !(flags[i].wall || flags[i].inlet)) continue;
+    const double inflow = flags[i].wall ? 0 : undisturbed_velocity(liquid, points_[i](1));
+    velocity_[2 * i] = {cell_velocity_, -1, inflow};
+  }
+}
+
+void Discretisation::find_edges() {
+  const auto collect = [this](Block block, int side, bool reversed) {
+    std::vector<BoundaryEdge> edges;
+    for (std::size_t e = 0; e < mesh_->elements().size(); ++e) {
+      const MeshElement& element = mesh_->elements()[e];
+      if (element.block != block || element.outward[side] != side) continue;
+      auto nodes = edge_nodes(element, nodes_.of_element[e], reference_.degree(), side);
+      if (reversed) std::reverse(nodes.begin(), nodes.end());
+      edges.push_back({int(e), nodes});
+    }
+    if (reversed) std::reverse(edges.begin(), edges.end());
+    return edges;
+  };
+  for (const Block block : {Block::ring_front, Block::ring_top, Block::ring_rear}) {
+    const auto edges = collect(block, 1, block == Block::ring_rear);
+    surface_.insert(surface_.end(), edges.begin(), edges.end());
+  }
+  inlet_ = collect(Block::upstream, 1, false);
+  outlet_ = collect(Block::downstream, 1, false);
+}
+
+std::vector<Place<double>> Discretisation::reference_places(int element) const {
+  const int n = reference_.nodes();
+  Eigen::MatrixX2d X(n, 2);
+  for (int k = 0; k < n; ++k) X.row(k) = points_[nodes_.of_element[element][k]].transpose();
+  const Eigen::MatrixX2d x = reference_.shape.value * X, x1 = reference_.shape.d1 * X, x2 = reference_.shape.d2 * X;
+  std::vector<Place<double>> places;
+  for (int q = 0; q < reference_.points(); ++q) {
+    Plane<double> G;
+    G << x1(q, 0), x2(q, 0), x1(q, 1), x2(q, 1);
+    places.emplace_back(G, x(q, 1));
+  }
+  return places;
+}
+
+ElementUnknowns Discretisation::cell_element(int element) const {
+  const auto& nodes = nodes_.of_element[element];
+  ElementUnknowns unknowns;
+  unknowns.position_columns = reference_.nodes();
+  unknowns.position = reference_.shape;
+  unknowns.position_at_nodes = MatrixXd::Identity(reference_.nodes(), reference_.nodes());
+  unknowns.reference = reference_places(element);
+  for (int c = 0; c < 2; ++c) {
+    for (const int node : nodes) unknowns.columns.push_back({displacement(node, c)});
+  }
+  for (int k = 0; k < reference_.pressures(); ++k) unknowns.columns.push_back({pressure(element, k)});
+  for (const Slot& slot : unknowns.columns) unknowns.rows.push_back(slot.unknown);
+  return unknowns;
+}
+
+ElementUnknowns Discretisation::liquid_element(int element) const {
+  const auto& nodes = nodes_.of_element[element];
+  ElementUnknowns unknowns;
+  unknowns.liquid = true;
+  unknowns.reference = reference_places(element);
+  if (has_spokes(mesh_->elements()[element].block)) add_spokes(element, unknowns);
+  for (int c = 0; c < 2; ++c) {
+    for (const int node : nodes) {
+      // On the surface the relative velocity vanishes, and the liquid's momentum is added to the cell's equation.
+      const Slot slot = velocity(node, c);
+      const bool surface = displacement(node, 0) >= 0;
+      unknowns.columns.push_back(surface ? Slot{} : slot);
+      const bool own_equation = slot.unknown != cell_velocity_;
+      unknowns.rows.push_back(surface ? displacement(node, c) : own_equation ? slot.unknown : -1);
+    }
+  }
+  for (int k = 0; k < reference_.pressures(); ++k) {
+    unknowns.columns.push_back({pressure(element, k)});
+    unknowns.rows.push_back(pressure(element, k));
+  }
+  return unknowns;
+}
+
+void Discretisation::add_spokes(int element, ElementUnknowns& unknowns) const {
+  const MeshElement& self = mesh_->elements()[element];
+  const auto foot = std::find_if(mesh_->elements().begin(), mesh_->elements().end(), [&](const MeshElement& other) {
+    return other.block == self.block && other.along == self.along && other.outward[0] == 0;
+  });
+  assert(foot != mesh_->elements().end());
+  const int p = reference_.degree();
+  const auto surface = edge_nodes(*foot, nodes_.of_element[foot - mesh_->elements().begin()], p, 0);
+
+  // D(s, t) = (1 - s) U(t): the outward factor is linear, so its nodal interpolation is exact.
+  MatrixXd extension = MatrixXd::Zero(reference_.nodes(), p + 1);
+  for (int k = 0; k < reference_.nodes(); ++k) {
+    const int i = k % (p + 1), j = k / (p + 1);
+    const double outward = self.parameters(reference_.nodes_1d(i), reference_.nodes_1d(j))[0];
+    extension(k, self.outward_first ? j : i) = 1 - outward;
+  }
+  const ShapeTable& shape = reference_.shape;
+  unknowns.position_columns = p + 1;
+  unknowns.position = {shape.value * extension, shape.d1 * extension, shape.d2 * extension};
+  unknowns.position_at_nodes = extension;
+  for (int c = 0; c < 2; ++c) {
+    for (const int node : surface) unknowns.columns.push_back({displacement(node, c)});
+  }
+}
+
+}  // namespace rheocyte

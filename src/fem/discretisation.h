@@ -1,0 +1,88 @@
+// Unknowns of the stationary problem on one mesh at one degree, and where each element finds its own.
+//
+// Unknown: displacement (x, r) of the cell's nodes; velocity (x, r) of the liquid's nodes relative to the cell;
+// discontinuous pressures everywhere; the cell's velocity v_cell. No unknown: the liquid's mesh (it follows the
+// surface along spokes, docs/theory.md eq:spokes) and everything that a boundary condition fixes.
+#pragma once
+#include <vector>
+
+#include "fem/channel_mesh.h"
+#include "fem/reference_element.h"
+#include "laws/axisymmetric.h"
+#include "laws/liquid.h"
+
+namespace rheocyte {
+
+/// A local value of an element: constant + factor * unknown; no unknown: -1.
+struct Slot {
+  int unknown = -1;
+  double factor = 1, constant = 0;
+};
+
+/// What one element knows. Column slots: displacements x then r of `position_columns` functions, in the liquid
+/// velocities x then r of the nodes, pressures. Row slots: x-tests, r-tests of the nodes, pressure tests.
+struct ElementUnknowns {
+  bool liquid = false;
+  int position_columns = 0;
+  ShapeTable position;                   ///< what the displacement columns do at the quadrature points
+  MatrixXd position_at_nodes;            ///< and at the nodes: nodes x columns
+  std::vector<Place<double>> reference;  ///< undeformed map at the quadrature points
+  std::vector<Slot> columns;
+  std::vector<int> rows;  ///< unknown whose equation the row belongs to, or -1
+};
+
+/// An edge of the mesh on the cell's surface, the inlet or the outlet.
+struct BoundaryEdge {
+  int element = 0;
+  std::vector<int> nodes;  ///< p+1 nodes in order
+};
+
+class Discretisation {
+ public:
+  Discretisation(const ChannelMesh&, int degree, const Liquid&);
+
+  const ChannelMesh& mesh() const { return *mesh_; }
+  const ReferenceElement& reference() const { return reference_; }
+  const std::vector<ElementUnknowns>& elements() const { return elements_; }
+  const NodeNumbers& nodes() const { return nodes_; }
+  const std::vector<Point>& node_points() const { return points_; }
+
+  int unknowns() const { return unknowns_; }
+  /// Unknowns up to this number couple elements; the others belong to one element and are condensed.
+  int outer_unknowns() const { return outer_unknowns_; }
+  int cell_velocity() const { return cell_velocity_; }
+  /// Unknown of component c (0: x, 1: r) of a node's displacement, -1 if fixed or not in the cell.
+  int displacement(int node, int c) const { return displacement_[2 * node + c]; }
+  const Slot& velocity(int node, int c) const { return velocity_[2 * node + c]; }
+  int pressure(int element, int mode) const { return pressure_[element * reference_.pressures() + mode]; }
+
+  /// Edges of the surface from the front pole to the rear pole.
+  const std::vector<BoundaryEdge>& surface() const { return surface_; }
+  const std::vector<BoundaryEdge>& inlet() const { return inlet_; }
+  const std::vector<BoundaryEdge>& outlet() const { return outlet_; }
+
+ private:
+  struct NodeFlags {
+    bool cell = false, liquid = false, surface = false, axis = false, wall = false, inlet = false, outlet = false,
+         interior = false;
+  };
+  std::vector<NodeFlags> flag_nodes() const;
+  void number_unknowns(const std::vector<NodeFlags>&, const Liquid&);
+  void find_edges();
+  ElementUnknowns cell_element(int element) const;
+  ElementUnknowns liquid_element(int element) const;
+  void add_spokes(int element, ElementUnknowns&) const;
+  std::vector<Place<double>> reference_places(int element) const;
+
+  const ChannelMesh* mesh_;
+  ReferenceElement reference_;
+  NodeNumbers nodes_;
+  std::vector<Point> points_;
+  std::vector<int> displacement_, pressure_;
+  std::vector<Slot> velocity_;
+  int unknowns_ = 0, outer_unknowns_ = 0, cell_velocity_ = -1;
+  std::vector<BoundaryEdge> surface_, inlet_, outlet_;
+  std::vector<ElementUnknowns> elements_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,178 @@
+#include "fem/element_integrals.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace rheocyte {
+namespace {
+
+/// Which table of a column group feeds an input of the weak form: value or one of the derivatives.
+enum class Part { value, d1, d2 };
+struct Feed {
+  int input;
+  Part part;
+};
+
+const MatrixXd& table(const ShapeTable& shape, Part part) {
+  return part == Part::value ? shape.value : part == Part::d1 ? shape.d1 : shape.d2;
+}
+
+/// A group of columns with common shape functions, and the inputs that it feeds.
+struct ColumnGroup {
+  const ShapeTable* shape;
+  int first, count;
+  std::vector<Feed> feeds;
+};
+
+/// Columns of an element but for the pressures, which come last and feed the last input.
+std::vector<ColumnGroup> column_groups(const ElementUnknowns& element, const ReferenceElement& reference) {
+  const int n = reference.nodes(), m = element.position_columns;
+  std::vector<ColumnGroup> groups;
+  if (m > 0) {
+    groups.push_back({&element.position, 0, m, {{0, Part::d1}, {1, Part::d2}}});
+    groups.push_back({&element.position, m, m, {{2, Part::d1}, {3, Part::d2}, {4, Part::value}}});
+  }
+  if (element.liquid) {
+    const ShapeTable* shape = &reference.shape;
+    groups.push_back({shape, 2 * m, n, {{5, Part::value}, {7, Part::d1}, {8, Part::d2}}});
+    groups.push_back({shape, 2 * m + n, n, {{6, Part::value}, {9, Part::d1}, {10, Part::d2}}});
+  }
+  return groups;
+}
+
+/// Fluxes (points x outputs) and, if wanted, their derivatives (points x outputs*inputs), times the weights.
+template <class Form, class MakeForm>
+void evaluate_points(const MatrixXd& inputs, const VectorXd& weights, const MakeForm& form_at, Want want,
+                     ElementSystem& system) {
+  using Dual = ceres::Jet<double, Form::inputs>;
+  const int points = int(inputs.rows());
+  system.fluxes.resize(points, Form::outputs);
+  system.flux_slopes.resize(points, Form::outputs * Form::inputs);
+  for (int q = 0; q < points; ++q) {
+    const Form form = form_at(q);
+    if (want == Want::residual) {
+      std::array<double, Form::inputs> f;
+      for (int i = 0; i < Form::inputs; ++i) f[i] = inputs(q, i);
+      const auto flux = form(f);
+      for (int k = 0; k < Form::outputs; ++k) system.fluxes(q, k) = flux[k] * weights(q);
+      continue;
+    }
+    std::array<Dual, Form::inputs> f;
+    for (int i = 0; i < Form::inputs; ++i) f[i] = Dual(inputs(q, i), i);
+    const auto flux = form(f);
+    for (int k = 0; k < Form::outputs; ++k) {
+      system.fluxes(q, k) = flux[k].a * weights(q);
+      for (int i = 0; i < Form::inputs; ++i) {
+        system.flux_slopes(q, k * Form::inputs + i) = flux[k].v(i) * weights(q);
+      }
+    }
+  }
+}
+
+void test_residual(const ReferenceElement& reference, ElementSystem& system) {
+  const int n = reference.nodes(), m = reference.pressures();
+  system.residual.resize(2 * n + m);
+  for (int c = 0; c < 2; ++c) {
+    auto rows = system.residual.segment(c * n, n);
+    rows.noalias() = reference.shape.value.transpose() * system.fluxes.col(3 * c);
+    rows.noalias() += reference.shape.d1.transpose() * system.fluxes.col(3 * c + 1);
+    rows.noalias() += reference.shape.d2.transpose() * system.fluxes.col(3 * c + 2);
+  }
+  system.residual.tail(m).noalias() = reference.pressure.transpose() * system.fluxes.col(6);
+}
+
+/// weighted(:, columns) = d(flux k)/d(columns) at all points.
+template <class Form>
+void differentiate_flux(const ReferenceElement& reference, const std::vector<ColumnGroup>& groups, int k,
+                        const ElementSystem& system, Eigen::Ref<MatrixXd> weighted) {
+  const auto slope = [&](int input) { return system.flux_slopes.col(k * Form::inputs + input); };
+  for (const ColumnGroup& group : groups) {
+    auto block = weighted.middleCols(group.first, group.count);
+    bool first = true;
+    for (const Feed& feed : group.feeds) {
+      const auto product = slope(feed.input).asDiagonal() * table(*group.shape, feed.part);
+      if (first)
+        block = product;
+      else
+        block += product;
+      first = false;
+    }
+  }
+  weighted.rightCols(reference.pressures()) = slope(Form::inputs - 1).asDiagonal() * reference.pressure;
+}
+
+template <class Form>
+void test_tangent(const ReferenceElement& reference, const std::vector<ColumnGroup>& groups, int columns,
+                  ElementSystem& system) {
+  const int n = reference.nodes(), m = reference.pressures(), points = reference.points();
+  system.tangent.resize(2 * n + m, columns);
+  system.weighted.resize(3 * points, columns);
+  for (int c = 0; c < 2; ++c) {
+    for (int k = 0; k < 3; ++k) {
+      differentiate_flux<Form>(reference, groups, 3 * c + k, system, system.weighted.middleRows(k * points, points));
+    }
+    system.tangent.middleRows(c * n, n).noalias() = reference.shape_stack.transpose() * system.weighted;
+  }
+  auto weighted = system.weighted.topRows(points);
+  differentiate_flux<Form>(reference, groups, 6, system, weighted);
+  system.tangent.bottomRows(m).noalias() = reference.pressure.transpose() * weighted;
+}
+
+template <class Form, class MakeForm>
+void integrate(const ReferenceElement& reference, const ElementUnknowns& element, const MatrixXd& inputs,
+               const MakeForm& form_at, Want want, ElementSystem& system) {
+  system.least_det = std::numeric_limits<double>::infinity();
+  for (int q = 0; q < reference.points(); ++q) {
+    const double det = inputs(q, 0) * inputs(q, 3) - inputs(q, 1) * inputs(q, 2);
+    system.least_det = std::min(system.least_det, det / element.reference[q].det);
+  }
+  evaluate_points<Form>(inputs, reference.weights, form_at, want, system);
+  test_residual(reference, system);
+  if (want == Want::residual_and_tangent) {
+    test_tangent<Form>(reference, column_groups(element, reference), int(element.columns.size()), system);
+  }
+}
+
+}  // namespace
+
+VectorXd local_values(const ElementUnknowns& element, const VectorXd& unknowns) {
+  VectorXd local(element.columns.size());
+  for (int i = 0; i < local.size(); ++i) {
+    const Slot& slot = element.columns[i];
+    local(i) = slot.constant + (slot.unknown >= 0 ? slot.factor * unknowns(slot.unknown) : 0.0);
+  }
+  return local;
+}
+
+MatrixXd fields_at_points(const Discretisation& space, int e, const VectorXd& unknowns) {
+  const ElementUnknowns& element = space.elements()[e];
+  const ReferenceElement& reference = space.reference();
+  const VectorXd local = local_values(element, unknowns);
+  const int inputs = element.liquid ? LiquidPoint::inputs : CellPoint::inputs;
+  MatrixXd fields = MatrixXd::Zero(reference.points(), inputs);
+  for (int q = 0; q < reference.points(); ++q) {
+    const Place<double>& X = element.reference[q];
+    fields.row(q).head<5>() << X.G(0, 0), X.G(0, 1), X.G(1, 0), X.G(1, 1), X.r;
+  }
+  for (const ColumnGroup& group : column_groups(element, reference)) {
+    const auto coefficients = local.segment(group.first, group.count);
+    for (const Feed& feed : group.feeds) fields.col(feed.input) += table(*group.shape, feed.part) * coefficients;
+  }
+  fields.col(inputs - 1) = reference.pressure * local.tail(reference.pressures());
+  return fields;
+}
+
+void integrate_element(const Discretisation& space, int e, const Media& media, const VectorXd& unknowns, Want want,
+                       ElementSystem& system) {
+  const ElementUnknowns& element = space.elements()[e];
+  const MatrixXd fields = fields_at_points(space, e, unknowns);
+  if (element.liquid) {
+    const auto form_at = [&](int) { return LiquidPoint{media.liquid}; };
+    integrate<LiquidPoint>(space.reference(), element, fields, form_at, want, system);
+  } else {
+    const auto form_at = [&](int q) { return CellPoint{media.bulk, element.reference[q]}; };
+    integrate<CellPoint>(space.reference(), element, fields, form_at, want, system);
+  }
+}
+
+}  // namespace rheocyte

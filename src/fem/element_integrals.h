@@ -1,0 +1,35 @@
+// Integrals of the weak forms over one element: residual, and the exact tangent by dual numbers at each point.
+#pragma once
+#include "fem/discretisation.h"
+#include "laws/weak_form.h"
+
+namespace rheocyte {
+
+/// Laws of the two regions.
+struct Media {
+  Liquid liquid;
+  Bulk bulk;
+};
+
+/// Residual and tangent of one element; rows and columns are the element's slots. Kept between calls to save memory
+/// traffic.
+struct ElementSystem {
+  VectorXd residual;
+  MatrixXd tangent;
+  double least_det = 0;  ///< least det of the element map relative to the undeformed one; <= 0: folded
+  // scratch
+  MatrixXd fluxes, flux_slopes, weighted;
+};
+
+enum class Want { residual, residual_and_tangent };
+
+/// Local values of the element's column slots.
+VectorXd local_values(const ElementUnknowns&, const VectorXd& unknowns);
+
+/// Inputs of the element's weak form (LiquidPoint or CellPoint) at its quadrature points: points x inputs.
+MatrixXd fields_at_points(const Discretisation&, int e, const VectorXd& unknowns);
+
+/// Integrates element `e` at the local values gathered from `unknowns`.
+void integrate_element(const Discretisation&, int e, const Media&, const VectorXd& unknowns, Want, ElementSystem&);
+
+}  // namespace rheocyte

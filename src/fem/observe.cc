@@ -1,0 +1,184 @@
+#include "fem/observe.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rheocyte {
+namespace {
+
+double value(const Slot& slot, const VectorXd& unknowns) {
+  return slot.constant + (slot.unknown >= 0 ? slot.factor * unknowns(slot.unknown) : 0.0);
+}
+
+/// Nodal values of a two-component field on one element, from any source.
+template <class NodeValue>
+Eigen::MatrixX2d nodal_field(const std::vector<int>& nodes, const NodeValue& at) {
+  Eigen::MatrixX2d field(nodes.size(), 2);
+  for (int k = 0; k < int(nodes.size()); ++k) {
+    for (int c = 0; c < 2; ++c) field(k, c) = at(nodes[k], c);
+  }
+  return field;
+}
+
+/// One element's fields of a state: displacement or velocity at the nodes, and pressure modes.
+struct ElementFields {
+  Eigen::MatrixX2d vector;
+  VectorXd pressure;
+};
+
+ElementFields element_fields(const Discretisation& space, const VectorXd& unknowns, int e) {
+  const bool liquid = space.elements()[e].liquid;
+  ElementFields fields;
+  fields.vector = nodal_field(space.nodes().of_element[e], [&](int node, int c) {
+    if (liquid) return value(space.velocity(node, c), unknowns);
+    return current_point(space, unknowns, node)(c) - space.node_points()[node](c);
+  });
+  fields.pressure.resize(space.reference().pressures());
+  for (int k = 0; k < fields.pressure.size(); ++k) fields.pressure(k) = unknowns(space.pressure(e, k));
+  return fields;
+}
+
+/// Coordinates in element `other` of the coordinates `xi` of element `self` of the same block, one direction.
+VectorXd coordinates_in(const MeshElement& self, const MeshElement& other, int direction, const VectorXd& xi) {
+  const bool outward = (direction == 0) == self.outward_first;
+  const auto& mine = outward ? self.outward : self.along;
+  const auto& theirs = outward ? other.outward : other.along;
+  return ((mine[0] - theirs[0]) + xi.array() * (mine[1] - mine[0])) / (theirs[1] - theirs[0]);
+}
+
+bool inside(double xi) { return xi > -1e-10 && xi < 1 + 1e-10; }
+
+/// Calls visit(i, j, xi1, xi2, other) for each pair of coordinates (a(i), a(j)) of element `e` of `to`, with the
+/// element of `from` that holds the point and its coordinates there.
+template <class Visit>
+void locate(const ChannelMesh& from, const MeshElement& self, const VectorXd& a, const Visit& visit) {
+  for (int f = 0; f < int(from.elements().size()); ++f) {
+    const MeshElement& other = from.elements()[f];
+    if (other.block != self.block) continue;
+    const VectorXd xi1 = coordinates_in(self, other, 0, a), xi2 = coordinates_in(self, other, 1, a);
+    for (int j = 0; j < a.size(); ++j) {
+      for (int i = 0; i < a.size(); ++i) {
+        if (inside(xi1(i)) && inside(xi2(j))) visit(i, j, xi1(i), xi2(j), f);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Point current_point(const Discretisation& space, const VectorXd& unknowns, int node) {
+  Point x = space.node_points()[node];
+  for (int c = 0; c < 2; ++c) {
+    const int unknown = space.displacement(node, c);
+    if (unknown >= 0) x(c) += unknowns(unknown);
+  }
+  return x;
+}
+
+Contour contour(const Discretisation& space, const VectorXd& unknowns) {
+  Contour curve;
+  for (const BoundaryEdge& edge : space.surface()) {
+    curve.pieces.push_back(
+        nodal_field(edge.nodes, [&](int node, int c) { return current_point(space, unknowns, node)(c); }));
+  }
+  // Round-off must not put a pole beyond the axis.
+  curve.pieces.front()(0, 1) = 0;
+  curve.pieces.back()(curve.pieces.back().rows() - 1, 1) = 0;
+  return curve;
+}
+
+SurfaceStretch surface_stretch(const Discretisation& space, const VectorXd& unknowns, int per_edge) {
+  const ReferenceElement& reference = space.reference();
+  const VectorXd at = VectorXd::LinSpaced(per_edge, 0, 1);
+  const MatrixXd value_at = reference.lagrange(at), slope_at = reference.lagrange_derivative(at);
+  const int edges = int(space.surface().size());
+  SurfaceStretch stretch{VectorXd(edges * per_edge), VectorXd(edges * per_edge)};
+  for (int e = 0; e < edges; ++e) {
+    const auto& nodes = space.surface()[e].nodes;
+    const auto now = nodal_field(nodes, [&](int n, int c) { return current_point(space, unknowns, n)(c); });
+    const auto before = nodal_field(nodes, [&](int n, int c) { return space.node_points()[n](c); });
+    const Eigen::MatrixX2d t = slope_at * now, t0 = slope_at * before;
+    const Eigen::VectorXd r = value_at * now.col(1), r0 = value_at * before.col(1);
+    for (int q = 0; q < per_edge; ++q) {
+      const int i = e * per_edge + q;
+      stretch.meridional(i) = t.row(q).norm() / t0.row(q).norm();
+      // On the axis both stretches are equal.
+      stretch.hoop(i) = r0(q) > 1e-9 ? r(q) / r0(q) : stretch.meridional(i);
+    }
+  }
+  return stretch;
+}
+
+double least_biot_ratio(const SurfaceStretch& stretch) {
+  // Incompressible: the normal stretch is 1 / (meridional hoop).
+  return (stretch.meridional.array().square() * stretch.hoop.array()).minCoeff();
+}
+
+double inlet_pressure(const Discretisation& space, const VectorXd& unknowns) {
+  const ReferenceElement& reference = space.reference();
+  double force = 0, area = 0;
+  for (const BoundaryEdge& edge : space.inlet()) {
+    const MeshElement& element = space.mesh().elements()[edge.element];
+    const double width = element.along[1] - element.along[0];
+    for (int q = 0; q < reference.points_1d.size(); ++q) {
+      const double along = reference.points_1d(q);
+      const VectorXd modes =
+          element.outward_first ? reference.pressure_modes(1, along) : reference.pressure_modes(along, 1);
+      double p = 0;
+      for (int k = 0; k < modes.size(); ++k) p += modes(k) * unknowns(space.pressure(edge.element, k));
+      const double weight = reference.weights_1d(q) * width * (element.along[0] + along * width);
+      force += p * weight;
+      area += weight;
+    }
+  }
+  return force / area;
+}
+
+double largest_displacement(const Discretisation& space, const VectorXd& unknowns) {
+  double largest = 0;
+  for (int node = 0; node < space.nodes().count; ++node) {
+    for (int c = 0; c < 2; ++c) {
+      const int unknown = space.displacement(node, c);
+      if (unknown >= 0) largest = std::max(largest, std::abs(unknowns(unknown)));
+    }
+  }
+  return largest;
+}
+
+void scale_displacement(const Discretisation& space, double factor, VectorXd& unknowns) {
+  for (int i = 0; i < 2 * space.nodes().count; ++i) {
+    const int unknown = space.displacement(i / 2, i % 2);
+    if (unknown >= 0) unknowns(unknown) *= factor;
+  }
+}
+
+VectorXd transfer(const Discretisation& from, const VectorXd& unknowns, const Discretisation& to) {
+  std::vector<ElementFields> source;
+  for (int f = 0; f < int(from.elements().size()); ++f) source.push_back(element_fields(from, unknowns, f));
+  const ReferenceElement& reference = to.reference();
+  const int n = int(reference.nodes_1d.size()), m = int(reference.points_1d.size());
+  VectorXd target = VectorXd::Zero(to.unknowns());
+  target(to.cell_velocity()) = unknowns(from.cell_velocity());
+  for (int e = 0; e < int(to.elements().size()); ++e) {
+    const MeshElement& self = to.mesh().elements()[e];
+    const auto& nodes = to.nodes().of_element[e];
+    locate(from.mesh(), self, reference.nodes_1d, [&](int i, int j, double xi1, double xi2, int f) {
+      const int node = nodes[j * n + i];
+      for (int c = 0; c < 2; ++c) {
+        const int unknown = to.elements()[e].liquid ? to.velocity(node, c).unknown : to.displacement(node, c);
+        if (unknown < 0 || unknown == to.cell_velocity()) continue;
+        target(unknown) = from.reference().interpolate(source[f].vector.col(c), xi1, xi2);
+      }
+    });
+    VectorXd pressure(m * m);
+    locate(from.mesh(), self, reference.points_1d, [&](int i, int j, double xi1, double xi2, int f) {
+      pressure(j * m + i) = from.reference().pressure_modes(xi1, xi2).dot(source[f].pressure);
+    });
+    // The modes are orthonormal: projection is a product.
+    const VectorXd modes = reference.pressure.transpose() * (reference.weights.array() * pressure.array()).matrix();
+    for (int k = 0; k < modes.size(); ++k) target(to.pressure(e, k)) = modes(k);
+  }
+  return target;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,42 @@
+// What one reads off a state: the contour, the stretch of the surface, pressures, transfer to another degree.
+#pragma once
+#include "fem/discretisation.h"
+#include "fem/element_integrals.h"
+#include "shape/contour.h"
+
+namespace rheocyte {
+
+/// Meridian of the deformed cell from front to rear pole, lengths in R.
+Contour contour(const Discretisation&, const VectorXd& unknowns);
+
+/// Principal stretches of the surface at points along the meridian, front pole first.
+struct SurfaceStretch {
+  VectorXd meridional;  ///< ds/ds0
+  VectorXd hoop;        ///< r/r0'
+};
+/// `per_edge` equidistant points on each surface edge, ends included.
+SurfaceStretch surface_stretch(const Discretisation&, const VectorXd& unknowns, int per_edge);
+
+/// Least ratio of meridional to normal stretch along the surface. A free surface of any incompressible
+/// Mooney-Rivlin solid loses stability against short meridional wrinkles below `biot_limit` (Biot 1963;
+/// docs/theory.md, eq:biot); the boundary value problem is then ill-posed and results depend on the mesh.
+double least_biot_ratio(const SurfaceStretch&);
+/// Real root of x^3 + x^2 + 3 x = 1.
+inline constexpr double biot_limit = 0.29559774252208477;
+
+/// Mean pressure over the inlet, in S; the outlet's is zero.
+double inlet_pressure(const Discretisation&, const VectorXd& unknowns);
+
+/// Largest displacement component of the cell's nodes, in R.
+double largest_displacement(const Discretisation&, const VectorXd& unknowns);
+
+/// Multiplies the displacements alone.
+void scale_displacement(const Discretisation&, double factor, VectorXd& unknowns);
+
+/// The same fields in the unknowns of another degree on the same mesh.
+VectorXd transfer(const Discretisation& from, const VectorXd& unknowns, const Discretisation& to);
+
+/// Current point of a node of the cell (its undeformed point plus displacement); undeformed point elsewhere.
+Point current_point(const Discretisation&, const VectorXd& unknowns, int node);
+
+}  // namespace rheocyte

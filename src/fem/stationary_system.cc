@@ -1,0 +1,265 @@
+#include "fem/stationary_system.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace rheocyte {
+namespace {
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+WorkMeter& WorkMeter::operator+=(const WorkMeter& other) {
+  assembly_s += other.assembly_s;
+  condensation_s += other.condensation_s;
+  sparse_s += other.sparse_s;
+  solve_s += other.solve_s;
+  factorisations += other.factorisations;
+  sparse_flops = other.sparse_flops;
+  return *this;
+}
+
+/// One element's elimination: inner unknowns belong to it alone, outer ones couple it to others.
+struct StationarySystem::Condensed {
+  std::vector<int> inner_row, inner_column, inner_unknown;  ///< slots, and the unknown of each
+  std::vector<int> outer_row, outer_equation;               ///< slots, and the equation of each
+  std::vector<int> outer_unknown;                           ///< each once
+  struct Gather {
+    int slot, outer;
+    double factor;
+  };
+  std::vector<Gather> outer_column;  ///< column slots that add to an outer unknown
+  std::vector<int> position;         ///< in the sparse matrix: outer_equation x outer_unknown
+
+  Eigen::PartialPivLU<MatrixXd> lu;
+  MatrixXd inner_outer, outer_inner, schur;  ///< Kii^-1 Kio, Koi, Koo - Koi Kii^-1 Kio
+  VectorXd inner_solution;
+
+  Condensed(const ElementUnknowns&, int outer_unknowns);
+};
+
+StationarySystem::Condensed::Condensed(const ElementUnknowns& element, int outer_unknowns) {
+  const int offset = int(element.columns.size() - element.rows.size());
+  for (int i = 0; i < int(element.rows.size()); ++i) {
+    const int unknown = element.rows[i];
+    if (unknown >= outer_unknowns) {
+      inner_row.push_back(i);
+      inner_column.push_back(i + offset);
+      inner_unknown.push_back(unknown);
+    } else if (unknown >= 0) {
+      outer_row.push_back(i);
+      outer_equation.push_back(unknown);
+    }
+  }
+  for (int j = 0; j < int(element.columns.size()); ++j) {
+    const Slot& slot = element.columns[j];
+    if (slot.unknown < 0 || slot.unknown >= outer_unknowns) continue;
+    const auto it = std::find(outer_unknown.begin(), outer_unknown.end(), slot.unknown);
+    outer_column.push_back({j, int(it - outer_unknown.begin()), slot.factor});
+    if (it == outer_unknown.end()) outer_unknown.push_back(slot.unknown);
+  }
+}
+
+StationarySystem::StationarySystem(const Discretisation& space) : space_(space) {
+  std::vector<std::pair<int, int>> entries;
+  for (const ElementUnknowns& element : space.elements()) {
+    const Condensed& c = condensed_.emplace_back(element, space.outer_unknowns());
+    for (const int i : c.outer_equation) {
+      for (const int j : c.outer_unknown) entries.emplace_back(i, j);
+    }
+  }
+  for (int i = 0; i < space.outer_unknowns(); ++i) entries.emplace_back(i, i);
+  for (const BoundaryEdge& edge : space.surface()) {
+    for (const int node : edge.nodes) {
+      for (int c = 0; c < 2; ++c) {
+        if (space.displacement(node, c) >= 0) {
+          entries.emplace_back(space.cell_velocity(), space.displacement(node, c));
+        }
+      }
+    }
+  }
+  matrix_ = std::make_unique<SparseMatrix>(space.outer_unknowns(), std::move(entries));
+  for (Condensed& c : condensed_) {
+    for (const int j : c.outer_unknown) {
+      for (const int i : c.outer_equation) c.position.push_back(matrix_->position(i, j));
+    }
+  }
+  lu_ = std::make_unique<SparseLU>(*matrix_);
+}
+
+StationarySystem::~StationarySystem() = default;
+
+VectorXd StationarySystem::sphere() const {
+  VectorXd unknowns = VectorXd::Zero(space_.unknowns());
+  unknowns(space_.cell_velocity()) = 1;
+  return unknowns;
+}
+
+VectorXd StationarySystem::residual(const Media& media, const VectorXd& unknowns, double& least_det) {
+  const Stopwatch watch(work_.assembly_s);
+  VectorXd total = VectorXd::Zero(space_.unknowns());
+  least_det = std::numeric_limits<double>::infinity();
+  for (int e = 0; e < int(condensed_.size()); ++e) {
+    integrate_element(space_, e, media, unknowns, Want::residual, element_);
+    least_det = std::min(least_det, element_.least_det);
+    const auto& rows = space_.elements()[e].rows;
+    for (int i = 0; i < int(rows.size()); ++i) {
+      if (rows[i] >= 0) total(rows[i]) += element_.residual(i);
+    }
+  }
+  add_outlet_pressure(media.liquid, total);
+  add_barycentre(unknowns, total, false);
+  return total;
+}
+
+VectorXd StationarySystem::linearise(const Media& media, const VectorXd& unknowns, double& least_det,
+                                     bool& factorised) {
+  VectorXd total = VectorXd::Zero(space_.unknowns());
+  std::fill(matrix_->value.begin(), matrix_->value.end(), 0.0);
+  least_det = std::numeric_limits<double>::infinity();
+  for (int e = 0; e < int(condensed_.size()); ++e) {
+    {
+      const Stopwatch watch(work_.assembly_s);
+      integrate_element(space_, e, media, unknowns, Want::residual_and_tangent, element_);
+    }
+    least_det = std::min(least_det, element_.least_det);
+    const auto& rows = space_.elements()[e].rows;
+    for (int i = 0; i < int(rows.size()); ++i) {
+      if (rows[i] >= 0) total(rows[i]) += element_.residual(i);
+    }
+    const Stopwatch watch(work_.condensation_s);
+    condense(condensed_[e], element_.tangent);
+  }
+  add_outlet_pressure(media.liquid, total);
+  add_barycentre(unknowns, total, true);
+  const Stopwatch watch(work_.sparse_s);
+  factorised = lu_->factorise();
+  work_.sparse_flops = lu_->flops();
+  ++work_.factorisations;
+  return total;
+}
+
+void StationarySystem::condense(Condensed& c, const MatrixXd& tangent) {
+  const int inner = int(c.inner_row.size()), rows = int(c.outer_row.size()), columns = int(c.outer_unknown.size());
+  const MatrixXd inner_inner = tangent(c.inner_row, c.inner_column);
+  c.outer_inner = tangent(c.outer_row, c.inner_column);
+  c.inner_outer.setZero(inner, columns);
+  c.schur.setZero(rows, columns);
+  for (const auto& [slot, outer, factor] : c.outer_column) {
+    for (int i = 0; i < inner; ++i) c.inner_outer(i, outer) += factor * tangent(c.inner_row[i], slot);
+    for (int i = 0; i < rows; ++i) c.schur(i, outer) += factor * tangent(c.outer_row[i], slot);
+  }
+  if (inner > 0) {
+    c.lu.compute(inner_inner);
+    c.inner_outer = c.lu.solve(c.inner_outer);
+    c.schur.noalias() -= c.outer_inner * c.inner_outer;
+  }
+  const double* value = c.schur.data();
+  for (const int position : c.position) matrix_->value[position] += *value++;
+}
+
+VectorXd StationarySystem::solve(const VectorXd& rhs) {
+  const Stopwatch watch(work_.solve_s);
+  VectorXd outer = rhs.head(space_.outer_unknowns());
+  for (Condensed& c : condensed_) {
+    if (c.inner_unknown.empty()) continue;
+    c.inner_solution = c.lu.solve(VectorXd(rhs(c.inner_unknown)));
+    const VectorXd correction = c.outer_inner * c.inner_solution;
+    for (int i = 0; i < correction.size(); ++i) outer(c.outer_equation[i]) -= correction(i);
+  }
+  VectorXd x(space_.unknowns());
+  x.head(space_.outer_unknowns()) = lu_->solve(outer);
+  for (const Condensed& c : condensed_) {
+    if (c.inner_unknown.empty()) continue;
+    const VectorXd inner = c.inner_solution - c.inner_outer * x(c.outer_unknown);
+    for (int i = 0; i < inner.size(); ++i) x(c.inner_unknown[i]) = inner(i);
+  }
+  return x;
+}
+
+void StationarySystem::add_outlet_pressure(const Liquid& liquid, VectorXd& residual) const {
+  const ReferenceElement& reference = space_.reference();
+  const double pressure = -undisturbed_pressure_gradient(liquid) * space_.mesh().geometry().half_length();
+  const MatrixXd value = reference.lagrange(reference.points_1d);
+  for (const BoundaryEdge& edge : space_.outlet()) {
+    VectorXd r(edge.nodes.size());
+    for (int k = 0; k < r.size(); ++k) r(k) = space_.node_points()[edge.nodes[k]](1);
+    const double width = r.maxCoeff() - r.minCoeff();
+    const VectorXd load = value.transpose() * (reference.weights_1d.array() * (value * r).array()).matrix();
+    for (int k = 0; k < r.size(); ++k) {
+      const Slot& slot = space_.velocity(edge.nodes[k], 0);
+      if (slot.unknown >= 0 && slot.unknown != space_.cell_velocity()) {
+        residual(slot.unknown) += pressure * width * load(k);
+      }
+    }
+  }
+}
+
+void StationarySystem::add_barycentre(const VectorXd& unknowns, VectorXd& residual, bool tangent) {
+  using Dual = ceres::Jet<double, 3>;
+  const ReferenceElement& reference = space_.reference();
+  const MatrixXd value = reference.lagrange(reference.points_1d);
+  const MatrixXd slope = reference.lagrange_derivative(reference.points_1d);
+  const int row = space_.cell_velocity(), n = int(value.cols());
+  const auto add = [&](int unknown, double entry) {
+    if (unknown >= 0 && tangent) matrix_->value[matrix_->position(row, unknown)] += entry;
+  };
+  for (const BoundaryEdge& edge : space_.surface()) {
+    Eigen::MatrixX2d x(n, 2);
+    for (int k = 0; k < n; ++k) {
+      for (int c = 0; c < 2; ++c) {
+        const int unknown = space_.displacement(edge.nodes[k], c);
+        x(k, c) = space_.node_points()[edge.nodes[k]](c) + (unknown >= 0 ? unknowns(unknown) : 0.0);
+      }
+    }
+    for (int q = 0; q < value.rows(); ++q) {
+      const double weight = reference.weights_1d(q);
+      const std::array<Dual, 3> f = {Dual(value.row(q) * x.col(0), 0), Dual(value.row(q) * x.col(1), 1),
+                                     Dual(slope.row(q) * x.col(1), 2)};
+      const Dual moment = axial_moment(f);
+      residual(row) += weight * moment.a;
+      for (int k = 0; k < n; ++k) {
+        add(space_.displacement(edge.nodes[k], 0), weight * moment.v(0) * value(q, k));
+        add(space_.displacement(edge.nodes[k], 1), weight * (moment.v(1) * value(q, k) + moment.v(2) * slope(q, k)));
+      }
+    }
+  }
+}
+
+VectorXd StationarySystem::apply_tangent(const Media& media, const VectorXd& unknowns, const VectorXd& direction) {
+  VectorXd product = VectorXd::Zero(space_.unknowns());
+  for (int e = 0; e < int(condensed_.size()); ++e) {
+    integrate_element(space_, e, media, unknowns, Want::residual_and_tangent, element_);
+    const ElementUnknowns& element = space_.elements()[e];
+    VectorXd local(element.columns.size());
+    for (int j = 0; j < local.size(); ++j) {
+      const Slot& slot = element.columns[j];
+      local(j) = slot.unknown >= 0 ? slot.factor * direction(slot.unknown) : 0.0;
+    }
+    const VectorXd change = element_.tangent * local;
+    for (int i = 0; i < change.size(); ++i) {
+      if (element.rows[i] >= 0) product(element.rows[i]) += change(i);
+    }
+  }
+  std::fill(matrix_->value.begin(), matrix_->value.end(), 0.0);
+  VectorXd ignored = VectorXd::Zero(space_.unknowns());
+  add_barycentre(unknowns, ignored, true);
+  for (int j = 0; j < space_.outer_unknowns(); ++j) {
+    for (int k = matrix_->column_start[j]; k < matrix_->column_start[j + 1]; ++k) {
+      product(matrix_->row[k]) += matrix_->value[k] * direction(j);
+    }
+  }
+  return product;
+}
+
+}  // namespace rheocyte

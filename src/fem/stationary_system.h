@@ -1,0 +1,61 @@
+// The nonlinear system of the stationary problem: residual, exact tangent, and its factorisation with the unknowns
+// inside elements condensed (docs/theory.md, eq:condensation).
+#pragma once
+#include <Eigen/LU>
+
+#include "fem/element_integrals.h"
+#include "fem/sparse_lu.h"
+
+namespace rheocyte {
+
+/// Seconds and counts of the parts of the work.
+struct WorkMeter {
+  double assembly_s = 0;      ///< integrals over elements, with and without tangent
+  double condensation_s = 0;  ///< dense elimination inside elements
+  double sparse_s = 0;        ///< numeric sparse factorisation
+  double solve_s = 0;
+  int factorisations = 0;
+  double sparse_flops = 0;  ///< of the last sparse factorisation
+
+  WorkMeter& operator+=(const WorkMeter&);
+};
+
+class StationarySystem {
+ public:
+  /// The discretisation must outlive this object.
+  explicit StationarySystem(const Discretisation&);
+  ~StationarySystem();
+
+  const Discretisation& space() const { return space_; }
+
+  /// The unstressed sphere in a liquid at rest, moving with the mean speed of the flow.
+  VectorXd sphere() const;
+
+  /// Residual of all equations; `least_det` is set to the least relative det of the mesh.
+  VectorXd residual(const Media&, const VectorXd& unknowns, double& least_det);
+  /// The same, and the tangent factorised. False in `factorised` if the tangent is singular or not finite.
+  VectorXd linearise(const Media&, const VectorXd& unknowns, double& least_det, bool& factorised);
+  /// Solves with the tangent of the last `linearise`.
+  VectorXd solve(const VectorXd& rhs);
+  /// Tangent times a vector at given unknowns (for tests; assembles anew).
+  VectorXd apply_tangent(const Media&, const VectorXd& unknowns, const VectorXd& direction);
+
+  const WorkMeter& work() const { return work_; }
+
+ private:
+  struct Condensed;
+  /// The outlet's pressure is chosen so that the undisturbed pressure vanishes at the cell: a high level would only
+  /// be cancelled between cell and liquid up to quadrature errors, which destabilise short waves of the surface.
+  void add_outlet_pressure(const Liquid&, VectorXd& residual) const;
+  void add_barycentre(const VectorXd& unknowns, VectorXd& residual, bool tangent);
+  void condense(Condensed&, const MatrixXd& tangent);
+
+  const Discretisation& space_;
+  std::vector<Condensed> condensed_;
+  std::unique_ptr<SparseMatrix> matrix_;
+  std::unique_ptr<SparseLU> lu_;
+  ElementSystem element_;
+  WorkMeter work_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,139 @@
+#include "fem/write_fields.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_dgq.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_fe_field.h>
+#include <deal.II/lac/vector.h>
+#include <deal.II/numerics/data_out.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <fstream>
+
+#include "fem/topology.h"
+
+namespace rheocyte {
+namespace {
+
+/// Columns of the nodal fields, physical units.
+enum Field { x, r, vx, vr, wx, wr, pressure, stress, shear_stress, ux, ur, region, field_count };
+
+double von_mises(Tensor<double> sigma) {
+  const double mean = sigma.trace() / 3;
+  for (int i = 0; i < 3; ++i) sigma(i, i) -= mean;
+  return std::sqrt(1.5) * sigma.norm();
+}
+
+/// Norm of the liquid's viscous stress, or of the cell's elastic stress, at the quadrature points.
+VectorXd stress_at_points(const ElementUnknowns& element, const MatrixXd& fields, const Media& media) {
+  VectorXd norm(fields.rows());
+  for (int q = 0; q < norm.size(); ++q) {
+    const auto f = fields.row(q);
+    Plane<double> G;
+    G << f(0), f(1), f(2), f(3);
+    const Place<double> place(G, f(4));
+    if (element.liquid) {
+      Plane<double> w_xi;
+      w_xi << f(7), f(8), f(9), f(10);
+      const Tensor<double> L = gradient(place, PlaneVector<double>(f(5), f(6)), w_xi);
+      norm(q) = viscous_stress(media.liquid, L).norm() / std::sqrt(2.0);
+    } else {
+      norm(q) = von_mises(elastic_stress(media.bulk, deformation_gradient(place, element.reference[q])));
+    }
+  }
+  return norm;
+}
+
+/// Carries values at the quadrature points to the nodes: the Q_p function that fits them best.
+class ToNodes {
+ public:
+  explicit ToNodes(const ReferenceElement& reference)
+      : shape_(reference.shape.value),
+        weights_(reference.weights),
+        mass_(shape_.transpose() * weights_.asDiagonal() * shape_) {}
+  VectorXd operator()(const VectorXd& at_points) const {
+    return mass_.solve(shape_.transpose() * weights_.cwiseProduct(at_points));
+  }
+
+ private:
+  const MatrixXd& shape_;
+  const VectorXd& weights_;
+  Eigen::PartialPivLU<MatrixXd> mass_;
+};
+
+/// All fields at one element's nodes: nodes x field_count.
+MatrixXd nodal_fields(const Discretisation& space, int e, const Media& media, const VectorXd& unknowns,
+                      const Scales& scales) {
+  const ElementUnknowns& element = space.elements()[e];
+  const auto& nodes = space.nodes().of_element[e];
+  const int n = int(nodes.size()), m = element.position_columns;
+  const VectorXd local = local_values(element, unknowns);
+  const double um = 1e6 * scales.length_m, v_cell = unknowns(space.cell_velocity());
+  const ToNodes to_nodes(space.reference());
+
+  MatrixXd fields = MatrixXd::Zero(n, field_count);
+  for (int c = 0; c < 2; ++c) {
+    if (m > 0) fields.col(ux + c) = um * (element.position_at_nodes * local.segment(c * m, m));
+    for (int k = 0; k < n; ++k) fields(k, x + c) = um * space.node_points()[nodes[k]](c) + fields(k, ux + c);
+    if (element.liquid) fields.col(wx + c) = scales.velocity_m_per_s * local.segment(2 * m + c * n, n);
+  }
+  fields.col(vx) = fields.col(wx).array() + scales.velocity_m_per_s * v_cell;
+  fields.col(vr) = fields.col(wr);
+  const VectorXd p = space.reference().pressure * local.tail(space.reference().pressures());
+  fields.col(pressure) = scales.stress_Pa * to_nodes(p);
+  fields.col(element.liquid ? shear_stress : stress) =
+      scales.stress_Pa * to_nodes(stress_at_points(element, fields_at_points(space, e, unknowns), media));
+  fields.col(region).setConstant(element.liquid ? 0 : 1);
+  return fields;
+}
+
+}  // namespace
+
+bool write_fields(const Discretisation& space, const Media& media, const VectorXd& unknowns, const Scales& scales,
+                  const std::string& path) {
+  const int p = space.reference().degree();
+  const dealii::FESystem<2> fe(dealii::FE_DGQArbitraryNodes<2>(dealii::QGaussLobatto<1>(p + 1)), field_count);
+  const dealii::FESystem<2> position_fe(dealii::FE_DGQArbitraryNodes<2>(dealii::QGaussLobatto<1>(p + 1)), 2);
+  dealii::DoFHandler<2> dofs(space.mesh().topology().triangulation);
+  dealii::DoFHandler<2> position_dofs(space.mesh().topology().triangulation);
+  dofs.distribute_dofs(fe);
+  position_dofs.distribute_dofs(position_fe);
+  dealii::Vector<double> values(dofs.n_dofs()), positions(position_dofs.n_dofs());
+
+  const auto fill = [&](const auto& cell, const MatrixXd& fields, dealii::Vector<double>& target) {
+    std::vector<dealii::types::global_dof_index> indices(cell->get_fe().n_dofs_per_cell());
+    cell->get_dof_indices(indices);
+    for (unsigned i = 0; i < indices.size(); ++i) {
+      const auto [component, node] = cell->get_fe().system_to_component_index(i);
+      target(indices[i]) = fields(node, component);
+    }
+  };
+  for (const auto& cell : dofs.active_cell_iterators()) {
+    const MatrixXd fields = nodal_fields(space, int(cell->active_cell_index()), media, unknowns, scales);
+    fill(cell, fields, values);
+    const typename dealii::DoFHandler<2>::active_cell_iterator twin(&space.mesh().topology().triangulation,
+                                                                    cell->level(), cell->index(), &position_dofs);
+    fill(twin, fields.leftCols(2), positions);
+  }
+
+  using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
+  const auto scalar = Interpretation::component_is_scalar, part = Interpretation::component_is_part_of_vector;
+  const dealii::MappingFEField<2> mapping(position_dofs, positions);
+  dealii::DataOut<2> out;
+  dealii::DataOutBase::VtkFlags flags;
+  flags.write_higher_order_cells = true;
+  out.set_flags(flags);
+  out.add_data_vector(dofs, values,
+                      {"position", "position", "velocity", "velocity", "velocity_relative", "velocity_relative",
+                       "pressure", "stress", "shear_stress", "displacement", "displacement", "region"},
+                      {part, part, part, part, part, part, scalar, scalar, scalar, part, part, scalar});
+  out.build_patches(mapping, p, dealii::DataOut<2>::curved_inner_cells);
+  std::ofstream file(path);
+  out.write_vtu(file);
+  file.flush();
+  return file.good();
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,74 @@
+#include "solve/newton.h"
+
+#include <cmath>
+
+#include "fem/observe.h"
+
+namespace rheocyte {
+namespace {
+
+/// A full step may reduce the least det of the mesh to this share at most; else it is shortened.
+constexpr double least_det_share = 0.2;
+constexpr int greatest_halvings = 5;
+/// A chord step has to reduce the residual by this factor, or the tangent is renewed.
+constexpr double chord_reduction = 0.1;
+/// Residuals (relative) above which an iteration is given up as diverging.
+constexpr double hopeless_residual = 1e6;
+
+/// Takes the longest step 1, 1/2, 1/4, ... that does not fold the mesh; returns whether there is one.
+bool step(StationarySystem& system, const Media& media, const VectorXd& correction, double det_before, VectorXd& x,
+          VectorXd& residual) {
+  double share = 1;
+  for (int i = 0; i <= greatest_halvings; ++i, share /= 2) {
+    const VectorXd candidate = x + share * correction;
+    double det = 0;
+    residual = system.residual(media, candidate, det);
+    if (det > least_det_share * det_before) {
+      x = candidate;
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+double residual_scale(StationarySystem& system, const Media& media) {
+  double det = 0;
+  return system.residual(media, system.sphere(), det).norm();
+}
+
+NewtonReport newton(StationarySystem& system, const Media& media, const NewtonOptions& options, VectorXd& x) {
+  NewtonReport report;
+  const double scale = residual_scale(system, media);
+  bool fresh = false;  // whether the factorisation belongs to the present state
+  double det = 0;
+  VectorXd residual;
+  for (int factorisations = 0;;) {
+    if (options.stop && *options.stop) return report.status = Status::stopped, report;
+    if (!fresh) {
+      if (factorisations++ == options.iteration_limit) return report.status = Status::iteration_limit, report;
+      bool factorised = false;
+      residual = system.linearise(media, x, det, factorised);
+      if (!factorised) {
+        report.status = residual.allFinite() ? Status::singular_matrix : Status::not_finite;
+        return report;
+      }
+      if (report.residual_history.empty()) report.residual_history.push_back(residual.norm() / scale);
+    }
+    const VectorXd correction = system.solve(-residual);
+    if (!correction.allFinite()) return report.status = Status::not_finite, report;
+    if (report.iterations++ == 0) report.first_correction = largest_displacement(system.space(), correction);
+    if (!step(system, media, correction, det, x, residual)) return report.status = Status::mesh_folded, report;
+
+    const double before = report.residual_history.back();
+    report.residual = residual.norm() / scale;
+    report.residual_history.push_back(report.residual);
+    if (!std::isfinite(report.residual)) return report.status = Status::not_finite, report;
+    if (report.residual > hopeless_residual) return report.status = Status::iteration_limit, report;
+    if (report.residual < options.tolerance) return report.status = Status::converged, report;
+    fresh = options.chord_steps && report.residual < chord_reduction * before;
+  }
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,32 @@
+// Newton's method on the stationary system, with chord steps while a kept factorisation still contracts well.
+#pragma once
+#include <atomic>
+
+#include "fem/stationary_system.h"
+#include "solve/outcome.h"
+
+namespace rheocyte {
+
+struct NewtonOptions {
+  double tolerance = 1e-11;  ///< of the residual, relative to that of the undeformed sphere in a liquid at rest
+  int iteration_limit = 12;  ///< factorisations
+  bool chord_steps = true;   ///< reuse a factorisation while each step reduces the residual tenfold
+  const std::atomic<bool>* stop = nullptr;
+};
+
+struct NewtonReport {
+  Status status = Status::not_started;
+  int iterations = 0;                    ///< steps, chord steps included
+  double residual = 0;                   ///< relative, of the last state
+  std::vector<double> residual_history;  ///< relative, before each step and at the end
+  double first_correction = 0;           ///< largest displacement of the first step, in R
+};
+
+/// Norm of the residual of the undeformed sphere in a liquid at rest: the scale of the driving forces.
+double residual_scale(StationarySystem&, const Media&);
+
+/// Improves `unknowns` in place. If the report is not `converged`, `unknowns` are unspecified; the caller keeps the
+/// last good state. The system keeps the last factorisation.
+NewtonReport newton(StationarySystem&, const Media&, const NewtonOptions&, VectorXd& unknowns);
+
+}  // namespace rheocyte

@@ -1,0 +1,50 @@
+#include "solve/outcome.h"
+
+#include <fmt/format.h>
+
+namespace rheocyte {
+
+std::string explanation(const Outcome& outcome, double deformation, double estimated_error) {
+  if (outcome.status == Status::converged) return "The stationary shape was found.";
+  if (outcome.reached <= 0) {
+    return "No state was found, not even of a nearly rigid cell; please report this case as a fault of the program.";
+  }
+  const std::string where =
+      fmt::format("{:.3g} times the wanted modulus (deformation {:.4f})", 1 / outcome.reached, deformation);
+  switch (outcome.status) {
+    case Status::surface_unstable:
+      return "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder): the smooth branch ends "
+             "at " +
+             where + "; raise the modulus above that, or lower flow rate or viscosity.";
+    case Status::branch_ended:
+      return "The branch of stationary shapes ends at " + where +
+             "; softer cells are drawn out without limit: raise the modulus above that, or lower flow rate or "
+             "viscosity.";
+    case Status::mesh_folded: return "The mesh of the liquid folds beyond " + where + "; raise the modulus above that.";
+    case Status::accuracy_not_reached:
+      return fmt::format(
+          "The shape was found, but its error is estimated at {:.1e} on the finest mesh; ask for less, "
+          "numerics.accuracy above that.",
+          estimated_error);
+    case Status::stopped: return "Stopped by a signal; the last state has " + where + ".";
+    default: return fmt::format("The solver stopped ({}) at ", name(outcome.status)) + where + ".";
+  }
+}
+
+const char* name(Status status) {
+  switch (status) {
+    case Status::not_started: return "not-started";
+    case Status::converged: return "converged";
+    case Status::iteration_limit: return "iteration-limit";
+    case Status::mesh_folded: return "mesh-folded";
+    case Status::surface_unstable: return "surface-unstable";
+    case Status::branch_ended: return "branch-ended";
+    case Status::singular_matrix: return "singular-matrix";
+    case Status::not_finite: return "not-finite";
+    case Status::accuracy_not_reached: return "accuracy-not-reached";
+    case Status::stopped: return "stopped";
+  }
+  return "unknown";
+}
+
+}  // namespace rheocyte

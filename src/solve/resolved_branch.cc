@@ -1,0 +1,118 @@
+#include "solve/resolved_branch.h"
+
+#include <array>
+
+namespace rheocyte {
+namespace {
+
+/// Resolutions of the way along the branch. Coarse ones cost 3 ms per Newton iteration and mostly go all the way;
+/// near the end of the branch the rear shoulder and the front tip need the fine ones.
+const std::array<Resolution, 4> ways = {{{{2, 4, 1, 2}, 4}, {{2, 4, 1, 2}, 6}, {{3, 6, 1, 2}, 6}, {{3, 6, 1, 2}, 8}}};
+
+/// Least step (relative) where a finer resolution can go on, and where none can.
+constexpr double least_step_before_refining = 0.03, least_step_at_last = 2e-3;
+/// Intermediate states serve as starting points only.
+constexpr double tolerance_on_the_way = 1e-7;
+
+std::shared_ptr<Discrete> discretise(const Problem& problem, const Resolution& resolution) {
+  const ChannelGeometry geometry(problem.radius_ratio);
+  return std::make_shared<Discrete>(geometry, resolution, media_at(problem, 1).liquid);
+}
+
+/// Carries a branch state over and converges it there; status says whether it stayed the same state.
+ResolvedState carry_over(const Problem& problem, const NewtonOptions& options, const ResolvedState& from,
+                         const Resolution& resolution) {
+  ResolvedState to;
+  to.resolution = resolution;
+  to.discrete = discretise(problem, resolution);
+  to.branch.compliance = from.branch.compliance;
+  const VectorXd guess = transfer(from.discrete->space, from.branch.unknowns, to.discrete->space);
+  to.branch.unknowns = guess;
+  const NewtonReport report =
+      newton(to.discrete->system, media_at(problem, to.branch.compliance), options, to.branch.unknowns);
+  to.status = report.status;
+  to.residual = report.residual;
+  to.newton_iterations = report.iterations;
+  return to;
+}
+
+void advance(const Problem& problem, const ContinuationOptions& options, ResolvedState& state) {
+  const ContinuationReport report = continue_branch(state.discrete->system, problem, options, state.branch);
+  state.status = report.status;
+  state.branch = report.last;
+  state.residual = report.residual;
+  state.steps += report.steps;
+  state.newton_iterations += report.newton_iterations;
+}
+
+ResolvedState start(const Problem& problem, const ContinuationOptions& options, const Resolution& resolution) {
+  ResolvedState state;
+  state.resolution = resolution;
+  state.discrete = discretise(problem, resolution);
+  const ContinuationReport report = start_branch(state.discrete->system, problem, options);
+  state.status = report.status;
+  state.branch = report.last;
+  state.residual = report.residual;
+  state.steps = report.steps;
+  state.newton_iterations = report.newton_iterations;
+  return state;
+}
+
+ContinuationOptions options_on_the_way(const NewtonOptions& newton, bool last, const BranchObserver& observe) {
+  ContinuationOptions options;
+  options.accept = [observe](const Discretisation& space, const BranchState& branch) {
+    const int per_edge = 2 * space.reference().degree() + 1;
+    if (least_biot_ratio(surface_stretch(space, branch.unknowns, per_edge)) < biot_limit) return false;
+    if (observe) observe(space, branch);
+    return true;
+  };
+  options.newton = newton;
+  options.newton.tolerance = tolerance_on_the_way;
+  options.newton.iteration_limit = 5;
+  options.least_step = last ? least_step_at_last : least_step_before_refining;
+  return options;
+}
+
+}  // namespace
+
+ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton, const BranchObserver& observe) {
+  ResolvedState state;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const ContinuationOptions options = options_on_the_way(newton, i + 1 == ways.size(), observe);
+    ResolvedState next =
+        state.discrete ? carry_over(problem, options.newton, state, ways[i]) : start(problem, options, ways[i]);
+    if (next.status == Status::converged) advance(problem, options, next);
+    next.steps += state.steps;
+    next.newton_iterations += state.newton_iterations;
+    next.work = state.work;
+    next.work += next.discrete->system.work();
+    const bool usable = next.steps > 0 && next.branch.tangent.size() > 0;
+    if (usable) {
+      state = next;
+    } else {
+      state.status = next.status;
+      state.newton_iterations = next.newton_iterations;
+      state.work = next.work;
+    }
+    if (state.status == Status::converged || state.status == Status::stopped) break;
+  }
+  return state;
+}
+
+ResolvedState at_resolution(const Problem& problem, const NewtonOptions& newton, const ResolvedState& from,
+                            const Resolution& resolution) {
+  ResolvedState state = carry_over(problem, newton, from, resolution);
+  state.work = state.discrete->system.work();
+  if (state.status == Status::converged || state.status == Status::stopped) return state;
+  const ContinuationOptions options = options_on_the_way(newton, true, {});
+  const int iterations_before = state.newton_iterations;
+  const WorkMeter work_before = state.work;
+  state = start(problem, options, resolution);
+  if (state.status == Status::converged) advance(problem, options, state);
+  state.newton_iterations += iterations_before;
+  state.work = work_before;
+  state.work += state.discrete->system.work();
+  return state;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,46 @@
+// A branch state at one resolution, and the way to the next finer one.
+#pragma once
+#include <memory>
+
+#include "fem/observe.h"
+#include "solve/continuation.h"
+
+namespace rheocyte {
+
+/// How finely a state is resolved.
+struct Resolution {
+  Subdivision subdivision;
+  int degree = 4;
+};
+
+/// Mesh, spaces and system of one resolution; they refer to each other and stay together.
+struct Discrete {
+  Discrete(const ChannelGeometry& geometry, const Resolution& resolution, const Liquid& liquid)
+      : mesh(geometry, resolution.subdivision), space(mesh, resolution.degree, liquid), system(space) {}
+  ChannelMesh mesh;
+  Discretisation space;
+  StationarySystem system;
+};
+
+/// A state on the branch, how it was resolved, and how the way to it ended.
+struct ResolvedState {
+  Status status = Status::not_started;
+  std::shared_ptr<Discrete> discrete;
+  Resolution resolution;
+  BranchState branch;
+  double residual = 0;
+  int steps = 0, newton_iterations = 0;  ///< of the way to it
+  WorkMeter work;                        ///< of the whole way, systems that were left included
+};
+
+/// Sees each converged state of the way.
+using BranchObserver = std::function<void(const Discretisation&, const BranchState&)>;
+
+/// Follows the branch from the sphere to compliance 1, first on a coarse resolution; where that fails, it goes on from
+/// the last state on finer ones. States whose surface is beyond Biot's limit are not accepted.
+ResolvedState follow_branch(const Problem&, const NewtonOptions&, const BranchObserver&);
+
+/// The same state at another resolution; if Newton leaves it, the branch is followed anew there.
+ResolvedState at_resolution(const Problem&, const NewtonOptions&, const ResolvedState& from, const Resolution&);
+
+}  // namespace rheocyte

@@ -1,0 +1,180 @@
+#include "solve/stationary.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "fem/write_fields.h"
+#include "solve/resolved_branch.h"
+
+namespace rheocyte {
+namespace {
+
+/// Finest degree on each mesh of the ladder, coarse to fine.
+struct Rung {
+  Subdivision subdivision;
+  int first_degree, last_degree;
+};
+constexpr std::array<Rung, 3> ladder = {{{{2, 4, 1, 2}, 4, 9}, {{3, 6, 1, 2}, 6, 10}, {{4, 8, 2, 2}, 6, 10}}};
+constexpr double final_tolerance = 1e-10;
+/// Where Newton fails this close above Biot's limit, the surface is the reason: no mesh resolves the last stretch.
+constexpr double near_biot_limit = 1.25 * biot_limit;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double biot_ratio(const ResolvedState& state) {
+  const Discretisation& space = state.discrete->space;
+  return least_biot_ratio(surface_stretch(space, state.branch.unknowns, 2 * space.reference().degree() + 1));
+}
+
+double deformation(const Discretisation& space, const VectorXd& unknowns) {
+  return measure(contour(space, unknowns)).deformation;
+}
+
+/// Error of the last of some values of the deformation on ever finer resolutions, relative to it: the last change,
+/// times what a geometric series adds to it, and half of it at least.
+double estimate_error(const std::vector<double>& values) {
+  const std::size_t n = values.size();
+  if (n < 2) return std::numeric_limits<double>::infinity();
+  const double change = std::abs(values[n - 1] - values[n - 2]);
+  double share = 1;
+  if (n >= 3) {
+    const double ratio = std::min(change / (std::abs(values[n - 2] - values[n - 3]) + 1e-300), 0.9);
+    share = std::max(0.5, ratio / (1 - ratio));
+  }
+  return share * change / std::max(std::abs(values[n - 1]), 1e-300);
+}
+
+/// Adds up the work of systems that come and go.
+class Tally {
+ public:
+  explicit Tally(SolveStatistics& statistics) : statistics_(statistics) {}
+  void add(const ResolvedState& state) {
+    statistics_.newton_iterations += state.newton_iterations;
+    statistics_.continuation_steps += state.steps;
+    statistics_.factorisations += state.work.factorisations;
+    statistics_.assembly_s += state.work.assembly_s;
+    statistics_.factorisation_s += state.work.condensation_s + state.work.sparse_s;
+    statistics_.substitution_s += state.work.solve_s;
+  }
+
+ private:
+  SolveStatistics& statistics_;
+};
+
+class StationarySolver {
+ public:
+  StationarySolver(const Problem& problem, const ProgressCallback& progress, const std::atomic<bool>* stop)
+      : problem_(problem), progress_(progress) {
+    newton_.stop = stop;
+    newton_.tolerance = final_tolerance;
+  }
+
+  StationaryState solve() {
+    const auto start = std::chrono::steady_clock::now();
+    Tally tally(result_.statistics);
+    ResolvedState state = follow_branch(problem_, newton_, [this](const Discretisation& space, const BranchState& b) {
+      report({b.compliance, deformation(space, b.unknowns), b.newton_iterations});
+    });
+    tally.add(state);
+    if (state.status == Status::converged) state = climb(state, tally);
+    result_.outcome.status = state.status;
+    if (state.discrete && state.branch.unknowns.size() > 0) describe(state);
+    explain(state);
+    result_.statistics.total_s = seconds_since(start);
+    return std::move(result_);
+  }
+
+ private:
+  void report(const BranchPoint& point) {
+    result_.branch.push_back(point);
+    if (progress_) progress_(point);
+  }
+
+  /// Raises degree and mesh until the estimated error is below the wanted one.
+  ResolvedState climb(ResolvedState state, Tally& tally) {
+    std::vector<double> values;
+    Status reason = Status::accuracy_not_reached;
+    for (const Rung& rung : ladder) {
+      if (rung.subdivision.top < state.resolution.subdivision.top) continue;
+      for (int degree = rung.first_degree; degree <= rung.last_degree; ++degree) {
+        const bool same_mesh = rung.subdivision.top == state.resolution.subdivision.top;
+        if (same_mesh && degree < state.resolution.degree) continue;
+        const ResolvedState next = at_resolution(problem_, newton_, state, {rung.subdivision, degree});
+        tally.add(next);
+        if (next.status == Status::stopped) return state.status = Status::stopped, state;
+        if (next.status != Status::converged || biot_ratio(next) < biot_limit) {
+          if (biot_ratio(next) < near_biot_limit) reason = Status::surface_unstable;
+          continue;
+        }
+        state = next;
+        values.push_back(deformation(state.discrete->space, state.branch.unknowns));
+        result_.estimated_error = estimate_error(values);
+        report({state.branch.compliance, values.back(), state.newton_iterations});
+        if (values.size() >= 2 && result_.estimated_error <= problem_.accuracy) return state;
+      }
+    }
+    state.status = reason;
+    return state;
+  }
+
+  void describe(const ResolvedState& state) {
+    const Discretisation& space = state.discrete->space;
+    const VectorXd& unknowns = state.branch.unknowns;
+    const Media media = media_at(problem_, state.branch.compliance);
+    StationaryState& r = result_;
+    r.contour = contour(space, unknowns);
+    r.shape = measure(r.contour);
+    r.cell_velocity = unknowns(space.cell_velocity());
+    const double half = space.mesh().geometry().half_length();
+    const double gradient = undisturbed_pressure_gradient(media.liquid);
+    r.channel_length = 2 * half;
+    r.pressure_drop = inlet_pressure(space, unknowns) + gradient * half;
+    r.additional_pressure_drop = r.pressure_drop - gradient * r.channel_length;
+    r.relative_volume_change = r.shape.volume / (4.0 / 3 * std::numbers::pi * std::pow(problem_.radius_ratio, 3)) - 1;
+    const auto stretch = surface_stretch(space, unknowns, 4 * space.reference().degree() + 1);
+    r.least_meridional_stretch = stretch.meridional.minCoeff();
+    r.biot_ratio = least_biot_ratio(stretch);
+    r.residual = state.residual;
+    r.outcome.reached = state.branch.compliance;
+    if (state.branch.compliance < 1) r.estimated_error = std::numeric_limits<double>::quiet_NaN();
+    r.statistics.unknowns = space.unknowns();
+    r.statistics.degree = state.resolution.degree;
+    r.statistics.elements = int(space.elements().size());
+    r.write_fields = [discrete = state.discrete, media, unknowns](const std::string& path, const Scales& scales) {
+      return write_fields(discrete->space, media, unknowns, scales, path);
+    };
+  }
+
+  /// Settles the reason and says it in a sentence.
+  void explain(const ResolvedState& state) {
+    Outcome& outcome = result_.outcome;
+    const bool failed_on_the_way = outcome.status != Status::converged && outcome.status != Status::stopped &&
+                                   outcome.status != Status::accuracy_not_reached;
+    if (failed_on_the_way && state.discrete && result_.biot_ratio < near_biot_limit) {
+      outcome.status = Status::surface_unstable;
+    } else if (outcome.status == Status::iteration_limit && state.branch.compliance > 0) {
+      outcome.status = Status::branch_ended;
+    }
+    outcome.message = explanation(outcome, result_.shape.deformation, result_.estimated_error);
+  }
+
+  Problem problem_;
+  ProgressCallback progress_;
+  NewtonOptions newton_;
+  StationaryState result_;
+};
+
+}  // namespace
+
+StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress,
+                                 const std::atomic<bool>* stop) {
+  return StationarySolver(problem, progress, stop).solve();
+}
+
+}  // namespace rheocyte

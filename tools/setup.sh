@@ -1,0 +1,110 @@
+# Sourced by quickstart, run-tests and .ci/run: installs what is missing and builds. Bash; sets the shell's options.
+# shellcheck shell=bash
+set -euo pipefail
+
+# shellcheck disable=SC2034 # used by the scripts that source this file
+build_packages=(g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libeigen3-dev libopenblas-dev libceres-dev
+  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev libbenchmark-dev
+  python3 python3-matplotlib python3-numpy git)
+
+# A compilation that includes deal.II needs 1.2 GB; some room on top.
+readonly memory_per_job_MB=1536
+
+step_number=0
+
+# begin_step <sentence>: the caller sets step_count.
+begin_step() {
+  step_number=$((step_number + 1))
+  printf '\n==> [%d/%d] %s\n' "$step_number" "${step_count:?}" "$1"
+}
+
+fail() {
+  printf '\nerror: %s\n' "$*" >&2
+  exit 1
+}
+
+missing_packages() {
+  local installed
+  # dpkg-query complains about every package it has never heard of; those are the missing ones.
+  installed=$(dpkg-query --show --showformat='${db:Status-Status} ${Package}\n' "$@" 2>/dev/null |
+    sed -n 's/^installed //p') || true
+  comm -23 <(printf '%s\n' "$@" | sort) <(sort <<<"$installed")
+}
+
+# Condenses apt's status lines (dlstatus:..., pmstatus:package:percent:text) to one line per 5 % of each phase.
+show_apt_progress() {
+  awk -F: '
+    $1 != "dlstatus" && $1 != "pmstatus" { next }
+    { phase = $1 == "dlstatus" ? "downloading" : "installing"; part = int($3 / 5) }
+    phase != last_phase || part != last_part {
+      printf "    %-11s %3d %%  %s\n", phase, $3, $4; fflush()
+      last_phase = phase; last_part = part
+    }'
+}
+
+# install_packages <package>...: asks the network for nothing when all of them are there.
+install_packages() {
+  local -a missing as_root=()
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    printf 'This system has no apt-get, so nothing is installed here. Needed are a C++20 compiler, CMake 3.25, Ninja,\n'
+    printf 'deal.II 9.4 and the libraries that Debian 12 calls:\n    %s\nGoing on with what is there.\n' "$*"
+    command -v cmake >/dev/null || fail 'cmake is not there.'
+    command -v ninja >/dev/null || fail 'ninja is not there.'
+    return
+  fi
+  mapfile -t missing < <(missing_packages "$@")
+  if ((${#missing[@]} == 0)); then
+    echo "All ${#} packages are there."
+    return
+  fi
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null ||
+      fail "installing the missing packages needs root (or sudo). As root, run:
+    apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+    as_root=(sudo)
+  fi
+  as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get --quiet --yes -o DPkg::Lock::Timeout=300)
+  echo "Missing: ${missing[*]}"
+
+  local log
+  log=$(mktemp)
+  # Not decisive: one broken source among several need not matter, and the installation finds out.
+  "${as_root[@]}" update -o Acquire::Retries=3 </dev/null >"$log" 2>&1 ||
+    echo '    The lists of packages could not be brought up to date; trying with those that are there.'
+  if ! "${as_root[@]}" install --no-install-recommends -o Acquire::Retries=3 -o APT::Status-Fd=1 "${missing[@]}" \
+    </dev/null 2>&1 | tee -a "$log" | show_apt_progress; then
+    grep -vE '^(dlstatus|pmstatus):' "$log" | tail -n 15 >&2
+    rm -f "$log"
+    fail 'apt-get could not install the packages (its last lines are above). Is there a network connection, and is
+this Debian 12? With the packages of the list installed in another way, the same command goes on from here.'
+  fi
+  rm -f "$log"
+}
+
+# Jobs that processors and memory allow, at least one. In a container the limit may be below the machine's memory.
+build_jobs() {
+  local available_MB limit jobs
+  available_MB=$(awk '/^MemAvailable:/ { print int($2 / 1024) }' /proc/meminfo)
+  if [[ -r /sys/fs/cgroup/memory.max ]]; then
+    limit=$(</sys/fs/cgroup/memory.max)
+    if [[ $limit != max ]] && ((limit / 1048576 < available_MB)); then available_MB=$((limit / 1048576)); fi
+  fi
+  jobs=$((available_MB / memory_per_job_MB))
+  if ((jobs > $(nproc))); then jobs=$(nproc); fi
+  echo $((jobs > 0 ? jobs : 1))
+}
+
+# configure <preset>; the current folder is the top of the checkout.
+configure() {
+  cmake --preset "$1" || fail "CMake could not configure the preset \"$1\"; its message is above. A build folder that is
+old or was copied from elsewhere is mended by removing it."
+}
+
+build() {
+  local jobs
+  jobs=$(build_jobs)
+  echo "$jobs at a time, as processors and memory allow."
+  cmake --build --preset "$1" --parallel "$jobs" || fail "the build of preset \"$1\" failed; the first message above
+that contains \"error\" says where. If it was \"Killed\", memory ran out: close other programs and start again,
+what is built already is kept."
+}

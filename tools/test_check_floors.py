@@ -1,0 +1,132 @@
+"""Each rule of check_floors on small trees: what breaks it is named with its line, what keeps it passes."""
+import importlib.machinery
+import importlib.util
+import tempfile
+import unittest
+from pathlib import Path
+
+LOADER = importlib.machinery.SourceFileLoader("check_floors", str(Path(__file__).with_name("check_floors")))
+check_floors = importlib.util.module_from_spec(importlib.util.spec_from_loader(LOADER.name, LOADER))
+LOADER.exec_module(check_floors)
+
+HEADER = "#pragma once\n"
+
+
+def body(lines):
+    return "\n".join(["  x += 1;"] * lines)
+
+
+class TreeTest(unittest.TestCase):
+    def violations(self, tree):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in tree.items():
+                path = Path(folder, name)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            return [(str(name), line, sentence) for name, line, sentence in check_floors.violations(Path(folder))]
+
+    def accept(self, tree):
+        self.assertEqual(self.violations(tree), [])
+
+    def reject(self, tree, place, words):
+        found = self.violations(tree)
+        self.assertEqual([(name, line) for name, line, _ in found], [place], found)
+        self.assertIn(words, found[0][2])
+
+
+class Floors(TreeTest):
+    def test_includes_down_and_on_the_same_floor_pass(self):
+        self.accept({"src/solve/a.cc": '#include "fem/b.h"\n#include "case/c.h"\n#include "solve/a.h"\n'})
+
+    def test_an_include_of_a_higher_floor_fails(self):
+        self.reject({"src/case/a.cc": '\n#include "fem/b.h"\n'}, ("src/case/a.cc", 2), "fem is a higher floor")
+
+    def test_a_commented_include_passes(self):
+        self.accept({"src/case/a.cc": '// #include "fem/b.h"\n/*\n#include "fem/b.h"\n*/\n'})
+
+    def test_sideways_passes_in_one_direction(self):
+        self.accept({"src/fem/a.cc": '#include "shape/b.h"\n'})
+
+    def test_sideways_fails_in_both_directions(self):
+        tree = {"src/fem/a.cc": '#include "shape/b.h"\n', "src/shape/b.cc": '#include "fem/a.h"\n'}
+        self.assertEqual([place[:2] for place in self.violations(tree)], [("src/fem/a.cc", 1), ("src/shape/b.cc", 1)])
+
+    def test_an_include_without_floor_fails(self):
+        self.reject({"src/fem/a.cc": '#include "mesh.h"\n'}, ("src/fem/a.cc", 1), "does not start with a floor")
+
+    def test_a_folder_that_is_no_floor_fails(self):
+        self.reject({"src/misc/a.cc": "\n"}, ("src/misc/a.cc", 1), "floors are")
+
+    def test_reserved_libraries_fail_elsewhere(self):
+        for library, owner, other in (("deal.II/grid/tria.h", "fem", "solve"), ("toml++/toml.h", "case", "laws"),
+                                      ("CLI/CLI.hpp", "app", "case")):
+            self.accept({f"src/{owner}/a.cc": f"#include <{library}>\n"})
+            self.reject({f"src/{other}/a.cc": f"#include <{library}>\n"}, (f"src/{other}/a.cc", 1), f"only src/{owner}")
+            self.accept({"tests/fem/a.cc": f"#include <{library}>\n"})
+
+
+class Headers(TreeTest):
+    def test_a_header_needs_pragma_once(self):
+        self.accept({"src/case/a.h": "// comment\n" + HEADER})
+        self.reject({"src/case/a.h": "// #pragma once\n"}, ("src/case/a.h", 1), "#pragma once")
+
+    def test_using_namespace_fails_in_headers_only(self):
+        self.reject({"src/case/a.h": HEADER + "\nusing namespace std;\n"}, ("src/case/a.h", 3), "using namespace")
+        self.accept({"src/case/a.cc": "using namespace std;\n", "src/case/a.h": HEADER + "// using namespace std;\n"})
+
+
+class Lengths(TreeTest):
+    def test_files_end_at_the_limit(self):
+        for name in ("src/case/a.cc", "python/a.py"):
+            self.accept({name: "\n" * 400})
+            self.reject({name: "\n" * 401}, (name, 401), "401 lines")
+
+    def test_functions_end_at_the_limit(self):
+        self.accept({"src/case/a.cc": f"int f() {{\n{body(78)}\n}}\n"})
+        self.reject({"src/case/a.cc": f"\nint f() {{\n{body(79)}\n}}\n"}, ("src/case/a.cc", 2), "81 lines")
+
+    def test_each_kind_of_function_is_measured(self):
+        heads = ("template <class T = int>\nbool operator==(const T& a, const T& b) {", "TEST(Mesh, IsClosed) {",
+                 "auto f(int a = 3) -> int {", "const auto f = [](int x) {", "struct S { int f() const {",
+                 "namespace a { namespace { void f() noexcept {", "S::S(int x) : a_(x), b_(x) {",
+                 "template <class T>\nvoid Grid<T>::f(const std::vector<T>& x) {")
+        for head in heads:
+            closing = "}" * head.count("{")
+            found = self.violations({"src/case/a.cc": f"{head}\n{body(100)}\n{closing};\n"})
+            self.assertEqual([sentence[:16] for _, _, sentence in found], ["the function has"], head)
+
+    def test_tables_and_types_are_not_functions(self):
+        rows = "\n".join(["  {1, 2},"] * 100)
+        members = "\n".join(["  int f() const { return 1; }  // }"] * 100)
+        self.accept({"src/case/a.cc": f"constexpr Row rows[] = {{\n{rows}\n}};\n"})
+        self.accept({"src/case/a.h": f"{HEADER}template <class T>\nstruct alignas(16) S : B<T> {{\n{members}\n}};\n"})
+
+    def test_braces_in_text_do_not_count(self):
+        text = 'void f() { g("{", \'{\', R"({)", 1\'000); /* { */ }\n' * 60
+        self.accept({"src/case/a.cc": text + f"#define OPEN {{ \\\n  {{\nvoid h() {{\n{body(50)}\n}}\n"})
+
+    def test_python_functions_are_measured(self):
+        text = "def f(x):\n" + "    x += 1\n" * 80
+        self.reject({"python/a.py": text}, ("python/a.py", 1), "81 lines")
+        self.reject({"tools/a": "#!/usr/bin/env python3\n" + text}, ("tools/a", 2), "81 lines")
+
+
+class Names(TreeTest):
+    def test_vague_names_fail(self):
+        for name in ("python/utils.py", "src/fem/mesh_utils.cc", "tests/utils/a.txt"):
+            self.reject({name: "\n"}, (name, 1), "says nothing")
+        self.accept({"docs/utilisation.md": "\n"})
+
+    def test_paths_of_one_machine_fail(self):
+        for folder in ("work/x", "root/x", "home/ada/x", "tmp/build"):
+            self.reject({"docs/a.md": f"\nsee `/{folder}`\n"}, ("docs/a.md", 2), "one machine")
+        self.accept({"docs/a.md": "https://example.org/work/a ${HOME}/root/ ./work/ /tmp/other\n"})
+
+    def test_binary_files_pass(self):
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "picture.png").write_bytes(b"\x89PNG\xff\xfe")
+            self.assertEqual(check_floors.violations(Path(folder)), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
