@@ -8,8 +8,8 @@ namespace rheocyte {
 struct ShapeMeasures {
   double area = 0, perimeter = 0, deformation = 0;              ///< of the convexified contour
   double area_raw = 0, perimeter_raw = 0, deformation_raw = 0;  ///< of the contour itself
-  double volume = 0;         ///< of the body of revolution of the contour itself
-  double barycentre = 0;     ///< of that body, axial coordinate
+  double volume = 0;                                            ///< of the body of revolution of the contour itself
+  double barycentre = 0;                                        ///< of that body, axial coordinate
   double moment_ratio = 1;   ///< Lambda1 / Lambda2 of the convexified contour, < 1: elongated along the flow
   double inertia_ratio = 1;  ///< sqrt(Lambda2 / Lambda1)
   double moment_ratio_raw = 1;

@@ -1,0 +1,57 @@
+// What one Newton iteration costs, by polynomial degree, and what of it is numeric factorisation.
+//
+// Columns: a whole iteration (integrals with tangent, factorisation, substitution, one residual), then its parts.
+// `iteration/factorisation` is the ratio that docs/benchmarks.md quotes.
+#include <benchmark/benchmark.h>
+
+#include "solve/resolved_branch.h"
+
+namespace {
+
+using namespace rheocyte;
+
+/// r0 = 6 um, E = 4.58 kPa, `linear`, in the standard channel (R = 10.94 um, 0.04 ul/s, 15 mPa s, Stokes).
+Problem standard_cell() {
+  Problem problem;
+  problem.radius_ratio = 6 / 10.94;
+  problem.shear_modulus = 4580.0 / 3 / 145.87;
+  problem.mooney_share = 0;
+  return problem;
+}
+
+void newton_iteration(benchmark::State& state) {
+  const Problem problem = standard_cell();
+  const Media media = media_at(problem, 1);
+  const Resolution resolution{{2, 4, 1, 2}, int(state.range(0))};
+  Discrete discrete(ChannelGeometry(problem.radius_ratio), resolution, media.liquid);
+  StationarySystem& system = discrete.system;
+  VectorXd unknowns = system.sphere();
+  newton(system, media_at(problem, 0.5), NewtonOptions{}, unknowns);
+
+  const WorkMeter before = system.work();
+  double det = 0;
+  bool factorised = false;
+  for (auto _ : state) {
+    const VectorXd residual = system.linearise(media, unknowns, det, factorised);
+    const VectorXd correction = system.solve(-residual);
+    benchmark::DoNotOptimize(system.residual(media, unknowns + 1e-3 * correction, det).data());
+  }
+  const WorkMeter& after = system.work();
+  const double n = double(state.iterations()) * 1e-3;  // counters in ms
+  const double assembly = after.assembly_s - before.assembly_s, condensation = after.condensation_s - before.condensation_s;
+  const double sparse = after.sparse_s - before.sparse_s, solve = after.solve_s - before.solve_s;
+  state.counters["unknowns"] = discrete.space.unknowns();
+  state.counters["coupled"] = discrete.space.outer_unknowns();
+  state.counters["assembly_ms"] = assembly / n;
+  state.counters["condensation_ms"] = condensation / n;
+  state.counters["sparse_ms"] = sparse / n;
+  state.counters["substitution_ms"] = solve / n;
+  state.counters["sparse_Mflop"] = after.sparse_flops * 1e-6;
+  state.counters["iteration/factorisation"] = (assembly + condensation + sparse + solve) / (condensation + sparse);
+}
+
+BENCHMARK(newton_iteration)->DenseRange(3, 9)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,1 @@
+"""Pictures of what rheocyte computed. Needs numpy and matplotlib only."""

@@ -1,0 +1,98 @@
+"""Reading a result folder and writing figures without ever leaving half a file."""
+
+import csv
+import json
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+
+class InputError(Exception):
+    """The user's file is missing or damaged; the text is one sentence that names it."""
+
+
+def read_result(path):
+    """The dictionary of a result.json."""
+    try:
+        result = json.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path} cannot be read: {reason(error)}.") from error
+    except json.JSONDecodeError as error:
+        raise InputError(f"{path} is not valid JSON: {error}.") from error
+    if not isinstance(result, dict) or "status" not in result:
+        raise InputError(f"{path} is not a result of rheocyte: it has no key \"status\".")
+    return result
+
+
+def read_table(path, columns):
+    """Rows of a CSV file as dictionaries of strings; `columns` are the names that must be in its header."""
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            reader = csv.DictReader(file)
+            rows = list(reader)
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise InputError(f"{path} cannot be read: {reason(error)}.") from error
+    missing = [name for name in columns if name not in (reader.fieldnames or [])]
+    if missing:
+        raise InputError(f"{path} has no column \"{missing[0]}\"; wanted are {', '.join(columns)}.")
+    return rows
+
+
+def number(row, column, path):
+    """The finite number in a column of a row of read_table."""
+    try:
+        value = float(row[column])
+    except (TypeError, ValueError):
+        value = np.nan
+    if not np.isfinite(value):
+        raise InputError(f"{path} holds \"{row[column]}\" in column {column} where a number is expected.")
+    return value
+
+
+def read_contour(path):
+    """The meridian as an array (n, 2) of x and r >= 0 in um, from the front pole to the rear pole."""
+    rows = read_table(path, ["x_um", "r_um"])
+    if len(rows) < 3:
+        raise InputError(f"{path} holds {len(rows)} points; a contour needs at least 3.")
+    return np.array([[number(row, "x_um", path), number(row, "r_um", path)] for row in rows])
+
+
+def reason(error):
+    """What the operating system or a parser said, without the path that stands before it already."""
+    return getattr(error, "strerror", None) or str(error)
+
+
+def save_figure(figure, stem, dpi):
+    """Writes `stem`.png and `stem`.svg: first beside the target, then renamed, so that no reader sees half a file."""
+    stem = Path(stem)
+    for suffix, options in ((".png", {"dpi": dpi}), (".svg", {"dpi": 300, "metadata": {"Date": None}})):
+        temporary = None
+        try:
+            handle, temporary = tempfile.mkstemp(prefix=f".{stem.name}-", suffix=suffix, dir=stem.parent)
+            os.close(handle)
+            figure.savefig(temporary, format=suffix[1:], **options)
+            os.chmod(temporary, 0o666 & ~current_umask())
+            os.replace(temporary, stem.with_name(stem.name + suffix))
+        except OSError as error:
+            if temporary and os.path.exists(temporary):
+                os.unlink(temporary)
+            raise InputError(f"{stem}{suffix} cannot be written: {reason(error)}.") from error
+
+
+def current_umask():
+    """The process's file mode mask, which mkstemp does not apply."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def run(program):
+    """Runs a command's function; the user's errors become one sentence on stderr and exit code 2."""
+    try:
+        program()
+    except InputError as error:
+        print(f"rheocyte: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -1,0 +1,277 @@
+"""python -m rheocyte.picture DIR: the cell in its channel, from result.json, contour.csv and fields.vtu in DIR.
+
+Writes DIR/picture.png and DIR/picture.svg. Exit code 2 and one sentence on stderr if a file is missing or damaged.
+"""
+
+import sys
+import textwrap
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
+import numpy as np  # noqa: E402
+from matplotlib.patches import PathPatch, Rectangle  # noqa: E402
+from matplotlib.path import Path as Outline  # noqa: E402
+from matplotlib.ticker import FuncFormatter, MaxNLocator  # noqa: E402
+
+from rheocyte import colours  # noqa: E402
+from rheocyte.contour import bridges, closed, convex_hull  # noqa: E402
+from rheocyte.files import InputError, read_contour, read_result, run, save_figure  # noqa: E402
+from rheocyte.raster import PixelGrid, extended, mirrored, rasterise, stream_function  # noqa: E402
+from rheocyte.vtu import read_vtu  # noqa: E402
+
+WIDTH_IN = 3.504  # 89 mm, a journal's column
+VIEW = 2.2  # half the length shown, in channel radii
+WALL = 0.17  # thickness of the drawn wall, in channel radii
+SIDE_IN = 0.06  # margin beside the channel
+FINE = 0.6  # line width of everything that is not the contour, in points
+STYLE = {"font.size": 6.5, "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "axes.linewidth": 0.5,
+         "xtick.major.width": 0.5, "xtick.major.size": 2, "hatch.linewidth": 0.35, "svg.hashsalt": "rheocyte",
+         "text.color": colours.INK, "axes.edgecolor": colours.INK, "axes.labelcolor": colours.INK,
+         "xtick.color": colours.INK, "mathtext.default": "regular"}
+
+
+@dataclass
+class Story:
+    """All that the picture shows; lengths in um, pixels cover the half section r >= 0."""
+
+    result: dict
+    contour: np.ndarray
+    radius: float  # of the channel
+    grid: PixelGrid
+    relative: np.ndarray  # (3, rows, columns): axial, radial, magnitude of the liquid's velocity seen from the cell
+    stress_kPa: np.ndarray
+
+
+def read_story(folder):
+    """Reads the folder and puts its fields on pixels."""
+    folder = Path(folder)
+    result = read_result(folder / "result.json")
+    contour = read_contour(folder / "contour.csv")
+    fields = read_vtu(folder / "fields.vtu", ["velocity_relative", "stress", "region"])
+    if fields.data["velocity_relative"].ndim != 2:
+        raise InputError(f"{folder / 'fields.vtu'}: the field \"velocity_relative\" is not a vector.")
+    radius = float(fields.points[:, 1].max())
+    length = min(VIEW * radius, *np.abs([fields.points[:, 0].min(), fields.points[:, 0].max()]))
+    columns = 720
+    grid = PixelGrid(np.linspace(-length, length, columns), np.linspace(0, radius, columns // 4))
+    return Story(result, contour, radius, grid, *pixels(fields, grid))
+
+
+def pixels(fields, grid):
+    """Relative velocity of the liquid (axial, radial, magnitude) in m/s and stress of the cell in kPa."""
+    x, r = fields.points[fields.elements, 0], fields.points[fields.elements, 1]
+    cell = fields.at_nodes("region")[:, 0, 0] > 0.5
+    shown = (x.max(axis=(1, 2)) >= grid.x[0]) & (x.min(axis=(1, 2)) <= grid.x[-1])
+    liquid, cell = shown & ~cell, shown & cell
+    velocity = [fields.at_nodes("velocity_relative", k)[liquid] for k in (0, 1)]
+    axial, radial = rasterise(x[liquid], r[liquid], velocity, grid)
+    (stress,) = rasterise(x[cell], r[cell], [fields.at_nodes("stress")[cell] / 1000], grid)
+    return np.stack([axial, radial, np.hypot(axial, radial)]), stress
+
+
+def draw(story):
+    """The figure."""
+    plt.rcParams.update(STYLE)
+    height = 2 * (1 + WALL) * story.radius
+    length = story.grid.x[-1] - story.grid.x[0]
+    channel_in = (WIDTH_IN - 2 * SIDE_IN) * height / length
+    note = failure_note(story.result)
+    note_in = 0.106 * len(note) + 0.05 * bool(note)
+    legend_in = 1.0
+    total = channel_in + legend_in + note_in + SIDE_IN
+    figure = plt.figure(figsize=(WIDTH_IN, total))
+    axes = figure.add_axes([SIDE_IN / WIDTH_IN, legend_in / total, 1 - 2 * SIDE_IN / WIDTH_IN, channel_in / total])
+    axes.set(xlim=story.grid.x[[0, -1]], ylim=(-height / 2, height / 2), aspect="equal")
+    axes.axis("off")
+    speed, stress = draw_fields(axes, story)
+    draw_streamlines(axes, story)
+    draw_walls(axes, story)
+    draw_outlines(axes, story)
+    draw_scale_and_flow(axes, story)
+    draw_colour_bar(figure, speed, [0.05, 0.68 / total, 0.41, 0.07 / total], "speed relative to the cell (m/s)")
+    draw_colour_bar(figure, stress, [0.54, 0.68 / total, 0.41, 0.07 / total], "elastic stress in the cell (kPa)")
+    draw_numbers(figure, story.result, total)
+    if note:
+        figure.text(0.5, 1 - 0.05 / total, "\n".join(note), color=colours.ALARM, ha="center", va="top", weight="bold",
+                    linespacing=1.15)
+    return figure
+
+
+def draw_fields(axes, story):
+    """Liquid and cell as images that the exact contour clips; returns both images."""
+    dx, dr = story.grid.x[1] - story.grid.x[0], story.grid.r[1] - story.grid.r[0]
+    extent = (story.grid.x[0] - dx / 2, story.grid.x[-1] + dx / 2, -story.radius - dr / 2, story.radius + dr / 2)
+    images = []
+    for field, colormap, layer in ((story.relative[2], colours.LIQUID, 1), (story.stress_kPa, colours.CELL, 2)):
+        seen = field[np.isfinite(field)]
+        greatest = np.percentile(seen, 99.8) if seen.size else 1
+        images.append(axes.imshow(mirrored(extended(field, 4)), origin="lower", extent=extent, cmap=colormap, vmin=0,
+                                  vmax=greatest or 1, interpolation="bilinear", zorder=layer, aspect="equal"))
+    images[1].set_clip_path(PathPatch(Outline(closed(story.contour)), transform=axes.transData))
+    return images
+
+
+def draw_streamlines(axes, story):
+    """Level lines of the stream function in the frame of the cell, evenly spaced far upstream, with arrow heads."""
+    grid = story.grid
+    axial = extended(story.relative[0], 2)
+    psi = stream_function(np.where(np.isfinite(axial), axial, 0), grid.r)
+    psi[~np.isfinite(extended(story.relative[2], 1))] = np.nan
+    levels = streamline_levels(psi[:, 0], grid.r)
+    r = np.concatenate([-grid.r[:0:-1], grid.r])
+    lines = axes.contour(grid.x, r, mirrored(psi), levels=levels, colors=colours.INK, linewidths=0.45, alpha=0.55,
+                         linestyles="solid", zorder=1.5)
+    for segment in (s for level in lines.allsegs for s in level if len(s) > 40):
+        draw_arrow_heads(axes, segment, story)
+
+
+def streamline_levels(psi, r):
+    """Values of psi at evenly spaced radii of one column: where the liquid overtakes the cell, and next to the wall.
+
+    Lines that overtake the cell turn back before it; psi < 0 near the wall marks the liquid that passes the cell.
+    """
+    peak = int(np.argmax(psi))
+    passing = r[psi < 0]
+    starts = (np.arange(6) + 0.5) / 6 * r[peak]
+    if passing.size:
+        starts = np.append(starts, passing[0] + np.array([0.3, 0.8]) * (r[-1] - passing[0]))
+    return np.unique(np.interp(starts, r, psi))
+
+
+def draw_arrow_heads(axes, line, story):
+    """One head where a line crosses the middle of the left and of the right half of the view."""
+    for station in (-0.72, 0.72):
+        place = station * story.grid.x[-1]
+        for k in np.flatnonzero(np.diff(np.sign(line[:, 0] - place)) != 0):
+            if abs(line[k, 1]) > 0.97 * story.radius:
+                continue
+            column, row = story.grid.coordinates(line[k, 0], abs(line[k, 1]))
+            axial = story.relative[0][int(np.clip(round(row), 0, story.grid.shape[0] - 1)), int(round(column))]
+            step = line[k + 1] - line[k]
+            step = step if step[0] * axial > 0 else -step
+            tip = line[k] + 0.02 * story.radius * step / np.linalg.norm(step)
+            axes.annotate("", xy=tip, xytext=line[k], zorder=1.6, annotation_clip=True, arrowprops={
+                "arrowstyle": "-|>,head_length=0.2,head_width=0.085", "color": colours.INK, "linewidth": 0.2, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 10})
+
+
+def draw_walls(axes, story):
+    """Hatched bands above and below, and the axis of symmetry."""
+    left, right = story.grid.x[[0, -1]]
+    thickness = WALL * story.radius
+    for lower in (story.radius, -story.radius - thickness):
+        axes.add_patch(Rectangle((left, lower), right - left, thickness, facecolor="#e4e6e8", edgecolor="#9aa3ab",
+                                 hatch="//////", linewidth=0, zorder=3))
+    for wall in (story.radius, -story.radius):
+        axes.plot([left, right], [wall, wall], color=colours.INK, linewidth=0.9, zorder=3.1, solid_capstyle="butt")
+
+
+def draw_outlines(axes, story):
+    """Contour, the chords of its convex hull, and the sphere at rest."""
+    outline = closed(story.contour)
+    axes.plot(*outline.T, color=colours.INK, linewidth=1.3, zorder=5, solid_joinstyle="round")
+    for chord in bridges(outline, convex_hull(outline), least_depth=2e-3 * story.radius):
+        axes.plot(*chord.T, color=colours.INK, linewidth=0.9, dashes=(3, 1.6), zorder=5.1)
+    rest = find(story.result, "case", "cell", "radius_um")
+    if rest is not None:
+        angle = np.linspace(0, 2 * np.pi, 361)
+        axes.plot(rest * np.cos(angle), rest * np.sin(angle), color=colours.INK, linewidth=FINE, zorder=4,
+                  linestyle=(0, (0.6, 2.2)), dash_capstyle="round")
+
+
+def draw_scale_and_flow(axes, story):
+    """Scale bar in the lower wall, flow direction in the upper one."""
+    left, right = story.grid.x[[0, -1]]
+    thickness = WALL * story.radius
+    length = next(bar for bar in (100, 50, 20, 10, 5, 2, 1, 0.5, 0.1) if bar <= 0.25 * (right - left) or bar == 0.1)
+    plate = {"facecolor": "white", "linewidth": 0, "zorder": 3.5}
+    pad = 0.25 * thickness
+    level = story.radius + thickness / 2
+    text_width = 0.115 * (right - left)
+    axes.add_patch(Rectangle((right - length - text_width - 2 * pad, -level - thickness / 2),
+                             length + text_width + 2 * pad, thickness, **plate))
+    axes.plot([right - length - pad, right - pad], [-level, -level], color=colours.INK, linewidth=1.8, zorder=4,
+              solid_capstyle="butt")
+    axes.text(right - length - 1.8 * pad, -level, f"{length:g} µm", ha="right", va="center_baseline", zorder=4)
+    arrow = 0.13 * (right - left)
+    axes.add_patch(Rectangle((left, level - thickness / 2), arrow + text_width * 0.85, thickness, **plate))
+    axes.text(left + pad, level, "flow", ha="left", va="center_baseline", zorder=4)
+    axes.annotate("", xy=(left + arrow + 0.7 * text_width, level), xytext=(left + 0.75 * text_width, level), zorder=4,
+                  arrowprops={"arrowstyle": "-|>,head_length=0.35,head_width=0.16", "color": colours.INK,
+                              "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 10})
+
+
+def draw_colour_bar(figure, image, place, label):
+    """A thin horizontal bar with its label above."""
+    axes = figure.add_axes(place)
+    beyond = np.nanmax(np.ma.filled(image.get_array().astype(float), np.nan)) > 1.001 * image.get_clim()[1]
+    bar = figure.colorbar(image, cax=axes, orientation="horizontal", extend="max" if beyond else "neither")
+    bar.outline.set_linewidth(0.4)
+    bar.locator = MaxNLocator(4)
+    bar.formatter = FuncFormatter(lambda value, _: f"{value:g}")
+    bar.update_ticks()
+    axes.tick_params(pad=1.5)
+    axes.set_title(label, fontsize=6.5, pad=3)
+
+
+def draw_numbers(figure, result, total):
+    """What came out, and what was asked."""
+    found = [deformation_with_error(result), part("area {:.5g} µm²", result, "area_um2")]
+    asked = [part("{} solid", result, "case", "cell", "bulk", "law"),
+             part("E = {:.4g} kPa", result, "case", "cell", "bulk", "young_modulus_kPa"),
+             part("$r_0$ = {:.4g} µm", result, "case", "cell", "radius_um")]
+    moved = [part("$v_{{cell}}$ = {:.4g} m/s", result, "cell_velocity_m_per_s"),
+             part("pressure drop {:.4g} Pa", result, "pressure_drop_Pa")]
+    for height, parts, weight in ((0.34, found, "bold"), (0.205, asked, "normal"), (0.075, moved, "normal")):
+        figure.text(0.5, height / total, "      ".join(filter(None, parts)), ha="center", va="baseline", weight=weight)
+
+
+def deformation_with_error(result):
+    """Deformation and its estimated absolute error, with as many digits as the error leaves."""
+    deformation, relative = find(result, "deformation"), find(result, "estimated_error")
+    if not isinstance(deformation, (int, float)):
+        return None
+    if not isinstance(relative, (int, float)) or not relative > 0 or not deformation > 0:
+        return f"deformation {deformation:.4g}"
+    error = relative * deformation
+    digits = int(np.clip(np.ceil(-np.log10(error)), 1, 9))
+    return f"deformation {deformation:.{digits}f} ± {error:.{digits}f}"
+
+
+def find(result, *keys):
+    """The value under nested keys, None if there is none."""
+    for key in keys:
+        result = result.get(key) if isinstance(result, dict) else None
+    return result
+
+
+def part(text, result, *keys):
+    """The value under the keys put into the text; nothing if the result does not hold it."""
+    value = find(result, *keys)
+    try:
+        return None if value is None else text.format(value)
+    except (TypeError, ValueError):
+        return None
+
+
+def failure_note(result):
+    """Lines that say why this is not the wanted state; empty if it is."""
+    if result["status"] == "converged":
+        return []
+    message = str(result.get("message") or "the state shown is the last one that converged")
+    return textwrap.wrap(f"{result['status']}: {message}", 64)
+
+
+def main():
+    """Command line."""
+    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+        raise InputError("give the folder of one result: python -m rheocyte.picture DIR.")
+    folder = Path(sys.argv[1])
+    save_figure(draw(read_story(folder)), folder / "picture", dpi=600)
+
+
+if __name__ == "__main__":
+    run(main)

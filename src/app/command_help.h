@@ -1,0 +1,13 @@
+// `rheocyte help [case|solve]`
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace rheocyte {
+
+/// Adds the command; it prints to standard output.
+void add_help_command(CLI::App& app);
+
+}  // namespace rheocyte

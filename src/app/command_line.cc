@@ -1,0 +1,59 @@
+#include "app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <new>
+#include <vector>
+
+#include "app/exit_codes.h"
+#include "app/standard_error.h"
+#include "case/nearest_name.h"
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+// CLI11 would only say that an argument was not expected.
+void check_command_name(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  for (const auto name : known)
+    if (name == argv[1]) return;
+  const auto hint = did_you_mean(argv[1], known);
+  throw UserError(fmt::format("rheocyte: unknown command {}{}", one_line(argv[1], 60),
+                              hint.empty() ? "; `rheocyte --help` lists the commands." : hint));
+}
+
+int report(const std::string& sentence, int exit_code) {
+  tell(one_line(sentence, 1000));
+  return exit_code;
+}
+
+}  // namespace
+
+int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code) {
+  try {
+    check_command_name(app, argc, argv);
+    app.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::Success& wish) {  // --help, --version
+    return app.exit(wish);
+  } catch (const CLI::ParseError& error) {
+    return report(fmt::format("rheocyte: {} (see `rheocyte --help`)", error.what()), exit_user_error);
+  } catch (const UserError& error) {
+    return report(error.what(), exit_user_error);
+  } catch (const std::bad_alloc&) {
+    return report("rheocyte: the memory of this machine does not suffice; try a larger numerics.accuracy.",
+                  exit_own_bug);
+  } catch (const std::exception& error) {
+    return report(fmt::format("rheocyte: an error of the program itself, please report it: {}", error.what()),
+                  exit_own_bug);
+  }
+}
+
+}  // namespace rheocyte

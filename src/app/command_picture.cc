@@ -1,0 +1,38 @@
+#include "app/command_picture.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "app/exit_codes.h"
+#include "app/picture.h"
+#include "app/standard_error.h"
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+int redraw(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::exists(folder / "result.json", error))
+    throw UserError(
+        fmt::format("{}: there is no result.json; give a folder that `rheocyte solve` has written.", folder.string()));
+  const auto failure = draw_picture(folder);
+  if (failure.empty()) return exit_converged;
+  tell(fmt::format("rheocyte: the picture could not be drawn ({}).", one_line(failure, 300)));
+  return exit_own_bug;
+}
+
+}  // namespace
+
+void add_picture_command(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("picture", "draw picture.png and picture.svg of a result again");
+  auto folder = std::make_shared<std::filesystem::path>();
+  command->add_option("DIR", *folder, "folder of a result")->required();
+  command->callback([folder, &exit_code] { exit_code = redraw(*folder); });
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,125 @@
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/build_info.h"
+#include "app/result.h"
+#include "case/scales.h"
+#include "case/write_case.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double um_per_m = 1e6;
+
+Json environment_value(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? Json(value) : Json(nullptr);
+}
+
+// What decides about the last bits of a result.
+Json build_and_threads() {
+  return {{"compiler", __VERSION__},
+          {"threads",
+           {{"processors", std::thread::hardware_concurrency()},
+            {"OMP_NUM_THREADS", environment_value("OMP_NUM_THREADS")},
+            {"OPENBLAS_NUM_THREADS", environment_value("OPENBLAS_NUM_THREADS")},
+            {"DEAL_II_NUM_THREADS", environment_value("DEAL_II_NUM_THREADS")}}}};
+}
+
+Json statistics(const SolveStatistics& s) {
+  return {{"degree", s.degree},
+          {"elements", s.elements},
+          {"factorisations", s.factorisations},
+          {"continuation_steps", s.continuation_steps},
+          {"assembly_s", s.assembly_s},
+          {"factorisation_s", s.factorisation_s},
+          {"substitution_s", s.substitution_s},
+          {"total_s", s.total_s}};
+}
+
+Json branch(const Result& result) {
+  Json points = Json::array();
+  for (const auto& point : result.state.branch)
+    points.push_back({{"compliance", point.compliance},  // relative to the wanted one; 0 = rigid: modulus null
+                      {"young_modulus_kPa", result.input.cell.bulk.young_modulus_kPa / point.compliance},
+                      {"deformation", point.deformation},
+                      {"newton_iterations", point.newton_iterations}});
+  return points;
+}
+
+void add_shape(Json& json, const Result& result) {
+  const auto& shape = result.state.shape;
+  const double R = result.scales.length_m * um_per_m;
+  json["deformation"] = shape.deformation;
+  json["deformation_raw"] = shape.deformation_raw;
+  json["area_um2"] = shape.area * R * R;
+  json["area_raw_um2"] = shape.area_raw * R * R;
+  json["perimeter_um"] = shape.perimeter * R;
+  json["perimeter_raw_um"] = shape.perimeter_raw * R;
+  json["volume_um3"] = shape.volume * R * R * R;
+  json["relative_volume_change"] = result.state.relative_volume_change;
+  json["moment_ratio"] = shape.moment_ratio;
+  json["moment_ratio_raw"] = shape.moment_ratio_raw;
+  json["inertia_ratio"] = shape.inertia_ratio;
+  json["least_meridional_stretch"] = result.state.least_meridional_stretch;
+  json["biot_ratio"] = result.state.biot_ratio;
+}
+
+void add_flow(Json& json, const Result& result) {
+  const auto& state = result.state;
+  const auto& scales = result.scales;
+  json["cell_velocity_m_per_s"] = state.cell_velocity * scales.velocity_m_per_s;
+  json["mean_velocity_m_per_s"] = scales.velocity_m_per_s;
+  json["pressure_drop_Pa"] = state.pressure_drop * scales.stress_Pa;
+  json["additional_pressure_drop_Pa"] = state.additional_pressure_drop * scales.stress_Pa;
+  json["simulated_length_um"] = state.channel_length * scales.length_m * um_per_m;
+  json["tube_radius_um"] = tube_radius_um(result.input);
+  // rho v_cell R / eta, with the viscosity of the liquid at the shear rate U/R
+  json["reynolds"] = result.problem.reynolds * state.cell_velocity;
+}
+
+}  // namespace
+
+void refuse_unfinite_numbers(StationaryState& state) {
+  if (state.outcome.status != Status::converged) return;
+  const auto& s = state.shape;
+  for (const double number :
+       {s.deformation, s.deformation_raw, s.area, s.area_raw, s.perimeter, s.perimeter_raw, s.volume, s.moment_ratio,
+        s.inertia_ratio, state.cell_velocity, state.pressure_drop, state.additional_pressure_drop,
+        state.relative_volume_change, state.least_meridional_stretch, state.residual, state.estimated_error})
+    if (!std::isfinite(number)) {
+      state.outcome.status = Status::not_finite;
+      state.outcome.message = "The computation ended with a number that is not finite; please report the case.";
+    }
+}
+
+// nlohmann::json writes null for a number that is not finite.
+Json to_json(const Result& result) {
+  const auto& state = result.state;
+  Json json;
+  json["program"] = "rheocyte";
+  json["version"] = version;
+  json["status"] = name(state.outcome.status);
+  json["message"] = state.outcome.message;
+  json["reached"] = state.outcome.reached;
+  add_shape(json, result);
+  add_flow(json, result);
+  json["unknowns"] = state.statistics.unknowns;
+  json["newton_iterations"] = state.statistics.newton_iterations;
+  json["residual"] = state.residual;
+  json["estimated_error"] = state.estimated_error;
+  json["wall_time_s"] = state.statistics.total_s;
+  json["case"] = to_json(result.input);
+  json["case_hash"] = case_hash(result.input);
+  json["branch"] = branch(result);
+  json["statistics"] = statistics(state.statistics);
+  json.update(build_and_threads());
+  return json;
+}
+
+}  // namespace rheocyte

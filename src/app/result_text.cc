@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "app/build_info.h"
+#include "app/result.h"
+#include "shape/curve.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double um_per_m = 1e6;
+constexpr int points_per_piece = 33;
+
+std::string line(std::string_view name, const std::string& value, const std::string& remark) {
+  return fmt::format("  {:<18} {:<16} {}\n", name, value, remark);
+}
+
+}  // namespace
+
+std::string contour_csv(const Result& result) {
+  const double R = result.scales.length_m * um_per_m;
+  const auto parameters = Eigen::VectorXd::LinSpaced(points_per_piece, 0, 1).eval();
+  std::string text = "x_um,r_um\n";
+  bool first_piece = true;
+  for (const auto& piece : result.state.contour.pieces) {
+    const Eigen::MatrixX2d points = R * evaluate(piece, parameters);
+    // The first point of a piece is the last one of the piece before.
+    for (Eigen::Index i = first_piece ? 0 : 1; i < points.rows(); ++i)
+      fmt::format_to(std::back_inserter(text), "{:.10g},{:.10g}\n", points(i, 0), points(i, 1));
+    first_piece = false;
+  }
+  return text;
+}
+
+std::string summary(const Result& result, const std::string& folder) {
+  const auto& state = result.state;
+  const auto& shape = state.shape;
+  const auto& scales = result.scales;
+  const double R = scales.length_m * um_per_m;
+  std::string text = fmt::format("rheocyte {}: {}\n", version, name(state.outcome.status));
+  text +=
+      line("deformation", fmt::format("{:.6f}", shape.deformation), fmt::format("raw {:.6f}", shape.deformation_raw));
+  text +=
+      line("area", fmt::format("{:.3f} um^2", shape.area * R * R), fmt::format("raw {:.3f}", shape.area_raw * R * R));
+  text += line("cell velocity", fmt::format("{:.5g} m/s", state.cell_velocity * scales.velocity_m_per_s),
+               fmt::format("mean velocity of the liquid {:.5g}", scales.velocity_m_per_s));
+  text += line("pressure drop", fmt::format("{:.5g} Pa", state.pressure_drop * scales.stress_Pa),
+               fmt::format("{:.4g} due to the cell", state.additional_pressure_drop * scales.stress_Pa));
+  text += line("estimated error", fmt::format("{:.1e}", state.estimated_error),
+               fmt::format("of the deformation, wanted {:.1e}", result.problem.accuracy));
+  text += line("time", fmt::format("{:.2f} s", state.statistics.total_s),
+               fmt::format("{} steps, {} Newton iterations, {} unknowns", state.statistics.continuation_steps,
+                           state.statistics.newton_iterations, state.statistics.unknowns));
+  return text + fmt::format("  {:<18} {}\n", "folder", folder);
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,21 @@
+// The program that the user calls. It links no solver, so that help and errors come at once.
+#include <CLI/CLI.hpp>
+
+#include "app/build_info.h"
+#include "app/command_help.h"
+#include "app/command_line.h"
+#include "app/command_picture.h"
+#include "app/command_solve.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"rheocyte: shapes of cells in the channel of real-time deformability cytometry", "rheocyte"};
+  app.set_version_flag("--version", std::string("rheocyte ") + rheocyte::version);
+  app.require_subcommand(1);
+  app.footer("First steps: rheocyte solve examples/paper-cell.toml -o paper-cell; rheocyte help case");
+
+  int exit_code = 0;
+  rheocyte::add_solve_command(app, argv, exit_code);
+  rheocyte::add_picture_command(app, exit_code);
+  rheocyte::add_help_command(app);
+  return rheocyte::run_command_line(app, argc, argv, exit_code);
+}

@@ -1,0 +1,30 @@
+#include "app/solve_options.h"
+
+#include <CLI/CLI.hpp>
+#include <utility>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+void declare_solve_options(CLI::App& command, SolveOptions& options, std::function<void()> run) {
+  command.add_option("CASE", options.case_file, "the case, a TOML file (see `rheocyte help case`)")->required();
+  command.add_option("-o,--output", options.folder, "folder for the result; an older result in it is replaced")
+      ->type_name("DIR");
+  command.add_option("--set", options.settings, "replace a key of the case; may be repeated")
+      ->type_name("key=value")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("--json", options.json, "print result.json on standard output and nothing else there");
+  command.add_flag("--quiet", options.quiet, "print neither progress nor summary");
+  command.add_flag("--no-picture", options.no_picture, "do not draw picture.png and picture.svg");
+  command.add_flag("--check", options.check_only, "only check the case: exit code 0 or 2, nothing is written");
+  command.callback([&options, run = std::move(run)] {
+    if (!options.check_only && options.folder.empty())
+      throw UserError("rheocyte: the folder for the result is missing; give one with -o, for example -o result.");
+    run();
+  });
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,46 @@
+// One case as the user states it, in physical units. Keys, ranges and meanings stand in parameters.cc only.
+#pragma once
+#include <optional>
+
+#include "case/problem.h"
+
+namespace rheocyte {
+
+/// The tube, or the square channel that is mapped to it; exactly one of the two is given.
+struct Channel {
+  std::optional<double> width_um, radius_um;
+};
+
+/// The liquid and how much of it flows. Empty: the key has no effect for this law.
+struct Flow {
+  double rate_ul_per_s = 0;
+  LiquidLaw law = LiquidLaw::newtonian;
+  std::optional<double> viscosity_mPas, consistency_Pa_sn, exponent, shear_rate_floor;
+  double density_kg_per_m3 = 0;
+};
+
+/// The elastic interior of the cell.
+struct Bulk {
+  BulkLaw law = BulkLaw::neo_hookean;
+  double young_modulus_kPa = 0;
+  std::optional<double> mooney_share;
+};
+
+struct Cell {
+  double radius_um = 0;
+  Bulk bulk;
+};
+
+struct Numerics {
+  double accuracy = 0;
+};
+
+/// A value that read_case returns is complete and inside every range; a default-constructed one is not.
+struct Case {
+  Channel channel;
+  Flow flow;
+  Cell cell;
+  Numerics numerics;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,149 @@
+#include "case/case_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+long line_of(std::string_view text, std::size_t position) {
+  return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n');
+}
+
+// Length of the UTF-8 sequence that its first byte announces; 0: no first byte.
+std::size_t sequence_length(unsigned char first) {
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first < 0xE0) return 2;
+  if (first >= 0xE0 && first < 0xF0) return 3;
+  if (first >= 0xF0 && first < 0xF5) return 4;
+  return 0;
+}
+
+// The first byte that is no UTF-8, or npos.
+std::size_t first_bad_byte(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = sequence_length(static_cast<unsigned char>(text[i]));
+    if (length == 0 || i + length > text.size()) return i;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return i;
+    i += length;
+  }
+  return std::string_view::npos;
+}
+
+// Walks over the text as TOML's lexer would and looks at what stands outside of comments and strings. Where the text
+// is no valid TOML the walk may go astray, but only behind the place at which the parser stops.
+class OutsideScan {
+ public:
+  enum class Finding { none, too_deep, not_ascii };
+
+  explicit OutsideScan(std::string_view text) : text_(text), at_(text.starts_with(byte_order_mark) ? 3 : 0) {}
+
+  // Stops at the first finding.
+  Finding run() {
+    while (at_ < text_.size()) {
+      if (static_cast<unsigned char>(text_[at_]) >= 0x80) return Finding::not_ascii;
+      step();
+      if (depth_ > greatest_nesting || dots_ >= greatest_nesting) return Finding::too_deep;
+    }
+    return Finding::none;
+  }
+
+  std::size_t position() const { return std::min(at_, text_.size() - 1); }
+
+ private:
+  void step() {
+    const char c = text_[at_];
+    if (c == '#') return skip_to("\n");
+    if (c == '"' || c == '\'') return skip_string(c);
+    if (c == '[' || c == '{') ++depth_;
+    if (c == ']' || c == '}') --depth_;
+    if (c == '.') ++dots_;
+    if (std::strchr(",=[]{}\n", c)) dots_ = 0;  // a dotted key, or a number, ends here
+    ++at_;
+  }
+
+  void skip_string(char quote) {
+    const std::string triple(3, quote);
+    if (text_.substr(at_, 3) == triple) {
+      at_ += 3;
+      skip_past(triple, quote);
+      while (at_ < text_.size() && text_[at_] == quote) ++at_;  // up to two quotes may end the string's own text
+    } else {
+      ++at_;
+      skip_past(std::string(1, quote), quote);
+    }
+  }
+
+  void skip_past(const std::string& end, char quote) {
+    while (at_ < text_.size() && text_.substr(at_, end.size()) != end) {
+      if (end.size() == 1 && text_[at_] == '\n') return;  // an open string: the parser stops here
+      at_ += quote == '"' && text_[at_] == '\\' ? 2 : 1;
+    }
+    at_ += end.size();
+  }
+
+  void skip_to(std::string_view end) { at_ = std::min(text_.find(end, at_), text_.size()); }
+
+  std::string_view text_;
+  std::size_t at_;
+  int depth_ = 0, dots_ = 0;
+};
+
+[[noreturn]] void refuse(const std::string& name, const std::string& reason) { throw UserError(name + ": " + reason); }
+
+}  // namespace
+
+std::string read_case_text(const fs::path& file) {
+  const std::string name = file.string();
+  std::error_code error;
+  const auto status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) refuse(name, "there is no such case file.");
+  if (error) refuse(name, "cannot read the case file (" + error.message() + ").");
+  if (fs::is_directory(status)) refuse(name, "is a folder; give the case file itself, for example case.toml.");
+  if (!fs::is_regular_file(status)) refuse(name, "is not a regular file; write the case to a file first.");
+  const auto too_large = [&] {
+    refuse(name, fmt::format("the case file is larger than {} KiB; a case has some twenty lines.",
+                             greatest_case_bytes / 1024));
+  };
+  if (fs::file_size(file, error) > greatest_case_bytes || error) too_large();
+
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) refuse(name, fmt::format("cannot read the case file ({}).", std::strerror(errno)));
+  std::string text(greatest_case_bytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) refuse(name, "reading the case file failed.");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > greatest_case_bytes) too_large();  // it has grown since the first look
+  return text;
+}
+
+void check_case_text(std::string_view text, const std::string& name) {
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+    refuse(name, "the case file is empty; `rheocyte help case` lists its keys.");
+  if (const auto zero = text.find('\0'); zero != std::string_view::npos)
+    refuse(fmt::format("{}:{}", name, line_of(text, zero)), "a zero byte; a case is a text file in TOML.");
+  if (const auto bad = first_bad_byte(text); bad != std::string_view::npos)
+    refuse(fmt::format("{}:{}", name, line_of(text, bad)), "a byte that is not UTF-8; a case is a text file in TOML.");
+  OutsideScan scan(text);
+  const auto finding = scan.run();
+  const auto place = fmt::format("{}:{}", name, line_of(text, scan.position()));
+  if (finding == OutsideScan::Finding::too_deep)
+    refuse(place, fmt::format("nested deeper than {} levels; a case needs three.", greatest_nesting));
+  if (finding == OutsideScan::Finding::not_ascii)
+    refuse(place, fmt::format("the character {} can only stand in a comment or between plain quotes.",
+                              text.substr(scan.position(),
+                                          sequence_length(static_cast<unsigned char>(text[scan.position()])))));
+}
+
+}  // namespace rheocyte

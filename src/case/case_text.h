@@ -1,0 +1,22 @@
+// The bytes of a case file, guarded before any parser sees them.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace rheocyte {
+
+/// A case has some twenty lines; more than this is a mistake or an attack.
+inline constexpr std::size_t greatest_case_bytes = 1 << 20;
+
+/// Brackets inside brackets, and parts of a dotted key. toml++ 3.3 recurses on both without a safe bound.
+inline constexpr int greatest_nesting = 16;
+
+/// Reads a regular file of at most greatest_case_bytes. UserError: missing, folder, pipe, unreadable, too large.
+std::string read_case_text(const std::filesystem::path&);
+
+/// UserError if the text is empty, no UTF-8, holds a zero byte, nests too deep, or has a character beyond ASCII outside
+/// of comments and strings (undefined behaviour in toml++ 3.3, and never part of a case). `name` stands in the message.
+void check_case_text(std::string_view text, const std::string& name);
+
+}  // namespace rheocyte

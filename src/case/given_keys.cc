@@ -1,0 +1,97 @@
+#include "case/given_keys.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr std::size_t longest_value = 60;
+
+std::string name_of_type(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::boolean: return node.value_or(false) ? "true" : "false";
+    case toml::node_type::array: return node.is_array_of_tables() ? "an array of sections" : "an array";
+    case toml::node_type::table: return "a section";
+    default: return "a date or time";
+  }
+}
+
+decltype(GivenKey::value) value_of(const toml::node& node) {
+  if (const auto number = node.value_exact<double>()) return *number;
+  if (const auto integer = node.value_exact<int64_t>()) return static_cast<double>(*integer);
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  return Unusable{name_of_type(node)};
+}
+
+void collect(const toml::table& table, const std::string& prefix, const std::string& name,
+             std::vector<GivenKey>& keys) {
+  for (const auto& [key, node] : table) {
+    const std::string full = prefix + std::string(key.str());
+    const auto* section = node.as_table();
+    if (section && !section->empty()) {
+      collect(*section, full + ".", name, keys);
+    } else {
+      // A section header has its source at the table, a value at the node itself; both know the line.
+      keys.push_back({full, fmt::format("{}:{}", name, node.source().begin.line), value_of(node)});
+    }
+  }
+}
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::string_view without_quotes(std::string_view text) {
+  const bool quoted = text.size() >= 2 && text.front() == text.back() && (text.front() == '"' || text.front() == '\'');
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+}  // namespace
+
+std::vector<GivenKey> keys_in_toml(std::string_view text, const std::string& name) {
+  std::vector<GivenKey> keys;
+  try {
+    const toml::table root = toml::parse(text, name);
+    collect(root, "", name, keys);
+  } catch (const toml::parse_error& error) {
+    throw UserError(
+        fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, one_line(error.description(), 200)));
+  }
+  // toml++ sorts by name; the user reads from the top.
+  const auto line = [&](const GivenKey& given) { return std::stol(given.where.substr(name.size() + 1)); };
+  std::stable_sort(keys.begin(), keys.end(), [&](const auto& a, const auto& b) { return line(a) < line(b); });
+  return keys;
+}
+
+GivenKey key_in_setting(std::string_view setting) {
+  const auto equals = setting.find('=');
+  const auto key = trim(setting.substr(0, equals));
+  if (equals == std::string_view::npos || key.empty())
+    throw UserError(fmt::format("--set {}: write key=value, for example --set cell.radius_um=7.66",
+                                one_line(setting, longest_value)));
+  const auto text = trim(setting.substr(equals + 1));
+  double number = 0;
+  const auto* start = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(start, text.data() + text.size(), number);
+  GivenKey given{std::string(key), "--set", std::string(without_quotes(text)), true};
+  if (error == std::errc{} && end == text.data() + text.size()) given.value = number;
+  return given;
+}
+
+std::string value_text(const GivenKey& given) {
+  if (const auto* number = std::get_if<double>(&given.value)) return fmt::format("{}", *number);
+  if (const auto* text = std::get_if<std::string>(&given.value))
+    return fmt::format("\"{}\"", one_line(*text, longest_value));
+  return std::get<Unusable>(given.value).what;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,68 @@
+// The declaration of a parameter. Reader, writers, help and docs/case-reference.md all work from this one table.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "case/case.h"
+
+namespace rheocyte {
+
+/// Both ends belong to the range.
+struct Range {
+  double least, greatest;
+  bool contains(double value) const { return value >= least && value <= greatest; }  // false for NaN
+};
+
+/// A parameter that is a number.
+struct Number {
+  Range range;
+  std::optional<double> fallback;             ///< value when the key is not given; empty: the key is required
+  std::optional<double> (*get)(const Case&);  ///< empty: no effect in this case
+  void (*set)(Case&, double);
+};
+
+/// A parameter that is one of a few words, numbered in the order of its enumeration.
+struct Choice {
+  std::vector<std::string_view> options;
+  std::optional<int> fallback;
+  int (*get)(const Case&);
+  void (*set)(Case&, int);
+};
+
+/// The parameter has an effect only if the choice `key` has the value `option`.
+struct Condition {
+  std::string_view key, option;
+};
+
+struct Parameter {
+  std::string_view key;       ///< dotted, with the unit as its last part: "cell.radius_um"
+  std::string_view unit;      ///< empty for pure numbers and choices
+  std::string_view sentence;  ///< what it is
+  std::variant<Number, Choice> value;
+  std::optional<Condition> only_for = {};
+  std::string_view alternative = {};  ///< the key that may stand instead: exactly one of the two is given
+};
+
+/// All parameters in the order in which they are documented and written.
+std::span<const Parameter> parameters();
+
+/// The parameter with this key, or null.
+const Parameter* find_parameter(std::string_view key);
+
+/// The option of a choice that a case has, e.g. "newtonian" for "flow.law". The key must be that of a choice.
+std::string_view chosen_option(const Case&, std::string_view key);
+
+/// Whether the parameter has an effect in this case (its law is the chosen one).
+bool applies(const Parameter&, const Case&);
+
+/// What may be given, for messages and help: `0.1 .. 1000 um`, or `"newtonian" or "power-law"`.
+std::string allowed_values(const Parameter&);
+
+/// The value when the key is not given: `1000`, `"newtonian"`, or `required`.
+std::string fallback_text(const Parameter&);
+
+}  // namespace rheocyte

@@ -1,0 +1,187 @@
+#include "case/read_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "case/case_text.h"
+#include "case/given_keys.h"
+#include "case/nearest_name.h"
+#include "case/parameters.h"
+#include "case/scales.h"
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+using GivenByKey = std::map<std::string_view, GivenKey>;
+
+[[noreturn]] void refuse(const GivenKey& given, const std::string& reason) {
+  throw UserError(fmt::format("{}: {}", given.where, reason));
+}
+
+std::string stated(const GivenKey& given) { return fmt::format("{} = {}", one_line(given.key, 80), value_text(given)); }
+
+bool is_section(std::string_view name) {
+  const std::string prefix = std::string(name) + ".";
+  return std::ranges::any_of(parameters(), [&](const Parameter& p) { return p.key.starts_with(prefix); });
+}
+
+bool is_given_as_section(const GivenKey& given) {
+  const auto* unusable = std::get_if<Unusable>(&given.value);
+  return unusable && unusable->what == "a section";
+}
+
+[[noreturn]] void refuse_unknown(const GivenKey& given) {
+  if (is_section(given.key))
+    refuse(given, fmt::format("{} is a section, not a value; write [{}] and its keys below.", given.key, given.key));
+  if (const auto* parent = find_parameter(given.key.substr(0, given.key.rfind('.'))))
+    refuse(given, fmt::format("{} stands below {}, which takes a value: {}.", stated(given), parent->key,
+                              allowed_values(*parent)));
+  std::vector<std::string_view> known;
+  for (const auto& parameter : parameters()) known.push_back(parameter.key);
+  const auto hint = did_you_mean(given.key, known);
+  const auto what = is_given_as_section(given) ? fmt::format("section [{}]", one_line(given.key, 80))
+                                               : fmt::format("key {}", stated(given));
+  refuse(given, fmt::format("unknown {}{}", what, hint.empty() ? "; `rheocyte help case` lists all keys." : hint));
+}
+
+// Later keys, those of --set, replace earlier ones.
+GivenByKey known_keys(std::vector<GivenKey> keys) {
+  GivenByKey known;
+  for (auto& given : keys) {
+    if (is_given_as_section(given) && is_section(given.key)) continue;  // an empty section is no mistake
+    const Parameter* parameter = find_parameter(given.key);
+    if (!parameter) refuse_unknown(given);
+    const auto earlier = known.find(parameter->key);
+    if (earlier != known.end() && !given.from_set)
+      refuse(given, fmt::format("{} is given for the second time.", stated(given)));
+    known.insert_or_assign(parameter->key, std::move(given));
+  }
+  return known;
+}
+
+void set_number(Case& c, const Parameter& parameter, const GivenKey& given) {
+  const auto& number = std::get<Number>(parameter.value);
+  const auto* value = std::get_if<double>(&given.value);
+  const auto allowed = fmt::format("{} ({})", allowed_values(parameter), parameter.sentence);
+  if (!value) refuse(given, fmt::format("{} is not a number; it can be {}.", stated(given), allowed));
+  if (!std::isfinite(*value)) refuse(given, fmt::format("{} is not finite; it can be {}.", stated(given), allowed));
+  if (!number.range.contains(*value)) refuse(given, fmt::format("{} is outside its range {}.", stated(given), allowed));
+  number.set(c, *value);
+}
+
+void set_choice(Case& c, const Parameter& parameter, const GivenKey& given) {
+  const auto& choice = std::get<Choice>(parameter.value);
+  const auto* word = std::get_if<std::string>(&given.value);
+  if (!word) refuse(given, fmt::format("{} must be a word: {}.", stated(given), allowed_values(parameter)));
+  const auto found = std::ranges::find(choice.options, *word);
+  if (found == choice.options.end()) {
+    const auto hint = did_you_mean(*word, choice.options);
+    refuse(given, fmt::format("{} is not known; it can be {}{}", stated(given), allowed_values(parameter),
+                              hint.empty() ? "." : hint));
+  }
+  choice.set(c, static_cast<int>(found - choice.options.begin()));
+}
+
+void set_value(Case& c, const Parameter& parameter, const GivenKey& given) {
+  if (std::holds_alternative<Number>(parameter.value))
+    set_number(c, parameter, given);
+  else
+    set_choice(c, parameter, given);
+}
+
+// Choices come first: they decide which of the other keys have an effect.
+void read_choices(Case& c, const GivenByKey& keys) {
+  for (const auto& parameter : parameters()) {
+    const auto* choice = std::get_if<Choice>(&parameter.value);
+    if (!choice) continue;
+    if (choice->fallback) choice->set(c, *choice->fallback);
+    if (const auto given = keys.find(parameter.key); given != keys.end()) set_choice(c, parameter, given->second);
+  }
+}
+
+bool was_set(const GivenByKey& keys, std::string_view key) {
+  const auto given = keys.find(key);
+  return given != keys.end() && given->second.from_set;
+}
+
+// Refuses a key that has no effect, unless a setting has taken its effect from it.
+void check_effect(const Case& c, const Parameter& parameter, GivenByKey& keys) {
+  const auto given = keys.find(parameter.key);
+  if (given == keys.end() || applies(parameter, c)) return;
+  const auto& condition = *parameter.only_for;
+  if (!given->second.from_set && was_set(keys, condition.key)) {
+    keys.erase(given);
+    return;
+  }
+  refuse(given->second,
+         fmt::format("{} has no effect, because {} is \"{}\"; remove it or choose \"{}\".", stated(given->second),
+                     condition.key, chosen_option(c, condition.key), condition.option));
+}
+
+// Of two alternatives exactly one stays; a setting wins over the file.
+void check_alternative(const Parameter& parameter, GivenByKey& keys) {
+  if (parameter.alternative.empty()) return;
+  const auto given = keys.find(parameter.key), other = keys.find(parameter.alternative);
+  if (given == keys.end() || other == keys.end()) return;
+  if (given->second.from_set != other->second.from_set) {
+    keys.erase(given->second.from_set ? other : given);
+    return;
+  }
+  refuse(other->second, fmt::format("{} and {} exclude each other; give exactly one of them.", stated(given->second),
+                                    stated(other->second)));
+}
+
+void read_number(Case& c, const Parameter& parameter, const GivenByKey& keys, const std::string& name) {
+  const auto& number = std::get<Number>(parameter.value);
+  if (const auto given = keys.find(parameter.key); given != keys.end()) return set_number(c, parameter, given->second);
+  if (!applies(parameter, c) || keys.contains(parameter.alternative)) return;
+  if (number.fallback) return number.set(c, *number.fallback);
+  const auto instead = parameter.alternative.empty() ? "" : fmt::format(" (or {})", parameter.alternative);
+  const auto reason =
+      parameter.only_for ? fmt::format(" for {} = \"{}\"", parameter.only_for->key, parameter.only_for->option) : "";
+  throw UserError(fmt::format("{}: the key {}{} is missing{}; it can be {} ({}).", name, parameter.key, instead, reason,
+                              allowed_values(parameter), parameter.sentence));
+}
+
+void check_cell_in_tube(const Case& c, const GivenByKey& keys) {
+  const double R = tube_radius_um(c), r0 = c.cell.radius_um;
+  if (r0 >= least_radius_ratio * R && r0 <= greatest_radius_ratio * R) return;
+  const auto& given = keys.at("cell.radius_um");
+  refuse(given, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the tube radius {:.6g} um.",
+                            stated(given), least_radius_ratio * R, greatest_radius_ratio * R, least_radius_ratio,
+                            greatest_radius_ratio, R));
+}
+
+}  // namespace
+
+Case parse_case(std::string_view text, const std::string& name, std::span<const std::string> settings) {
+  check_case_text(text, name);
+  auto keys_in_order = keys_in_toml(text, name);
+  for (const auto& setting : settings) keys_in_order.push_back(key_in_setting(setting));
+  GivenByKey keys = known_keys(std::move(keys_in_order));
+
+  Case c;
+  Case probe;  // every given value must be right by itself, even where it has no effect
+  for (const auto& [key, given] : keys) set_value(probe, *find_parameter(key), given);
+  read_choices(c, keys);
+  for (const auto& parameter : parameters()) {
+    check_effect(c, parameter, keys);
+    check_alternative(parameter, keys);
+  }
+  for (const auto& parameter : parameters())
+    if (std::holds_alternative<Number>(parameter.value)) read_number(c, parameter, keys, name);
+  check_cell_in_tube(c, keys);
+  return c;
+}
+
+Case read_case(const std::filesystem::path& file, std::span<const std::string> settings) {
+  return parse_case(read_case_text(file), file.string(), settings);
+}
+
+}  // namespace rheocyte

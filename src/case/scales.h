@@ -1,0 +1,22 @@
+// From physical units to the dimensionless problem (docs/theory.md, eq:scales).
+#pragma once
+#include "case/case.h"
+
+namespace rheocyte {
+
+/// A square channel of width L and a tube of radius 0.547 L have the same pressure drop (Mokbel et al. 2017).
+inline constexpr double tube_radius_per_channel_width = 0.547;
+
+/// The cell's radius must lie between these shares of the tube's.
+inline constexpr double least_radius_ratio = 0.05, greatest_radius_ratio = 0.95;
+
+/// Radius of the tube in um, given or mapped from the width of the square channel.
+double tube_radius_um(const Case&);
+
+/// R, U = Q / (pi R^2), and S = eta U / R or K (U/R)^n, in SI units.
+Scales scales_of(const Case&);
+
+/// The dimensionless groups of a complete case.
+Problem problem_of(const Case&);
+
+}  // namespace rheocyte

@@ -1,0 +1,40 @@
+#include "shape/measures.h"
+
+#include <cmath>
+#include <limits>
+
+#include "shape/arc_integrals.h"
+#include "shape/convex_hull.h"
+
+namespace rheocyte {
+namespace {
+
+ShapeMeasures no_measures() {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return {nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+}
+
+}  // namespace
+
+ShapeMeasures measure(const Contour& contour) {
+  const auto meridian = SampledMeridian::of(contour);
+  const auto hull = meridian ? convex_hull(*meridian, HullParts::all) : std::nullopt;
+  if (!hull) return no_measures();
+
+  const double origin = meridian->points().col(0).mean();
+  const ArcIntegrals raw = integrate(whole(*meridian), origin), convex = integrate(hull->arcs, origin);
+  if (!(raw.area > 0 && raw.volume > 0)) return no_measures();
+  return {.area = convex.area,
+          .perimeter = convex.perimeter,
+          .deformation = convex.deformation(),
+          .area_raw = raw.area,
+          .perimeter_raw = raw.perimeter,
+          .deformation_raw = raw.deformation(),
+          .volume = raw.volume,
+          .barycentre = origin + raw.volume_x / raw.volume,
+          .moment_ratio = convex.lateral_moment() / convex.axial_moment(),
+          .inertia_ratio = std::sqrt(convex.axial_moment() / convex.lateral_moment()),
+          .moment_ratio_raw = raw.lateral_moment() / raw.axial_moment()};
+}
+
+}  // namespace rheocyte

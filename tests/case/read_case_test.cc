@@ -1,0 +1,99 @@
+// A good case gives exactly the values that stand in it; defaults, --set and conditions act as documented.
+#include "case/read_case.h"
+
+#include <gtest/gtest.h>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+namespace {
+
+const std::string shortest = R"(
+[channel]
+width_um = 20
+[flow]
+rate_ul_per_s = 0.04
+viscosity_mPas = 15.0
+[cell]
+radius_um = 7.66
+[cell.bulk]
+young_modulus_kPa = 3.437
+)";
+
+Case read(const std::string& text, std::vector<std::string> settings = {}) {
+  return parse_case(text, "case.toml", settings);
+}
+
+std::string refusal(const std::string& text, std::vector<std::string> settings = {}) {
+  try {
+    read(text, std::move(settings));
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ReadCase, GivenValuesAreKeptAndTheOthersHaveTheirDefaults) {
+  const Case c = read(shortest);
+  EXPECT_EQ(c.channel.width_um, 20.0);
+  EXPECT_FALSE(c.channel.radius_um);
+  EXPECT_EQ(c.flow.rate_ul_per_s, 0.04);
+  EXPECT_EQ(c.flow.law, LiquidLaw::newtonian);
+  EXPECT_EQ(c.flow.viscosity_mPas, 15.0);
+  EXPECT_FALSE(c.flow.exponent);
+  EXPECT_EQ(c.flow.density_kg_per_m3, 1000.0);
+  EXPECT_EQ(c.cell.radius_um, 7.66);
+  EXPECT_EQ(c.cell.bulk.law, BulkLaw::neo_hookean);
+  EXPECT_EQ(c.cell.bulk.young_modulus_kPa, 3.437);
+  EXPECT_EQ(c.numerics.accuracy, 1e-4);
+}
+
+TEST(ReadCase, ASettingReplacesAKeyAndTheLastOneWins) {
+  const Case c = read(shortest, {"cell.radius_um=6", " cell.bulk.law = \"linear\" ", "cell.radius_um=+5.5"});
+  EXPECT_EQ(c.cell.radius_um, 5.5);
+  EXPECT_EQ(c.cell.bulk.law, BulkLaw::linear);
+}
+
+TEST(ReadCase, ASettingThatChangesTheLawDropsTheKeysOfTheOtherLaw) {
+  const Case c = read(shortest, {"flow.law=power-law", "flow.consistency_Pa_sn=0.4", "flow.exponent=0.6"});
+  EXPECT_FALSE(c.flow.viscosity_mPas);
+  EXPECT_EQ(c.flow.exponent, 0.6);
+  EXPECT_EQ(c.flow.shear_rate_floor, 1e-3);
+}
+
+TEST(ReadCase, ASettingOfOneAlternativeReplacesTheOther) {
+  const Case c = read(shortest, {"channel.radius_um=10.94"});
+  EXPECT_FALSE(c.channel.width_um);
+  EXPECT_EQ(c.channel.radius_um, 10.94);
+  EXPECT_NE(refusal(shortest, {"channel.radius_um=10.94", "channel.width_um=20"}).find("exclude each other"),
+            std::string::npos);
+}
+
+TEST(ReadCase, AKeyOfTheFileWithoutEffectIsRefusedWhoeverSetTheRest) {
+  EXPECT_NE(refusal(shortest + "mooney_share = 0.3\n").find("has no effect"), std::string::npos);
+  EXPECT_EQ(refusal(shortest + "mooney_share = 0.3\n", {"cell.bulk.law=linear"}), "accepted");
+  EXPECT_NE(refusal(shortest, {"cell.bulk.mooney_share=0.3"}).find("has no effect"), std::string::npos);
+}
+
+TEST(ReadCase, TheEndsOfARangeBelongToIt) {
+  EXPECT_EQ(refusal(shortest, {"numerics.accuracy=1e-7"}), "accepted");
+  EXPECT_EQ(refusal(shortest, {"numerics.accuracy=0.1"}), "accepted");
+  EXPECT_NE(refusal(shortest, {"numerics.accuracy=0.1000001"}), "accepted");
+  EXPECT_EQ(refusal(shortest, {"flow.density_kg_per_m3=0"}), "accepted");
+}
+
+TEST(ReadCase, TheCellMustFitIntoTheTubeThatIsMeant) {
+  EXPECT_EQ(refusal(shortest, {"cell.radius_um=10.39"}), "accepted");  // 0.9497 of 10.94 um
+  EXPECT_NE(refusal(shortest, {"cell.radius_um=10.40"}).find("of the tube radius 10.94 um"), std::string::npos);
+  EXPECT_EQ(refusal(shortest, {"cell.radius_um=10.40", "channel.width_um=30"}), "accepted");
+}
+
+TEST(ReadCase, ARefusalIsOneLineHoweverLongTheInput) {
+  const auto text =
+      refusal(shortest + "\"" + std::string(100000, 'k') + "\\n\" = \"" + std::string(100000, 'v') + "\"\n");
+  EXPECT_LT(text.size(), 1000u);
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rheocyte

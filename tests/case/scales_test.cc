@@ -1,0 +1,99 @@
+// The dimensionless groups are those of the theory, and cases with equal groups are one problem.
+#include "case/scales.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "case/read_case.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr double rounding = 1e-13;  // a few operations on doubles
+
+Case paper_cell() {
+  return parse_case(
+      "channel.width_um = 20\nflow.rate_ul_per_s = 0.04\nflow.viscosity_mPas = 15\ncell.radius_um = 7.66\n"
+      "cell.bulk.young_modulus_kPa = 3.437\n",
+      "paper cell");
+}
+
+Case power_law_cell(double exponent, double consistency_Pa_sn) {
+  Case c = paper_cell();
+  c.flow.law = LiquidLaw::power_law;
+  c.flow.viscosity_mPas.reset();
+  c.flow.exponent = exponent;
+  c.flow.consistency_Pa_sn = consistency_Pa_sn;
+  c.flow.shear_rate_floor = 1e-3;
+  return c;
+}
+
+TEST(Scales, AreTubeRadiusMeanVelocityAndViscousStress) {
+  const Scales scales = scales_of(paper_cell());
+  const double R = 10.94e-6, U = 0.04e-9 / (std::numbers::pi * R * R);
+  EXPECT_NEAR(scales.length_m / R, 1, rounding);
+  EXPECT_NEAR(scales.velocity_m_per_s / U, 1, rounding);
+  EXPECT_NEAR(scales.stress_Pa / (15e-3 * U / R), 1, rounding);
+}
+
+TEST(Scales, AWidthMeansTheTubeOf0547TimesIt) {
+  Case c = paper_cell();
+  EXPECT_NEAR(tube_radius_um(c), 10.94, 10.94 * rounding);
+  c.channel = {.width_um = {}, .radius_um = 10.94};
+  EXPECT_EQ(tube_radius_um(c), 10.94);
+}
+
+TEST(Scales, TheGroupsOfThePaperCell) {
+  const Problem problem = problem_of(paper_cell());
+  const double R = 10.94e-6, U = 0.04e-9 / (std::numbers::pi * R * R), eta = 15e-3, E = 3437;
+  EXPECT_NEAR(problem.radius_ratio, 7.66 / 10.94, rounding);
+  EXPECT_NEAR(problem.shear_modulus / (E * R / (3 * eta * U)), 1, rounding);
+  EXPECT_NEAR(problem.reynolds / (1000 * U * R / eta), 1, rounding);
+  // Mokbel et al. give rho v_cell R / eta = 0.13 for the standard case; the cell moves at 1.0 to 2.0 U.
+  EXPECT_GT(0.13 / problem.reynolds, 1.0);
+  EXPECT_LT(0.13 / problem.reynolds, 2.0);
+  EXPECT_EQ(problem.accuracy, 1e-4);
+}
+
+TEST(Scales, StokesCasesWithEqualGroupsAreOneProblem) {
+  Case one = paper_cell(), other = paper_cell();
+  one.flow.density_kg_per_m3 = other.flow.density_kg_per_m3 = 0;
+  // Lengths x 2, flow rate x 3, viscosity x 5: the modulus scales by Q eta / R^3 = 15/8 (model of Mokbel et al.).
+  other.channel.width_um = 40;
+  other.cell.radius_um *= 2;
+  other.flow.rate_ul_per_s *= 3;
+  *other.flow.viscosity_mPas *= 5;
+  other.cell.bulk.young_modulus_kPa *= 15.0 / 8;
+  const Problem a = problem_of(one), b = problem_of(other);
+  EXPECT_NEAR(a.radius_ratio, b.radius_ratio, rounding);
+  EXPECT_NEAR(a.shear_modulus / b.shear_modulus, 1, rounding);
+  EXPECT_EQ(a.reynolds, 0);
+  EXPECT_EQ(b.reynolds, 0);
+}
+
+TEST(Scales, APowerLawWithExponentOneIsNewtonian) {
+  const Problem newtonian = problem_of(paper_cell()), power = problem_of(power_law_cell(1, 15e-3));
+  EXPECT_NEAR(power.shear_modulus / newtonian.shear_modulus, 1, rounding);
+  EXPECT_NEAR(power.reynolds / newtonian.reynolds, 1, rounding);
+}
+
+TEST(Scales, TheStressOfAPowerLawIsKTimesShearRateToTheN) {
+  const Scales scales = scales_of(power_law_cell(0.6039, 0.4057));
+  const double shear_rate = scales.velocity_m_per_s / scales.length_m;
+  EXPECT_NEAR(scales.stress_Pa / (0.4057 * std::pow(shear_rate, 0.6039)), 1, rounding);
+}
+
+TEST(Scales, LinearAndNeoHookeanAreTheEndsOfMooneyRivlin) {
+  Case c = paper_cell();
+  EXPECT_EQ(problem_of(c).mooney_share, 1);
+  c.cell.bulk.law = BulkLaw::linear;
+  EXPECT_EQ(problem_of(c).mooney_share, 0);
+  c.cell.bulk.law = BulkLaw::mooney_rivlin;
+  c.cell.bulk.mooney_share = 0.25;
+  EXPECT_EQ(problem_of(c).mooney_share, 0.25);
+}
+
+}  // namespace
+}  // namespace rheocyte

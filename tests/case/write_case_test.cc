@@ -1,0 +1,51 @@
+// A case that is written and read again is the same case to the last bit.
+#include "case/write_case.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "case/read_case.h"
+
+namespace rheocyte {
+namespace {
+
+std::vector<Case> cases_of_all_laws() {
+  const std::string common = "cell.radius_um = 7.66\ncell.bulk.young_modulus_kPa = 3.4370000000000003\n";
+  const std::string newtonian = "flow.rate_ul_per_s = 0.04\nflow.viscosity_mPas = 1e7\n";
+  const std::string power_law =
+      "flow.rate_ul_per_s = 1e-9\nflow.law = \"power-law\"\nflow.consistency_Pa_sn = 0.4057\nflow.exponent = 0.6039\n";
+  return {parse_case("channel.width_um = 20\n" + common + newtonian, "newtonian"),
+          parse_case("channel.radius_um = 10.94\n" + common + power_law, "power law"),
+          parse_case("channel.width_um = 20\ncell.bulk.law = \"mooney-rivlin\"\n" + common + newtonian, "mooney"),
+          parse_case("channel.width_um = 20\ncell.bulk.law = \"linear\"\n" + common + newtonian, "linear")};
+}
+
+TEST(WriteCase, WhatIsWrittenIsReadBackToTheSameBits) {
+  for (const Case& c : cases_of_all_laws()) {
+    const Case again = parse_case(to_toml(c), "copy");
+    EXPECT_EQ(to_json(again), to_json(c));
+    EXPECT_EQ(to_toml(again), to_toml(c));
+    EXPECT_EQ(case_hash(again), case_hash(c));
+  }
+}
+
+TEST(WriteCase, OnlyKeysWithAnEffectAreWritten) {
+  const auto json = to_json(cases_of_all_laws()[0]);
+  EXPECT_FALSE(json["flow"].contains("exponent"));
+  EXPECT_FALSE(json["channel"].contains("radius_um"));
+  EXPECT_FALSE(json["cell"]["bulk"].contains("mooney_share"));
+  EXPECT_EQ(json["flow"]["law"], "newtonian");
+  EXPECT_EQ(json["flow"]["density_kg_per_m3"], 1000.0);
+}
+
+TEST(WriteCase, TheHashSeesEveryValueAndNothingElse) {
+  const auto cases = cases_of_all_laws();
+  EXPECT_EQ(case_hash(cases[0]).size(), 16u);
+  EXPECT_NE(case_hash(cases[0]), case_hash(cases[3]));
+  const auto reordered = parse_case("# a comment\n" + to_toml(cases[0]), "commented");
+  EXPECT_EQ(case_hash(reordered), case_hash(cases[0]));
+}
+
+}  // namespace
+}  // namespace rheocyte

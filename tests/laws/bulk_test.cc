@@ -1,0 +1,157 @@
+#include "laws/bulk.h"
+
+#include <gtest/gtest.h>
+
+#include "derivative_error.h"
+#include "random_states.h"
+
+namespace rheocyte {
+namespace {
+
+using test::RandomStates;
+using test::states;
+
+// Some dozen operations on stresses of order ten.
+constexpr double rounding = 1e-12;
+constexpr double mu = 1.7;
+// linear (Euler-Almansi), neo-Hookean, and Mooney-Rivlin between them.
+constexpr std::array laws = {Bulk{mu, 0}, Bulk{mu, 1}, Bulk{mu, 0.3}};
+
+const Tensor<double> I = Tensor<double>::Identity();
+
+Tensor<double> deviator(const Tensor<double>& A) { return A - I * (A.trace() / 3); }
+
+/// d/de of the function at e = 0.
+template <class Function>
+double slope(const Function& function) {
+  return function(ceres::Jet<double, 1>(0, 0)).v(0);
+}
+
+/// F + e A F: the deformation gradient after a further small deformation A.
+Tensor<ceres::Jet<double, 1>> moved(const Tensor<double>& F, const Tensor<double>& A,
+                                    const ceres::Jet<double, 1>& e) {
+  const Tensor<double> AF = A * F;
+  return Tensor<ceres::Jet<double, 1>>(
+      Tensor<ceres::Jet<double, 1>>::NullaryExpr([&](Eigen::Index i, Eigen::Index j) { return F(i, j) + e * AF(i, j); }));
+}
+
+TEST(Bulk, TheStressHasTheDerivativeOfCentralDifferences) {
+  // Dual numbers are exact for every law.
+  RandomStates random;
+  for (const Bulk& bulk : laws) {
+    const auto law = test::entrywise([&](const auto& F) { return elastic_stress(bulk, F.eval()); });
+    for (int i = 0; i < states; ++i) {
+      EXPECT_LT(test::derivative_error<9>(law, test::entries(random.deformation_gradient())),
+                test::derivative_tolerance);
+    }
+  }
+}
+
+TEST(Bulk, TheStressIsObjectiveAndTheMaterialIsotropic) {
+  // A rotation after the deformation turns the stress with it: tau(Q F) = Q tau(F) Q^T; one before changes nothing.
+  RandomStates random;
+  for (const Bulk& bulk : laws) {
+    for (int i = 0; i < states; ++i) {
+      const Tensor<double> F = random.deformation_gradient(), Q = random.rotation();
+      const Tensor<double> tau = elastic_stress(bulk, F);
+      EXPECT_LT((elastic_stress(bulk, Tensor<double>(Q * F)) - Q * tau * Q.transpose()).norm(), rounding);
+      EXPECT_LT((elastic_stress(bulk, Tensor<double>(F * Q)) - tau).norm(), rounding);
+    }
+  }
+}
+
+TEST(Bulk, TheUndeformedMaterialIsFreeOfStress) {
+  // tau(I) = 0 and tau(Q) = 0.
+  RandomStates random;
+  for (const Bulk& bulk : laws) {
+    EXPECT_LT(elastic_stress(bulk, I).norm(), rounding);
+    EXPECT_LT(elastic_stress(bulk, random.rotation()).norm(), rounding);
+  }
+}
+
+TEST(Bulk, TheStressOfAnIsochoricDeformationIsThatOfMooneyAndRivlin) {
+  // At det F = 1 the stress is mu [a (B - I) + (1 - a)(I - B^-1)] but for a multiple of I.
+  RandomStates random;
+  for (const Bulk& bulk : laws) {
+    const double a = bulk.mooney_share;
+    for (int i = 0; i < states; ++i) {
+      const Tensor<double> F = random.isochoric(), B = F * F.transpose();
+      const Tensor<double> sigma = mu * (a * (B - I) + (1 - a) * (I - inverse(B)));
+      EXPECT_LT(deviator(elastic_stress(bulk, F) - sigma).norm(), rounding);
+    }
+  }
+}
+
+TEST(Bulk, TheStressOfAnIsochoricDeformationIsTheDerivativeOfTheStrainEnergy) {
+  // dW = tau : A for F -> (I + e A) F with tr A = 0, det F = 1.
+  RandomStates random;
+  for (const Bulk& bulk : laws) {
+    for (int i = 0; i < states; ++i) {
+      const Tensor<double> F = random.isochoric(), A = random.trace_free(1);
+      const double dW = slope([&](const auto& e) { return strain_energy(bulk, moved(F, A, e)); });
+      EXPECT_NEAR(dW, elastic_stress(bulk, F).cwiseProduct(A).sum(), rounding);
+    }
+  }
+}
+
+/// mu/2 [a I1 + (1 - a) I2] - mu (2 - a) ln J, I2 = (I1^2 - B : B) / 2: the polyconvex energy off J = 1.
+template <class T>
+T polyconvex_energy(const Bulk& bulk, const Tensor<T>& F) {
+  const double a = bulk.mooney_share;
+  const Tensor<T> B = F * F.transpose();
+  const T I1 = B.trace(), I2 = (I1 * I1 - B.squaredNorm()) * T(0.5);
+  using std::log;
+  return (I1 * T(a) + I2 * T(1 - a)) * T(0.5 * mu) - log(determinant(F)) * T(mu * (2 - a));
+}
+
+TEST(Bulk, TheStressDerivesFromAPolyconvexEnergyOffUnitVolumeToo) {
+  // dW = tau : A for every F and every A, if W = mu/2 [a I1 + (1 - a) I2] - mu (2 - a) ln J.
+  RandomStates random;
+  for (const Bulk& bulk : laws) {
+    for (int i = 0; i < states; ++i) {
+      const Tensor<double> F = random.deformation_gradient(), A = random.tensor(1);
+      const double dW = slope([&](const auto& e) { return polyconvex_energy(bulk, moved(F, A, e)); });
+      EXPECT_NEAR(dW, elastic_stress(bulk, F).cwiseProduct(A).sum(), 10 * rounding);
+    }
+  }
+}
+
+TEST(Bulk, TheStrainEnergyIsPositiveAndZeroWithoutDeformation) {
+  // W(I) = 0 and W(F) > 0 for isochoric deformations.
+  RandomStates random;
+  for (const Bulk& bulk : laws) {
+    EXPECT_NEAR(strain_energy(bulk, I), 0, rounding);
+    for (int i = 0; i < states; ++i) EXPECT_GT(strain_energy(bulk, random.isochoric()), 0);
+  }
+}
+
+TEST(Bulk, AllLawsAgreeForSmallStrains) {
+  // tau = 2 mu eps + O(eps^2), eps = (H + H^T)/2 with tr H = 0: the derivative at F = I is exact.
+  RandomStates random;
+  for (const Bulk& bulk : laws) {
+    for (int i = 0; i < states; ++i) {
+      const Tensor<double> H = random.trace_free(1);
+      const auto tau = elastic_stress(bulk, moved(I, H, ceres::Jet<double, 1>(0, 0)));
+      for (int k = 0; k < 9; ++k) {
+        EXPECT_NEAR(tau.data()[k].v(0), mu * (H.data()[k] + H.transpose().eval().data()[k]), rounding);
+      }
+    }
+  }
+}
+
+TEST(Bulk, UniaxialTensionHasTheTextbookStress) {
+  // sigma_x - sigma_r = mu [a (l^2 - 1/l) + (1 - a)(l - 1/l^2)] at stretch l, traction-free sides; slope E = 3 mu.
+  for (const Bulk& bulk : laws) {
+    const double a = bulk.mooney_share;
+    for (const double l : {0.5, 0.9, 1.1, 2.0}) {
+      const Tensor<double> F = Eigen::Vector3d(l, 1 / std::sqrt(l), 1 / std::sqrt(l)).asDiagonal();
+      const Tensor<double> tau = elastic_stress(bulk, F);
+      const double expected = mu * (a * (l * l - 1 / l) + (1 - a) * (l - 1 / (l * l)));
+      EXPECT_NEAR(tau(0, 0) - tau(1, 1), expected, rounding);
+      EXPECT_NEAR(tau(1, 1), tau(2, 2), rounding);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rheocyte

@@ -1,0 +1,58 @@
+// Dual numbers against central differences.
+#pragma once
+#include <ceres/jet.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rheocyte::test {
+
+/// Step of the central differences: their error is h^2/6 times third derivatives of order 10 plus rounding 1e-16/h,
+/// both near 1e-9, so the promised 1e-7 leaves room and any wrong term stands out.
+inline constexpr double difference_step = 1e-5;
+inline constexpr double derivative_tolerance = 1e-7;
+
+/// Largest difference between the exact derivatives of `law` (a function of `N` numbers that returns an array) and
+/// central differences, relative to the largest derivative where that is above 1.
+template <std::size_t N, class Law>
+double derivative_error(const Law& law, const std::array<double, N>& at) {
+  using Dual = ceres::Jet<double, int(N)>;
+  std::array<Dual, N> dual_input;
+  for (std::size_t i = 0; i < N; ++i) dual_input[i] = Dual(at[i], int(i));
+  const auto dual = law(dual_input);
+  double error = 0, largest = 1;
+  for (std::size_t i = 0; i < N; ++i) {
+    auto above = at, below = at;
+    above[i] += difference_step;
+    below[i] -= difference_step;
+    const auto plus = law(above), minus = law(below);
+    for (std::size_t k = 0; k < plus.size(); ++k) {
+      error = std::max(error, std::abs(dual[k].v(int(i)) - (plus[k] - minus[k]) / (2 * difference_step)));
+      largest = std::max(largest, std::abs(dual[k].v(int(i))));
+    }
+  }
+  return error / largest;
+}
+
+/// A law from tensor to tensor as a function of arrays of its nine entries.
+template <class TensorLaw>
+auto entrywise(const TensorLaw& law) {
+  return [law](const auto& entries) {
+    using T = std::decay_t<decltype(entries[0])>;
+    const Eigen::Matrix<T, 3, 3> A = Eigen::Map<const Eigen::Matrix<T, 3, 3>>(entries.data());
+    const Eigen::Matrix<T, 3, 3> value = law(A);
+    std::array<T, 9> result;
+    for (int i = 0; i < 9; ++i) result[i] = value.data()[i];
+    return result;
+  };
+}
+
+template <class Matrix>
+std::array<double, 9> entries(const Matrix& A) {
+  std::array<double, 9> result;
+  for (int i = 0; i < 9; ++i) result[i] = A.data()[i];
+  return result;
+}
+
+}  // namespace rheocyte::test

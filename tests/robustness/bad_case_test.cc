@@ -1,0 +1,75 @@
+// Every bad case of the corpus ends with exit code 2 and one sentence that names file, line, key, value and range.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+#include <sstream>
+
+#include "run_program.h"
+
+namespace rheocyte::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The promise is 0.1 s. The bound of a test on a busy machine is generous; the time itself is reported.
+constexpr double greatest_seconds = 2;
+
+struct BadCase {
+  fs::path file;
+};
+
+void PrintTo(const BadCase& bad, std::ostream* stream) { *stream << bad.file.filename().string(); }
+
+std::vector<BadCase> corpus() {
+  std::vector<BadCase> cases;
+  for (const auto& entry : fs::directory_iterator(BAD_CASES)) cases.push_back({entry.path()});
+  std::ranges::sort(cases, {}, &BadCase::file);
+  return cases;
+}
+
+// The words behind "# expected:", separated by "; ".
+std::vector<std::string> expected_words(const fs::path& file) {
+  const std::string mark = "# expected: ", text = content_of(file);
+  const auto start = text.find(mark) + mark.size();
+  std::vector<std::string> words;
+  for (std::string rest = text.substr(start, text.find('\n', start) - start); !rest.empty();) {
+    const auto end = rest.find("; ");
+    words.push_back(rest.substr(0, end));
+    rest = end == std::string::npos ? "" : rest.substr(end + 2);
+  }
+  return words;
+}
+
+class EveryBadCase : public testing::TestWithParam<BadCase> {};
+
+TEST_P(EveryBadCase, EndsWithOneSentence) {
+  const auto& file = GetParam().file;
+  const auto ended = run({{RHEOCYTE, "solve", file.string(), "-o", "never-written"}});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_EQ(ended.out, "");
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_TRUE(ended.err.starts_with(file.string())) << ended.err;
+  const auto words = expected_words(file);
+  EXPECT_FALSE(words.empty());
+  for (const auto& word : words) EXPECT_NE(ended.err.find(word), std::string::npos) << word << "\n" << ended.err;
+  EXPECT_LT(ended.seconds, greatest_seconds);
+  EXPECT_FALSE(fs::exists("never-written"));
+  RecordProperty("milliseconds", static_cast<int>(1000 * ended.seconds));
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, EveryBadCase, testing::ValuesIn(corpus()),
+                         [](const auto& information) { return information.param.file.stem().string(); });
+
+TEST(BadCases, AreAnsweredWithinATenthOfASecondTypically) {
+  std::vector<double> seconds;
+  for (const auto& bad : corpus()) seconds.push_back(run({{RHEOCYTE, "solve", "--check", bad.file.string()}}).seconds);
+  std::ranges::nth_element(seconds, seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2));
+  const double median = seconds[seconds.size() / 2];
+  RecordProperty("median_microseconds", static_cast<int>(1e6 * median));
+  EXPECT_GE(seconds.size(), 30u);
+  EXPECT_LT(median, 0.1);
+}
+
+}  // namespace
+}  // namespace rheocyte::test
