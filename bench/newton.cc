@@ -38,7 +38,8 @@ void newton_iteration(benchmark::State& state) {
   }
   const WorkMeter& after = system.work();
   const double n = double(state.iterations()) * 1e-3;  // counters in ms
-  const double assembly = after.assembly_s - before.assembly_s, condensation = after.condensation_s - before.condensation_s;
+  const double assembly = after.assembly_s - before.assembly_s,
+               condensation = after.condensation_s - before.condensation_s;
   const double sparse = after.sparse_s - before.sparse_s, solve = after.solve_s - before.solve_s;
   state.counters["unknowns"] = discrete.space.unknowns();
   state.counters["coupled"] = discrete.space.outer_unknowns();

@@ -41,18 +41,21 @@ std::size_t first_bad_byte(std::string_view text) {
   return std::string_view::npos;
 }
 
-// Walks over the text as TOML's lexer would and looks at what stands outside of comments and strings. Where the text
-// is no valid TOML the walk may go astray, but only behind the place at which the parser stops.
-class OutsideScan {
+bool is_beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
+
+// Walks over the text as TOML's lexer would: follows the nesting outside of comments and strings, and looks for
+// characters beyond ASCII outside of comments. Where the text is no valid TOML the walk may go astray, but only behind
+// the place at which the parser stops; to see an end of line or a # there is enough.
+class LexicalScan {
  public:
   enum class Finding { none, too_deep, not_ascii };
 
-  explicit OutsideScan(std::string_view text) : text_(text), at_(text.starts_with(byte_order_mark) ? 3 : 0) {}
+  explicit LexicalScan(std::string_view text) : text_(text), at_(text.starts_with(byte_order_mark) ? 3 : 0) {}
 
   // Stops at the first finding.
   Finding run() {
     while (at_ < text_.size()) {
-      if (static_cast<unsigned char>(text_[at_]) >= 0x80) return Finding::not_ascii;
+      if (is_beyond_ascii(text_[at_])) return Finding::not_ascii;
       step();
       if (depth_ > greatest_nesting || dots_ >= greatest_nesting) return Finding::too_deep;
     }
@@ -87,6 +90,7 @@ class OutsideScan {
 
   void skip_past(const std::string& end, char quote) {
     while (at_ < text_.size() && text_.substr(at_, end.size()) != end) {
+      if (is_beyond_ascii(text_[at_])) return;            // a finding
       if (end.size() == 1 && text_[at_] == '\n') return;  // an open string: the parser stops here
       at_ += quote == '"' && text_[at_] == '\\' ? 2 : 1;
     }
@@ -135,13 +139,13 @@ void check_case_text(std::string_view text, const std::string& name) {
     refuse(fmt::format("{}:{}", name, line_of(text, zero)), "a zero byte; a case is a text file in TOML.");
   if (const auto bad = first_bad_byte(text); bad != std::string_view::npos)
     refuse(fmt::format("{}:{}", name, line_of(text, bad)), "a byte that is not UTF-8; a case is a text file in TOML.");
-  OutsideScan scan(text);
+  LexicalScan scan(text);
   const auto finding = scan.run();
   const auto place = fmt::format("{}:{}", name, line_of(text, scan.position()));
-  if (finding == OutsideScan::Finding::too_deep)
+  if (finding == LexicalScan::Finding::too_deep)
     refuse(place, fmt::format("nested deeper than {} levels; a case needs three.", greatest_nesting));
-  if (finding == OutsideScan::Finding::not_ascii)
-    refuse(place, fmt::format("the character {} can only stand in a comment or between plain quotes.",
+  if (finding == LexicalScan::Finding::not_ascii)
+    refuse(place, fmt::format("the character {} can only stand in a comment.",
                               text.substr(scan.position(),
                                           sequence_length(static_cast<unsigned char>(text[scan.position()])))));
 }

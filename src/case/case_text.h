@@ -16,7 +16,8 @@ inline constexpr int greatest_nesting = 16;
 std::string read_case_text(const std::filesystem::path&);
 
 /// UserError if the text is empty, no UTF-8, holds a zero byte, nests too deep, or has a character beyond ASCII outside
-/// of comments and strings (undefined behaviour in toml++ 3.3, and never part of a case). `name` stands in the message.
+/// of comments: no key and no value of a case has one, and toml++ 3.3 meets some of them with undefined behaviour.
+/// `name` stands in the message.
 void check_case_text(std::string_view text, const std::string& name);
 
 }  // namespace rheocyte

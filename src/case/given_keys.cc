@@ -1,11 +1,11 @@
 #include "case/given_keys.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
 
+#include "case/toml_parser.h"
 #include "case/user_error.h"
 
 namespace rheocyte {

@@ -24,7 +24,7 @@ double least_biot_ratio(const SurfaceStretch&);
 /// Real root of x^3 + x^2 + 3 x = 1.
 inline constexpr double biot_limit = 0.29559774252208477;
 
-/// Mean pressure over the inlet, in S; the outlet's is zero.
+/// Mean pressure over the inlet, in S; the undisturbed pressure at the cell is zero.
 double inlet_pressure(const Discretisation&, const VectorXd& unknowns);
 
 /// Largest displacement component of the cell's nodes, in R.

@@ -44,8 +44,8 @@ class StationarySystem {
 
  private:
   struct Condensed;
-  /// The outlet's pressure is chosen so that the undisturbed pressure vanishes at the cell: a high level would only
-  /// be cancelled between cell and liquid up to quadrature errors, which destabilise short waves of the surface.
+  /// Traction of the outlet, whose pressure is chosen so that the undisturbed pressure vanishes at the cell: the
+  /// pressures of cell and liquid then stay of the size of the stresses that deform the cell.
   void add_outlet_pressure(const Liquid&, VectorXd& residual) const;
   void add_barycentre(const VectorXd& unknowns, VectorXd& residual, bool tangent);
   void condense(Condensed&, const MatrixXd& tangent);

@@ -40,6 +40,39 @@ VectorXd predict(const BranchState& now, const BranchState* before, double h) {
   return guess;
 }
 
+/// The problem in a liquid of another exponent; 1 is the Newtonian one.
+Problem with_exponent(Problem problem, double exponent) {
+  problem.exponent = exponent;
+  if (exponent == 1) problem.liquid = LiquidLaw::newtonian;
+  return problem;
+}
+
+/// Newton at one compliance from a guess in the Newtonian liquid. A power law is singular where nothing flows yet, so
+/// its exponent is approached from 1 in steps that halve where Newton fails.
+NewtonReport enter_branch(StationarySystem& system, const Problem& problem, const ContinuationOptions& options,
+                          double compliance, VectorXd& unknowns) {
+  NewtonReport report;
+  int iterations = 0;
+  const double wanted = problem.exponent;
+  double reached = 1, step = std::clamp(wanted - 1, -0.2, 0.2);
+  for (bool first = true; first || reached != wanted;) {
+    double exponent = first ? 1 : reached + step;
+    if (std::abs(exponent - wanted) < 1e-9 || (exponent - wanted) * (1 - wanted) < 0) exponent = wanted;
+    VectorXd trial = unknowns;
+    report = newton(system, media_at(with_exponent(problem, exponent), compliance), options.newton, trial);
+    report.iterations = iterations += report.iterations;
+    if (report.status == Status::converged) {
+      unknowns = trial;
+      reached = exponent;
+      first = false;
+    } else {
+      step /= 2;
+      if (first || report.status == Status::stopped || std::abs(step) < 0.01) break;
+    }
+  }
+  return report;
+}
+
 }  // namespace
 
 Media media_at(const Problem& problem, double compliance) {
@@ -51,7 +84,7 @@ Media media_at(const Problem& problem, double compliance) {
 
 ContinuationReport start_branch(StationarySystem& system, const Problem& problem, const ContinuationOptions& options) {
   ContinuationReport report;
-  const Media wanted = media_at(problem, 1);
+  const Media wanted = media_at(with_exponent(problem, 1), 1);
   double det = 0;
   bool factorised = false;
   const VectorXd sphere = system.sphere();
@@ -68,7 +101,7 @@ ContinuationReport start_branch(StationarySystem& system, const Problem& problem
   scale_displacement(system.space(), state.compliance, state.unknowns);
   for (; state.compliance > 1e-6; state.compliance /= 4, scale_displacement(system.space(), 0.25, state.unknowns)) {
     VectorXd unknowns = state.unknowns;
-    const NewtonReport newton_report = newton(system, media_at(problem, state.compliance), options.newton, unknowns);
+    const NewtonReport newton_report = enter_branch(system, problem, options, state.compliance, unknowns);
     report.newton_iterations += newton_report.iterations;
     report.status = newton_report.status;
     report.residual = newton_report.residual;

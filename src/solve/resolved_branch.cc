@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "shape/wrinkles.h"
+
 namespace rheocyte {
 namespace {
 
@@ -13,6 +15,8 @@ const std::array<Resolution, 4> ways = {{{{2, 4, 1, 2}, 4}, {{2, 4, 1, 2}, 6}, {
 constexpr double least_step_before_refining = 0.03, least_step_at_last = 2e-3;
 /// Intermediate states serve as starting points only.
 constexpr double tolerance_on_the_way = 1e-7;
+/// A rear dent makes one, a hollow flank two.
+constexpr int greatest_sign_changes = 3;
 
 std::shared_ptr<Discrete> discretise(const Problem& problem, const Resolution& resolution) {
   const ChannelGeometry geometry(problem.radius_ratio);
@@ -61,8 +65,7 @@ ResolvedState start(const Problem& problem, const ContinuationOptions& options, 
 ContinuationOptions options_on_the_way(const NewtonOptions& newton, bool last, const BranchObserver& observe) {
   ContinuationOptions options;
   options.accept = [observe](const Discretisation& space, const BranchState& branch) {
-    const int per_edge = 2 * space.reference().degree() + 1;
-    if (least_biot_ratio(surface_stretch(space, branch.unknowns, per_edge)) < biot_limit) return false;
+    if (is_wrinkled(space, branch.unknowns)) return false;
     if (observe) observe(space, branch);
     return true;
   };
@@ -74,6 +77,12 @@ ContinuationOptions options_on_the_way(const NewtonOptions& newton, bool last, c
 }
 
 }  // namespace
+
+bool is_wrinkled(const Discretisation& space, const VectorXd& unknowns) {
+  const int per_edge = 2 * space.reference().degree() + 1;
+  if (least_biot_ratio(surface_stretch(space, unknowns, per_edge)) < biot_limit) return true;
+  return surface_smoothness(contour(space, unknowns)).curvature_sign_changes > greatest_sign_changes;
+}
 
 ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton, const BranchObserver& observe) {
   ResolvedState state;

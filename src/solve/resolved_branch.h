@@ -33,6 +33,10 @@ struct ResolvedState {
   WorkMeter work;                        ///< of the whole way, systems that were left included
 };
 
+/// Whether a surface is beyond Biot's limit, or its contour shows more changes of curvature than a rear dent and a
+/// hollow flank make.
+bool is_wrinkled(const Discretisation&, const VectorXd& unknowns);
+
 /// Sees each converged state of the way.
 using BranchObserver = std::function<void(const Discretisation&, const BranchState&)>;
 

@@ -20,6 +20,8 @@ struct Rung {
 };
 constexpr std::array<Rung, 3> ladder = {{{{2, 4, 1, 2}, 4, 9}, {{3, 6, 1, 2}, 6, 10}, {{4, 8, 2, 2}, 6, 10}}};
 constexpr double final_tolerance = 1e-10;
+/// Resolutions on which the state may be lost before the ladder is given up.
+constexpr int greatest_losses = 2;
 /// Where Newton fails this close above Biot's limit, the surface is the reason: no mesh resolves the last stretch.
 constexpr double near_biot_limit = 1.25 * biot_limit;
 
@@ -36,18 +38,19 @@ double deformation(const Discretisation& space, const VectorXd& unknowns) {
   return measure(contour(space, unknowns)).deformation;
 }
 
-/// Error of the last of some values of the deformation on ever finer resolutions, relative to it: the last change,
-/// times what a geometric series adds to it, and half of it at least.
+/// Error of the last of some values of the deformation on ever finer resolutions, relative to it
+/// (docs/theory.md, eq:error): the last change, times the rest of a geometric series, and half of it at least.
 double estimate_error(const std::vector<double>& values) {
   const std::size_t n = values.size();
   if (n < 2) return std::numeric_limits<double>::infinity();
-  const double change = std::abs(values[n - 1] - values[n - 2]);
-  double share = 1;
+  const double change = values[n - 1] - values[n - 2];
+  double share = 1;  // also for changes of alternating sign
   if (n >= 3) {
-    const double ratio = std::min(change / (std::abs(values[n - 2] - values[n - 3]) + 1e-300), 0.9);
-    share = std::max(0.5, ratio / (1 - ratio));
+    const double before = values[n - 2] - values[n - 3];
+    const double ratio = before == 0 ? 0 : std::min(change / before, 0.9);
+    if (ratio >= 0) share = std::max(0.5, ratio / (1 - ratio));
   }
-  return share * change / std::max(std::abs(values[n - 1]), 1e-300);
+  return share * std::abs(change) / std::max(std::abs(values[n - 1]), 1e-300);
 }
 
 /// Adds up the work of systems that come and go.
@@ -100,6 +103,7 @@ class StationarySolver {
   ResolvedState climb(ResolvedState state, Tally& tally) {
     std::vector<double> values;
     Status reason = Status::accuracy_not_reached;
+    int lost = 0;
     for (const Rung& rung : ladder) {
       if (rung.subdivision.top < state.resolution.subdivision.top) continue;
       for (int degree = rung.first_degree; degree <= rung.last_degree; ++degree) {
@@ -108,8 +112,9 @@ class StationarySolver {
         const ResolvedState next = at_resolution(problem_, newton_, state, {rung.subdivision, degree});
         tally.add(next);
         if (next.status == Status::stopped) return state.status = Status::stopped, state;
-        if (next.status != Status::converged || biot_ratio(next) < biot_limit) {
+        if (next.status != Status::converged || is_wrinkled(next.discrete->space, next.branch.unknowns)) {
           if (biot_ratio(next) < near_biot_limit) reason = Status::surface_unstable;
+          if (++lost == greatest_losses) return state.status = reason, state;
           continue;
         }
         state = next;

@@ -88,7 +88,8 @@ TEST(Axisymmetric, ThePullBackGivesTheSameWorkAsTheTensors) {
   RandomStates random;
   for (int i = 0; i < states; ++i) {
     const Place<double> place = random.place();
-    Tensor<double> sigma = random.tensor(1) + random.tensor(1).transpose();
+    const Tensor<double> A = random.tensor(1);
+    Tensor<double> sigma = A + A.transpose();
     sigma(0, 2) = sigma(2, 0) = sigma(1, 2) = sigma(2, 1) = 0;
     const PlaneVector<double> phi(random.number(-1, 1), random.number(-1, 1));
     const Plane<double> phi_xi = random.element_map();

@@ -1,0 +1,131 @@
+#include "fem/stationary_system.h"
+
+#include <gtest/gtest.h>
+
+#include "small_channel.h"
+
+namespace rheocyte {
+namespace {
+
+using test::SmallChannel;
+
+// The floor of 0.1 keeps the power law's third derivatives moderate where the liquid does not shear.
+const std::array media = {Media{{}, {12, 0}},
+                          Media{{}, {12, 1}},
+                          Media{{}, {12, 0.4}},
+                          Media{{LiquidLaw::newtonian, 1, 0, 0.5}, {12, 1}},
+                          Media{{LiquidLaw::power_law, 0.6, 0.1, 0}, {12, 0}},
+                          Media{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {12, 0.4}}};
+
+VectorXd residual(StationarySystem& system, const Media& law, const VectorXd& state) {
+  double det = 0;
+  return system.residual(law, state, det);
+}
+
+/// || R(x + h d) - R(x) - h K d ||
+double taylor_remainder(StationarySystem& system, const Media& law, const VectorXd& x, const VectorXd& d, double h) {
+  const VectorXd Kd = system.apply_tangent(law, x, d);
+  return (residual(system, law, x + h * d) - residual(system, law, x) - h * Kd).norm();
+}
+
+TEST(StationarySystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
+  // At a deformed state in a random direction, for each law: halving the step quarters the remainder.
+  for (const Media& law : media) {
+    SmallChannel channel(0.6, 5, law.liquid);
+    const VectorXd x = test::deformed_state(channel.system, law);
+    const VectorXd d = test::random_vector(channel.space.unknowns());
+    // Random nodal values have slopes near p^2: small enough steps stay in the quadratic range, above rounding.
+    double before = taylor_remainder(channel.system, law, x, d, 1e-4);
+    for (double h = 5e-5; h > 1e-5; h /= 2) {
+      const double now = taylor_remainder(channel.system, law, x, d, h);
+      EXPECT_NEAR(std::log2(before / now), 2.0, 0.1);
+      before = now;
+    }
+  }
+}
+
+TEST(StationarySystem, TheCondensedSystemSolvesTheWholeOne) {
+  // K (K^-1 b) = b for random b, though inner unknowns never reach the sparse matrix.
+  for (const Media& law : media) {
+    SmallChannel channel(0.6, 5, law.liquid);
+    const VectorXd x = test::deformed_state(channel.system, law);
+    double det = 0;
+    bool factorised = false;
+    channel.system.linearise(law, x, det, factorised);
+    ASSERT_TRUE(factorised);
+    const VectorXd b = test::random_vector(channel.space.unknowns(), 2);
+    const VectorXd solution = channel.system.solve(b);
+    // Condition number near 1e6 times rounding.
+    EXPECT_LT((channel.system.apply_tangent(law, x, solution) - b).norm() / b.norm(), 1e-9);
+  }
+}
+
+TEST(StationarySystem, LineariseReturnsTheResidual) {
+  // Both ways to evaluate the equations give the same numbers, and the same determinant.
+  SmallChannel channel(0.6, 4, media.back().liquid);
+  const VectorXd x = test::deformed_state(channel.system, media.back());
+  double det = 0, det_of_residual = 0;
+  bool factorised = false;
+  const VectorXd one = channel.system.linearise(media.back(), x, det, factorised);
+  const VectorXd other = channel.system.residual(media.back(), x, det_of_residual);
+  EXPECT_LT((one - other).norm() / one.norm(), 1e-13);  // dual numbers may round otherwise
+  EXPECT_EQ(det, det_of_residual);
+}
+
+TEST(StationarySystem, TheResidualIsTheSameInEveryRun) {
+  // Same input, same bits: two systems, two evaluations.
+  VectorXd first;
+  for (int run = 0; run < 3; ++run) {
+    SmallChannel channel(0.6);
+    const VectorXd x = test::deformed_state(channel.system, media[1]);
+    const VectorXd r = residual(channel.system, media[1], x);
+    if (run == 0) first = r;
+    EXPECT_EQ(r, first);
+  }
+}
+
+TEST(StationarySystem, AFoldedMeshHasANegativeDeterminant) {
+  // A cell that is pushed through the wall turns elements inside out; the undeformed mesh has det 1.
+  SmallChannel channel(0.6);
+  double det = 0;
+  VectorXd x = channel.system.sphere();
+  channel.system.residual(media[0], x, det);
+  EXPECT_NEAR(det, 1, 1e-13);
+  for (const BoundaryEdge& edge : channel.space.surface()) {
+    for (const int node : edge.nodes) {
+      if (const int r = channel.space.displacement(node, 1); r >= 0) x(r) = 1;
+    }
+  }
+  channel.system.residual(media[0], x, det);
+  EXPECT_LT(det, 0);
+}
+
+TEST(StationarySystem, NumbersThatAreNotFiniteAreNotFactorised) {
+  // A NaN in law or state is reported, not solved with.
+  SmallChannel channel(0.6);
+  double det = 0;
+  bool factorised = true;
+  const double nan = std::nan("");
+  channel.system.linearise({{}, {nan, 1}}, channel.system.sphere(), det, factorised);
+  EXPECT_FALSE(factorised);
+  VectorXd x = channel.system.sphere();
+  x(channel.space.outer_unknowns()) = nan;
+  channel.system.linearise(media[0], x, det, factorised);
+  EXPECT_FALSE(factorised);
+}
+
+TEST(StationarySystem, TheWorkMeterCounts) {
+  // One factorisation per linearise; meters add up.
+  SmallChannel channel(0.6);
+  double det = 0;
+  bool factorised = false;
+  channel.system.linearise(media[0], channel.system.sphere(), det, factorised);
+  EXPECT_EQ(channel.system.work().factorisations, 1);
+  WorkMeter sum = channel.system.work();
+  sum += channel.system.work();
+  EXPECT_EQ(sum.factorisations, 2);
+  EXPECT_DOUBLE_EQ(sum.assembly_s, 2 * channel.system.work().assembly_s);
+}
+
+}  // namespace
+}  // namespace rheocyte
