@@ -21,9 +21,15 @@ Json environment_value(const char* name) {
   return value ? Json(value) : Json(nullptr);
 }
 
+#ifdef __clang__
+constexpr const char* compiler = "Clang " __clang_version__;
+#else
+constexpr const char* compiler = "GCC " __VERSION__;
+#endif
+
 // What decides about the last bits of a result.
 Json build_and_threads() {
-  return {{"compiler", __VERSION__},
+  return {{"compiler", compiler},
           {"threads",
            {{"processors", std::thread::hardware_concurrency()},
             {"OMP_NUM_THREADS", environment_value("OMP_NUM_THREADS")},

@@ -45,7 +45,7 @@ bool is_beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
 // Walks over the text as TOML's lexer would: follows the nesting outside of comments and strings, and looks for
 // characters beyond ASCII outside of comments. Where the text is no valid TOML the walk may go astray, but only behind
-// the place at which the parser stops; to see an end of line or a # there is enough.
+// the place at which the parser stops.
 class LexicalScan {
  public:
   enum class Finding { none, too_deep, not_ascii };
@@ -62,7 +62,12 @@ class LexicalScan {
     return Finding::none;
   }
 
-  std::size_t position() const { return std::min(at_, text_.size() - 1); }
+  // Of the first byte of the character at which run() stopped.
+  std::size_t position() const {
+    std::size_t first = std::min(at_, text_.size() - 1);
+    while (first > 0 && (static_cast<unsigned char>(text_[first]) & 0xC0) == 0x80) --first;
+    return first;
+  }
 
  private:
   void step() {

@@ -131,7 +131,12 @@ bool write_fields(const Discretisation& space, const Media& media, const VectorX
                       {part, part, part, part, part, part, scalar, scalar, scalar, part, part, scalar});
   out.build_patches(mapping, p, dealii::DataOut<2>::curved_inner_cells);
   std::ofstream file(path);
-  out.write_vtu(file);
+  if (!file) return false;
+  try {
+    out.write_vtu(file);
+  } catch (const dealii::ExcIO&) {  // the disk is full
+    return false;
+  }
   file.flush();
   return file.good();
 }

@@ -90,7 +90,10 @@ ContinuationReport start_branch(StationarySystem& system, const Problem& problem
   const VectorXd sphere = system.sphere();
   const VectorXd residual = system.linearise(wanted, sphere, det, factorised);
   report.newton_iterations = 1;
-  if (!factorised) return report.status = Status::singular_matrix, report;
+  if (!factorised) {
+    report.status = residual.allFinite() ? Status::singular_matrix : Status::not_finite;
+    return report;
+  }
   const VectorXd response = system.solve(-residual);
   const double displacement = largest_displacement(system.space(), response) / problem.radius_ratio;
 

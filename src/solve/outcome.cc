@@ -6,6 +6,7 @@ namespace rheocyte {
 
 std::string explanation(const Outcome& outcome, double deformation, double estimated_error) {
   if (outcome.status == Status::converged) return "The stationary shape was found.";
+  if (outcome.status == Status::stopped && outcome.reached <= 0) return "Stopped by a signal before the first state.";
   if (outcome.reached <= 0) {
     return "No state was found, not even of a nearly rigid cell; please report this case as a fault of the program.";
   }

@@ -36,13 +36,15 @@ TEST(WriteFields, TheFileHoldsEveryNamedArrayAndEveryElement) {
   EXPECT_NE(text.find("</VTKFile>"), std::string::npos);
 }
 
-TEST(WriteFields, AnUnwritablePathIsReported) {
-  // A folder that does not exist: false, no exception.
+TEST(WriteFields, AFileThatCannotBeWrittenIsReported) {
+  // A folder that does not exist, a folder in place of the file, a full disk: false, no exception.
   const SmallChannel channel(0.6);
   const VectorXd state = VectorXd::Zero(channel.space.unknowns());
-  bool written = true;
-  EXPECT_NO_THROW(written = write_fields(channel.space, {{}, {12, 1}}, state, {}, "/no/such/folder/fields.vtu"));
-  EXPECT_FALSE(written);
+  for (const char* path : {"/no/such/folder/fields.vtu", "/", "/dev/full"}) {
+    bool success = true;
+    EXPECT_NO_THROW(success = write_fields(channel.space, {{}, {12, 1}}, state, {}, path)) << path;
+    EXPECT_FALSE(success) << path;
+  }
 }
 
 }  // namespace

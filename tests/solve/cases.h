@@ -1,0 +1,35 @@
+// Cases of RT-DC: a tube of radius 10.94 um (channel of 20 um), 0.04 ul/s of a liquid of 15 mPa s.
+#pragma once
+#include "case/problem.h"
+
+namespace rheocyte::test {
+
+struct CellInChannel {
+  double radius_um = 6;
+  double young_modulus_kPa = 4.58;
+  double mooney_share = 0;  ///< 0: linear, 1: neo-Hookean
+};
+
+inline Problem problem(const CellInChannel& cell, double accuracy = 1e-3) {
+  constexpr double tube_radius_um = 10.94;
+  constexpr double stress_Pa = 145.87;  // eta U / R, U = Q / (pi R^2)
+  Problem problem;
+  problem.radius_ratio = cell.radius_um / tube_radius_um;
+  problem.bulk = cell.mooney_share == 0   ? BulkLaw::linear
+                 : cell.mooney_share == 1 ? BulkLaw::neo_hookean
+                                          : BulkLaw::mooney_rivlin;
+  problem.mooney_share = cell.mooney_share;
+  problem.shear_modulus = 1e3 * cell.young_modulus_kPa / 3 / stress_Pa;
+  problem.accuracy = accuracy;
+  return problem;
+}
+
+/// The same cell in a shear-thinning buffer with inertia.
+inline Problem in_power_law_liquid(Problem problem) {
+  problem.liquid = LiquidLaw::power_law;
+  problem.exponent = 0.6039;
+  problem.reynolds = 0.2;
+  return problem;
+}
+
+}  // namespace rheocyte::test

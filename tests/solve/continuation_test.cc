@@ -1,0 +1,130 @@
+#include "solve/continuation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases.h"
+#include "fem/observe.h"
+#include "solve/resolved_branch.h"
+
+namespace rheocyte {
+namespace {
+
+const Resolution resolution = {{2, 4, 1, 2}, 5};
+
+struct CoarseProblem {
+  explicit CoarseProblem(const Problem& p)
+      : problem(p), discrete(ChannelGeometry(p.radius_ratio), resolution, media_at(p, 1).liquid) {}
+  ContinuationReport start(const ContinuationOptions& options) {
+    return start_branch(discrete.system, problem, options);
+  }
+  ContinuationReport follow(const ContinuationOptions& options) {
+    const ContinuationReport first = start(options);
+    if (first.status != Status::converged) return first;
+    return continue_branch(discrete.system, problem, options, first.last);
+  }
+  Problem problem;
+  Discrete discrete;
+};
+
+TEST(Continuation, TheComplianceDividesTheModulus) {
+  // c = 1 is the wanted stiffness, c -> 0 the rigid cell.
+  const Problem problem = test::problem({6, 2.29, 0});
+  EXPECT_DOUBLE_EQ(media_at(problem, 1).bulk.shear_modulus, problem.shear_modulus);
+  EXPECT_DOUBLE_EQ(media_at(problem, 0.1).bulk.shear_modulus, 10 * problem.shear_modulus);
+}
+
+TEST(Continuation, TheTangentPredictsToSecondOrder) {
+  // || x(c + h) - x(c) - h x'(c) || falls like h^2: x' is the derivative of the branch, for liquids of both kinds.
+  for (const Problem& problem :
+       {test::problem({6, 2.29, 1}), test::in_power_law_liquid(test::problem({7.66, 5, 0}))}) {
+    CoarseProblem coarse(problem);
+    ContinuationOptions options;
+    options.displacement_per_step = 0.05;
+    const BranchState state = coarse.start(options).last;
+    ASSERT_GT(state.tangent.size(), 0);
+    const auto error = [&](double h) {
+      VectorXd x = state.unknowns + h * state.tangent;
+      const VectorXd guess = x;
+      EXPECT_EQ(newton(coarse.discrete.system, media_at(problem, state.compliance + h), {}, x).status, Status::converged);
+      return (x - guess).norm();
+    };
+    const double h = 0.02 * state.compliance;
+    // The cubic term adds some per cent at this step.
+    EXPECT_NEAR(std::log2(error(h) / error(h / 2)), 2.0, 0.1);
+    EXPECT_NEAR(std::log2(error(h / 2) / error(h / 4)), 2.0, 0.1);
+  }
+}
+
+TEST(Continuation, TheStateDoesNotDependOnThePath) {
+  // Small and large steps reach the same state.
+  for (const Problem& problem :
+       {test::problem({6, 2.29, 0}), test::problem({7.66, 3.437, 1}), test::in_power_law_liquid(test::problem({6, 2, 1}))}) {
+    CoarseProblem coarse(problem);
+    ContinuationOptions large, small;
+    large.displacement_per_step = 0.2;
+    small.displacement_per_step = 0.03;
+    const ContinuationReport one = coarse.follow(large), other = coarse.follow(small);
+    ASSERT_EQ(one.status, Status::converged);
+    ASSERT_EQ(other.status, Status::converged);
+    EXPECT_GT(other.steps, one.steps);
+    EXPECT_EQ(one.last.compliance, 1);
+    // Newton's tolerance of 1e-11 times the condition of the state.
+    EXPECT_LT((one.last.unknowns - other.last.unknowns).norm() / one.last.unknowns.norm(), 1e-8);
+  }
+}
+
+TEST(Continuation, AStiffCellNeedsOneStep) {
+  // The first state is the wanted one when the displacement is below the aim of a step.
+  CoarseProblem coarse(test::problem({6, 50, 1}));
+  const ContinuationReport report = coarse.start({});
+  EXPECT_EQ(report.status, Status::converged);
+  EXPECT_EQ(report.last.compliance, 1);
+  EXPECT_EQ(coarse.follow({}).steps, 0) << "nothing is left to continue";
+}
+
+TEST(Continuation, AStateThatIsNotAcceptedEndsTheBranchBeforeIt) {
+  // The last accepted state stays, and the reason is the surface.
+  CoarseProblem coarse(test::problem({6, 2.29, 0}));
+  ContinuationOptions options;
+  options.displacement_per_step = 0.03;
+  options.accept = [](const Discretisation&, const BranchState& state) { return state.compliance < 0.5; };
+  const ContinuationReport report = coarse.follow(options);
+  EXPECT_EQ(report.status, Status::surface_unstable);
+  EXPECT_GT(report.last.compliance, 0);
+  EXPECT_LT(report.last.compliance, 0.5);
+  EXPECT_TRUE(report.last.unknowns.allFinite());
+}
+
+TEST(Continuation, AFailedStepKeepsTheLastGoodState) {
+  // Far beyond the end of the branch the steps are halved to the least one; the last state still solves its equations.
+  CoarseProblem coarse(test::problem({6, 0.3, 0}));
+  ContinuationOptions options;
+  options.newton.iteration_limit = 5;
+  options.least_step = 0.03;
+  const ContinuationReport report = coarse.follow(options);
+  EXPECT_NE(report.status, Status::converged);
+  EXPECT_LT(report.last.compliance, 1);
+  double det = 0;
+  const Media media = media_at(coarse.problem, report.last.compliance);
+  const double residual = coarse.discrete.system.residual(media, report.last.unknowns, det).norm();
+  EXPECT_LT(residual / residual_scale(coarse.discrete.system, media), options.newton.tolerance);
+  EXPECT_GT(det, 0);
+}
+
+TEST(Continuation, AStopIsReported) {
+  // The flag ends the start of the branch as well as its continuation.
+  CoarseProblem coarse(test::problem({6, 2.29, 0}));
+  const BranchState first = coarse.start({}).last;
+  const std::atomic<bool> stop = true;
+  ContinuationOptions options;
+  options.newton.stop = &stop;
+  EXPECT_EQ(coarse.start(options).status, Status::stopped);
+  const ContinuationReport report = continue_branch(coarse.discrete.system, coarse.problem, options, first);
+  EXPECT_EQ(report.status, Status::stopped);
+  EXPECT_EQ(report.last.compliance, first.compliance);
+}
+
+}  // namespace
+}  // namespace rheocyte

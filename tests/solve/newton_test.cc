@@ -1,0 +1,149 @@
+#include "solve/newton.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases.h"
+#include "fem/observe.h"
+#include "shape/measures.h"
+#include "solve/continuation.h"
+#include "solve/resolved_branch.h"
+
+namespace rheocyte {
+namespace {
+
+const Resolution resolution = {{2, 4, 1, 2}, 5};
+
+struct CoarseProblem {
+  explicit CoarseProblem(const Problem& problem)
+      : discrete(ChannelGeometry(problem.radius_ratio), resolution, media_at(problem, 1).liquid),
+        media(media_at(problem, 1)) {}
+  Discrete discrete;
+  Media media;
+};
+
+NewtonOptions full_newton() {
+  NewtonOptions options;
+  options.chord_steps = false;
+  options.tolerance = 1e-12;
+  return options;
+}
+
+TEST(Newton, TheLastResidualsSquare) {
+  // Without chord steps the order log(r2/r1) / log(r1/r0) of the last residuals above rounding is 2, for each law.
+  std::vector<Problem> problems;
+  for (const double share : {0.0, 1.0, 0.5}) problems.push_back(test::problem({6, 4.58, share}));
+  problems.push_back(problems[1]);
+  problems.back().reynolds = 0.3;
+  for (const Problem& problem : problems) {
+    CoarseProblem coarse(problem);
+    VectorXd x = coarse.discrete.system.sphere();
+    const NewtonReport report = newton(coarse.discrete.system, coarse.media, full_newton(), x);
+    ASSERT_EQ(report.status, Status::converged);
+    std::vector<double> r = report.residual_history;
+    while (r.back() < 1e-11) r.pop_back();  // rounding
+    const std::size_t n = r.size();
+    ASSERT_GE(n, 3u);
+    const double order = std::log(r[n - 1] / r[n - 2]) / std::log(r[n - 2] / r[n - 3]);
+    EXPECT_GT(order, 1.8);  // two or three steps are not yet the limit
+    EXPECT_LT(r[n - 1], 10 * r[n - 2] * r[n - 2]) << "r -> C r^2 with a moderate constant";
+  }
+}
+
+TEST(Newton, ChordStepsReachTheSameStateWithFewerFactorisations) {
+  // A kept factorisation changes the way, not the end.
+  CoarseProblem coarse(test::problem({6, 4.58, 1}));
+  StationarySystem& system = coarse.discrete.system;
+  VectorXd full = system.sphere(), chord = full;
+  NewtonOptions options = full_newton();
+  ASSERT_EQ(newton(system, coarse.media, options, full).status, Status::converged);
+  const int factorisations = system.work().factorisations;
+  options.chord_steps = true;
+  ASSERT_EQ(newton(system, coarse.media, options, chord).status, Status::converged);
+  EXPECT_LT(system.work().factorisations - factorisations, factorisations);
+  // Residuals of 1e-12 times the condition of the equations.
+  EXPECT_LT((full - chord).norm() / full.norm(), 1e-9);
+}
+
+TEST(Newton, AConvergedStateSatisfiesItsEquations) {
+  // Residual below tolerance, barycentre at the origin, volume kept, mesh not folded.
+  const Problem problem = test::problem({6, 4.58, 1});
+  CoarseProblem coarse(problem);
+  const Discretisation& space = coarse.discrete.space;
+  VectorXd x = coarse.discrete.system.sphere();
+  const NewtonReport report = newton(coarse.discrete.system, coarse.media, full_newton(), x);
+  EXPECT_LT(report.residual, 1e-12);
+  double det = 0;
+  const double norm = coarse.discrete.system.residual(coarse.media, x, det).norm();
+  EXPECT_NEAR(norm / residual_scale(coarse.discrete.system, coarse.media), report.residual, 1e-15);
+  EXPECT_GT(det, 0);
+  const ShapeMeasures shape = measure(contour(space, x));
+  EXPECT_NEAR(shape.barycentre, 0, 1e-10);  // rounding of the residual over the cell's volume
+  const double sphere = measure(contour(space, coarse.discrete.system.sphere())).volume;
+  EXPECT_NEAR(shape.volume / sphere, 1, 1e-10);  // incompressible in each element
+}
+
+TEST(Newton, TheIterationLimitIsReported) {
+  // One factorisation is not enough from the sphere.
+  CoarseProblem coarse(test::problem({6, 2.29, 0}));
+  NewtonOptions options = full_newton();
+  options.iteration_limit = 1;
+  VectorXd x = coarse.discrete.system.sphere();
+  EXPECT_EQ(newton(coarse.discrete.system, coarse.media, options, x).status, Status::iteration_limit);
+}
+
+TEST(Newton, AStopIsReportedBeforeAnyWork) {
+  // A raised flag ends the iteration at once.
+  CoarseProblem coarse(test::problem({}));
+  const std::atomic<bool> stop = true;
+  NewtonOptions options;
+  options.stop = &stop;
+  VectorXd x = coarse.discrete.system.sphere();
+  const NewtonReport report = newton(coarse.discrete.system, coarse.media, options, x);
+  EXPECT_EQ(report.status, Status::stopped);
+  EXPECT_EQ(report.iterations, 0);
+}
+
+TEST(Newton, NumbersThatAreNotFiniteAreReported) {
+  // NaN in the modulus, in the Reynolds number, or in the state.
+  const double nan = std::nan("");
+  CoarseProblem coarse(test::problem({}));
+  StationarySystem& system = coarse.discrete.system;
+  Media bad_modulus = coarse.media, bad_reynolds = coarse.media;
+  bad_modulus.bulk.shear_modulus = nan;
+  bad_reynolds.liquid.reynolds = nan;
+  for (const Media& media : {bad_modulus, bad_reynolds}) {
+    VectorXd x = system.sphere();
+    EXPECT_EQ(newton(system, media, {}, x).status, Status::not_finite);
+  }
+  VectorXd x = system.sphere();
+  x(3) = nan;
+  EXPECT_EQ(newton(system, coarse.media, {}, x).status, Status::not_finite);
+}
+
+TEST(Newton, ACellWithoutStiffnessIsSingular) {
+  // mu = 0: displacements inside the cell that keep the volume are not determined.
+  CoarseProblem coarse(test::problem({}));
+  coarse.media.bulk.shear_modulus = 0;
+  VectorXd x = coarse.discrete.system.sphere();
+  const Status status = newton(coarse.discrete.system, coarse.media, {}, x).status;
+  EXPECT_EQ(status, Status::singular_matrix) << name(status);
+}
+
+TEST(Newton, AFoldedMeshIsReported) {
+  // A start whose surface is pushed through the wall.
+  CoarseProblem coarse(test::problem({}));
+  const Discretisation& space = coarse.discrete.space;
+  VectorXd x = coarse.discrete.system.sphere();
+  for (const BoundaryEdge& edge : space.surface()) {
+    for (const int node : edge.nodes) {
+      if (const int r = space.displacement(node, 1); r >= 0) x(r) = 1;
+    }
+  }
+  const Status status = newton(coarse.discrete.system, coarse.media, {}, x).status;
+  EXPECT_EQ(status, Status::mesh_folded) << name(status);
+}
+
+}  // namespace
+}  // namespace rheocyte

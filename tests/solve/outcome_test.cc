@@ -1,0 +1,50 @@
+#include "solve/outcome.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace rheocyte {
+namespace {
+
+constexpr std::array statuses = {
+    Status::not_started,  Status::converged,       Status::iteration_limit, Status::mesh_folded,          Status::surface_unstable,
+    Status::branch_ended, Status::singular_matrix, Status::not_finite,      Status::accuracy_not_reached, Status::stopped};
+
+TEST(Outcome, ItStartsAsNoSuccess) {
+  // Success has to be said, never assumed.
+  EXPECT_EQ(Outcome{}.status, Status::not_started);
+}
+
+TEST(Outcome, EveryStatusHasItsOwnName) {
+  // Names are stable and distinct.
+  std::set<std::string> names;
+  for (const Status status : statuses) names.insert(name(status));
+  EXPECT_EQ(names.size(), statuses.size());
+  EXPECT_FALSE(names.contains("unknown"));
+  EXPECT_STREQ(name(Status::surface_unstable), "surface-unstable");
+}
+
+TEST(Outcome, EveryStatusHasASentence) {
+  // Whatever was reached; only success speaks of a shape that was found without reserve.
+  for (const Status status : statuses) {
+    for (const double reached : {0.0, 0.4, 1.0}) {
+      const std::string sentence = explanation({status, "", reached}, 0.05, 1e-3);
+      EXPECT_EQ(sentence.back(), '.') << name(status);
+      EXPECT_EQ(sentence == "The stationary shape was found.", status == Status::converged);
+    }
+  }
+}
+
+TEST(Outcome, TheEndOfTheBranchIsToldInModuliAndDeformation) {
+  // 0.4 of the compliance is 2.5 times the modulus.
+  for (const Status status : {Status::surface_unstable, Status::branch_ended, Status::mesh_folded}) {
+    const std::string sentence = explanation({status, "", 0.4}, 0.0512, 0);
+    EXPECT_NE(sentence.find("2.5 times the wanted modulus"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("0.0512"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("raise the modulus"), std::string::npos) << sentence;
+  }
+}
+
+}  // namespace
+}  // namespace rheocyte
