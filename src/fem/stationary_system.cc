@@ -29,6 +29,16 @@ WorkMeter& WorkMeter::operator+=(const WorkMeter& other) {
   return *this;
 }
 
+WorkMeter WorkMeter::operator-(const WorkMeter& other) const {
+  WorkMeter difference = *this;
+  difference.assembly_s -= other.assembly_s;
+  difference.condensation_s -= other.condensation_s;
+  difference.sparse_s -= other.sparse_s;
+  difference.solve_s -= other.solve_s;
+  difference.factorisations -= other.factorisations;
+  return difference;
+}
+
 /// One element's elimination: inner unknowns belong to it alone, outer ones couple it to others.
 struct StationarySystem::Condensed {
   std::vector<int> inner_row, inner_column, inner_unknown;  ///< slots, and the unknown of each

@@ -18,6 +18,7 @@ struct WorkMeter {
   double sparse_flops = 0;  ///< of the last sparse factorisation
 
   WorkMeter& operator+=(const WorkMeter&);
+  WorkMeter operator-(const WorkMeter&) const;
 };
 
 class StationarySystem {

@@ -150,21 +150,22 @@ ContinuationReport continue_branch(StationarySystem& system, const Problem& prob
         newton(system, media_at(problem, next.compliance), options.newton, next.unknowns);
     report.newton_iterations += newton_report.iterations;
     if (newton_report.status == Status::stopped) return report.status = Status::stopped, report;
+    next.newton_iterations = newton_report.iterations;
     const bool near_guess = newton_report.status == Status::converged &&
                             stretch_change(system.space(), guess, next.unknowns) < options.greatest_correction;
-    if (!near_guess) {
+    const bool accepted = near_guess && (!options.accept || options.accept(system.space(), next));
+    if (!accepted) {
       h /= 2;
       if (h < options.least_step * report.last.compliance) {
-        report.status = newton_report.status == Status::converged ? Status::branch_ended : newton_report.status;
+        report.status = near_guess                                  ? Status::surface_unstable
+                        : newton_report.status == Status::converged ? Status::branch_ended
+                                                                    : newton_report.status;
         return report;
       }
       continue;
     }
     report.residual = newton_report.residual;
-    next.newton_iterations = newton_report.iterations;
     next.tangent = branch_tangent(system, problem, next);
-    if (options.accept && !options.accept(system.space(), next))
-      return report.status = Status::surface_unstable, report;
     before = std::move(report.last);
     report.last = std::move(next);
     ++report.steps;

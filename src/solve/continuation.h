@@ -26,7 +26,7 @@ struct ContinuationOptions {
   /// stretch by Newton. Strain, not displacement, shows a crease, which is short.
   double greatest_correction = 0.06;
   double least_step = 2e-3;  ///< of the compliance, relative to its value
-  /// Called with each converged state; returning false ends the continuation before it as unstable.
+  /// Called with each converged state; returning false refuses it as unstable, and the step is halved.
   std::function<bool(const Discretisation&, const BranchState&)> accept;
 };
 

@@ -1,5 +1,6 @@
 #include "solve/resolved_branch.h"
 
+#include <algorithm>
 #include <array>
 
 #include "shape/wrinkles.h"
@@ -37,16 +38,19 @@ ResolvedState carry_over(const Problem& problem, const NewtonOptions& options, c
   to.status = report.status;
   to.residual = report.residual;
   to.newton_iterations = report.iterations;
+  to.work = to.discrete->system.work();
   return to;
 }
 
 void advance(const Problem& problem, const ContinuationOptions& options, ResolvedState& state) {
+  const WorkMeter before = state.discrete->system.work();
   const ContinuationReport report = continue_branch(state.discrete->system, problem, options, state.branch);
   state.status = report.status;
   state.branch = report.last;
   state.residual = report.residual;
   state.steps += report.steps;
   state.newton_iterations += report.newton_iterations;
+  state.work += state.discrete->system.work() - before;
 }
 
 ResolvedState start(const Problem& problem, const ContinuationOptions& options, const Resolution& resolution) {
@@ -59,6 +63,22 @@ ResolvedState start(const Problem& problem, const ContinuationOptions& options, 
   state.residual = report.residual;
   state.steps = report.steps;
   state.newton_iterations = report.newton_iterations;
+  state.work = state.discrete->system.work();
+  return state;
+}
+
+/// The last state at another resolution, or the first state there if Newton does not hold it.
+ResolvedState enter(const Problem& problem, const ContinuationOptions& options, const ResolvedState& from,
+                    const Resolution& resolution) {
+  if (!from.discrete) return start(problem, options, resolution);
+  NewtonOptions patient = options.newton;
+  patient.iteration_limit = NewtonOptions{}.iteration_limit;
+  ResolvedState state = carry_over(problem, patient, from, resolution);
+  if (state.status == Status::converged || state.status == Status::stopped) return state;
+  const ResolvedState failed = state;
+  state = start(problem, options, resolution);
+  state.newton_iterations += failed.newton_iterations;
+  state.work += failed.work;
   return state;
 }
 
@@ -86,17 +106,20 @@ bool is_wrinkled(const Discretisation& space, const VectorXd& unknowns) {
 
 ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton, const BranchObserver& observe) {
   ResolvedState state;
+  double seen = 0;  // a resolution that starts anew need not show again what a coarser one showed
+  const BranchObserver observe_new = [&](const Discretisation& space, const BranchState& branch) {
+    if (branch.compliance > seen && observe) observe(space, branch);
+    seen = std::max(seen, branch.compliance);
+  };
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    const ContinuationOptions options = options_on_the_way(newton, i + 1 == ways.size(), observe);
-    ResolvedState next =
-        state.discrete ? carry_over(problem, options.newton, state, ways[i]) : start(problem, options, ways[i]);
+    const ContinuationOptions options = options_on_the_way(newton, i + 1 == ways.size(), observe_new);
+    ResolvedState next = enter(problem, options, state, ways[i]);
     if (next.status == Status::converged) advance(problem, options, next);
     next.steps += state.steps;
     next.newton_iterations += state.newton_iterations;
-    next.work = state.work;
-    next.work += next.discrete->system.work();
-    const bool usable = next.steps > 0 && next.branch.tangent.size() > 0;
-    if (usable) {
+    next.work += state.work;
+    const bool is_further = next.branch.tangent.size() > 0 && next.branch.compliance >= state.branch.compliance;
+    if (is_further) {
       state = next;
     } else {
       state.status = next.status;
@@ -110,17 +133,10 @@ ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton,
 
 ResolvedState at_resolution(const Problem& problem, const NewtonOptions& newton, const ResolvedState& from,
                             const Resolution& resolution) {
-  ResolvedState state = carry_over(problem, newton, from, resolution);
-  state.work = state.discrete->system.work();
-  if (state.status == Status::converged || state.status == Status::stopped) return state;
-  const ContinuationOptions options = options_on_the_way(newton, true, {});
-  const int iterations_before = state.newton_iterations;
-  const WorkMeter work_before = state.work;
-  state = start(problem, options, resolution);
-  if (state.status == Status::converged) advance(problem, options, state);
-  state.newton_iterations += iterations_before;
-  state.work = work_before;
-  state.work += state.discrete->system.work();
+  ContinuationOptions options = options_on_the_way(newton, true, {});
+  options.newton.tolerance = newton.tolerance;
+  ResolvedState state = enter(problem, options, from, resolution);
+  if (state.status == Status::converged && state.branch.compliance < 1) advance(problem, options, state);
   return state;
 }
 

@@ -38,19 +38,21 @@ double deformation(const Discretisation& space, const VectorXd& unknowns) {
   return measure(contour(space, unknowns)).deformation;
 }
 
+/// No first change is trusted below this: neighbouring degrees may agree by chance.
+constexpr double least_first_estimate = 2e-5;
+
 /// Error of the last of some values of the deformation on ever finer resolutions, relative to it
-/// (docs/theory.md, eq:error): the last change, times the rest of a geometric series, and half of it at least.
+/// (docs/theory.md, eq:error): the last change times the rest of a geometric series, and half of the last two changes
+/// at least.
 double estimate_error(const std::vector<double>& values) {
   const std::size_t n = values.size();
   if (n < 2) return std::numeric_limits<double>::infinity();
-  const double change = values[n - 1] - values[n - 2];
-  double share = 1;  // also for changes of alternating sign
-  if (n >= 3) {
-    const double before = values[n - 2] - values[n - 3];
-    const double ratio = before == 0 ? 0 : std::min(change / before, 0.9);
-    if (ratio >= 0) share = std::max(0.5, ratio / (1 - ratio));
-  }
-  return share * std::abs(change) / std::max(std::abs(values[n - 1]), 1e-300);
+  const double change = values[n - 1] - values[n - 2], size = std::max(std::abs(values[n - 1]), 1e-300);
+  if (n == 2) return std::max(2 * std::abs(change) / size, least_first_estimate);
+  const double before = values[n - 2] - values[n - 3];
+  const double ratio = before == 0 ? 0 : std::min(change / before, 0.9);
+  const double share = ratio < 0 ? 1 : std::max(0.5, ratio / (1 - ratio));  // below 0: changes of alternating sign
+  return std::max(share * std::abs(change), 0.5 * std::abs(before)) / size;
 }
 
 /// Adds up the work of systems that come and go.
