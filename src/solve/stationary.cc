@@ -18,7 +18,7 @@ struct Rung {
   Subdivision subdivision;
   int first_degree, last_degree;
 };
-constexpr std::array<Rung, 3> ladder = {{{{2, 4, 1, 2}, 4, 9}, {{3, 6, 1, 2}, 6, 10}, {{4, 8, 2, 2}, 6, 10}}};
+constexpr std::array<Rung, 3> ladder = {{{{2, 4, 1, 2}, 4, 9}, {{3, 6, 1, 2}, 7, 10}, {{4, 8, 2, 2}, 7, 10}}};
 constexpr double final_tolerance = 1e-10;
 /// Resolutions on which the state may be lost before the ladder is given up.
 constexpr int greatest_losses = 2;
@@ -103,11 +103,11 @@ class StationarySolver {
 
   /// Raises degree and mesh until the estimated error is below the wanted one.
   ResolvedState climb(ResolvedState state, Tally& tally) {
-    std::vector<double> values;
     Status reason = Status::accuracy_not_reached;
     int lost = 0;
     for (const Rung& rung : ladder) {
       if (rung.subdivision.top < state.resolution.subdivision.top) continue;
+      std::vector<double> values;  // of this mesh alone: a new mesh at a lower degree need not be better at once
       for (int degree = rung.first_degree; degree <= rung.last_degree; ++degree) {
         const bool same_mesh = rung.subdivision.top == state.resolution.subdivision.top;
         if (same_mesh && degree < state.resolution.degree) continue;
