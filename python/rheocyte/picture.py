@@ -221,7 +221,8 @@ def draw_numbers(figure, result, total):
     """What came out, and what was asked."""
     found = [deformation_with_error(result), part("area {:.5g} µm²", result, "area_um2")]
     asked = [part("{} solid", result, "case", "cell", "bulk", "law"),
-             part("E = {:.4g} kPa", result, "case", "cell", "bulk", "young_modulus_kPa"),
+             part("E = {:.4g} kPa", result, "young_modulus_reached_kPa")
+             or part("E = {:.4g} kPa", result, "case", "cell", "bulk", "young_modulus_kPa"),
              part("$r_0$ = {:.4g} µm", result, "case", "cell", "radius_um")]
     moved = [part("$v_{{cell}}$ = {:.4g} m/s", result, "cell_velocity_m_per_s"),
              part("pressure drop {:.4g} Pa", result, "pressure_drop_Pa")]

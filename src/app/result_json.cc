@@ -54,7 +54,8 @@ Json branch(const Result& result) {
     points.push_back({{"compliance", point.compliance},  // relative to the wanted one; 0 = rigid: modulus null
                       {"young_modulus_kPa", result.input.cell.bulk.young_modulus_kPa / point.compliance},
                       {"deformation", point.deformation},
-                      {"newton_iterations", point.newton_iterations}});
+                      {"newton_iterations", point.newton_iterations},
+                      {"degree", point.degree}});
   return points;
 }
 
@@ -113,6 +114,7 @@ Json to_json(const Result& result) {
   json["status"] = name(state.outcome.status);
   json["message"] = state.outcome.message;
   json["reached"] = state.outcome.reached;
+  json["young_modulus_reached_kPa"] = result.input.cell.bulk.young_modulus_kPa / state.outcome.reached;
   add_shape(json, result);
   add_flow(json, result);
   json["unknowns"] = state.statistics.unknowns;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "app/build_info.h"
@@ -48,8 +49,12 @@ std::string summary(const Result& result, const std::string& folder) {
                fmt::format("mean velocity of the liquid {:.5g}", scales.velocity_m_per_s));
   text += line("pressure drop", fmt::format("{:.5g} Pa", state.pressure_drop * scales.stress_Pa),
                fmt::format("{:.4g} due to the cell", state.additional_pressure_drop * scales.stress_Pa));
-  text += line("estimated error", fmt::format("{:.1e}", state.estimated_error),
-               fmt::format("of the deformation, wanted {:.1e}", result.problem.accuracy));
+  const double wanted = result.input.cell.bulk.young_modulus_kPa, reached = state.outcome.reached;
+  if (reached > 0 && reached < 1)
+    text += line("young modulus", fmt::format("{:.5g} kPa", wanted / reached), fmt::format("wanted {:.5g}", wanted));
+  if (std::isfinite(state.estimated_error))
+    text += line("estimated error", fmt::format("{:.1e}", state.estimated_error),
+                 fmt::format("of the deformation, wanted {:.1e}", result.problem.accuracy));
   text += line("time", fmt::format("{:.2f} s", state.statistics.total_s),
                fmt::format("{} steps, {} Newton iterations, {} unknowns", state.statistics.continuation_steps,
                            state.statistics.newton_iterations, state.statistics.unknowns));

@@ -27,8 +27,8 @@ namespace {
 ProgressCallback progress_lines(const Case& c) {
   return [modulus = c.cell.bulk.young_modulus_kPa, step = 0](const BranchPoint& point) mutable {
     const auto stiffness = point.compliance > 0 ? fmt::format("E = {:.5g} kPa", modulus / point.compliance) : "rigid";
-    tell(fmt::format("step {:>3}  {:<20}  deformation {:.6f}  {} Newton iterations", ++step, stiffness,
-                     point.deformation, point.newton_iterations));
+    tell(fmt::format("step {:>3}  {:<16}  degree {:>2}  deformation {:.6f}  {} Newton iterations", ++step, stiffness,
+                     point.degree, point.deformation, point.newton_iterations));
   };
 }
 

@@ -6,6 +6,14 @@
 #include "shape/wrinkles.h"
 
 namespace rheocyte {
+
+bool is_wrinkled(const Discretisation& space, const VectorXd& unknowns) {
+  constexpr int greatest_sign_changes = 3;  // a rear dent makes one, a hollow flank two
+  const int per_edge = 2 * space.reference().degree() + 1;
+  if (least_biot_ratio(surface_stretch(space, unknowns, per_edge)) < biot_limit) return true;
+  return surface_smoothness(contour(space, unknowns)).curvature_sign_changes > greatest_sign_changes;
+}
+
 namespace {
 
 /// Resolutions of the way along the branch. Coarse ones cost 3 ms per Newton iteration and mostly go all the way;
@@ -16,8 +24,6 @@ const std::array<Resolution, 4> ways = {{{{2, 4, 1, 2}, 4}, {{2, 4, 1, 2}, 6}, {
 constexpr double least_step_before_refining = 0.03, least_step_at_last = 2e-3;
 /// Intermediate states serve as starting points only.
 constexpr double tolerance_on_the_way = 1e-7;
-/// A rear dent makes one, a hollow flank two.
-constexpr int greatest_sign_changes = 3;
 
 std::shared_ptr<Discrete> discretise(const Problem& problem, const Resolution& resolution) {
   const ChannelGeometry geometry(problem.radius_ratio);
@@ -67,14 +73,20 @@ ResolvedState start(const Problem& problem, const ContinuationOptions& options, 
   return state;
 }
 
-/// The last state at another resolution, or the first state there if Newton does not hold it.
-ResolvedState enter(const Problem& problem, const ContinuationOptions& options, const ResolvedState& from,
+/// The last state at another resolution, or the first state of the branch there if the last one does not hold: Newton
+/// leaves it, or the finer surface is seen to be wrinkled. In the latter case it is forgotten (its compliance set to
+/// 0).
+ResolvedState enter(const Problem& problem, const ContinuationOptions& options, ResolvedState& from,
                     const Resolution& resolution) {
   if (!from.discrete) return start(problem, options, resolution);
   NewtonOptions patient = options.newton;
   patient.iteration_limit = NewtonOptions{}.iteration_limit;
   ResolvedState state = carry_over(problem, patient, from, resolution);
-  if (state.status == Status::converged || state.status == Status::stopped) return state;
+  if (state.status == Status::stopped) return state;
+  if (state.status == Status::converged) {
+    if (!is_wrinkled(state.discrete->space, state.branch.unknowns)) return state;
+    from.branch.compliance = 0;
+  }
   const ResolvedState failed = state;
   state = start(problem, options, resolution);
   state.newton_iterations += failed.newton_iterations;
@@ -97,12 +109,6 @@ ContinuationOptions options_on_the_way(const NewtonOptions& newton, bool last, c
 }
 
 }  // namespace
-
-bool is_wrinkled(const Discretisation& space, const VectorXd& unknowns) {
-  const int per_edge = 2 * space.reference().degree() + 1;
-  if (least_biot_ratio(surface_stretch(space, unknowns, per_edge)) < biot_limit) return true;
-  return surface_smoothness(contour(space, unknowns)).curvature_sign_changes > greatest_sign_changes;
-}
 
 ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton, const BranchObserver& observe) {
   ResolvedState state;
@@ -135,7 +141,8 @@ ResolvedState at_resolution(const Problem& problem, const NewtonOptions& newton,
                             const Resolution& resolution) {
   ContinuationOptions options = options_on_the_way(newton, true, {});
   options.newton.tolerance = newton.tolerance;
-  ResolvedState state = enter(problem, options, from, resolution);
+  ResolvedState coarse = from;
+  ResolvedState state = enter(problem, options, coarse, resolution);
   if (state.status == Status::converged && state.branch.compliance < 1) advance(problem, options, state);
   return state;
 }

@@ -84,7 +84,7 @@ class StationarySolver {
     const auto start = std::chrono::steady_clock::now();
     Tally tally(result_.statistics);
     ResolvedState state = follow_branch(problem_, newton_, [this](const Discretisation& space, const BranchState& b) {
-      report({b.compliance, deformation(space, b.unknowns), b.newton_iterations});
+      report({b.compliance, deformation(space, b.unknowns), b.newton_iterations, space.reference().degree()});
     });
     tally.add(state);
     if (state.status == Status::converged) state = climb(state, tally);
@@ -122,7 +122,7 @@ class StationarySolver {
         state = next;
         values.push_back(deformation(state.discrete->space, state.branch.unknowns));
         result_.estimated_error = estimate_error(values);
-        report({state.branch.compliance, values.back(), state.newton_iterations});
+        report({state.branch.compliance, values.back(), state.newton_iterations, degree});
         if (values.size() >= 2 && result_.estimated_error <= problem_.accuracy) return state;
       }
     }

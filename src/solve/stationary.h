@@ -32,6 +32,7 @@ struct BranchPoint {
   double compliance;  ///< wanted modulus / modulus of this step: 0 = rigid, 1 = the wanted state
   double deformation;
   int newton_iterations;
+  int degree;  ///< polynomial degree at which it was found
 };
 
 /// Everything that is known of a stationary state; dimensionless, in the units of case/problem.h.
