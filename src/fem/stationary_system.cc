@@ -261,6 +261,7 @@ VectorXd StationarySystem::apply_tangent(const Media& media, const VectorXd& unk
       if (element.rows[i] >= 0) product(element.rows[i]) += change(i);
     }
   }
+  const std::vector<double> kept = matrix_->value;  // the factors in use refine their solutions with these
   std::fill(matrix_->value.begin(), matrix_->value.end(), 0.0);
   VectorXd ignored = VectorXd::Zero(space_.unknowns());
   add_barycentre(unknowns, ignored, true);
@@ -269,6 +270,7 @@ VectorXd StationarySystem::apply_tangent(const Media& media, const VectorXd& unk
       product(matrix_->row[k]) += matrix_->value[k] * direction(j);
     }
   }
+  matrix_->value = kept;
   return product;
 }
 

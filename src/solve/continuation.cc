@@ -18,7 +18,8 @@ VectorXd parameter_slope(StationarySystem& system, const Problem& problem, const
   return (plus - minus) / (2 * h);
 }
 
-/// The tangent, with the factorisation that Newton left.
+/// The tangent, with the factorisation that Newton left. After chord steps that is the one of a state nearby, and the
+/// tangent is good to some per cent: a fresh factorisation would cost more than it saves.
 VectorXd branch_tangent(StationarySystem& system, const Problem& problem, const BranchState& state) {
   return system.solve(-parameter_slope(system, problem, state));
 }
@@ -169,7 +170,7 @@ ContinuationReport continue_branch(StationarySystem& system, const Problem& prob
     before = std::move(report.last);
     report.last = std::move(next);
     ++report.steps;
-    // The predictor's error grows like h^3: aim at a first correction of 1 % of the radius.
+    // With an exact tangent the predictor's error grows like h^3: aim at a first correction of 1 % of the radius.
     const double growth = std::cbrt(0.01 * radius / std::max(newton_report.first_correction, 1e-12));
     h = std::min(h * std::clamp(growth, 0.4, 2.5), 2 * options.displacement_per_step / displacement_rate(report.last));
   }

@@ -56,6 +56,7 @@ NewtonReport newton(StationarySystem& system, const Media& media, const NewtonOp
       }
       if (report.residual_history.empty()) report.residual_history.push_back(residual.norm() / scale);
     }
+    if (det <= 0) return report.status = Status::mesh_folded, report;
     const VectorXd correction = system.solve(-residual);
     if (!correction.allFinite()) return report.status = Status::not_finite, report;
     if (report.iterations++ == 0) report.first_correction = largest_displacement(system.space(), correction);

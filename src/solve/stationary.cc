@@ -82,6 +82,7 @@ class StationarySolver {
 
   StationaryState solve() {
     const auto start = std::chrono::steady_clock::now();
+    result_.shape = measure(Contour{});  // not a number until there is a shape
     Tally tally(result_.statistics);
     ResolvedState state = follow_branch(problem_, newton_, [this](const Discretisation& space, const BranchState& b) {
       report({b.compliance, deformation(space, b.unknowns), b.newton_iterations, space.reference().degree()});
@@ -115,7 +116,7 @@ class StationarySolver {
         tally.add(next);
         if (next.status == Status::stopped) return state.status = Status::stopped, state;
         if (next.status != Status::converged || is_wrinkled(next.discrete->space, next.branch.unknowns)) {
-          if (biot_ratio(next) < near_biot_limit) reason = Status::surface_unstable;
+          if (next.branch.unknowns.size() > 0 && biot_ratio(next) < near_biot_limit) reason = Status::surface_unstable;
           if (++lost == greatest_losses) return state.status = reason, state;
           continue;
         }

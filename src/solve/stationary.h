@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,20 +36,23 @@ struct BranchPoint {
   int degree;  ///< polynomial degree at which it was found
 };
 
+/// What is not known must not look like a number.
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
 /// Everything that is known of a stationary state; dimensionless, in the units of case/problem.h.
 struct StationaryState {
   Outcome outcome;
-  ShapeMeasures shape;                  ///< of the contour; lengths in R
-  Contour contour;                      ///< barycentre at x = 0
-  double cell_velocity = 0;             ///< in U
-  double pressure_drop = 0;             ///< over the simulated channel, in S
-  double additional_pressure_drop = 0;  ///< the part that is due to the cell
-  double channel_length = 0;            ///< simulated, in R
-  double relative_volume_change = 0;
-  double least_meridional_stretch = 1;  ///< over the surface
-  double biot_ratio = 1;                ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
-  double residual = 0;                  ///< of the last Newton iteration, relative to the traction on the cell
-  double estimated_error = 0;           ///< relative, of the deformation
+  ShapeMeasures shape;                         ///< of the contour; lengths in R
+  Contour contour;                             ///< barycentre at x = 0
+  double cell_velocity = no_value;             ///< in U
+  double pressure_drop = no_value;             ///< over the simulated channel, in S
+  double additional_pressure_drop = no_value;  ///< the part that is due to the cell
+  double channel_length = no_value;            ///< simulated, in R
+  double relative_volume_change = no_value;
+  double least_meridional_stretch = no_value;  ///< over the surface
+  double biot_ratio = no_value;       ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
+  double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
+  double estimated_error = no_value;  ///< relative, of the deformation
   SolveStatistics statistics;
   std::vector<BranchPoint> branch;
   /// Writes fields.vtu (velocity, pressure, stress, displacement on the deformed mesh, high-order cells) in

@@ -66,7 +66,7 @@ StationaryState solve_stationary(const Problem& problem, const ProgressCallback&
   const auto failure = wanted_failure();
   if (failure == "throw") throw std::logic_error("a bug\nof the solver");
   StationaryState state;
-  state.branch = {{0, 0, 3}, {0.5, 0.01, 4}};
+  state.branch = {{0, 0, 3, 4}, {0.5, 0.01, 4, 4}};
   if (progress)
     for (const auto& point : state.branch) progress(point);
   state.outcome = failure == "slow" ? wait_for_stop(stop) : outcome_of(failure);
@@ -74,6 +74,11 @@ StationaryState solve_stationary(const Problem& problem, const ProgressCallback&
   state.shape = measure(state.contour);
   state.cell_velocity = 1.5;
   state.pressure_drop = 30;
+  state.additional_pressure_drop = 1;
+  state.channel_length = 3.5;
+  state.relative_volume_change = 0;
+  state.least_meridional_stretch = state.biot_ratio = 1;
+  state.residual = state.estimated_error = 1e-12;
   if (failure == "nan") state.pressure_drop = std::numeric_limits<double>::quiet_NaN();
   state.write_fields = write_some_fields;
   return state;

@@ -7,9 +7,10 @@
 namespace rheocyte {
 namespace {
 
-constexpr std::array statuses = {
-    Status::not_started,  Status::converged,       Status::iteration_limit, Status::mesh_folded,          Status::surface_unstable,
-    Status::branch_ended, Status::singular_matrix, Status::not_finite,      Status::accuracy_not_reached, Status::stopped};
+constexpr std::array statuses = {Status::not_started,     Status::converged,        Status::iteration_limit,
+                                 Status::mesh_folded,     Status::surface_unstable, Status::branch_ended,
+                                 Status::singular_matrix, Status::not_finite,       Status::accuracy_not_reached,
+                                 Status::stopped};
 
 TEST(Outcome, ItStartsAsNoSuccess) {
   // Success has to be said, never assumed.

@@ -12,10 +12,17 @@ namespace {
 
 /// All numbers of a state whose bits have to repeat.
 std::vector<double> numbers(const StationaryState& state) {
-  std::vector<double> all = {state.shape.deformation,  state.shape.area,       state.shape.perimeter,
-                             state.shape.volume,       state.cell_velocity,    state.pressure_drop,
-                             state.biot_ratio,         state.residual,         state.estimated_error,
-                             state.outcome.reached,    double(state.statistics.newton_iterations)};
+  std::vector<double> all = {state.shape.deformation,
+                             state.shape.area,
+                             state.shape.perimeter,
+                             state.shape.volume,
+                             state.cell_velocity,
+                             state.pressure_drop,
+                             state.biot_ratio,
+                             state.residual,
+                             state.estimated_error,
+                             state.outcome.reached,
+                             double(state.statistics.newton_iterations)};
   for (const CurvePiece& piece : state.contour.pieces) all.insert(all.end(), piece.data(), piece.data() + piece.size());
   for (const BranchPoint& point : state.branch) all.push_back(point.deformation);
   return all;
@@ -23,8 +30,7 @@ std::vector<double> numbers(const StationaryState& state) {
 
 TEST(Stationary, TheSameInputGivesTheSameBits) {
   // Three runs of two cases agree in every number.
-  for (const Problem& problem :
-       {test::problem({6, 2.29, 0}), test::in_power_law_liquid(test::problem({7.66, 5, 1}))}) {
+  for (const Problem& problem : {test::problem({6, 2.29, 0}), test::in_power_law_liquid(test::problem({7.66, 5, 1}))}) {
     const std::vector<double> first = numbers(solve_stationary(problem));
     for (int run = 0; run < 2; ++run) EXPECT_EQ(numbers(solve_stationary(problem)), first);
   }
@@ -76,8 +82,8 @@ TEST(Stationary, ANewtonianLiquidIsThePowerLawOfExponentOne) {
 TEST(Stationary, ProgressSeesEveryPointOfTheBranch) {
   // The callback is called in order with what the state keeps.
   std::vector<double> seen;
-  const StationaryState state =
-      solve_stationary(test::problem({6, 2.29, 0}), [&](const BranchPoint& point) { seen.push_back(point.deformation); });
+  const StationaryState state = solve_stationary(test::problem({6, 2.29, 0}),
+                                                 [&](const BranchPoint& point) { seen.push_back(point.deformation); });
   ASSERT_EQ(seen.size(), state.branch.size());
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], state.branch[i].deformation);
 }
