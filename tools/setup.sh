@@ -100,11 +100,12 @@ configure() {
 old or was copied from elsewhere is mended by removing it."
 }
 
+# build <preset> [<target>...]: everything, or the targets alone.
 build() {
   local jobs
   jobs=$(build_jobs)
   echo "$jobs at a time, as processors and memory allow."
-  cmake --build --preset "$1" --parallel "$jobs" || fail "the build of preset \"$1\" failed; the first message above
+  cmake --build --preset "$1" --parallel "$jobs" ${2:+--target "${@:2}"} || fail "the build of preset \"$1\" failed; the first message above
 that contains \"error\" says where. If it was \"Killed\", memory ran out: close other programs and start again,
 what is built already is kept."
 }
