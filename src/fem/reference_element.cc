@@ -29,7 +29,7 @@ VectorXd orthonormal_legendre(int count, double x) {
 
 ReferenceElement::ReferenceElement(int degree) : degree_(degree) {
   nodes_1d = lobatto_nodes(degree);
-  const Quadrature gauss = gauss_legendre(degree + 2);
+  const Quadrature gauss = gauss_legendre(degree + 1);
   points_1d = gauss.points;
   weights_1d = gauss.weights;
   weights = tensor(weights_1d, weights_1d);

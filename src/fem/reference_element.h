@@ -13,7 +13,7 @@ struct ShapeTable {
 };
 
 /// Q_p on Gauss-Lobatto nodes and P_{p-1} (orthonormal Legendre modes of total degree < p, the constant first) at the
-/// (p+2)^2 Gauss points; first coordinate fastest throughout.
+/// (p+1)^2 Gauss points; first coordinate fastest throughout.
 class ReferenceElement {
  public:
   explicit ReferenceElement(int degree);

@@ -1,0 +1,77 @@
+// How the deformation converges with degree and mesh for one cell, as a table in CSV on standard output:
+//
+//     build/convergence > convergence.csv
+//     PYTHONPATH=python python3 -m rheocyte.convergence convergence.csv docs/figures/convergence.png
+//
+// r0 = 6 um, E = 2.29 kPa, `linear`, Stokes, in the standard channel. The reference is the finest row, without an
+// error.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "shape/measures.h"
+#include "solve/resolved_branch.h"
+
+namespace {
+
+using namespace rheocyte;
+
+struct Series {
+  std::string name;
+  Subdivision subdivision;
+  int first_degree, last_degree;
+};
+const std::vector<Series> all_series = {
+    {"2 x 4 elements", {2, 4, 1, 2}, 2, 9}, {"3 x 6", {3, 6, 1, 2}, 2, 8}, {"4 x 8", {4, 8, 2, 2}, 2, 7}};
+const Series reference{"reference", {4, 8, 2, 2}, 10, 10};
+
+struct Row {
+  std::string series;
+  int degree, unknowns;
+  double deformation;
+};
+
+Problem standard_cell() {
+  Problem problem;
+  problem.radius_ratio = 6 / 10.94;
+  problem.shear_modulus = 2290.0 / 3 / 145.87;  // S = eta U / R = 145.87 Pa
+  problem.bulk = BulkLaw::linear;
+  problem.mooney_share = 0;
+  return problem;
+}
+
+/// A row for each degree at which the state exists.
+void solve(const Problem& problem, const NewtonOptions& options, const ResolvedState& start, const Series& series,
+           std::vector<Row>& rows) {
+  for (int degree = series.first_degree; degree <= series.last_degree; ++degree) {
+    const ResolvedState state = at_resolution(problem, options, start, {series.subdivision, degree});
+    if (state.status != Status::converged || state.branch.compliance < 1) {
+      fmt::print(stderr, "{}, degree {}: {}\n", series.name, degree, name(state.status));
+      continue;
+    }
+    const Discretisation& space = state.discrete->space;
+    rows.push_back({series.name, degree, space.unknowns(), measure(contour(space, state.branch.unknowns)).deformation});
+  }
+}
+
+}  // namespace
+
+int main() {
+  const Problem problem = standard_cell();
+  NewtonOptions options;
+  options.tolerance = 1e-12;
+  const ResolvedState start = follow_branch(problem, options, {});
+  std::vector<Row> rows;
+  solve(problem, options, start, reference, rows);
+  if (start.status != Status::converged || rows.empty()) return EXIT_FAILURE;
+  const double limit = rows.front().deformation;
+  for (const Series& series : all_series) solve(problem, options, start, series, rows);
+
+  fmt::print("series,degree,unknowns,deformation,error\n");
+  for (const Row& row : rows) {
+    const std::string error = row.series == reference.name ? "" : fmt::format("{:.3e}", row.deformation / limit - 1);
+    fmt::print("{},{},{},{:.12f},{}\n", row.series, row.degree, row.unknowns, row.deformation, error);
+  }
+}
