@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,8 @@ struct Row {
 Problem standard_cell() {
   Problem problem;
   problem.radius_ratio = 6 / 10.94;
-  problem.shear_modulus = 2290.0 / 3 / 145.87;  // S = eta U / R = 145.87 Pa
+  constexpr double R = 10.94e-6, Q = 0.04e-9, viscosity = 15e-3, E = 2290;  // SI
+  problem.shear_modulus = std::numbers::pi * E * R * R * R / (3 * viscosity * Q);
   problem.bulk = BulkLaw::linear;
   problem.mooney_share = 0;
   return problem;

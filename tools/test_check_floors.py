@@ -120,7 +120,8 @@ class Names(TreeTest):
     def test_paths_of_one_machine_fail(self):
         for folder in ("work/x", "root/x", "home/ada/x", "tmp/build"):
             self.reject({"docs/a.md": f"\nsee `/{folder}`\n"}, ("docs/a.md", 2), "one machine")
-        self.accept({"docs/a.md": "https://example.org/work/a ${HOME}/root/ ./work/ /tmp/other\n"})
+        for harmless in ("https://example.org/{}/a", "${{HOME}}/{}/", "./{}/", "/tmp/other"):
+            self.accept({"docs/a.md": harmless.format("work") + "\n"})
 
     def test_binary_files_pass(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -31,7 +31,7 @@ Problem in_power_law_liquid(const LaboratoryCell& cell, double accuracy) {
   c.flow.law = LiquidLaw::power_law;
   c.flow.consistency_Pa_sn = 0.4057;
   c.flow.exponent = 0.6039;
-  c.flow.shear_rate_floor = 1e-2;  // a tenth or ten times of it changes d by less than 0.15 %, docs/verification.md
+  c.flow.shear_rate_floor = 1e-2;  // a tenth or ten times of it changes d by at most 0.2 %, docs/verification.md
   c.flow.density_kg_per_m3 = density_of_water;
   return problem_of(c);
 }

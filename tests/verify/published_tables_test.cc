@@ -44,11 +44,13 @@ constexpr TableRow neo_hookean_rows[] = {
     {228.783, 0.006038, 4.269}, {229.730, 0.009998, 3.284}, {230.559, 0.019837, 2.262}, {229.405, 0.035094, 1.621},
     {267.912, 0.005961, 5.570}, {272.478, 0.010016, 4.269}, {269.267, 0.020135, 2.736}, {268.327, 0.035118, 1.902}};
 
-/// The same for smaller (45 um2) and for softer cells (d = 0.055).
-constexpr TableRow small_or_soft_rows[] = {
-    {45.502, 0.005938, 1.304},  {45.387, 0.009880, 1.023}, {43.791, 0.019985, 0.731},  {44.640, 0.034554, 0.592},
-    {45.221, 0.055077, 0.511},  {69.696, 0.054422, 0.636}, {110.863, 0.053688, 0.812}, {161.182, 0.054862, 0.992},
-    {228.663, 0.055121, 1.239}, {272.676, 0.055156, 1.423}};
+/// The same for smaller cells, 45 um2.
+constexpr TableRow small_rows[] = {
+    {45.502, 0.005938, 1.304}, {45.387, 0.009880, 1.023}, {43.791, 0.019985, 0.731}, {44.640, 0.034554, 0.592}};
+
+/// The same for softer cells, d = 0.055 at all areas.
+constexpr TableRow soft_rows[] = {{45.221, 0.055077, 0.511},  {69.696, 0.054422, 0.636},  {110.863, 0.053688, 0.812},
+                                  {161.182, 0.054862, 0.992}, {228.663, 0.055121, 1.239}, {272.676, 0.055156, 1.423}};
 
 /// Relative differences of the deformation from the table's, in the order of the rows.
 template <class MakeCase>
@@ -98,10 +100,18 @@ TEST(PublishedTables, NeoHookeanCellsInAShearThinningLiquidOfTheTableOf2022AreMe
   EXPECT_LT(greatest_size(all), 0.015);  // wanted of the program
 }
 
-TEST(PublishedTables, SmallAndSoftCellsOfTheTableOf2022AreMetWithAKnownOffset) {
-  // Each of 10 rows within 2.5 %: the offset equals that of a modulus lower by 0.025 um / r0, 0.65 % at 45 um2, and the
-  // deformation of soft cells depends on the modulus with power -3.
-  const std::vector<double> all = differences(small_or_soft_rows, [](double modulus) {
+TEST(PublishedTables, SmallNeoHookeanCellsOfTheTableOf2022AreMetWithAKnownOffset) {
+  // Each of 4 rows within 2 %: the table's offset corresponds to a modulus lower by 0.025 um / r0, which is 0.65 %
+  // here, and the deformation falls with the modulus to the power 2 to 3.
+  const std::vector<double> all = differences(small_rows, [](double modulus) {
+    return test::in_power_law_liquid({0, modulus, BulkLaw::neo_hookean}, 3e-4);
+  });
+  EXPECT_LT(greatest_size(all), 0.02);
+}
+
+TEST(PublishedTablesSlow, SoftNeoHookeanCellsOfTheTableOf2022AreMetWithAKnownOffset) {
+  // Each of 6 rows within 2.5 %: the same offset of the modulus, and a power of 3 and more.
+  const std::vector<double> all = differences(soft_rows, [](double modulus) {
     return test::in_power_law_liquid({0, modulus, BulkLaw::neo_hookean}, 3e-4);
   });
   EXPECT_LT(greatest_size(all), 0.025);
