@@ -14,7 +14,7 @@ using namespace rheocyte;
 Problem standard_cell() {
   Problem problem;
   problem.radius_ratio = 6 / 10.94;
-  problem.shear_modulus = 4580.0 / 3 / 145.87;
+  problem.shear_modulus = 4580.0 / 3 / 145.864;
   problem.mooney_share = 0;
   return problem;
 }

@@ -20,7 +20,7 @@ struct Flow {
 };
 
 /// The elastic interior of the cell.
-struct Bulk {
+struct BulkCase {
   BulkLaw law = BulkLaw::neo_hookean;
   double young_modulus_kPa = 0;
   std::optional<double> mooney_share;
@@ -28,7 +28,7 @@ struct Bulk {
 
 struct Cell {
   double radius_um = 0;
-  Bulk bulk;
+  BulkCase bulk;
 };
 
 struct Numerics {

@@ -60,7 +60,7 @@ const std::array table{
               number<FIELD(flow.exponent)>({0.1, 2}), power_law},
     Parameter{"flow.shear_rate_floor", "",
               "shear rate, relative to mean speed / tube radius, below which the viscosity levels off",
-              number<FIELD(flow.shear_rate_floor)>({1e-6, 1}, 0.1), power_law},
+              number<FIELD(flow.shear_rate_floor)>({1e-6, 1}, 0.01), power_law},
     Parameter{"flow.density_kg_per_m3", "kg/m3", "density of the liquid, 0 = no inertia (Stokes flow)",
               number<FIELD(flow.density_kg_per_m3)>({0, 1e6}, 1000)},
 

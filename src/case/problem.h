@@ -23,9 +23,9 @@ struct Scales {
 struct Problem {
   double radius_ratio = 0.5;  ///< r0 / R, in (0, 0.95)
   LiquidLaw liquid = LiquidLaw::newtonian;
-  double exponent = 1;            ///< flow behaviour index n of the power law
-  double shear_rate_floor = 0.1;  ///< regularisation of the power law, in U/R: gdot -> sqrt(gdot^2 + floor^2)
-  double reynolds = 0;            ///< rho U^2 / S; 0 = Stokes
+  double exponent = 1;             ///< flow behaviour index n of the power law
+  double shear_rate_floor = 1e-2;  ///< regularisation of the power law, in U/R: gdot -> sqrt(gdot^2 + floor^2)
+  double reynolds = 0;             ///< rho U^2 / S; 0 = Stokes
   BulkLaw bulk = BulkLaw::neo_hookean;
   double shear_modulus = 10;  ///< mu / S = E / (3 S)
   double mooney_share = 1;    ///< a of the Mooney-Rivlin law: a (B - I) + (1 - a) (I - B^-1)

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double m_per_um = 1e-6, m3_per_ul = 1e-9, Pas_per_mPas = 1e-3, Pa_per_kPa = 1e3;
 
-double mooney_share(const Bulk& bulk) {
+double mooney_share(const BulkCase& bulk) {
   switch (bulk.law) {
     case BulkLaw::linear: return 0;
     case BulkLaw::neo_hookean: return 1;

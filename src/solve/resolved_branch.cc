@@ -10,8 +10,11 @@ namespace rheocyte {
 bool is_wrinkled(const Discretisation& space, const VectorXd& unknowns) {
   constexpr int greatest_sign_changes = 3;  // a rear dent makes one, a hollow flank two
   const int per_edge = 2 * space.reference().degree() + 1;
-  if (least_biot_ratio(surface_stretch(space, unknowns, per_edge)) < biot_limit) return true;
-  return surface_smoothness(contour(space, unknowns)).curvature_sign_changes > greatest_sign_changes;
+  const double ratio = least_biot_ratio(surface_stretch(space, unknowns, per_edge));
+  if (ratio < biot_limit) return true;
+  // Farther from the limit, changes of curvature are faint errors of discretisation on nearly straight flanks.
+  return ratio < near_biot_limit &&
+         surface_smoothness(contour(space, unknowns)).curvature_sign_changes > greatest_sign_changes;
 }
 
 namespace {

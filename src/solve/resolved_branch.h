@@ -33,8 +33,11 @@ struct ResolvedState {
   WorkMeter work;                        ///< of the whole way, systems that were left included
 };
 
-/// Whether a surface is beyond Biot's limit, or its contour shows more changes of curvature than a rear dent and a
-/// hollow flank make.
+/// So close to Biot's limit the surface is the reason if Newton fails: no mesh resolves the last stretch.
+inline constexpr double near_biot_limit = 1.25 * biot_limit;
+
+/// Whether a surface is beyond Biot's limit, or near it and its contour shows more changes of curvature than a rear
+/// dent and a hollow flank make.
 bool is_wrinkled(const Discretisation&, const VectorXd& unknowns);
 
 /// Sees each converged state of the way.

@@ -20,10 +20,8 @@ struct Rung {
 };
 constexpr std::array<Rung, 3> ladder = {{{{2, 4, 1, 2}, 4, 9}, {{3, 6, 1, 2}, 7, 10}, {{4, 8, 2, 2}, 7, 10}}};
 constexpr double final_tolerance = 1e-10;
-/// Resolutions on which the state may be lost before the ladder is given up.
-constexpr int greatest_losses = 2;
-/// Where Newton fails this close above Biot's limit, the surface is the reason: no mesh resolves the last stretch.
-constexpr double near_biot_limit = 1.25 * biot_limit;
+/// Of the deformation, absolute: what area and perimeter leave of it after their digits cancel.
+constexpr double round_off = 1e-13;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -105,7 +103,6 @@ class StationarySolver {
   /// Raises degree and mesh until the estimated error is below the wanted one.
   ResolvedState climb(ResolvedState state, Tally& tally) {
     Status reason = Status::accuracy_not_reached;
-    int lost = 0;
     for (const Rung& rung : ladder) {
       if (rung.subdivision.top < state.resolution.subdivision.top) continue;
       std::vector<double> values;  // of this mesh alone: a new mesh at a lower degree need not be better at once
@@ -117,14 +114,17 @@ class StationarySolver {
         if (next.status == Status::stopped) return state.status = Status::stopped, state;
         if (next.status != Status::converged || is_wrinkled(next.discrete->space, next.branch.unknowns)) {
           if (next.branch.unknowns.size() > 0 && biot_ratio(next) < near_biot_limit) reason = Status::surface_unstable;
-          if (++lost == greatest_losses) return state.status = reason, state;
-          continue;
+          break;  // this mesh cannot hold the state: the next one
         }
         state = next;
         values.push_back(deformation(state.discrete->space, state.branch.unknowns));
         result_.estimated_error = estimate_error(values);
         report({state.branch.compliance, values.back(), state.newton_iterations, degree});
-        if (values.size() >= 2 && result_.estimated_error <= problem_.accuracy) return state;
+        if (values.size() >= 2 &&
+            result_.estimated_error <=
+                std::max(problem_.accuracy, round_off / std::max(std::abs(values.back()), 1e-300))) {
+          return state;
+        }
       }
     }
     state.status = reason;

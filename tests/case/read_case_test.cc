@@ -58,7 +58,7 @@ TEST(ReadCase, ASettingThatChangesTheLawDropsTheKeysOfTheOtherLaw) {
   const Case c = read(shortest, {"flow.law=power-law", "flow.consistency_Pa_sn=0.4", "flow.exponent=0.6"});
   EXPECT_FALSE(c.flow.viscosity_mPas);
   EXPECT_EQ(c.flow.exponent, 0.6);
-  EXPECT_EQ(c.flow.shear_rate_floor, 0.1);
+  EXPECT_EQ(c.flow.shear_rate_floor, 0.01);
 }
 
 TEST(ReadCase, ASettingOfOneAlternativeReplacesTheOther) {

@@ -12,7 +12,7 @@ struct CellInChannel {
 
 inline Problem problem(const CellInChannel& cell, double accuracy = 1e-3) {
   constexpr double tube_radius_um = 10.94;
-  constexpr double stress_Pa = 145.87;  // eta U / R, U = Q / (pi R^2)
+  constexpr double stress_Pa = 145.864;  // eta U / R, U = Q / (pi R^2)
   Problem problem;
   problem.radius_ratio = cell.radius_um / tube_radius_um;
   problem.bulk = cell.mooney_share == 0   ? BulkLaw::linear
