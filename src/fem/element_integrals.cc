@@ -24,7 +24,7 @@ struct ColumnGroup {
   std::vector<Feed> feeds;
 };
 
-/// Columns of an element but for the pressures, which come last and feed the last input.
+/// The columns of an element; the pressures come last and feed the last input.
 std::vector<ColumnGroup> column_groups(const ElementUnknowns& element, const ReferenceElement& reference) {
   const int n = reference.nodes(), m = element.position_columns;
   std::vector<ColumnGroup> groups;
@@ -37,6 +37,8 @@ std::vector<ColumnGroup> column_groups(const ElementUnknowns& element, const Ref
     groups.push_back({shape, 2 * m, n, {{5, Part::value}, {7, Part::d1}, {8, Part::d2}}});
     groups.push_back({shape, 2 * m + n, n, {{6, Part::value}, {9, Part::d1}, {10, Part::d2}}});
   }
+  const int inputs = element.liquid ? LiquidPoint::inputs : CellPoint::inputs, modes = reference.pressures();
+  groups.push_back({&reference.pressure, int(element.columns.size()) - modes, modes, {{inputs - 1, Part::value}}});
   return groups;
 }
 
@@ -78,44 +80,45 @@ void test_residual(const ReferenceElement& reference, ElementSystem& system) {
     rows.noalias() += reference.shape.d1.transpose() * system.fluxes.col(3 * c + 1);
     rows.noalias() += reference.shape.d2.transpose() * system.fluxes.col(3 * c + 2);
   }
-  system.residual.tail(m).noalias() = reference.pressure.transpose() * system.fluxes.col(6);
+  system.residual.tail(m).noalias() = reference.pressure.value.transpose() * system.fluxes.col(6);
 }
 
-/// weighted(:, columns) = d(flux k)/d(columns) at all points.
+/// weighted(:, columns of the group) = d(flux k)/d(columns) at all points.
 template <class Form>
-void differentiate_flux(const ReferenceElement& reference, const std::vector<ColumnGroup>& groups, int k,
-                        const ElementSystem& system, Eigen::Ref<MatrixXd> weighted) {
-  const auto slope = [&](int input) { return system.flux_slopes.col(k * Form::inputs + input); };
-  for (const ColumnGroup& group : groups) {
-    auto block = weighted.middleCols(group.first, group.count);
-    bool first = true;
-    for (const Feed& feed : group.feeds) {
-      const auto product = slope(feed.input).asDiagonal() * table(*group.shape, feed.part);
-      if (first)
-        block = product;
-      else
-        block += product;
-      first = false;
+void differentiate_flux(const ColumnGroup& group, int k, const ElementSystem& system, Eigen::Ref<MatrixXd> weighted) {
+  bool first = true;
+  for (const Feed& feed : group.feeds) {
+    const auto slope = system.flux_slopes.col(k * Form::inputs + feed.input);
+    const auto product = slope.asDiagonal() * table(*group.shape, feed.part);
+    if (first) {
+      weighted = product;
+    } else {
+      weighted += product;
     }
+    first = false;
   }
-  weighted.rightCols(reference.pressures()) = slope(Form::inputs - 1).asDiagonal() * reference.pressure;
 }
 
+/// Group by group, so that the derivatives of the fluxes stay in the cache until they are tested.
 template <class Form>
 void test_tangent(const ReferenceElement& reference, const std::vector<ColumnGroup>& groups, int columns,
                   ElementSystem& system) {
   const int n = reference.nodes(), m = reference.pressures(), points = reference.points();
   system.tangent.resize(2 * n + m, columns);
-  system.weighted.resize(3 * points, columns);
-  for (int c = 0; c < 2; ++c) {
-    for (int k = 0; k < 3; ++k) {
-      differentiate_flux<Form>(reference, groups, 3 * c + k, system, system.weighted.middleRows(k * points, points));
+  for (const ColumnGroup& group : groups) {
+    system.weighted.resize(3 * points, group.count);
+    for (int c = 0; c < 2; ++c) {
+      for (int k = 0; k < 3; ++k) {
+        differentiate_flux<Form>(group, 3 * c + k, system, system.weighted.middleRows(k * points, points));
+      }
+      system.tangent.block(c * n, group.first, n, group.count).noalias() =
+          reference.shape_stack.transpose() * system.weighted;
     }
-    system.tangent.middleRows(c * n, n).noalias() = reference.shape_stack.transpose() * system.weighted;
+    auto weighted = system.weighted.topRows(points);
+    differentiate_flux<Form>(group, 6, system, weighted);
+    system.tangent.block(2 * n, group.first, m, group.count).noalias() =
+        reference.pressure.value.transpose() * weighted;
   }
-  auto weighted = system.weighted.topRows(points);
-  differentiate_flux<Form>(reference, groups, 6, system, weighted);
-  system.tangent.bottomRows(m).noalias() = reference.pressure.transpose() * weighted;
 }
 
 template <class Form, class MakeForm>
@@ -158,7 +161,6 @@ MatrixXd fields_at_points(const Discretisation& space, int e, const VectorXd& un
     const auto coefficients = local.segment(group.first, group.count);
     for (const Feed& feed : group.feeds) fields.col(feed.input) += table(*group.shape, feed.part) * coefficients;
   }
-  fields.col(inputs - 1) = reference.pressure * local.tail(reference.pressures());
   return fields;
 }
 

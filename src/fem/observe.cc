@@ -175,7 +175,8 @@ VectorXd transfer(const Discretisation& from, const VectorXd& unknowns, const Di
       pressure(j * m + i) = from.reference().pressure_modes(xi1, xi2).dot(source[f].pressure);
     });
     // The modes are orthonormal: projection is a product.
-    const VectorXd modes = reference.pressure.transpose() * (reference.weights.array() * pressure.array()).matrix();
+    const VectorXd modes =
+        reference.pressure.value.transpose() * (reference.weights.array() * pressure.array()).matrix();
     for (int k = 0; k < modes.size(); ++k) target(to.pressure(e, k)) = modes(k);
   }
   return target;

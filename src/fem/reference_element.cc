@@ -29,7 +29,7 @@ VectorXd orthonormal_legendre(int count, double x) {
 
 ReferenceElement::ReferenceElement(int degree) : degree_(degree) {
   nodes_1d = lobatto_nodes(degree);
-  const Quadrature gauss = gauss_legendre(degree + 1);
+  const Quadrature gauss = gauss_legendre(degree + 2);
   points_1d = gauss.points;
   weights_1d = gauss.weights;
   weights = tensor(weights_1d, weights_1d);
@@ -39,8 +39,8 @@ ReferenceElement::ReferenceElement(int degree) : degree_(degree) {
   shape_stack.resize(3 * points(), nodes());
   shape_stack << shape.value, shape.d1, shape.d2;
   const int n = int(points_1d.size());
-  pressure.resize(n * n, pressures());
-  for (int q = 0; q < n * n; ++q) pressure.row(q) = pressure_modes(points_1d(q % n), points_1d(q / n));
+  pressure.value.resize(n * n, pressures());
+  for (int q = 0; q < n * n; ++q) pressure.value.row(q) = pressure_modes(points_1d(q % n), points_1d(q / n));
 }
 
 bool ReferenceElement::is_interior(int node) const {

@@ -13,7 +13,7 @@ struct ShapeTable {
 };
 
 /// Q_p on Gauss-Lobatto nodes and P_{p-1} (orthonormal Legendre modes of total degree < p, the constant first) at the
-/// (p+1)^2 Gauss points; first coordinate fastest throughout.
+/// (p+2)^2 Gauss points; first coordinate fastest throughout.
 class ReferenceElement {
  public:
   explicit ReferenceElement(int degree);
@@ -28,7 +28,7 @@ class ReferenceElement {
   VectorXd weights;
   ShapeTable shape;
   MatrixXd shape_stack;  ///< value, d1, d2 of `shape` below each other
-  MatrixXd pressure;     ///< points x modes
+  ShapeTable pressure;   ///< values only
 
   /// Values of the 1D Lagrange functions of the nodes at given points in [0,1]: points x (p+1).
   MatrixXd lagrange(const VectorXd& at) const;

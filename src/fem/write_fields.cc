@@ -81,7 +81,7 @@ MatrixXd nodal_fields(const Discretisation& space, int e, const Media& media, co
   }
   fields.col(vx) = fields.col(wx).array() + scales.velocity_m_per_s * v_cell;
   fields.col(vr) = fields.col(wr);
-  const VectorXd p = space.reference().pressure * local.tail(space.reference().pressures());
+  const VectorXd p = space.reference().pressure.value * local.tail(space.reference().pressures());
   fields.col(pressure) = scales.stress_Pa * to_nodes(p);
   fields.col(element.liquid ? shear_stress : stress) =
       scales.stress_Pa * to_nodes(stress_at_points(element, fields_at_points(space, e, unknowns), media));

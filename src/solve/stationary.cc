@@ -21,7 +21,7 @@ struct Rung {
 constexpr std::array<Rung, 3> ladder = {{{{2, 4, 1, 2}, 4, 9}, {{3, 6, 1, 2}, 7, 10}, {{4, 8, 2, 2}, 7, 10}}};
 constexpr double final_tolerance = 1e-10;
 /// Of the deformation, absolute: what area and perimeter leave of it after their digits cancel.
-constexpr double round_off = 1e-13;
+constexpr double round_off = 1e-13, tiny_deformation = 1e-6;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -120,15 +120,17 @@ class StationarySolver {
         values.push_back(deformation(state.discrete->space, state.branch.unknowns));
         result_.estimated_error = estimate_error(values);
         report({state.branch.compliance, values.back(), state.newton_iterations, degree});
-        if (values.size() >= 2 &&
-            result_.estimated_error <=
-                std::max(problem_.accuracy, round_off / std::max(std::abs(values.back()), 1e-300))) {
-          return state;
-        }
+        if (values.size() >= 2 && is_accurate(values.back())) return state;
       }
     }
     state.status = reason;
     return state;
+  }
+
+  /// Whether the estimated error is below the wanted one, or below what can be resolved of a tiny deformation.
+  bool is_accurate(double value) const {
+    const double size = std::abs(value), error = result_.estimated_error;
+    return error <= problem_.accuracy || (size < tiny_deformation && error * size <= round_off);
   }
 
   void describe(const ResolvedState& state) {

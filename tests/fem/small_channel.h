@@ -45,7 +45,7 @@ void set_pressure(const Discretisation& space, int e, const Function& p, VectorX
     for (int k = 0; k < reference.nodes(); ++k) x += reference.shape.value(q, k) * space.node_points()[nodes[k]];
     values(q) = p(x(0), x(1));
   }
-  const VectorXd modes = reference.pressure.transpose() * reference.weights.cwiseProduct(values);
+  const VectorXd modes = reference.pressure.value.transpose() * reference.weights.cwiseProduct(values);
   for (int k = 0; k < modes.size(); ++k) state(space.pressure(e, k)) = modes(k);
 }
 
