@@ -31,6 +31,10 @@ bool step(StationarySystem& system, const Media& media, const VectorXd& correcti
   return false;
 }
 
+/// A nearly rigid cell turns round-off of its strain into stress: there is nothing left to correct when a correction
+/// is as small as this (in R) while the residual is small, too.
+constexpr double round_off_displacement = 1e-14, round_off_residual = 1e-6;
+
 }  // namespace
 
 double residual_scale(StationarySystem& system, const Media& media) {
@@ -59,7 +63,8 @@ NewtonReport newton(StationarySystem& system, const Media& media, const NewtonOp
     if (det <= 0) return report.status = Status::mesh_folded, report;
     const VectorXd correction = system.solve(-residual);
     if (!correction.allFinite()) return report.status = Status::not_finite, report;
-    if (report.iterations++ == 0) report.first_correction = largest_displacement(system.space(), correction);
+    const double displacement = largest_displacement(system.space(), correction);
+    if (report.iterations++ == 0) report.first_correction = displacement;
     if (!step(system, media, correction, det, x, residual)) return report.status = Status::mesh_folded, report;
 
     const double before = report.residual_history.back();
@@ -67,7 +72,8 @@ NewtonReport newton(StationarySystem& system, const Media& media, const NewtonOp
     report.residual_history.push_back(report.residual);
     if (!std::isfinite(report.residual)) return report.status = Status::not_finite, report;
     if (report.residual > hopeless_residual) return report.status = Status::iteration_limit, report;
-    if (report.residual < options.tolerance) return report.status = Status::converged, report;
+    const bool at_round_off = displacement < round_off_displacement && report.residual < round_off_residual;
+    if (report.residual < options.tolerance || at_round_off) return report.status = Status::converged, report;
     fresh = options.chord_steps && report.residual < chord_reduction * before;
   }
 }

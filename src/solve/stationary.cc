@@ -21,7 +21,7 @@ struct Rung {
 constexpr std::array<Rung, 3> ladder = {{{{2, 4, 1, 2}, 4, 9}, {{3, 6, 1, 2}, 7, 10}, {{4, 8, 2, 2}, 7, 10}}};
 constexpr double final_tolerance = 1e-10;
 /// Of the deformation, absolute: what area and perimeter leave of it after their digits cancel.
-constexpr double round_off = 1e-13, tiny_deformation = 1e-6;
+constexpr double round_off = 1e-12, tiny_deformation = 1e-5;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -88,7 +88,7 @@ class StationarySolver {
     tally.add(state);
     if (state.status == Status::converged) state = climb(state, tally);
     result_.outcome.status = state.status;
-    if (state.discrete && state.branch.unknowns.size() > 0) describe(state);
+    if (state.discrete && state.branch.compliance > 0) describe(state);
     explain(state);
     result_.statistics.total_s = seconds_since(start);
     return std::move(result_);
