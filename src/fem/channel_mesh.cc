@@ -74,7 +74,7 @@ std::array<double, 2> MeshElement::parameters(double xi1, double xi2) const {
 ChannelMesh::~ChannelMesh() = default;
 
 ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& subdivision)
-    : geometry_(geometry), subdivision_(subdivision), topology_(std::make_unique<Topology>()) {
+    : geometry_(geometry), topology_(std::make_unique<Topology>()) {
   const Subdivision& n = subdivision;
   const auto front = uniform(n.front), top = uniform(n.top), ring = uniform(n.ring);
   const auto layers = liquid_layers(geometry, n);

@@ -41,7 +41,6 @@ class ChannelMesh {
   ~ChannelMesh();
 
   const ChannelGeometry& geometry() const { return geometry_; }
-  const Subdivision& subdivision() const { return subdivision_; }
   const std::vector<MeshElement>& elements() const { return elements_; }
   NodeNumbers number_nodes(int degree) const;
 
@@ -52,7 +51,6 @@ class ChannelMesh {
   void add_block(Block, const std::vector<double>& outward, const std::vector<double>& along);
 
   ChannelGeometry geometry_;
-  Subdivision subdivision_;
   std::vector<MeshElement> elements_;
   std::unique_ptr<Topology> topology_;
 };

@@ -17,6 +17,8 @@ namespace rheocyte {
 struct Slot {
   int unknown = -1;
   double factor = 1, constant = 0;
+
+  double value(const VectorXd& unknowns) const { return constant + (unknown >= 0 ? factor * unknowns(unknown) : 0.0); }
 };
 
 /// What one element knows. Column slots: displacements x then r of `position_columns` functions, in the liquid

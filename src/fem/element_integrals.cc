@@ -140,10 +140,7 @@ void integrate(const ReferenceElement& reference, const ElementUnknowns& element
 
 VectorXd local_values(const ElementUnknowns& element, const VectorXd& unknowns) {
   VectorXd local(element.columns.size());
-  for (int i = 0; i < local.size(); ++i) {
-    const Slot& slot = element.columns[i];
-    local(i) = slot.constant + (slot.unknown >= 0 ? slot.factor * unknowns(slot.unknown) : 0.0);
-  }
+  for (int i = 0; i < local.size(); ++i) local(i) = element.columns[i].value(unknowns);
   return local;
 }
 

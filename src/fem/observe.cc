@@ -6,10 +6,6 @@
 namespace rheocyte {
 namespace {
 
-double value(const Slot& slot, const VectorXd& unknowns) {
-  return slot.constant + (slot.unknown >= 0 ? slot.factor * unknowns(slot.unknown) : 0.0);
-}
-
 /// Nodal values of a two-component field on one element, from any source.
 template <class NodeValue>
 Eigen::MatrixX2d nodal_field(const std::vector<int>& nodes, const NodeValue& at) {
@@ -30,7 +26,7 @@ ElementFields element_fields(const Discretisation& space, const VectorXd& unknow
   const bool liquid = space.elements()[e].liquid;
   ElementFields fields;
   fields.vector = nodal_field(space.nodes().of_element[e], [&](int node, int c) {
-    if (liquid) return value(space.velocity(node, c), unknowns);
+    if (liquid) return space.velocity(node, c).value(unknowns);
     return current_point(space, unknowns, node)(c) - space.node_points()[node](c);
   });
   fields.pressure.resize(space.reference().pressures());

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <limits>
 
+#include "fem/observe.h"
+
 namespace rheocyte {
 namespace {
 
@@ -226,12 +228,7 @@ void StationarySystem::add_barycentre(const VectorXd& unknowns, VectorXd& residu
   };
   for (const BoundaryEdge& edge : space_.surface()) {
     Eigen::MatrixX2d x(n, 2);
-    for (int k = 0; k < n; ++k) {
-      for (int c = 0; c < 2; ++c) {
-        const int unknown = space_.displacement(edge.nodes[k], c);
-        x(k, c) = space_.node_points()[edge.nodes[k]](c) + (unknown >= 0 ? unknowns(unknown) : 0.0);
-      }
-    }
+    for (int k = 0; k < n; ++k) x.row(k) = current_point(space_, unknowns, edge.nodes[k]).transpose();
     for (int q = 0; q < value.rows(); ++q) {
       const double weight = reference.weights_1d(q);
       const std::array<Dual, 3> f = {Dual(value.row(q) * x.col(0), 0), Dual(value.row(q) * x.col(1), 1),

@@ -7,10 +7,13 @@
 
 namespace rheocyte {
 
+double least_biot_ratio(const Discretisation& space, const VectorXd& unknowns) {
+  return least_biot_ratio(surface_stretch(space, unknowns, 2 * space.reference().degree() + 1));
+}
+
 bool is_wrinkled(const Discretisation& space, const VectorXd& unknowns) {
   constexpr int greatest_sign_changes = 3;  // a rear dent makes one, a hollow flank two
-  const int per_edge = 2 * space.reference().degree() + 1;
-  const double ratio = least_biot_ratio(surface_stretch(space, unknowns, per_edge));
+  const double ratio = least_biot_ratio(space, unknowns);
   if (ratio < biot_limit) return true;
   // Farther from the limit, changes of curvature are faint errors of discretisation on nearly straight flanks.
   return ratio < near_biot_limit &&

@@ -36,6 +36,9 @@ struct ResolvedState {
 /// So close to Biot's limit the surface is the reason if Newton fails: no mesh resolves the last stretch.
 inline constexpr double near_biot_limit = 1.25 * biot_limit;
 
+/// The least Biot ratio (fem/observe.h) of a state's surface.
+double least_biot_ratio(const Discretisation&, const VectorXd& unknowns);
+
 /// Whether a surface is beyond Biot's limit, or near it and its contour shows more changes of curvature than a rear
 /// dent and a hollow flank make.
 bool is_wrinkled(const Discretisation&, const VectorXd& unknowns);

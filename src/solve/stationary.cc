@@ -27,11 +27,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-double biot_ratio(const ResolvedState& state) {
-  const Discretisation& space = state.discrete->space;
-  return least_biot_ratio(surface_stretch(space, state.branch.unknowns, 2 * space.reference().degree() + 1));
-}
-
 double deformation(const Discretisation& space, const VectorXd& unknowns) {
   return measure(contour(space, unknowns)).deformation;
 }
@@ -113,7 +108,9 @@ class StationarySolver {
         tally.add(next);
         if (next.status == Status::stopped) return state.status = Status::stopped, state;
         if (next.status != Status::converged || is_wrinkled(next.discrete->space, next.branch.unknowns)) {
-          if (next.branch.unknowns.size() > 0 && biot_ratio(next) < near_biot_limit) reason = Status::surface_unstable;
+          if (next.branch.unknowns.size() > 0 &&
+              least_biot_ratio(next.discrete->space, next.branch.unknowns) < near_biot_limit)
+            reason = Status::surface_unstable;
           break;  // this mesh cannot hold the state: the next one
         }
         state = next;
