@@ -48,11 +48,17 @@ Json statistics(const SolveStatistics& s) {
           {"total_s", s.total_s}};
 }
 
+// A modulus on the way to the wanted one; null if there is none or the cell is rigid.
+Json over(const std::optional<double>& modulus, double compliance) {
+  return modulus && compliance > 0 ? Json(*modulus / compliance) : Json(nullptr);
+}
+
 Json branch(const Result& result) {
   Json points = Json::array();
   for (const auto& point : result.state.branch)
     points.push_back({{"compliance", point.compliance},  // relative to the wanted one; 0 = rigid: modulus null
-                      {"young_modulus_kPa", result.input.cell.bulk.young_modulus_kPa / point.compliance},
+                      {"young_modulus_kPa", over(result.input.cell.bulk.young_modulus_kPa, point.compliance)},
+                      {"cortex_modulus_mN_per_m", over(result.input.cell.cortex.modulus_mN_per_m, point.compliance)},
                       {"deformation", point.deformation},
                       {"newton_iterations", point.newton_iterations},
                       {"degree", point.degree}});
@@ -114,7 +120,9 @@ Json to_json(const Result& result) {
   json["status"] = name(state.outcome.status);
   json["message"] = state.outcome.message;
   json["reached"] = state.outcome.reached;
-  json["young_modulus_reached_kPa"] = result.input.cell.bulk.young_modulus_kPa / state.outcome.reached;
+  json["young_modulus_reached_kPa"] = over(result.input.cell.bulk.young_modulus_kPa, state.outcome.reached);
+  json["cortex_modulus_reached_mN_per_m"] = over(result.input.cell.cortex.modulus_mN_per_m, state.outcome.reached);
+  json["tension_mN_per_m"] = tension_mN_per_m(result.input);
   add_shape(json, result);
   add_flow(json, result);
   json["unknowns"] = state.statistics.unknowns;

@@ -49,9 +49,15 @@ std::string summary(const Result& result, const std::string& folder) {
                fmt::format("mean velocity of the liquid {:.5g}", scales.velocity_m_per_s));
   text += line("pressure drop", fmt::format("{:.5g} Pa", state.pressure_drop * scales.stress_Pa),
                fmt::format("{:.4g} due to the cell", state.additional_pressure_drop * scales.stress_Pa));
-  const double wanted = result.input.cell.bulk.young_modulus_kPa, reached = state.outcome.reached;
-  if (reached > 0 && reached < 1)
-    text += line("young modulus", fmt::format("{:.5g} kPa", wanted / reached), fmt::format("wanted {:.5g}", wanted));
+  if (const double reached = state.outcome.reached; reached > 0 && reached < 1) {
+    const Cell& cell = result.input.cell;
+    const auto modulus = [&](std::string_view name, const std::optional<double>& wanted, std::string_view unit) {
+      if (!wanted) return;
+      text += line(name, fmt::format("{:.5g} {}", *wanted / reached, unit), fmt::format("wanted {:.5g}", *wanted));
+    };
+    modulus("young modulus", cell.bulk.young_modulus_kPa, "kPa");
+    modulus("cortex modulus", cell.cortex.modulus_mN_per_m, "mN/m");
+  }
   if (std::isfinite(state.estimated_error))
     text += line("estimated error", fmt::format("{:.1e}", state.estimated_error),
                  fmt::format("of the deformation, wanted {:.1e}", result.problem.accuracy));

@@ -19,16 +19,23 @@ struct Flow {
   double density_kg_per_m3 = 0;
 };
 
-/// The elastic interior of the cell.
+/// The interior of the cell.
 struct BulkCase {
   BulkLaw law = BulkLaw::neo_hookean;
-  double young_modulus_kPa = 0;
-  std::optional<double> mooney_share;
+  std::optional<double> young_modulus_kPa, mooney_share;
+};
+
+/// The cell's surface. Tension is given in mN/m or as a share of the modulus, not both.
+struct CortexCase {
+  CortexLaw law = CortexLaw::none;
+  std::optional<double> modulus_mN_per_m, tension_mN_per_m, tension_ratio;
+  double bending_kBT = 0;
 };
 
 struct Cell {
   double radius_um = 0;
   BulkCase bulk;
+  CortexCase cortex;
 };
 
 struct Numerics {

@@ -29,7 +29,7 @@ std::string_view name_of(const Parameter& p) { return p.key.substr(p.key.rfind('
 std::string when_not_given(const Parameter& p) {
   std::string text = fallback_text(p);
   if (!p.alternative.empty()) text += fmt::format(", or {}", p.alternative);
-  if (p.only_for) text += fmt::format(", only for {} = \"{}\"", p.only_for->key, p.only_for->option);
+  if (p.only_for) text += fmt::format(", only for {}", condition_text(*p.only_for));
   return text;
 }
 

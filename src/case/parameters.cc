@@ -30,7 +30,8 @@ Choice choice(std::vector<std::string_view> options, int fallback) {
   [](auto& c) -> auto& { return c.path; }
 
 constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "power-law"},
-    mooney_rivlin{"cell.bulk.law", "mooney-rivlin"};
+    mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
+    has_shell{"cell.cortex.law", "none", true};
 
 // The options of a choice stand in the order of its enumeration (case/problem.h).
 // The ranges are wide; they catch wrong units and keep every dimensionless group finite.
@@ -66,12 +67,29 @@ const std::array table{
 
     Parameter{"cell.radius_um", "um", "radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius",
               number<FIELD(cell.radius_um)>({0.01, 5000})},
-    Parameter{"cell.bulk.law", "", "elastic law of the cell's interior",
-              choice<FIELD(cell.bulk.law)>({"linear", "neo-hookean", "mooney-rivlin"}, 1)},
+    Parameter{"cell.bulk.law", "", "elastic law of the cell's interior, none: a liquid, which makes the cell a shell",
+              choice<FIELD(cell.bulk.law)>({"linear", "neo-hookean", "mooney-rivlin", "none"}, 1)},
     Parameter{"cell.bulk.young_modulus_kPa", "kPa", "Young's modulus of the cell's interior, which is incompressible",
-              number<FIELD(cell.bulk.young_modulus_kPa)>({1e-6, 1e9})},
+              number<FIELD(cell.bulk.young_modulus_kPa)>({1e-6, 1e9}), has_bulk},
     Parameter{"cell.bulk.mooney_share", "", "share of the neo-hookean law in the mooney-rivlin one, the rest is linear",
               number<FIELD(cell.bulk.mooney_share)>({0, 1}, 0.5), mooney_rivlin},
+
+    Parameter{"cell.cortex.law", "", "elastic law of the cell's surface, the cortex",
+              choice<FIELD(cell.cortex.law)>(
+                  {"none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference"}, 0)},
+    Parameter{"cell.cortex.modulus_mN_per_m", "mN/m", "elastic modulus E2D of the cortex, Young's modulus x thickness",
+              number<FIELD(cell.cortex.modulus_mN_per_m)>({1e-6, 1e9}), has_shell},
+    Parameter{"cell.cortex.tension_mN_per_m",
+              "mN/m",
+              "surface tension of the cell",
+              number<FIELD(cell.cortex.tension_mN_per_m)>({0, 1e9}, 0),
+              {},
+              "cell.cortex.tension_ratio"},
+    Parameter{"cell.cortex.tension_ratio", "", "surface tension as a share of the modulus of the cortex",
+              number<FIELD(cell.cortex.tension_ratio)>({0, 1e3}), has_shell, "cell.cortex.tension_mN_per_m"},
+    Parameter{"cell.cortex.bending_kBT", "kBT",
+              "bending stiffness c_b of the cell's surface in units of k_B T at 25 degrees C (4.116e-21 J)",
+              number<FIELD(cell.cortex.bending_kBT)>({0, 1e12}, 0)},
 
     Parameter{"numerics.accuracy", "", "wanted relative accuracy of the deformation, mesh and degree are chosen for it",
               number<FIELD(numerics.accuracy)>({1e-7, 1e-1}, 1e-4)},
@@ -102,8 +120,20 @@ std::string_view chosen_option(const Case& c, std::string_view key) {
   return choice.options[static_cast<std::size_t>(choice.get(c))];
 }
 
+bool is_required(const Parameter& parameter) {
+  const auto* number = std::get_if<Number>(&parameter.value);
+  if (!number || number->fallback) return false;
+  const Parameter* other = find_parameter(parameter.alternative);
+  return !other || !std::get<Number>(other->value).fallback;
+}
+
 bool applies(const Parameter& parameter, const Case& c) {
-  return !parameter.only_for || chosen_option(c, parameter.only_for->key) == parameter.only_for->option;
+  const auto& condition = parameter.only_for;
+  return !condition || (chosen_option(c, condition->key) == condition->option) != condition->negated;
+}
+
+std::string condition_text(const Condition& condition) {
+  return fmt::format("{} {} \"{}\"", condition.key, condition.negated ? "other than" : "=", condition.option);
 }
 
 std::string allowed_values(const Parameter& parameter) {
@@ -116,8 +146,10 @@ std::string allowed_values(const Parameter& parameter) {
 }
 
 std::string fallback_text(const Parameter& parameter) {
-  if (const auto* number = std::get_if<Number>(&parameter.value))
-    return number->fallback ? short_number(*number->fallback) : "required";
+  if (const auto* number = std::get_if<Number>(&parameter.value)) {
+    if (number->fallback) return short_number(*number->fallback);
+    return is_required(parameter) ? "required" : "not given";
+  }
   const auto& choice = std::get<Choice>(parameter.value);
   return choice.fallback ? fmt::format("\"{}\"", choice.options[static_cast<std::size_t>(*choice.fallback)])
                          : "required";

@@ -33,9 +33,10 @@ struct Choice {
   void (*set)(Case&, int);
 };
 
-/// The parameter has an effect only if the choice `key` has the value `option`.
+/// The parameter has an effect only if the choice `key` has the value `option`, or only if it has another one.
 struct Condition {
   std::string_view key, option;
+  bool negated = false;
 };
 
 struct Parameter {
@@ -44,7 +45,7 @@ struct Parameter {
   std::string_view sentence;  ///< what it is
   std::variant<Number, Choice> value;
   std::optional<Condition> only_for = {};
-  std::string_view alternative = {};  ///< the key that may stand instead: exactly one of the two is given
+  std::string_view alternative = {};  ///< the key that may stand instead; without a fallback exactly one is given
 };
 
 /// All parameters in the order in which they are documented and written.
@@ -56,8 +57,14 @@ const Parameter* find_parameter(std::string_view key);
 /// The option of a choice that a case has, e.g. "newtonian" for "flow.law". The key must be that of a choice.
 std::string_view chosen_option(const Case&, std::string_view key);
 
+/// Whether it must be given where it has an effect, itself or its alternative.
+bool is_required(const Parameter&);
+
 /// Whether the parameter has an effect in this case (its law is the chosen one).
 bool applies(const Parameter&, const Case&);
+
+/// For example: cell.bulk.law = "mooney-rivlin", or: cell.bulk.law other than "none".
+std::string condition_text(const Condition&);
 
 /// What may be given, for messages and help: `0.1 .. 1000 um`, or `"newtonian" or "power-law"`.
 std::string allowed_values(const Parameter&);

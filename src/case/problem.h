@@ -10,7 +10,12 @@ enum class LiquidLaw { newtonian, power_law };
 
 /// Bulk laws of the cell (docs/theory.md, eq:bulk): `linear` is the Euler-Almansi law of Mokbel et al. 2017,
 /// the pure c2 member of the Mooney-Rivlin family; `neo_hookean` is the pure c1 member.
-enum class BulkLaw { linear, neo_hookean, mooney_rivlin };
+/// `none`: no elastic interior but a liquid at rest, a pure shell.
+enum class BulkLaw { linear, neo_hookean, mooney_rivlin, none };
+
+/// Elastic laws of the cell's surface (docs/theory.md, eq:cortex): `linear`, `thin_shell`, `neo_hookean` are those of
+/// Mokbel et al. 2017; `neo_hookean_reference` is the usual membrane law with its energy per reference area.
+enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_reference };
 
 /// Physical size of the dimensionless units, SI.
 struct Scales {
@@ -29,7 +34,11 @@ struct Problem {
   BulkLaw bulk = BulkLaw::neo_hookean;
   double shear_modulus = 10;  ///< mu / S = E / (3 S)
   double mooney_share = 1;    ///< a of the Mooney-Rivlin law: a (B - I) + (1 - a) (I - B^-1)
-  double accuracy = 1e-4;     ///< wanted relative accuracy of the deformation
+  CortexLaw cortex = CortexLaw::none;
+  double cortex_modulus = 0;     ///< E2D / (S R)
+  double tension = 0;            ///< gamma / (S R)
+  double bending_stiffness = 0;  ///< c_b / (S R^3)
+  double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation
 };
 
 }  // namespace rheocyte

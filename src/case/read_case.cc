@@ -119,9 +119,9 @@ void check_effect(const Case& c, const Parameter& parameter, GivenByKey& keys) {
     keys.erase(given);
     return;
   }
-  refuse(given->second,
-         fmt::format("{} has no effect, because {} is \"{}\"; remove it or choose \"{}\".", stated(given->second),
-                     condition.key, chosen_option(c, condition.key), condition.option));
+  const auto choice = condition.negated ? "another law" : fmt::format("\"{}\"", condition.option);
+  refuse(given->second, fmt::format("{} has no effect, because {} is \"{}\"; remove it or choose {}.",
+                                    stated(given->second), condition.key, chosen_option(c, condition.key), choice));
 }
 
 // Of two alternatives exactly one stays; a setting wins over the file.
@@ -142,9 +142,9 @@ void read_number(Case& c, const Parameter& parameter, const GivenByKey& keys, co
   if (const auto given = keys.find(parameter.key); given != keys.end()) return set_number(c, parameter, given->second);
   if (!applies(parameter, c) || keys.contains(parameter.alternative)) return;
   if (number.fallback) return number.set(c, *number.fallback);
+  if (!is_required(parameter)) return;
   const auto instead = parameter.alternative.empty() ? "" : fmt::format(" (or {})", parameter.alternative);
-  const auto reason =
-      parameter.only_for ? fmt::format(" for {} = \"{}\"", parameter.only_for->key, parameter.only_for->option) : "";
+  const auto reason = parameter.only_for ? fmt::format(" for {}", condition_text(*parameter.only_for)) : "";
   throw UserError(fmt::format("{}: the key {}{} is missing{}; it can be {} ({}).", name, parameter.key, instead, reason,
                               allowed_values(parameter), parameter.sentence));
 }
@@ -156,6 +156,17 @@ void check_cell_in_tube(const Case& c, const GivenByKey& keys) {
   refuse(given, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the tube radius {:.6g} um.",
                             stated(given), least_radius_ratio * R, greatest_radius_ratio * R, least_radius_ratio,
                             greatest_radius_ratio, R));
+}
+
+// A liquid interior at rest holds no shear stress: the surface must, or the liquid drags it round without end.
+void check_cell_is_elastic(const Case& c, const GivenByKey& keys) {
+  if (c.cell.bulk.law != BulkLaw::none || c.cell.cortex.law != CortexLaw::none) return;
+  const auto& given = keys.at("cell.bulk.law");
+  const bool drop = c.cell.cortex.tension_mN_per_m.value_or(0) > 0 || c.cell.cortex.bending_kBT > 0;
+  refuse(given, fmt::format("{} and cell.cortex.law = \"none\" leave {}; choose a law for the bulk or the cortex.",
+                            stated(given),
+                            drop ? "a drop, which circulates inside and has no stationary shape of this kind"
+                                 : "a cell without any elasticity or tension"));
 }
 
 }  // namespace
@@ -177,6 +188,7 @@ Case parse_case(std::string_view text, const std::string& name, std::span<const 
   for (const auto& parameter : parameters())
     if (std::holds_alternative<Number>(parameter.value)) read_number(c, parameter, keys, name);
   check_cell_in_tube(c, keys);
+  check_cell_is_elastic(c, keys);
   return c;
 }
 

@@ -7,13 +7,14 @@ namespace rheocyte {
 
 namespace {
 
-constexpr double m_per_um = 1e-6, m3_per_ul = 1e-9, Pas_per_mPas = 1e-3, Pa_per_kPa = 1e3;
+constexpr double m_per_um = 1e-6, m3_per_ul = 1e-9, Pas_per_mPas = 1e-3, Pa_per_kPa = 1e3, N_per_mN = 1e-3;
 
 double mooney_share(const BulkCase& bulk) {
   switch (bulk.law) {
     case BulkLaw::linear: return 0;
     case BulkLaw::neo_hookean: return 1;
     case BulkLaw::mooney_rivlin: return bulk.mooney_share.value();
+    case BulkLaw::none: return 1;
   }
   return 1;
 }
@@ -22,6 +23,12 @@ double mooney_share(const BulkCase& bulk) {
 
 double tube_radius_um(const Case& c) {
   return c.channel.radius_um ? *c.channel.radius_um : tube_radius_per_channel_width * c.channel.width_um.value();
+}
+
+double tension_mN_per_m(const Case& c) {
+  const CortexCase& cortex = c.cell.cortex;
+  if (cortex.tension_ratio) return *cortex.tension_ratio * cortex.modulus_mN_per_m.value();
+  return cortex.tension_mN_per_m.value_or(0);
 }
 
 Scales scales_of(const Case& c) {
@@ -35,7 +42,7 @@ Scales scales_of(const Case& c) {
 Problem problem_of(const Case& c) {
   const Scales scales = scales_of(c);
   const double U = scales.velocity_m_per_s, S = scales.stress_Pa;
-  const double E = c.cell.bulk.young_modulus_kPa * Pa_per_kPa;
+  const double E = c.cell.bulk.young_modulus_kPa.value_or(0) * Pa_per_kPa, R = scales.length_m;
 
   Problem problem;
   problem.radius_ratio = c.cell.radius_um / tube_radius_um(c);
@@ -48,6 +55,10 @@ Problem problem_of(const Case& c) {
   problem.bulk = c.cell.bulk.law;
   problem.shear_modulus = E / (3 * S);
   problem.mooney_share = mooney_share(c.cell.bulk);
+  problem.cortex = c.cell.cortex.law;
+  problem.cortex_modulus = c.cell.cortex.modulus_mN_per_m.value_or(0) * N_per_mN / (S * R);
+  problem.tension = tension_mN_per_m(c) * N_per_mN / (S * R);
+  problem.bending_stiffness = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R);
   problem.accuracy = c.numerics.accuracy;
   return problem;
 }

@@ -10,6 +10,12 @@ inline constexpr double tube_radius_per_channel_width = 0.547;
 /// The cell's radius must lie between these shares of the tube's.
 inline constexpr double least_radius_ratio = 0.05, greatest_radius_ratio = 0.95;
 
+/// k_B T at 25 degrees C, the unit of bending stiffness.
+inline constexpr double thermal_energy_J = 1.380649e-23 * 298.15;
+
+/// Surface tension of the cell, given or a share of the modulus of its cortex.
+double tension_mN_per_m(const Case&);
+
 /// Radius of the tube in um, given or mapped from the width of the square channel.
 double tube_radius_um(const Case&);
 

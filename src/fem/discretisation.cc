@@ -21,8 +21,8 @@ std::vector<int> edge_nodes(const MeshElement& element, const std::vector<int>& 
 
 }  // namespace
 
-Discretisation::Discretisation(const ChannelMesh& mesh, int degree, const Liquid& liquid)
-    : mesh_(&mesh), reference_(degree), nodes_(mesh.number_nodes(degree)), points_(nodes_.count) {
+Discretisation::Discretisation(const ChannelMesh& mesh, int degree, const Liquid& liquid, Interior interior)
+    : mesh_(&mesh), interior_(interior), reference_(degree), nodes_(mesh.number_nodes(degree)), points_(nodes_.count) {
   const VectorXd& s = reference_.nodes_1d;
   for (std::size_t e = 0; e < mesh.elements().size(); ++e) {
     for (int k = 0; k < reference_.nodes(); ++k) {
@@ -69,6 +69,7 @@ void Discretisation::number_unknowns(const std::vector<NodeFlags>& flags, const 
       const NodeFlags& f = flags[i];
       if (f.interior != interior) continue;
       if (f.cell) {
+        if (interior_ == Interior::liquid && !f.surface) continue;
         displacement_[2 * i] = unknowns_++;
         if (!f.axis) displacement_[2 * i + 1] = unknowns_++;
       } else {
@@ -77,13 +78,19 @@ void Discretisation::number_unknowns(const std::vector<NodeFlags>& flags, const 
       }
     }
   };
+  const auto has_pressures = [&](int e) {
+    return interior_ == Interior::elastic || !is_cell(mesh_->elements()[e].block);
+  };
   number_nodes(false);
-  for (int e = 0; e < elements; ++e) pressure_[e * modes] = unknowns_++;
+  for (int e = 0; e < elements; ++e) {
+    if (has_pressures(e)) pressure_[e * modes] = unknowns_++;
+  }
   cell_velocity_ = unknowns_++;
+  if (interior_ == Interior::liquid) inner_pressure_ = unknowns_++;
   outer_unknowns_ = unknowns_;
   number_nodes(true);
   for (int e = 0; e < elements; ++e) {
-    for (int k = 1; k < modes; ++k) pressure_[e * modes + k] = unknowns_++;
+    for (int k = 1; k < modes && has_pressures(e); ++k) pressure_[e * modes + k] = unknowns_++;
   }
   // Walls and inlet move backwards past the cell.
   for (int i = 0; i < nodes_.count; ++i) {
@@ -131,6 +138,7 @@ std::vector<Place<double>> Discretisation::reference_places(int element) const {
 ElementUnknowns Discretisation::cell_element(int element) const {
   const auto& nodes = nodes_.of_element[element];
   ElementUnknowns unknowns;
+  if (interior_ == Interior::liquid) return unknowns;
   unknowns.position_columns = reference_.nodes();
   unknowns.position = reference_.shape;
   unknowns.position_at_nodes = MatrixXd::Identity(reference_.nodes(), reference_.nodes());

@@ -1,7 +1,8 @@
 // Unknowns of the stationary problem on one mesh at one degree, and where each element finds its own.
 //
 // Unknown: displacement (x, r) of the cell's nodes; velocity (x, r) of the liquid's nodes relative to the cell;
-// discontinuous pressures everywhere; the cell's velocity v_cell. No unknown: the liquid's mesh (it follows the
+// discontinuous pressures everywhere; the cell's velocity v_cell. In a pure shell only the surface's nodes have
+// displacements, and one pressure fills the cell. No unknown: the liquid's mesh (it follows the
 // surface along spokes, docs/theory.md eq:spokes) and everything that a boundary condition fixes.
 #pragma once
 #include <vector>
@@ -21,6 +22,9 @@ struct Slot {
   double value(const VectorXd& unknowns) const { return constant + (unknown >= 0 ? factor * unknowns(unknown) : 0.0); }
 };
 
+/// What fills the cell: an elastic solid, or a liquid at rest of which only the pressure matters (a pure shell).
+enum class Interior { elastic, liquid };
+
 /// What one element knows. Column slots: displacements x then r of `position_columns` functions, in the liquid
 /// velocities x then r of the nodes, pressures. Row slots: x-tests, r-tests of the nodes, pressure tests.
 struct ElementUnknowns {
@@ -31,6 +35,9 @@ struct ElementUnknowns {
   std::vector<Place<double>> reference;  ///< undeformed map at the quadrature points
   std::vector<Slot> columns;
   std::vector<int> rows;  ///< unknown whose equation the row belongs to, or -1
+
+  /// An element of a liquid interior: nothing to integrate.
+  bool is_empty() const { return columns.empty(); }
 };
 
 /// An edge of the mesh on the cell's surface, the inlet or the outlet.
@@ -41,7 +48,7 @@ struct BoundaryEdge {
 
 class Discretisation {
  public:
-  Discretisation(const ChannelMesh&, int degree, const Liquid&);
+  Discretisation(const ChannelMesh&, int degree, const Liquid&, Interior = Interior::elastic);
 
   const ChannelMesh& mesh() const { return *mesh_; }
   const ReferenceElement& reference() const { return reference_; }
@@ -53,6 +60,8 @@ class Discretisation {
   /// Unknowns up to this number couple elements; the others belong to one element and are condensed.
   int outer_unknowns() const { return outer_unknowns_; }
   int cell_velocity() const { return cell_velocity_; }
+  /// Pressure of a liquid interior, above that of the sphere at rest; -1 in an elastic one.
+  int inner_pressure() const { return inner_pressure_; }
   /// Unknown of component c (0: x, 1: r) of a node's displacement, -1 if fixed or not in the cell.
   int displacement(int node, int c) const { return displacement_[2 * node + c]; }
   const Slot& velocity(int node, int c) const { return velocity_[2 * node + c]; }
@@ -77,12 +86,13 @@ class Discretisation {
   std::vector<Place<double>> reference_places(int element) const;
 
   const ChannelMesh* mesh_;
+  Interior interior_;
   ReferenceElement reference_;
   NodeNumbers nodes_;
   std::vector<Point> points_;
   std::vector<int> displacement_, pressure_;
   std::vector<Slot> velocity_;
-  int unknowns_ = 0, outer_unknowns_ = 0, cell_velocity_ = -1;
+  int unknowns_ = 0, outer_unknowns_ = 0, cell_velocity_ = -1, inner_pressure_ = -1;
   std::vector<BoundaryEdge> surface_, inlet_, outlet_;
   std::vector<ElementUnknowns> elements_;
 };

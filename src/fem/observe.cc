@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "laws/surface_form.h"
+
 namespace rheocyte {
 namespace {
 
@@ -29,7 +31,8 @@ ElementFields element_fields(const Discretisation& space, const VectorXd& unknow
     if (liquid) return space.velocity(node, c).value(unknowns);
     return current_point(space, unknowns, node)(c) - space.node_points()[node](c);
   });
-  fields.pressure.resize(space.reference().pressures());
+  fields.pressure.setZero(space.reference().pressures());
+  if (space.elements()[e].is_empty()) return fields;
   for (int k = 0; k < fields.pressure.size(); ++k) fields.pressure(k) = unknowns(space.pressure(e, k));
   return fields;
 }
@@ -83,31 +86,46 @@ Contour contour(const Discretisation& space, const VectorXd& unknowns) {
   return curve;
 }
 
-SurfaceStretch surface_stretch(const Discretisation& space, const VectorXd& unknowns, int per_edge) {
+SurfaceState surface_state(const Discretisation& space, const VectorXd& unknowns, int per_edge) {
   const ReferenceElement& reference = space.reference();
   const VectorXd at = VectorXd::LinSpaced(per_edge, 0, 1);
-  const MatrixXd value_at = reference.lagrange(at), slope_at = reference.lagrange_derivative(at);
-  const int edges = int(space.surface().size());
-  SurfaceStretch stretch{VectorXd(edges * per_edge), VectorXd(edges * per_edge)};
-  for (int e = 0; e < edges; ++e) {
-    const auto& nodes = space.surface()[e].nodes;
-    const auto now = nodal_field(nodes, [&](int n, int c) { return current_point(space, unknowns, n)(c); });
-    const auto before = nodal_field(nodes, [&](int n, int c) { return space.node_points()[n](c); });
-    const Eigen::MatrixX2d t = slope_at * now, t0 = slope_at * before;
-    const Eigen::VectorXd r = value_at * now.col(1), r0 = value_at * before.col(1);
-    for (int q = 0; q < per_edge; ++q) {
-      const int i = e * per_edge + q;
-      stretch.meridional(i) = t.row(q).norm() / t0.row(q).norm();
-      // On the axis both stretches are equal.
-      stretch.hoop(i) = r0(q) > 1e-9 ? r(q) / r0(q) : stretch.meridional(i);
+  const MatrixXd value = reference.lagrange(at), slope = reference.lagrange_derivative(at);
+  const MatrixXd second = slope * reference.lagrange_derivative(reference.nodes_1d);
+  const int points = int(space.surface().size()) * per_edge;
+  SurfaceState state;
+  state.angle.resize(points);
+  for (auto* field : {&state.point, &state.stretch, &state.curvature}) field->resize(points, 2);
+  int i = 0;
+  for (const BoundaryEdge& edge : space.surface()) {
+    const auto now = nodal_field(edge.nodes, [&](int n, int c) { return current_point(space, unknowns, n)(c); });
+    const auto rest = nodal_field(edge.nodes, [&](int n, int c) { return space.node_points()[n](c); });
+    const Eigen::MatrixX2d x = value * now, x_t = slope * now, x_tt = second * now, X = value * rest, X_t = slope * rest;
+    for (int q = 0; q < per_edge; ++q, ++i) {
+      const Meridian<double> here{x_t(q, 0), x_t(q, 1), x_tt(q, 0), x_tt(q, 1), x(q, 1)};
+      const auto [along, around] = here.curvatures();
+      const double stretch = here.speed() / X_t.row(q).norm();
+      const bool pole = X(q, 1) < 1e-9;  // where both directions are equal
+      state.angle(i) = std::atan2(X(q, 1), X(q, 0));
+      state.point.row(i) = x.row(q);
+      state.stretch.row(i) << stretch, pole ? stretch : x(q, 1) / X(q, 1);
+      state.curvature.row(i) << along, pole ? along : around;
     }
   }
-  return stretch;
+  return state;
 }
 
-double least_biot_ratio(const SurfaceStretch& stretch) {
+Eigen::MatrixX2d surface_tensions(const Cortex& cortex, const SurfaceState& state) {
+  Eigen::MatrixX2d tensions(state.stretch.rows(), 2);
+  for (int i = 0; i < tensions.rows(); ++i) {
+    const auto T = principal_tensions(cortex, state.stretch(i, 0), state.stretch(i, 1));
+    tensions.row(i) << T[0], T[1];
+  }
+  return tensions;
+}
+
+double least_biot_ratio(const SurfaceState& state) {
   // Incompressible: the normal stretch is 1 / (meridional hoop).
-  return (stretch.meridional.array().square() * stretch.hoop.array()).minCoeff();
+  return (state.stretch.col(0).array().square() * state.stretch.col(1).array()).minCoeff();
 }
 
 double inlet_pressure(const Discretisation& space, const VectorXd& unknowns) {
@@ -155,6 +173,7 @@ VectorXd transfer(const Discretisation& from, const VectorXd& unknowns, const Di
   const int n = int(reference.nodes_1d.size()), m = int(reference.points_1d.size());
   VectorXd target = VectorXd::Zero(to.unknowns());
   target(to.cell_velocity()) = unknowns(from.cell_velocity());
+  if (to.inner_pressure() >= 0) target(to.inner_pressure()) = unknowns(from.inner_pressure());
   for (int e = 0; e < int(to.elements().size()); ++e) {
     const MeshElement& self = to.mesh().elements()[e];
     const auto& nodes = to.nodes().of_element[e];
@@ -166,6 +185,7 @@ VectorXd transfer(const Discretisation& from, const VectorXd& unknowns, const Di
         target(unknown) = from.reference().interpolate(source[f].vector.col(c), xi1, xi2);
       }
     });
+    if (to.elements()[e].is_empty()) continue;
     VectorXd pressure(m * m);
     locate(from.mesh(), self, reference.points_1d, [&](int i, int j, double xi1, double xi2, int f) {
       pressure(j * m + i) = from.reference().pressure_modes(xi1, xi2).dot(source[f].pressure);

@@ -2,6 +2,7 @@
 #pragma once
 #include "fem/discretisation.h"
 #include "fem/element_integrals.h"
+#include "laws/cortex.h"
 #include "shape/contour.h"
 
 namespace rheocyte {
@@ -9,18 +10,23 @@ namespace rheocyte {
 /// Meridian of the deformed cell from front to rear pole, lengths in R.
 Contour contour(const Discretisation&, const VectorXd& unknowns);
 
-/// Principal stretches of the surface at points along the meridian, front pole first.
-struct SurfaceStretch {
-  VectorXd meridional;  ///< ds/ds0
-  VectorXd hoop;        ///< r/r0'
+/// The surface at points along the meridian, front pole first; columns: meridional, hoop.
+struct SurfaceState {
+  VectorXd angle;             ///< of the undeformed point, from the flow direction
+  Eigen::MatrixX2d point;     ///< current (x, r), in R
+  Eigen::MatrixX2d stretch;   ///< ds/ds0, r/r0'
+  Eigen::MatrixX2d curvature; ///< in 1/R; both 1/a for a sphere of radius a
 };
-/// `per_edge` equidistant points on each surface edge, ends included.
-SurfaceStretch surface_stretch(const Discretisation&, const VectorXd& unknowns, int per_edge);
+/// `per_edge` equidistant points on each surface edge, ends included: each vertex appears twice.
+SurfaceState surface_state(const Discretisation&, const VectorXd& unknowns, int per_edge);
+
+/// Principal Cauchy tensions at those points, in S R.
+Eigen::MatrixX2d surface_tensions(const Cortex&, const SurfaceState&);
 
 /// Least ratio of meridional to normal stretch along the surface. A free surface of any incompressible
 /// Mooney-Rivlin solid loses stability against short meridional wrinkles below `biot_limit` (Biot 1963;
 /// docs/theory.md, eq:biot); the boundary value problem is then ill-posed and results depend on the mesh.
-double least_biot_ratio(const SurfaceStretch&);
+double least_biot_ratio(const SurfaceState&);
 /// Real root of x^3 + x^2 + 3 x = 1.
 inline constexpr double biot_limit = 0.29559774252208477;
 

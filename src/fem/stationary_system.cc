@@ -4,8 +4,6 @@
 #include <chrono>
 #include <limits>
 
-#include "fem/observe.h"
-
 namespace rheocyte {
 namespace {
 
@@ -82,7 +80,7 @@ StationarySystem::Condensed::Condensed(const ElementUnknowns& element, int outer
   }
 }
 
-StationarySystem::StationarySystem(const Discretisation& space) : space_(space) {
+StationarySystem::StationarySystem(const Discretisation& space) : space_(space), surface_(space) {
   std::vector<std::pair<int, int>> entries;
   for (const ElementUnknowns& element : space.elements()) {
     const Condensed& c = condensed_.emplace_back(element, space.outer_unknowns());
@@ -91,12 +89,10 @@ StationarySystem::StationarySystem(const Discretisation& space) : space_(space) 
     }
   }
   for (int i = 0; i < space.outer_unknowns(); ++i) entries.emplace_back(i, i);
-  for (const BoundaryEdge& edge : space.surface()) {
-    for (const int node : edge.nodes) {
-      for (int c = 0; c < 2; ++c) {
-        if (space.displacement(node, c) >= 0) {
-          entries.emplace_back(space.cell_velocity(), space.displacement(node, c));
-        }
+  for (const SurfacePatch& patch : surface_.patches()) {
+    for (const int i : patch.unknowns) {
+      for (const int j : patch.unknowns) {
+        if (i >= 0 && j >= 0) entries.emplace_back(i, j);
       }
     }
   }
@@ -104,6 +100,12 @@ StationarySystem::StationarySystem(const Discretisation& space) : space_(space) 
   for (Condensed& c : condensed_) {
     for (const int j : c.outer_unknown) {
       for (const int i : c.outer_equation) c.position.push_back(matrix_->position(i, j));
+    }
+  }
+  for (const SurfacePatch& patch : surface_.patches()) {
+    auto& positions = surface_position_.emplace_back();
+    for (const int i : patch.unknowns) {
+      for (const int j : patch.unknowns) positions.push_back(i < 0 || j < 0 ? -1 : matrix_->position(i, j));
     }
   }
   lu_ = std::make_unique<SparseLU>(*matrix_);
@@ -122,6 +124,7 @@ VectorXd StationarySystem::residual(const Media& media, const VectorXd& unknowns
   VectorXd total = VectorXd::Zero(space_.unknowns());
   least_det = std::numeric_limits<double>::infinity();
   for (int e = 0; e < int(condensed_.size()); ++e) {
+    if (space_.elements()[e].is_empty()) continue;
     integrate_element(space_, e, media, unknowns, Want::residual, element_);
     least_det = std::min(least_det, element_.least_det);
     const auto& rows = space_.elements()[e].rows;
@@ -130,7 +133,7 @@ VectorXd StationarySystem::residual(const Media& media, const VectorXd& unknowns
     }
   }
   add_outlet_pressure(media.liquid, total);
-  add_barycentre(unknowns, total, false);
+  add_surface(media.cortex, unknowns, Want::residual, total);
   return total;
 }
 
@@ -140,6 +143,7 @@ VectorXd StationarySystem::linearise(const Media& media, const VectorXd& unknown
   std::fill(matrix_->value.begin(), matrix_->value.end(), 0.0);
   least_det = std::numeric_limits<double>::infinity();
   for (int e = 0; e < int(condensed_.size()); ++e) {
+    if (space_.elements()[e].is_empty()) continue;
     {
       const Stopwatch watch(work_.assembly_s);
       integrate_element(space_, e, media, unknowns, Want::residual_and_tangent, element_);
@@ -153,7 +157,7 @@ VectorXd StationarySystem::linearise(const Media& media, const VectorXd& unknown
     condense(condensed_[e], element_.tangent);
   }
   add_outlet_pressure(media.liquid, total);
-  add_barycentre(unknowns, total, true);
+  add_surface(media.cortex, unknowns, Want::residual_and_tangent, total);
   const Stopwatch watch(work_.sparse_s);
   factorised = lu_->factorise();
   work_.sparse_flops = lu_->flops();
@@ -217,27 +221,17 @@ void StationarySystem::add_outlet_pressure(const Liquid& liquid, VectorXd& resid
   }
 }
 
-void StationarySystem::add_barycentre(const VectorXd& unknowns, VectorXd& residual, bool tangent) {
-  using Dual = ceres::Jet<double, 3>;
-  const ReferenceElement& reference = space_.reference();
-  const MatrixXd value = reference.lagrange(reference.points_1d);
-  const MatrixXd slope = reference.lagrange_derivative(reference.points_1d);
-  const int row = space_.cell_velocity(), n = int(value.cols());
-  const auto add = [&](int unknown, double entry) {
-    if (unknown >= 0 && tangent) matrix_->value[matrix_->position(row, unknown)] += entry;
-  };
-  for (const BoundaryEdge& edge : space_.surface()) {
-    Eigen::MatrixX2d x(n, 2);
-    for (int k = 0; k < n; ++k) x.row(k) = current_point(space_, unknowns, edge.nodes[k]).transpose();
-    for (int q = 0; q < value.rows(); ++q) {
-      const double weight = reference.weights_1d(q);
-      const std::array<Dual, 3> f = {Dual(value.row(q) * x.col(0), 0), Dual(value.row(q) * x.col(1), 1),
-                                     Dual(slope.row(q) * x.col(1), 2)};
-      const Dual moment = axial_moment(f);
-      residual(row) += weight * moment.a;
-      for (int k = 0; k < n; ++k) {
-        add(space_.displacement(edge.nodes[k], 0), weight * moment.v(0) * value(q, k));
-        add(space_.displacement(edge.nodes[k], 1), weight * (moment.v(1) * value(q, k) + moment.v(2) * slope(q, k)));
+void StationarySystem::add_surface(const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& residual) {
+  const Stopwatch watch(work_.assembly_s);
+  for (int k = 0; k < surface_.active(cortex); ++k) {
+    surface_.integrate(k, cortex, unknowns, want, element_);
+    const auto& rows = surface_.patches()[k].unknowns;
+    for (int i = 0; i < int(rows.size()); ++i) {
+      if (rows[i] < 0) continue;
+      residual(rows[i]) += element_.residual(i);
+      if (want == Want::residual) continue;
+      for (int j = 0; j < int(rows.size()); ++j) {
+        if (rows[j] >= 0) matrix_->value[surface_position_[k][i * rows.size() + j]] += element_.tangent(i, j);
       }
     }
   }
@@ -246,8 +240,9 @@ void StationarySystem::add_barycentre(const VectorXd& unknowns, VectorXd& residu
 VectorXd StationarySystem::apply_tangent(const Media& media, const VectorXd& unknowns, const VectorXd& direction) {
   VectorXd product = VectorXd::Zero(space_.unknowns());
   for (int e = 0; e < int(condensed_.size()); ++e) {
-    integrate_element(space_, e, media, unknowns, Want::residual_and_tangent, element_);
     const ElementUnknowns& element = space_.elements()[e];
+    if (element.is_empty()) continue;
+    integrate_element(space_, e, media, unknowns, Want::residual_and_tangent, element_);
     VectorXd local(element.columns.size());
     for (int j = 0; j < local.size(); ++j) {
       const Slot& slot = element.columns[j];
@@ -258,16 +253,15 @@ VectorXd StationarySystem::apply_tangent(const Media& media, const VectorXd& unk
       if (element.rows[i] >= 0) product(element.rows[i]) += change(i);
     }
   }
-  const std::vector<double> kept = matrix_->value;  // the factors in use refine their solutions with these
-  std::fill(matrix_->value.begin(), matrix_->value.end(), 0.0);
-  VectorXd ignored = VectorXd::Zero(space_.unknowns());
-  add_barycentre(unknowns, ignored, true);
-  for (int j = 0; j < space_.outer_unknowns(); ++j) {
-    for (int k = matrix_->column_start[j]; k < matrix_->column_start[j + 1]; ++k) {
-      product(matrix_->row[k]) += matrix_->value[k] * direction(j);
+  for (int k = 0; k < surface_.active(media.cortex); ++k) {
+    surface_.integrate(k, media.cortex, unknowns, Want::residual_and_tangent, element_);
+    const auto& rows = surface_.patches()[k].unknowns;
+    for (int i = 0; i < int(rows.size()); ++i) {
+      for (int j = 0; j < int(rows.size()); ++j) {
+        if (rows[i] >= 0 && rows[j] >= 0) product(rows[i]) += element_.tangent(i, j) * direction(rows[j]);
+      }
     }
   }
-  matrix_->value = kept;
   return product;
 }
 

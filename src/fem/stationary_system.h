@@ -5,6 +5,7 @@
 
 #include "fem/element_integrals.h"
 #include "fem/sparse_lu.h"
+#include "fem/surface_integrals.h"
 
 namespace rheocyte {
 
@@ -48,11 +49,14 @@ class StationarySystem {
   /// Traction of the outlet, whose pressure is chosen so that the undisturbed pressure vanishes at the cell: the
   /// pressures of cell and liquid then stay of the size of the stresses that deform the cell.
   void add_outlet_pressure(const Liquid&, VectorXd& residual) const;
-  void add_barycentre(const VectorXd& unknowns, VectorXd& residual, bool tangent);
+  /// Cortex, volume of a pure shell, and barycentre.
+  void add_surface(const Cortex&, const VectorXd& unknowns, Want, VectorXd& residual);
   void condense(Condensed&, const MatrixXd& tangent);
 
   const Discretisation& space_;
+  SurfaceIntegrals surface_;
   std::vector<Condensed> condensed_;
+  std::vector<std::vector<int>> surface_position_;  ///< in the sparse matrix, patch by patch: unknowns x unknowns
   std::unique_ptr<SparseMatrix> matrix_;
   std::unique_ptr<SparseLU> lu_;
   ElementSystem element_;

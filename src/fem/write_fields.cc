@@ -9,9 +9,11 @@
 #include <deal.II/numerics/data_out.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
+#include "fem/observe.h"
 #include "fem/topology.h"
 
 namespace rheocyte {
@@ -63,6 +65,31 @@ class ToNodes {
   Eigen::PartialPivLU<MatrixXd> mass_;
 };
 
+/// A liquid interior has no displacement of its own: for the eye it follows the surface along spokes from the centre.
+/// Nodes x 2.
+Eigen::MatrixX2d spoke_displacement(const Discretisation& space, const VectorXd& unknowns, int e) {
+  const SurfaceState surface = surface_state(space, unknowns, 65);
+  const double radius = space.mesh().geometry().radius();
+  const auto& nodes = space.nodes().of_element[e];
+  Eigen::MatrixX2d displacement(nodes.size(), 2);
+  for (int k = 0; k < int(nodes.size()); ++k) {
+    const Point& X = space.node_points()[nodes[k]];
+    if (space.displacement(nodes[k], 0) >= 0) {
+      displacement.row(k) = (current_point(space, unknowns, nodes[k]) - X).transpose();
+      continue;
+    }
+    const double angle = std::atan2(X(1), X(0));
+    const double* begin = surface.angle.data();
+    const Eigen::Index i = std::clamp<Eigen::Index>(
+        std::upper_bound(begin, begin + surface.angle.size(), angle) - begin, 1, surface.angle.size() - 1);
+    const double gap = surface.angle(i) - surface.angle(i - 1);
+    const double share = gap > 0 ? std::clamp((angle - surface.angle(i - 1)) / gap, 0.0, 1.0) : 0;
+    const Point foot = (1 - share) * surface.point.row(i - 1) + share * surface.point.row(i);
+    displacement.row(k) = (X.norm() / radius * foot - X).transpose();
+  }
+  return displacement;
+}
+
 /// All fields at one element's nodes: nodes x field_count.
 MatrixXd nodal_fields(const Discretisation& space, int e, const Media& media, const VectorXd& unknowns,
                       const Scales& scales) {
@@ -71,9 +98,20 @@ MatrixXd nodal_fields(const Discretisation& space, int e, const Media& media, co
   const int n = int(nodes.size()), m = element.position_columns;
   const VectorXd local = local_values(element, unknowns);
   const double um = 1e6 * scales.length_m, v_cell = unknowns(space.cell_velocity());
-  const ToNodes to_nodes(space.reference());
+  const double rest_pressure = 2 * media.cortex.tension / space.mesh().geometry().radius();
 
   MatrixXd fields = MatrixXd::Zero(n, field_count);
+  fields.col(region).setConstant(element.liquid ? 0 : 1);
+  if (element.is_empty()) {
+    fields.middleCols(ux, 2) = um * spoke_displacement(space, unknowns, e);
+    for (int k = 0; k < n; ++k) {
+      for (int c = 0; c < 2; ++c) fields(k, x + c) = um * space.node_points()[nodes[k]](c) + fields(k, ux + c);
+    }
+    fields.col(vx).setConstant(scales.velocity_m_per_s * v_cell);
+    fields.col(pressure).setConstant(scales.stress_Pa * (rest_pressure + unknowns(space.inner_pressure())));
+    return fields;
+  }
+  const ToNodes to_nodes(space.reference());
   for (int c = 0; c < 2; ++c) {
     if (m > 0) fields.col(ux + c) = um * (element.position_at_nodes * local.segment(c * m, m));
     for (int k = 0; k < n; ++k) fields(k, x + c) = um * space.node_points()[nodes[k]](c) + fields(k, ux + c);
@@ -82,10 +120,9 @@ MatrixXd nodal_fields(const Discretisation& space, int e, const Media& media, co
   fields.col(vx) = fields.col(wx).array() + scales.velocity_m_per_s * v_cell;
   fields.col(vr) = fields.col(wr);
   const VectorXd p = space.reference().pressure.value * local.tail(space.reference().pressures());
-  fields.col(pressure) = scales.stress_Pa * to_nodes(p);
+  fields.col(pressure) = scales.stress_Pa * (to_nodes(p).array() + (element.liquid ? 0 : rest_pressure));
   fields.col(element.liquid ? shear_stress : stress) =
       scales.stress_Pa * to_nodes(stress_at_points(element, fields_at_points(space, e, unknowns), media));
-  fields.col(region).setConstant(element.liquid ? 0 : 1);
   return fields;
 }
 

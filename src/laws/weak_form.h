@@ -62,11 +62,4 @@ struct CellPoint {
   }
 };
 
-/// Axial first moment of the cell's volume per d(t) along the meridian and radian: x^2/2 r dr/dt
-/// (docs/theory.md, eq:barycentre). Inputs: x, r, dr/dt.
-template <class T>
-T axial_moment(const std::array<T, 3>& f) {
-  return f[0] * f[0] * f[1] * f[2] * T(0.5);
-}
-
 }  // namespace rheocyte

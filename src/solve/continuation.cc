@@ -27,8 +27,8 @@ VectorXd branch_tangent(StationarySystem& system, const Problem& problem, const 
 /// Greatest relative difference of the surface's meridional stretch between two states.
 double stretch_change(const Discretisation& space, const VectorXd& from, const VectorXd& to) {
   const int per_edge = 2 * space.reference().degree();
-  const Eigen::ArrayXd a = surface_stretch(space, from, per_edge).meridional;
-  const Eigen::ArrayXd b = surface_stretch(space, to, per_edge).meridional;
+  const Eigen::ArrayXd a = surface_state(space, from, per_edge).stretch.col(0);
+  const Eigen::ArrayXd b = surface_state(space, to, per_edge).stretch.col(0);
   return ((b - a) / b).abs().maxCoeff();
 }
 
@@ -80,6 +80,8 @@ Media media_at(const Problem& problem, double compliance) {
   Media media;
   media.liquid = {problem.liquid, problem.exponent, problem.shear_rate_floor, problem.reynolds};
   media.bulk = {problem.shear_modulus / compliance, problem.mooney_share};
+  media.cortex = {problem.cortex, problem.cortex_modulus / compliance, problem.tension / compliance,
+                  problem.bending_stiffness / compliance};
   return media;
 }
 

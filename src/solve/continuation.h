@@ -8,8 +8,13 @@
 
 namespace rheocyte {
 
-/// Laws at a compliance in (0, 1].
+/// Laws at a compliance in (0, 1]: every modulus, tension and stiffness of the cell is divided by it.
 Media media_at(const Problem&, double compliance);
+
+/// What fills the cell.
+inline Interior interior_of(const Problem& problem) {
+  return problem.bulk == BulkLaw::none ? Interior::liquid : Interior::elastic;
+}
 
 /// A converged state on the branch.
 struct BranchState {

@@ -8,7 +8,7 @@
 namespace rheocyte {
 
 double least_biot_ratio(const Discretisation& space, const VectorXd& unknowns) {
-  return least_biot_ratio(surface_stretch(space, unknowns, 2 * space.reference().degree() + 1));
+  return least_biot_ratio(surface_state(space, unknowns, 2 * space.reference().degree() + 1));
 }
 
 bool is_wrinkled(const Discretisation& space, const VectorXd& unknowns) {
@@ -33,7 +33,7 @@ constexpr double tolerance_on_the_way = 1e-7;
 
 std::shared_ptr<Discrete> discretise(const Problem& problem, const Resolution& resolution) {
   const ChannelGeometry geometry(problem.radius_ratio);
-  return std::make_shared<Discrete>(geometry, resolution, media_at(problem, 1).liquid);
+  return std::make_shared<Discrete>(geometry, resolution, problem);
 }
 
 /// Carries a branch state over and converges it there; status says whether it stayed the same state.

@@ -15,8 +15,10 @@ struct Resolution {
 
 /// Mesh, spaces and system of one resolution; they refer to each other and stay together.
 struct Discrete {
-  Discrete(const ChannelGeometry& geometry, const Resolution& resolution, const Liquid& liquid)
-      : mesh(geometry, resolution.subdivision), space(mesh, resolution.degree, liquid), system(space) {}
+  Discrete(const ChannelGeometry& geometry, const Resolution& resolution, const Problem& problem)
+      : mesh(geometry, resolution.subdivision),
+        space(mesh, resolution.degree, media_at(problem, 1).liquid, interior_of(problem)),
+        system(space) {}
   ChannelMesh mesh;
   Discretisation space;
   StationarySystem system;

@@ -144,9 +144,9 @@ class StationarySolver {
     r.pressure_drop = inlet_pressure(space, unknowns) + gradient * half;
     r.additional_pressure_drop = r.pressure_drop - gradient * r.channel_length;
     r.relative_volume_change = r.shape.volume / (4.0 / 3 * std::numbers::pi * std::pow(problem_.radius_ratio, 3)) - 1;
-    const auto stretch = surface_stretch(space, unknowns, 4 * space.reference().degree() + 1);
-    r.least_meridional_stretch = stretch.meridional.minCoeff();
-    r.biot_ratio = least_biot_ratio(stretch);
+    const SurfaceState surface = surface_state(space, unknowns, 4 * space.reference().degree() + 1);
+    r.least_meridional_stretch = surface.stretch.col(0).minCoeff();
+    r.biot_ratio = least_biot_ratio(surface);
     r.residual = state.residual;
     r.outcome.reached = state.branch.compliance;
     if (state.branch.compliance < 1) r.estimated_error = std::numeric_limits<double>::quiet_NaN();

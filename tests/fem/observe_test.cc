@@ -15,9 +15,9 @@ constexpr double rounding = 1e-12;  // interpolation of fields of order one
 TEST(Observe, TheSphereIsNotStretched) {
   // All stretches and the Biot ratio of the undeformed cell are one.
   SmallChannel channel(0.6);
-  const SurfaceStretch stretch = surface_stretch(channel.space, channel.system.sphere(), 9);
-  EXPECT_LT((stretch.meridional.array() - 1).abs().maxCoeff(), rounding);
-  EXPECT_LT((stretch.hoop.array() - 1).abs().maxCoeff(), rounding);
+  const SurfaceState surface = surface_state(channel.space, channel.system.sphere(), 9);
+  EXPECT_LT((surface.stretch.col(0).array() - 1).abs().maxCoeff(), rounding);
+  EXPECT_LT((surface.stretch.col(1).array() - 1).abs().maxCoeff(), rounding);
   EXPECT_NEAR(least_biot_ratio(stretch), 1, rounding);
 }
 
@@ -31,12 +31,12 @@ TEST(Observe, AUniformStretchIsSeenInBothDirections) {
     if (const int i = channel.space.displacement(node, 0); i >= 0) state(i) = X(0);
     if (const int i = channel.space.displacement(node, 1); i >= 0) state(i) = (1 / std::sqrt(2.0) - 1) * X(1);
   }
-  const SurfaceStretch stretch = surface_stretch(channel.space, state, 9);
-  const Eigen::Index middle = stretch.meridional.size() / 2;
+  const SurfaceState surface = surface_state(channel.space, state, 9);
+  const Eigen::Index middle = surface.stretch.rows() / 2;
   // Degree 4 interpolates the circle with a relative error near 1e-5 in its slopes.
-  EXPECT_NEAR(stretch.meridional(0), 1 / std::sqrt(2.0), 1e-4);
-  EXPECT_NEAR(stretch.meridional(middle), 2, 1e-4);
-  EXPECT_NEAR(stretch.hoop(middle), 1 / std::sqrt(2.0), rounding);
+  EXPECT_NEAR(surface.stretch(0, 0), 1 / std::sqrt(2.0), 1e-4);
+  EXPECT_NEAR(surface.stretch(middle, 0), 2, 1e-4);
+  EXPECT_NEAR(surface.stretch(middle, 1), 1 / std::sqrt(2.0), rounding);
   EXPECT_NEAR(least_biot_ratio(stretch), std::pow(2, -1.5), 1e-4);
 }
 

@@ -15,7 +15,7 @@ const Resolution resolution = {{2, 4, 1, 2}, 5};
 
 struct CoarseProblem {
   explicit CoarseProblem(const Problem& p)
-      : problem(p), discrete(ChannelGeometry(p.radius_ratio), resolution, media_at(p, 1).liquid) {}
+      : problem(p), discrete(ChannelGeometry(p.radius_ratio), resolution, p) {}
   ContinuationReport start(const ContinuationOptions& options) {
     return start_branch(discrete.system, problem, options);
   }

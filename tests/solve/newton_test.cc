@@ -17,7 +17,7 @@ const Resolution resolution = {{2, 4, 1, 2}, 5};
 
 struct CoarseProblem {
   explicit CoarseProblem(const Problem& problem)
-      : discrete(ChannelGeometry(problem.radius_ratio), resolution, media_at(problem, 1).liquid),
+      : discrete(ChannelGeometry(problem.radius_ratio), resolution, problem),
         media(media_at(problem, 1)) {}
   Discrete discrete;
   Media media;

@@ -1,0 +1,80 @@
+#include "measurement/basin.h"
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t greatest_number_of_paths = 64;
+
+std::string text_at(const json& definition, const char* key) {
+  const auto found = definition.find(key);
+  return found != definition.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::vector<std::string> texts_in(const json& list) {
+  std::vector<std::string> texts;
+  for (const auto& entry : list)
+    if (entry.is_string() && texts.size() < greatest_number_of_paths) texts.push_back(entry.get<std::string>());
+  return texts;
+}
+
+std::string identifier_of(const Metadata& metadata) {
+  if (const auto run = metadata.text("experiment:run identifier")) return *run;
+  return metadata.text("experiment:time").value_or("") + "_" + metadata.text("experiment:date").value_or("") + "_" +
+         metadata.text("setup:identifier").value_or("");
+}
+
+}  // namespace
+
+std::optional<BasinDefinition> read_basin_definition(const std::string& text) {
+  const json definition = json::parse(text, nullptr, false);
+  if (!definition.is_object()) return std::nullopt;
+  BasinDefinition basin;
+  const std::string type = text_at(definition, "type"), format = text_at(definition, "format");
+  if (type == "file" && format == "hdf5")
+    basin.kind = BasinDefinition::Kind::file;
+  else if (type == "internal" && format == "h5dataset")
+    basin.kind = BasinDefinition::Kind::internal;
+  else
+    return std::nullopt;
+  basin.name = text_at(definition, "name");
+  if (const auto paths = definition.find("paths"); paths != definition.end() && paths->is_array())
+    basin.paths = texts_in(*paths);
+  if (const auto features = definition.find("features"); features != definition.end() && features->is_array())
+    basin.features = texts_in(*features);
+  if (const auto mapping = text_at(definition, "mapping"); mapping != "same") basin.mapping = mapping;
+  return basin;
+}
+
+std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths) {
+  const json definition{{"description", nullptr}, {"features", nullptr}, {"format", "hdf5"}, {"identifier", nullptr},
+                        {"mapping", "same"},      {"name", name},        {"paths", paths},   {"perishable", false},
+                        {"type", "file"}};
+  std::istringstream text(definition.dump(2, ' ', false, json::error_handler_t::replace));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+std::optional<fs::path> find_basin_file(const BasinDefinition& basin, const fs::path& referring_file) {
+  for (const auto& path : basin.paths) {
+    std::error_code error;
+    const fs::path candidate = referring_file.parent_path() / path;  // an absolute path stays itself
+    if (fs::is_regular_file(candidate, error)) return candidate;
+  }
+  return std::nullopt;
+}
+
+bool same_measurement(const Metadata& referring, const Metadata& basin, bool mapped) {
+  const std::string ours = identifier_of(referring), theirs = identifier_of(basin);
+  return mapped ? ours.starts_with(theirs) : ours == theirs;
+}
+
+}  // namespace rheocyte

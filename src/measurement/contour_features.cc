@@ -1,0 +1,135 @@
+#include "measurement/contour_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+constexpr ContourFeatures no_features{nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+
+/// Integrals over the polygon; the sign of the orientation is removed.
+struct PolygonMoments {
+  double area = 0, x = 0, y = 0;              // area and centroid
+  double mu20 = 0, mu11 = 0, mu02 = 0;        // about the centroid
+};
+
+std::int64_t cross(const PixelPoint& o, const PixelPoint& a, const PixelPoint& b) {
+  return static_cast<std::int64_t>(a.x - o.x) * (b.y - o.y) - static_cast<std::int64_t>(a.y - o.y) * (b.x - o.x);
+}
+
+// Green's theorem about the first point: all sums are of small whole numbers and exact in 64 bits.
+PolygonMoments moments_of(std::span<const PixelPoint> polygon) {
+  const PixelPoint origin = polygon[0];
+  std::int64_t twice_area = 0, sx = 0, sy = 0;
+  double sxx = 0, sxy = 0, syy = 0;
+  std::int64_t x0 = polygon.back().x - origin.x, y0 = polygon.back().y - origin.y;
+  for (const PixelPoint& point : polygon) {
+    const std::int64_t x1 = point.x - origin.x, y1 = point.y - origin.y, c = x0 * y1 - x1 * y0;
+    twice_area += c;
+    sx += c * (x0 + x1);
+    sy += c * (y0 + y1);
+    sxx += static_cast<double>(c * (x0 * x0 + x0 * x1 + x1 * x1));
+    sxy += static_cast<double>(c * (x0 * (2 * y0 + y1) + x1 * (y0 + 2 * y1)));
+    syy += static_cast<double>(c * (y0 * y0 + y0 * y1 + y1 * y1));
+    x0 = x1;
+    y0 = y1;
+  }
+  if (twice_area == 0) return {};
+  const double sign = twice_area > 0 ? 1 : -1, area = 0.5 * sign * static_cast<double>(twice_area);
+  const double x = sign * static_cast<double>(sx) / (6 * area), y = sign * static_cast<double>(sy) / (6 * area);
+  return {area,
+          x + origin.x,
+          y + origin.y,
+          sign * sxx / 12 - area * x * x,
+          sign * sxy / 24 - area * x * y,
+          sign * syy / 12 - area * y * y};
+}
+
+double perimeter_of(std::span<const PixelPoint> polygon) {
+  double length = 0;
+  PixelPoint before = polygon.back();
+  for (const PixelPoint& point : polygon) {
+    const double dx = point.x - before.x, dy = point.y - before.y;
+    length += std::sqrt(dx * dx + dy * dy);
+    before = point;
+  }
+  return length;
+}
+
+struct Principal {
+  double ratio, tilt;
+};
+
+// The eigenvalues of the matrix of second moments are the moments along the principal axes.
+Principal principal_axes(const PolygonMoments& m) {
+  const double tilt = std::abs(0.5 * std::atan2(-2 * m.mu11, m.mu20 - m.mu02));
+  const double mean = 0.5 * (m.mu20 + m.mu02), half = std::hypot(0.5 * (m.mu20 - m.mu02), m.mu11);
+  return {std::sqrt((mean + half) / (mean - half)), tilt};
+}
+
+// The part of the integral of pi r^2 dz below the straight piece from (z0, r0) to (z1, r1), of either sign.
+double frustum(double dz, double r0, double r1) { return dz * (r0 * r0 + r0 * r1 + r1 * r1); }
+
+}  // namespace
+
+std::span<const PixelPoint> ContourMeasurer::hull_of(std::span<const PixelPoint> contour) {
+  sorted_.assign(contour.begin(), contour.end());
+  std::ranges::sort(sorted_, [](const PixelPoint& a, const PixelPoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  // In each column only the lowest and the highest pixel can lie on the hull.
+  hull_.clear();
+  const auto push = [this](const PixelPoint& point, std::size_t bottom) {
+    while (hull_.size() >= bottom + 2 && cross(hull_[hull_.size() - 2], hull_.back(), point) <= 0) hull_.pop_back();
+    hull_.push_back(point);
+  };
+  for (const PixelPoint& point : sorted_) push(point, 0);
+  const std::size_t lower = hull_.size() - 1;
+  for (std::size_t i = sorted_.size() - 1; i-- > 0;) push(sorted_[i], lower);
+  hull_.pop_back();
+  return hull_;
+}
+
+double volume_of_rotation(std::span<const PixelPoint> contour, double y) {
+  double right = 0, left = 0;
+  PixelPoint before = contour.back();
+  for (const PixelPoint& point : contour) {
+    const double dz = point.x - before.x;
+    right += frustum(dz, std::max(before.y - y, 0.0), std::max(point.y - y, 0.0));
+    left += frustum(dz, std::max(y - before.y, 0.0), std::max(y - point.y, 0.0));
+    before = point;
+  }
+  // The halves run in opposite directions along the axis; the direction of the contour itself does not count.
+  return std::numbers::pi / 3 * std::abs(right - left) / 2;
+}
+
+ContourFeatures ContourMeasurer::measure(std::span<const PixelPoint> contour, double pixel_size_um) {
+  if (contour.size() < 4) return no_features;
+  const auto hull_points = hull_of(contour);
+  if (hull_points.size() < 3) return no_features;
+  const PolygonMoments hull = moments_of(hull_points), raw = moments_of(contour);
+  if (!(hull.area > 0) || !(raw.area > 0)) return no_features;
+  const auto [left, right] = std::ranges::minmax(contour, {}, &PixelPoint::x);
+  const auto [top, bottom] = std::ranges::minmax(contour, {}, &PixelPoint::y);
+  const auto [ratio, tilt] = principal_axes(raw);
+  const double px = pixel_size_um;
+  return {.area_um2 = hull.area * px * px,
+          .deformation = 1 - 2 * std::sqrt(std::numbers::pi * hull.area) / perimeter_of(hull_points),
+          .x_um = hull.x * px,
+          .y_um = hull.y * px,
+          .raw_area_px = raw.area,
+          .area_ratio = hull.area / raw.area,
+          .width_um = (right.x - left.x + 1) * px,
+          .height_um = (bottom.y - top.y + 1) * px,
+          .inertia_ratio = std::sqrt(hull.mu20 / hull.mu02),
+          .inertia_ratio_raw = std::sqrt(raw.mu20 / raw.mu02),
+          .inertia_ratio_principal = ratio,
+          .tilt = tilt,
+          .volume_um3 = volume_of_rotation(contour, hull.y) * px * px * px};
+}
+
+}  // namespace rheocyte

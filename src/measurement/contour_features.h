@@ -1,0 +1,39 @@
+// Features of a cell's outline as the programs of RT-DC define them (docs/theory-extract.md, sec. "features").
+#pragma once
+#include <span>
+#include <vector>
+
+#include "measurement/pixel_contour.h"
+
+namespace rheocyte {
+
+/// Of one outline; NaN where it has none. "Hull" is the convex hull of the outline, "raw" the outline itself; both run
+/// through the centres of pixels.
+struct ContourFeatures {
+  double area_um2;                            ///< of the hull (feature area_um)
+  double deformation;                         ///< 1 - 2 sqrt(pi A) / P of the hull (deform)
+  double x_um, y_um;                          ///< centroid of the hull (pos_x, pos_y)
+  double raw_area_px;                         ///< (area_msd)
+  double area_ratio;                          ///< hull / raw
+  double width_um, height_um;                 ///< extent in whole pixels (size_x, size_y)
+  double inertia_ratio, inertia_ratio_raw;    ///< sqrt(mu20 / mu02) (inert_ratio_cvx, inert_ratio_raw)
+  double inertia_ratio_principal, tilt;       ///< of the outline itself along its principal axes (inert_ratio_prnc)
+  double volume_um3;                          ///< mean of both halves rotated about the axis through the centroid
+};
+
+/// Computes features; keeps its memory from contour to contour.
+class ContourMeasurer {
+ public:
+  /// `pixel_size_um` > 0. Fewer than four points, or all on a line, give NaN everywhere.
+  ContourFeatures measure(std::span<const PixelPoint> contour, double pixel_size_um);
+
+ private:
+  std::span<const PixelPoint> hull_of(std::span<const PixelPoint> contour);
+
+  std::vector<PixelPoint> sorted_, hull_;
+};
+
+/// Rotation of a closed contour about the line y = `y` through each of its halves, then the mean (pixels cubed).
+double volume_of_rotation(std::span<const PixelPoint> contour, double y);
+
+}  // namespace rheocyte

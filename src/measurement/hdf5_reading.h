@@ -1,0 +1,59 @@
+// Reading whatever types a file holds, within limits that a damaged file cannot lift.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "measurement/hdf5_handle.h"
+#include "measurement/metadata.h"
+
+namespace rheocyte {
+
+/// What no file of the field comes near; beyond it a file counts as damaged.
+struct ReadingLimits {
+  std::size_t names = 10'000'000;        ///< members of a group (one contour per event)
+  std::size_t name_length = 256;         ///< bytes
+  std::size_t text_length = 1 << 16;     ///< bytes
+  std::size_t text_lines = 100'000;      ///< of a log or a basin's definition
+  std::size_t chunk_bytes = 1 << 30;     ///< decompressed
+  std::size_t image_side = 1 << 14;      ///< pixels
+  std::size_t contour_points = 1 << 20;  ///< of one event
+  double greatest_compression = 5e4;     ///< bytes of data per byte of file
+};
+inline constexpr ReadingLimits reading_limits;
+
+/// Numbers along the dimensions of a dataset, e.g. (events, height, width).
+struct DatasetShape {
+  std::vector<std::size_t> extent;
+  std::size_t rows_per_chunk = 0;  ///< 0 if the data lie in one piece
+  std::size_t rows() const { return extent.empty() ? 0 : extent[0]; }
+};
+
+/// Opens an object below `parent`; a handle that tests as false if it is absent, broken or of another kind.
+Hdf5Handle open_group(hid_t parent, const std::string& name);
+Hdf5Handle open_dataset(hid_t parent, const std::string& name);
+
+/// Names of the members of a group in the order of their names, those longer than the limit left out; nothing if the
+/// group is damaged or has too many.
+std::optional<std::vector<std::string>> member_names(hid_t group);
+
+/// The shape of a dataset of numbers (integers, floats, truth values); nothing if it holds something else, keeps its
+/// data outside the file, or claims more data than a file of `file_bytes` can hold.
+std::optional<DatasetShape> numeric_shape(hid_t dataset, std::uintmax_t file_bytes);
+
+/// Rows [first, first + rows) of a dataset of any number of dimensions, converted; false if they cannot be read.
+/// The span holds rows times the product of the other extents.
+bool read_rows(hid_t dataset, std::size_t first, std::size_t rows, std::span<double> values);
+bool read_rows(hid_t dataset, std::size_t first, std::size_t rows, std::span<std::uint8_t> values);
+bool read_rows(hid_t dataset, std::size_t first, std::size_t rows, std::span<std::int64_t> values);
+
+/// The lines of a dataset of texts; nothing if it is not one or too large.
+std::optional<std::vector<std::string>> read_lines(hid_t dataset, std::uintmax_t file_bytes);
+
+/// Every attribute of an object that is one number or text.
+Metadata read_attributes(hid_t object);
+
+}  // namespace rheocyte

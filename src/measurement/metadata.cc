@@ -1,0 +1,40 @@
+#include "measurement/metadata.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string_view>
+
+namespace rheocyte {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks(" \t\r\n\0", 5);
+  const auto first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+}  // namespace
+
+std::optional<double> Metadata::number(const std::string& key) const {
+  const auto found = values_.find(key);
+  if (found == values_.end()) return std::nullopt;
+  if (const auto* value = std::get_if<double>(&found->second)) return *value;
+  const auto text = trimmed(std::get<std::string>(found->second));
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<std::string> Metadata::text(const std::string& key) const {
+  const auto found = values_.find(key);
+  if (found == values_.end()) return std::nullopt;
+  if (const auto* value = std::get_if<double>(&found->second)) return fmt::format("{}", *value);
+  const auto text = trimmed(std::get<std::string>(found->second));
+  return text.empty() ? std::nullopt : std::optional<std::string>(text);
+}
+
+}  // namespace rheocyte

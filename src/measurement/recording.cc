@@ -1,0 +1,214 @@
+#include "measurement/recording.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <limits>
+#include <system_error>
+
+#include "case/user_error.h"
+#include "measurement/recording_content.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
+  throw UserError(fmt::format("{}: {}", one_line(file.string(), 300), reason));
+}
+
+Hdf5Handle open_file(const fs::path& file) {
+  std::error_code error;
+  const auto status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) refuse(file, "there is no such file.");
+  if (!fs::is_regular_file(status)) refuse(file, "is not a file; give an .rtdc recording (a folder needs -r).");
+  prepare_hdf5();
+  const Hdf5Handle access(::H5Pcreate(H5P_FILE_ACCESS));
+  // Recordings often lie on network drives that know no locks; nothing is written to them.
+  ::H5Pset_file_locking(access.get(), false, true);
+  Hdf5Handle opened(::H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.get()));
+  if (opened) return opened;
+  if (::access(file.c_str(), R_OK) != 0) refuse(file, "cannot be read; check its permissions.");
+  if (::H5Fis_hdf5(file.c_str()) <= 0)
+    refuse(file, "is not an HDF5 file, or its first bytes are damaged; .rtdc recordings are HDF5 files.");
+  refuse(file, "is damaged or incomplete and cannot be opened; copy it once more from where it was recorded.");
+}
+
+// Which compression is missing, if that is the reason why data could not be read.
+std::string missing_filter(hid_t dataset) {
+  const Hdf5Handle properties(::H5Dget_create_plist(dataset));
+  const int count = properties ? ::H5Pget_nfilters(properties.get()) : 0;
+  for (int i = 0; i < count; ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    char name[64] = "";
+    const auto number =
+        ::H5Pget_filter2(properties.get(), unsigned(i), &flags, &values, nullptr, sizeof name, name, nullptr);
+    if (number >= 0 && ::H5Zfilter_avail(number) <= 0)
+      return fmt::format("it is compressed with the HDF5 filter {} ({}), which is not available here", number,
+                         one_line(name, 60));
+  }
+  return "its data are damaged";
+}
+
+[[noreturn]] void refuse_data(const fs::path& file, const std::string& feature, hid_t dataset) {
+  refuse(file, fmt::format("the feature {} cannot be read: {}.", one_line(feature, 60), missing_filter(dataset)));
+}
+
+// The length that most of them have; of equally frequent ones the greater.
+std::size_t usual_length(const Datasets& scalars) {
+  std::map<std::size_t, int> votes;
+  for (const auto& [name, scalar] : scalars)
+    if (scalar.shape.rows() > 0) ++votes[scalar.shape.rows()];
+  std::size_t best = 0;
+  int most = 0;
+  for (const auto& [length, count] : votes) {
+    if (count < most) continue;
+    most = count;
+    best = length;
+  }
+  return best;
+}
+
+void read_feature(const OpenDataset& feature, const fs::path& file, const std::string& name, std::size_t first,
+                  std::span<double> values) {
+  const std::size_t rows = feature.shape.rows();
+  const std::size_t there = first < rows ? std::min(values.size(), rows - first) : 0;
+  if (!read_rows(feature.dataset.get(), first, there, values.first(there)))
+    refuse_data(file, name, feature.dataset.get());
+  std::ranges::fill(values.subspan(there), nan);
+}
+
+}  // namespace
+
+Recording::~Recording() = default;
+Recording::Recording(Recording&&) noexcept = default;
+Recording& Recording::operator=(Recording&&) noexcept = default;
+
+Recording::Recording(const fs::path& file) {
+  std::set<fs::path> opened;
+  *this = Recording(file, opened);
+}
+
+Recording::Recording(const fs::path& file, std::set<fs::path>& opened) : content_(std::make_unique<Content>()) {
+  Content& c = *content_;
+  c.path = file;
+  c.file = open_file(file);
+  std::error_code error;
+  c.bytes = fs::file_size(file, error);
+  opened.insert(fs::weakly_canonical(file, error));
+  c.metadata = read_attributes(c.file.get());
+  c.events_group = open_group(c.file.get(), "events");
+  if (!c.events_group) refuse(file, "has no group \"events\"; is it a recording of RT-DC?");
+  const auto names = member_names(c.events_group.get());
+  if (!names) refuse(file, "is damaged: the list of its features cannot be read.");
+  for (const auto& name : *names) {
+    if (name == "contour") continue;
+    Hdf5Handle dataset = open_dataset(c.events_group.get(), name);
+    auto shape = dataset ? numeric_shape(dataset.get(), c.bytes) : std::nullopt;
+    if (!shape) {
+      if (dataset) c.remarks.push_back(fmt::format("{} holds no usable numbers and was left out.", one_line(name, 60)));
+      continue;
+    }
+    if (shape->extent.size() == 1) c.scalars.emplace(name, OpenDataset{std::move(dataset), *shape});
+    if (name == "mask" && shape->extent.size() == 3 && shape->extent[1] - 1 < reading_limits.image_side &&
+        shape->extent[2] - 1 < reading_limits.image_side)
+      c.mask = OpenDataset{std::move(dataset), *shape};
+  }
+  c.contours = open_group(c.events_group.get(), "contour");
+  c.events = usual_length(c.scalars);
+  if (c.scalars.empty() && c.mask) c.events = c.mask->shape.rows();
+  open_basins(opened);
+  if (c.events == 0) refuse(file, "holds no events.");
+  const auto said = c.metadata.number("experiment:event count");
+  if (said && *said != static_cast<double>(c.events))
+    c.remarks.push_back(fmt::format("experiment:event count is {}, but the data have {} events.", *said, c.events));
+  for (const auto& [name, scalar] : c.scalars)
+    if (scalar.shape.rows() != c.events)
+      c.remarks.push_back(
+          fmt::format("{} has {} values for {} events.", one_line(name, 60), scalar.shape.rows(), c.events));
+}
+
+const fs::path& Recording::file() const { return content_->path; }
+const Metadata& Recording::metadata() const { return content_->metadata; }
+std::size_t Recording::events() const { return content_->events; }
+const std::vector<std::string>& Recording::remarks() const { return content_->remarks; }
+std::int64_t Recording::root() const { return content_->file.get(); }
+
+bool Recording::has_scalar(const std::string& feature) const {
+  return content_->scalars.contains(feature) || basin_with(feature) != nullptr;
+}
+
+void Recording::read_scalar(const std::string& feature, std::size_t first, std::span<double> values) const {
+  if (const auto found = content_->scalars.find(feature); found != content_->scalars.end())
+    read_feature(found->second, content_->path, feature, first, values);
+  else if (const auto* basin = basin_with(feature))
+    read_through(*basin, feature, first, values);
+  else
+    std::ranges::fill(values, nan);
+}
+
+std::optional<ImageSize> Recording::mask_size() const {
+  if (const auto& mask = content_->mask) return ImageSize{mask->shape.extent[2], mask->shape.extent[1]};
+  const auto* basin = basin_with("mask");
+  return basin ? basin->recording->mask_size() : std::nullopt;
+}
+
+std::size_t Recording::mask_rows_per_chunk() const {
+  if (content_->mask) return std::max<std::size_t>(content_->mask->shape.rows_per_chunk, 1);
+  const auto* basin = basin_with("mask");
+  return basin && !basin->mapping ? basin->recording->mask_rows_per_chunk() : 1;
+}
+
+void Recording::read_masks(std::size_t first, std::size_t count, std::span<std::uint8_t> pixels) const {
+  if (const auto& mask = content_->mask) {
+    const std::size_t rows = mask->shape.rows(), there = first < rows ? std::min(count, rows - first) : 0;
+    const std::size_t filled = count ? there * (pixels.size() / count) : 0;
+    if (!read_rows(mask->dataset.get(), first, there, pixels.first(filled)))
+      refuse_data(content_->path, "mask", mask->dataset.get());
+    std::ranges::fill(pixels.subspan(filled), 0);
+    return;
+  }
+  std::ranges::fill(pixels, 0);
+  const auto* basin = basin_with("mask");
+  if (!basin || count == 0) return;
+  if (!basin->mapping) return basin->recording->read_masks(first, count, pixels);
+  const std::size_t one = pixels.size() / count;
+  for (std::size_t i = 0; i < count && first + i < basin->mapping->size(); ++i)
+    basin->recording->read_masks(static_cast<std::size_t>((*basin->mapping)[first + i]), 1,
+                                 pixels.subspan(i * one, one));
+}
+
+bool Recording::has_contours() const { return bool(content_->contours) || basin_with("contour") != nullptr; }
+
+PixelContour Recording::read_contour(std::size_t event) const {
+  if (!content_->contours) {
+    const auto* basin = basin_with("contour");
+    if (!basin) return {};
+    if (!basin->mapping) return basin->recording->read_contour(event);
+    return event < basin->mapping->size()
+               ? basin->recording->read_contour(static_cast<std::size_t>((*basin->mapping)[event]))
+               : PixelContour{};
+  }
+  const Hdf5Handle dataset = open_dataset(content_->contours.get(), std::to_string(event));
+  const auto shape = dataset ? numeric_shape(dataset.get(), content_->bytes) : std::nullopt;
+  if (!shape || shape->extent.size() != 2 || shape->extent[1] != 2 || shape->rows() > reading_limits.contour_points)
+    return {};
+  std::vector<std::int64_t> numbers(2 * shape->rows());
+  if (!read_rows(dataset.get(), 0, shape->rows(), std::span(numbers))) return {};
+  const auto side = static_cast<std::int64_t>(reading_limits.image_side);
+  PixelContour contour;
+  for (std::size_t i = 0; i < shape->rows(); ++i) {
+    const std::int64_t x = numbers[2 * i], y = numbers[2 * i + 1];
+    if (std::min(x, y) < -side || std::max(x, y) > side) return {};
+    contour.push_back({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)});
+  }
+  return contour;
+}
+
+}  // namespace rheocyte

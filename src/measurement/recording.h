@@ -1,0 +1,72 @@
+// A recording of RT-DC: an .rtdc file (HDF5) with one row per event (docs/theory-extract.md, sec. "recordings").
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "measurement/metadata.h"
+#include "measurement/pixel_contour.h"
+
+namespace rheocyte {
+
+/// An open recording. Data are read in pieces when they are asked for; what lies in a basin (another file, or another
+/// place of the same file) is found there. HDF5 may break on files that somebody damaged on purpose, or by accident in
+/// the wrong place: open files of unknown origin in a process of their own.
+class Recording {
+ public:
+  /// UserError: no such file, no HDF5, damaged, no events.
+  explicit Recording(const std::filesystem::path& file);
+  ~Recording();
+  Recording(Recording&&) noexcept;
+  Recording& operator=(Recording&&) noexcept;
+
+  const std::filesystem::path& file() const;
+  const Metadata& metadata() const;
+
+  /// Number of events: the length that most features have. The metadata may say something else; then there is a remark.
+  std::size_t events() const;
+
+  /// Sentences about what is odd in the file and was left out, without its name.
+  const std::vector<std::string>& remarks() const;
+
+  /// Whether there is one number per event of this name, e.g. "area_um".
+  bool has_scalar(const std::string& feature) const;
+
+  /// Values of events [first, first + values.size()); NaN for those that the feature does not cover.
+  /// UserError if the data are damaged.
+  void read_scalar(const std::string& feature, std::size_t first, std::span<double> values) const;
+
+  /// Rows and columns of the masks; nothing if there are none.
+  std::optional<ImageSize> mask_size() const;
+  /// Events that are best read together, so that no piece of the file is decompressed twice; at least 1.
+  std::size_t mask_rows_per_chunk() const;
+  /// Masks of events [first, first + count) behind each other; those that are missing are empty. `pixels` holds
+  /// count masks. UserError if the data are damaged.
+  void read_masks(std::size_t first, std::size_t count, std::span<std::uint8_t> pixels) const;
+
+  bool has_contours() const;
+  /// The contour of one event; empty if the event has none or it is damaged.
+  PixelContour read_contour(std::size_t event) const;
+
+  /// HDF5's identifier of the root group; valid while the recording lives.
+  std::int64_t root() const;
+
+ private:
+  struct Content;
+  struct Basin;
+  explicit Recording(const std::filesystem::path& file, std::set<std::filesystem::path>& opened);
+  void open_basins(std::set<std::filesystem::path>& opened);
+  void add_basin(const std::string& json, std::set<std::filesystem::path>& opened);
+  const Basin* basin_with(const std::string& feature) const;
+  bool is_in(const Basin& basin, const std::string& feature) const;
+  void read_through(const Basin& basin, const std::string& feature, std::size_t first, std::span<double> values) const;
+
+  std::unique_ptr<Content> content_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,144 @@
+// The part of Recording that finds features in basins.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <system_error>
+
+#include "case/user_error.h"
+#include "measurement/recording_content.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t greatest_number_of_basins = 16;
+constexpr const char* internal_group = "basin_events";
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const auto& line : lines) text += line + "\n";
+  return text;
+}
+
+}  // namespace
+
+void Recording::open_basins(std::set<fs::path>& opened) {
+  Content& c = *content_;
+  const Hdf5Handle group = open_group(c.file.get(), "basins");
+  auto names = group ? member_names(group.get()) : std::nullopt;
+  if (!names) return;
+  if (names->size() > greatest_number_of_basins) {
+    c.remarks.push_back(fmt::format("has {} basins; only the first {} are used.", names->size(),
+                                    greatest_number_of_basins));
+    names->resize(greatest_number_of_basins);
+  }
+  for (const auto& name : *names) {
+    const Hdf5Handle dataset = open_dataset(group.get(), name);
+    const auto lines = dataset ? read_lines(dataset.get(), c.bytes) : std::nullopt;
+    if (lines) add_basin(joined(*lines), opened);
+  }
+}
+
+void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
+  Content& c = *content_;
+  const auto definition = read_basin_definition(json);
+  if (!definition) {
+    c.remarks.push_back("a basin is not used: it is on a network, or its definition is broken.");
+    return;
+  }
+  const std::string name = one_line(definition->name, 60);
+  Basin basin;
+  basin.features = definition->features;
+  if (!definition->mapping.empty()) {
+    const auto found = c.scalars.find(definition->mapping);
+    basin.mapping.emplace(found == c.scalars.end() ? 0 : found->second.shape.rows());
+    if (basin.mapping->empty() || !read_rows(found->second.dataset.get(), 0, basin.mapping->size(), *basin.mapping)) {
+      c.remarks.push_back(fmt::format("the basin \"{}\" is not used: its map of events is missing.", name));
+      return;
+    }
+  }
+  if (definition->kind == BasinDefinition::Kind::internal) {
+    const Hdf5Handle group = open_group(c.file.get(), internal_group);
+    const auto names = group ? member_names(group.get()) : std::nullopt;
+    for (const auto& feature : names.value_or(std::vector<std::string>())) {
+      Hdf5Handle dataset = open_dataset(group.get(), feature);
+      const auto shape = dataset ? numeric_shape(dataset.get(), c.bytes) : std::nullopt;
+      if (shape && shape->extent.size() == 1)
+        basin.internal.emplace(feature, OpenDataset{std::move(dataset), *shape});
+    }
+    c.basins.push_back(std::move(basin));
+    return;
+  }
+  const auto file = find_basin_file(*definition, c.path);
+  std::error_code error;
+  if (!file || opened.contains(fs::weakly_canonical(*file, error))) {
+    c.remarks.push_back(fmt::format("the basin \"{}\" is not used: {}.", name,
+                                    file ? "it leads back to a file that is open" : "its file was not found"));
+    return;
+  }
+  try {
+    basin.recording.reset(new Recording(*file, opened));
+  } catch (const UserError& problem) {
+    c.remarks.push_back(fmt::format("the basin \"{}\" is not used: {}", name, problem.what()));
+    return;
+  }
+  if (!same_measurement(c.metadata, basin.recording->metadata(), basin.mapping.has_value())) {
+    c.remarks.push_back(fmt::format("the basin \"{}\" is not used: it belongs to another measurement.", name));
+    return;
+  }
+  // A file may consist of basins alone.
+  if (c.events == 0) c.events = basin.mapping ? basin.mapping->size() : basin.recording->events();
+  c.basins.push_back(std::move(basin));
+}
+
+bool Recording::is_in(const Basin& basin, const std::string& feature) const {
+  if (basin.features && std::ranges::find(*basin.features, feature) == basin.features->end()) return false;
+  if (!basin.recording) return basin.internal.contains(feature);
+  if (feature == "mask") return basin.recording->mask_size().has_value();
+  if (feature == "contour") return basin.recording->has_contours();
+  return basin.recording->has_scalar(feature);
+}
+
+// Internal ones first, as the field's programs do.
+const Recording::Basin* Recording::basin_with(const std::string& feature) const {
+  for (const bool internal : {true, false})
+    for (const auto& basin : content_->basins)
+      if (internal == !basin.recording && is_in(basin, feature)) return &basin;
+  return nullptr;
+}
+
+void Recording::read_through(const Basin& basin, const std::string& feature, std::size_t first,
+                             std::span<double> values) const {
+  constexpr std::size_t longest_gap = 64;  // reading on over a gap costs less than a new request
+  const auto read = [&](std::size_t from, std::span<double> target) {
+    if (basin.recording) return basin.recording->read_scalar(feature, from, target);
+    const auto& dataset = basin.internal.at(feature);
+    const std::size_t rows = dataset.shape.rows(), there = from < rows ? std::min(target.size(), rows - from) : 0;
+    const bool good = read_rows(dataset.dataset.get(), from, there, target.first(there));
+    std::ranges::fill(target.subspan(good ? there : 0), std::numeric_limits<double>::quiet_NaN());
+  };
+  if (!basin.mapping) return read(first, values);
+  const auto& map = *basin.mapping;
+  std::ranges::fill(values, std::numeric_limits<double>::quiet_NaN());
+  const std::size_t count = first < map.size() ? std::min(values.size(), map.size() - first) : 0;
+  std::vector<double> piece;
+  for (std::size_t i = 0; i < count;) {
+    // As many events as ascend without a long gap.
+    std::size_t end = i + 1;
+    while (end < count && map[first + end] >= map[first + end - 1] &&
+           map[first + end] - map[first + end - 1] <= static_cast<std::int64_t>(longest_gap))
+      ++end;
+    const std::int64_t from = map[first + i];
+    if (from >= 0) {
+      piece.resize(static_cast<std::size_t>(map[first + end - 1] - from + 1));
+      read(static_cast<std::size_t>(from), piece);
+      for (std::size_t k = i; k < end; ++k) values[k] = piece[static_cast<std::size_t>(map[first + k] - from)];
+    }
+    i = end;
+  }
+}
+
+}  // namespace rheocyte

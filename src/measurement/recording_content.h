@@ -1,0 +1,38 @@
+// What an open recording holds; shared by the files that implement it.
+#pragma once
+#include <map>
+
+#include "measurement/basin.h"
+#include "measurement/hdf5_reading.h"
+#include "measurement/recording.h"
+
+namespace rheocyte {
+
+struct OpenDataset {
+  Hdf5Handle dataset;
+  DatasetShape shape;
+};
+
+using Datasets = std::map<std::string, OpenDataset>;
+
+/// A basin that could be opened: a recording, or datasets of the same file.
+struct Recording::Basin {
+  std::unique_ptr<Recording> recording;              ///< null for internal ones
+  Datasets internal;                                 ///< scalars
+  std::optional<std::vector<std::string>> features;  ///< the only ones it gives
+  std::optional<std::vector<std::int64_t>> mapping;  ///< event of the basin for each of our events
+};
+
+struct Recording::Content {
+  std::filesystem::path path;
+  std::uintmax_t bytes = 0;
+  Hdf5Handle file, events_group, contours;
+  Metadata metadata;
+  Datasets scalars;
+  std::optional<OpenDataset> mask;
+  std::size_t events = 0;
+  std::vector<Basin> basins;
+  std::vector<std::string> remarks;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,64 @@
+// Viscosity of the measurement buffers of RT-DC in the channel (docs/theory-extract.md, sec. "viscosity").
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace rheocyte {
+
+/// Liquids with a known viscosity: methyl cellulose in phosphate-buffered saline, and water.
+enum class Medium { methyl_cellulose_049, methyl_cellulose_059, methyl_cellulose_083, water };
+
+/// The medium of a recording's metadata, capitals do not count: "CellCarrier", "0.49% MC-PBS", "0.5%", "CellCarrierB",
+/// "water", ...; nothing for any other name.
+std::optional<Medium> medium_of_name(std::string_view name);
+
+/// The concentration's usual name, e.g. "0.49% MC-PBS".
+std::string_view name_of(Medium medium);
+
+enum class ViscosityModel {
+  buyukurganci_2022,  ///< Buyukurganci et al. 2022, doi 10.1039/D2SM01515C
+  herold_2017,        ///< Herold 2017, arXiv:1704.00572; knows no 0.83 %
+  kestin_1978         ///< water: Kestin, Sokolov, Wakeham 1978, doi 10.1063/1.555581
+};
+
+/// "buyukurganci-2022", "herold-2017", "kestin-1978" or nothing.
+std::optional<ViscosityModel> viscosity_model_of_name(std::string_view name);
+std::string_view name_of(ViscosityModel model);
+
+/// What the wall shear rate in a square channel depends on.
+struct ChannelFlow {
+  double channel_width_um = 0;
+  double flow_rate_ul_s = 0;  ///< sample and sheath together
+};
+
+/// Temperatures (degC) for which a model was measured; outside it extrapolates.
+struct TemperatureRange {
+  double lowest, highest;
+  bool contains(double celsius) const { return celsius >= lowest && celsius <= highest; }
+};
+
+/// A medium with the model of its viscosity.
+class Buffer {
+ public:
+  /// UserError if the model does not know the medium. Water has a model of its own, whichever is asked for.
+  Buffer(Medium medium, ViscosityModel model);
+
+  Medium medium() const { return medium_; }
+  ViscosityModel model() const { return model_; }
+  TemperatureRange measured() const;
+
+  /// Effective viscosity at the channel's wall (mPa s), one value per temperature (degC). A flow rate of zero gives NaN
+  /// for shear-thinning media, a temperature that is not finite gives NaN. The spans are equally long (asserted).
+  void viscosity(const ChannelFlow& flow, std::span<const double> celsius, std::span<double> viscosity_mPas) const;
+
+  /// The same at one temperature.
+  double viscosity(const ChannelFlow& flow, double celsius) const;
+
+ private:
+  Medium medium_;
+  ViscosityModel model_;
+};
+
+}  // namespace rheocyte
