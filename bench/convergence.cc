@@ -49,7 +49,7 @@ void solve(const Problem& problem, const NewtonOptions& options, const ResolvedS
            std::vector<Row>& rows) {
   for (int degree = series.first_degree; degree <= series.last_degree; ++degree) {
     const ResolvedState state = at_resolution(problem, options, start, {series.subdivision, degree});
-    if (state.status != Status::converged || state.branch.compliance < 1) {
+    if (state.status != Status::converged || state.branch.parameter < 1) {
       fmt::print(stderr, "{}, degree {}: {}\n", series.name, degree, name(state.status));
       continue;
     }

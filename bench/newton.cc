@@ -23,7 +23,7 @@ void newton_iteration(benchmark::State& state) {
   const Problem problem = standard_cell();
   const Media media = media_at(problem, 1);
   const Resolution resolution{{2, 4, 1, 2}, int(state.range(0))};
-  Discrete discrete(ChannelGeometry(problem.radius_ratio), resolution, media.liquid);
+  Discrete discrete(problem, resolution);
   StationarySystem& system = discrete.system;
   VectorXd unknowns = system.sphere();
   newton(system, media_at(problem, 0.5), NewtonOptions{}, unknowns);

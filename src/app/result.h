@@ -22,7 +22,8 @@ void refuse_unfinite_numbers(StationaryState&);
 /// The content of result.json. Numbers that are not finite are null; the status then is not "converged".
 nlohmann::ordered_json to_json(const Result&);
 
-/// contour.csv: the meridian from the front pole to the rear one, densely sampled, in um.
+/// contour.csv: the meridian from the front pole to the rear one, densely sampled, in um, with stretches, tensions and
+/// curvatures of the surface.
 std::string contour_csv(const Result&);
 
 /// The lines that `rheocyte solve` prints at its end.

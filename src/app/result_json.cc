@@ -81,6 +81,7 @@ void add_shape(Json& json, const Result& result) {
   json["inertia_ratio"] = shape.inertia_ratio;
   json["least_meridional_stretch"] = result.state.least_meridional_stretch;
   json["biot_ratio"] = result.state.biot_ratio;
+  json["least_tension_mN_per_m"] = result.state.least_tension * result.scales.stress_Pa * result.scales.length_m * 1e3;
 }
 
 void add_flow(Json& json, const Result& result) {
@@ -90,6 +91,7 @@ void add_flow(Json& json, const Result& result) {
   json["mean_velocity_m_per_s"] = scales.velocity_m_per_s;
   json["pressure_drop_Pa"] = state.pressure_drop * scales.stress_Pa;
   json["additional_pressure_drop_Pa"] = state.additional_pressure_drop * scales.stress_Pa;
+  json["inner_pressure_Pa"] = state.inner_pressure * scales.stress_Pa;  // null: the interior is elastic
   json["simulated_length_um"] = state.channel_length * scales.length_m * um_per_m;
   json["tube_radius_um"] = tube_radius_um(result.input);
   // rho v_cell R / eta, with the viscosity of the liquid at the shear rate U/R

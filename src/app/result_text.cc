@@ -1,18 +1,19 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "app/build_info.h"
 #include "app/result.h"
-#include "shape/curve.h"
 
 namespace rheocyte {
 
 namespace {
 
 constexpr double um_per_m = 1e6;
-constexpr int points_per_piece = 33;
+constexpr double mN_per_N = 1e3;
 
 std::string line(std::string_view name, const std::string& value, const std::string& remark) {
   return fmt::format("  {:<18} {:<16} {}\n", name, value, remark);
@@ -21,16 +22,20 @@ std::string line(std::string_view name, const std::string& value, const std::str
 }  // namespace
 
 std::string contour_csv(const Result& result) {
-  const double R = result.scales.length_m * um_per_m;
-  const auto parameters = Eigen::VectorXd::LinSpaced(points_per_piece, 0, 1).eval();
-  std::string text = "x_um,r_um\n";
-  bool first_piece = true;
-  for (const auto& piece : result.state.contour.pieces) {
-    const Eigen::MatrixX2d points = R * evaluate(piece, parameters);
+  const SurfaceProfile& surface = result.state.surface;
+  const double um = result.scales.length_m * um_per_m;
+  const double mN_per_m = result.scales.stress_Pa * result.scales.length_m * mN_per_N;
+  const double degree = 180 / std::numbers::pi;
+  std::string text =
+      "x_um,r_um,rest_angle_degree,stretch_meridional,stretch_hoop,tension_meridional_mN_per_m,"
+      "tension_hoop_mN_per_m,curvature_meridional_per_um,curvature_hoop_per_um\n";
+  for (Eigen::Index i = 0; i < surface.point.rows(); ++i) {
     // The first point of a piece is the last one of the piece before.
-    for (Eigen::Index i = first_piece ? 0 : 1; i < points.rows(); ++i)
-      fmt::format_to(std::back_inserter(text), "{:.10g},{:.10g}\n", points(i, 0), points(i, 1));
-    first_piece = false;
+    if (i > 0 && i % SurfaceProfile::points_per_piece == 0) continue;
+    fmt::format_to(std::back_inserter(text), "{:.10g},{:.10g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g}\n",
+                   um * surface.point(i, 0), std::max(um * surface.point(i, 1), 0.0), degree * surface.rest_angle(i),
+                   surface.stretch(i, 0), surface.stretch(i, 1), mN_per_m * surface.tension(i, 0),
+                   mN_per_m * surface.tension(i, 1), surface.curvature(i, 0) / um, surface.curvature(i, 1) / um);
   }
   return text;
 }

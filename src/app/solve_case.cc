@@ -27,11 +27,10 @@ namespace {
 ProgressCallback progress_lines(const Case& c) {
   return [cell = c.cell, step = 0](const BranchPoint& point) mutable {
     const double share = 1 / point.compliance;
-    const auto stiffness =
-        point.compliance <= 0 ? "rigid"
-        : cell.bulk.young_modulus_kPa
-            ? fmt::format("E = {:.5g} kPa", share * *cell.bulk.young_modulus_kPa)
-            : fmt::format("E2D = {:.5g} mN/m", share * cell.cortex.modulus_mN_per_m.value_or(0));
+    const auto stiffness = point.compliance <= 0 ? "rigid"
+                           : cell.bulk.young_modulus_kPa
+                               ? fmt::format("E = {:.5g} kPa", share * *cell.bulk.young_modulus_kPa)
+                               : fmt::format("E2D = {:.5g} mN/m", share * cell.cortex.modulus_mN_per_m.value_or(0));
     tell(fmt::format("step {:>3}  {:<16}  degree {:>2}  deformation {:.6f}  {} Newton iterations", ++step, stiffness,
                      point.degree, point.deformation, point.newton_iterations));
   };

@@ -74,9 +74,9 @@ const std::array table{
     Parameter{"cell.bulk.mooney_share", "", "share of the neo-hookean law in the mooney-rivlin one, the rest is linear",
               number<FIELD(cell.bulk.mooney_share)>({0, 1}, 0.5), mooney_rivlin},
 
-    Parameter{"cell.cortex.law", "", "elastic law of the cell's surface, the cortex",
-              choice<FIELD(cell.cortex.law)>(
-                  {"none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference"}, 0)},
+    Parameter{
+        "cell.cortex.law", "", "elastic law of the cell's surface, the cortex",
+        choice<FIELD(cell.cortex.law)>({"none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference"}, 0)},
     Parameter{"cell.cortex.modulus_mN_per_m", "mN/m", "elastic modulus E2D of the cortex, Young's modulus x thickness",
               number<FIELD(cell.cortex.modulus_mN_per_m)>({1e-6, 1e9}), has_shell},
     Parameter{"cell.cortex.tension_mN_per_m",

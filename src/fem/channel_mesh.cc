@@ -27,19 +27,6 @@ std::vector<double> graded(int n, double ratio) {
   return breaks;
 }
 
-/// Height of the first layer of liquid on the surface, relative to the width of the elements there. Taller elements
-/// resolve the liquid's answer to short waves of the surface along it but not across it: the surface then loses
-/// stability numerically, long before the solid does.
-constexpr double first_layer_height = 0.5;
-
-/// Layers from the surface to the box, each twice as high as the one below it.
-std::vector<double> liquid_layers(const ChannelGeometry& geometry, const Subdivision& n) {
-  const double width = geometry.radius() * geometry.angle(Sector::front, 1) / n.front;
-  const double first = first_layer_height * width / (geometry.box() - geometry.radius());
-  const int layers = std::max(1, int(std::lround(std::log2(1 + 1 / first))));
-  return graded(layers, std::pow(2.0, layers));
-}
-
 bool runs_outward_first(Block block) {
   return block != Block::ring_rear && block != Block::rear && block != Block::upstream;
 }
@@ -61,6 +48,13 @@ class VertexNumbers {
 
 }  // namespace
 
+int layers_for(const ChannelGeometry& geometry, const Subdivision& n) {
+  constexpr double first_layer_height = 0.5;  // relative to the width of the surface's elements
+  const double width = geometry.radius() * geometry.angle(Sector::front, 1) / n.front;
+  const double first = first_layer_height * width / (geometry.box() - geometry.radius());
+  return std::max(1, int(std::lround(std::log2(1 + 1 / first))));
+}
+
 Point MeshElement::map(const ChannelGeometry& geometry, double xi1, double xi2) const {
   const auto [o, a] = parameters(xi1, xi2);
   return geometry.map(block, o, a);
@@ -77,7 +71,8 @@ ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& sub
     : geometry_(geometry), topology_(std::make_unique<Topology>()) {
   const Subdivision& n = subdivision;
   const auto front = uniform(n.front), top = uniform(n.top), ring = uniform(n.ring);
-  const auto layers = liquid_layers(geometry, n);
+  const int layer_count = n.layers > 0 ? n.layers : layers_for(geometry, n);
+  const auto layers = graded(layer_count, std::pow(2.0, layer_count));
   const auto axial = graded(n.axial, 1.3);
   add_block(Block::core, front, top);
   add_block(Block::ring_front, ring, front);

@@ -10,11 +10,17 @@ namespace rheocyte {
 
 /// How finely the blocks are divided.
 struct Subdivision {
-  int front = 2;  ///< elements along the front's surface, the same at the rear
-  int top = 4;    ///< elements along the top's surface
-  int ring = 1;   ///< layers of the cell round its core
-  int axial = 2;  ///< elements from the box to each end of the channel
+  int front = 2;   ///< elements along the front's surface, the same at the rear
+  int top = 4;     ///< elements along the top's surface
+  int ring = 1;    ///< layers of the cell round its core
+  int axial = 2;   ///< elements from the box to each end of the channel
+  int layers = 0;  ///< of liquid from the surface to the box, each twice as high as the one below; 0: layers_for()
 };
+
+/// As many layers of liquid as make the first one half as high as the surface's elements are wide: taller elements
+/// resolve the liquid's answer to short waves of the surface along it but not across it, and the surface then loses
+/// stability numerically, long before the solid does.
+int layers_for(const ChannelGeometry&, const Subdivision&);
 
 /// One quadrilateral: a rectangle [outward] x [along] of a block's parameters.
 struct MeshElement {

@@ -9,6 +9,10 @@ namespace {
 
 constexpr double tiny = 1e-10;
 
+/// How much of the surface's axial displacement the wall's points take over: nearly all of it above the cell, where
+/// soft cells drag their surface far to the rear, nothing at the corner spokes.
+double wall_slide(double along) { return 1 - std::pow(2 * along - 1, 4); }
+
 /// Local nodes of the edge outward = side (0 or 1), in the order of `along`.
 std::vector<int> edge_nodes(const MeshElement& element, const std::vector<int>& nodes, int degree, int side) {
   std::vector<int> edge;
@@ -140,8 +144,8 @@ ElementUnknowns Discretisation::cell_element(int element) const {
   ElementUnknowns unknowns;
   if (interior_ == Interior::liquid) return unknowns;
   unknowns.position_columns = reference_.nodes();
-  unknowns.position = reference_.shape;
-  unknowns.position_at_nodes = MatrixXd::Identity(reference_.nodes(), reference_.nodes());
+  unknowns.position.fill(reference_.shape);
+  unknowns.position_at_nodes.fill(MatrixXd::Identity(reference_.nodes(), reference_.nodes()));
   unknowns.reference = reference_places(element);
   for (int c = 0; c < 2; ++c) {
     for (const int node : nodes) unknowns.columns.push_back({displacement(node, c)});
@@ -183,17 +187,21 @@ void Discretisation::add_spokes(int element, ElementUnknowns& unknowns) const {
   const int p = reference_.degree();
   const auto surface = edge_nodes(*foot, nodes_.of_element[foot - mesh_->elements().begin()], p, 0);
 
-  // D(s, t) = (1 - s) U(t): the outward factor is linear, so its nodal interpolation is exact.
-  MatrixXd extension = MatrixXd::Zero(reference_.nodes(), p + 1);
+  // D_r = (1 - s) U_r, D_x = (1 - s (1 - slide)) U_x: both are linear outward, so their nodal values say everything.
+  std::array<MatrixXd, 2> extension;
+  extension.fill(MatrixXd::Zero(reference_.nodes(), p + 1));
   for (int k = 0; k < reference_.nodes(); ++k) {
     const int i = k % (p + 1), j = k / (p + 1);
-    const double outward = self.parameters(reference_.nodes_1d(i), reference_.nodes_1d(j))[0];
-    extension(k, self.outward_first ? j : i) = 1 - outward;
+    const auto [outward, along] = self.parameters(reference_.nodes_1d(i), reference_.nodes_1d(j));
+    const double slide = self.block == Block::top ? wall_slide(along) : 0;
+    extension[0](k, self.outward_first ? j : i) = 1 - outward * (1 - slide);
+    extension[1](k, self.outward_first ? j : i) = 1 - outward;
   }
   const ShapeTable& shape = reference_.shape;
   unknowns.position_columns = p + 1;
-  unknowns.position = {shape.value * extension, shape.d1 * extension, shape.d2 * extension};
   unknowns.position_at_nodes = extension;
+  for (int c = 0; c < 2; ++c)
+    unknowns.position[c] = {shape.value * extension[c], shape.d1 * extension[c], shape.d2 * extension[c]};
   for (int c = 0; c < 2; ++c) {
     for (const int node : surface) unknowns.columns.push_back({displacement(node, c)});
   }

@@ -5,6 +5,7 @@
 // displacements, and one pressure fills the cell. No unknown: the liquid's mesh (it follows the
 // surface along spokes, docs/theory.md eq:spokes) and everything that a boundary condition fixes.
 #pragma once
+#include <array>
 #include <vector>
 
 #include "fem/channel_mesh.h"
@@ -30,9 +31,9 @@ enum class Interior { elastic, liquid };
 struct ElementUnknowns {
   bool liquid = false;
   int position_columns = 0;
-  ShapeTable position;                   ///< what the displacement columns do at the quadrature points
-  MatrixXd position_at_nodes;            ///< and at the nodes: nodes x columns
-  std::vector<Place<double>> reference;  ///< undeformed map at the quadrature points
+  std::array<ShapeTable, 2> position;         ///< what the x and r columns do at the quadrature points
+  std::array<MatrixXd, 2> position_at_nodes;  ///< and at the nodes: nodes x columns
+  std::vector<Place<double>> reference;       ///< undeformed map at the quadrature points
   std::vector<Slot> columns;
   std::vector<int> rows;  ///< unknown whose equation the row belongs to, or -1
 

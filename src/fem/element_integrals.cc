@@ -29,8 +29,8 @@ std::vector<ColumnGroup> column_groups(const ElementUnknowns& element, const Ref
   const int n = reference.nodes(), m = element.position_columns;
   std::vector<ColumnGroup> groups;
   if (m > 0) {
-    groups.push_back({&element.position, 0, m, {{0, Part::d1}, {1, Part::d2}}});
-    groups.push_back({&element.position, m, m, {{2, Part::d1}, {3, Part::d2}, {4, Part::value}}});
+    groups.push_back({&element.position[0], 0, m, {{0, Part::d1}, {1, Part::d2}}});
+    groups.push_back({&element.position[1], m, m, {{2, Part::d1}, {3, Part::d2}, {4, Part::value}}});
   }
   if (element.liquid) {
     const ShapeTable* shape = &reference.shape;

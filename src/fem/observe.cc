@@ -99,7 +99,8 @@ SurfaceState surface_state(const Discretisation& space, const VectorXd& unknowns
   for (const BoundaryEdge& edge : space.surface()) {
     const auto now = nodal_field(edge.nodes, [&](int n, int c) { return current_point(space, unknowns, n)(c); });
     const auto rest = nodal_field(edge.nodes, [&](int n, int c) { return space.node_points()[n](c); });
-    const Eigen::MatrixX2d x = value * now, x_t = slope * now, x_tt = second * now, X = value * rest, X_t = slope * rest;
+    const Eigen::MatrixX2d x = value * now, x_t = slope * now, x_tt = second * now, X = value * rest,
+                           X_t = slope * rest;
     for (int q = 0; q < per_edge; ++q, ++i) {
       const Meridian<double> here{x_t(q, 0), x_t(q, 1), x_tt(q, 0), x_tt(q, 1), x(q, 1)};
       const auto [along, around] = here.curvatures();
@@ -126,6 +127,13 @@ Eigen::MatrixX2d surface_tensions(const Cortex& cortex, const SurfaceState& stat
 double least_biot_ratio(const SurfaceState& state) {
   // Incompressible: the normal stretch is 1 / (meridional hoop).
   return (state.stretch.col(0).array().square() * state.stretch.col(1).array()).minCoeff();
+}
+
+double stretch_change(const Discretisation& space, const VectorXd& from, const VectorXd& to) {
+  const int per_edge = 2 * space.reference().degree();
+  const Eigen::ArrayXd a = surface_state(space, from, per_edge).stretch.col(0);
+  const Eigen::ArrayXd b = surface_state(space, to, per_edge).stretch.col(0);
+  return ((b - a) / b).abs().maxCoeff();
 }
 
 double inlet_pressure(const Discretisation& space, const VectorXd& unknowns) {

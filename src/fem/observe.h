@@ -12,10 +12,10 @@ Contour contour(const Discretisation&, const VectorXd& unknowns);
 
 /// The surface at points along the meridian, front pole first; columns: meridional, hoop.
 struct SurfaceState {
-  VectorXd angle;             ///< of the undeformed point, from the flow direction
-  Eigen::MatrixX2d point;     ///< current (x, r), in R
-  Eigen::MatrixX2d stretch;   ///< ds/ds0, r/r0'
-  Eigen::MatrixX2d curvature; ///< in 1/R; both 1/a for a sphere of radius a
+  VectorXd angle;              ///< of the undeformed point, from the flow direction
+  Eigen::MatrixX2d point;      ///< current (x, r), in R
+  Eigen::MatrixX2d stretch;    ///< ds/ds0, r/r0'
+  Eigen::MatrixX2d curvature;  ///< in 1/R; both 1/a for a sphere of radius a
 };
 /// `per_edge` equidistant points on each surface edge, ends included: each vertex appears twice.
 SurfaceState surface_state(const Discretisation&, const VectorXd& unknowns, int per_edge);
@@ -29,6 +29,9 @@ Eigen::MatrixX2d surface_tensions(const Cortex&, const SurfaceState&);
 double least_biot_ratio(const SurfaceState&);
 /// Real root of x^3 + x^2 + 3 x = 1.
 inline constexpr double biot_limit = 0.29559774252208477;
+
+/// Greatest relative difference of the surface's meridional stretch between two states.
+double stretch_change(const Discretisation&, const VectorXd& from, const VectorXd& to);
 
 /// Mean pressure over the inlet, in S; the undisturbed pressure at the cell is zero.
 double inlet_pressure(const Discretisation&, const VectorXd& unknowns);

@@ -8,35 +8,16 @@
 namespace rheocyte {
 namespace {
 
-/// d(residual)/d(compliance) by a central difference: the stress is smooth in the modulus, and a predictor needs no
-/// more than the 1e-9 that this gives.
-VectorXd parameter_slope(StationarySystem& system, const Problem& problem, const BranchState& state) {
-  const double h = 1e-5 * state.compliance;
-  double det = 0;
-  const VectorXd plus = system.residual(media_at(problem, state.compliance + h), state.unknowns, det);
-  const VectorXd minus = system.residual(media_at(problem, state.compliance - h), state.unknowns, det);
-  return (plus - minus) / (2 * h);
-}
-
-/// The tangent, with the factorisation that Newton left. After chord steps that is the one of a state nearby, and the
-/// tangent is good to some per cent: a fresh factorisation would cost more than it saves.
-VectorXd branch_tangent(StationarySystem& system, const Problem& problem, const BranchState& state) {
-  return system.solve(-parameter_slope(system, problem, state));
-}
-
-/// Greatest relative difference of the surface's meridional stretch between two states.
-double stretch_change(const Discretisation& space, const VectorXd& from, const VectorXd& to) {
-  const int per_edge = 2 * space.reference().degree();
-  const Eigen::ArrayXd a = surface_state(space, from, per_edge).stretch.col(0);
-  const Eigen::ArrayXd b = surface_state(space, to, per_edge).stretch.col(0);
-  return ((b - a) / b).abs().maxCoeff();
+/// What steps of the parameter are measured in.
+double step_unit(const Path& path, double parameter) {
+  return std::isfinite(path.origin) ? parameter - path.origin : 1;
 }
 
 /// Parabola through the last state with its tangent and the tangent before, at distance h.
 VectorXd predict(const BranchState& now, const BranchState* before, double h) {
   VectorXd guess = now.unknowns + h * now.tangent;
   if (before) {
-    guess += 0.5 * h * h / (now.compliance - before->compliance) * (now.tangent - before->tangent);
+    guess += 0.5 * h * h / (now.parameter - before->parameter) * (now.tangent - before->tangent);
   }
   return guess;
 }
@@ -76,13 +57,21 @@ NewtonReport enter_branch(StationarySystem& system, const Problem& problem, cons
 
 }  // namespace
 
-Media media_at(const Problem& problem, double compliance) {
-  Media media;
-  media.liquid = {problem.liquid, problem.exponent, problem.shear_rate_floor, problem.reynolds};
-  media.bulk = {problem.shear_modulus / compliance, problem.mooney_share};
-  media.cortex = {problem.cortex, problem.cortex_modulus / compliance, problem.tension / compliance,
-                  problem.bending_stiffness / compliance};
-  return media;
+/// Central difference: everything is smooth in the parameter, and a predictor needs no more than the 1e-9 that this
+/// gives.
+VectorXd parameter_slope(const Path& path, const BranchState& state) {
+  const double h = 1e-5 * step_unit(path, state.parameter);
+  const auto residual = [&](double parameter) {
+    double det = 0;
+    return path.system(parameter).residual(path.media(parameter), state.unknowns, det);
+  };
+  return (residual(state.parameter + h) - residual(state.parameter - h)) / (2 * h);
+}
+
+/// After chord steps the factorisation is the one of a state nearby, and the tangent is good to some per cent: a fresh
+/// one would cost more than it saves.
+VectorXd branch_tangent(const Path& path, const BranchState& state) {
+  return path.system(state.parameter).solve(-parameter_slope(path, state));
 }
 
 ContinuationReport start_branch(StationarySystem& system, const Problem& problem, const ContinuationOptions& options) {
@@ -102,12 +91,12 @@ ContinuationReport start_branch(StationarySystem& system, const Problem& problem
 
   // The displacement is proportional to the compliance at first; velocity and pressure do not depend on it.
   BranchState& state = report.last;
-  state.compliance = std::min(1.0, options.displacement_per_step / displacement);
+  state.parameter = std::min(1.0, options.displacement_per_step / displacement);
   state.unknowns = sphere + response;
-  scale_displacement(system.space(), state.compliance, state.unknowns);
-  for (; state.compliance > 1e-6; state.compliance /= 4, scale_displacement(system.space(), 0.25, state.unknowns)) {
+  scale_displacement(system.space(), state.parameter, state.unknowns);
+  for (; state.parameter > 1e-6; state.parameter /= 4, scale_displacement(system.space(), 0.25, state.unknowns)) {
     VectorXd unknowns = state.unknowns;
-    const NewtonReport newton_report = enter_branch(system, problem, options, state.compliance, unknowns);
+    const NewtonReport newton_report = enter_branch(system, problem, options, state.parameter, unknowns);
     report.newton_iterations += newton_report.iterations;
     report.status = newton_report.status;
     report.residual = newton_report.residual;
@@ -115,7 +104,7 @@ ContinuationReport start_branch(StationarySystem& system, const Problem& problem
     if (report.status != Status::converged) continue;
     state.unknowns = unknowns;
     state.newton_iterations = report.newton_iterations;
-    state.tangent = branch_tangent(system, problem, state);
+    state.tangent = branch_tangent(stiffness_path(system, problem), state);
     report.steps = 1;
     if (options.accept && !options.accept(system.space(), state)) report.status = Status::surface_unstable;
     return report;
@@ -123,58 +112,70 @@ ContinuationReport start_branch(StationarySystem& system, const Problem& problem
   return report;
 }
 
-ContinuationReport continue_branch(StationarySystem& system, const Problem& problem, const ContinuationOptions& options,
-                                   BranchState from) {
+namespace {
+
+/// The next step: not beyond the end, and no small rest left for the step after.
+double limited_step(const Path& path, double parameter, double h) {
+  if (std::isfinite(path.origin)) h = std::min(h, 1.5 * step_unit(path, parameter));  // curved beyond the first states
+  const double remaining = path.end - parameter;
+  if (h >= remaining) return remaining;
+  return h > 0.7 * remaining ? 0.5 * remaining : h;
+}
+
+/// Whether Newton found a state, near its prediction.
+Status judge(const NewtonReport& newton, const Discretisation& space, const VectorXd& guess, const VectorXd& found,
+             const ContinuationOptions& options) {
+  if (newton.status != Status::converged) return newton.status;
+  return stretch_change(space, guess, found) < options.greatest_correction ? Status::converged : Status::branch_ended;
+}
+
+}  // namespace
+
+ContinuationReport continue_branch(const Path& path, const ContinuationOptions& options, BranchState from) {
   ContinuationReport report;
   report.status = Status::converged;
   report.last = std::move(from);
-  if (report.last.tangent.size() == 0) {
+  BranchState& last = report.last;
+  if (last.tangent.size() == 0) {
     bool factorised = false;
     double det = 0;
-    system.linearise(media_at(problem, report.last.compliance), report.last.unknowns, det, factorised);
-    report.last.tangent = branch_tangent(system, problem, report.last);
+    path.system(last.parameter).linearise(path.media(last.parameter), last.unknowns, det, factorised);
+    last.tangent = branch_tangent(path, last);
   }
   BranchState before;
-  const double radius = problem.radius_ratio;
-  const auto displacement_rate = [&](const BranchState& s) {
-    return largest_displacement(system.space(), s.tangent) / radius;
+  const auto displacement_rate = [&](const BranchState& state) {
+    const Discretisation& space = path.system(state.parameter).space();
+    return std::max(largest_displacement(space, state.tangent) / space.mesh().geometry().radius(), 1e-12);
   };
-  double h = options.displacement_per_step / displacement_rate(report.last);
-  while (report.last.compliance < 1) {
+  double h = options.displacement_per_step / displacement_rate(last);
+  while (last.parameter < path.end) {
+    h = limited_step(path, last.parameter, h);
     BranchState next;
-    h = std::min(h, 1.5 * report.last.compliance);  // beyond the first states the branch is curved
-    const double remaining = 1 - report.last.compliance;
-    if (h > 0.7 * remaining) h = h < remaining ? 0.5 * remaining : remaining;
-    next.compliance = h >= remaining ? 1 : report.last.compliance + h;
-    const bool has_before = before.tangent.size() > 0;
-    const VectorXd guess = predict(report.last, has_before ? &before : nullptr, h);
+    next.parameter = h >= path.end - last.parameter ? path.end : last.parameter + h;
+    StationarySystem& system = path.system(next.parameter);
+    const VectorXd guess = predict(last, before.tangent.size() > 0 ? &before : nullptr, h);
     next.unknowns = guess;
-    const NewtonReport newton_report =
-        newton(system, media_at(problem, next.compliance), options.newton, next.unknowns);
+    const NewtonReport newton_report = newton(system, path.media(next.parameter), options.newton, next.unknowns);
     report.newton_iterations += newton_report.iterations;
-    if (newton_report.status == Status::stopped) return report.status = Status::stopped, report;
     next.newton_iterations = newton_report.iterations;
-    const bool near_guess = newton_report.status == Status::converged &&
-                            stretch_change(system.space(), guess, next.unknowns) < options.greatest_correction;
-    const bool accepted = near_guess && (!options.accept || options.accept(system.space(), next));
-    if (!accepted) {
+    Status status = judge(newton_report, system.space(), guess, next.unknowns, options);
+    if (status == Status::stopped) return report.status = status, report;
+    if (status == Status::converged && options.accept && !options.accept(system.space(), next))
+      status = Status::surface_unstable;
+    if (status != Status::converged) {
       h /= 2;
-      if (h < options.least_step * report.last.compliance) {
-        report.status = near_guess                                  ? Status::surface_unstable
-                        : newton_report.status == Status::converged ? Status::branch_ended
-                                                                    : newton_report.status;
-        return report;
-      }
+      if (h < options.least_step * step_unit(path, last.parameter)) return report.status = status, report;
       continue;
     }
     report.residual = newton_report.residual;
-    next.tangent = branch_tangent(system, problem, next);
-    before = std::move(report.last);
-    report.last = std::move(next);
+    next.tangent = branch_tangent(path, next);
+    before = std::move(last);
+    last = std::move(next);
     ++report.steps;
     // With an exact tangent the predictor's error grows like h^3: aim at a first correction of 1 % of the radius.
+    const double radius = system.space().mesh().geometry().radius();
     const double growth = std::cbrt(0.01 * radius / std::max(newton_report.first_correction, 1e-12));
-    h = std::min(h * std::clamp(growth, 0.4, 2.5), 2 * options.displacement_per_step / displacement_rate(report.last));
+    h = std::min(h * std::clamp(growth, 0.4, 2.5), 2 * options.displacement_per_step / displacement_rate(last));
   }
   return report;
 }

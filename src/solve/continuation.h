@@ -1,26 +1,18 @@
-// Following the branch of stationary states from the rigid sphere to the wanted stiffness (docs/theory.md,
-// eq:predictor). The parameter is the compliance c = wanted modulus / modulus: 0 is rigid, 1 is wanted.
+// Following a branch of stationary states along a path (docs/theory.md, eq:predictor).
 #pragma once
 #include <functional>
 
 #include "case/problem.h"
 #include "solve/newton.h"
+#include "solve/path.h"
 
 namespace rheocyte {
 
-/// Laws at a compliance in (0, 1]: every modulus, tension and stiffness of the cell is divided by it.
-Media media_at(const Problem&, double compliance);
-
-/// What fills the cell.
-inline Interior interior_of(const Problem& problem) {
-  return problem.bulk == BulkLaw::none ? Interior::liquid : Interior::elastic;
-}
-
 /// A converged state on the branch.
 struct BranchState {
-  double compliance = 0;
+  double parameter = 0;  ///< of the path: the compliance, or the share of the way between two problems
   VectorXd unknowns;
-  VectorXd tangent;  ///< d(unknowns)/d(compliance); may be empty where a branch is entered
+  VectorXd tangent;  ///< d(unknowns)/d(parameter); may be empty where a branch is entered
   int newton_iterations = 0;
 };
 
@@ -30,7 +22,7 @@ struct ContinuationOptions {
   /// A predictor farther off than this may land on another branch: greatest change of the surface's meridional
   /// stretch by Newton. Strain, not displacement, shows a crease, which is short.
   double greatest_correction = 0.06;
-  double least_step = 2e-3;  ///< of the compliance, relative to its value
+  double least_step = 2e-3;  ///< of the parameter, relative to its distance from the path's origin (or to 1)
   /// Called with each converged state; returning false refuses it as unstable, and the step is halved.
   std::function<bool(const Discretisation&, const BranchState&)> accept;
 };
@@ -42,10 +34,17 @@ struct ContinuationReport {
   double residual = 0;
 };
 
-/// First state on the branch: Newton from the sphere at a compliance where the response is still nearly linear.
+/// First state on the branch of a problem, in its compliance: Newton from the sphere where the response is still
+/// nearly linear.
 ContinuationReport start_branch(StationarySystem&, const Problem&, const ContinuationOptions&);
 
-/// Continues from a converged state to compliance 1 as far as it goes.
-ContinuationReport continue_branch(StationarySystem&, const Problem&, const ContinuationOptions&, BranchState from);
+/// Continues from a converged state to the end of the path as far as it goes.
+ContinuationReport continue_branch(const Path&, const ContinuationOptions&, BranchState from);
+
+/// d(unknowns)/d(parameter) at a state, with the factorisation that the system of its parameter holds.
+VectorXd branch_tangent(const Path&, const BranchState&);
+
+/// d(residual)/d(parameter) at a state.
+VectorXd parameter_slope(const Path&, const BranchState&);
 
 }  // namespace rheocyte

@@ -4,29 +4,32 @@
 
 namespace rheocyte {
 
-std::string explanation(const Outcome& outcome, double deformation, double estimated_error) {
+std::string explanation(const Outcome& outcome, const LastState& last) {
   if (outcome.status == Status::converged) return "The stationary shape was found.";
   if (outcome.status == Status::stopped && outcome.reached <= 0) return "Stopped by a signal before the first state.";
   if (outcome.reached <= 0) {
     return "No state was found, not even of a nearly rigid cell; please report this case as a fault of the program.";
   }
   const std::string where =
-      fmt::format("{:.3g} times the wanted modulus (deformation {:.4f})", 1 / outcome.reached, deformation);
+      fmt::format("{:.3g} times the wanted moduli (deformation {:.4f})", 1 / outcome.reached, last.deformation);
   switch (outcome.status) {
     case Status::surface_unstable:
       return "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder): the smooth branch ends "
              "at " +
-             where + "; raise the modulus above that, or lower flow rate or viscosity.";
+             where + "; raise the moduli above that, lower flow rate or viscosity" +
+             (last.has_bare_surface ? ", or hold the surface by a little bending stiffness "
+                                      "(cell.cortex.bending_kBT = 1e4) or tension (cell.cortex.tension_mN_per_m)."
+                                    : ".");
     case Status::branch_ended:
       return "The branch of stationary shapes ends at " + where +
-             "; softer cells are drawn out without limit: raise the modulus above that, or lower flow rate or "
+             "; softer cells are drawn out without limit: raise the moduli above that, or lower flow rate or "
              "viscosity.";
-    case Status::mesh_folded: return "The mesh of the liquid folds beyond " + where + "; raise the modulus above that.";
+    case Status::mesh_folded: return "The mesh of the liquid folds beyond " + where + "; raise the moduli above that.";
     case Status::accuracy_not_reached:
       return fmt::format(
           "The shape was found, but its error is estimated at {:.1e} on the finest mesh; ask for less, "
           "numerics.accuracy above that.",
-          estimated_error);
+          last.estimated_error);
     case Status::stopped: return "Stopped by a signal; the last state has " + where + ".";
     default: return fmt::format("The solver stopped ({}) at ", name(outcome.status)) + where + ".";
   }

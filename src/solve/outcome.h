@@ -25,8 +25,15 @@ struct Outcome {
   double reached = 0;   ///< fraction of the wanted compliance 1/E that was reached, 1 when converged
 };
 
-/// One sentence for the user: what happened, where, what to try. `deformation` is that of the last good state.
-std::string explanation(const Outcome&, double deformation, double estimated_error);
+/// What an explanation speaks of.
+struct LastState {
+  double deformation = 0;
+  double estimated_error = 0;    ///< relative
+  bool has_bare_surface = true;  ///< no cortex, tension or bending that could hold the surface
+};
+
+/// One sentence for the user: what happened, where, what to try.
+std::string explanation(const Outcome&, const LastState&);
 
 /// The stable name that stands in result.json, e.g. "converged", "surface-unstable".
 const char* name(Status);

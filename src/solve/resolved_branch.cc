@@ -11,8 +11,15 @@ double least_biot_ratio(const Discretisation& space, const VectorXd& unknowns) {
   return least_biot_ratio(surface_state(space, unknowns, 2 * space.reference().degree() + 1));
 }
 
-bool is_wrinkled(const Discretisation& space, const VectorXd& unknowns) {
+bool is_bare(const Problem& problem) {
+  return problem.bulk != BulkLaw::none && problem.cortex == CortexLaw::none && problem.tension == 0 &&
+         problem.bending_stiffness == 0;
+}
+
+bool is_wrinkled(const Problem& problem, const Discretisation& space, const VectorXd& unknowns) {
   constexpr int greatest_sign_changes = 3;  // a rear dent makes one, a hollow flank two
+  if (!is_bare(problem))
+    return surface_smoothness(contour(space, unknowns)).curvature_sign_changes > greatest_sign_changes;
   const double ratio = least_biot_ratio(space, unknowns);
   if (ratio < biot_limit) return true;
   // Farther from the limit, changes of curvature are faint errors of discretisation on nearly straight flanks.
@@ -32,8 +39,7 @@ constexpr double least_step_before_refining = 0.03, least_step_at_last = 2e-3;
 constexpr double tolerance_on_the_way = 1e-7;
 
 std::shared_ptr<Discrete> discretise(const Problem& problem, const Resolution& resolution) {
-  const ChannelGeometry geometry(problem.radius_ratio);
-  return std::make_shared<Discrete>(geometry, resolution, problem);
+  return std::make_shared<Discrete>(problem, resolution);
 }
 
 /// Carries a branch state over and converges it there; status says whether it stayed the same state.
@@ -42,11 +48,11 @@ ResolvedState carry_over(const Problem& problem, const NewtonOptions& options, c
   ResolvedState to;
   to.resolution = resolution;
   to.discrete = discretise(problem, resolution);
-  to.branch.compliance = from.branch.compliance;
+  to.branch.parameter = from.branch.parameter;
   const VectorXd guess = transfer(from.discrete->space, from.branch.unknowns, to.discrete->space);
   to.branch.unknowns = guess;
   const NewtonReport report =
-      newton(to.discrete->system, media_at(problem, to.branch.compliance), options, to.branch.unknowns);
+      newton(to.discrete->system, media_at(problem, to.branch.parameter), options, to.branch.unknowns);
   to.status = report.status;
   to.residual = report.residual;
   to.newton_iterations = report.iterations;
@@ -56,7 +62,8 @@ ResolvedState carry_over(const Problem& problem, const NewtonOptions& options, c
 
 void advance(const Problem& problem, const ContinuationOptions& options, ResolvedState& state) {
   const WorkMeter before = state.discrete->system.work();
-  const ContinuationReport report = continue_branch(state.discrete->system, problem, options, state.branch);
+  const ContinuationReport report =
+      continue_branch(stiffness_path(state.discrete->system, problem), options, state.branch);
   state.status = report.status;
   state.branch = report.last;
   state.residual = report.residual;
@@ -90,8 +97,8 @@ ResolvedState enter(const Problem& problem, const ContinuationOptions& options, 
   ResolvedState state = carry_over(problem, patient, from, resolution);
   if (state.status == Status::stopped) return state;
   if (state.status == Status::converged) {
-    if (!is_wrinkled(state.discrete->space, state.branch.unknowns)) return state;
-    from.branch.compliance = 0;
+    if (!is_wrinkled(problem, state.discrete->space, state.branch.unknowns)) return state;
+    from.branch.parameter = 0;
   }
   const ResolvedState failed = state;
   state = start(problem, options, resolution);
@@ -100,10 +107,11 @@ ResolvedState enter(const Problem& problem, const ContinuationOptions& options, 
   return state;
 }
 
-ContinuationOptions options_on_the_way(const NewtonOptions& newton, bool last, const BranchObserver& observe) {
+ContinuationOptions options_on_the_way(const Problem& problem, const NewtonOptions& newton, bool last,
+                                       const BranchObserver& observe) {
   ContinuationOptions options;
-  options.accept = [observe](const Discretisation& space, const BranchState& branch) {
-    if (is_wrinkled(space, branch.unknowns)) return false;
+  options.accept = [observe, problem](const Discretisation& space, const BranchState& branch) {
+    if (is_wrinkled(problem, space, branch.unknowns)) return false;
     if (observe) observe(space, branch);
     return true;
   };
@@ -120,17 +128,17 @@ ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton,
   ResolvedState state;
   double seen = 0;  // a resolution that starts anew need not show again what a coarser one showed
   const BranchObserver observe_new = [&](const Discretisation& space, const BranchState& branch) {
-    if (branch.compliance > seen && observe) observe(space, branch);
-    seen = std::max(seen, branch.compliance);
+    if (branch.parameter > seen && observe) observe(space, branch);
+    seen = std::max(seen, branch.parameter);
   };
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    const ContinuationOptions options = options_on_the_way(newton, i + 1 == ways.size(), observe_new);
+    const ContinuationOptions options = options_on_the_way(problem, newton, i + 1 == ways.size(), observe_new);
     ResolvedState next = enter(problem, options, state, ways[i]);
     if (next.status == Status::converged) advance(problem, options, next);
     next.steps += state.steps;
     next.newton_iterations += state.newton_iterations;
     next.work += state.work;
-    const bool is_further = next.branch.tangent.size() > 0 && next.branch.compliance >= state.branch.compliance;
+    const bool is_further = next.branch.tangent.size() > 0 && next.branch.parameter >= state.branch.parameter;
     if (is_further) {
       state = next;
     } else {
@@ -145,11 +153,11 @@ ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton,
 
 ResolvedState at_resolution(const Problem& problem, const NewtonOptions& newton, const ResolvedState& from,
                             const Resolution& resolution) {
-  ContinuationOptions options = options_on_the_way(newton, true, {});
+  ContinuationOptions options = options_on_the_way(problem, newton, true, {});
   options.newton.tolerance = newton.tolerance;
   ResolvedState coarse = from;
   ResolvedState state = enter(problem, options, coarse, resolution);
-  if (state.status == Status::converged && state.branch.compliance < 1) advance(problem, options, state);
+  if (state.status == Status::converged && state.branch.parameter < 1) advance(problem, options, state);
   return state;
 }
 

@@ -7,23 +7,6 @@
 
 namespace rheocyte {
 
-/// How finely a state is resolved.
-struct Resolution {
-  Subdivision subdivision;
-  int degree = 4;
-};
-
-/// Mesh, spaces and system of one resolution; they refer to each other and stay together.
-struct Discrete {
-  Discrete(const ChannelGeometry& geometry, const Resolution& resolution, const Problem& problem)
-      : mesh(geometry, resolution.subdivision),
-        space(mesh, resolution.degree, media_at(problem, 1).liquid, interior_of(problem)),
-        system(space) {}
-  ChannelMesh mesh;
-  Discretisation space;
-  StationarySystem system;
-};
-
 /// A state on the branch, how it was resolved, and how the way to it ended.
 struct ResolvedState {
   Status status = Status::not_started;
@@ -41,9 +24,12 @@ inline constexpr double near_biot_limit = 1.25 * biot_limit;
 /// The least Biot ratio (fem/observe.h) of a state's surface.
 double least_biot_ratio(const Discretisation&, const VectorXd& unknowns);
 
+/// Whether nothing but the bulk holds the surface: no cortex, tension or bending.
+bool is_bare(const Problem&);
+
 /// Whether a surface is beyond Biot's limit, or near it and its contour shows more changes of curvature than a rear
 /// dent and a hollow flank make.
-bool is_wrinkled(const Discretisation&, const VectorXd& unknowns);
+bool is_wrinkled(const Problem&, const Discretisation&, const VectorXd& unknowns);
 
 /// Sees each converged state of the way.
 using BranchObserver = std::function<void(const Discretisation&, const BranchState&)>;

@@ -78,12 +78,12 @@ class StationarySolver {
     result_.shape = measure(Contour{});  // not a number until there is a shape
     Tally tally(result_.statistics);
     ResolvedState state = follow_branch(problem_, newton_, [this](const Discretisation& space, const BranchState& b) {
-      report({b.compliance, deformation(space, b.unknowns), b.newton_iterations, space.reference().degree()});
+      report({b.parameter, deformation(space, b.unknowns), b.newton_iterations, space.reference().degree()});
     });
     tally.add(state);
     if (state.status == Status::converged) state = climb(state, tally);
     result_.outcome.status = state.status;
-    if (state.discrete && state.branch.compliance > 0) describe(state);
+    if (state.discrete && state.branch.parameter > 0) describe(state);
     explain(state);
     result_.statistics.total_s = seconds_since(start);
     return std::move(result_);
@@ -107,8 +107,8 @@ class StationarySolver {
         const ResolvedState next = at_resolution(problem_, newton_, state, {rung.subdivision, degree});
         tally.add(next);
         if (next.status == Status::stopped) return state.status = Status::stopped, state;
-        if (next.status != Status::converged || is_wrinkled(next.discrete->space, next.branch.unknowns)) {
-          if (next.branch.unknowns.size() > 0 &&
+        if (next.status != Status::converged || is_wrinkled(problem_, next.discrete->space, next.branch.unknowns)) {
+          if (is_bare(problem_) && next.branch.unknowns.size() > 0 &&
               least_biot_ratio(next.discrete->space, next.branch.unknowns) < near_biot_limit)
             reason = Status::surface_unstable;
           break;  // this mesh cannot hold the state: the next one
@@ -116,7 +116,7 @@ class StationarySolver {
         state = next;
         values.push_back(deformation(state.discrete->space, state.branch.unknowns));
         result_.estimated_error = estimate_error(values);
-        report({state.branch.compliance, values.back(), state.newton_iterations, degree});
+        report({state.branch.parameter, values.back(), state.newton_iterations, degree});
         if (values.size() >= 2 && is_accurate(values.back())) return state;
       }
     }
@@ -133,7 +133,7 @@ class StationarySolver {
   void describe(const ResolvedState& state) {
     const Discretisation& space = state.discrete->space;
     const VectorXd& unknowns = state.branch.unknowns;
-    const Media media = media_at(problem_, state.branch.compliance);
+    const Media media = media_at(problem_, state.branch.parameter);
     StationaryState& r = result_;
     r.contour = contour(space, unknowns);
     r.shape = measure(r.contour);
@@ -144,12 +144,12 @@ class StationarySolver {
     r.pressure_drop = inlet_pressure(space, unknowns) + gradient * half;
     r.additional_pressure_drop = r.pressure_drop - gradient * r.channel_length;
     r.relative_volume_change = r.shape.volume / (4.0 / 3 * std::numbers::pi * std::pow(problem_.radius_ratio, 3)) - 1;
-    const SurfaceState surface = surface_state(space, unknowns, 4 * space.reference().degree() + 1);
-    r.least_meridional_stretch = surface.stretch.col(0).minCoeff();
-    r.biot_ratio = least_biot_ratio(surface);
+    describe_surface(space, media.cortex, unknowns);
+    if (const int p = space.inner_pressure(); p >= 0)
+      r.inner_pressure = unknowns(p) + 2 * media.cortex.tension / problem_.radius_ratio;
     r.residual = state.residual;
-    r.outcome.reached = state.branch.compliance;
-    if (state.branch.compliance < 1) r.estimated_error = std::numeric_limits<double>::quiet_NaN();
+    r.outcome.reached = state.branch.parameter;
+    if (state.branch.parameter < 1) r.estimated_error = std::numeric_limits<double>::quiet_NaN();
     r.statistics.unknowns = space.unknowns();
     r.statistics.degree = state.resolution.degree;
     r.statistics.elements = int(space.elements().size());
@@ -158,17 +158,26 @@ class StationarySolver {
     };
   }
 
+  void describe_surface(const Discretisation& space, const Cortex& cortex, const VectorXd& unknowns) {
+    const SurfaceState surface = surface_state(space, unknowns, SurfaceProfile::points_per_piece);
+    const Eigen::MatrixX2d tension = surface_tensions(cortex, surface);
+    result_.surface = {surface.angle, surface.point, surface.stretch, tension, surface.curvature};
+    result_.least_meridional_stretch = surface.stretch.col(0).minCoeff();
+    result_.least_tension = tension.col(0).minCoeff();
+    result_.biot_ratio = least_biot_ratio(surface);
+  }
+
   /// Settles the reason and says it in a sentence.
   void explain(const ResolvedState& state) {
     Outcome& outcome = result_.outcome;
     const bool failed_on_the_way = outcome.status != Status::converged && outcome.status != Status::stopped &&
                                    outcome.status != Status::accuracy_not_reached;
-    if (failed_on_the_way && state.discrete && result_.biot_ratio < near_biot_limit) {
+    if (failed_on_the_way && state.discrete && is_bare(problem_) && result_.biot_ratio < near_biot_limit) {
       outcome.status = Status::surface_unstable;
-    } else if (outcome.status == Status::iteration_limit && state.branch.compliance > 0) {
+    } else if (outcome.status == Status::iteration_limit && state.branch.parameter > 0) {
       outcome.status = Status::branch_ended;
     }
-    outcome.message = explanation(outcome, result_.shape.deformation, result_.estimated_error);
+    outcome.message = explanation(outcome, {result_.shape.deformation, result_.estimated_error, is_bare(problem_)});
   }
 
   Problem problem_;

@@ -36,14 +36,26 @@ struct BranchPoint {
   int degree;  ///< polynomial degree at which it was found
 };
 
+/// The surface at equidistant parameters of each piece of the contour, both ends included, front pole first. Columns:
+/// meridional, hoop.
+struct SurfaceProfile {
+  static constexpr int points_per_piece = 33;
+  Eigen::VectorXd rest_angle;  ///< where the point was on the unstressed sphere, from the flow direction, in radians
+  Eigen::MatrixX2d point;      ///< (x, r), in R
+  Eigen::MatrixX2d stretch;
+  Eigen::MatrixX2d tension;    ///< principal Cauchy tensions of the cortex, surface tension included, in S R
+  Eigen::MatrixX2d curvature;  ///< in 1/R; both 1/a for a sphere of radius a
+};
+
 /// What is not known must not look like a number.
 inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Everything that is known of a stationary state; dimensionless, in the units of case/problem.h.
 struct StationaryState {
   Outcome outcome;
-  ShapeMeasures shape;                         ///< of the contour; lengths in R
-  Contour contour;                             ///< barycentre at x = 0
+  ShapeMeasures shape;  ///< of the contour; lengths in R
+  Contour contour;      ///< barycentre at x = 0
+  SurfaceProfile surface;
   double cell_velocity = no_value;             ///< in U
   double pressure_drop = no_value;             ///< over the simulated channel, in S
   double additional_pressure_drop = no_value;  ///< the part that is due to the cell
@@ -51,6 +63,8 @@ struct StationaryState {
   double relative_volume_change = no_value;
   double least_meridional_stretch = no_value;  ///< over the surface
   double biot_ratio = no_value;       ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
+  double least_tension = no_value;    ///< meridional, over the surface, in S R; a shell wrinkles where it is negative
+  double inner_pressure = no_value;   ///< of a liquid interior, in S, the undisturbed pressure at the cell being 0
   double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
   double estimated_error = no_value;  ///< relative, of the deformation
   SolveStatistics statistics;

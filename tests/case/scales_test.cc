@@ -65,7 +65,7 @@ TEST(Scales, StokesCasesWithEqualGroupsAreOneProblem) {
   other.cell.radius_um *= 2;
   other.flow.rate_ul_per_s *= 3;
   *other.flow.viscosity_mPas *= 5;
-  other.cell.bulk.young_modulus_kPa *= 15.0 / 8;
+  *other.cell.bulk.young_modulus_kPa *= 15.0 / 8;
   const Problem a = problem_of(one), b = problem_of(other);
   EXPECT_NEAR(a.radius_ratio, b.radius_ratio, rounding);
   EXPECT_NEAR(a.shear_modulus / b.shear_modulus, 1, rounding);

@@ -8,8 +8,9 @@
 namespace rheocyte::test {
 
 struct SmallChannel {
-  explicit SmallChannel(double radius_ratio, int degree = 4, const Liquid& liquid = {}, const Subdivision& n = {})
-      : mesh(ChannelGeometry(radius_ratio), n), space(mesh, degree, liquid), system(space) {}
+  explicit SmallChannel(double radius_ratio, int degree = 4, const Liquid& liquid = {}, const Subdivision& n = {},
+                        Interior interior = Interior::elastic)
+      : mesh(ChannelGeometry(radius_ratio), n), space(mesh, degree, liquid, interior), system(space) {}
   ChannelMesh mesh;
   Discretisation space;
   StationarySystem system;

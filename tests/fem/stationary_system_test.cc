@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "small_channel.h"
 
 namespace rheocyte {
@@ -9,13 +11,28 @@ namespace {
 
 using test::SmallChannel;
 
+/// Laws, and what fills the cell.
+struct Cell {
+  Media media;
+  Interior interior = Interior::elastic;
+  Liquid liquid() const { return media.liquid; }
+};
+
 // The floor of 0.1 keeps the power law's third derivatives moderate where the liquid does not shear.
-const std::array media = {Media{{}, {12, 0}},
-                          Media{{}, {12, 1}},
-                          Media{{}, {12, 0.4}},
-                          Media{{LiquidLaw::newtonian, 1, 0, 0.5}, {12, 1}},
-                          Media{{LiquidLaw::power_law, 0.6, 0.1, 0}, {12, 0}},
-                          Media{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {12, 0.4}}};
+const std::vector<Cell> cells = {
+    {{{}, {12, 0}}},
+    {{{}, {12, 1}}},
+    {{{}, {12, 0.4}}},
+    {{{LiquidLaw::newtonian, 1, 0, 0.5}, {12, 1}}},
+    {{{LiquidLaw::power_law, 0.6, 0.1, 0}, {12, 0}}},
+    {{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {12, 0.4}}},
+    {{{}, {12, 1}, {CortexLaw::none, 0, 1, 0.1}}},
+    {{{}, {12, 0}, {CortexLaw::linear, 8, 0.8, 0}}},
+    {{{}, {12, 1}, {CortexLaw::neo_hookean, 8, 0.8, 0.1}}},
+    {{{}, {0, 1}, {CortexLaw::linear, 20, 2, 0}}, Interior::liquid},
+    {{{}, {0, 1}, {CortexLaw::thin_shell, 20, 2, 0.2}}, Interior::liquid},
+    {{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {0, 1}, {CortexLaw::neo_hookean, 20, 2, 0}}, Interior::liquid},
+    {{{}, {0, 1}, {CortexLaw::neo_hookean_reference, 20, 0, 0}}, Interior::liquid}};
 
 VectorXd residual(StationarySystem& system, const Media& law, const VectorXd& state) {
   double det = 0;
@@ -30,8 +47,9 @@ double taylor_remainder(StationarySystem& system, const Media& law, const Vector
 
 TEST(StationarySystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
   // At a deformed state in a random direction, for each law: halving the step quarters the remainder.
-  for (const Media& law : media) {
-    SmallChannel channel(0.6, 5, law.liquid);
+  for (const Cell& cell : cells) {
+    const Media& law = cell.media;
+    SmallChannel channel(0.6, 5, law.liquid, {}, cell.interior);
     const VectorXd x = test::deformed_state(channel.system, law);
     const VectorXd d = test::random_vector(channel.space.unknowns());
     // Random nodal values have slopes near p^2: small enough steps stay in the quadratic range, above rounding.
@@ -46,8 +64,9 @@ TEST(StationarySystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
 
 TEST(StationarySystem, TheCondensedSystemSolvesTheWholeOne) {
   // K (K^-1 b) = b for random b, though inner unknowns never reach the sparse matrix.
-  for (const Media& law : media) {
-    SmallChannel channel(0.6, 5, law.liquid);
+  for (const Cell& cell : cells) {
+    const Media& law = cell.media;
+    SmallChannel channel(0.6, 5, law.liquid, {}, cell.interior);
     const VectorXd x = test::deformed_state(channel.system, law);
     double det = 0;
     bool factorised = false;
@@ -62,12 +81,12 @@ TEST(StationarySystem, TheCondensedSystemSolvesTheWholeOne) {
 
 TEST(StationarySystem, LineariseReturnsTheResidual) {
   // Both ways to evaluate the equations give the same numbers, and the same determinant.
-  SmallChannel channel(0.6, 4, media.back().liquid);
-  const VectorXd x = test::deformed_state(channel.system, media.back());
+  SmallChannel channel(0.6, 4, cells[5].liquid());
+  const VectorXd x = test::deformed_state(channel.system, cells[5].media);
   double det = 0, det_of_residual = 0;
   bool factorised = false;
-  const VectorXd one = channel.system.linearise(media.back(), x, det, factorised);
-  const VectorXd other = channel.system.residual(media.back(), x, det_of_residual);
+  const VectorXd one = channel.system.linearise(cells[5].media, x, det, factorised);
+  const VectorXd other = channel.system.residual(cells[5].media, x, det_of_residual);
   EXPECT_LT((one - other).norm() / one.norm(), 1e-13);  // dual numbers may round otherwise
   EXPECT_EQ(det, det_of_residual);
 }
@@ -77,8 +96,8 @@ TEST(StationarySystem, TheResidualIsTheSameInEveryRun) {
   VectorXd first;
   for (int run = 0; run < 3; ++run) {
     SmallChannel channel(0.6);
-    const VectorXd x = test::deformed_state(channel.system, media[1]);
-    const VectorXd r = residual(channel.system, media[1], x);
+    const VectorXd x = test::deformed_state(channel.system, cells[1].media);
+    const VectorXd r = residual(channel.system, cells[1].media, x);
     if (run == 0) first = r;
     EXPECT_EQ(r, first);
   }
@@ -89,14 +108,14 @@ TEST(StationarySystem, AFoldedMeshHasANegativeDeterminant) {
   SmallChannel channel(0.6);
   double det = 0;
   VectorXd x = channel.system.sphere();
-  channel.system.residual(media[0], x, det);
+  channel.system.residual(cells[0].media, x, det);
   EXPECT_NEAR(det, 1, 1e-13);
   for (const BoundaryEdge& edge : channel.space.surface()) {
     for (const int node : edge.nodes) {
       if (const int r = channel.space.displacement(node, 1); r >= 0) x(r) = 1;
     }
   }
-  channel.system.residual(media[0], x, det);
+  channel.system.residual(cells[0].media, x, det);
   EXPECT_LT(det, 0);
 }
 
@@ -110,7 +129,7 @@ TEST(StationarySystem, NumbersThatAreNotFiniteAreNotFactorised) {
   EXPECT_FALSE(factorised);
   VectorXd x = channel.system.sphere();
   x(channel.space.outer_unknowns()) = nan;
-  channel.system.linearise(media[0], x, det, factorised);
+  channel.system.linearise(cells[0].media, x, det, factorised);
   EXPECT_FALSE(factorised);
 }
 
@@ -119,7 +138,7 @@ TEST(StationarySystem, TheWorkMeterCounts) {
   SmallChannel channel(0.6);
   double det = 0;
   bool factorised = false;
-  channel.system.linearise(media[0], channel.system.sphere(), det, factorised);
+  channel.system.linearise(cells[0].media, channel.system.sphere(), det, factorised);
   EXPECT_EQ(channel.system.work().factorisations, 1);
   WorkMeter sum = channel.system.work();
   sum += channel.system.work();

@@ -109,17 +109,5 @@ TEST(CellPoint, TheFluxIsTheDerivativeOfTheStrainEnergyOfAnIsochoricState) {
   }
 }
 
-TEST(AxialMoment, ASphereOffTheOriginHasItsVolumeTimesItsCentre) {
-  // int x dV / (2 pi) = x0 V / (2 pi) = 2/3 x0 for the unit sphere, from front to rear pole.
-  constexpr double x0 = 0.3;
-  constexpr int intervals = 2000;  // Simpson's rule on a trigonometric polynomial: error 1e-13
-  double sum = 0;
-  for (int i = 0; i <= intervals; ++i) {
-    const double t = M_PI * i / intervals, weight = i == 0 || i == intervals ? 1 : i % 2 ? 4 : 2;
-    sum += weight * axial_moment(std::array{x0 + std::cos(t), std::sin(t), std::cos(t)});
-  }
-  EXPECT_NEAR(sum * M_PI / (3 * intervals), 2.0 / 3 * x0, 1e-11);
-}
-
 }  // namespace
 }  // namespace rheocyte

@@ -36,6 +36,15 @@ Contour sphere(double radius) {
   return contour;
 }
 
+SurfaceProfile surface_of_sphere(double radius) {
+  const Eigen::Index points = 4 * SurfaceProfile::points_per_piece;
+  SurfaceProfile surface{Eigen::VectorXd::LinSpaced(points, 0, std::acos(-1.0)), Eigen::MatrixX2d(points, 2),
+                         Eigen::MatrixX2d::Ones(points, 2), Eigen::MatrixX2d::Zero(points, 2),
+                         Eigen::MatrixX2d::Constant(points, 2, 1 / radius)};
+  surface.point << radius * surface.rest_angle.array().cos(), radius * surface.rest_angle.array().sin();
+  return surface;
+}
+
 bool write_some_fields(const std::string& path, const Scales&) {
   const auto failure = wanted_failure();
   if (failure == "fields-throw") throw std::runtime_error("the writer\nhas failed");
@@ -71,6 +80,7 @@ StationaryState solve_stationary(const Problem& problem, const ProgressCallback&
     for (const auto& point : state.branch) progress(point);
   state.outcome = failure == "slow" ? wait_for_stop(stop) : outcome_of(failure);
   state.contour = sphere(problem.radius_ratio);
+  state.surface = surface_of_sphere(problem.radius_ratio);
   state.shape = measure(state.contour);
   state.cell_velocity = 1.5;
   state.pressure_drop = 30;

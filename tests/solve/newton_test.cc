@@ -16,9 +16,7 @@ namespace {
 const Resolution resolution = {{2, 4, 1, 2}, 5};
 
 struct CoarseProblem {
-  explicit CoarseProblem(const Problem& problem)
-      : discrete(ChannelGeometry(problem.radius_ratio), resolution, problem),
-        media(media_at(problem, 1)) {}
+  explicit CoarseProblem(const Problem& problem) : discrete(problem, resolution), media(media_at(problem, 1)) {}
   Discrete discrete;
   Media media;
 };

@@ -30,7 +30,7 @@ TEST(Outcome, EveryStatusHasASentence) {
   // Whatever was reached; only success speaks of a shape that was found without reserve.
   for (const Status status : statuses) {
     for (const double reached : {0.0, 0.4, 1.0}) {
-      const std::string sentence = explanation({status, "", reached}, 0.05, 1e-3);
+      const std::string sentence = explanation({status, "", reached}, {0.05, 1e-3});
       EXPECT_EQ(sentence.back(), '.') << name(status);
       EXPECT_EQ(sentence == "The stationary shape was found.", status == Status::converged);
     }
@@ -40,10 +40,19 @@ TEST(Outcome, EveryStatusHasASentence) {
 TEST(Outcome, TheEndOfTheBranchIsToldInModuliAndDeformation) {
   // 0.4 of the compliance is 2.5 times the modulus.
   for (const Status status : {Status::surface_unstable, Status::branch_ended, Status::mesh_folded}) {
-    const std::string sentence = explanation({status, "", 0.4}, 0.0512, 0);
-    EXPECT_NE(sentence.find("2.5 times the wanted modulus"), std::string::npos) << sentence;
+    const std::string sentence = explanation({status, "", 0.4}, {0.0512, 0});
+    EXPECT_NE(sentence.find("2.5 times the wanted moduli"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("0.0512"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("raise the modulus"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("raise the moduli"), std::string::npos) << sentence;
+  }
+}
+
+TEST(Outcome, AnUnstableBareSurfaceIsOfferedWhatCouldHoldIt) {
+  // By the names of the keys; a surface that is held already is not.
+  const Outcome unstable{Status::surface_unstable, "", 0.4};
+  for (const char* key : {"cell.cortex.bending_kBT", "cell.cortex.tension_mN_per_m"}) {
+    EXPECT_NE(explanation(unstable, {0.05, 0, true}).find(key), std::string::npos);
+    EXPECT_EQ(explanation(unstable, {0.05, 0, false}).find(key), std::string::npos);
   }
 }
 
