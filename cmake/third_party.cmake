@@ -5,6 +5,9 @@
 #   rheocyte::umfpack    sparse LU of SuiteSparse
 #   rheocyte::jet        dual numbers ceres::Jet: headers only, libceres is not linked
 #   rheocyte::toml       toml++: headers only
+#   rheocyte::hdf5       HDF5 without MPI (deal.II brings the one with MPI; the two do not mix in one process)
+#   rheocyte::zstd       Zstandard
+#   rheocyte::qhull      Delaunay triangulation
 #   rheocyte::dealii     deal.II (only where deal.II was found)
 #
 # and RHEOCYTE_PYTHON_EXECUTABLE, an interpreter that has matplotlib and numpy.
@@ -44,6 +47,10 @@ target_link_libraries(rheocyte::jet INTERFACE Eigen3::Eigen)
 
 rheocyte_import(toml HEADER toml++/toml.h PACKAGE libtomlplusplus-dev)
 target_compile_definitions(rheocyte::toml INTERFACE TOML_HEADER_ONLY=1)
+
+rheocyte_import(hdf5 LIBRARY hdf5 HEADER hdf5.h SUFFIXES hdf5/serial PACKAGE libhdf5-dev)
+rheocyte_import(zstd LIBRARY zstd HEADER zstd.h PACKAGE libzstd-dev)
+rheocyte_import(qhull LIBRARY qhull_r HEADER libqhull_r/libqhull_r.h PACKAGE libqhull-dev)
 
 # deal.II's own flags (C++17, its optimisation and warnings) stay with deal.II. DEBUG chooses the library with
 # assertions. It names some two hundred libraries to link; only those that are really called become ours.

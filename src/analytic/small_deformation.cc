@@ -18,7 +18,7 @@ constexpr double square_duct_peak = 2.0963;
 // P_l(cos theta) and its derivatives with respect to cos theta for l = 0, 1, 2, ..., by recurrence.
 class Legendre {
  public:
-  explicit Legendre(double x) : x_(x), value_(1), next_(x) {}
+  explicit Legendre(double x) : x_(x), next_(x) {}
 
   double value() const { return value_; }
   double slope() const { return slope_; }  ///< dP_l/dx
@@ -35,7 +35,7 @@ class Legendre {
 
  private:
   int l_ = 0;
-  double x_, value_, next_, slope_ = 0, slope_before_ = 0;
+  double x_, value_ = 1, next_, slope_ = 0, slope_before_ = 0;
 };
 
 // (u_r, u_theta)

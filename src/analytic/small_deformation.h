@@ -1,7 +1,7 @@
 // The closed model of Mietke et al. 2015: shape of a little deformed cell, solid or shell, in a tube.
 //
-// Against laws for finite strain it agrees where deformations are small: up to d of about 0.02 for solids, 0.005 for
-// shells (docs/theory.md, sec. "range").
+// It is the limit of vanishing deformation of every elastic law; how far it reaches beyond is measured against
+// `rheocyte solve` (docs/verification.md).
 #pragma once
 #include "analytic/elastic_response.h"
 #include "analytic/sphere_in_tube.h"
@@ -9,8 +9,10 @@
 
 namespace rheocyte {
 
-/// Up to these deformations the model is used without a remark.
-inline constexpr double greatest_solid_deformation = 0.02, greatest_shell_deformation = 0.005;
+/// Up to these deformations and this ratio r0 / R the deformation is within 10 % of the laws `linear` for finite
+/// strain, and a modulus derived from it within 5 %. (Neo-Hookean solids: within 17 %.)
+inline constexpr double greatest_solid_deformation = 0.02, greatest_shell_deformation = 0.001;
+inline constexpr double greatest_ratio_of_agreement = 0.8;
 
 /// Which velocity on the axis belongs to a flow rate Q (eq:peak-velocity): that of the tube, or that of the square duct
 /// of width L = R / 0.547, as in the published analytical tables.

@@ -20,8 +20,8 @@ struct HelpOptions {
 void print_help(const CLI::App& app, const HelpOptions& options) {
   if (options.topic == "case")
     fmt::print("{}", options.markdown ? case_reference_markdown() : case_reference_text());
-  else if (options.topic == "solve")
-    fmt::print("{}", app.get_subcommand("solve")->help("rheocyte"));
+  else if (!options.topic.empty())
+    fmt::print("{}", app.get_subcommand(options.topic)->help("rheocyte"));
   else
     fmt::print("{}", app.help());
 }
@@ -32,7 +32,7 @@ void add_help_command(CLI::App& app) {
   auto* command = app.add_subcommand("help", "explain the keys of a case, or a command");
   auto options = std::make_shared<HelpOptions>();
   auto* topic = command->add_option("TOPIC", options->topic, "case: all keys with unit, default and range");
-  topic->check(CLI::IsMember({"case", "solve"}));
+  topic->check(CLI::IsMember({"case", "extract", "solve"}));
   command->add_flag("--markdown", options->markdown, "the case's keys as a Markdown document");
   command->callback([&app, options] { print_help(app, *options); });
 }

@@ -1,4 +1,4 @@
-// `rheocyte help [case|solve]`
+// `rheocyte help [case|extract|solve]`
 #pragma once
 
 namespace CLI {

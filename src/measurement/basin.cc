@@ -33,8 +33,8 @@ std::string identifier_of(const Metadata& metadata) {
 
 }  // namespace
 
-std::optional<BasinDefinition> read_basin_definition(const std::string& text) {
-  const json definition = json::parse(text, nullptr, false);
+std::optional<BasinDefinition> read_basin_definition(const std::string& json_text) {
+  const json definition = json::parse(json_text, nullptr, false);
   if (!definition.is_object()) return std::nullopt;
   BasinDefinition basin;
   const std::string type = text_at(definition, "type"), format = text_at(definition, "format");
@@ -54,9 +54,9 @@ std::optional<BasinDefinition> read_basin_definition(const std::string& text) {
 }
 
 std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths) {
-  const json definition{{"description", nullptr}, {"features", nullptr}, {"format", "hdf5"}, {"identifier", nullptr},
-                        {"mapping", "same"},      {"name", name},        {"paths", paths},   {"perishable", false},
-                        {"type", "file"}};
+  const json definition{{"description", nullptr}, {"features", nullptr}, {"format", "hdf5"},
+                        {"identifier", nullptr},  {"mapping", "same"},   {"name", name},
+                        {"paths", paths},         {"perishable", false}, {"type", "file"}};
   std::istringstream text(definition.dump(2, ' ', false, json::error_handler_t::replace));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);

@@ -20,7 +20,7 @@ struct BasinDefinition {
 };
 
 /// Reads a definition (JSON). Nothing if it is broken or of a kind that needs a network.
-std::optional<BasinDefinition> read_basin_definition(const std::string& json);
+std::optional<BasinDefinition> read_basin_definition(const std::string& json_text);
 
 /// The definition of a basin of kind file with equal numbers of events, in lines for /basins.
 std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths);

@@ -15,34 +15,34 @@ constexpr ContourFeatures no_features{nan, nan, nan, nan, nan, nan, nan, nan, na
 
 /// Integrals over the polygon; the sign of the orientation is removed.
 struct PolygonMoments {
-  double area = 0, x = 0, y = 0;              // area and centroid
-  double mu20 = 0, mu11 = 0, mu02 = 0;        // about the centroid
+  double area = 0, x = 0, y = 0;        // area and centroid
+  double mu20 = 0, mu11 = 0, mu02 = 0;  // about the centroid
 };
 
 std::int64_t cross(const PixelPoint& o, const PixelPoint& a, const PixelPoint& b) {
   return static_cast<std::int64_t>(a.x - o.x) * (b.y - o.y) - static_cast<std::int64_t>(a.y - o.y) * (b.x - o.x);
 }
 
-// Green's theorem about the first point: all sums are of small whole numbers and exact in 64 bits.
+// Green's theorem about the first point. All terms are whole numbers; for a contour in a picture they and their sums
+// are exact in double precision, and what a damaged file holds does not overflow.
 PolygonMoments moments_of(std::span<const PixelPoint> polygon) {
   const PixelPoint origin = polygon[0];
-  std::int64_t twice_area = 0, sx = 0, sy = 0;
-  double sxx = 0, sxy = 0, syy = 0;
-  std::int64_t x0 = polygon.back().x - origin.x, y0 = polygon.back().y - origin.y;
+  double twice_area = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+  double x0 = polygon.back().x - origin.x, y0 = polygon.back().y - origin.y;
   for (const PixelPoint& point : polygon) {
-    const std::int64_t x1 = point.x - origin.x, y1 = point.y - origin.y, c = x0 * y1 - x1 * y0;
+    const double x1 = point.x - origin.x, y1 = point.y - origin.y, c = x0 * y1 - x1 * y0;
     twice_area += c;
     sx += c * (x0 + x1);
     sy += c * (y0 + y1);
-    sxx += static_cast<double>(c * (x0 * x0 + x0 * x1 + x1 * x1));
-    sxy += static_cast<double>(c * (x0 * (2 * y0 + y1) + x1 * (y0 + 2 * y1)));
-    syy += static_cast<double>(c * (y0 * y0 + y0 * y1 + y1 * y1));
+    sxx += c * (x0 * x0 + x0 * x1 + x1 * x1);
+    sxy += c * (x0 * (2 * y0 + y1) + x1 * (y0 + 2 * y1));
+    syy += c * (y0 * y0 + y0 * y1 + y1 * y1);
     x0 = x1;
     y0 = y1;
   }
   if (twice_area == 0) return {};
-  const double sign = twice_area > 0 ? 1 : -1, area = 0.5 * sign * static_cast<double>(twice_area);
-  const double x = sign * static_cast<double>(sx) / (6 * area), y = sign * static_cast<double>(sy) / (6 * area);
+  const double sign = twice_area > 0 ? 1 : -1, area = 0.5 * sign * twice_area;
+  const double x = sign * sx / (6 * area), y = sign * sy / (6 * area);
   return {area,
           x + origin.x,
           y + origin.y,
@@ -79,18 +79,29 @@ double frustum(double dz, double r0, double r1) { return dz * (r0 * r0 + r0 * r1
 }  // namespace
 
 std::span<const PixelPoint> ContourMeasurer::hull_of(std::span<const PixelPoint> contour) {
-  sorted_.assign(contour.begin(), contour.end());
-  std::ranges::sort(sorted_, [](const PixelPoint& a, const PixelPoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  // In each column only the lowest and the highest pixel can lie on the hull.
+  // In each column only the highest and the lowest pixel can lie on the hull; this replaces sorting.
+  const auto [left, right] = std::ranges::minmax(contour, {}, &PixelPoint::x);
+  constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+  columns_.assign(static_cast<std::size_t>(right.x - left.x + 1), {none, -none});
+  for (const PixelPoint& point : contour) {
+    Column& column = columns_[static_cast<std::size_t>(point.x - left.x)];
+    column.least_y = std::min(column.least_y, point.y);
+    column.greatest_y = std::max(column.greatest_y, point.y);
+  }
   hull_.clear();
-  const auto push = [this](const PixelPoint& point, std::size_t bottom) {
+  std::size_t bottom = 0;
+  const auto push = [&](const PixelPoint& point) {
     while (hull_.size() >= bottom + 2 && cross(hull_[hull_.size() - 2], hull_.back(), point) <= 0) hull_.pop_back();
     hull_.push_back(point);
   };
-  for (const PixelPoint& point : sorted_) push(point, 0);
-  const std::size_t lower = hull_.size() - 1;
-  for (std::size_t i = sorted_.size() - 1; i-- > 0;) push(sorted_[i], lower);
-  hull_.pop_back();
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    if (columns_[i].least_y != none) push({left.x + static_cast<std::int32_t>(i), columns_[i].least_y});
+  const PixelPoint turn{right.x, columns_.back().greatest_y};
+  if (!(turn == hull_.back())) hull_.push_back(turn);
+  bottom = hull_.size() - 1;
+  for (std::size_t i = columns_.size() - 1; i-- > 0;)
+    if (columns_[i].least_y != none) push({left.x + static_cast<std::int32_t>(i), columns_[i].greatest_y});
+  if (hull_.size() > 1 && hull_.back() == hull_.front()) hull_.pop_back();
   return hull_;
 }
 

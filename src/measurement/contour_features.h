@@ -10,15 +10,15 @@ namespace rheocyte {
 /// Of one outline; NaN where it has none. "Hull" is the convex hull of the outline, "raw" the outline itself; both run
 /// through the centres of pixels.
 struct ContourFeatures {
-  double area_um2;                            ///< of the hull (feature area_um)
-  double deformation;                         ///< 1 - 2 sqrt(pi A) / P of the hull (deform)
-  double x_um, y_um;                          ///< centroid of the hull (pos_x, pos_y)
-  double raw_area_px;                         ///< (area_msd)
-  double area_ratio;                          ///< hull / raw
-  double width_um, height_um;                 ///< extent in whole pixels (size_x, size_y)
-  double inertia_ratio, inertia_ratio_raw;    ///< sqrt(mu20 / mu02) (inert_ratio_cvx, inert_ratio_raw)
-  double inertia_ratio_principal, tilt;       ///< of the outline itself along its principal axes (inert_ratio_prnc)
-  double volume_um3;                          ///< mean of both halves rotated about the axis through the centroid
+  double area_um2;                          ///< of the hull (feature area_um)
+  double deformation;                       ///< 1 - 2 sqrt(pi A) / P of the hull (deform)
+  double x_um, y_um;                        ///< centroid of the hull (pos_x, pos_y)
+  double raw_area_px;                       ///< (area_msd)
+  double area_ratio;                        ///< hull / raw
+  double width_um, height_um;               ///< extent in whole pixels (size_x, size_y)
+  double inertia_ratio, inertia_ratio_raw;  ///< sqrt(mu20 / mu02) (inert_ratio_cvx, inert_ratio_raw)
+  double inertia_ratio_principal, tilt;     ///< of the outline itself along its principal axes (inert_ratio_prnc)
+  double volume_um3;                        ///< mean of both halves rotated about the axis through the centroid
 };
 
 /// Computes features; keeps its memory from contour to contour.
@@ -30,7 +30,11 @@ class ContourMeasurer {
  private:
   std::span<const PixelPoint> hull_of(std::span<const PixelPoint> contour);
 
-  std::vector<PixelPoint> sorted_, hull_;
+  struct Column {
+    std::int32_t least_y, greatest_y;
+  };
+  std::vector<Column> columns_;
+  std::vector<PixelPoint> hull_;
 };
 
 /// Rotation of a closed contour about the line y = `y` through each of its halves, then the mean (pixels cubed).

@@ -55,8 +55,8 @@ void ContourFinder::connect_runs() {
   std::size_t above = 0;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const Run& run = runs_[i];
-    while (above < i && (runs_[above].row < run.row - 1 ||
-                         (runs_[above].row == run.row - 1 && runs_[above].end < run.first)))
+    while (above < i &&
+           (runs_[above].row < run.row - 1 || (runs_[above].row == run.row - 1 && runs_[above].end < run.first)))
       ++above;
     for (std::size_t k = above; k < i && runs_[k].row == run.row - 1 && runs_[k].first <= run.end; ++k) {
       const std::int32_t one = group_of(static_cast<std::int32_t>(k)), two = group_of(static_cast<std::int32_t>(i));
@@ -80,8 +80,8 @@ void ContourFinder::follow(const Run& start, PixelContour& contour) const {
   contour.clear();
   std::array<std::ptrdiff_t, 8> offset{};
   for (int d = 0; d < 8; ++d) offset[d] = step_y[d] * static_cast<std::ptrdiff_t>(stride_) + step_x[d];
-  const std::uint8_t* const first = framed_.data() + static_cast<std::ptrdiff_t>(start.row + 1) * stride_ +
-                                    start.first + 1;
+  const std::uint8_t* const first =
+      framed_.data() + static_cast<std::ptrdiff_t>(start.row + 1) * stride_ + start.first + 1;
   const std::uint8_t* here = first;
   PixelPoint point{start.first, start.row};
   int search = west + 1, first_direction = -1;

@@ -35,9 +35,25 @@ herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* data) {
   return 0;
 }
 
+// Sign, exponent and mantissa as IEEE 754 has them for 16, 32 and 64 bits; longer ones are as the machine has them.
+bool is_common_float(hid_t type, std::size_t size) {
+  std::size_t sign = 0, exponent = 0, exponent_bits = 0, mantissa = 0, mantissa_bits = 0;
+  if (::H5Tget_fields(type, &sign, &exponent, &exponent_bits, &mantissa, &mantissa_bits) < 0) return false;
+  if (size > 8) return ::H5Tequal(type, H5T_NATIVE_LDOUBLE) > 0;
+  const std::size_t bits = 8 * size, usual = size == 2 ? 5 : size == 4 ? 8 : 11;
+  return size != 1 && sign == bits - 1 && exponent_bits == usual && exponent == bits - 1 - usual && mantissa == 0 &&
+         mantissa_bits == exponent && ::H5Tget_ebias(type) == (std::size_t{1} << (usual - 1)) - 1;
+}
+
+// Numbers that fill all of their bits. HDF5 could convert others, but a damaged description of a type is more likely.
 bool is_number(hid_t type) {
-  const auto kind = ::H5Tget_class(type);
-  return (kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_ENUM) && ::H5Tget_size(type) <= 16;
+  const std::size_t size = ::H5Tget_size(type);
+  switch (::H5Tget_class(type)) {
+    case H5T_ENUM: return size <= 8;
+    case H5T_INTEGER: return size <= 8 && ::H5Tget_precision(type) == 8 * size && ::H5Tget_offset(type) == 0;
+    case H5T_FLOAT: return size <= 16 && is_common_float(type, size);
+    default: return false;
+  }
 }
 
 // External and virtual storage would let a recording read any other file.
@@ -72,6 +88,50 @@ Hdf5Handle select_rows(hid_t space, std::size_t first, std::size_t rows) {
   return Hdf5Handle(::H5Screate_simple(dimensions, extent.data(), nullptr));
 }
 
+// The bit that says of a piece of data that it has no checksum, although the dataset has them; 0 without checksums.
+unsigned missing_checksum_bit(hid_t properties) {
+  const int count = ::H5Pget_nfilters(properties);
+  for (int i = 0; i < count && i < 32; ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    if (::H5Pget_filter2(properties, unsigned(i), &flags, &values, nullptr, 0, nullptr, nullptr) ==
+        H5Z_FILTER_FLETCHER32)
+      return 1U << unsigned(i);
+  }
+  return 0;
+}
+
+// Whether every piece of data that the rows need is there and under its checksum. HDF5 itself would take zeros for
+// what is missing.
+bool chunks_are_sound(hid_t dataset, hid_t file_space, std::size_t first, std::size_t rows) {
+  const Hdf5Handle properties(::H5Dget_create_plist(dataset));
+  if (!properties) return false;
+  if (::H5Pget_layout(properties.get()) != H5D_CHUNKED) return true;
+  const int dimensions = ::H5Sget_simple_extent_ndims(file_space);
+  std::vector<hsize_t> extent(dimensions), chunk(dimensions);
+  ::H5Sget_simple_extent_dims(file_space, extent.data(), nullptr);
+  if (::H5Pget_chunk(properties.get(), dimensions, chunk.data()) != dimensions) return false;
+  const unsigned no_checksum = missing_checksum_bit(properties.get());
+  const hsize_t start = first / chunk[0] * chunk[0];
+  std::vector<hsize_t> at(dimensions, 0);
+  at[0] = start;
+  extent[0] = first + rows;
+  for (int axis = 0; axis >= 0;) {
+    unsigned mask = 0;
+    haddr_t address = HADDR_UNDEF;
+    hsize_t size = 0;
+    if (::H5Dget_chunk_info_by_coord(dataset, at.data(), &mask, &address, &size) < 0 || address == HADDR_UNDEF ||
+        (mask & no_checksum) != 0)
+      return false;
+    for (axis = dimensions - 1; axis >= 0; --axis) {  // the next place, last axis first
+      at[axis] += chunk[axis];
+      if (at[axis] < extent[axis]) break;
+      at[axis] = axis == 0 ? start : 0;
+    }
+  }
+  return true;
+}
+
 // The values of an enumeration, widened.
 template <class Number>
 bool read_enumeration(hid_t dataset, hid_t memory_type, hid_t memory_space, hid_t file_space,
@@ -94,6 +154,7 @@ bool read_rows_as(hid_t dataset, std::size_t first, std::size_t rows, std::span<
   const Hdf5Handle space(::H5Dget_space(dataset)), type(::H5Dget_type(dataset));
   if (!space || !type) return false;
   const Hdf5Handle memory = select_rows(space.get(), first, rows);
+  if (!chunks_are_sound(dataset, space.get(), first, rows)) return false;
   if (!memory || ::H5Sget_simple_extent_npoints(memory.get()) != static_cast<hssize_t>(values.size())) return false;
   const Hdf5Handle memory_type = type_in_memory(type.get(), native_type<Number>());
   if (!memory_type) return false;
@@ -203,7 +264,8 @@ std::optional<DatasetShape> numeric_shape(hid_t dataset, std::uintmax_t file_byt
     return std::accumulate(sides.begin(), sides.end(), size, [](double a, hsize_t b) { return a * double(b); });
   };
   if (bytes(extent) > reading_limits.greatest_compression * static_cast<double>(file_bytes)) return std::nullopt;
-  DatasetShape shape{{extent.begin(), extent.end()}, 0};
+  const bool single_precision = ::H5Tget_class(type.get()) == H5T_FLOAT && ::H5Tget_size(type.get()) == 4;
+  DatasetShape shape{{extent.begin(), extent.end()}, 0, single_precision};
   if (::H5Pget_layout(properties.get()) != H5D_CHUNKED) return shape;
   if (::H5Pget_chunk(properties.get(), dimensions, chunk.data()) != dimensions ||
       bytes(chunk) > static_cast<double>(reading_limits.chunk_bytes))
@@ -227,11 +289,10 @@ bool read_rows(hid_t dataset, std::size_t first, std::size_t rows, std::span<std
 std::optional<std::vector<std::string>> read_lines(hid_t dataset, std::uintmax_t file_bytes) {
   const Hdf5Handle space(::H5Dget_space(dataset)), type(::H5Dget_type(dataset));
   const Hdf5Handle properties(::H5Dget_create_plist(dataset));
-  if (!space || !type || !properties || ::H5Tget_class(type.get()) != H5T_STRING ||
-      !lies_in_the_file(properties.get()))
+  if (!space || !type || !properties || ::H5Tget_class(type.get()) != H5T_STRING || !lies_in_the_file(properties.get()))
     return std::nullopt;
-  const double bytes = static_cast<double>(::H5Sget_simple_extent_npoints(space.get())) *
-                       static_cast<double>(::H5Tget_size(type.get()));
+  const double bytes =
+      static_cast<double>(::H5Sget_simple_extent_npoints(space.get())) * static_cast<double>(::H5Tget_size(type.get()));
   if (bytes > reading_limits.greatest_compression * static_cast<double>(file_bytes)) return std::nullopt;
   return texts(type.get(), space.get(), [&](hid_t memory_type, void* buffer) {
     return ::H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer) >= 0;

@@ -29,6 +29,7 @@ inline constexpr ReadingLimits reading_limits;
 struct DatasetShape {
   std::vector<std::size_t> extent;
   std::size_t rows_per_chunk = 0;  ///< 0 if the data lie in one piece
+  bool single_precision = false;   ///< stored as 32-bit floating point
   std::size_t rows() const { return extent.empty() ? 0 : extent[0]; }
 };
 

@@ -31,8 +31,8 @@ void remove_pixelation(std::span<const double> areas_um2, double pixel_size_um, 
   const Eigen::Map<const Eigen::ArrayXd> area(areas_um2.data(), size);
   Eigen::Map<Eigen::ArrayXd> deformation(deformations.data(), size);
   const double k = -std::pow(pixel_ratio(pixel_size_um), 2);
-  deformation -= 0.0012 + 0.020 * (k / 7.1 * area).exp() + 0.010 * (k / 38.6 * area).exp() +
-                 0.005 * (k / 296 * area).exp();
+  deformation -=
+      0.0012 + 0.020 * (k / 7.1 * area).exp() + 0.010 * (k / 38.6 * area).exp() + 0.005 * (k / 296 * area).exp();
 }
 
 }  // namespace rheocyte

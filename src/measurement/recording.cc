@@ -60,11 +60,16 @@ std::string missing_filter(hid_t dataset) {
   refuse(file, fmt::format("the feature {} cannot be read: {}.", one_line(feature, 60), missing_filter(dataset)));
 }
 
+bool is_picture(const DatasetShape& shape) {
+  const std::size_t height = shape.extent[1], width = shape.extent[2];
+  return height > 0 && width > 0 && std::max(height, width) <= reading_limits.image_side;
+}
+
 // The length that most of them have; of equally frequent ones the greater.
-std::size_t usual_length(const Datasets& scalars) {
+std::size_t usual_length(const Datasets& features) {
   std::map<std::size_t, int> votes;
-  for (const auto& [name, scalar] : scalars)
-    if (scalar.shape.rows() > 0) ++votes[scalar.shape.rows()];
+  for (const auto& [name, feature] : features)
+    if (feature.shape.rows() > 0) ++votes[feature.shape.rows()];
   std::size_t best = 0;
   int most = 0;
   for (const auto& [length, count] : votes) {
@@ -112,26 +117,28 @@ Recording::Recording(const fs::path& file, std::set<fs::path>& opened) : content
     Hdf5Handle dataset = open_dataset(c.events_group.get(), name);
     auto shape = dataset ? numeric_shape(dataset.get(), c.bytes) : std::nullopt;
     if (!shape) {
-      if (dataset) c.remarks.push_back(fmt::format("{} holds no usable numbers and was left out.", one_line(name, 60)));
+      if (!open_group(c.events_group.get(), name))
+        c.remarks.push_back(fmt::format("{} holds no usable numbers and was left out.", one_line(name, 60)));
       continue;
     }
-    if (shape->extent.size() == 1) c.scalars.emplace(name, OpenDataset{std::move(dataset), *shape});
-    if (name == "mask" && shape->extent.size() == 3 && shape->extent[1] - 1 < reading_limits.image_side &&
-        shape->extent[2] - 1 < reading_limits.image_side)
-      c.mask = OpenDataset{std::move(dataset), *shape};
+    if (shape->extent.size() == 1)
+      c.scalars.emplace(name, OpenDataset{std::move(dataset), *shape});
+    else if (shape->extent.size() == 3 && is_picture(*shape))
+      c.images.emplace(name, OpenDataset{std::move(dataset), *shape});
   }
   c.contours = open_group(c.events_group.get(), "contour");
   c.events = usual_length(c.scalars);
-  if (c.scalars.empty() && c.mask) c.events = c.mask->shape.rows();
+  if (c.events == 0) c.events = usual_length(c.images);
   open_basins(opened);
   if (c.events == 0) refuse(file, "holds no events.");
   const auto said = c.metadata.number("experiment:event count");
   if (said && *said != static_cast<double>(c.events))
     c.remarks.push_back(fmt::format("experiment:event count is {}, but the data have {} events.", *said, c.events));
-  for (const auto& [name, scalar] : c.scalars)
-    if (scalar.shape.rows() != c.events)
-      c.remarks.push_back(
-          fmt::format("{} has {} values for {} events.", one_line(name, 60), scalar.shape.rows(), c.events));
+  for (const auto* const datasets : {&c.scalars, &c.images})
+    for (const auto& [name, feature] : *datasets)
+      if (feature.shape.rows() != c.events)
+        c.remarks.push_back(
+            fmt::format("{} has {} rows for {} events.", one_line(name, 60), feature.shape.rows(), c.events));
 }
 
 const fs::path& Recording::file() const { return content_->path; }
@@ -144,6 +151,13 @@ bool Recording::has_scalar(const std::string& feature) const {
   return content_->scalars.contains(feature) || basin_with(feature) != nullptr;
 }
 
+bool Recording::is_single_precision(const std::string& feature) const {
+  if (const auto found = content_->scalars.find(feature); found != content_->scalars.end())
+    return found->second.shape.single_precision;
+  const auto* basin = basin_with(feature);
+  return basin && basin->recording && basin->recording->is_single_precision(feature);
+}
+
 void Recording::read_scalar(const std::string& feature, std::size_t first, std::span<double> values) const {
   if (const auto found = content_->scalars.find(feature); found != content_->scalars.end())
     read_feature(found->second, content_->path, feature, first, values);
@@ -153,35 +167,39 @@ void Recording::read_scalar(const std::string& feature, std::size_t first, std::
     std::ranges::fill(values, nan);
 }
 
-std::optional<ImageSize> Recording::mask_size() const {
-  if (const auto& mask = content_->mask) return ImageSize{mask->shape.extent[2], mask->shape.extent[1]};
-  const auto* basin = basin_with("mask");
-  return basin ? basin->recording->mask_size() : std::nullopt;
+std::optional<ImageSize> Recording::image_size(const std::string& feature) const {
+  if (const auto found = content_->images.find(feature); found != content_->images.end())
+    return ImageSize{found->second.shape.extent[2], found->second.shape.extent[1]};
+  const auto* basin = basin_with(feature);
+  return basin && basin->recording ? basin->recording->image_size(feature) : std::nullopt;
 }
 
-std::size_t Recording::mask_rows_per_chunk() const {
-  if (content_->mask) return std::max<std::size_t>(content_->mask->shape.rows_per_chunk, 1);
-  const auto* basin = basin_with("mask");
-  return basin && !basin->mapping ? basin->recording->mask_rows_per_chunk() : 1;
+std::size_t Recording::image_rows_per_chunk(const std::string& feature) const {
+  if (const auto found = content_->images.find(feature); found != content_->images.end())
+    return std::max<std::size_t>(found->second.shape.rows_per_chunk, 1);
+  const auto* basin = basin_with(feature);
+  return basin && basin->recording && !basin->mapping ? basin->recording->image_rows_per_chunk(feature) : 1;
 }
 
-void Recording::read_masks(std::size_t first, std::size_t count, std::span<std::uint8_t> pixels) const {
-  if (const auto& mask = content_->mask) {
-    const std::size_t rows = mask->shape.rows(), there = first < rows ? std::min(count, rows - first) : 0;
-    const std::size_t filled = count ? there * (pixels.size() / count) : 0;
-    if (!read_rows(mask->dataset.get(), first, there, pixels.first(filled)))
-      refuse_data(content_->path, "mask", mask->dataset.get());
+void Recording::read_images(const std::string& feature, std::size_t first, std::size_t count,
+                            std::span<std::uint8_t> pixels) const {
+  if (const auto found = content_->images.find(feature); found != content_->images.end()) {
+    const OpenDataset& images = found->second;
+    const std::size_t rows = images.shape.rows(), there = first < rows ? std::min(count, rows - first) : 0;
+    const std::size_t filled = there * images.shape.extent[1] * images.shape.extent[2];
+    if (filled > pixels.size() || !read_rows(images.dataset.get(), first, there, pixels.first(filled)))
+      refuse_data(content_->path, feature, images.dataset.get());
     std::ranges::fill(pixels.subspan(filled), 0);
     return;
   }
   std::ranges::fill(pixels, 0);
-  const auto* basin = basin_with("mask");
-  if (!basin || count == 0) return;
-  if (!basin->mapping) return basin->recording->read_masks(first, count, pixels);
+  const auto* basin = basin_with(feature);
+  if (!basin || !basin->recording || count == 0) return;
+  if (!basin->mapping) return basin->recording->read_images(feature, first, count, pixels);
   const std::size_t one = pixels.size() / count;
   for (std::size_t i = 0; i < count && first + i < basin->mapping->size(); ++i)
-    basin->recording->read_masks(static_cast<std::size_t>((*basin->mapping)[first + i]), 1,
-                                 pixels.subspan(i * one, one));
+    basin->recording->read_images(feature, static_cast<std::size_t>((*basin->mapping)[first + i]), 1,
+                                  pixels.subspan(i * one, one));
 }
 
 bool Recording::has_contours() const { return bool(content_->contours) || basin_with("contour") != nullptr; }

@@ -37,17 +37,21 @@ class Recording {
   /// Whether there is one number per event of this name, e.g. "area_um".
   bool has_scalar(const std::string& feature) const;
 
+  /// Whether a scalar is stored with 32 bits; other programs then compute with 32 bits, too.
+  bool is_single_precision(const std::string& feature) const;
+
   /// Values of events [first, first + values.size()); NaN for those that the feature does not cover.
   /// UserError if the data are damaged.
   void read_scalar(const std::string& feature, std::size_t first, std::span<double> values) const;
 
-  /// Rows and columns of the masks; nothing if there are none.
-  std::optional<ImageSize> mask_size() const;
+  /// Rows and columns of the pictures of a feature: "image", "image_bg", "mask"; nothing if there are none.
+  std::optional<ImageSize> image_size(const std::string& feature) const;
   /// Events that are best read together, so that no piece of the file is decompressed twice; at least 1.
-  std::size_t mask_rows_per_chunk() const;
-  /// Masks of events [first, first + count) behind each other; those that are missing are empty. `pixels` holds
-  /// count masks. UserError if the data are damaged.
-  void read_masks(std::size_t first, std::size_t count, std::span<std::uint8_t> pixels) const;
+  std::size_t image_rows_per_chunk(const std::string& feature) const;
+  /// Pictures of events [first, first + count) behind each other, row by row; those that are missing are all 0.
+  /// `pixels` holds count pictures. UserError if the data are damaged.
+  void read_images(const std::string& feature, std::size_t first, std::size_t count,
+                   std::span<std::uint8_t> pixels) const;
 
   bool has_contours() const;
   /// The contour of one event; empty if the event has none or it is damaged.
@@ -63,8 +67,8 @@ class Recording {
   void open_basins(std::set<std::filesystem::path>& opened);
   void add_basin(const std::string& json, std::set<std::filesystem::path>& opened);
   const Basin* basin_with(const std::string& feature) const;
-  bool is_in(const Basin& basin, const std::string& feature) const;
-  void read_through(const Basin& basin, const std::string& feature, std::size_t first, std::span<double> values) const;
+  static bool is_in(const Basin& basin, const std::string& feature);
+  static void read_through(const Basin& basin, const std::string& feature, std::size_t first, std::span<double> values);
 
   std::unique_ptr<Content> content_;
 };

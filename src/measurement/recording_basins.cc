@@ -31,8 +31,8 @@ void Recording::open_basins(std::set<fs::path>& opened) {
   auto names = group ? member_names(group.get()) : std::nullopt;
   if (!names) return;
   if (names->size() > greatest_number_of_basins) {
-    c.remarks.push_back(fmt::format("has {} basins; only the first {} are used.", names->size(),
-                                    greatest_number_of_basins));
+    c.remarks.push_back(
+        fmt::format("has {} basins; only the first {} are used.", names->size(), greatest_number_of_basins));
     names->resize(greatest_number_of_basins);
   }
   for (const auto& name : *names) {
@@ -46,7 +46,7 @@ void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
   Content& c = *content_;
   const auto definition = read_basin_definition(json);
   if (!definition) {
-    c.remarks.push_back("a basin is not used: it is on a network, or its definition is broken.");
+    c.remarks.emplace_back("a basin is not used: it is on a network, or its definition is broken.");
     return;
   }
   const std::string name = one_line(definition->name, 60);
@@ -66,8 +66,7 @@ void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
     for (const auto& feature : names.value_or(std::vector<std::string>())) {
       Hdf5Handle dataset = open_dataset(group.get(), feature);
       const auto shape = dataset ? numeric_shape(dataset.get(), c.bytes) : std::nullopt;
-      if (shape && shape->extent.size() == 1)
-        basin.internal.emplace(feature, OpenDataset{std::move(dataset), *shape});
+      if (shape && shape->extent.size() == 1) basin.internal.emplace(feature, OpenDataset{std::move(dataset), *shape});
     }
     c.basins.push_back(std::move(basin));
     return;
@@ -94,12 +93,11 @@ void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
   c.basins.push_back(std::move(basin));
 }
 
-bool Recording::is_in(const Basin& basin, const std::string& feature) const {
+bool Recording::is_in(const Basin& basin, const std::string& feature) {
   if (basin.features && std::ranges::find(*basin.features, feature) == basin.features->end()) return false;
   if (!basin.recording) return basin.internal.contains(feature);
-  if (feature == "mask") return basin.recording->mask_size().has_value();
   if (feature == "contour") return basin.recording->has_contours();
-  return basin.recording->has_scalar(feature);
+  return basin.recording->has_scalar(feature) || basin.recording->image_size(feature).has_value();
 }
 
 // Internal ones first, as the field's programs do.
@@ -111,7 +109,7 @@ const Recording::Basin* Recording::basin_with(const std::string& feature) const 
 }
 
 void Recording::read_through(const Basin& basin, const std::string& feature, std::size_t first,
-                             std::span<double> values) const {
+                             std::span<double> values) {
   constexpr std::size_t longest_gap = 64;  // reading on over a gap costs less than a new request
   const auto read = [&](std::size_t from, std::span<double> target) {
     if (basin.recording) return basin.recording->read_scalar(feature, from, target);

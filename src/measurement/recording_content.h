@@ -28,8 +28,7 @@ struct Recording::Content {
   std::uintmax_t bytes = 0;
   Hdf5Handle file, events_group, contours;
   Metadata metadata;
-  Datasets scalars;
-  std::optional<OpenDataset> mask;
+  Datasets scalars, images;
   std::size_t events = 0;
   std::vector<Basin> basins;
   std::vector<std::string> remarks;

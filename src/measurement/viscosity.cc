@@ -66,8 +66,7 @@ void buyukurganci_viscosity(Medium medium, const ChannelFlow& flow, const Source
   const Array kelvin = celsius + kelvin_at_0_celsius;
   const Array n = 0.00223 * kelvin + offset;
   // One exponential for the consistency and the power of the shear rate together.
-  viscosity = 1000 * factor *
-              (3379.7 / kelvin + (n - 1) * (std::log(shear_scale) + (0.6671 + 0.2121 / n).log())).exp();
+  viscosity = 1000 * factor * (3379.7 / kelvin + (n - 1) * (std::log(shear_scale) + (0.6671 + 0.2121 / n).log())).exp();
 }
 
 void herold_viscosity(Medium medium, const ChannelFlow& flow, const Source& celsius, Target& viscosity) {
@@ -109,8 +108,7 @@ std::string_view name_of(Medium medium) {
 }
 
 std::optional<ViscosityModel> viscosity_model_of_name(std::string_view name) {
-  for (const auto model :
-       {ViscosityModel::buyukurganci_2022, ViscosityModel::herold_2017, ViscosityModel::kestin_1978})
+  for (const auto model : {ViscosityModel::buyukurganci_2022, ViscosityModel::herold_2017, ViscosityModel::kestin_1978})
     if (name == name_of(model)) return model;
   return std::nullopt;
 }
@@ -126,12 +124,14 @@ std::string_view name_of(ViscosityModel model) {
 Buffer::Buffer(Medium medium, ViscosityModel model)
     : medium_(medium), model_(medium == Medium::water ? ViscosityModel::kestin_1978 : model) {
   if (model_ == ViscosityModel::herold_2017 && medium_ == Medium::methyl_cellulose_083)
-    throw UserError("The viscosity model herold-2017 does not know 0.83% MC-PBS; take buyukurganci-2022, or give the "
-                    "viscosity itself.");
+    throw UserError(
+        "The viscosity model herold-2017 does not know 0.83% MC-PBS; take buyukurganci-2022, or give the "
+        "viscosity itself.");
   if (model_ == ViscosityModel::kestin_1978 && medium_ != Medium::water)
-    throw UserError(fmt::format("The viscosity model kestin-1978 is for water only, the medium is {}; take "
-                                "buyukurganci-2022 or herold-2017.",
-                                name_of(medium_)));
+    throw UserError(
+        fmt::format("The viscosity model kestin-1978 is for water only, the medium is {}; take "
+                    "buyukurganci-2022 or herold-2017.",
+                    name_of(medium_)));
 }
 
 TemperatureRange Buffer::measured() const {

@@ -41,8 +41,7 @@ Bytes compressed(const void* source, std::size_t size, int level) {
 std::size_t filter(unsigned flags, std::size_t parameter_count, const unsigned* parameters, std::size_t size,
                    std::size_t* room, void** data) {
   const int level = parameter_count > 0 ? static_cast<int>(parameters[0]) : ZSTD_CLEVEL_DEFAULT;
-  const Bytes result =
-      (flags & H5Z_FLAG_REVERSE) != 0 ? decompressed(*data, size) : compressed(*data, size, level);
+  const Bytes result = (flags & H5Z_FLAG_REVERSE) != 0 ? decompressed(*data, size) : compressed(*data, size, level);
   if (result.used == 0) {
     ::H5free_memory(result.data);
     return 0;

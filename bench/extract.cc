@@ -1,0 +1,151 @@
+// Throughput of the extraction of moduli, one core: from memory, and outlines from masks.
+//
+//     bench_extract TABLE [options of Google Benchmark]        TABLE: a published table, e.g. lut_LE-2D-FEM-19.txt
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "case/user_error.h"
+#include "infer/modulus_parity.h"
+#include "measurement/contour_features.h"
+#include "measurement/contour_from_mask.h"
+#include "measurement/viscosity.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr std::size_t events = 1'000'000;
+std::unique_ptr<ParityModulus> table;
+
+struct Events {
+  std::vector<double> area, deformation, temperature;
+};
+
+// Everywhere in the table with equal probability: the worst case for the processor's caches.
+Events uniform_in_hull() {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0, 1), degrees(22, 25);
+  Events all;
+  const MeasuringConditions conditions{20, 0.06, 0};
+  while (all.area.size() < events) {
+    const double area = 340 * unit(random), deformation = 0.2 * unit(random), viscosity = 5;
+    double modulus = NAN;
+    table->moduli(conditions, {{&area, 1}, {&deformation, 1}, {&viscosity, 1}}, {&modulus, 1});
+    if (std::isnan(modulus)) continue;
+    all.area.push_back(area);
+    all.deformation.push_back(deformation);
+    all.temperature.push_back(degrees(random));
+  }
+  return all;
+}
+
+// A population as it is measured: areas 80 +- 12 um^2, deformations about 0.035.
+Events population() {
+  std::mt19937 random(2);
+  std::normal_distribution<double> area(80, 12), degrees(23, 0.2);
+  std::lognormal_distribution<double> deformation(std::log(0.035), 0.4);
+  Events all;
+  for (std::size_t i = 0; i < events; ++i) {
+    all.area.push_back(area(random));
+    all.deformation.push_back(deformation(random));
+    all.temperature.push_back(degrees(random));
+  }
+  return all;
+}
+
+// Viscosity of each event's temperature, pixelation, modulus.
+void moduli(benchmark::State& state, const Events& all) {
+  const Buffer buffer(Medium::methyl_cellulose_049, ViscosityModel::buyukurganci_2022);
+  const std::size_t block = 1 << 16;  // as the program reads them
+  std::vector<double> viscosity(block), modulus(block);
+  for (auto _ : state)
+    for (std::size_t first = 0; first < events; first += block) {
+      const std::size_t count = std::min(block, events - first);
+      const auto part = [&](const std::vector<double>& column) { return std::span(column).subspan(first, count); };
+      const std::span<double> eta(viscosity.data(), count), result(modulus.data(), count);
+      buffer.viscosity({20, 0.06}, part(all.temperature), eta);
+      table->moduli({20, 0.06, 0.34}, {part(all.area), part(all.deformation), eta}, result);
+      benchmark::DoNotOptimize(modulus.data());
+    }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
+}
+
+void moduli_uniform_in_hull(benchmark::State& state) {
+  static const Events all = uniform_in_hull();
+  moduli(state, all);
+}
+
+void moduli_of_a_population(benchmark::State& state) {
+  static const Events all = population();
+  moduli(state, all);
+}
+
+void viscosities(benchmark::State& state) {
+  static const Events all = population();
+  const Buffer buffer(Medium::methyl_cellulose_049, ViscosityModel::buyukurganci_2022);
+  std::vector<double> viscosity(events);
+  for (auto _ : state) buffer.viscosity({20, 0.06}, all.temperature, viscosity);
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
+}
+
+void table_and_triangulation(benchmark::State& state) {
+  for (auto _ : state) {
+    const ParityModulus again(table->table());
+    benchmark::DoNotOptimize(&again);
+  }
+}
+
+// Masks of 250 x 80 pixels with one elliptic cell each, as an RT-DC camera gives them.
+std::vector<std::uint8_t> masks(const ImageSize& size, std::size_t count) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<std::uint8_t> pixels;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double a = 14 + 10 * unit(random), b = 12 + 4 * unit(random), x0 = 40 + 170 * unit(random);
+    const double y0 = 40 + 3 * unit(random);
+    for (std::size_t y = 0; y < size.height; ++y)
+      for (std::size_t x = 0; x < size.width; ++x)
+        pixels.push_back(std::pow((double(x) - x0) / a, 2) + std::pow((double(y) - y0) / b, 2) < 1 ? 255 : 0);
+  }
+  return pixels;
+}
+
+void features_from_masks(benchmark::State& state) {
+  const ImageSize size{250, 80};
+  const std::size_t count = 1000;
+  const auto pixels = masks(size, count);
+  ContourFinder finder;
+  ContourMeasurer measurer;
+  for (auto _ : state)
+    for (std::size_t i = 0; i < count; ++i) {
+      const Mask mask{size, std::span(pixels).subspan(i * size.pixels(), size.pixels())};
+      const auto features = measurer.measure(finder.contour_of(mask), 0.34);
+      benchmark::DoNotOptimize(&features);
+    }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * count));
+}
+
+BENCHMARK(moduli_uniform_in_hull)->Unit(benchmark::kMillisecond);
+BENCHMARK(moduli_of_a_population)->Unit(benchmark::kMillisecond);
+BENCHMARK(viscosities)->Unit(benchmark::kMillisecond);
+BENCHMARK(table_and_triangulation)->Unit(benchmark::kMillisecond);
+BENCHMARK(features_from_masks)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace rheocyte
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  try {
+    if (argc != 2) throw rheocyte::UserError("usage: bench_extract TABLE [options of Google Benchmark]");
+    rheocyte::table = std::make_unique<rheocyte::ParityModulus>(rheocyte::read_published_table(argv[1]));
+  } catch (const rheocyte::UserError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,77 @@
+#include "app/analytic_conditions.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "case/parameters.h"
+#include "case/scales.h"
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double standard_width_um = 20, standard_rate_ul_per_s = 0.04, standard_viscosity_mPas = 15;
+
+}  // namespace
+
+CLI::Option* add_parameter_option(CLI::App& command, const std::string& option, std::string_view key,
+                                  std::function<void(double)> take) {
+  const Parameter& parameter = *find_parameter(key);
+  const auto checked_take = [option, &parameter, take = std::move(take)](const double& value) {
+    if (!std::get<Number>(parameter.value).range.contains(value))
+      throw UserError(fmt::format("rheocyte: {} {:g} is outside its range {} ({}).", option, value,
+                                  allowed_values(parameter), parameter.sentence));
+    take(value);
+  };
+  const auto text = fmt::format("{} ({})", parameter.sentence, allowed_values(parameter));
+  return command.add_option_function<double>(option, checked_take, text)->type_name("NUMBER");
+}
+
+void declare_conditions(CLI::App& command, AnalyticConditions& conditions) {
+  Channel& channel = conditions.input.channel;
+  Flow& flow = conditions.input.flow;
+  flow.rate_ul_per_s = standard_rate_ul_per_s;
+  flow.viscosity_mPas = standard_viscosity_mPas;
+  add_parameter_option(command, "--channel-width-um", "channel.width_um", [&](double value) {
+    channel.width_um = value;
+  })->default_str(fmt::format("{:g}", standard_width_um));
+  add_parameter_option(command, "--flow-rate-ul-s", "flow.rate_ul_per_s", [&](double value) {
+    flow.rate_ul_per_s = value;
+  })->default_str(fmt::format("{:g}", standard_rate_ul_per_s));
+  add_parameter_option(command, "--viscosity-mPas", "flow.viscosity_mPas", [&](double value) {
+    flow.viscosity_mPas = value;
+  })->default_str(fmt::format("{:g}", standard_viscosity_mPas));
+  command.add_flag("--square-duct", conditions.square_duct,
+                   "take the velocity on the axis of the square channel, as the published analytical tables do; "
+                   "default: that of the tube, as the tables of simulations do");
+}
+
+void complete(AnalyticConditions& conditions) {
+  Channel& channel = conditions.input.channel;
+  if (channel.width_um && channel.radius_um)
+    throw UserError("rheocyte: --channel-width-um and --tube-radius-um exclude each other; give one of them.");
+  if (channel.radius_um && conditions.square_duct)
+    throw UserError("rheocyte: --square-duct belongs to a square channel; give --channel-width-um.");
+  if (!channel.radius_um && !channel.width_um) channel.width_um = standard_width_um;
+}
+
+double elastic_scale_kPa(const AnalyticConditions& conditions) {
+  constexpr double Pa_per_kPa = 1e3;
+  return std::numbers::pi * scales_of(conditions.input).stress_Pa / Pa_per_kPa;
+}
+
+double checked_radius_ratio(const AnalyticConditions& conditions, double radius_um, std::string_view option) {
+  static_assert(greatest_radius_ratio <= greatest_sphere_in_tube);
+  const double R = tube_radius_um(conditions.input), ratio = radius_um / R;
+  if (!(ratio >= least_radius_ratio && ratio <= greatest_radius_ratio))
+    throw UserError(fmt::format(
+        "rheocyte: {} {:g} is outside {:.4g} .. {:.4g} um, {} .. {} of the tube radius {:g} um.", option, radius_um,
+        least_radius_ratio * R, greatest_radius_ratio * R, least_radius_ratio, greatest_radius_ratio, R));
+  return ratio;
+}
+
+}  // namespace rheocyte

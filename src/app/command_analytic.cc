@@ -1,0 +1,161 @@
+#include "app/command_analytic.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/analytic_cell.h"
+#include "app/analytic_table.h"
+#include "app/own_file.h"
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double default_tension_ratio = 0.1;
+
+struct CellOptions {
+  AnalyticCellInput input;
+  std::optional<double> tension_ratio;
+  std::filesystem::path contour;
+  bool json = false, force = false;
+};
+
+struct TableOptions {
+  AnalyticTableInput input;
+  std::filesystem::path folder;
+  bool force = false;
+};
+
+void print(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw UserError("rheocyte: standard output cannot be written.");
+}
+
+void check_stiffness(const CellOptions& options) {
+  const bool solid = options.input.young_modulus_kPa.has_value();
+  if (solid == options.input.cortex_modulus_mN_per_m.has_value())
+    throw UserError("rheocyte: give either --young-modulus-kPa, for a solid, or --cortex-modulus-mN-m, for a shell.");
+  if (solid && options.tension_ratio)
+    throw UserError("rheocyte: --tension-ratio belongs to a shell; leave it out, or give --cortex-modulus-mN-m.");
+}
+
+void run_cell(CellOptions& options) {
+  check_stiffness(options);
+  complete(options.input.conditions);
+  options.input.tension_ratio = options.tension_ratio.value_or(default_tension_ratio);
+  const AnalyticCell cell = analytic_cell(options.input);
+  if (!options.contour.empty()) write_own_file(options.contour, contour_text(cell), contour_mark, options.force);
+  print(options.json ? json_text(cell) : summary(cell));
+}
+
+void add_cell_command(CLI::App& analytic) {
+  auto* command = analytic.add_subcommand("cell", "shape, velocity and pressure drop of one cell");
+  auto options = std::make_shared<CellOptions>();
+  AnalyticCellInput& input = options->input;
+  add_parameter_option(*command, "--radius-um", "cell.radius_um", [&](double value) {
+    input.radius_um = value;
+  })->required();
+  add_parameter_option(*command, "--young-modulus-kPa", "cell.bulk.young_modulus_kPa",
+                       [&](double value) { input.young_modulus_kPa = value; });
+  add_parameter_option(*command, "--cortex-modulus-mN-m", "cell.cortex.modulus_mN_per_m",
+                       [&](double value) { input.cortex_modulus_mN_per_m = value; });
+  add_parameter_option(*command, "--tension-ratio", "cell.cortex.tension_ratio",
+                       [options = options.get()](double value) { options->tension_ratio = value; })
+      ->default_str(fmt::format("{:g}", default_tension_ratio));
+  declare_conditions(*command, input.conditions);
+  add_parameter_option(*command, "--tube-radius-um", "channel.radius_um", [&](double value) {
+    input.conditions.input.channel.radius_um = value;
+  })->description("radius of the tube, instead of the channel's width");
+  command->add_option("-o,--output", options->contour, "file for the contour, x_um,r_um from front to rear")
+      ->type_name("FILE.csv");
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->add_flag("--force", options->force, "replace a file that rheocyte did not write");
+  command->callback([options] { run_cell(*options); });
+}
+
+void run_table(TableOptions& options, TextFile (*make)(const AnalyticTableInput&)) {
+  complete(options.input.conditions);
+  const TextFile file = make(options.input);
+  const auto path = options.folder / file.name;
+  write_own_file(path, file.content, table_mark, options.force);
+  print(fmt::format("{}: {} rows\n", path.string(), file.rows));
+}
+
+void declare_table_options(CLI::App& command, TableOptions& options) {
+  AnalyticTableInput& input = options.input;
+  declare_conditions(command, input.conditions);
+  add_parameter_option(command, "--least-radius-um", "cell.radius_um", [&](double value) {
+    input.least_radius_um = value;
+  })->description("radius of the smallest cell; default: 0.1 of the tube's, 0.0547 channel widths");
+  add_parameter_option(command, "--greatest-radius-um", "cell.radius_um", [&](double value) {
+    input.greatest_radius_um = value;
+  })->description("radius of the largest cell; default: 0.8 of the tube's, 0.4376 channel widths");
+  command.add_option("--radii", input.radii, "number of radii, by equal steps of their square")
+      ->check(CLI::Range(2, 2000))
+      ->capture_default_str();
+  command.add_option("--greatest-deformation", input.greatest_deformation, "where a line of equal stiffness ends")
+      ->capture_default_str();
+  command
+      .add_option("--identifier", input.identifier,
+                  "name under which dclab knows it; default: LE-2D-ANA-26, with -duct")
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            const bool plain =
+                name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.") ==
+                std::string::npos;
+            return plain && name.size() <= 80 ? std::string() : std::string("takes letters, digits, - _ and . only");
+          },
+          "NAME"));
+  command.add_option("-o,--output", options.folder, "folder for the file")->type_name("DIR")->required();
+  command.add_flag("--force", options.force, "replace a file that rheocyte did not write");
+}
+
+void add_table_command(CLI::App& analytic) {
+  auto* command = analytic.add_subcommand("table", "look-up table for dclab: area, deformation, Young's modulus");
+  auto options = std::make_shared<TableOptions>();
+  AnalyticTableInput& input = options->input;
+  declare_table_options(*command, *options);
+  add_parameter_option(*command, "--least-modulus-kPa", "cell.bulk.young_modulus_kPa",
+                       [&](double value) { input.least_modulus_kPa = value; })
+      ->description(
+          "Young's modulus of the softest cell; default: 0.5 kPa under standard conditions, else in proportion "
+          "to viscosity x flow rate / width^3");
+  add_parameter_option(*command, "--greatest-modulus-kPa", "cell.bulk.young_modulus_kPa", [&](double value) {
+    input.greatest_modulus_kPa = value;
+  })->description("Young's modulus of the stiffest cell; default: 30 kPa under standard conditions");
+  command->add_option("--moduli", input.moduli, "number of moduli, by equal steps of their inverse square root")
+      ->check(CLI::Range(2, 2000))
+      ->capture_default_str();
+  command->callback([options] { run_table(*options, analytic_table); });
+}
+
+void add_lines_command(CLI::App& analytic) {
+  auto* command = analytic.add_subcommand("lines", "isoelasticity lines for dclab");
+  auto options = std::make_shared<TableOptions>();
+  declare_table_options(*command, *options);
+  command
+      ->add_option("--moduli-kPa", options->input.levels_kPa,
+                   "Young's modulus of each line; default: eleven, as in the published lines")
+      ->delimiter(',')
+      ->type_name("E1,E2,...")
+      ->expected(1, 200);
+  command->callback([options] { run_table(*options, analytic_lines); });
+}
+
+}  // namespace
+
+void add_analytic_command(CLI::App& app) {
+  auto* command = app.add_subcommand("analytic", "closed model of small deformations: one cell, table, lines");
+  command->require_subcommand(1);
+  command->footer("For example: rheocyte analytic cell --radius-um 6 --young-modulus-kPa 5");
+  add_cell_command(*command);
+  add_table_command(*command);
+  add_lines_command(*command);
+}
+
+}  // namespace rheocyte

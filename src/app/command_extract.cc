@@ -1,0 +1,157 @@
+#include "app/command_extract.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include "app/contained.h"
+#include "app/exit_codes.h"
+#include "app/extract_recording.h"
+#include "app/extract_summary.h"
+#include "app/find_table.h"
+#include "app/own_file.h"
+#include "app/recording_list.h"
+#include "app/standard_error.h"
+#include "app/stop_signal.h"
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = ContainedEnd::Kind;
+
+/// Lines on standard error for a recording that takes long, at most one in two seconds.
+class ProgressLines {
+ public:
+  ProgressLines(const RecordingTask& task, bool quiet) : name_(one_line(task.recording.string(), 200)), quiet_(quiet) {}
+
+  void operator()(double fraction) {
+    const auto now = std::chrono::steady_clock::now();
+    if (quiet_ || now - last_ < std::chrono::seconds(2)) return;
+    last_ = now;
+    tell(fmt::format("{}: {:.0f} %", name_, 100 * fraction));
+  }
+
+ private:
+  std::string name_;
+  bool quiet_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::string sentence_for(const RecordingTask& task, const ContainedEnd& end, double patience_s) {
+  const std::string name = one_line(task.recording.string(), 300);
+  switch (end.kind) {
+    case Kind::user_error: return end.text;
+    case Kind::no_memory:
+      return fmt::format("{}: reading it needs more memory than any sound recording does; it is damaged.", name);
+    case Kind::hung:
+      return fmt::format(
+          "{}: nothing could be read for {} s; it is damaged, or its drive does not answer (--patience "
+          "waits longer).",
+          name, patience_s);
+    case Kind::broke_down:
+      return fmt::format(
+          "{}: the HDF5 library broke down while reading it ({}); it is damaged, copy it once more from "
+          "where it was recorded.",
+          name, one_line(end.text, 100));
+    default:
+      return fmt::format("{}: an error of the program itself, please report it: {}", name, one_line(end.text, 300));
+  }
+}
+
+void make_folder_for(const fs::path& file) {
+  std::error_code error;
+  if (!file.has_parent_path() || fs::is_directory(file.parent_path(), error)) return;
+  fs::create_directories(file.parent_path(), error);
+  if (error)
+    throw UserError(fmt::format("{}: the folder cannot be made ({}).", one_line(file.parent_path().string(), 300),
+                                error.message()));
+}
+
+/// All recordings of one call.
+class Batch {
+ public:
+  explicit Batch(const ExtractOptions& options)
+      : options_(options),
+        tasks_(list_recordings(options)),
+        summary_file_(summary_file(options, tasks_)),
+        modulus_(read_published_table(find_table(options.table))) {
+    if (modulus_.table().abscissa != PublishedTable::Abscissa::area)
+      throw UserError(fmt::format("rheocyte: --table {}: holds volumes; only tables of areas are used for recordings.",
+                                  one_line(options.table, 200)));
+  }
+
+  int run() {
+    for (const auto& task : tasks_) {
+      make_folder_for(task.output.companion);
+      if (!take(task)) return exit_signal + signal_received();
+    }
+    write_own_file(summary_file_, summary_table(lines_), "recording\tevents\tvalid\t", false);
+    if (!options_.quiet) fmt::print("{} of {} recordings, see {}\n", done_, tasks_.size(), summary_file_.string());
+    return failed_ ? exit_user_error : empty_ ? exit_numerical : exit_converged;
+  }
+
+ private:
+  // False if the user wants to stop.
+  bool take(const RecordingTask& task) {
+    ProgressLines progress(task, options_.quiet);
+    Containment limits;
+    limits.patience_s = options_.patience_s;
+    const auto work = [&](const TellProgress& tell_progress) {
+      return to_json(extract_recording(task.recording, task.output, options_, modulus_, tell_progress));
+    };
+    const ContainedEnd end = run_contained(work, limits, [&](double fraction) { progress(fraction); });
+    if (end.kind == Kind::finished) {
+      take_summary(task, summary_from_json(end.text));
+    } else {
+      std::error_code ignored;
+      for (const auto& file : {task.output.companion, task.output.events}) fs::remove(unfinished(file), ignored);
+      if (end.kind == Kind::stopped) return false;
+      failed_ = true;
+      lines_.push_back({task.recording, {}, sentence_for(task, end, options_.patience_s)});
+      tell(lines_.back().error);
+    }
+    return true;
+  }
+
+  void take_summary(const RecordingTask& task, const ExtractSummary& summary) {
+    ++done_;
+    const std::string name = one_line(task.recording.string(), 200);
+    if (!options_.quiet) {
+      fmt::print("{}: {}\n", name, in_one_line(summary));
+      for (const auto& warning : summary.warnings) tell(fmt::format("{}: {}", name, warning));
+    }
+    if (summary.valid() == 0) {
+      empty_ = true;
+      tell(fmt::format("{}: all events lie outside the table {}: {}.", name, summary.table, in_one_line(summary)));
+    }
+    lines_.push_back({task.recording, summary, {}});
+  }
+
+  const ExtractOptions& options_;
+  std::vector<RecordingTask> tasks_;
+  fs::path summary_file_;
+  ParityModulus modulus_;
+  std::vector<SummaryLine> lines_;
+  std::size_t done_ = 0;
+  bool failed_ = false, empty_ = false;
+};
+
+}  // namespace
+
+void add_extract_command(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("extract", "Young's moduli of the cells in recordings (.rtdc)");
+  auto options = std::make_shared<ExtractOptions>();
+  declare_extract_options(*command, *options, [options, &exit_code] {
+    watch_signals();
+    exit_code = Batch(*options).run();
+  });
+}
+
+}  // namespace rheocyte

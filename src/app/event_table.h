@@ -1,0 +1,44 @@
+// The text table with one line per event.
+#pragma once
+#include <cstdio>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "infer/modulus_state.h"
+
+namespace rheocyte {
+
+/// What a block of events has to say, all equally long.
+struct EventBlock {
+  std::span<const double> area_um2, deformation, viscosity_mPas, young_modulus_kPa;
+  std::span<const ModulusState> state;
+};
+
+/// Writes tab-separated lines with the shortest decimals that give back single precision (relative 6e-8).
+class EventTable {
+ public:
+  /// `remarks` go above the columns' names, each behind "# ". UserError.
+  EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks);
+  ~EventTable();
+  EventTable(const EventTable&) = delete;
+  EventTable& operator=(const EventTable&) = delete;
+
+  /// Appends events; the first one ever has number 1. UserError, e.g. if the disk is full.
+  void append(const EventBlock& block);
+
+  /// Brings everything to the disk. UserError.
+  void close();
+
+ private:
+  void write_out();
+  [[noreturn]] void refuse() const;
+
+  std::filesystem::path path_;
+  std::FILE* file_ = nullptr;
+  std::string text_;
+  std::size_t events_ = 0;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,68 @@
+#include "app/extract_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <utility>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+void check_positive(const std::optional<double>& value, const char* option) {
+  if (value && !(*value > 0 && std::isfinite(*value)))
+    throw UserError(fmt::format("rheocyte: {} must be a positive number.", option));
+}
+
+void check(const ExtractOptions& options) {
+  check_positive(options.channel_width_um, "--channel-width");
+  check_positive(options.flow_rate_ul_s, "--flow-rate");
+  check_positive(options.pixel_size_um, "--pixel-size");
+  check_positive(options.viscosity_mPas, "--viscosity");
+  check_positive(options.patience_s, "--patience");
+  if (!options.viscosity_mPas) return;
+  const char* const other = options.medium                 ? "--medium"
+                            : options.viscosity_model      ? "--viscosity-model"
+                            : !options.temperature.empty() ? "--temperature"
+                                                           : nullptr;
+  if (other)
+    throw UserError(fmt::format("rheocyte: --viscosity and {} contradict each other; give one of them.", other));
+}
+
+}  // namespace
+
+void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run) {
+  command.add_option("FILES", options.inputs, "recordings (.rtdc); folders with -r")->required();
+  command.add_option("-o,--output", options.folder, "folder for the results; without it they go beside each recording")
+      ->type_name("DIR");
+  command.add_flag("-r,--recursive", options.recursive, "search the given folders for recordings");
+  command
+      .add_option("--table", options.table,
+                  "look-up table: a file in dclab's format, or the identifier of a table of an installed dclab")
+      ->type_name("TABLE")
+      ->required();
+  command.add_option("--channel-width", options.channel_width_um, "um; default: from the recording");
+  command.add_option("--flow-rate", options.flow_rate_ul_s, "ul/s, sample and sheath; default: from the recording");
+  command.add_option("--pixel-size", options.pixel_size_um, "um; default: from the recording");
+  command.add_option("--medium", options.medium, "e.g. CellCarrier, 0.59% MC-PBS, water; default: from the recording");
+  command.add_option("--viscosity", options.viscosity_mPas, "mPa s, in place of a medium and its model");
+  command.add_option("--viscosity-model", options.viscosity_model, "buyukurganci-2022 (default) or herold-2017");
+  command
+      .add_option("--temperature", options.temperature,
+                  "degC; or feature: of each event; or metadata; default: of each event if the recording has it")
+      ->type_name("VALUE|feature|metadata");
+  command.add_flag("--no-pixelation", options.no_pixelation, "do not correct deformations for the pixels");
+  command.add_flag("--no-tsv", options.no_tsv, "do not write a table with one line per event");
+  command.add_flag("--quiet", options.quiet, "print neither progress nor results");
+  command.add_option("--patience", options.patience_s,
+                     "give a recording up when nothing was read from it for so many seconds (60)");
+  command.callback([&options, run = std::move(run)] {
+    check(options);
+    run();
+  });
+}
+
+}  // namespace rheocyte

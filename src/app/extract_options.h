@@ -1,0 +1,30 @@
+// The command line of `rheocyte extract`.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace rheocyte {
+
+struct ExtractOptions {
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path folder;  ///< of the results; empty: beside each recording
+  bool recursive = false;
+  std::string table;  ///< a file, or the identifier of a table of an installed dclab
+  std::optional<double> channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas;
+  std::optional<std::string> medium, viscosity_model;
+  std::string temperature;  ///< degC, "feature", "metadata", or empty: the feature if there is one
+  bool no_pixelation = false, no_tsv = false, quiet = false;
+  double patience_s = 60;
+};
+
+/// Declares the options on the command; `run` is called when they are complete. UserError if they contradict.
+void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run);
+
+}  // namespace rheocyte

@@ -1,0 +1,224 @@
+#include "app/extract_recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <memory>
+#include <system_error>
+
+#include "app/build_info.h"
+#include "app/event_table.h"
+#include "app/extract_settings.h"
+#include "case/user_error.h"
+#include "measurement/companion_file.h"
+#include "measurement/shape_source.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t block_of_scalars = 1 << 17;   // 1 MiB per column, a chunk of what is written
+constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible when every event takes microseconds
+
+std::string program() { return fmt::format("rheocyte {}", version); }
+
+std::vector<std::string> setting_lines(const ExtractSettings& settings, const ShapeSource& shapes,
+                                       const PublishedTable& table) {
+  const auto& c = settings.conditions;
+  std::vector<std::string> lines{
+      fmt::format("table: {} ({} um, {} ul/s, {} mPa s)", table.identifier, table.channel_width_um,
+                  table.flow_rate_ul_s, table.viscosity_mPas),
+      fmt::format("area from {}, deformation from {}", shapes.area_from(), shapes.deformation_from()),
+      fmt::format("channel width: {} um", c.channel_width_um), fmt::format("flow rate: {} ul/s", c.flow_rate_ul_s)};
+  lines.push_back(c.pixel_size_um > 0 ? fmt::format("deformations corrected for pixels of {} um", c.pixel_size_um)
+                                      : "deformations not corrected for pixels");
+  if (settings.buffer)
+    lines.push_back(fmt::format("viscosity: {} by {}, temperature {}", settings.medium_text(), settings.model_text(),
+                                settings.temperature_text()));
+  if (!settings.viscosity_varies()) lines.push_back(fmt::format("viscosity: {} mPa s", settings.viscosity_mPas));
+  return lines;
+}
+
+std::string meaning_of_states() {
+  std::string text = "state of emodulus:";
+  for (std::size_t k = 0; k < names_of_modulus_states.size(); ++k)
+    text += fmt::format("{} {} {}", k == 0 ? "" : ",", k, names_of_modulus_states[k]);
+  return text;
+}
+
+// The columns of one block of events.
+struct Columns {
+  std::vector<double> area, deformation, temperature, viscosity, modulus, state_numbers;
+  std::vector<ModulusState> states;
+
+  void resize(std::size_t count) {
+    for (auto* const column : {&area, &deformation, &temperature, &viscosity, &modulus, &state_numbers})
+      column->resize(count);
+    states.resize(count);
+  }
+};
+
+/// One recording on its way through the blocks.
+class Extraction {
+ public:
+  Extraction(const Recording& recording, const ExtractOptions& options, const ParityModulus& modulus)
+      : recording_(recording),
+        modulus_(modulus),
+        settings_(extract_settings(options, recording)),
+        shapes_(recording, settings_.pixel_size_um) {}
+
+  std::size_t block() const {
+    const auto stored = [](const std::string& source) { return source != "mask" && source != "contour"; };
+    return stored(shapes_.area_from()) && stored(shapes_.deformation_from()) ? block_of_scalars : block_of_outlines;
+  }
+
+  const Columns& compute(std::size_t first, std::size_t count) {
+    Columns& c = columns_;
+    c.resize(count);
+    shapes_.read(first, c.area, c.deformation);
+    if (settings_.viscosity_varies()) {
+      recording_.read_scalar("temp", first, c.temperature);
+      const auto& conditions = settings_.conditions;
+      settings_.buffer->viscosity({conditions.channel_width_um, conditions.flow_rate_ul_s}, c.temperature, c.viscosity);
+      const auto range = settings_.buffer->measured();
+      for (const double celsius : c.temperature)
+        outside_temperature_ += std::isfinite(celsius) && !range.contains(celsius);
+    } else {
+      std::ranges::fill(c.viscosity, settings_.viscosity_mPas);
+    }
+    modulus_.moduli(settings_.conditions, {c.area, c.deformation, c.viscosity}, c.modulus);
+    for (std::size_t i = 0; i < count; ++i) {
+      c.states[i] = modulus_.state(settings_.conditions, c.area[i], c.deformation[i], c.modulus[i]);
+      c.state_numbers[i] = static_cast<double>(c.states[i]);
+    }
+    collect();
+    return c;
+  }
+
+  ExtractSummary summary() {
+    ExtractSummary s = summary_;
+    s.events = recording_.events();
+    s.modulus_kPa = distribution_of(moduli_);
+    s.mean_viscosity_mPas = viscosity_sum_ / static_cast<double>(viscosities_);
+    s.table = modulus_.table().identifier;
+    s.medium = settings_.medium_text();
+    s.viscosity_model = settings_.model_text();
+    s.temperature = settings_.temperature_text();
+    s.area_from = shapes_.area_from();
+    s.deformation_from = shapes_.deformation_from();
+    s.conditions = settings_.conditions;
+    s.warnings = recording_.remarks();
+    s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
+    if (outside_temperature_ > 0)
+      s.warnings.push_back(
+          fmt::format("{} events have temperatures outside {} to {} degC, for which the viscosity "
+                      "model {} was measured.",
+                      outside_temperature_, settings_.buffer->measured().lowest, settings_.buffer->measured().highest,
+                      settings_.model_text()));
+    if (recording_.has_scalar("emodulus"))
+      s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
+    return s;
+  }
+
+  std::vector<std::string> lines() const { return setting_lines(settings_, shapes_, modulus_.table()); }
+
+ private:
+  void collect() {
+    for (std::size_t i = 0; i < columns_.states.size(); ++i) {
+      ++summary_.counts[static_cast<std::size_t>(columns_.states[i])];
+      if (columns_.states[i] == ModulusState::valid) moduli_.push_back(columns_.modulus[i]);
+      if (!std::isfinite(columns_.viscosity[i])) continue;
+      viscosity_sum_ += columns_.viscosity[i];
+      ++viscosities_;
+    }
+  }
+
+  const Recording& recording_;
+  const ParityModulus& modulus_;
+  ExtractSettings settings_;
+  ShapeSource shapes_;
+  Columns columns_;
+  ExtractSummary summary_;
+  std::vector<double> moduli_;
+  double viscosity_sum_ = 0;
+  std::size_t viscosities_ = 0, outside_temperature_ = 0;
+};
+
+std::string now_utc() {
+  const std::time_t now = std::time(nullptr);
+  char text[32] = "";
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+// Paths under which the original is looked for: where it is now, seen from the companion, and beside the companion.
+std::vector<std::string> paths_to(const fs::path& original, const fs::path& companion) {
+  std::error_code error;
+  const fs::path absolute = fs::weakly_canonical(fs::absolute(original), error);
+  const fs::path relative = fs::relative(absolute, fs::absolute(companion).parent_path(), error);
+  std::vector<std::string> paths{absolute.string()};
+  for (const auto& path : {relative.string(), original.filename().string()})
+    if (!path.empty() && std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+  return paths;
+}
+
+void describe(CompanionFile& companion, const ExtractOutput& output, const Recording& recording,
+              const std::vector<std::string>& settings) {
+  companion.add_user_metadata("rheocyte emodulus", "Young's modulus (kPa), with the settings in the log");
+  companion.add_user_metadata("rheocyte userdef0", meaning_of_states());
+  std::vector<std::string> log{program() + " extract", "time: " + now_utc(),
+                               "recording: " + recording.file().filename().string()};
+  log.insert(log.end(), settings.begin(), settings.end());
+  companion.add_log("rheocyte-extract", log);
+  companion.add_basin(paths_to(recording.file(), output.companion));
+}
+
+void publish(const fs::path& file) {
+  std::error_code error;
+  fs::rename(unfinished(file), file, error);
+  if (error)
+    throw UserError(fmt::format("{}: cannot be put in its place ({}).", one_line(file.string(), 300), error.message()));
+}
+
+}  // namespace
+
+fs::path unfinished(const fs::path& file) { return file.string() + "~"; }
+
+ExtractSummary extract_recording(const fs::path& file, const ExtractOutput& output, const ExtractOptions& options,
+                                 const ParityModulus& modulus, const std::function<void(double)>& on_progress) {
+  const Recording recording(file);
+  Extraction extraction(recording, options, modulus);
+  CompanionFile companion(unfinished(output.companion), recording, program());
+  describe(companion, output, recording, extraction.lines());
+  companion.add_feature("emodulus");
+  companion.add_feature("userdef0");
+  std::unique_ptr<EventTable> table;
+  if (!options.no_tsv) {
+    auto remarks = extraction.lines();
+    remarks.insert(remarks.begin(), {program() + " extract", "recording: " + file.string()});
+    table = std::make_unique<EventTable>(unfinished(output.events), remarks);
+  }
+  const std::size_t events = recording.events(), block = extraction.block();
+  for (std::size_t first = 0; first < events; first += block) {
+    const std::size_t count = std::min(block, events - first);
+    const Columns& c = extraction.compute(first, count);
+    companion.write("emodulus", first, c.modulus);
+    companion.write("userdef0", first, c.state_numbers);
+    if (table) table->append({c.area, c.deformation, c.viscosity, c.modulus, c.states});
+    on_progress(static_cast<double>(first + count) / static_cast<double>(events));
+  }
+  companion.close();
+  if (table) table->close();
+  if (table) publish(output.events);
+  publish(output.companion);
+  return extraction.summary();
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,36 @@
+// With which channel, flow and viscosity the events of one recording are taken: from the command line, else its
+// metadata.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/extract_options.h"
+#include "infer/modulus_parity.h"
+#include "measurement/recording.h"
+#include "measurement/viscosity.h"
+
+namespace rheocyte {
+
+enum class TemperatureSource { none, given, metadata, feature };
+
+struct ExtractSettings {
+  MeasuringConditions conditions;  ///< pixel size 0: no correction
+  double pixel_size_um = 0;        ///< 0 if unknown
+  std::optional<Buffer> buffer;    ///< nothing: the viscosity was given
+  double viscosity_mPas = 0;       ///< if it is the same for all events
+  TemperatureSource temperature_from = TemperatureSource::none;
+  double temperature_C = 0;           ///< if it is the same for all events
+  std::vector<std::string> warnings;  ///< sentences without the file's name
+
+  bool viscosity_varies() const { return temperature_from == TemperatureSource::feature; }
+  std::string medium_text() const;       ///< "0.49% MC-PBS", or "" if the viscosity was given
+  std::string model_text() const;        ///< "buyukurganci-2022", or "given"
+  std::string temperature_text() const;  ///< "feature temp", "23 (metadata)", ""
+};
+
+/// UserError naming what is missing and the option that gives it; also for recordings of the reservoir.
+ExtractSettings extract_settings(const ExtractOptions& options, const Recording& recording);
+
+}  // namespace rheocyte

@@ -1,0 +1,51 @@
+// What is said about all events of one recording, and the table with a line for each recording.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/extract_settings.h"
+#include "infer/modulus_state.h"
+
+namespace rheocyte {
+
+/// Of the events with a modulus (kPa); NaN if there are none, the standard deviation (n - 1) also for a single one.
+struct Distribution {
+  double median = 0, first_quartile = 0, third_quartile = 0, mean = 0, standard_deviation = 0;
+};
+
+/// Sorts the values. Quartiles between two values are interpolated linearly.
+Distribution distribution_of(std::span<double> values);
+
+struct ExtractSummary {
+  std::size_t events = 0;
+  std::array<std::size_t, names_of_modulus_states.size()> counts{};  ///< by ModulusState
+  Distribution modulus_kPa;
+  double mean_viscosity_mPas = 0;
+  std::string table, medium, viscosity_model, temperature, area_from, deformation_from;
+  MeasuringConditions conditions;
+  std::vector<std::string> warnings;
+
+  std::size_t valid() const { return counts[0]; }
+};
+
+/// Through the pipe from the process that read the recording.
+std::string to_json(const ExtractSummary&);
+ExtractSummary summary_from_json(const std::string& text);
+
+/// One recording of the summary table; `error` says why there is nothing else.
+struct SummaryLine {
+  std::filesystem::path recording;
+  ExtractSummary summary;
+  std::string error;
+};
+
+/// Tab-separated text with a header line.
+std::string summary_table(std::span<const SummaryLine> lines);
+
+/// For the terminal: numbers of events and moduli in one line.
+std::string in_one_line(const ExtractSummary&);
+
+}  // namespace rheocyte

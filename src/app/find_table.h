@@ -1,0 +1,12 @@
+// Look-up tables by file or by name.
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace rheocyte {
+
+/// A file of this name, or the table of this identifier in an installed dclab (its folder features/emodulus below the
+/// site-packages of a virtual environment, of the user or of the system). UserError naming those that were found.
+std::filesystem::path find_table(const std::string& wanted);
+
+}  // namespace rheocyte

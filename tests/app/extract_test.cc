@@ -1,0 +1,266 @@
+// `rheocyte extract`: moduli as the formulas say, results beside or in a folder, and a sentence for everything else.
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "lookup_table_file.h"
+#include "measurement/recording.h"
+#include "measurement/recording_writer.h"
+#include "measurement/reference_files.h"
+#include "robustness/run_program.h"
+
+namespace rheocyte {
+namespace {
+
+namespace fs = std::filesystem;
+using test::RecordingWriter;
+using test::ScratchFolder;
+
+std::vector<double> column(const Recording& recording, const std::string& feature) {
+  std::vector<double> values(recording.events());
+  recording.read_scalar(feature, 0, values);
+  return values;
+}
+
+/// A folder with a table and what the test puts into it.
+class Extract : public testing::Test {
+ protected:
+  Extract() { test::write_lookup_table(folder_ / "table.txt"); }
+
+  test::Ended extract(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {RHEOCYTE, "extract", "--table", (folder_ / "table.txt").string()});
+    return test::run({arguments});
+  }
+
+  /// Six events at the table's own channel and flow; the last one has no deformation.
+  void write_recording(const std::string& name, const std::function<void(RecordingWriter&)>& more = {}) const {
+    RecordingWriter writer(folder_ / name);
+    test::write_usual_metadata(writer);
+    writer.scalar("area_um", {80, 10, 400, 80, 80, 80});
+    writer.scalar("deform", {0.03, 0.03, 0.03, -0.01, 0.5, NAN});
+    if (more) more(writer);
+  }
+
+  void expect_refusal(const std::vector<std::string>& arguments, const std::string& words) const {
+    const auto ended = extract(arguments);
+    EXPECT_EQ(ended.exit_code, 2) << words;
+    EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
+  }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(Extract, GivesEachEventItsModulusOrItsReason) {
+  write_recording("a.rtdc");
+  const auto before = test::content_of(folder_ / "a.rtdc");
+  const auto ended = extract({path("a.rtdc"), "--viscosity", "15", "--no-pixelation"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(test::content_of(folder_ / "a.rtdc"), before) << "the input is never changed";
+  EXPECT_NE(ended.out.find("1 of 6 events"), std::string::npos) << ended.out;
+  const Recording companion(folder_ / "a_rheocyte.rtdc");
+  const auto moduli = column(companion, "emodulus");
+  EXPECT_NEAR(moduli[0], 0.001 * 80 / 0.04, 1e-12) << "a point of the table";
+  for (int i = 1; i < 6; ++i) EXPECT_TRUE(std::isnan(moduli[i]));
+  EXPECT_EQ(column(companion, "userdef0"), (std::vector<double>{0, 2, 3, 4, 5, 1}))
+      << "valid, too small, too large, too stiff, too soft, no data";
+}
+
+TEST_F(Extract, WritesATableOfEventsAndOneOfRecordings) {
+  write_recording("a.rtdc");
+  write_recording("b.rtdc");
+  const auto ended = extract({path("a.rtdc"), path("b.rtdc"), "-o", path("out"), "--viscosity", "15"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  std::istringstream events(test::content_of(folder_ / "out/b_rheocyte.tsv"));
+  int lines = 0;
+  for (std::string line; std::getline(events, line);) lines += !line.starts_with('#');
+  EXPECT_EQ(lines, 1 + 6);
+  const auto summary = test::content_of(folder_ / "out/rheocyte_summary.tsv");
+  EXPECT_NE(summary.find("b.rtdc\t6\t"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("TEST"), std::string::npos);
+}
+
+TEST_F(Extract, TakesTemperatureFromEventsMetadataOrTheCommandLine) {
+  write_recording("a.rtdc", [](RecordingWriter& writer) {
+    writer.scalar("temp", {30, 30, 30, 30, 30, 30}, H5T_IEEE_F32LE);
+  });
+  const auto modulus = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{path("a.rtdc")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(extract(arguments).exit_code, 0);
+    return column(Recording(folder_ / "a_rheocyte.rtdc"), "emodulus")[0];
+  };
+  const double by_event = modulus({}), by_metadata = modulus({"--temperature", "metadata"});
+  EXPECT_GT(by_metadata, by_event) << "colder liquid is more viscous";
+  EXPECT_EQ(by_event, modulus({"--temperature", "feature"}));
+  EXPECT_NEAR(by_event, modulus({"--temperature", "30"}), 1e-12);
+  EXPECT_NEAR(by_metadata, modulus({"--temperature", "23"}), 1e-12);
+}
+
+TEST_F(Extract, UsesMasksWhereNothingElseTellsTheShape) {
+  std::vector<std::uint8_t> mask(40 * 60, 0);
+  for (int y = 10; y < 30; ++y)
+    for (int x = 10; x < 40; ++x) mask[y * 60 + x] = 255;
+  {
+    RecordingWriter writer(folder_ / "a.rtdc");
+    test::write_usual_metadata(writer);
+    writer.images("mask", mask, 40, 60);
+  }
+  ASSERT_EQ(extract({path("a.rtdc")}).exit_code, 0);
+  const auto text = test::content_of(folder_ / "a_rheocyte.tsv");
+  EXPECT_NE(text.find("area from mask"), std::string::npos);
+  EXPECT_NE(text.find("\n1\t63.6956\t"), std::string::npos) << "29 x 19 pixels of 0.34 um\n" << text;
+}
+
+TEST_F(Extract, SearchesFoldersAndKeepsTheirNames) {
+  fs::create_directories(folder_ / "data/day1");
+  fs::create_directories(folder_ / "data/day2");
+  write_recording("data/day1/M1.rtdc");
+  write_recording("data/day2/M1.rtdc");
+  EXPECT_EQ(extract({"-r", path("data"), "-o", path("out")}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/day1/M1_rheocyte.rtdc"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/day2/M1_rheocyte.rtdc"));
+  // Results beside the recordings are no recordings of the next call.
+  EXPECT_EQ(extract({"-r", path("data")}).exit_code, 0);
+  const auto again = extract({"-r", path("data")});
+  EXPECT_NE(again.out.find("2 of 2 recordings"), std::string::npos) << again.out;
+  expect_refusal({path("data")}, "give -r");
+  expect_refusal({path("data/day1/M1.rtdc"), path("data/day2/M1.rtdc"), "-o", path("out")}, "results of one name");
+}
+
+TEST_F(Extract, ABadRecordingDoesNotKeepTheOthersBack) {
+  write_recording("a.rtdc");
+  std::ofstream(folder_ / "b.rtdc") << "no recording";
+  write_recording("c.rtdc");
+  const auto ended = extract({path("a.rtdc"), path("b.rtdc"), path("c.rtdc"), "-o", path("out")});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("b.rtdc: is not an HDF5 file"), std::string::npos) << ended.err;
+  EXPECT_TRUE(fs::exists(folder_ / "out/c_rheocyte.rtdc"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/b_rheocyte.rtdc"));
+  EXPECT_NE(test::content_of(folder_ / "out/rheocyte_summary.tsv").find("is not an HDF5 file"), std::string::npos);
+}
+
+TEST_F(Extract, AllEventsOutsideTheTableIsExitCode3) {
+  {
+    RecordingWriter writer(folder_ / "a.rtdc");
+    test::write_usual_metadata(writer);
+    writer.scalar("area_um", {5, 6});
+    writer.scalar("deform", {0.1, 0.1});
+  }
+  const auto ended = extract({path("a.rtdc")});
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_NE(ended.err.find("all events lie outside the table TEST"), std::string::npos) << ended.err;
+}
+
+TEST_F(Extract, WhatIsMissingIsNamedWithTheOptionThatGivesIt) {
+  const auto without = [&](const std::string& key, const std::string& words) {
+    {
+      RecordingWriter writer(folder_ / "a.rtdc");
+      test::write_usual_metadata(writer);
+      ::H5Adelete(writer.root(), key.c_str());
+      writer.scalar("area_um", {80});
+      writer.scalar("deform", {0.03});
+    }
+    expect_refusal({path("a.rtdc")}, words);
+  };
+  without("setup:channel width", "--channel-width");
+  without("setup:flow rate", "--flow-rate");
+  without("imaging:pixel size", "--pixel-size");
+  without("setup:medium", "--viscosity");
+  without("setup:temperature", "--temperature");
+}
+
+TEST_F(Extract, RecordingsOfTheReservoirAreRefused) {
+  {
+    RecordingWriter writer(folder_ / "a.rtdc");
+    test::write_usual_metadata(writer);
+    ::H5Adelete(writer.root(), "setup:chip region");
+    writer.text("setup:chip region", "Reservoir");
+    writer.scalar("area_um", {80});
+    writer.scalar("deform", {0.03});
+  }
+  expect_refusal({path("a.rtdc")}, "was recorded in the reservoir");
+}
+
+TEST_F(Extract, ContradictingAndWrongOptionsAreRefused) {
+  write_recording("a.rtdc");
+  const std::string file = path("a.rtdc");
+  expect_refusal({file, "--viscosity", "5", "--medium", "water"}, "--viscosity and --medium contradict");
+  expect_refusal({file, "--viscosity", "5", "--temperature", "23"}, "--viscosity and --temperature contradict");
+  expect_refusal({file, "--viscosity", "-5"}, "--viscosity must be a positive number");
+  expect_refusal({file, "--channel-width", "0"}, "--channel-width must be a positive number");
+  expect_refusal({file, "--temperature", "warm"}, "degrees Celsius, feature or metadata");
+  expect_refusal({file, "--temperature", "feature"}, "no temperature of each event");
+  expect_refusal({file, "--medium", "soup"}, "the medium \"soup\" has no known viscosity");
+  expect_refusal({file, "--viscosity-model", "guess"}, "unknown viscosity model guess");
+  expect_refusal({file, "--medium", "0.83% MC-PBS", "--viscosity-model", "herold-2017"}, "does not know 0.83%");
+  expect_refusal({path("none.rtdc")}, "no such file");
+  const auto no_table = test::run({{RHEOCYTE, "extract", file, "--table", path("none.txt")}});
+  EXPECT_EQ(no_table.exit_code, 2);
+  EXPECT_NE(no_table.err.find("there is no such file"), std::string::npos) << no_table.err;
+}
+
+TEST_F(Extract, ATemperatureOutsideTheModelIsAWarning) {
+  write_recording("a.rtdc");
+  const auto ended = extract({path("a.rtdc"), "--temperature", "15"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_NE(ended.err.find("15 degC is outside 22 to 37 degC"), std::string::npos) << ended.err;
+}
+
+TEST_F(Extract, TablesOfAnInstalledDclabAreFoundByTheirIdentifier) {
+  write_recording("a.rtdc");
+  const fs::path tables = folder_ / "env/lib/python3.11/site-packages/dclab/features/emodulus";
+  fs::create_directories(tables);
+  test::write_lookup_table(tables / "lut_TEST.txt");
+  const std::map<std::string, std::string> environment{{"VIRTUAL_ENV", path("env")}};
+  const auto found = test::run({{RHEOCYTE, "extract", path("a.rtdc"), "--table", "TEST"}, environment});
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  const auto misspelt = test::run({{RHEOCYTE, "extract", path("a.rtdc"), "--table", "TESD"}, environment});
+  EXPECT_NE(misspelt.err.find("did you mean"), std::string::npos) << misspelt.err;
+}
+
+TEST_F(Extract, AFullDiskLeavesNoTornFiles) {
+  write_recording("a.rtdc");
+  const std::vector<std::string> arguments{RHEOCYTE,    "extract", path("a.rtdc"),   "-o",
+                                           path("out"), "--table", path("table.txt")};
+  const auto ended = test::run({arguments, {}, 8000});
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_NE(ended.err.find("cannot be written"), std::string::npos) << ended.err;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out"))
+    EXPECT_EQ(entry.path().filename(), "rheocyte_summary.tsv");
+}
+
+TEST_F(Extract, StopsWhenTheUserWantsAndLeavesNothingUnfinished) {
+  write_recording("a.rtdc");
+  std::ofstream(folder_ / "0.rtdc") << "no recording";  // its sentence is the sign that the work has begun
+  std::vector<std::string> arguments{RHEOCYTE,  "extract",         "-o",          path("out"),
+                                     "--table", path("table.txt"), path("0.rtdc")};
+  for (int i = 0; i < 2000; ++i) {
+    arguments.push_back(path("copy" + std::to_string(i) + ".rtdc"));
+    fs::create_hard_link(folder_ / "a.rtdc", arguments.back());
+  }
+  const auto ended = test::run({.arguments = arguments, .signal = SIGINT});
+  EXPECT_EQ(ended.exit_code, 130) << ended.err;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out"))
+    EXPECT_FALSE(entry.path().string().ends_with("~")) << entry.path();
+}
+
+TEST_F(Extract, GivesTheModuliThatARealRecordingHolds) {
+  RHEOCYTE_NEED_REFERENCE("rtdc/wide_channel_issue_212.rtdc");
+  // Stored by dclab from the same table and viscosity model.
+  const auto original = test::reference_folder() / "rtdc/wide_channel_issue_212.rtdc";
+  const auto table = test::reference_folder() / "lut_LE-2D-FEM-19.txt";
+  const auto ended = test::run({{RHEOCYTE, "extract", original.string(), "-o", path("out"), "--table", table.string(),
+                                 "--viscosity-model", "herold-2017"}});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto ours = column(Recording(folder_ / "out/wide_channel_issue_212_rheocyte.rtdc"), "emodulus");
+  const auto theirs = column(Recording(original), "emodulus");
+  // dclab computed the viscosity in single precision, because the temperatures are.
+  for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_NEAR(ours[i], theirs[i], 1e-6 * theirs[i]);
+}
+
+}  // namespace
+}  // namespace rheocyte

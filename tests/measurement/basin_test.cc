@@ -1,0 +1,134 @@
+// Features that a recording keeps in a basin are found there, for the right events; what does not belong is left out.
+#include "measurement/basin.h"
+
+#include <cmath>
+
+#include "measurement/recording.h"
+#include "measurement/recording_writer.h"
+#include "measurement/reference_files.h"
+
+namespace rheocyte {
+namespace {
+
+using test::RecordingWriter;
+using test::ScratchFolder;
+
+std::vector<double> column(const Recording& recording, const std::string& feature) {
+  std::vector<double> values(recording.events());
+  recording.read_scalar(feature, 0, values);
+  return values;
+}
+
+void write_original(const std::filesystem::path& file, const std::string& time = "12:34:56") {
+  RecordingWriter writer(file);
+  writer.text("experiment:time", time);
+  writer.text("experiment:date", "2026-01-31");
+  writer.scalar("deform", {0.0, 0.1, 0.2, 0.3, 0.4, 0.5});
+  writer.scalar("area_um", {0, 10, 20, 30, 40, 50});
+  writer.images("mask", {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}, 1, 2);
+  for (int i = 0; i < 6; ++i) writer.contour({i, i, i, 2 * i});
+}
+
+void write_referring(RecordingWriter& writer) {
+  writer.text("experiment:time", "12:34:56");
+  writer.text("experiment:date", "2026-01-31");
+}
+
+TEST(Basin, ItsDefinitionSurvivesWritingAndReading) {
+  std::string json;
+  for (const auto& line : file_basin_lines("raw \"data\"", {"/a/b.rtdc", "b.rtdc"})) {
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+    json += line + "\n";
+  }
+  const auto basin = read_basin_definition(json);
+  ASSERT_TRUE(basin);
+  EXPECT_EQ(basin->kind, BasinDefinition::Kind::file);
+  EXPECT_EQ(basin->name, "raw \"data\"");
+  EXPECT_EQ(basin->paths, (std::vector<std::string>{"/a/b.rtdc", "b.rtdc"}));
+  EXPECT_FALSE(basin->features);
+  EXPECT_TRUE(basin->mapping.empty());
+}
+
+TEST(Basin, BrokenAndRemoteDefinitionsAreNone) {
+  EXPECT_FALSE(read_basin_definition("{"));
+  EXPECT_FALSE(read_basin_definition("[1, 2]"));
+  EXPECT_FALSE(read_basin_definition(R"({"type": "remote", "format": "http", "urls": ["x"]})"));
+  EXPECT_FALSE(read_basin_definition(R"({"type": 3, "format": "hdf5"})"));
+}
+
+TEST(Basin, FeaturesOfAnotherFileAreFoundBesideTheReferringOne) {
+  const ScratchFolder folder;
+  write_original(folder / "original.rtdc");
+  {
+    RecordingWriter writer(folder / "companion.rtdc");
+    write_referring(writer);
+    writer.scalar("emodulus", {1, 2, 3, 4, 5, 6});
+    writer.scalar("area_um", {7, 7, 7, 7, 7, 7});
+    writer.lines("basins/x", file_basin_lines("raw", {"/nowhere/original.rtdc", "original.rtdc"}));
+  }
+  const Recording recording(folder / "companion.rtdc");
+  EXPECT_EQ(recording.events(), 6U);
+  EXPECT_EQ(column(recording, "deform"), (std::vector<double>{0.0, 0.1, 0.2, 0.3, 0.4, 0.5}));
+  EXPECT_EQ(column(recording, "area_um"), std::vector<double>(6, 7)) << "the file's own comes first";
+  EXPECT_EQ(recording.image_size("mask"), (ImageSize{2, 1}));
+  EXPECT_EQ(recording.read_contour(3), (PixelContour{{3, 3}, {3, 6}}));
+  EXPECT_FALSE(recording.has_scalar("volume"));
+}
+
+TEST(Basin, AMapPicksTheEvents) {
+  const ScratchFolder folder;
+  write_original(folder / "original.rtdc");
+  {
+    RecordingWriter writer(folder / "subset.rtdc");
+    write_referring(writer);
+    writer.scalar("basinmap0", {5, 1, 2, 99}, H5T_STD_U64LE);
+    writer.lines("basins/x", {R"({"type": "file", "format": "hdf5", "name": "raw", "paths": ["original.rtdc"],)",
+                              R"("features": ["deform", "mask", "contour"], "mapping": "basinmap0"})"});
+  }
+  const Recording recording(folder / "subset.rtdc");
+  EXPECT_EQ(recording.events(), 4U);
+  const auto deformation = column(recording, "deform");
+  EXPECT_EQ(std::vector<double>(deformation.begin(), deformation.begin() + 3), (std::vector<double>{0.5, 0.1, 0.2}));
+  EXPECT_TRUE(std::isnan(deformation[3])) << "the basin has no such event";
+  EXPECT_FALSE(recording.has_scalar("area_um")) << "not in the list of features";
+  std::vector<std::uint8_t> pixels(2 * 4);
+  recording.read_images("mask", 0, 4, pixels);
+  EXPECT_EQ(pixels, (std::vector<std::uint8_t>{5, 5, 1, 1, 2, 2, 0, 0}));
+  EXPECT_EQ(recording.read_contour(0), (PixelContour{{5, 5}, {5, 10}}));
+  EXPECT_TRUE(recording.read_contour(3).empty());
+}
+
+TEST(Basin, InternalOnesLieInTheSameFile) {
+  const ScratchFolder folder;
+  {
+    RecordingWriter writer(folder / "a.rtdc");
+    writer.scalar("deform", {0.1, 0.2, 0.3});
+    writer.scalar("basinmap0", {0, 0, 1}, H5T_STD_I64LE);
+    writer.scalar("temp", {22, 24}, H5T_IEEE_F32LE, {}, "basin_events");
+    writer.lines("basins/x", {R"({"type": "internal", "format": "h5dataset", "name": "slow", "paths":)",
+                              R"(["basin_events"], "features": ["temp"], "mapping": "basinmap0"})"});
+  }
+  EXPECT_EQ(column(Recording(folder / "a.rtdc"), "temp"), (std::vector<double>{22, 22, 24}));
+}
+
+TEST(Basin, AnotherMeasurementAMissingFileOrALoopIsARemark) {
+  const ScratchFolder folder;
+  write_original(folder / "other.rtdc", "00:00:00");
+  {
+    RecordingWriter writer(folder / "a.rtdc");
+    write_referring(writer);
+    writer.scalar("userdef0", {1, 2, 3, 4, 5, 6});
+    writer.lines("basins/0", file_basin_lines("other", {"other.rtdc"}));
+    writer.lines("basins/1", file_basin_lines("missing", {"missing.rtdc"}));
+    writer.lines("basins/2", file_basin_lines("itself", {"a.rtdc"}));
+  }
+  const Recording recording(folder / "a.rtdc");
+  ASSERT_EQ(recording.remarks().size(), 3U);
+  EXPECT_NE(recording.remarks()[0].find("another measurement"), std::string::npos);
+  EXPECT_NE(recording.remarks()[1].find("not found"), std::string::npos);
+  EXPECT_NE(recording.remarks()[2].find("leads back"), std::string::npos);
+  EXPECT_FALSE(recording.has_scalar("deform"));
+}
+
+}  // namespace
+}  // namespace rheocyte

@@ -1,0 +1,126 @@
+// A companion holds the results, the metadata of the original and the way to it, and nothing that dclab cannot open.
+#include "measurement/companion_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "case/user_error.h"
+#include "measurement/hdf5_reading.h"
+#include "measurement/recording_writer.h"
+
+namespace rheocyte {
+namespace {
+
+using test::RecordingWriter;
+using test::ScratchFolder;
+
+std::vector<double> column(const Recording& recording, const std::string& feature) {
+  std::vector<double> values(recording.events());
+  recording.read_scalar(feature, 0, values);
+  return values;
+}
+
+void write_original(const std::filesystem::path& file) {
+  RecordingWriter writer(file);
+  test::write_usual_metadata(writer);
+  writer.integer("experiment:event count", 99);
+  writer.text("setup:software version", "ShapeIn 2.0.6 | dclab 0.18.0");
+  writer.truth("online_contour:no absdiff", true);
+  writer.polygon("online_filter:area_um,deform polygon points", {0, 0, 1, 0, 1, 1});
+  writer.text("user:note", "kept");
+  // dclab cannot open a file with one of these.
+  writer.text("generator", "x");
+  writer.text("unknown:key", "x");
+  writer.text("setup:a:b", "x");
+  // Settings for a modulus that is not ours.
+  writer.text("calculation:emodulus lut", "LE-2D-FEM-19");
+  writer.scalar("area_um", {10, 20, 30});
+  writer.scalar("deform", {0.1, 0.2, 0.3});
+}
+
+TEST(CompanionFile, TogetherWithTheOriginalItIsTheWholeRecording) {
+  const ScratchFolder folder;
+  write_original(folder / "a.rtdc");
+  {
+    const Recording original(folder / "a.rtdc");
+    CompanionFile companion(folder / "b.rtdc", original, "rheocyte 1.2.3");
+    companion.add_feature("emodulus");
+    companion.write("emodulus", 1, std::vector<double>{2.5, NAN});
+    companion.write("emodulus", 0, std::vector<double>{1.5});
+    companion.add_user_metadata("rheocyte note", "text");
+    companion.add_log("rheocyte", {"short", std::string(250, 'x')});
+    companion.add_basin({"a.rtdc"});
+    companion.close();
+  }
+  const Recording recording(folder / "b.rtdc");
+  EXPECT_TRUE(recording.remarks().empty()) << recording.remarks().front();
+  EXPECT_EQ(recording.events(), 3U);
+  const auto moduli = column(recording, "emodulus");
+  EXPECT_EQ(moduli[0], 1.5);
+  EXPECT_EQ(moduli[1], 2.5);
+  EXPECT_TRUE(std::isnan(moduli[2]));
+  EXPECT_EQ(column(recording, "area_um"), (std::vector<double>{10, 20, 30}));
+  const Metadata& metadata = recording.metadata();
+  EXPECT_EQ(metadata.number("experiment:event count"), 3) << "that of the data";
+  EXPECT_EQ(metadata.text("setup:software version"), "ShapeIn 2.0.6 | dclab 0.18.0 | rheocyte 1.2.3");
+  EXPECT_EQ(metadata.text("setup:medium"), "CellCarrier");
+  EXPECT_EQ(metadata.text("setup:chip region"), "channel");
+  EXPECT_EQ(metadata.number("online_contour:no absdiff"), 1);
+  EXPECT_EQ(metadata.text("user:note"), "kept");
+  EXPECT_EQ(metadata.text("user:rheocyte note"), "text");
+  for (const char* key : {"generator", "unknown:key", "setup:a:b", "calculation:emodulus lut"})
+    EXPECT_FALSE(metadata.has(key)) << key;
+}
+
+TEST(CompanionFile, TypesOfMetadataAreThoseOfTheOriginal) {
+  const ScratchFolder folder;
+  write_original(folder / "a.rtdc");
+  CompanionFile(folder / "b.rtdc", Recording(folder / "a.rtdc"), "rheocyte").close();
+  const Hdf5Handle file(::H5Fopen((folder / "b.rtdc").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  const auto type_of = [&](const char* name) {
+    const Hdf5Handle attribute(::H5Aopen(file.get(), name, H5P_DEFAULT)), type(::H5Aget_type(attribute.get()));
+    return ::H5Tget_class(type.get());
+  };
+  EXPECT_EQ(type_of("online_contour:no absdiff"), H5T_ENUM);
+  EXPECT_EQ(type_of("experiment:run index"), H5T_INTEGER);
+  EXPECT_EQ(type_of("setup:channel width"), H5T_FLOAT);
+  const Hdf5Handle polygon(::H5Aopen(file.get(), "online_filter:area_um,deform polygon points", H5P_DEFAULT));
+  double points[6] = {};
+  ASSERT_TRUE(polygon);
+  ::H5Aread(polygon.get(), H5T_NATIVE_DOUBLE, points);
+  EXPECT_EQ(points[5], 1);
+}
+
+TEST(CompanionFile, FeaturesAreCompressedCheckedAndCarryTheirExtremes) {
+  const ScratchFolder folder;
+  write_original(folder / "a.rtdc");
+  CompanionFile companion(folder / "b.rtdc", Recording(folder / "a.rtdc"), "rheocyte");
+  companion.add_feature("emodulus");
+  companion.write("emodulus", 0, std::vector<double>{3, NAN, 1});
+  companion.close();
+  const Hdf5Handle file(::H5Fopen((folder / "b.rtdc").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  const Hdf5Handle dataset(::H5Dopen2(file.get(), "events/emodulus", H5P_DEFAULT));
+  const Hdf5Handle properties(::H5Dget_create_plist(dataset.get()));
+  unsigned flags = 0;
+  std::size_t values = 0, no_values = 0;
+  ASSERT_EQ(::H5Pget_nfilters(properties.get()), 2);
+  EXPECT_EQ(::H5Pget_filter2(properties.get(), 0, &flags, &values, nullptr, 0, nullptr, nullptr), 32015);
+  EXPECT_EQ(::H5Pget_filter2(properties.get(), 1, &flags, &no_values, nullptr, 0, nullptr, nullptr),
+            H5Z_FILTER_FLETCHER32);
+  const Metadata extremes = read_attributes(dataset.get());
+  EXPECT_EQ(extremes.number("min"), 1);
+  EXPECT_EQ(extremes.number("max"), 3);
+  EXPECT_EQ(extremes.number("mean"), 2);
+}
+
+TEST(CompanionFile, WhereNothingCanBeWrittenTheUserIsTold) {
+  const ScratchFolder folder;
+  write_original(folder / "a.rtdc");
+  const Recording original(folder / "a.rtdc");
+  EXPECT_THROW(CompanionFile(folder / "none/b.rtdc", original, "rheocyte"), UserError);
+}
+
+}  // namespace
+}  // namespace rheocyte
