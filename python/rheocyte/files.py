@@ -1,6 +1,7 @@
 """Reading a result folder and writing figures without ever leaving half a file."""
 
 import csv
+import io
 import json
 import os
 import sys
@@ -77,9 +78,37 @@ def save_figure(figure, stem, dpi):
             os.chmod(temporary, 0o666 & ~current_umask())
             os.replace(temporary, stem.with_name(stem.name + suffix))
         except OSError as error:
+            raise InputError(f"{stem}{suffix} cannot be written: {reason(error)}.") from error
+        finally:
             if temporary and os.path.exists(temporary):
                 os.unlink(temporary)
-            raise InputError(f"{stem}{suffix} cannot be written: {reason(error)}.") from error
+
+
+def write_text(path, text):
+    """Writes a text file, first beside the target, then renamed; a file that holds this text already is left alone."""
+    path, temporary = Path(path), None
+    try:
+        if path.is_file() and path.read_text(encoding="utf-8", errors="replace") == text:
+            return
+        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}-", dir=path.parent)
+        with open(handle, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(temporary, 0o666 & ~current_umask())
+        os.replace(temporary, path)
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {reason(error)}.") from error
+    finally:
+        if temporary and os.path.exists(temporary):
+            os.unlink(temporary)
+
+
+def save_table(path, rows):
+    """A CSV file from dictionaries with the same keys."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    write_text(path, text.getvalue())
 
 
 def current_umask():

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/build_info.h"
+#include "app/command_figure.h"
 #include "app/command_help.h"
 #include "app/command_line.h"
 #include "app/command_picture.h"
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   rheocyte::add_solve_command(app, argv, exit_code);
   rheocyte::add_picture_command(app, exit_code);
+  rheocyte::add_figure_command(app, exit_code);
   rheocyte::add_help_command(app);
   return rheocyte::run_command_line(app, argc, argv, exit_code);
 }
