@@ -68,7 +68,7 @@ def make(number, folder, program):
     laboratory = Laboratory(program, folder / "cases", tell=lambda line: print(line, file=sys.stderr, flush=True))
     figure, rows = drawing(number).make(laboratory)
     stem = folder / f"figure-{number}"
-    save_figure(figure, stem, DPI)
+    save_figure(figure, stem, DPI, palette=True, svg_dpi=180)
     save_table(stem.with_suffix(".csv"), rows)
     print(f"{stem}.png, .svg and .csv are drawn, after {time.monotonic() - start:.1f} s")
     return laboratory.failures

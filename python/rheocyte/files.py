@@ -66,15 +66,21 @@ def reason(error):
     return getattr(error, "strerror", None) or str(error)
 
 
-def save_figure(figure, stem, dpi):
-    """Writes `stem`.png and `stem`.svg: first beside the target, then renamed, so that no reader sees half a file."""
+def save_figure(figure, stem, dpi, palette=False, svg_dpi=300):
+    """Writes `stem`.png and `stem`.svg: first beside the target, then renamed, so that no reader sees half a file.
+
+    A palette of 256 colours makes the PNG of a drawing some three times smaller; `svg_dpi` is that of images inside
+    the SVG.
+    """
     stem = Path(stem)
-    for suffix, options in ((".png", {"dpi": dpi}), (".svg", {"dpi": 300, "metadata": {"Date": None}})):
+    for suffix, options in ((".png", {"dpi": dpi}), (".svg", {"dpi": svg_dpi, "metadata": {"Date": None}})):
         temporary = None
         try:
             handle, temporary = tempfile.mkstemp(prefix=f".{stem.name}-", suffix=suffix, dir=stem.parent)
             os.close(handle)
             figure.savefig(temporary, format=suffix[1:], **options)
+            if palette and suffix == ".png":
+                reduce_colours(temporary)
             os.chmod(temporary, 0o666 & ~current_umask())
             os.replace(temporary, stem.with_name(stem.name + suffix))
         except OSError as error:
@@ -82,6 +88,15 @@ def save_figure(figure, stem, dpi):
         finally:
             if temporary and os.path.exists(temporary):
                 os.unlink(temporary)
+
+
+def reduce_colours(path):
+    """Replaces a PNG file by one with a palette, without dithering."""
+    from PIL import Image  # matplotlib needs it, too
+
+    with Image.open(path) as image:
+        dpi, reduced = image.info.get("dpi"), image.convert("RGB").quantize(256, Image.Quantize.MEDIANCUT, dither=0)
+    reduced.save(path, format="PNG", optimize=True, dpi=dpi)
 
 
 def write_text(path, text):

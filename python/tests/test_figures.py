@@ -9,11 +9,14 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy as np
 
+from rheocyte import colours
 from rheocyte.figures import figure6, paper
+from rheocyte.figures.body import seen
 from rheocyte.figures.cases import Laboratory, Solution, analytic_options, toml
 from rheocyte.files import InputError
 
@@ -99,16 +102,6 @@ class Command(WithFakeProgram):
         self.assertEqual(self.call(5, self.out).returncode, 0)
         self.assertEqual(self.solved(), [name])
 
-    def test_figure_6_draws_what_there_is(self):
-        # The state to which changes relate, one of many points, the search for a radius: each is missing in its place.
-        for version, failing in enumerate(("bending-0kBT", "density-5000kg", "radius-2.29kPa-1", "radius")):
-            ended = self.call(6, self.out, FAKE_FAILS=failing, FAKE_VERSION=str(version))
-            self.assertEqual(ended.returncode, 1, ended.stderr)
-            self.assertNotIn("Traceback", ended.stderr)
-            self.assertIn(f"not solved, and marked in the figure: {failing}", ended.stderr.splitlines()[-1])
-            self.assertTrue(any(row["status"] != "converged" for row in self.table(6)))
-            self.assertTrue((self.out / "figure-6.svg").exists())
-
     def test_interruption_keeps_what_was_solved(self):
         for name, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             process = subprocess.Popen(self.command(5, self.out), stderr=subprocess.PIPE, text=True,
@@ -137,6 +130,27 @@ class Command(WithFakeProgram):
 
 
 class Pieces(WithFakeProgram):
+    def laboratory(self, **environment):
+        change = unittest.mock.patch.dict(os.environ, FAKE_LOG=str(self.log), **environment)
+        change.start()
+        self.addCleanup(change.stop)
+        return Laboratory(str(self.program), self.out / "cases", tell=lambda _: None)
+
+    def test_figure_6_draws_what_there_is(self):
+        few = unittest.mock.patch.multiple(figure6, BENDING_KBT=[0, 1e4, 2.5e5], DENSITIES=[1e3, 5e3, 1e4, 1e5])
+        few.start()
+        self.addCleanup(few.stop)
+        # The state to which changes relate, one of several points, the search for a radius: each is missing in its place.
+        for failing, lost, noted in (("nothing", 0, 0), ("bending-0kBT", 1, 1), ("density-5000kg", 2, 2),
+                                     ("radius-2.29kPa-1", 7, 2), ("radius", 11, 3)):
+            laboratory = self.laboratory(FAKE_FAILS=failing, FAKE_VERSION=failing)
+            figure, rows = figure6.make(laboratory)
+            self.assertEqual(sum(row["status"] != "converged" for row in rows), lost)
+            self.assertEqual(all(failing in solution.name for solution in laboratory.failures), True)
+            notes = [text for axes in figure.axes for text in axes.texts if text.get_color() == colours.ALARM]
+            self.assertEqual(len(notes), noted, failing)
+            figure.canvas.draw()
+
     def test_only_converged_states_give_numbers(self):
         with self.assertRaises(KeyError):
             _ = Solution("a", self.folder, {"status": "stopped", "deformation": 0.01})["deformation"]
@@ -151,10 +165,7 @@ class Pieces(WithFakeProgram):
         self.assertIn("--cortex-modulus-mN-m", analytic_options(paper.shell(7.11, 20.9, "linear")))
 
     def test_secant_steps_find_the_radius(self):
-        os.environ["FAKE_LOG"] = str(self.log)
-        self.addCleanup(os.environ.pop, "FAKE_LOG")
-        self.folder.joinpath("cases").mkdir()
-        laboratory = Laboratory(str(self.program), self.folder / "cases", tell=lambda _: None)
+        laboratory = self.laboratory()
         radii = figure6.radii_of_area(laboratory, [2.29, 4.58])
         exact = (figure6.AREA_UM2 / 3.3) ** (1 / 2.1)  # of the fake program
         # d area / area = 2.1 d r / r
@@ -166,6 +177,25 @@ class Pieces(WithFakeProgram):
         line = figure6.fitted(figure6.Series(list(range(5)), solutions))
         # Rounding of numbers of order 1.
         np.testing.assert_allclose([line.start, line.slope, line.distance], [0.05, 0.001, 0], atol=1e-14)
+
+
+class Views(unittest.TestCase):
+    def test_a_sphere_is_a_disc_from_every_side(self):
+        t = np.linspace(0, np.pi, 200)
+        sphere = np.stack([np.cos(t), np.sin(t)], axis=1)
+        for angles in ((0, 0), (52, 18), (-130, -40)):
+            cover = seen(sphere, *angles, half_width=1.25, pixels=100, colormap=colours.CELL)[..., 3]
+            # Pixels at the rim count in quarters: an error of some 0.3 pixels of the radius, 40.
+            self.assertAlmostEqual(np.sqrt(cover.sum() / np.pi), 40, delta=0.4)
+            self.assertEqual(cover[50, 50], 1)
+
+    def test_light_falls_from_above_and_the_rear_turns_to_the_eye(self):
+        t = np.linspace(0, np.pi, 200)
+        drop = np.stack([np.cos(t) + 0.5 * np.cos(t) ** 2, np.sin(t)], axis=1)  # its rear end is blunt, at x = -0.5
+        side, behind = (seen(drop, azimuth, 0, 2, 80, colours.CELL) for azimuth in (0, 90))
+        for image, ends in ((side, (30, 70)), (behind, (20, 60))):  # x = -0.5 .. 1.5, r = 1, in pixels of 0.05
+            np.testing.assert_allclose(np.flatnonzero(image[40, :, 3])[[0, -1]], ends, atol=1)
+        self.assertGreater(side[55, 45, :3].sum(), side[25, 45, :3].sum())
 
 
 if __name__ == "__main__":
