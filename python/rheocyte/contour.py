@@ -8,6 +8,16 @@ def closed(meridian):
     return np.vstack([meridian, meridian[-2::-1] * [1, -1]])
 
 
+def resampled(line, count, shift=0.0):
+    """`count` points at equal distances along a polyline (n, 2), the first one `shift` distances from its start.
+
+    Without a shift the last point of a line is that of the polyline, so the distance is length / (count - 1).
+    """
+    length = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+    places = (np.arange(count) + shift) / (count - 1) * length[-1]
+    return np.stack([np.interp(places, length, line[:, k]) for k in (0, 1)], axis=1)
+
+
 def convex_hull(points):
     """Indices of the hull's corners, counter-clockwise, by a monotone chain."""
     order = np.lexsort((points[:, 1], points[:, 0]))

@@ -7,14 +7,17 @@
 #include <cerrno>
 #include <cstdlib>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "app/build_info.h"
 #include "app/child_process.h"
 #include "app/exit_codes.h"
 #include "app/result_folder.h"
 #include "app/solve_options.h"
 #include "app/standard_error.h"
 #include "case/read_case.h"
+#include "case/write_case.h"
 
 namespace rheocyte {
 
@@ -31,14 +34,25 @@ int become_engine(char** argv) {
   return exit_own_bug;
 }
 
+// What a result of this case will say about it, so that a script can tell whether it has that result already.
+void print_case(const Case& c) {
+  nlohmann::ordered_json json{{"program", "rheocyte"}, {"version", version}};
+  json["case"] = to_json(c);
+  json["case_hash"] = case_hash(c);
+  fmt::print("{}\n", json.dump(2));
+}
+
 }  // namespace
 
 void add_solve_command(CLI::App& app, char** argv, int& exit_code) {
   auto* command = app.add_subcommand("solve", "compute the stationary shape of one cell");
   auto options = std::make_shared<SolveOptions>();
   declare_solve_options(*command, *options, [options, argv, &exit_code] {
-    read_case(options->case_file, options->settings);
-    if (options->check_only) return;
+    const Case c = read_case(options->case_file, options->settings);
+    if (options->check_only) {
+      if (options->json) print_case(c);
+      return;
+    }
     check_result_folder(options->folder);
     exit_code = become_engine(argv);
   });

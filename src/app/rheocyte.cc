@@ -4,6 +4,7 @@
 #include "app/build_info.h"
 #include "app/command_analytic.h"
 #include "app/command_extract.h"
+#include "app/command_figure.h"
 #include "app/command_help.h"
 #include "app/command_line.h"
 #include "app/command_picture.h"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   rheocyte::add_picture_command(app, exit_code);
   rheocyte::add_analytic_command(app);
   rheocyte::add_extract_command(app, exit_code);
+  rheocyte::add_figure_command(app, exit_code);
   rheocyte::add_help_command(app);
   return rheocyte::run_command_line(app, argc, argv, exit_code);
 }

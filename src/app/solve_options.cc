@@ -19,7 +19,9 @@ void declare_solve_options(CLI::App& command, SolveOptions& options, std::functi
   command.add_flag("--json", options.json, "print result.json on standard output and nothing else there");
   command.add_flag("--quiet", options.quiet, "print neither progress nor summary");
   command.add_flag("--no-picture", options.no_picture, "do not draw picture.png and picture.svg");
-  command.add_flag("--check", options.check_only, "only check the case: exit code 0 or 2, nothing is written");
+  command.add_flag(
+      "--check", options.check_only,
+      "only check the case: exit code 0 or 2, nothing is written; with --json, print it with all defaults");
   command.callback([&options, run = std::move(run)] {
     if (!options.check_only && options.folder.empty())
       throw UserError("rheocyte: the folder for the result is missing; give one with -o, for example -o result.");

@@ -1,0 +1,108 @@
+"""python -m rheocyte.figure --program PATH N DIR: figure N of Mokbel et al. 2017, solving what is missing for it.
+
+Writes DIR/figure-N.png, .svg and .csv and keeps the results in DIR/cases. Exit code 2 and one sentence on stderr for
+the user's errors, 1 if a cell could not be solved (the figure says so at its place), 128 + number after a signal.
+"""
+
+import argparse
+import importlib
+import pkgutil
+import signal
+import sys
+import time
+from pathlib import Path
+
+from rheocyte import figures
+from rheocyte.files import InputError, run, save_figure, save_table
+
+DPI = 300
+
+
+class Stopped(BaseException):
+    """A signal that ends the program."""
+
+    def __init__(self, number):
+        super().__init__(number)
+        self.number = number
+
+
+class Parser(argparse.ArgumentParser):
+    """Errors as one sentence."""
+
+    def error(self, message):
+        raise InputError(f"{message} (see `rheocyte figure --help`)")
+
+
+def available():
+    """Numbers of the figures for which there is a module."""
+    names = (module.name.removeprefix("figure") for module in pkgutil.iter_modules(figures.__path__)
+             if module.name.startswith("figure"))
+    return sorted(int(name) for name in names if name.isdecimal())
+
+
+def chosen(text):
+    """The number of an available figure."""
+    numbers = available()
+    for number in numbers:
+        if text == str(number):
+            return number
+    listed = " and ".join(filter(None, [", ".join(map(str, numbers[:-1])), str(numbers[-1])]))
+    raise InputError(f"there is no figure {text[:40]!r} here; available are {listed}, for example `rheocyte figure "
+                     f"{numbers[0]}`.")
+
+
+def drawing(number):
+    """The module of a figure; it needs matplotlib, which is loaded only now."""
+    try:
+        return importlib.import_module(f"rheocyte.figures.figure{number}")
+    except ImportError as error:
+        raise InputError(f"the figures need Python with numpy and matplotlib ({error}).") from error
+
+
+def make(number, folder, program):
+    """Solves, draws and writes; returns the cells that could not be solved."""
+    from rheocyte.figures.cases import Laboratory, make_folder
+
+    start = time.monotonic()
+    make_folder(folder)
+    laboratory = Laboratory(program, folder / "cases", tell=lambda line: print(line, file=sys.stderr, flush=True))
+    figure, rows = drawing(number).make(laboratory)
+    stem = folder / f"figure-{number}"
+    save_figure(figure, stem, DPI, palette=True, svg_dpi=180)
+    save_table(stem.with_suffix(".csv"), rows)
+    print(f"{stem}.png, .svg and .csv are drawn, after {time.monotonic() - start:.1f} s")
+    return laboratory.failures
+
+
+def raise_stopped(number, _):
+    """Signal handler."""
+    signal.signal(number, signal.SIG_DFL)
+    raise Stopped(number)
+
+
+def main():
+    """Command line."""
+    parser = Parser(prog="rheocyte figure", description=__doc__.splitlines()[0])
+    parser.add_argument("number", metavar="N")
+    parser.add_argument("folder", metavar="DIR", type=Path)
+    parser.add_argument("--program", required=True, help="the program rheocyte that solves")
+    arguments = parser.parse_args()
+    number = chosen(arguments.number)
+    for name in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(name, raise_stopped)
+    try:
+        failures = make(number, arguments.folder, arguments.program)
+    except Stopped as stopped:
+        print(f"rheocyte: stopped; what was solved is kept in {arguments.folder / 'cases'}, the same command goes on "
+              "from there.", file=sys.stderr)
+        sys.exit(128 + stopped.number)
+    if failures:
+        names = ", ".join(solution.name for solution in failures[:3])
+        more = f" and {len(failures) - 3} more" if len(failures) > 3 else ""
+        print(f"rheocyte: not solved, and marked in the figure: {names}{more} ({failures[0].trouble.rstrip('.')}).",
+              file=sys.stderr)
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    run(main)
