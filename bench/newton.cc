@@ -1,4 +1,5 @@
-// What one Newton iteration costs, by polynomial degree, and what of it is numeric factorisation.
+// What one Newton iteration costs, by polynomial degree, and what of it is numeric factorisation; and what a state
+// costs that is reached from its neighbour, by what the cell is made of.
 //
 // Columns: a whole iteration (integrals with tangent, factorisation, substitution, one residual), then its parts.
 // `iteration/factorisation` is the ratio that docs/benchmarks.md quotes.
@@ -51,6 +52,41 @@ void newton_iteration(benchmark::State& state) {
   state.counters["iteration/factorisation"] = (assembly + condensation + sparse + solve) / (condensation + sparse);
 }
 
+/// From the state at 0.95 of the compliance to the wanted one, at degree 6. 0: solid, 1: solid with cortex and tension,
+/// 2: the same with bending, 3: shell.
+void warm_started_state(benchmark::State& state) {
+  Problem problem = standard_cell();
+  const int kind = int(state.range(0));
+  if (kind >= 1) {
+    problem.cortex = CortexLaw::neo_hookean;
+    problem.cortex_modulus = 2;
+    problem.tension = 0.2;
+  }
+  if (kind == 2) problem.bending_stiffness = 0.01;
+  if (kind == 3) {
+    problem.bulk = BulkLaw::none;
+    problem.shear_modulus = 0;
+    problem.cortex_modulus = 40;
+    problem.tension = 4;
+  }
+  Discrete discrete(problem, {{2, 4, 1, 2}, 6});
+  StationarySystem& system = discrete.system;
+  ContinuationReport start = start_branch(system, problem, {});
+  Path path = stiffness_path(system, problem);
+  path.end = 0.95;
+  const BranchState neighbour = continue_branch(path, {}, start.last).last;
+  path.end = 1;
+  NewtonReport report;
+  for (auto _ : state) {
+    VectorXd unknowns = neighbour.unknowns + (1 - neighbour.parameter) * neighbour.tangent;
+    report = newton(system, path.media(1), {}, unknowns);
+  }
+  if (report.status != Status::converged) state.SkipWithError(name(report.status));
+  state.counters["iterations"] = report.iterations;
+  state.counters["unknowns"] = discrete.space.unknowns();
+}
+
+BENCHMARK(warm_started_state)->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
 BENCHMARK(newton_iteration)->DenseRange(3, 9)->Unit(benchmark::kMillisecond);
 
 }  // namespace

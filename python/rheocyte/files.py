@@ -61,6 +61,11 @@ def read_contour(path):
     return np.array([[number(row, "x_um", path), number(row, "r_um", path)] for row in rows])
 
 
+def read_column(path, column):
+    """One column of a CSV file as an array of finite numbers."""
+    return np.array([number(row, column, path) for row in read_table(path, [column])])
+
+
 def reason(error):
     """What the operating system or a parser said, without the path that stands before it already."""
     return getattr(error, "strerror", None) or str(error)

@@ -13,13 +13,14 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
 import numpy as np  # noqa: E402
+from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.patches import PathPatch, Rectangle  # noqa: E402
 from matplotlib.path import Path as Outline  # noqa: E402
 from matplotlib.ticker import FuncFormatter, MaxNLocator  # noqa: E402
 
 from rheocyte import colours  # noqa: E402
 from rheocyte.contour import bridges, closed, convex_hull  # noqa: E402
-from rheocyte.files import InputError, read_contour, read_result, run, save_figure  # noqa: E402
+from rheocyte.files import InputError, read_column, read_contour, read_result, run, save_figure  # noqa: E402
 from rheocyte.raster import PixelGrid, extended, mirrored, rasterise, stream_function  # noqa: E402
 from rheocyte.vtu import read_vtu  # noqa: E402
 
@@ -44,6 +45,7 @@ class Story:
     grid: PixelGrid
     relative: np.ndarray  # (3, rows, columns): axial, radial, magnitude of the liquid's velocity seen from the cell
     stress_kPa: np.ndarray
+    tension: np.ndarray | None  # meridional, along the contour, in mN/m; None where the cell has an elastic interior
 
 
 def read_story(folder):
@@ -58,7 +60,9 @@ def read_story(folder):
     length = min(VIEW * radius, *np.abs([fields.points[:, 0].min(), fields.points[:, 0].max()]))
     columns = 720
     grid = PixelGrid(np.linspace(-length, length, columns), np.linspace(0, radius, columns // 4))
-    return Story(result, contour, radius, grid, *pixels(fields, grid))
+    shell = find(result, "case", "cell", "bulk", "law") == "none"
+    tension = read_column(folder / "contour.csv", "tension_meridional_mN_per_m") if shell else None
+    return Story(result, contour, radius, grid, *pixels(fields, grid), tension)
 
 
 def pixels(fields, grid):
@@ -90,10 +94,14 @@ def draw(story):
     speed, stress = draw_fields(axes, story)
     draw_streamlines(axes, story)
     draw_walls(axes, story)
-    draw_outlines(axes, story)
+    tension = draw_outlines(axes, story)
     draw_scale_and_flow(axes, story)
     draw_colour_bar(figure, speed, [0.05, 0.68 / total, 0.41, 0.07 / total], "speed relative to the cell (m/s)")
-    draw_colour_bar(figure, stress, [0.54, 0.68 / total, 0.41, 0.07 / total], "elastic stress in the cell (kPa)")
+    place = [0.54, 0.68 / total, 0.41, 0.07 / total]
+    if tension is None:
+        draw_colour_bar(figure, stress, place, "elastic stress in the cell (kPa)")
+    else:
+        draw_colour_bar(figure, tension, place, "tension along the cortex (mN/m)")
     draw_numbers(figure, story.result, total)
     if note:
         figure.text(0.5, 1 - 0.05 / total, "\n".join(note), color=colours.ALARM, ha="center", va="top", weight="bold",
@@ -170,9 +178,11 @@ def draw_walls(axes, story):
 
 
 def draw_outlines(axes, story):
-    """Contour, the chords of its convex hull, and the sphere at rest."""
+    """Contour (a shell's in the colours of its tension, which are returned), chords of its hull, sphere at rest."""
     outline = closed(story.contour)
-    axes.plot(*outline.T, color=colours.INK, linewidth=1.3, zorder=5, solid_joinstyle="round")
+    axes.plot(*outline.T, color=colours.INK, linewidth=1.3 if story.tension is None else 2.6, zorder=5,
+              solid_joinstyle="round")
+    band = None if story.tension is None else draw_tension(axes, story)
     for chord in bridges(outline, convex_hull(outline), least_depth=2e-3 * story.radius):
         axes.plot(*chord.T, color=colours.INK, linewidth=0.9, dashes=(3, 1.6), zorder=5.1)
     rest = find(story.result, "case", "cell", "radius_um")
@@ -180,6 +190,17 @@ def draw_outlines(axes, story):
         angle = np.linspace(0, 2 * np.pi, 361)
         axes.plot(rest * np.cos(angle), rest * np.sin(angle), color=colours.INK, linewidth=FINE, zorder=4,
                   linestyle=(0, (0.6, 2.2)), dash_capstyle="round")
+    return band
+
+
+def draw_tension(axes, story):
+    """The tension along both halves of the meridian, inside a dark rim."""
+    halves = [story.contour * (1, sign) for sign in (1, -1)]
+    segments = np.concatenate([np.stack([half[:-1], half[1:]], axis=1) for half in halves])
+    values = np.tile((story.tension[:-1] + story.tension[1:]) / 2, 2)
+    lines = LineCollection(segments, array=values, cmap=colours.CELL, linewidths=1.8, zorder=5.2, capstyle="round")
+    lines.autoscale()
+    return axes.add_collection(lines)
 
 
 def draw_scale_and_flow(axes, story):
@@ -220,14 +241,29 @@ def draw_colour_bar(figure, image, place, label):
 def draw_numbers(figure, result, total):
     """What came out, and what was asked."""
     found = [deformation_with_error(result), part("area {:.5g} µm²", result, "area_um2")]
-    asked = [part("{} solid", result, "case", "cell", "bulk", "law"),
-             part("E = {:.4g} kPa", result, "young_modulus_reached_kPa")
-             or part("E = {:.4g} kPa", result, "case", "cell", "bulk", "young_modulus_kPa"),
-             part("$r_0$ = {:.4g} µm", result, "case", "cell", "radius_um")]
-    moved = [part("$v_{{cell}}$ = {:.4g} m/s", result, "cell_velocity_m_per_s"),
+    asked = made_of(result)
+    moved = [part("$r_0$ = {:.4g} µm", result, "case", "cell", "radius_um"),
+             part("$v_{{cell}}$ = {:.4g} m/s", result, "cell_velocity_m_per_s"),
              part("pressure drop {:.4g} Pa", result, "pressure_drop_Pa")]
     for height, parts, weight in ((0.34, found, "bold"), (0.205, asked, "normal"), (0.075, moved, "normal")):
-        figure.text(0.5, height / total, "      ".join(filter(None, parts)), ha="center", va="baseline", weight=weight)
+        parts = list(filter(None, parts))
+        gap, size = (" " * 6, 6.5) if len(parts) < 5 else (" " * 3, 5.4)
+        figure.text(0.5, height / total, gap.join(parts), ha="center", va="baseline", weight=weight, fontsize=size)
+
+
+def made_of(result):
+    """Laws and moduli of interior and cortex, as far as the cell has them."""
+    cell = find(result, "case", "cell")
+    bulk, cortex = find(cell, "bulk", "law"), find(cell, "cortex", "law") or "none"
+    modulus = (part("E = {:.4g} kPa", result, "young_modulus_reached_kPa")
+               or part("E = {:.4g} kPa", cell, "bulk", "young_modulus_kPa"))
+    parts = [] if bulk in (None, "none") else [f"{bulk} solid", modulus]
+    if cortex != "none":
+        parts += [f"{cortex} {'shell' if bulk == 'none' else 'cortex'}",
+                  part("$E_{{2D}}$ = {:.4g} mN/m", result, "cortex_modulus_reached_mN_per_m")]
+    if find(result, "tension_mN_per_m"):
+        parts.append(part("γ = {:.3g} mN/m", result, "tension_mN_per_m"))
+    return parts
 
 
 def deformation_with_error(result):

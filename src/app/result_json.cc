@@ -81,6 +81,7 @@ void add_shape(Json& json, const Result& result) {
   json["inertia_ratio"] = shape.inertia_ratio;
   json["least_meridional_stretch"] = result.state.least_meridional_stretch;
   json["biot_ratio"] = result.state.biot_ratio;
+  json["stability_margin"] = result.state.stability_margin;
   json["least_tension_mN_per_m"] = result.state.least_tension * result.scales.stress_Pa * result.scales.length_m * 1e3;
 }
 

@@ -102,13 +102,17 @@ ContinuationReport start_branch(StationarySystem& system, const Problem& problem
     report.residual = newton_report.residual;
     if (report.status == Status::stopped) return report;
     if (report.status != Status::converged) continue;
-    state.unknowns = unknowns;
-    state.newton_iterations = report.newton_iterations;
-    state.tangent = branch_tangent(stiffness_path(system, problem), state);
+    BranchState found{state.parameter, unknowns, {}, report.newton_iterations};
+    if (options.accept && !options.accept(system.space(), found)) {
+      report.status = Status::surface_unstable;
+      continue;
+    }
+    found.tangent = branch_tangent(stiffness_path(system, problem), found);
+    state = std::move(found);
     report.steps = 1;
-    if (options.accept && !options.accept(system.space(), state)) report.status = Status::surface_unstable;
     return report;
   }
+  state.parameter = 0;
   return report;
 }
 

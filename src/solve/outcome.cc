@@ -4,6 +4,28 @@
 
 namespace rheocyte {
 
+SurfaceKind surface_kind(const Problem& problem) {
+  if (problem.bending_stiffness > 0) return SurfaceKind::held;
+  if (problem.cortex != CortexLaw::none) return SurfaceKind::membrane;
+  return problem.tension > 0 ? SurfaceKind::held : SurfaceKind::bare;
+}
+
+namespace {
+
+std::string unstable_surface(const std::string& where, SurfaceKind kind) {
+  const std::string what = kind == SurfaceKind::membrane
+                               ? "The cortex of so soft a cell is compressed and wrinkles: the smooth branch ends at "
+                               : "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder): the "
+                                 "smooth branch ends at ";
+  const std::string hold = kind == SurfaceKind::held
+                               ? "."
+                               : ", or hold the surface by a little bending stiffness (cell.cortex.bending_kBT = 1e4) "
+                                 "or tension (cell.cortex.tension_mN_per_m).";
+  return what + where + "; raise the moduli above that, lower flow rate or viscosity" + hold;
+}
+
+}  // namespace
+
 std::string explanation(const Outcome& outcome, const LastState& last) {
   if (outcome.status == Status::converged) return "The stationary shape was found.";
   if (outcome.status == Status::stopped && outcome.reached <= 0) return "Stopped by a signal before the first state.";
@@ -13,13 +35,7 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
   const std::string where =
       fmt::format("{:.3g} times the wanted moduli (deformation {:.4f})", 1 / outcome.reached, last.deformation);
   switch (outcome.status) {
-    case Status::surface_unstable:
-      return "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder): the smooth branch ends "
-             "at " +
-             where + "; raise the moduli above that, lower flow rate or viscosity" +
-             (last.has_bare_surface ? ", or hold the surface by a little bending stiffness "
-                                      "(cell.cortex.bending_kBT = 1e4) or tension (cell.cortex.tension_mN_per_m)."
-                                    : ".");
+    case Status::surface_unstable: return unstable_surface(where, last.surface);
     case Status::branch_ended:
       return "The branch of stationary shapes ends at " + where +
              "; softer cells are drawn out without limit: raise the moduli above that, or lower flow rate or "

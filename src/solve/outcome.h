@@ -2,6 +2,8 @@
 #pragma once
 #include <string>
 
+#include "case/problem.h"
+
 namespace rheocyte {
 
 /// Why the solver stopped. Starts as `not_started`: success has to be said, never assumed.
@@ -25,11 +27,17 @@ struct Outcome {
   double reached = 0;   ///< fraction of the wanted compliance 1/E that was reached, 1 when converged
 };
 
+/// bare: the bulk alone; loses stability at Biot's ratio. membrane: an elastic cortex without bending stiffness; it
+/// does where it is compressed along the meridian more than the bulk below supports. held: by tension without a cortex,
+/// or by bending stiffness; short waves are stable.
+enum class SurfaceKind { bare, membrane, held };
+SurfaceKind surface_kind(const Problem&);
+
 /// What an explanation speaks of.
 struct LastState {
   double deformation = 0;
-  double estimated_error = 0;    ///< relative
-  bool has_bare_surface = true;  ///< no cortex, tension or bending that could hold the surface
+  double estimated_error = 0;  ///< relative
+  SurfaceKind surface = SurfaceKind::bare;
 };
 
 /// One sentence for the user: what happened, where, what to try.

@@ -3,29 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "shape/wrinkles.h"
-
 namespace rheocyte {
-
-double least_biot_ratio(const Discretisation& space, const VectorXd& unknowns) {
-  return least_biot_ratio(surface_state(space, unknowns, 2 * space.reference().degree() + 1));
-}
-
-bool is_bare(const Problem& problem) {
-  return problem.bulk != BulkLaw::none && problem.cortex == CortexLaw::none && problem.tension == 0 &&
-         problem.bending_stiffness == 0;
-}
-
-bool is_wrinkled(const Problem& problem, const Discretisation& space, const VectorXd& unknowns) {
-  constexpr int greatest_sign_changes = 3;  // a rear dent makes one, a hollow flank two
-  if (!is_bare(problem))
-    return surface_smoothness(contour(space, unknowns)).curvature_sign_changes > greatest_sign_changes;
-  const double ratio = least_biot_ratio(space, unknowns);
-  if (ratio < biot_limit) return true;
-  // Farther from the limit, changes of curvature are faint errors of discretisation on nearly straight flanks.
-  return ratio < near_biot_limit &&
-         surface_smoothness(contour(space, unknowns)).curvature_sign_changes > greatest_sign_changes;
-}
 
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include "fem/observe.h"
 #include "solve/continuation.h"
+#include "solve/surface_stability.h"
 
 namespace rheocyte {
 
@@ -17,19 +18,6 @@ struct ResolvedState {
   int steps = 0, newton_iterations = 0;  ///< of the way to it
   WorkMeter work;                        ///< of the whole way, systems that were left included
 };
-
-/// So close to Biot's limit the surface is the reason if Newton fails: no mesh resolves the last stretch.
-inline constexpr double near_biot_limit = 1.25 * biot_limit;
-
-/// The least Biot ratio (fem/observe.h) of a state's surface.
-double least_biot_ratio(const Discretisation&, const VectorXd& unknowns);
-
-/// Whether nothing but the bulk holds the surface: no cortex, tension or bending.
-bool is_bare(const Problem&);
-
-/// Whether a surface is beyond Biot's limit, or near it and its contour shows more changes of curvature than a rear
-/// dent and a hollow flank make.
-bool is_wrinkled(const Problem&, const Discretisation&, const VectorXd& unknowns);
 
 /// Sees each converged state of the way.
 using BranchObserver = std::function<void(const Discretisation&, const BranchState&)>;

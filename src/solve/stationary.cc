@@ -108,8 +108,8 @@ class StationarySolver {
         tally.add(next);
         if (next.status == Status::stopped) return state.status = Status::stopped, state;
         if (next.status != Status::converged || is_wrinkled(problem_, next.discrete->space, next.branch.unknowns)) {
-          if (is_bare(problem_) && next.branch.unknowns.size() > 0 &&
-              least_biot_ratio(next.discrete->space, next.branch.unknowns) < near_biot_limit)
+          if (next.branch.unknowns.size() > 0 &&
+              stability_margin(problem_, next.discrete->space, next.branch.unknowns) < small_margin)
             reason = Status::surface_unstable;
           break;  // this mesh cannot hold the state: the next one
         }
@@ -165,6 +165,7 @@ class StationarySolver {
     result_.least_meridional_stretch = surface.stretch.col(0).minCoeff();
     result_.least_tension = tension.col(0).minCoeff();
     result_.biot_ratio = least_biot_ratio(surface);
+    result_.stability_margin = stability_margin(problem_, surface);
   }
 
   /// Settles the reason and says it in a sentence.
@@ -172,12 +173,13 @@ class StationarySolver {
     Outcome& outcome = result_.outcome;
     const bool failed_on_the_way = outcome.status != Status::converged && outcome.status != Status::stopped &&
                                    outcome.status != Status::accuracy_not_reached;
-    if (failed_on_the_way && state.discrete && is_bare(problem_) && result_.biot_ratio < near_biot_limit) {
+    if (failed_on_the_way && state.discrete && result_.stability_margin < small_margin) {
       outcome.status = Status::surface_unstable;
     } else if (outcome.status == Status::iteration_limit && state.branch.parameter > 0) {
       outcome.status = Status::branch_ended;
     }
-    outcome.message = explanation(outcome, {result_.shape.deformation, result_.estimated_error, is_bare(problem_)});
+    outcome.message =
+        explanation(outcome, {result_.shape.deformation, result_.estimated_error, surface_kind(problem_)});
   }
 
   Problem problem_;

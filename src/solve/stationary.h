@@ -62,11 +62,12 @@ struct StationaryState {
   double channel_length = no_value;            ///< simulated, in R
   double relative_volume_change = no_value;
   double least_meridional_stretch = no_value;  ///< over the surface
-  double biot_ratio = no_value;       ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
-  double least_tension = no_value;    ///< meridional, over the surface, in S R; a shell wrinkles where it is negative
-  double inner_pressure = no_value;   ///< of a liquid interior, in S, the undisturbed pressure at the cell being 0
-  double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
-  double estimated_error = no_value;  ///< relative, of the deformation
+  double biot_ratio = no_value;        ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
+  double stability_margin = no_value;  ///< of the surface against short wrinkles: 0 = limit (solve/surface_stability.h)
+  double least_tension = no_value;     ///< meridional, over the surface, in S R; a shell wrinkles where it is negative
+  double inner_pressure = no_value;    ///< of a liquid interior, in S, the undisturbed pressure at the cell being 0
+  double residual = no_value;          ///< of the last Newton iteration, relative to the driving forces
+  double estimated_error = no_value;   ///< relative, of the deformation
   SolveStatistics statistics;
   std::vector<BranchPoint> branch;
   /// Writes fields.vtu (velocity, pressure, stress, displacement on the deformed mesh, high-order cells) in

@@ -47,13 +47,15 @@ TEST(Outcome, TheEndOfTheBranchIsToldInModuliAndDeformation) {
   }
 }
 
-TEST(Outcome, AnUnstableBareSurfaceIsOfferedWhatCouldHoldIt) {
+TEST(Outcome, AnUnstableSurfaceIsOfferedWhatCouldHoldIt) {
   // By the names of the keys; a surface that is held already is not.
   const Outcome unstable{Status::surface_unstable, "", 0.4};
   for (const char* key : {"cell.cortex.bending_kBT", "cell.cortex.tension_mN_per_m"}) {
-    EXPECT_NE(explanation(unstable, {0.05, 0, true}).find(key), std::string::npos);
-    EXPECT_EQ(explanation(unstable, {0.05, 0, false}).find(key), std::string::npos);
+    EXPECT_NE(explanation(unstable, {0.05, 0, SurfaceKind::bare}).find(key), std::string::npos);
+    EXPECT_NE(explanation(unstable, {0.05, 0, SurfaceKind::membrane}).find(key), std::string::npos);
+    EXPECT_EQ(explanation(unstable, {0.05, 0, SurfaceKind::held}).find(key), std::string::npos);
   }
+  EXPECT_NE(explanation(unstable, {0.05, 0, SurfaceKind::membrane}).find("cortex"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+#include "solve/surface_stability.h"
+
+#include <numbers>
+
+#include "shape/wrinkles.h"
+
+namespace rheocyte {
+
+namespace {
+
+/// In r0. A wave k of a membrane on an incompressible half-space has the stiffness 2 mu k + T1 k^2: under compression
+/// the shortest waves buckle first. Those that are shorter than a cortex is thick do not exist.
+constexpr double shortest_wave = 0.05;
+
+}  // namespace
+
+double stability_margin(const Problem& problem, const SurfaceState& surface) {
+  switch (surface_kind(problem)) {
+    case SurfaceKind::bare: return (least_biot_ratio(surface) - biot_limit) / (1 - biot_limit);
+    case SurfaceKind::membrane: {
+      const Cortex cortex{problem.cortex, problem.cortex_modulus, problem.tension, 0};
+      const double support = problem.shear_modulus * shortest_wave * problem.radius_ratio / std::numbers::pi;
+      const double least = surface_tensions(cortex, surface).col(0).minCoeff();
+      // Tensions of the order of the modulus are as far as 1 from the limit.
+      return (least + support) / (problem.cortex_modulus + problem.tension + support);
+    }
+    case SurfaceKind::held: return 1;
+  }
+  return 1;
+}
+
+double stability_margin(const Problem& problem, const Discretisation& space, const VectorXd& unknowns) {
+  return stability_margin(problem, surface_state(space, unknowns, 2 * space.reference().degree() + 1));
+}
+
+bool is_wrinkled(const Problem& problem, const Discretisation& space, const VectorXd& unknowns) {
+  constexpr int greatest_sign_changes = 3;  // a rear dent makes one, a hollow flank two
+  const double margin = stability_margin(problem, space, unknowns);
+  if (margin < 0) return true;
+  // Farther from the limit, changes of curvature are faint errors of discretisation on nearly straight flanks.
+  if (surface_kind(problem) != SurfaceKind::held && margin > small_margin) return false;
+  return surface_smoothness(contour(space, unknowns)).curvature_sign_changes > greatest_sign_changes;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,22 @@
+// Whether a surface is stable against short wrinkles along the meridian, by what holds it (docs/theory.md, sec.
+// "surface instability").
+#pragma once
+#include "case/problem.h"
+#include "fem/observe.h"
+#include "solve/outcome.h"
+
+namespace rheocyte {
+
+/// Distance from the limit of stability against short waves: stable above 0, 1 without deformation; 1 throughout where
+/// the surface is held.
+double stability_margin(const Problem&, const SurfaceState&);
+double stability_margin(const Problem&, const Discretisation&, const VectorXd& unknowns);
+
+/// So close to the limit the surface is the reason if Newton fails: no mesh resolves the last stretch.
+inline constexpr double small_margin = 0.1;
+
+/// Whether a surface is beyond its limit, or (near it, or where it is held) its contour shows more changes of
+/// curvature than a rear dent and a hollow flank make.
+bool is_wrinkled(const Problem&, const Discretisation&, const VectorXd& unknowns);
+
+}  // namespace rheocyte

@@ -1,0 +1,41 @@
+// What a look-up table is to contain: a case without radius and stiffness, and the ranges of the sweep.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "case/case.h"
+
+namespace rheocyte {
+
+struct TableSpec {
+  std::string identifier;     ///< of the table, e.g. "LE-2D-26": letters, digits, hyphens
+  Case base;                  ///< radius and stiffness hold the values of the sweep's middle and mean nothing
+  std::string stiffness_key;  ///< the swept parameter, "cell.bulk.young_modulus_kPa" or "cell.cortex.modulus_mN_per_m"
+  double least_area_um2 = 30, greatest_area_um2 = 290;         ///< of the deformed cell
+  double least_deformation = 5e-5, greatest_deformation = 0.19;
+  int radii = 100;        ///< branches, equally spaced in the radius of the sphere
+  int rows_per_radius = 120;
+  double accuracy = 2e-4;  ///< relative, of the deformation
+  /// Bending stiffness of the branches that go on where the bare surface has lost its stability; 0: none.
+  double bending_beyond_kBT = 0;
+};
+
+/// Reads a spec: the keys of a case and those of the section [table]. UserError as read_case.
+TableSpec read_table_spec(const std::filesystem::path&, std::span<const std::string> settings = {});
+TableSpec parse_table_spec(std::string_view text, const std::string& name, std::span<const std::string> settings = {});
+
+/// The complete spec as text with all defaults; parses back to the same spec.
+std::string to_toml(const TableSpec&);
+/// Of that text, 16 hexadecimal digits.
+std::string spec_hash(const TableSpec&);
+
+/// The spheres of the sweep, in um, ascending.
+std::vector<double> sweep_radii_um(const TableSpec&);
+
+/// The case of one cell of the table.
+Case case_at(const TableSpec&, double radius_um, double stiffness);
+
+}  // namespace rheocyte
