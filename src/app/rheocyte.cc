@@ -9,6 +9,7 @@
 #include "app/command_line.h"
 #include "app/command_picture.h"
 #include "app/command_solve.h"
+#include "app/command_table.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"rheocyte: shapes of cells in the channel of real-time deformability cytometry", "rheocyte"};
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   rheocyte::add_analytic_command(app);
   rheocyte::add_extract_command(app, exit_code);
   rheocyte::add_figure_command(app, exit_code);
+  rheocyte::add_table_command(app, exit_code);
   rheocyte::add_help_command(app);
   return rheocyte::run_command_line(app, argc, argv, exit_code);
 }
