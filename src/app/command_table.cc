@@ -30,6 +30,7 @@ void write_files(const TableFolder& folder) {
   const auto branches = folder.read_all();
   const LookupTable table = make_lookup_table(folder.spec(), branches, version);
   for (const auto& [name, content] : table_files(table)) folder.publish(name, content);
+  folder.tidy();
 }
 
 std::string summary(const TableFolder& folder) {

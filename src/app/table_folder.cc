@@ -124,6 +124,14 @@ std::vector<SampledBranch> TableFolder::read_all() const {
   return branches;
 }
 
+void TableFolder::tidy() const {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_ / work, error)) {
+    const auto kind = entry.path().extension();
+    if (kind == ".claim" || kind == ".tmp") fs::remove(entry.path(), error);
+  }
+}
+
 void TableFolder::publish(const std::string& name, std::string_view content) const {
   write_whole(folder_ / name, content);
 }

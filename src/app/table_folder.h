@@ -46,6 +46,8 @@ class TableFolder {
   SampledBranch read(int i, bool held) const;
   /// All records, radius by radius. UserError naming the file if one is damaged.
   std::vector<SampledBranch> read_all() const;
+  /// Removes what claims and interrupted writes have left.
+  void tidy() const;
   /// A finished file beside the spec, whole or not at all.
   void publish(const std::string& name, std::string_view content) const;
 

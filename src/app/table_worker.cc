@@ -1,5 +1,9 @@
 #include "app/table_worker.h"
 
+#include <sys/prctl.h>
+
+#include <csignal>
+
 #include "app/exit_codes.h"
 #include "app/stop_signal.h"
 #include "app/table_folder.h"
@@ -31,6 +35,7 @@ bool sample_radius(const TableFolder& folder, int i) {
 
 int work_on_table(const std::filesystem::path& path) {
   watch_signals();
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // no work for nobody when the command is killed
   const TableFolder folder(path, read_table_spec(path / "spec.toml"));
   for (int i = 0; i < folder.radii(); ++i) {
     if (folder.is_done(i)) continue;

@@ -34,7 +34,7 @@ constexpr double steep = 4;
 /// Change of ln d between two samples against the trapezoidal rule of its slopes.
 constexpr double greatest_mismatch = 0.15;
 /// Between two samples the error of the interpolation may be this share of the accuracy.
-constexpr double share_of_interpolation = 0.5;
+constexpr double share_of_interpolation = 0.25;
 
 /// A state at u = ln(first stiffness / stiffness).
 struct Node {
@@ -48,6 +48,17 @@ struct Node {
   double log_d() const { return std::log(state.value(0)); }
   double log_d_slope() const { return slope(0) / state.value(0); }
 };
+
+std::string reason(Status status) {
+  switch (status) {
+    case Status::surface_unstable: return "the surface loses stability against short wrinkles";
+    case Status::branch_ended: return "the branch turns back: softer cells are drawn out without limit";
+    case Status::accuracy_not_reached: return "the next state is not within the accuracy on the finest mesh";
+    case Status::mesh_folded: return "the mesh of the liquid folds";
+    case Status::stopped: return "stopped by a signal";
+    default: return std::string("Newton's method ended: ") + name(status);
+  }
+}
 
 /// f4 of a function from the error of the cubic through both ends of [a, b] at c beyond b.
 double fourth_derivative(const Node& a, const Node& b, const Node& c) {
@@ -262,14 +273,26 @@ class BranchSampler {
 
   /// The largest step behind which cubic interpolation is accurate, by the fourth derivative of ln d. Where the
   /// trapezoidal rule is far off, too: another branch was reached, or a fold is near.
-  double allowed_step(const Node& before, const Node& next) const {
+  double allowed_step(const Node& before, const Node& next) {
     const double h = next.u - before.u, change = next.log_d() - before.log_d();
     const double trapezoid = h * (before.log_d_slope() + next.log_d_slope()) / 2;
     double allowed = greatest_step;
     if (std::abs(change - trapezoid) > greatest_mismatch * std::abs(change) + 1e-6) allowed = h / 2;
+    const double wanted = share_of_interpolation * spec_.accuracy, off = middle_mismatch(before, next);
+    if (off > wanted) allowed = std::min(allowed, h * std::max(0.4, std::cbrt(wanted / off)));
     if (nodes_.size() < 2) return allowed;
     const double f4 = std::max(fourth_derivative(nodes_[nodes_.size() - 2], before, next), 1e-12);
-    return std::min(allowed, std::pow(384 * share_of_interpolation * spec_.accuracy / f4, 0.25));
+    return std::min(allowed, std::pow(384 * wanted / f4, 0.25));
+  }
+
+  /// The deformation of the interpolated contour against the interpolated deformation, relative, in the middle: the
+  /// convex hull makes the deformation less smooth than the contour where a dent appears.
+  double middle_mismatch(const Node& a, const Node& b) {
+    if (a.level != b.level || a.tangent.size() == 0) return 0;
+    const double h = b.u - a.u;
+    const VectorXd middle = (a.unknowns + b.unknowns) / 2 + h / 8 * (a.tangent - b.tangent);
+    const double log_d = (a.log_d() + b.log_d()) / 2 + h / 8 * (a.log_d_slope() - b.log_d_slope());
+    return std::abs(std::log(deformation(at_level(a.level).space, middle)) - log_d);
   }
 
   bool is_covered(const Node& node) const {
@@ -299,7 +322,7 @@ class BranchSampler {
     return seconds;
   }
 
-  void end(Status status) { end(name(status), explanation({status, "", 1}, {0, 0, SurfaceKind::bare})); }
+  void end(Status status) { end(name(status), reason(status)); }
   void end(const std::string& status, const std::string& message) { result_.end = {status, message}; }
 
   SampledBranch finish(std::chrono::steady_clock::time_point start) {
