@@ -14,6 +14,7 @@
 #include "app/table_folder.h"
 #include "app/table_processes.h"
 #include "table/lookup_table.h"
+#include "table/simulations_file.h"
 
 namespace rheocyte {
 
@@ -30,6 +31,7 @@ void write_files(const TableFolder& folder) {
   const auto branches = folder.read_all();
   const LookupTable table = make_lookup_table(folder.spec(), branches, version);
   for (const auto& [name, content] : table_files(table)) folder.publish(name, content);
+  folder.publish(fmt::format("simulations_{}.h5", folder.spec().identifier), simulations_file(table));
   folder.tidy();
 }
 

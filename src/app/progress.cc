@@ -47,11 +47,11 @@ void Progress::show(int done) {
                    .c_str(),
                stderr);
     std::fflush(stderr);
-  } else if (done != shown_ && (done == total_ || seconds_since(last_line_) > seconds_between_lines)) {
+  } else if (shown_ < 0 || (done != shown_ && (done == total_ || seconds_since(last_line_) > seconds_between_lines))) {
     tell(fmt::format("{} of {} {}, {}", done, total_, what_, rate_and_rest(done)));
     last_line_ = std::chrono::steady_clock::now();
+    shown_ = done;
   }
-  shown_ = done;
 }
 
 void Progress::finish() {
