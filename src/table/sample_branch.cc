@@ -326,6 +326,8 @@ class BranchSampler {
   void end(const std::string& status, const std::string& message) { result_.end = {status, message}; }
 
   SampledBranch finish(std::chrono::steady_clock::time_point start) {
+    // A stop looks like a failure to whatever it interrupts.
+    if (newton_.stop && *newton_.stop) end(name(Status::stopped), reason(Status::stopped));
     const int n = int(nodes_.size());
     result_.value.resize(n, measure_count);
     result_.slope.resize(n, measure_count);

@@ -57,6 +57,21 @@ std::map<std::string, std::string> finished(const fs::path& folder) {
   return files;
 }
 
+/// Names of the files that differ, are missing or are too many.
+std::vector<std::string> differences(const fs::path& one, const fs::path& other) {
+  const auto a = finished(one), b = finished(other);
+  std::vector<std::string> names;
+  for (const auto& [name, content] : a) {
+    if (!b.contains(name) || b.at(name) != content) names.push_back(name);
+  }
+  for (const auto& [name, content] : b) {
+    if (!a.contains(name)) names.push_back(name);
+  }
+  return names;
+}
+
+const std::vector<std::string> none;
+
 /// Starts the command and kills it without warning after some time.
 void start_and_kill(const std::vector<std::string>& arguments, int microseconds) {
   std::vector<char*> pointers;
@@ -83,7 +98,7 @@ TEST_F(TableCommand, KilledTwentyTimesItEndsWithTheSameBytes) {
     start_and_kill(command(table("killed")), std::uniform_int_distribution(0, int(0.6 * whole))(engine));
   const Ended last = make(table("killed"));
   ASSERT_EQ(last.exit_code, 0) << last.err;
-  EXPECT_EQ(finished(table("killed")), finished(table("undisturbed")));
+  EXPECT_EQ(differences(table("killed"), table("undisturbed")), none);
   for (const auto& entry : fs::directory_iterator(table("killed") / "branches"))
     EXPECT_EQ(entry.path().extension(), ".cbor") << entry.path();
 }
@@ -96,7 +111,7 @@ TEST_F(TableCommand, TwoRanksMakeTheTableOfOneProcess) {
   ASSERT_EQ(make(table("two"), one).exit_code, 0);
   EXPECT_FALSE(fs::exists(table("two") / "lut_TEST.txt")) << "not the work of rank 1";
   ASSERT_EQ(make(table("two"), zero).exit_code, 0);
-  EXPECT_EQ(finished(table("two")), finished(table("one")));
+  EXPECT_EQ(differences(table("two"), table("one")), none);
 }
 
 TEST_F(TableCommand, AFolderOfAnotherSpecIsLeftAlone) {
@@ -109,7 +124,7 @@ TEST_F(TableCommand, AFolderOfAnotherSpecIsLeftAlone) {
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
   EXPECT_NE(ended.err.find("give another folder with -o"), std::string::npos) << ended.err;
-  EXPECT_EQ(finished(table("first")), before);
+  EXPECT_TRUE(finished(table("first")) == before);
 }
 
 TEST_F(TableCommand, ADamagedRecordIsNamed) {
@@ -125,7 +140,7 @@ TEST_F(TableCommand, ADamagedRecordIsNamed) {
   EXPECT_NE(ended.err.find("radius-0002.cbor"), std::string::npos) << ended.err;
   fs::remove(record);
   EXPECT_EQ(make(table("t")).exit_code, 0);
-  EXPECT_EQ(finished(table("t")), before);
+  EXPECT_TRUE(finished(table("t")) == before);
 }
 
 TEST_F(TableCommand, ASignalEndsItCleanlyAndItGoesOn) {
