@@ -8,6 +8,7 @@
 #include "app/command_help.h"
 #include "app/command_line.h"
 #include "app/command_picture.h"
+#include "app/command_scale.h"
 #include "app/command_solve.h"
 #include "app/command_table.h"
 
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   rheocyte::add_picture_command(app, exit_code);
   rheocyte::add_analytic_command(app);
   rheocyte::add_extract_command(app, exit_code);
+  rheocyte::add_scale_command(app);
   rheocyte::add_figure_command(app, exit_code);
   rheocyte::add_table_command(app, exit_code);
   rheocyte::add_help_command(app);
