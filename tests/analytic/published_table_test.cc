@@ -67,7 +67,7 @@ std::vector<Row> read(const std::string& name) {
 }
 
 #define SKIP_WITHOUT(rows) \
-  if (rows.empty()) GTEST_SKIP() << "no published tables; configure with -DRHEOCYTE_PUBLISHED_TABLES=FOLDER"
+  if (rows.empty()) GTEST_SKIP() << "no published tables; configure with -DRHEOCYTE_REFERENCE=FOLDER"
 
 TEST(PublishedAnalyticalTable, QuotedRowsAreMet) {
   // Six rows of the two tables, first and last ones of lines: within half a unit of the sixth digit (5e-6), and a bit.

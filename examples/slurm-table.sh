@@ -1,5 +1,5 @@
 #!/bin/bash
-# A look-up table on several machines with a common file system: sbatch examples/tables/slurm.sh
+# A look-up table on several machines with a common file system: sbatch examples/slurm-table.sh
 # Every task takes radii that no other one works on; the first one writes the files in the end. A job that reaches its
 # time limit loses nothing: submit it again.
 #SBATCH --job-name=rheocyte-table
