@@ -8,6 +8,7 @@
 #include "app/command_help.h"
 #include "app/command_line.h"
 #include "app/command_picture.h"
+#include "app/command_plot.h"
 #include "app/command_solve.h"
 
 int main(int argc, char** argv) {
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
   rheocyte::add_picture_command(app, exit_code);
   rheocyte::add_analytic_command(app);
   rheocyte::add_extract_command(app, exit_code);
+  rheocyte::add_plot_command(app, exit_code);
   rheocyte::add_figure_command(app, exit_code);
   rheocyte::add_help_command(app);
   return rheocyte::run_command_line(app, argc, argv, exit_code);
