@@ -171,10 +171,9 @@ void check_cell_is_elastic(const Case& c, const GivenByKey& keys) {
 
 }  // namespace
 
-Case parse_case(std::string_view text, const std::string& name, std::span<const std::string> settings) {
-  check_case_text(text, name);
-  auto keys_in_order = keys_in_toml(text, name);
-  for (const auto& setting : settings) keys_in_order.push_back(key_in_setting(setting));
+Case case_of_keys(std::vector<GivenKey> keys_in_order, const std::string& name,
+                  std::span<const std::string_view> left_open) {
+  const auto is_open = [&](std::string_view key) { return std::ranges::find(left_open, key) != left_open.end(); };
   GivenByKey keys = known_keys(std::move(keys_in_order));
 
   Case c;
@@ -186,10 +185,23 @@ Case parse_case(std::string_view text, const std::string& name, std::span<const 
     check_alternative(parameter, keys);
   }
   for (const auto& parameter : parameters())
-    if (std::holds_alternative<Number>(parameter.value)) read_number(c, parameter, keys, name);
-  check_cell_in_tube(c, keys);
+    if (std::holds_alternative<Number>(parameter.value) && !is_open(parameter.key))
+      read_number(c, parameter, keys, name);
+  if (!is_open("cell.radius_um")) check_cell_in_tube(c, keys);
   check_cell_is_elastic(c, keys);
   return c;
+}
+
+std::vector<GivenKey> given_keys(std::string_view text, const std::string& name,
+                                 std::span<const std::string> settings) {
+  check_case_text(text, name);
+  auto keys = keys_in_toml(text, name);
+  for (const auto& setting : settings) keys.push_back(key_in_setting(setting));
+  return keys;
+}
+
+Case parse_case(std::string_view text, const std::string& name, std::span<const std::string> settings) {
+  return case_of_keys(given_keys(text, name, settings), name, {});
 }
 
 Case read_case(const std::filesystem::path& file, std::span<const std::string> settings) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -51,10 +52,11 @@ nlohmann::ordered_json to_json(const Case& c) {
   return json;
 }
 
-std::string to_toml(const Case& c) {
+std::string to_toml(const Case& c, std::span<const std::string_view> left_out) {
   std::string text;
   std::string_view open_section;
   for_each_value(c, [&](const Parameter& parameter, const auto& value) {
+    if (std::ranges::find(left_out, parameter.key) != left_out.end()) return;
     const auto [section, name] = section_and_name(parameter.key);
     if (section != open_section) text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
     open_section = section;
@@ -63,10 +65,12 @@ std::string to_toml(const Case& c) {
   return text;
 }
 
-std::string case_hash(const Case& c) {
+std::string fingerprint(std::string_view bytes) {
   std::uint64_t hash = 14695981039346656037u;
-  for (const char letter : to_toml(c)) hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211u;
   return fmt::format("{:016x}", hash);
 }
+
+std::string case_hash(const Case& c) { return fingerprint(to_toml(c)); }
 
 }  // namespace rheocyte

@@ -37,12 +37,12 @@ struct BranchEnd {
 
 /// Samples from stiff to soft; every row of the matrices is one converged state within the wanted accuracy.
 struct SampledBranch {
-  double radius_um = 0;         ///< of the sphere at rest
-  double bending_kBT = 0;       ///< that holds the surface beyond the end of the bare branch; 0: the case's own branch
-  std::vector<double> stiffness;  ///< value of the swept parameter, falling
-  Eigen::MatrixXd value;        ///< samples x measures
-  Eigen::MatrixXd slope;        ///< d(value)/d(ln stiffness)
-  std::vector<double> error;    ///< estimated, relative, of the deformation
+  double radius_um = 0;    ///< of the sphere at rest
+  double bending_kBT = 0;  ///< that holds the surface beyond the end of the bare branch; 0: the case's own branch
+  std::vector<double> stiffness;                ///< value of the swept parameter, falling
+  Eigen::MatrixXd value;                        ///< samples x measures
+  Eigen::MatrixXd slope;                        ///< d(value)/d(ln stiffness)
+  std::vector<double> error;                    ///< estimated, relative, of the deformation
   std::vector<Eigen::MatrixX2d> contour;        ///< (x, r) in um from front to rear pole, the same points in all
   std::vector<Eigen::MatrixX2d> contour_slope;  ///< d/d(ln stiffness)
   BranchEnd end;
@@ -54,8 +54,8 @@ struct SampledBranch {
   double at(int sample, Measure m) const { return value(sample, int(m)); }
 };
 
-/// Cubic Hermite interpolation of a measure in ln stiffness; ln deformation for the deformations. The stiffness must lie
-/// between the samples' (asserted).
+/// Cubic Hermite interpolation of a measure in ln stiffness; ln deformation for the deformations. The stiffness must
+/// lie between the samples' (asserted).
 double interpolate(const SampledBranch&, Measure, double stiffness);
 /// All measures at once.
 Eigen::VectorXd interpolate(const SampledBranch&, double stiffness);

@@ -14,9 +14,9 @@ struct TableSpec {
   std::string identifier;     ///< of the table, e.g. "LE-2D-26": letters, digits, hyphens
   Case base;                  ///< radius and stiffness hold the values of the sweep's middle and mean nothing
   std::string stiffness_key;  ///< the swept parameter, "cell.bulk.young_modulus_kPa" or "cell.cortex.modulus_mN_per_m"
-  double least_area_um2 = 30, greatest_area_um2 = 290;         ///< of the deformed cell
+  double least_area_um2 = 30, greatest_area_um2 = 290;  ///< of the deformed cell
   double least_deformation = 5e-5, greatest_deformation = 0.19;
-  int radii = 100;        ///< branches, equally spaced in the radius of the sphere
+  int radii = 100;  ///< branches, equally spaced in the radius of the sphere
   int rows_per_radius = 120;
   double accuracy = 2e-4;  ///< relative, of the deformation
   /// Bending stiffness of the branches that go on where the bare surface has lost its stability; 0: none.

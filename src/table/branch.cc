@@ -1,0 +1,146 @@
+#include "table/branch.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace rheocyte {
+
+const std::array<std::string_view, measure_count> measure_names{"deformation",
+                                                                "deformation_raw",
+                                                                "area_um2",
+                                                                "area_raw_um2",
+                                                                "perimeter_um",
+                                                                "volume_um3",
+                                                                "moment_ratio",
+                                                                "moment_ratio_raw",
+                                                                "inertia_ratio",
+                                                                "cell_velocity_m_per_s",
+                                                                "additional_pressure_drop_Pa",
+                                                                "least_meridional_stretch",
+                                                                "stability_margin"};
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// The place of a stiffness: the interval behind a sample, and how far in it, 0 .. 1 in ln(stiffness).
+struct Place {
+  int sample = 0;
+  double share = 0, width = 0;  ///< width: of the interval in ln(stiffness), negative
+};
+
+Place place_of(const SampledBranch& branch, double stiffness) {
+  assert(!branch.empty() && stiffness <= branch.stiffness.front() && stiffness >= branch.stiffness.back());
+  if (branch.samples() == 1) return {};
+  const auto softer = std::upper_bound(branch.stiffness.begin(), branch.stiffness.end(), stiffness, std::greater<>());
+  const int sample = std::clamp(int(softer - branch.stiffness.begin()) - 1, 0, branch.samples() - 2);
+  const double stiff = branch.stiffness[std::size_t(sample)],
+               width = std::log(branch.stiffness[std::size_t(sample) + 1] / stiff);
+  return {sample, std::log(stiffness / stiff) / width, width};
+}
+
+// Weights of the values and of (slope x width) at both ends.
+struct HermiteWeights {
+  double first, last, first_slope, last_slope;
+};
+
+HermiteWeights hermite(double t) {
+  const double s = 1 - t;
+  return {s * s * (1 + 2 * t), t * t * (3 - 2 * t), s * s * t, -s * t * t};
+}
+
+// One measure between two samples; deformations by their logarithm, because d ~ stiffness^-2 over many decades.
+class Piece {
+ public:
+  Piece(const SampledBranch& branch, int sample, double width, Measure measure) {
+    const auto column = Eigen::Index(measure);
+    for (const int end : {0, 1}) {
+      value_[end] = branch.value(sample + end, column);
+      slope_[end] = branch.slope(sample + end, column) * width;
+    }
+    const bool is_deformation = measure == Measure::deformation || measure == Measure::deformation_raw;
+    logarithmic_ = is_deformation && value_[0] > 0 && value_[1] > 0;
+    if (!logarithmic_) return;
+    for (const int end : {0, 1}) {
+      slope_[end] /= value_[end];
+      value_[end] = std::log(value_[end]);
+    }
+  }
+
+  double inner(double value) const { return logarithmic_ ? std::log(value) : value; }
+  double at(double t) const { return logarithmic_ ? std::exp(inner_at(t)) : inner_at(t); }
+  double inner_at(double t) const {
+    const auto w = hermite(t);
+    return w.first * value_[0] + w.last * value_[1] + w.first_slope * slope_[0] + w.last_slope * slope_[1];
+  }
+  double inner_slope(double t) const {
+    return 6 * t * (1 - t) * (value_[1] - value_[0]) + (1 - t) * (1 - 3 * t) * slope_[0] + t * (3 * t - 2) * slope_[1];
+  }
+
+  // The place between 0 and 1 where the measure has a value that lies between those of the ends: Newton's steps,
+  // bisection where they leave the bracket.
+  double place_of(double wanted) const {
+    const double target = inner(wanted), rise = value_[1] - value_[0];
+    double low = 0, high = 1, t = rise == 0 ? 0 : std::clamp((target - value_[0]) / rise, 0.0, 1.0);
+    for (int step = 0; step < 100; ++step) {
+      const double miss = inner_at(t) - target;
+      (miss * rise > 0 ? high : low) = t;
+      const double newton = t - miss / inner_slope(t);
+      const double next = newton > low && newton < high ? newton : (low + high) / 2;
+      if (std::abs(next - t) <= 1e-15 || miss == 0) break;
+      t = next;
+    }
+    return t;
+  }
+
+ private:
+  std::array<double, 2> value_{}, slope_{};
+  bool logarithmic_ = false;
+};
+
+double piece_value(const SampledBranch& branch, const Place& place, Measure measure) {
+  if (branch.samples() == 1) return branch.at(0, measure);
+  return Piece(branch, place.sample, place.width, measure).at(place.share);
+}
+
+}  // namespace
+
+double interpolate(const SampledBranch& branch, Measure measure, double stiffness) {
+  return piece_value(branch, place_of(branch, stiffness), measure);
+}
+
+Eigen::VectorXd interpolate(const SampledBranch& branch, double stiffness) {
+  const Place place = place_of(branch, stiffness);
+  Eigen::VectorXd values(measure_count);
+  for (int m = 0; m < measure_count; ++m) values(m) = piece_value(branch, place, Measure(m));
+  return values;
+}
+
+Eigen::MatrixX2d interpolate_contour(const SampledBranch& branch, double stiffness) {
+  const Place place = place_of(branch, stiffness);
+  const auto first = std::size_t(place.sample);
+  if (branch.samples() == 1) return branch.contour.front();
+  const auto w = hermite(place.share);
+  return w.first * branch.contour[first] + w.last * branch.contour[first + 1] +
+         place.width * (w.first_slope * branch.contour_slope[first] + w.last_slope * branch.contour_slope[first + 1]);
+}
+
+double stiffness_at(const SampledBranch& branch, Measure measure, double value) {
+  if (!std::isfinite(value)) return nan;
+  for (int i = 0; i < branch.samples(); ++i) {
+    const double here = branch.at(i, measure);
+    if (here == value) return branch.stiffness[std::size_t(i)];
+    if (i + 1 == branch.samples()) break;
+    const double next = branch.at(i + 1, measure);
+    if ((here - value) * (next - value) >= 0) continue;
+    const double stiff = branch.stiffness[std::size_t(i)], soft = branch.stiffness[std::size_t(i) + 1];
+    const double width = std::log(soft / stiff);
+    const double share = Piece(branch, i, width, measure).place_of(value);
+    return std::clamp(stiff * std::exp(share * width), soft, stiff);
+  }
+  return nan;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,178 @@
+#include "table/lookup_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "table/table_lines.h"
+#include "table/table_metadata.h"
+
+namespace rheocyte {
+
+namespace {
+
+bool ends_early(const RadiusBranches& radius) { return radius.own() && radius.own()->end.status != "covered"; }
+
+TableRow end_row(const RadiusBranches& radius) {
+  TableRow row = row_at(radius, point_at(*radius.own(), radius.own()->stiffness.back()));
+  row.is_end = true;
+  return row;
+}
+
+void add_rows(LookupTable& table, const RadiusBranches& radius, const std::vector<double>& levels) {
+  std::vector<TableRow> rows;
+  for (const double level : levels) {
+    const auto state = radius.at_deformation(level);
+    if (!state || (state->regularised && table.spec.bending_beyond_kBT == 0)) continue;
+    rows.push_back(row_at(radius, *state));
+    rows.back().value(Eigen::Index(Measure::deformation)) = level;
+  }
+  if (ends_early(radius)) {
+    const auto is_same = [end = end_row(radius).at(Measure::deformation)](const TableRow& row) {
+      return std::abs(row.at(Measure::deformation) / end - 1) < 1e-6;
+    };
+    std::erase_if(rows, is_same);  // two rows at one place would be of no use to a triangulation
+    rows.push_back(end_row(radius));
+  }
+  std::ranges::stable_sort(rows, {}, [](const TableRow& row) { return row.at(Measure::deformation); });
+  for (auto& row : rows)
+    if (is_inside(table.spec, row)) table.rows.push_back(std::move(row));
+}
+
+// The last bare states of those radii whose rows go on with bending.
+void add_regularisation(nlohmann::ordered_json& metadata, const LookupTable& table) {
+  auto area = nlohmann::ordered_json::array(), deformation = area;
+  for (const auto& radius : table.radii) {
+    const bool goes_on = std::ranges::any_of(
+        table.rows, [&](const TableRow& row) { return row.radius_um == radius.radius_um() && row.state.regularised; });
+    if (!goes_on || !radius.own()) continue;
+    const TableRow row = end_row(radius);
+    area.push_back(row.at(Measure::area_um2));
+    deformation.push_back(row.at(Measure::deformation));
+  }
+  metadata["regularised_rows"] = table.regularised_rows();
+  if (area.empty()) return;
+  metadata["regularised_beyond_area_um2"] = std::move(area);
+  metadata["regularised_beyond_deformation"] = std::move(deformation);
+}
+
+std::string csv_text(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+TableRow row_at(const RadiusBranches& radius, const BranchPoint& state) {
+  return {radius.radius_um(), state, interpolate(*state.branch, state.stiffness), stiffness_error(state), false};
+}
+
+bool is_inside(const TableSpec& spec, const TableRow& row) {
+  const double area = row.at(Measure::area_um2), d = row.at(Measure::deformation);
+  return area >= spec.least_area_um2 && area <= spec.greatest_area_um2 && d >= spec.least_deformation &&
+         d <= spec.greatest_deformation;
+}
+
+int LookupTable::regularised_rows() const {
+  return int(std::ranges::count_if(rows, [](const TableRow& row) { return row.state.regularised; }));
+}
+
+std::vector<double> deformation_levels(const TableSpec& spec) {
+  const double range = std::log(spec.greatest_deformation / spec.least_deformation);
+  std::vector<double> levels;
+  for (int i = 0; i < spec.rows_per_radius; ++i)
+    levels.push_back(spec.least_deformation * std::exp(range * i / (spec.rows_per_radius - 1)));
+  levels.back() = spec.greatest_deformation;
+  return levels;
+}
+
+LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBranch> branches,
+                              std::string_view version) {
+  LookupTable table{spec, std::string(version), by_radius(branches), {}};
+  const auto levels = deformation_levels(spec);
+  for (const auto& radius : table.radii) add_rows(table, radius, levels);
+  return table;
+}
+
+TableText empty_text(const LookupTable& table, Abscissa abscissa) {
+  const bool shell = stiffness_unit(table.spec) != "kPa";
+  TableText text;
+  text.comments = {
+      fmt::format("{}{}: stationary shapes of cells in the channel of RT-DC.", table_mark.substr(2), table.version),
+      "Area and deformation are those of the convex contour that a camera sees, without any pixelation.",
+      fmt::format("Estimated relative error of the deformation at most {:g} at each computed state.",
+                  table.spec.accuracy)};
+  if (shell)
+    text.comments.push_back("The third column is the modulus E2D of the cortex in mN/m, whatever its name says.");
+  if (table.spec.base.flow.law == LiquidLaw::power_law)
+    text.comments.push_back("The liquid is shear-thinning; fluid_viscosity is its effective viscosity at the wall.");
+  if (table.regularised_rows() > 0) {
+    text.comments.push_back(
+        "Beyond the curve regularised_beyond_* the bare surface is unstable; the rows there have a");
+    text.comments.push_back(fmt::format("bending stiffness of {:g} kBT.", table.spec.bending_beyond_kBT));
+  }
+  text.comments.emplace_back();
+  text.metadata = table_metadata(table.spec, table.version);
+  add_regularisation(text.metadata, table);
+  text.abscissa = abscissa;
+  return text;
+}
+
+std::string lut_text(const LookupTable& table, Abscissa abscissa) {
+  TableText text = empty_text(table, abscissa);
+  const bool by_area = abscissa == Abscissa::area;
+  if (!by_area) text.metadata["identifier"] = table.spec.identifier + "-volume";
+  text.metadata["rows"] = table.rows.size();
+  for (const auto& row : table.rows)
+    text.rows.push_back(
+        {row.at(by_area ? Measure::area_um2 : Measure::volume_um3), row.at(Measure::deformation), row.state.stiffness});
+  return to_text(text);
+}
+
+std::string full_table_csv(const LookupTable& table) {
+  std::string text = fmt::format("radius_um,{}", stiffness_column(table.spec));
+  auto out = std::back_inserter(text);
+  for (const auto name : measure_names) fmt::format_to(out, ",{}", name);
+  text += ",deformation_error,stiffness_error,bending_kBT,regularised,end_of_branch\n";
+  for (const auto& row : table.rows) {
+    fmt::format_to(out, "{},{}", row.radius_um, row.state.stiffness);
+    for (const double value : row.value) fmt::format_to(out, ",{}", value);
+    const double bending =
+        row.state.regularised ? row.state.branch->bending_kBT : table.spec.base.cell.cortex.bending_kBT;
+    fmt::format_to(out, ",{},{},{},{:d},{:d}\n", row.state.error, row.stiffness_error, bending, row.state.regularised,
+                   row.is_end);
+  }
+  return text;
+}
+
+std::string end_of_branch_csv(const LookupTable& table) {
+  std::string text =
+      fmt::format("radius_um,{},area_um2,deformation,volume_um3,least_meridional_stretch,status,reason\n",
+                  stiffness_column(table.spec));
+  for (const auto& radius : table.radii) {
+    if (!ends_early(radius)) continue;
+    const TableRow row = end_row(radius);
+    const auto& end = radius.own()->end;
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", row.radius_um, row.state.stiffness,
+                   row.at(Measure::area_um2), row.at(Measure::deformation), row.at(Measure::volume_um3),
+                   row.at(Measure::least_meridional_stretch), end.status, csv_text(end.message));
+  }
+  return text;
+}
+
+std::vector<TableFile> table_files(const LookupTable& table, std::span<const double> levels) {
+  const auto chosen = levels.empty() ? line_levels(table) : std::vector<double>(levels.begin(), levels.end());
+  const std::string& id = table.spec.identifier;
+  return {{fmt::format("lut_{}.txt", id), lut_text(table, Abscissa::area)},
+          {fmt::format("lut_{}_volume.txt", id), lut_text(table, Abscissa::volume)},
+          {fmt::format("iso_{}-area_um-deform.txt", id), lines_text(table, chosen, Abscissa::area)},
+          {fmt::format("iso_{}-volume-deform.txt", id), lines_text(table, chosen, Abscissa::volume)},
+          {fmt::format("table_{}.csv", id), full_table_csv(table)},
+          {"end-of-branch.csv", end_of_branch_csv(table)},
+          {"spec.toml", to_toml(table.spec)}};
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,67 @@
+// From sampled branches to the rows of a look-up table and its text files.
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "table/radius_branches.h"
+#include "table/table_spec.h"
+#include "table/table_text.h"
+
+namespace rheocyte {
+
+struct TableRow {
+  double radius_um = 0;
+  BranchPoint state;       ///< stiffness, error of the deformation, whether it is regularised
+  Eigen::VectorXd value;   ///< all measures
+  double stiffness_error;  ///< relative, at this area and deformation; from the estimated error of the deformation
+  bool is_end = false;     ///< the last state of a bare surface
+  double at(Measure m) const { return value(Eigen::Index(m)); }
+};
+
+/// Rows by radius and, at each radius, by deformation, ascending.
+struct LookupTable {
+  TableSpec spec;
+  std::string version;  ///< of the program, for the headers
+  std::vector<RadiusBranches> radii;
+  std::vector<TableRow> rows;
+
+  int regularised_rows() const;
+};
+
+/// The row of a state between the samples of a radius.
+TableRow row_at(const RadiusBranches& radius, const BranchPoint& state);
+
+/// Whether area and deformation lie in the ranges of the spec.
+bool is_inside(const TableSpec& spec, const TableRow& row);
+
+/// Deformations of the rows: rows_per_radius values of equal ratio from the least to the greatest.
+std::vector<double> deformation_levels(const TableSpec& spec);
+
+/// The rows inside the ranges of the spec, and the end of each bare branch. Regularised states are left out unless the
+/// spec asks for them. The branches must outlive the table; equal branches in any order give equal tables.
+LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBranch> branches, std::string_view version);
+
+/// The table in dclab's format.
+std::string lut_text(const LookupTable&, Abscissa);
+
+/// All measures of all rows with the shortest digits that give back the same numbers.
+std::string full_table_csv(const LookupTable&);
+
+/// Where the smooth branches of the bare surface end, and why: the curve of the surface instability.
+std::string end_of_branch_csv(const LookupTable&);
+
+/// Comments and metadata that all text files of a table share.
+TableText empty_text(const LookupTable&, Abscissa);
+
+struct TableFile {
+  std::string name, content;
+};
+
+/// All text files: tables and lines by area and by volume, full table, end of the branches, and the spec.
+/// Lines have the given levels of stiffness, or those that fit the table.
+std::vector<TableFile> table_files(const LookupTable&, std::span<const double> levels = {});
+
+}  // namespace rheocyte

@@ -1,0 +1,92 @@
+#include "table/table_metadata.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "case/parameters.h"
+#include "case/scales.h"
+#include "case/write_case.h"
+
+namespace rheocyte {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+bool is_of_bulk(const TableSpec& spec) { return spec.stiffness_key == "cell.bulk.young_modulus_kPa"; }
+
+void add_power_law(ordered_json& metadata, const Case& c) {
+  if (c.flow.law != LiquidLaw::power_law) return;
+  metadata["fluid_consistency_coefficient"] = c.flow.consistency_Pa_sn.value();
+  metadata["fluid_consistency_coefficient_unit"] = "Pa s^n";
+  metadata["fluid_flow_behaviour_index"] = c.flow.exponent.value();
+  metadata["fluid_flow_behaviour_index_unit"] = "";
+}
+
+// The case without what the table sweeps.
+ordered_json case_without_swept(const TableSpec& spec) {
+  ordered_json json = to_json(spec.base);
+  json["cell"].erase("radius_um");
+  if (is_of_bulk(spec))
+    json["cell"]["bulk"].erase("young_modulus_kPa");
+  else
+    json["cell"]["cortex"].erase("modulus_mN_per_m");
+  json.erase("numerics");
+  return json;
+}
+
+}  // namespace
+
+double channel_width_um(const Case& c) {
+  return c.channel.width_um ? *c.channel.width_um : tube_radius_um(c) / tube_radius_per_channel_width;
+}
+
+double effective_viscosity_mPas(const Case& c) {
+  if (c.flow.law == LiquidLaw::newtonian) return c.flow.viscosity_mPas.value();
+  const double n = c.flow.exponent.value(), width_mm = 1e-3 * channel_width_um(c);
+  const double shear_rate = 8 * c.flow.rate_ul_per_s / (width_mm * width_mm * width_mm) * (0.6671 + 0.2121 / n);
+  return 1e3 * c.flow.consistency_Pa_sn.value() * std::pow(shear_rate, n - 1);
+}
+
+std::string model_text(const Case& c) {
+  std::string solid;
+  if (c.cell.bulk.law != BulkLaw::none) solid = fmt::format("{} solid", chosen_option(c, "cell.bulk.law"));
+  if (c.cell.cortex.law != CortexLaw::none)
+    solid += fmt::format("{}{} shell", solid.empty() ? "" : " with ", chosen_option(c, "cell.cortex.law"));
+  return fmt::format("{} / {} fluid", solid, chosen_option(c, "flow.law"));
+}
+
+ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
+  const Case& c = spec.base;
+  ordered_json metadata{{"authors", "rheocyte"},
+                        {"channel_width", channel_width_um(c)},
+                        {"channel_width_unit", "um"},
+                        {"dimensionality", "2Daxis"},
+                        {"flow_rate", c.flow.rate_ul_per_s},
+                        {"flow_rate_unit", "uL/s"},
+                        {"fluid_density", c.flow.density_kg_per_m3},
+                        {"fluid_density_unit", "kg m^-3"},
+                        {"fluid_viscosity", effective_viscosity_mPas(c)},
+                        {"fluid_viscosity_unit", "mPa s"}};
+  add_power_law(metadata, c);
+  metadata["identifier"] = spec.identifier;
+  metadata["method"] = "stationary FEM, monolithic Newton, high order";
+  metadata["model"] = model_text(c);
+  metadata["software"] = fmt::format("rheocyte {}", version);
+  metadata["summary"] = fmt::format("2D-axis-symmetric stationary states, {}", model_text(c));
+  metadata["stiffness"] = spec.stiffness_key;
+  metadata["stiffness_unit"] = stiffness_unit(spec);
+  metadata["accuracy"] = spec.accuracy;
+  metadata["bending_beyond_kBT"] = spec.bending_beyond_kBT;
+  metadata["case"] = case_without_swept(spec);
+  return metadata;
+}
+
+std::string_view stiffness_unit(const TableSpec& spec) { return is_of_bulk(spec) ? "kPa" : "mN/m"; }
+
+std::string_view stiffness_column(const TableSpec& spec) {
+  return is_of_bulk(spec) ? "young_modulus_kPa" : "cortex_modulus_mN_per_m";
+}
+
+}  // namespace rheocyte

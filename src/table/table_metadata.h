@@ -1,0 +1,31 @@
+// Facts that stand in the headers of all files of a table.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "table/table_spec.h"
+
+namespace rheocyte {
+
+/// Files in the text formats of rheocyte's tables begin so.
+inline constexpr std::string_view table_mark = "# rheocyte ";
+
+/// Width of the square channel, given or mapped from the tube's radius.
+double channel_width_um(const Case&);
+
+/// Viscosity of a Newtonian liquid; of a power-law liquid the effective one at the wall of the square channel,
+/// eta = K g^(n-1) with g = 8 Q / L^3 (0.6671 + 0.2121 / n), by which RT-DC programs compare buffers and tables.
+double effective_viscosity_mPas(const Case&);
+
+/// For example "neo-hookean solid / newtonian fluid".
+std::string model_text(const Case&);
+
+/// Metadata in dclab's terms and all parameters of the case, which stand below "case" without radius and stiffness.
+nlohmann::ordered_json table_metadata(const TableSpec&, std::string_view version);
+
+/// "kPa" or "mN/m", and the column of tables: "young_modulus_kPa" or "cortex_modulus_mN_per_m".
+std::string_view stiffness_unit(const TableSpec&);
+std::string_view stiffness_column(const TableSpec&);
+
+}  // namespace rheocyte

@@ -1,0 +1,96 @@
+// Dense output of a branch has the order of cubic Hermite interpolation; inversion gives back the stiffness.
+#include "table/branch.h"
+
+#include <gtest/gtest.h>
+
+#include "invented_branch.h"
+
+namespace rheocyte {
+namespace {
+
+using namespace test;
+
+constexpr double radius = 7;
+
+double greatest_error(const SampledBranch& branch, Measure m) {
+  double greatest = 0;
+  for (int i = 0; i <= 400; ++i) {
+    const double stiffness =
+        branch.stiffness.front() * std::pow(branch.stiffness.back() / branch.stiffness.front(), i / 400.0);
+    const double inside = std::clamp(stiffness, branch.stiffness.back(), branch.stiffness.front());
+    const double exact = invented_state(radius, inside)(Eigen::Index(m), 0);
+    greatest = std::max(greatest, std::abs(interpolate(branch, m, inside) / exact - 1));
+  }
+  return greatest;
+}
+
+TEST(Branch, SamplesAreGivenBackExactly) {
+  const auto branch = invented_branch(radius);
+  for (int i = 0; i < branch.samples(); ++i) {
+    const auto values = interpolate(branch, branch.stiffness[std::size_t(i)]);
+    // The logarithm and the exponential of the deformations round twice.
+    for (int m = 0; m < measure_count; ++m)
+      EXPECT_NEAR(values(m), branch.value(i, m), 1e-14 * std::abs(branch.value(i, m)));
+  }
+}
+
+TEST(Branch, InterpolationHasOrderFour) {
+  for (const auto m : {Measure::deformation, Measure::area_um2, Measure::perimeter_um, Measure::inertia_ratio}) {
+    const double coarse = greatest_error(invented_branch(radius, {30, 0.3, 25}), m);
+    const double fine = greatest_error(invented_branch(radius, {30, 0.3, 49}), m);
+    EXPECT_GT(coarse / fine, 13) << int(m);  // 16 in the limit of small steps
+    EXPECT_LT(fine, 1e-5) << int(m);
+  }
+}
+
+TEST(Branch, TheStiffnessAtAMeasureInvertsTheInterpolation) {
+  const auto branch = invented_branch(radius);
+  for (const auto m : {Measure::deformation, Measure::area_um2, Measure::inertia_ratio, Measure::moment_ratio})
+    for (int i = 0; i <= 200; ++i) {
+      const double stiffness = std::exp(std::log(30.0) + (std::log(0.3) - std::log(30.0)) * i / 200);
+      const double inside = std::clamp(stiffness, branch.stiffness.back(), branch.stiffness.front());
+      // The area of stiff cells hardly depends on the stiffness: 1e-16 of it are 1e-12 of the stiffness and more.
+      const double tolerance = m == Measure::deformation ? 1e-13 : 1e-9;
+      EXPECT_NEAR(stiffness_at(branch, m, interpolate(branch, m, inside)) / inside, 1, tolerance) << int(m) << " " << i;
+    }
+}
+
+TEST(Branch, OutsideTheSamplesThereIsNoStiffness) {
+  const auto branch = invented_branch(radius);
+  const double least = branch.at(0, Measure::deformation), greatest = branch.at(23, Measure::deformation);
+  EXPECT_TRUE(std::isnan(stiffness_at(branch, Measure::deformation, 0.999 * least)));
+  EXPECT_TRUE(std::isnan(stiffness_at(branch, Measure::deformation, 1.001 * greatest)));
+  EXPECT_TRUE(std::isnan(stiffness_at(branch, Measure::deformation, std::nan(""))));
+  EXPECT_TRUE(std::isnan(stiffness_at(SampledBranch{}, Measure::deformation, 0.1)));
+  EXPECT_EQ(stiffness_at(branch, Measure::deformation, least), branch.stiffness.front());
+  EXPECT_EQ(stiffness_at(branch, Measure::deformation, greatest), branch.stiffness.back());
+}
+
+TEST(Branch, ContoursAreInterpolatedWithTheSameOrder) {
+  const auto error = [](int samples) {
+    const auto branch = invented_branch(radius, {30, 0.3, samples});
+    double greatest = 0;
+    for (int i = 0; i < samples - 1; ++i) {
+      const double stiffness = std::sqrt(branch.stiffness[std::size_t(i)] * branch.stiffness[std::size_t(i) + 1]);
+      const auto exact = invented_contour(radius, invented_deformation(radius, stiffness));
+      greatest = std::max(greatest, (interpolate_contour(branch, stiffness) - exact).cwiseAbs().maxCoeff());
+    }
+    return greatest;
+  };
+  EXPECT_GT(error(25) / error(49), 13);
+  EXPECT_LT(error(49), 1e-4);  // um
+}
+
+TEST(Branch, ASingleSampleIsABranch) {
+  auto branch = invented_branch(radius);
+  const auto one = [](auto& list) { list.resize(1); };
+  one(branch.stiffness), one(branch.error), one(branch.contour), one(branch.contour_slope);
+  branch.value.conservativeResize(1, measure_count);
+  branch.slope.conservativeResize(1, measure_count);
+  EXPECT_EQ(interpolate(branch, 30)(0), branch.value(0, 0));
+  EXPECT_EQ(interpolate_contour(branch, 30), branch.contour[0]);
+  EXPECT_EQ(stiffness_at(branch, Measure::deformation, branch.value(0, 0)), 30);
+}
+
+}  // namespace
+}  // namespace rheocyte

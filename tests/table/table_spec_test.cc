@@ -1,0 +1,150 @@
+// A spec is a case without radius and stiffness and the ranges of a sweep; whatever is wrong with it is one sentence.
+#include "table/table_spec.h"
+
+#include <gtest/gtest.h>
+
+#include "case/scales.h"
+#include "case/user_error.h"
+#include "case/write_case.h"
+#include "invented_branch.h"
+
+namespace rheocyte {
+namespace {
+
+using test::short_spec;
+
+TableSpec read(const std::string& text, std::vector<std::string> settings = {}) {
+  return parse_table_spec(text, "spec.toml", settings);
+}
+
+std::string refusal(const std::string& text, std::vector<std::string> settings = {}) {
+  try {
+    read(text, std::move(settings));
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expect_refusal(const std::string& setting, const std::string& words) {
+  const auto sentence = refusal(short_spec, {setting});
+  EXPECT_NE(sentence.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << sentence;
+  EXPECT_NE(sentence.find("--set"), std::string::npos) << sentence;
+}
+
+TEST(TableSpec, GivenValuesAreKeptAndTheOthersHaveTheirDefaults) {
+  const auto spec = read(short_spec + "radii = 40\naccuracy = 1e-3\n");
+  EXPECT_EQ(spec.identifier, "XX-2D-26");
+  EXPECT_EQ(spec.stiffness_key, "cell.bulk.young_modulus_kPa");
+  EXPECT_EQ(spec.radii, 40);
+  EXPECT_EQ(spec.accuracy, 1e-3);
+  EXPECT_EQ(spec.rows_per_radius, TableSpec{}.rows_per_radius);
+  EXPECT_EQ(spec.base.cell.bulk.law, BulkLaw::linear);
+  EXPECT_EQ(spec.base.flow.density_kg_per_m3, 1000);
+}
+
+TEST(TableSpec, TheStiffnessIsThatOfTheBulkOrElseOfTheCortex) {
+  const std::vector<std::string> shell{"cell.bulk.law=none", "cell.cortex.law=linear", "cell.cortex.tension_ratio=0.1"};
+  EXPECT_EQ(read(short_spec, shell).stiffness_key, "cell.cortex.modulus_mN_per_m");
+  const std::vector<std::string> both{"cell.cortex.law=linear", "table.stiffness=cell.cortex.modulus_mN_per_m",
+                                      "cell.bulk.young_modulus_kPa=2"};
+  const auto spec = read(short_spec, both);
+  EXPECT_EQ(case_at(spec, 5, 31).cell.cortex.modulus_mN_per_m, 31);
+  EXPECT_EQ(case_at(spec, 5, 31).cell.bulk.young_modulus_kPa, 2);
+}
+
+TEST(TableSpec, TheTextOfASpecGivesBackTheSameSpec) {
+  const std::vector<std::string> shell{"cell.bulk.law=none",      "cell.cortex.law=neo-hookean",
+                                       "table.radii=7",           "cell.cortex.tension_ratio=0.1",
+                                       "table.accuracy=0.000123", "table.bending_beyond_kBT=1e4"};
+  for (const auto& settings : {std::vector<std::string>{}, shell}) {
+    const auto spec = read(short_spec, settings);
+    const auto again = read(to_toml(spec));
+    EXPECT_EQ(to_toml(again), to_toml(spec));
+    EXPECT_EQ(case_hash(again.base), case_hash(spec.base));
+    EXPECT_EQ(spec_hash(again), spec_hash(spec));
+  }
+  EXPECT_NE(spec_hash(read(short_spec)), spec_hash(read(short_spec, {"table.radii=99"})));
+}
+
+TEST(TableSpec, RadiiCoverTheAreasInsideTheTube) {
+  const auto spec = read(short_spec);
+  const auto radii = sweep_radii_um(spec);
+  ASSERT_EQ(int(radii.size()), spec.radii);
+  EXPECT_DOUBLE_EQ(radii.front(), std::sqrt(0.9 * 30 / std::numbers::pi));
+  EXPECT_DOUBLE_EQ(radii.back(), std::sqrt(290 / std::numbers::pi));
+  EXPECT_NEAR(radii[1] - radii[0], radii[99] - radii[98], 1e-12);  // rounding
+  const auto full = sweep_radii_um(read(short_spec, {"table.least_area_um2=0.95", "table.greatest_area_um2=339"}));
+  EXPECT_GE(full.front(), 0.05 * 10.94);
+  EXPECT_LE(full.back(), 0.95 * 10.94);
+}
+
+TEST(TableSpec, ACaseOfTheSweepHasItsRadiusStiffnessAndAccuracy) {
+  const Case c = case_at(read(short_spec), 6.5, 2.25);
+  EXPECT_EQ(c.cell.radius_um, 6.5);
+  EXPECT_EQ(c.cell.bulk.young_modulus_kPa, 2.25);
+  EXPECT_EQ(c.numerics.accuracy, 2e-4);
+  EXPECT_NEAR(problem_of(c).radius_ratio, 6.5 / 10.94, 1e-15);
+}
+
+TEST(TableSpec, SweptKeysMustNotBeGiven) {
+  expect_refusal("cell.radius_um=5", "cell.radius_um = 5 must not be given, because a table sweeps it");
+  expect_refusal("cell.bulk.young_modulus_kPa=5", "young_modulus_kPa = 5 must not be given");
+  expect_refusal("numerics.accuracy=1e-4", "choose table.accuracy");
+}
+
+TEST(TableSpec, UnknownKeysAreNamedWithTheNearestOne) {
+  expect_refusal("table.radi=5", "unknown key table.radi = 5, did you mean table.radii?");
+  expect_refusal("tabel.radii=5", "did you mean table.radii?");
+  expect_refusal("table.xyzxyzxyzxyz=5", "docs/tables.md lists the keys");
+  expect_refusal("flow.viscosity=5", "did you mean flow.viscosity_mPas?");
+}
+
+TEST(TableSpec, ValuesOutsideTheirRangesAreNamed) {
+  expect_refusal("table.radii=1", "table.radii = 1 is outside its range 2 .. 10000");
+  expect_refusal("table.radii=2.5", "not a whole number");
+  expect_refusal("table.radii=many", "is not a number");
+  expect_refusal("table.radii=nan", "outside its range");
+  expect_refusal("table.identifier=7", "must be a word");
+  expect_refusal("table.least_area_um2=290", "is not below table.greatest_area_um2 = 290; the table would be empty");
+  expect_refusal("table.greatest_deformation=1e-5", "the table would be empty");
+  expect_refusal("table.greatest_area_um2=400", "an area that no cell of this channel can have");
+  expect_refusal("table.least_area_um2=0.5", "an area that no cell of this channel can have");
+}
+
+TEST(TableSpec, IdentifiersOfOthersAndOddOnesAreRefused) {
+  for (const auto* taken : {"LE-2D-FEM-19", "he-2d-fem-22", "HE-3D-FEM-22", "LE-2D-ana-18"})
+    expect_refusal(std::string("table.identifier=") + taken, "is the name of a published table");
+  for (const auto* odd : {"a/b", "a b", "a_b", "../x", "\"\""})
+    expect_refusal(std::string("table.identifier=") + odd, "is no name of a table");
+  const auto nameless = short_spec.substr(0, short_spec.find("identifier"));
+  EXPECT_NE(refusal(nameless).find("spec.toml: the key table.identifier is missing"), std::string::npos);
+}
+
+TEST(TableSpec, AStiffnessWithoutItsLawIsRefused) {
+  expect_refusal("table.stiffness=cell.cortex.modulus_mN_per_m", "because cell.cortex.law is \"none\"");
+  expect_refusal("table.stiffness=cell.bulk.young_modulus", "did you mean cell.bulk.young_modulus_kPa?");
+  EXPECT_NE(refusal(short_spec, {"cell.bulk.law=none"}).find("choose a law"), std::string::npos);
+  EXPECT_NE(
+      refusal(short_spec, {"table.bending_beyond_kBT=1e3", "cell.cortex.bending_kBT=1e4"}).find("does not exceed"),
+      std::string::npos);
+}
+
+TEST(TableSpec, MistakesOfTheCaseAreThoseOfACaseFile) {
+  EXPECT_NE(refusal("").find("is empty"), std::string::npos);
+  EXPECT_NE(refusal("[table]\nidentifier = \"a\"\n").find("channel.width_um"), std::string::npos);
+  EXPECT_NE(refusal(short_spec + "radii = 3\nradii = 4\n").find("not valid TOML"), std::string::npos);
+}
+
+TEST(TableSpec, EveryReadySpecIsAGoodOne) {
+  int specs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(EXAMPLES) + "/tables")) {
+    const auto spec = read_table_spec(entry.path());
+    EXPECT_EQ(to_toml(parse_table_spec(to_toml(spec), "again")), to_toml(spec)) << entry.path();
+    ++specs;
+  }
+  EXPECT_EQ(specs, 5);
+}
+
+}  // namespace
+}  // namespace rheocyte
