@@ -10,6 +10,7 @@
 #include "app/command_picture.h"
 #include "app/command_plot.h"
 #include "app/command_solve.h"
+#include "app/command_synth.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"rheocyte: shapes of cells in the channel of real-time deformability cytometry", "rheocyte"};
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
   rheocyte::add_analytic_command(app);
   rheocyte::add_extract_command(app, exit_code);
   rheocyte::add_plot_command(app, exit_code);
+  rheocyte::add_synth_command(app, exit_code);
   rheocyte::add_figure_command(app, exit_code);
   rheocyte::add_help_command(app);
   return rheocyte::run_command_line(app, argc, argv, exit_code);
