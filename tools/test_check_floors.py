@@ -59,10 +59,13 @@ class Floors(TreeTest):
 
     def test_reserved_libraries_fail_elsewhere(self):
         for library, owner, other in (("deal.II/grid/tria.h", "fem", "solve"), ("toml++/toml.h", "case", "laws"),
-                                      ("CLI/CLI.hpp", "app", "case")):
+                                      ("CLI/CLI.hpp", "app", "case"), ("hdf5.h", "measurement", "infer")):
             self.accept({f"src/{owner}/a.cc": f"#include <{library}>\n"})
             self.reject({f"src/{other}/a.cc": f"#include <{library}>\n"}, (f"src/{other}/a.cc", 1), f"only src/{owner}")
             self.accept({"tests/fem/a.cc": f"#include <{library}>\n"})
+
+    def test_a_library_may_have_two_owners(self):
+        self.accept({f"src/{owner}/a.cc": "#include <hdf5.h>\n" for owner in ("measurement", "table")})
 
 
 class Headers(TreeTest):

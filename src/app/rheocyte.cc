@@ -9,8 +9,10 @@
 #include "app/command_line.h"
 #include "app/command_picture.h"
 #include "app/command_plot.h"
+#include "app/command_scale.h"
 #include "app/command_solve.h"
 #include "app/command_synth.h"
+#include "app/command_table.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"rheocyte: shapes of cells in the channel of real-time deformability cytometry", "rheocyte"};
@@ -24,8 +26,10 @@ int main(int argc, char** argv) {
   rheocyte::add_analytic_command(app);
   rheocyte::add_extract_command(app, exit_code);
   rheocyte::add_plot_command(app, exit_code);
+  rheocyte::add_scale_command(app);
   rheocyte::add_synth_command(app, exit_code);
   rheocyte::add_figure_command(app, exit_code);
+  rheocyte::add_table_command(app, exit_code);
   rheocyte::add_help_command(app);
   return rheocyte::run_command_line(app, argc, argv, exit_code);
 }

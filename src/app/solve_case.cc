@@ -25,7 +25,7 @@ namespace {
 
 // One plain line per continuation step, so that logs stay readable.
 ProgressCallback progress_lines(const Case& c) {
-  return [cell = c.cell, step = 0](const BranchPoint& point) mutable {
+  return [cell = c.cell, step = 0](const BranchStep& point) mutable {
     const double share = 1 / point.compliance;
     const auto stiffness = point.compliance <= 0 ? "rigid"
                            : cell.bulk.young_modulus_kPa

@@ -90,7 +90,7 @@ class StationarySolver {
   }
 
  private:
-  void report(const BranchPoint& point) {
+  void report(const BranchStep& point) {
     result_.branch.push_back(point);
     if (progress_) progress_(point);
   }

@@ -29,7 +29,7 @@ struct SolveStatistics {
 };
 
 /// One step along the branch, for progress and for later use.
-struct BranchPoint {
+struct BranchStep {
   double compliance;  ///< wanted modulus / modulus of this step: 0 = rigid, 1 = the wanted state
   double deformation;
   int newton_iterations;
@@ -69,14 +69,14 @@ struct StationaryState {
   double residual = no_value;          ///< of the last Newton iteration, relative to the driving forces
   double estimated_error = no_value;   ///< relative, of the deformation
   SolveStatistics statistics;
-  std::vector<BranchPoint> branch;
+  std::vector<BranchStep> branch;
   /// Writes fields.vtu (velocity, pressure, stress, displacement on the deformed mesh, high-order cells) in
   /// physical units (um, m/s, Pa); false if that failed.
   std::function<bool(const std::string& path, const Scales&)> write_fields;
 };
 
 /// Called after each continuation step.
-using ProgressCallback = std::function<void(const BranchPoint&)>;
+using ProgressCallback = std::function<void(const BranchStep&)>;
 
 /// Solves the problem from the unstressed sphere. Never throws for a numerical failure: the state then holds the
 /// last converged shape on the branch and the outcome says why it stopped. `stop` is polled once an iteration.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -58,6 +59,37 @@ void add_regularisation(nlohmann::ordered_json& metadata, const LookupTable& tab
   metadata["regularised_beyond_deformation"] = std::move(deformation);
 }
 
+struct LutPoint {
+  std::array<double, 3> row;
+  bool regularised;
+};
+
+std::vector<LutPoint> points_of_rows(const LookupTable& table) {
+  std::vector<LutPoint> points;
+  for (const auto& row : table.rows)
+    points.push_back(
+        {{row.at(Measure::volume_um3), row.at(Measure::deformation), row.state.stiffness}, row.state.regularised});
+  return points;
+}
+
+// As many areas as there are radii, by equal steps of the root, and the ends of the branches if the table ends there.
+std::vector<LutPoint> upright_points(const LookupTable& table) {
+  const TableSpec& spec = table.spec;
+  const double first = std::sqrt(spec.least_area_um2), last = std::sqrt(spec.greatest_area_um2);
+  std::vector<LutPoint> points;
+  for (int i = 0; i < spec.radii; ++i) {
+    const double root = first + (last - first) * i / (spec.radii - 1);
+    const double area = std::clamp(root * root, spec.least_area_um2, spec.greatest_area_um2);
+    for (const double level : deformation_levels(spec))
+      if (const auto answer = table.between.by_area(area, level); answer.reason == NoAnswer::none)
+        points.push_back({{area, level, answer.stiffness}, answer.regularised});
+  }
+  for (const auto& row : table.rows)
+    if (row.is_end && spec.bending_beyond_kBT == 0)
+      points.push_back({{row.at(Measure::area_um2), row.at(Measure::deformation), row.state.stiffness}, false});
+  return points;
+}
+
 std::string csv_text(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -91,7 +123,7 @@ std::vector<double> deformation_levels(const TableSpec& spec) {
 
 LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBranch> branches,
                               std::string_view version) {
-  LookupTable table{spec, std::string(version), by_radius(branches), {}};
+  LookupTable table{spec, std::string(version), by_radius(branches), TableInterpolation(spec, branches), {}};
   const auto levels = deformation_levels(spec);
   for (const auto& radius : table.radii) add_rows(table, radius, levels);
   return table;
@@ -122,13 +154,13 @@ TableText empty_text(const LookupTable& table, Abscissa abscissa) {
 }
 
 std::string lut_text(const LookupTable& table, Abscissa abscissa) {
-  TableText text = empty_text(table, abscissa);
   const bool by_area = abscissa == Abscissa::area;
+  TableText text = empty_text(table, abscissa);
   if (!by_area) text.metadata["identifier"] = table.spec.identifier + "-volume";
-  text.metadata["rows"] = table.rows.size();
-  for (const auto& row : table.rows)
-    text.rows.push_back(
-        {row.at(by_area ? Measure::area_um2 : Measure::volume_um3), row.at(Measure::deformation), row.state.stiffness});
+  const auto points = by_area ? upright_points(table) : points_of_rows(table);
+  text.metadata["regularised_rows"] = std::ranges::count(points, true, &LutPoint::regularised);
+  text.metadata["rows"] = points.size();
+  for (const auto& point : points) text.rows.push_back(point.row);
   return to_text(text);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "table/radius_branches.h"
+#include "table/table_interpolation.h"
 #include "table/table_spec.h"
 #include "table/table_text.h"
 
@@ -26,6 +27,7 @@ struct LookupTable {
   TableSpec spec;
   std::string version;  ///< of the program, for the headers
   std::vector<RadiusBranches> radii;
+  TableInterpolation between;  ///< the branches
   std::vector<TableRow> rows;
 
   int regularised_rows() const;
@@ -44,7 +46,9 @@ std::vector<double> deformation_levels(const TableSpec& spec);
 /// spec asks for them. The branches must outlive the table; equal branches in any order give equal tables.
 LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBranch> branches, std::string_view version);
 
-/// The table in dclab's format.
+/// The table in dclab's format, by columns of equal size and at the same deformations in all of them: programs put
+/// triangles between the points, and only upright columns keep these well-shaped at small deformations. Spheres of one
+/// radius have one volume; for areas the stiffness is interpolated between the branches.
 std::string lut_text(const LookupTable&, Abscissa);
 
 /// All measures of all rows with the shortest digits that give back the same numbers.

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "case/scales.h"
+#include "shape/measures.h"
 #include "solve/resolved_branch.h"
 #include "table/measured_state.h"
 
@@ -24,29 +26,46 @@ constexpr double tolerance = 1e-10;
 /// Displacement of the first state, in r0; its deformation is some 1e-5.
 constexpr double first_displacement = 0.006;
 /// Steps of the samples in ln stiffness.
-constexpr double first_step = 0.25, greatest_step = 0.6, least_step = 2e-3;
+constexpr double first_step = 0.25, first_held_step = 0.08, greatest_step = 0.9, least_step = 2e-3;
+/// Of the step that the last interval would have allowed: towards its end a branch needs ever smaller ones.
+constexpr double growth = 0.6;
+/// A branch that is steeper than this (-d ln d / d ln E) nears a fold: finer meshes would not go farther.
+constexpr double steep = 4;
+/// Change of ln d between two samples against the trapezoidal rule of its slopes.
+constexpr double greatest_mismatch = 0.15;
 /// Between two samples the error of the interpolation may be this share of the accuracy.
-constexpr double share_of_interpolation = 0.5;
+constexpr double share_of_interpolation = 0.25;
 
 /// A state at u = ln(first stiffness / stiffness).
 struct Node {
   double u = 0;
+  int level = 0;               ///< of the ladder
   VectorXd unknowns, tangent;  ///< d/du
   MeasuredState state;
-  Eigen::VectorXd slope;          ///< d(value)/du
+  Eigen::VectorXd slope;  ///< d(value)/du
   Eigen::MatrixX2d contour_slope;
   double error = 0;
   double log_d() const { return std::log(state.value(0)); }
   double log_d_slope() const { return slope(0) / state.value(0); }
 };
 
+std::string reason(Status status) {
+  switch (status) {
+    case Status::surface_unstable: return "the surface loses stability against short wrinkles";
+    case Status::branch_ended: return "the branch turns back: softer cells are drawn out without limit";
+    case Status::accuracy_not_reached: return "the next state is not within the accuracy on the finest mesh";
+    case Status::mesh_folded: return "the mesh of the liquid folds";
+    case Status::stopped: return "stopped by a signal";
+    default: return std::string("Newton's method ended: ") + name(status);
+  }
+}
+
 /// f4 of a function from the error of the cubic through both ends of [a, b] at c beyond b.
 double fourth_derivative(const Node& a, const Node& b, const Node& c) {
   const double H = b.u - a.u, h = c.u - b.u, t = 1 + h / H;
   const double h00 = (1 + 2 * t) * (1 - t) * (1 - t), h10 = t * (1 - t) * (1 - t), h01 = t * t * (3 - 2 * t),
                h11 = t * t * (t - 1);
-  const double cubic =
-      h00 * a.log_d() + h10 * H * a.log_d_slope() + h01 * b.log_d() + h11 * H * b.log_d_slope();
+  const double cubic = h00 * a.log_d() + h10 * H * a.log_d_slope() + h01 * b.log_d() + h11 * H * b.log_d_slope();
   return 24 * std::abs(c.log_d() - cubic) / (h * h * (h + H) * (h + H));
 }
 
@@ -78,18 +97,21 @@ class BranchSampler {
  private:
   double stiffness(double u) const { return first_stiffness_ * std::exp(-u); }
   Problem problem(double u) const { return problem_of(case_at(spec_, radius_, stiffness(u))); }
-  StationarySystem& system() { return discrete_->system; }
-  const Discretisation& space() const { return discrete_->space; }
 
-  Path path(double end) {
-    return {[this](double) -> StationarySystem& { return discrete_->system; },
+  Discrete& at_level(int level) {
+    if (!discrete_[level]) discrete_[level] = std::make_shared<Discrete>(problem(0), ladder[level]);
+    return *discrete_[level];
+  }
+
+  Path path(int level, double end) {
+    return {[this, level](double) -> StationarySystem& { return at_level(level).system; },
             [this](double u) { return media_at(problem(u), 1); }, end, -std::numeric_limits<double>::infinity()};
   }
 
   ContinuationOptions options() {
     ContinuationOptions options;
     options.newton = newton_;
-    options.newton.iteration_limit = 6;
+    options.newton.iteration_limit = 5;
     options.least_step = least_step;
     options.accept = [this](const Discretisation& where, const BranchState& state) {
       const bool accepted = !is_wrinkled(problem(state.parameter), where, state.unknowns);
@@ -101,115 +123,122 @@ class BranchSampler {
 
   /// The first state: stiffness and state of a cell that is less deformed than the table's least deformation.
   bool enter() {
-    use_level(first_level, problem(0));
+    Discrete& discrete = at_level(first_level);
     for (int attempt = 0; attempt < 30; ++attempt) {
       ContinuationOptions start = options();
       start.accept = {};
       start.displacement_per_step = first_displacement;
-      const Problem here = problem(0);
-      const ContinuationReport report = start_branch(system(), here, start);
+      const ContinuationReport report = start_branch(discrete.system, problem(0), start);
       count(report.newton_iterations);
       if (report.status != Status::converged) return end(report.status), false;
-      const double d = deformation(report.last.unknowns);
+      const double d = deformation(discrete.space, report.last.unknowns);
       if (report.last.parameter == 1 && d <= spec_.least_deformation) {
-        last_ = {0, report.last.unknowns, {}, {}, {}, {}, 0};
+        last_ = at(0, first_level, report.last.unknowns);
         return true;
       }
       // The deformation goes with the square of the compliance.
-      first_stiffness_ *= report.last.parameter < 1 ? 1.01 / report.last.parameter
-                                                    : 1.05 * std::sqrt(d / spec_.least_deformation);
+      first_stiffness_ *=
+          report.last.parameter < 1 ? 1.01 / report.last.parameter : 1.05 * std::sqrt(d / spec_.least_deformation);
     }
     return end(Status::iteration_limit), false;
   }
 
-  void use_level(int level, const Problem& at) {
-    level_ = level;
-    discrete_ = make(level, at);
-    coarse_ = make(level - 1, at);
-  }
-  std::shared_ptr<Discrete> make(int level, const Problem& at) const {
-    return std::make_shared<Discrete>(at, ladder[level]);
+  static Node at(double u, int level, VectorXd unknowns) {
+    Node node;
+    node.u = u;
+    node.level = level;
+    node.unknowns = std::move(unknowns);
+    return node;
   }
 
-  /// Samples the branch from the present state on.
+  /// Samples the branch from the present state on. A sample behind which the interpolation would not be accurate is
+  /// given up, and a nearer one taken; where the branch ends is looked for once.
   void follow() {
-    if (!sample(last_)) return;
+    if (!sample(last_)) return end(Status::accuracy_not_reached);
     nodes_.push_back(last_);
-    double h = first_step;
-    while (true) {
-      const Node before = nodes_.back();
+    std::optional<Node> last;  // the farthest state, once a step has failed
+    Status failure = Status::not_started;
+    for (double h = result_.bending_kBT > 0 ? first_held_step : first_step; h > least_step / 2;) {
+      const Node& before = nodes_.back();
       Node next;
-      const Status status = advance(before, before.u + h, next);
-      const bool moved = next.u > before.u + least_step / 4;
-      if (status == Status::stopped) return end(status);
-      if (moved && sample(next)) nodes_.push_back(next);
-      const bool accepted = nodes_.back().u > before.u;
-      if (accepted && status == Status::converged) {
-        if (nodes_.back().state.value(0) > spec_.greatest_deformation) return end("covered", "");
-        h = refine_last_interval();
+      if (last && last->u - before.u < 1.2 * h) {
+        next = *last;
+      } else {
+        const Status status = advance(before, before.u + h, next);
+        if (status == Status::stopped) return end(status);
+        const bool moved = next.u > before.u + least_step / 4;
+        if (moved && !sample(next)) return end(Status::accuracy_not_reached);
+        if (!moved) next = before;
+        if (status != Status::converged) last = next, failure = status;
+      }
+      const double moved = next.u - before.u, allowed = moved > 0 ? allowed_step(before, next) : h;
+      if (moved > 1.2 * allowed && 0.7 * allowed > least_step / 2) {
+        h = 0.7 * allowed;
         continue;
       }
-      if (!accepted && moved) return end(Status::accuracy_not_reached);
-      // At the limit of stability of its surface the branch ends on every mesh.
-      const bool unstable = margin(nodes_.back()) < small_margin;
-      if (unstable || !finer(nodes_.back())) return end(unstable ? Status::surface_unstable : status);
+      if (moved > 0) nodes_.push_back(std::move(next));
+      h = std::clamp(growth * allowed, 0.2 * moved, greatest_step);
+      if (is_covered(nodes_.back())) return end("covered", "The branch leaves the table's ranges.");
+      if (!last || nodes_.back().u < last->u) continue;
+      if (margin(nodes_.back()) < small_margin) return end(Status::surface_unstable);
+      if (nodes_.back().log_d_slope() > steep || !finer(nodes_.back())) return end(status_at_end(failure));
+      last.reset();
+      h = std::max(h, 4 * least_step);
     }
+    end(Status::branch_ended);
   }
 
   /// Goes to `u` as far as the branch goes.
   Status advance(const Node& from, double u, Node& next) {
     const ContinuationReport report =
-        continue_branch(path(u), options(), {from.u, from.unknowns, from.tangent, 0});
+        continue_branch(path(from.level, u), options(), {from.u, from.unknowns, from.tangent, 0});
     count(report.newton_iterations);
-    next.u = report.last.parameter;
-    next.unknowns = report.last.unknowns;
+    next = at(report.last.parameter, from.level, report.last.unknowns);
     return report.status;
   }
 
   /// Goes to a stiffness without samples.
   bool reach(double wanted) {
-    BranchState state{last_.u, last_.unknowns, {}, 0};
-    const auto report = continue_branch(path(std::log(first_stiffness_ / wanted)), options(), state);
-    count(report.newton_iterations);
-    last_ = {report.last.parameter, report.last.unknowns, {}, {}, {}, {}, 0};
-    return report.status == Status::converged;
+    const Node from = last_;
+    return advance(from, std::log(first_stiffness_ / wanted), last_) == Status::converged;
   }
 
   /// From the bare cell's state to the one with bending stiffness, which becomes the first state here.
-  bool change_bending(BranchSampler& bare, double at) {
-    first_stiffness_ = at;
+  bool change_bending(BranchSampler& bare, double at_stiffness) {
+    first_stiffness_ = at_stiffness;
     discrete_ = bare.discrete_;
-    coarse_ = bare.coarse_;
-    level_ = bare.level_;
+    factorisation_before_ = factorisation_seconds();
     const Problem from = bare.problem(bare.last_.u), to = problem(0);
-    const Path bend = {[this](double) -> StationarySystem& { return discrete_->system; },
-                       [from, to](double s) { return media_at(between(from, to, s), 1); }, 1,
-                       -std::numeric_limits<double>::infinity()};
+    const int level = bare.last_.level;
+    Path bend = path(level, 1);
+    bend.media = [from, to](double s) { return media_at(between(from, to, s), 1); };
     ContinuationOptions free = options();
     free.accept = {};
     const auto report = continue_branch(bend, free, {0, bare.last_.unknowns, {}, 0});
     count(report.newton_iterations);
-    last_ = {0, report.last.unknowns, {}, {}, {}, {}, 0};
+    last_ = at(0, level, report.last.unknowns);
     return report.status == Status::converged || (end(report.status), false);
   }
 
   /// Measures a converged state with its slopes and its error, on finer meshes if need be; false if it is not accurate.
   bool sample(Node& node) {
     while (true) {
+      Discrete& discrete = at_level(node.level);
       double det = 0;
       bool factorised = false;
       const Problem here = problem(node.u);
-      system().linearise(media_at(here, 1), node.unknowns, det, factorised);
+      discrete.system.linearise(media_at(here, 1), node.unknowns, det, factorised);
       if (!factorised) return false;
-      node.tangent = branch_tangent(path(node.u), {node.u, node.unknowns, {}, 0});
-      node.state = measure_state(space(), here, scales(), node.unknowns);
+      node.tangent = branch_tangent(path(node.level, node.u), {node.u, node.unknowns, {}, 0});
+      node.state = measure_state(discrete.space, here, scales(), node.unknowns);
       node.error = error_of(node);
       if (node.error <= spec_.accuracy) break;
       if (!finer(node)) return ++result_.refused, false;
     }
     const double h = 1e-4;
     const auto moved = [&](double step) {
-      return measure_state(space(), problem(node.u + step), scales(), node.unknowns + step * node.tangent);
+      return measure_state(at_level(node.level).space, problem(node.u + step), scales(),
+                           node.unknowns + step * node.tangent);
     };
     const MeasuredState plus = moved(h), minus = moved(-h);
     node.slope = (plus.value - minus.value) / (2 * h);
@@ -218,75 +247,87 @@ class BranchSampler {
   }
 
   double error_of(const Node& node) {
-    VectorXd unknowns = transfer(space(), node.unknowns, coarse_->space);
+    Discrete& coarse = at_level(node.level - 1);
+    VectorXd unknowns = transfer(at_level(node.level).space, node.unknowns, coarse.space);
     NewtonOptions newton_options = newton_;
     newton_options.tolerance = 1e-8;
-    const NewtonReport report =
-        newton(coarse_->system, media_at(problem(node.u), 1), newton_options, unknowns);
+    const NewtonReport report = newton(coarse.system, media_at(problem(node.u), 1), newton_options, unknowns);
     count(report.iterations);
     if (report.status != Status::converged) return std::numeric_limits<double>::infinity();
-    const double coarse = measure(contour(coarse_->space, unknowns)).deformation;
-    return share_of_change * std::abs(coarse / node.state.value(0) - 1);
+    return share_of_change * std::abs(deformation(coarse.space, unknowns) / node.state.value(0) - 1);
   }
 
   /// Carries a state to the next level; false if there is none or the state does not hold there.
   bool finer(Node& node) {
-    if (level_ + 1 >= int(ladder.size())) return false;
-    const auto next = make(level_ + 1, problem(node.u));
-    VectorXd unknowns = transfer(space(), node.unknowns, next->space);
-    const NewtonReport report = newton(next->system, media_at(problem(node.u), 1), newton_, unknowns);
+    if (node.level + 1 >= int(ladder.size())) return false;
+    Discrete& next = at_level(node.level + 1);
+    VectorXd unknowns = transfer(at_level(node.level).space, node.unknowns, next.space);
+    const NewtonReport report = newton(next.system, media_at(problem(node.u), 1), newton_, unknowns);
     count(report.iterations);
-    if (report.status != Status::converged || is_wrinkled(problem(node.u), next->space, unknowns)) return false;
-    result_.factorisation_seconds += work();
-    coarse_ = discrete_;
-    discrete_ = next;
-    ++level_;
+    if (report.status != Status::converged || is_wrinkled(problem(node.u), next.space, unknowns)) return false;
+    ++node.level;
     node.unknowns = unknowns;
     node.tangent = {};
     return true;
   }
 
-  /// Halves the last interval while the interpolation in it is not accurate; returns the next step.
-  double refine_last_interval() {
-    const double wanted = share_of_interpolation * spec_.accuracy;
-    const std::size_t n = nodes_.size();
-    double h = nodes_[n - 1].u - nodes_[n - 2].u;
-    if (n < 3) return h;
-    const double f4 = std::max(fourth_derivative(nodes_[n - 3], nodes_[n - 2], nodes_[n - 1]), 1e-12);
-    const double allowed = std::pow(384 * wanted / f4, 0.25);
-    if (h > 1.3 * allowed) insert_middle();
-    return std::clamp(0.9 * allowed, 0.25 * h, std::min(2 * h, greatest_step));
+  /// The largest step behind which cubic interpolation is accurate, by the fourth derivative of ln d. Where the
+  /// trapezoidal rule is far off, too: another branch was reached, or a fold is near.
+  double allowed_step(const Node& before, const Node& next) {
+    const double h = next.u - before.u, change = next.log_d() - before.log_d();
+    const double trapezoid = h * (before.log_d_slope() + next.log_d_slope()) / 2;
+    double allowed = greatest_step;
+    if (std::abs(change - trapezoid) > greatest_mismatch * std::abs(change) + 1e-6) allowed = h / 2;
+    const double wanted = share_of_interpolation * spec_.accuracy, off = middle_mismatch(before, next);
+    if (off > wanted) allowed = std::min(allowed, h * std::max(0.4, std::cbrt(wanted / off)));
+    if (nodes_.size() < 2) return allowed;
+    const double f4 = std::max(fourth_derivative(nodes_[nodes_.size() - 2], before, next), 1e-12);
+    return std::min(allowed, std::pow(384 * wanted / f4, 0.25));
   }
 
-  /// One more sample in the middle of the last interval.
-  void insert_middle() {
-    const Node& a = nodes_[nodes_.size() - 2];
-    Node middle;
-    const double u = (a.u + nodes_.back().u) / 2;
-    Node from = a;
-    if (from.unknowns.size() != space().unknowns()) return;  // the level has changed between the two
-    if (advance(from, u, middle) == Status::converged && sample(middle)) nodes_.insert(nodes_.end() - 1, middle);
+  /// The deformation of the interpolated contour against the interpolated deformation, relative, in the middle: the
+  /// convex hull makes the deformation less smooth than the contour where a dent appears.
+  double middle_mismatch(const Node& a, const Node& b) {
+    if (a.level != b.level || a.tangent.size() == 0) return 0;
+    const double h = b.u - a.u;
+    const VectorXd middle = (a.unknowns + b.unknowns) / 2 + h / 8 * (a.tangent - b.tangent);
+    const double log_d = (a.log_d() + b.log_d()) / 2 + h / 8 * (a.log_d_slope() - b.log_d_slope());
+    return std::abs(std::log(deformation(at_level(a.level).space, middle)) - log_d);
+  }
+
+  bool is_covered(const Node& node) const {
+    return node.state.value(int(Measure::deformation)) > spec_.greatest_deformation ||
+           node.state.value(int(Measure::area_um2)) > 1.02 * spec_.greatest_area_um2;
+  }
+
+  /// Newton's failure at the end of a branch is the end of the branch.
+  static Status status_at_end(Status status) {
+    return status == Status::iteration_limit || status == Status::converged ? Status::branch_ended : status;
   }
 
   double margin(const Node& node) const { return node.state.value(int(Measure::stability_margin)); }
-  double deformation(const VectorXd& unknowns) const { return measure(contour(space(), unknowns)).deformation; }
+  static double deformation(const Discretisation& space, const VectorXd& unknowns) {
+    return measure(contour(space, unknowns)).deformation;
+  }
   Scales scales() const { return scales_of(case_at(spec_, radius_, first_stiffness_)); }
   void count(int iterations) {
     ++result_.solves;
     result_.newton_iterations += iterations;
   }
-  double work() const {
+  double factorisation_seconds() const {
     double seconds = 0;
-    for (const auto& system : {discrete_, coarse_}) {
-      if (system) seconds += system->system.work().condensation_s + system->system.work().sparse_s;
+    for (const auto& discrete : discrete_) {
+      if (discrete) seconds += discrete->system.work().condensation_s + discrete->system.work().sparse_s;
     }
     return seconds;
   }
 
-  void end(Status status) { end(name(status), explanation({status, "", 1}, {0, 0, SurfaceKind::bare})); }
+  void end(Status status) { end(name(status), reason(status)); }
   void end(const std::string& status, const std::string& message) { result_.end = {status, message}; }
 
   SampledBranch finish(std::chrono::steady_clock::time_point start) {
+    // A stop looks like a failure to whatever it interrupts.
+    if (newton_.stop && *newton_.stop) end(name(Status::stopped), reason(Status::stopped));
     const int n = int(nodes_.size());
     result_.value.resize(n, measure_count);
     result_.slope.resize(n, measure_count);
@@ -299,7 +340,7 @@ class BranchSampler {
       result_.contour.push_back(node.state.contour);
       result_.contour_slope.push_back(-node.contour_slope);
     }
-    result_.factorisation_seconds += work();
+    result_.factorisation_seconds = factorisation_seconds() - factorisation_before_;
     result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(result_);
   }
@@ -307,8 +348,8 @@ class BranchSampler {
   TableSpec spec_;
   double radius_, first_stiffness_ = 1;
   NewtonOptions newton_;
-  int level_ = first_level;
-  std::shared_ptr<Discrete> discrete_, coarse_;
+  std::array<std::shared_ptr<Discrete>, ladder.size()> discrete_;
+  double factorisation_before_ = 0;  ///< of systems that were taken over
   Node last_;
   std::vector<Node> nodes_;
   SampledBranch result_;

@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "app/table_worker.h"
 #include "shape/curve.h"
 #include "solve/stationary.h"
 
@@ -69,6 +70,8 @@ Outcome wait_for_stop(const std::atomic<bool>* stop) {
 }
 
 }  // namespace
+
+int work_on_table(const std::filesystem::path&) { return 0; }
 
 StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress,
                                  const std::atomic<bool>* stop) {

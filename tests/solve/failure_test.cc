@@ -35,7 +35,7 @@ TEST(Failure, AStopOnTheWayKeepsTheLastState) {
   // The flag goes up after the first point of the branch.
   std::atomic<bool> stop = false;
   const StationaryState state = solve_stationary(
-      test::problem({6, 2.29, 0}), [&](const BranchPoint&) { stop = true; }, &stop);
+      test::problem({6, 2.29, 0}), [&](const BranchStep&) { stop = true; }, &stop);
   EXPECT_EQ(state.outcome.status, Status::stopped);
   EXPECT_GT(state.outcome.reached, 0);
   EXPECT_LT(state.outcome.reached, 1);
@@ -47,7 +47,7 @@ TEST(Failure, AStopOnTheLadderOfAccuracyKeepsTheWantedState) {
   // The flag goes up when the wanted compliance is reached the first time.
   std::atomic<bool> stop = false;
   const StationaryState state = solve_stationary(
-      test::problem({6, 2.29, 0}, 1e-6), [&](const BranchPoint& point) { stop = point.compliance == 1; }, &stop);
+      test::problem({6, 2.29, 0}, 1e-6), [&](const BranchStep& point) { stop = point.compliance == 1; }, &stop);
   EXPECT_EQ(state.outcome.status, Status::stopped);
   EXPECT_EQ(state.outcome.reached, 1);
   EXPECT_NEAR(state.shape.deformation, 0.0382, 1e-3);  // of a coarse mesh

@@ -24,7 +24,7 @@ std::vector<double> numbers(const StationaryState& state) {
                              state.outcome.reached,
                              double(state.statistics.newton_iterations)};
   for (const CurvePiece& piece : state.contour.pieces) all.insert(all.end(), piece.data(), piece.data() + piece.size());
-  for (const BranchPoint& point : state.branch) all.push_back(point.deformation);
+  for (const BranchStep& point : state.branch) all.push_back(point.deformation);
   return all;
 }
 
@@ -83,7 +83,7 @@ TEST(Stationary, ProgressSeesEveryPointOfTheBranch) {
   // The callback is called in order with what the state keeps.
   std::vector<double> seen;
   const StationaryState state = solve_stationary(test::problem({6, 2.29, 0}),
-                                                 [&](const BranchPoint& point) { seen.push_back(point.deformation); });
+                                                 [&](const BranchStep& point) { seen.push_back(point.deformation); });
   ASSERT_EQ(seen.size(), state.branch.size());
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], state.branch[i].deformation);
 }

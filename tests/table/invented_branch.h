@@ -20,7 +20,7 @@ inline double invented_deformation(double radius_um, double stiffness, double be
 }
 
 inline double invented_area(double radius_um, double deformation) {
-  return std::numbers::pi * radius_um * radius_um * (1 + 0.8 * deformation);
+  return std::numbers::pi * radius_um * radius_um * (1 + 0.5 * deformation);
 }
 
 /// The inverse of the deformation: s^2 + s / 2 = 0.2 q^3 / d.
@@ -31,7 +31,7 @@ inline double invented_stiffness(double radius_um, double deformation) {
 
 /// The exact answer of a table: the stiffness at an area and a deformation.
 inline double invented_modulus(double area_um2, double deformation) {
-  return invented_stiffness(std::sqrt(area_um2 / (std::numbers::pi * (1 + 0.8 * deformation))), deformation);
+  return invented_stiffness(std::sqrt(area_um2 / (std::numbers::pi * (1 + 0.5 * deformation))), deformation);
 }
 
 /// Of all measures the values (first column) and their slopes with ln(stiffness).
@@ -42,7 +42,7 @@ inline Eigen::MatrixX2d invented_state(double radius, double stiffness, double b
   const auto set = [&](Measure m, double value, double by_deformation) {
     state.row(Eigen::Index(m)) << value, by_deformation * slope;
   };
-  const double area = invented_area(radius, d), area_by_d = std::numbers::pi * radius * radius * 0.8;
+  const double area = invented_area(radius, d), area_by_d = std::numbers::pi * radius * radius * 0.5;
   const double root = std::sqrt(std::numbers::pi * area), perimeter = 2 * root / (1 - d);
   set(Measure::deformation, d, 1);
   set(Measure::deformation_raw, 1.01 * d, 1.01);

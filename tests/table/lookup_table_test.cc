@@ -24,7 +24,7 @@ TEST(LookupTable, RowsAreStatesOfTheBranches) {
   const auto spec = spec_with({});
   const auto branches = invented_branches(spec, 60);
   const auto table = make_lookup_table(spec, branches, "0");
-  ASSERT_GT(table.rows.size(), 300u);
+  ASSERT_GE(table.rows.size(), 300u);
   for (const auto& row : table.rows) {
     const double d = row.at(Measure::deformation), area = row.at(Measure::area_um2);
     // The error of cubic interpolation between 60 samples.
@@ -65,7 +65,7 @@ TEST(LookupTable, BeyondTheEndOfABranchRowsAreMarkedOrLeftOut) {
     was_regularised = row.state.regularised;
   }
   const auto text = parse_table_text(lut_text(table, Abscissa::area), "x");
-  EXPECT_EQ(text.metadata.at("regularised_rows"), table.regularised_rows());
+  EXPECT_GT(text.metadata.at("regularised_rows"), 10);
   EXPECT_GT(text.metadata.at("regularised_beyond_deformation").size(), 3u);
   EXPECT_EQ(parse_table_text(lut_text(bare, Abscissa::area), "x").metadata.count("regularised_beyond_area_um2"), 0u);
 }
@@ -101,18 +101,26 @@ TEST(LookupTable, AllFilesAreEqualWhateverTheOrderOfTheBranches) {
   }
 }
 
-TEST(LookupTable, TheTextHoldsTheRowsAndAllParameters) {
+TEST(LookupTable, TheTextHoldsUprightColumnsAndAllParameters) {
   const auto spec = spec_with({});
-  const auto branches = invented_branches(spec);
+  const auto branches = invented_branches(spec, 60);
   const auto table = make_lookup_table(spec, branches, "1.2.3");
   const auto area = parse_table_text(lut_text(table, Abscissa::area), "x");
   const auto volume = parse_table_text(lut_text(table, Abscissa::volume), "x");
-  ASSERT_EQ(area.rows.size(), table.rows.size());
+  ASSERT_EQ(area.rows.size(), 12u * 30u);  // the whole rectangle, corners included
+  for (std::size_t i = 0; i < area.rows.size(); ++i) {
+    const auto& [size, d, stiffness] = area.rows[i];
+    EXPECT_EQ(size, area.rows[i / 30 * 30][0]);
+    EXPECT_EQ(d, area.rows[i % 30][1]);
+    // Polynomials through six of 12 radii.
+    EXPECT_NEAR(stiffness / invented_modulus(size, d), 1, 2e-5);
+  }
+  EXPECT_EQ(area.rows.front()[0], 30);
+  EXPECT_EQ(area.rows.back()[0], 290);
   ASSERT_EQ(volume.rows.size(), table.rows.size());
-  for (std::size_t i = 0; i < area.rows.size(); ++i) {  // ten digits
-    EXPECT_NEAR(area.rows[i][0] / table.rows[i].at(Measure::area_um2), 1, 1e-9);
+  for (std::size_t i = 0; i < volume.rows.size(); ++i) {  // ten digits
     EXPECT_NEAR(volume.rows[i][0] / table.rows[i].at(Measure::volume_um3), 1, 1e-9);
-    EXPECT_NEAR(area.rows[i][2] / table.rows[i].state.stiffness, 1, 1e-9);
+    EXPECT_NEAR(volume.rows[i][2] / table.rows[i].state.stiffness, 1, 1e-9);
   }
   EXPECT_EQ(area.metadata.at("identifier"), "XX-2D-26");
   EXPECT_EQ(volume.metadata.at("identifier"), "XX-2D-26-volume");

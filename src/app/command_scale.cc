@@ -1,0 +1,99 @@
+#include "app/command_scale.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "app/build_info.h"
+#include "app/own_file.h"
+#include "case/parameters.h"
+#include "case/user_error.h"
+#include "table/scale.h"
+#include "table/table_metadata.h"
+
+namespace rheocyte {
+
+namespace {
+
+struct ScaleOptions {
+  std::filesystem::path table, output;
+  std::optional<double> channel_width_um, flow_rate_ul_s, viscosity_mPas;
+  std::string identifier;
+  bool force = false, inexact = false;
+};
+
+void add_number(CLI::App& command, const std::string& name, std::string_view key, std::optional<double>& target) {
+  const Parameter& parameter = *find_parameter(key);
+  command.add_option(name, target, fmt::format("{}; default: that of the table", parameter.sentence))
+      ->check(CLI::Validator(
+          [&parameter](const std::string& text) {
+            double value = 0;
+            const bool good =
+                CLI::detail::lexical_cast(text, value) && std::get<Number>(parameter.value).range.contains(value);
+            return good ? std::string() : fmt::format("{} is outside the range {}", text, allowed_values(parameter));
+          },
+          "NUMBER"));
+}
+
+ChannelConditions wanted_conditions(const ScaleOptions& options, const TableText& table) {
+  if (!options.channel_width_um && !options.flow_rate_ul_s && !options.viscosity_mPas)
+    throw UserError("rheocyte: give at least one of --channel-width-um, --flow-rate-ul-s and --viscosity-mPas.");
+  const auto own = conditions_of(table);
+  return {options.channel_width_um.value_or(own.channel_width_um), options.flow_rate_ul_s.value_or(own.flow_rate_ul_s),
+          options.viscosity_mPas.value_or(own.viscosity_mPas)};
+}
+
+// Programs know a table by its name: a scaled one needs another.
+void rename(TableText& table, const ChannelConditions& to, const std::string& wanted) {
+  const char* key = table.metadata.contains("identifier") ? "identifier" : "lut identifier";
+  const std::string own = table.metadata.at(key);
+  table.metadata[key] = !wanted.empty() ? wanted
+                                        : fmt::format("{}-{:g}um-{:g}uls-{:g}mPas", own, to.channel_width_um,
+                                                      to.flow_rate_ul_s, to.viscosity_mPas);
+}
+
+void run(const ScaleOptions& options) {
+  const TableText table = read_table_text(options.table);
+  const auto to = wanted_conditions(options, table);
+  std::error_code error;
+  if (std::filesystem::equivalent(options.table, options.output, error))
+    throw UserError(fmt::format("{}: is the table itself; give another name with -o.", options.output.string()));
+  const auto doubts = doubts_of_scaling(table, to);
+  if (!doubts.empty() && !options.inexact)
+    throw UserError(fmt::format("{}: the scaling would not be exact: {}; --inexact scales nevertheless.",
+                                options.table.string(), fmt::join(doubts, "; ")));
+  TableText result = scaled(table, to, version);
+  rename(result, to, options.identifier);
+  write_own_file(options.output, to_text(result), table_mark, options.force);
+}
+
+std::string check_identifier(const std::string& name) {
+  const bool plain =
+      std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_' || c == '.'; });
+  return plain && !name.empty() && name.size() <= 80 ? "" : "takes letters, digits, - _ and . only";
+}
+
+}  // namespace
+
+void add_scale_command(CLI::App& app) {
+  auto* command = app.add_subcommand("scale", "look-up table for another channel, flow rate or viscosity");
+  auto options = std::make_shared<ScaleOptions>();
+  command->add_option("TABLE", options->table, "look-up table or isoelasticity lines in dclab's format")->required();
+  add_number(*command, "--channel-width-um", "channel.width_um", options->channel_width_um);
+  add_number(*command, "--flow-rate-ul-s", "flow.rate_ul_per_s", options->flow_rate_ul_s);
+  add_number(*command, "--viscosity-mPas", "flow.viscosity_mPas", options->viscosity_mPas);
+  command->add_option("--identifier", options->identifier, "name of the new table; default: from the old one")
+      ->check(CLI::Validator(check_identifier, "NAME"));
+  command->add_option("-o,--output", options->output, "file for the new table")->type_name("FILE.txt")->required();
+  command->add_flag("--inexact", options->inexact, "scale even where that is not exact; the header says why");
+  command->add_flag("--force", options->force, "replace a file that rheocyte did not write");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,89 @@
+#include "app/command_table.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/build_info.h"
+#include "app/exit_codes.h"
+#include "app/standard_error.h"
+#include "app/table_folder.h"
+#include "app/table_processes.h"
+#include "table/lookup_table.h"
+#include "table/simulations_file.h"
+
+namespace rheocyte {
+
+namespace {
+
+struct TableOptions {
+  std::filesystem::path spec, folder;
+  std::vector<std::string> settings;
+  int jobs = 0;
+  bool quiet = false;
+};
+
+void write_files(const TableFolder& folder) {
+  const auto branches = folder.read_all();
+  const LookupTable table = make_lookup_table(folder.spec(), branches, version);
+  for (const auto& [name, content] : table_files(table)) folder.publish(name, content);
+  folder.publish(fmt::format("simulations_{}.h5", folder.spec().identifier), simulations_file(table));
+  folder.tidy();
+}
+
+std::string summary(const TableFolder& folder) {
+  int samples = 0, refused = 0, solves = 0, unstable = 0, short_of_range = 0;
+  double seconds = 0, factorisation = 0;
+  for (const SampledBranch& branch : folder.read_all()) {
+    samples += branch.samples();
+    refused += branch.refused;
+    solves += branch.solves;
+    seconds += branch.seconds;
+    factorisation += branch.factorisation_seconds;
+    unstable += branch.end.status == "surface-unstable";
+    short_of_range += branch.end.status != "surface-unstable" && branch.end.status != "covered";
+  }
+  return fmt::format(
+      "{} states on {} branches, {} solves, {:.0f} s of one processor ({:.0f} % factorisation)\n"
+      "{} branches end at the instability of the surface, {} at another end; {} states refused\n",
+      samples, folder.radii(), solves, seconds, 100 * factorisation / std::max(seconds, 1e-9), unstable, short_of_range,
+      refused);
+}
+
+int make_table(const TableOptions& options) {
+  const TableSpec spec = read_table_spec(options.spec, options.settings);
+  const TableFolder folder(options.folder, spec);
+  const Rank rank = rank_from_environment();
+  const int jobs = options.jobs > 0 ? options.jobs : rank.count > 1 ? 1 : available_processors();
+  const ProcessesEnd end = run_workers(options.folder, jobs, options.quiet || rank.number > 0);
+  if (end.signal) {
+    tell(fmt::format("rheocyte: stopped after {} of {} radii; the same command goes on from here.", folder.done(),
+                     folder.radii()));
+    return exit_signal + end.signal;
+  }
+  if (!end.complete) return end.worker_code;
+  if (rank.number > 0) return exit_converged;
+  write_files(folder);
+  if (!options.quiet) fmt::print("{}  folder {}\n", summary(folder), options.folder.string());
+  return exit_converged;
+}
+
+}  // namespace
+
+void add_table_command(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("table", "compute a whole look-up table; goes on where it was interrupted");
+  auto options = std::make_shared<TableOptions>();
+  command->add_option("SPEC", options->spec, "spec of the table (TOML), see examples/tables")->required();
+  command->add_option("-o,--output", options->folder, "folder of the table")->required();
+  command->add_option("--set", options->settings, "key=value in place of the spec's")->allow_extra_args(false);
+  command->add_option("-j,--jobs", options->jobs, "processes on this machine; default: all processors")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--quiet", options->quiet, "no progress, no summary");
+  command->callback([options, &exit_code] { exit_code = make_table(*options); });
+}
+
+}  // namespace rheocyte

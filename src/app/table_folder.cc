@@ -1,0 +1,139 @@
+#include "app/table_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "app/build_info.h"
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* work = "branches";
+constexpr const char* mark = "begun-by.txt";
+
+std::string reason_of(int number) { return std::generic_category().message(number); }
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  throw UserError(fmt::format("{}: {}", path.string(), reason));
+}
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_whole(const fs::path& path, std::string_view content) {
+  const fs::path scratch = path.string() + fmt::format(".{}.tmp", ::getpid());
+  std::FILE* file = std::fopen(scratch.c_str(), "wbe");
+  int failed = file ? 0 : errno;
+  if (file) {
+    if (std::fwrite(content.data(), 1, content.size(), file) != content.size()) failed = errno;
+    if (std::fflush(file) != 0 && !failed) failed = errno;
+    if (::fsync(::fileno(file)) != 0 && !failed && errno != EINVAL) failed = errno;
+    if (std::fclose(file) != 0 && !failed) failed = errno;
+  }
+  if (!failed && ::rename(scratch.c_str(), path.c_str()) != 0) failed = errno;
+  if (!failed) return;
+  ::unlink(scratch.c_str());
+  refuse(path, fmt::format("cannot be written ({}); what is finished is kept, start again with the same command.",
+                           reason_of(failed)));
+}
+
+}  // namespace
+
+Claim::~Claim() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+TableFolder::TableFolder(const fs::path& folder, const TableSpec& spec)
+    : folder_(folder), spec_(spec), hash_(spec_hash(spec)), radii_um_(sweep_radii_um(spec)) {
+  begin();
+}
+
+void TableFolder::begin() const {
+  const std::string wanted = fmt::format("rheocyte {} table, spec {}\n", version, hash_);
+  std::error_code error;
+  if (fs::exists(folder_ / mark, error)) {
+    const std::string found = content_of(folder_ / mark);
+    if (found == wanted) return;
+    refuse(folder_,
+           fmt::format("holds a table that was begun as \"{}\", not as \"{}\"; give another folder with -o, or "
+                       "the spec and program of the first start.",
+                       found.substr(0, found.find('\n')), wanted.substr(0, wanted.size() - 1)));
+  }
+  if (fs::exists(folder_, error) && (!fs::is_directory(folder_, error) || !fs::is_empty(folder_, error)))
+    refuse(folder_, "holds other files; give a new or empty folder with -o.");
+  fs::create_directories(folder_ / work, error);
+  if (error) refuse(folder_, fmt::format("cannot be made ({}).", error.message()));
+  write_whole(folder_ / "spec.toml", to_toml(spec_));
+  write_whole(folder_ / mark, wanted);
+}
+
+fs::path TableFolder::record(int i, bool held) const {
+  return folder_ / work / fmt::format("radius-{:04}{}.cbor", i, held ? "-held" : "");
+}
+
+bool TableFolder::has(int i, bool held) const {
+  std::error_code error;
+  return fs::exists(record(i, held), error);
+}
+
+bool TableFolder::is_done(int i) const { return has(i, false) && (!wants_held(i) || has(i, true)); }
+
+int TableFolder::done() const {
+  int count = 0;
+  for (int i = 0; i < radii(); ++i) count += is_done(i);
+  return count;
+}
+
+Claim TableFolder::claim(int i) const {
+  const fs::path path = folder_ / work / fmt::format("radius-{:04}.claim", i);
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) refuse(path, fmt::format("cannot be made ({}).", reason_of(errno)));
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return Claim(descriptor);
+  ::close(descriptor);
+  return {};
+}
+
+void TableFolder::keep(int i, const SampledBranch& branch, bool held) const {
+  write_whole(record(i, held), to_bytes(branch, hash_));
+}
+
+SampledBranch TableFolder::read(int i, bool held) const {
+  return branch_from_bytes(content_of(record(i, held)), hash_, record(i, held).string());
+}
+
+std::vector<SampledBranch> TableFolder::read_all() const {
+  std::vector<SampledBranch> branches;
+  for (int i = 0; i < radii(); ++i) {
+    branches.push_back(read(i, false));
+    if (wants_held(i)) branches.push_back(read(i, true));
+  }
+  return branches;
+}
+
+void TableFolder::tidy() const {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_ / work, error)) {
+    const auto kind = entry.path().extension();
+    if (kind == ".claim" || kind == ".tmp") fs::remove(entry.path(), error);
+  }
+}
+
+void TableFolder::publish(const std::string& name, std::string_view content) const {
+  write_whole(folder_ / name, content);
+}
+
+}  // namespace rheocyte

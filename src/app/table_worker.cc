@@ -1,0 +1,49 @@
+#include "app/table_worker.h"
+
+#include <sys/prctl.h>
+
+#include <csignal>
+
+#include "app/exit_codes.h"
+#include "app/stop_signal.h"
+#include "app/table_folder.h"
+#include "solve/outcome.h"
+#include "table/sample_branch.h"
+
+namespace rheocyte {
+
+namespace {
+
+bool is_stopped(const SampledBranch& branch) { return branch.end.status == name(Status::stopped); }
+
+/// False if a signal ended it.
+bool sample_radius(const TableFolder& folder, int i) {
+  if (!folder.has(i, false)) {
+    const SampledBranch own = sample_branch(folder.spec(), folder.radius_um(i), &stop_wanted());
+    if (is_stopped(own)) return false;
+    folder.keep(i, own, false);
+  }
+  if (!folder.wants_held(i) || folder.has(i, true)) return true;
+  // Read back: an interrupted table goes on from the record, and its bytes must not depend on that.
+  const SampledBranch held = sample_held_branch(folder.spec(), folder.read(i, false), &stop_wanted());
+  if (is_stopped(held)) return false;
+  folder.keep(i, held, true);
+  return true;
+}
+
+}  // namespace
+
+int work_on_table(const std::filesystem::path& path) {
+  watch_signals();
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // no work for nobody when the command is killed
+  const TableFolder folder(path, read_table_spec(path / "spec.toml"));
+  for (int i = 0; i < folder.radii(); ++i) {
+    if (folder.is_done(i)) continue;
+    const Claim claim = folder.claim(i);
+    if (!claim || folder.is_done(i)) continue;  // somebody else works on it, or has just finished it
+    if (!sample_radius(folder, i)) return exit_signal + signal_received();
+  }
+  return exit_converged;
+}
+
+}  // namespace rheocyte

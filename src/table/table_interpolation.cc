@@ -1,0 +1,173 @@
+#include "table/table_interpolation.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr int greatest_stencil = 6;
+
+StiffnessAnswer no_answer(NoAnswer reason) { return {nan, nan, false, reason}; }
+
+// Lagrange's polynomial through the points (x, y) at zero.
+double extrapolate_to_zero(std::span<const double> x, std::span<const double> y) {
+  double sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    double weight = 1;
+    for (std::size_t k = 0; k < x.size(); ++k)
+      if (k != i) weight *= x[k] / (x[k] - x[i]);
+    sum += weight * y[i];
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::string_view name_of(NoAnswer reason) {
+  switch (reason) {
+    case NoAnswer::none: return "";
+    case NoAnswer::invalid: return "invalid";
+    case NoAnswer::too_small: return "too-small";
+    case NoAnswer::too_large: return "too-large";
+    case NoAnswer::too_stiff: return "too-stiff";
+    case NoAnswer::too_soft: return "too-soft";
+    case NoAnswer::unstable: return "unstable";
+    case NoAnswer::unresolved: return "unresolved";
+  }
+  return "";
+}
+
+// One question: the size, by area or volume, and the deformation.
+class TableInterpolation::Query {
+ public:
+  Query(const TableInterpolation& table, Abscissa abscissa, double size, double deformation)
+      : table_(table), abscissa_(abscissa), size_(size), deformation_(deformation) {}
+
+  StiffnessAnswer answer() const {
+    if (const auto reason = outside(); reason != NoAnswer::none) return no_answer(reason);
+    // The circle or sphere of this size is a good guess of the radius.
+    const auto guess = std::ranges::upper_bound(table_.radii_, sphere_radius(), {}, &RadiusBranches::radius_um);
+    const int last = count() - 1;
+    int below = std::clamp(int(guess - table_.radii_.begin()) - 1, 0, last - 1);
+    while (below > 0 && size_near(below) > size_) --below;
+    while (below < last - 1 && size_near(below + 1) < size_) ++below;
+    if (size_near(below) > size_) return no_answer(NoAnswer::too_small);
+    if (size_near(below + 1) < size_) return no_answer(NoAnswer::too_large);
+    const auto first = node(below), second = node(below + 1);
+    if (!first) return no_answer(missing(below));
+    if (!second) return no_answer(missing(below + 1));
+    return between(below, *first, *second);
+  }
+
+ private:
+  struct Node {
+    BranchPoint state;
+    double x, y;  ///< ln(size / wanted size), ln(stiffness)
+  };
+
+  int count() const { return int(table_.radii_.size()); }
+  const RadiusBranches& radius(int i) const { return table_.radii_[std::size_t(i)]; }
+  Measure size_measure() const { return abscissa_ == Abscissa::area ? Measure::area_um2 : Measure::volume_um3; }
+
+  double sphere_radius() const {
+    return abscissa_ == Abscissa::area ? std::sqrt(size_ / std::numbers::pi)
+                                       : std::cbrt(0.75 * size_ / std::numbers::pi);
+  }
+
+  NoAnswer outside() const {
+    const TableSpec& spec = table_.spec_;
+    if (!(size_ > 0 && deformation_ > 0 && std::isfinite(size_) && std::isfinite(deformation_)))
+      return NoAnswer::invalid;
+    if (count() < 2) return NoAnswer::unresolved;
+    if (abscissa_ == Abscissa::area && size_ < spec.least_area_um2) return NoAnswer::too_small;
+    if (abscissa_ == Abscissa::area && size_ > spec.greatest_area_um2) return NoAnswer::too_large;
+    if (deformation_ < spec.least_deformation) return NoAnswer::too_stiff;
+    if (deformation_ > spec.greatest_deformation) return NoAnswer::too_soft;
+    return NoAnswer::none;
+  }
+
+  std::optional<Node> node(int i) const {
+    const auto state = radius(i).at_deformation(deformation_);
+    if (!state) return {};
+    return Node{*state, std::log(state->measure(size_measure()) / size_), std::log(state->stiffness)};
+  }
+
+  // Of the state with the wanted deformation, or of the nearest one that there is.
+  double size_near(int i) const {
+    if (const auto state = radius(i).at_deformation(deformation_)) return state->measure(size_measure());
+    const auto softest = radius(i).softest(), stiffest = radius(i).stiffest();
+    return (deformation_ > softest.measure(Measure::deformation) ? softest : stiffest).measure(size_measure());
+  }
+
+  NoAnswer missing(int i) const {
+    const auto* own = radius(i).own();
+    const bool is_beyond = own && deformation_ > own->at(own->samples() - 1, Measure::deformation);
+    const bool ended = own && (own->end.status == "surface-unstable" || own->end.status == "branch-ended");
+    return is_beyond && ended ? NoAnswer::unstable : NoAnswer::unresolved;
+  }
+
+  // Neighbours of the two nodes, as many on both sides as there are; beside two states of one kind only of that kind,
+  // because bending changes the states a little.
+  std::vector<Node> stencil(int below, const Node& first, const Node& second) const {
+    std::vector<Node> nodes{first, second};
+    const bool mixed = first.state.regularised != second.state.regularised;
+    int low = below - 1, high = below + 2;
+    const auto take = [&](int i, bool in_front) {
+      const auto next = i >= 0 && i < count() ? node(i) : std::nullopt;
+      if (!next || (!mixed && next->state.regularised != first.state.regularised)) return false;
+      nodes.insert(in_front ? nodes.begin() : nodes.end(), *next);
+      return true;
+    };
+    for (bool down = true, up = true; (down || up) && int(nodes.size()) < greatest_stencil;) {
+      down = down && take(low--, true);
+      if (int(nodes.size()) < greatest_stencil) up = up && take(high++, false);
+    }
+    return nodes;
+  }
+
+  static double polynomial(std::span<const Node> nodes) {
+    std::array<double, greatest_stencil> x{}, y{};
+    for (std::size_t i = 0; i < nodes.size(); ++i) x[i] = nodes[i].x, y[i] = nodes[i].y;
+    return extrapolate_to_zero(std::span(x).first(nodes.size()), std::span(y).first(nodes.size()));
+  }
+
+  StiffnessAnswer between(int below, const Node& first, const Node& second) const {
+    const auto nodes = stencil(below, first, second);
+    const double best = polynomial(nodes);
+    // The polynomial of two degrees less, on the nodes in the middle, tells how far it can be trusted.
+    const auto inner = nodes.size() > 3 ? std::span(nodes).subspan(1, nodes.size() - 2) : std::span(nodes).first(2);
+    const auto [low, high] = std::minmax(first.y, second.y);
+    const double value = std::clamp(best, low, high);
+    const double states = std::max(stiffness_error(first.state), stiffness_error(second.state));
+    return {std::exp(value), states + std::abs(value - polynomial(inner)),
+            first.state.regularised || second.state.regularised, NoAnswer::none};
+  }
+
+  const TableInterpolation& table_;
+  Abscissa abscissa_;
+  double size_, deformation_;
+};
+
+TableInterpolation::TableInterpolation(const TableSpec& spec, std::span<const SampledBranch> branches)
+    : spec_(spec), radii_(by_radius(branches)) {
+  if (spec.bending_beyond_kBT > 0) return;
+  std::erase_if(radii_, [](const RadiusBranches& radius) { return !radius.own(); });
+  for (auto& radius : radii_) radius = RadiusBranches(*radius.own());
+}
+
+StiffnessAnswer TableInterpolation::by_area(double area_um2, double deformation) const {
+  return Query(*this, Abscissa::area, area_um2, deformation).answer();
+}
+
+StiffnessAnswer TableInterpolation::by_volume(double volume_um3, double deformation) const {
+  return Query(*this, Abscissa::volume, volume_um3, deformation).answer();
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,178 @@
+// `rheocyte table` as a user starts it, kills it, and starts it again.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <map>
+#include <random>
+
+#include "run_program.h"
+
+namespace rheocyte::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string small_spec = R"([channel]
+width_um = 20.0
+[flow]
+rate_ul_per_s = 0.04
+viscosity_mPas = 15.0
+[cell.bulk]
+law = "linear"
+[table]
+identifier = "TEST"
+least_area_um2 = 60
+greatest_area_um2 = 120
+greatest_deformation = 0.002
+radii = 4
+rows_per_radius = 10
+accuracy = 1e-3
+)";
+
+class TableCommand : public testing::Test {
+ protected:
+  void SetUp() override { write_file(spec(), small_spec); }
+  fs::path spec() const { return folder_.path() / "spec.toml"; }
+  fs::path table(const std::string& name) const { return folder_.path() / name; }
+  std::vector<std::string> command(const fs::path& output) const {
+    return {RHEOCYTE, "table", spec().string(), "-o", output.string(), "--jobs", "2"};
+  }
+  Ended make(const fs::path& output, std::map<std::string, std::string> environment = {}) const {
+    return run({command(output), environment});
+  }
+
+  TemporaryFolder folder_;
+};
+
+/// Names and contents of the finished files.
+std::map<std::string, std::string> finished(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file()) files[entry.path().filename().string()] = content_of(entry.path());
+  }
+  return files;
+}
+
+/// Names of the files that differ, are missing or are too many.
+std::vector<std::string> differences(const fs::path& one, const fs::path& other) {
+  const auto a = finished(one), b = finished(other);
+  std::vector<std::string> names;
+  for (const auto& [name, content] : a) {
+    if (!b.contains(name) || b.at(name) != content) names.push_back(name);
+  }
+  for (const auto& [name, content] : b) {
+    if (!a.contains(name)) names.push_back(name);
+  }
+  return names;
+}
+
+const std::vector<std::string> none;
+
+/// Starts the command and kills it without warning after some time.
+void start_and_kill(const std::vector<std::string>& arguments, int microseconds) {
+  std::vector<char*> pointers;
+  for (const auto& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
+  pointers.push_back(nullptr);
+  posix_spawn_file_actions_t silent;
+  ::posix_spawn_file_actions_init(&silent);
+  for (const int output : {1, 2}) ::posix_spawn_file_actions_addopen(&silent, output, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  ASSERT_EQ(::posix_spawn(&child, RHEOCYTE, &silent, nullptr, pointers.data(), environ), 0);
+  ::posix_spawn_file_actions_destroy(&silent);
+  ::usleep(microseconds);
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+}
+
+TEST_F(TableCommand, KilledTwentyTimesItEndsWithTheSameBytes) {
+  // 20 kills at random moments; the finished files equal those of an undisturbed run, and nothing else is left.
+  const Ended undisturbed = make(table("undisturbed"));
+  ASSERT_EQ(undisturbed.exit_code, 0) << undisturbed.err;
+  std::mt19937 engine(1);
+  const double whole = 1e6 * undisturbed.seconds;
+  for (int kill = 0; kill < 20; ++kill)
+    start_and_kill(command(table("killed")), std::uniform_int_distribution(0, int(0.6 * whole))(engine));
+  const Ended last = make(table("killed"));
+  ASSERT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_EQ(differences(table("killed"), table("undisturbed")), none);
+  for (const auto& entry : fs::directory_iterator(table("killed") / "branches"))
+    EXPECT_EQ(entry.path().extension(), ".cbor") << entry.path();
+}
+
+TEST_F(TableCommand, TwoRanksMakeTheTableOfOneProcess) {
+  // As under mpirun: both with the same command, told apart by their environment; rank 0 writes the files.
+  ASSERT_EQ(make(table("one")).exit_code, 0);
+  const std::map<std::string, std::string> zero{{"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "2"}},
+      one{{"OMPI_COMM_WORLD_RANK", "1"}, {"OMPI_COMM_WORLD_SIZE", "2"}};
+  ASSERT_EQ(make(table("two"), one).exit_code, 0);
+  EXPECT_FALSE(fs::exists(table("two") / "lut_TEST.txt")) << "not the work of rank 1";
+  ASSERT_EQ(make(table("two"), zero).exit_code, 0);
+  EXPECT_EQ(differences(table("two"), table("one")), none);
+}
+
+TEST_F(TableCommand, AFolderOfAnotherSpecIsLeftAlone) {
+  // Named error, and the table in it stays as it was.
+  ASSERT_EQ(make(table("first")).exit_code, 0);
+  const auto before = finished(table("first"));
+  auto other = command(table("first"));
+  other.insert(other.end(), {"--set", "table.radii=5"});
+  const Ended ended = run({other});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_NE(ended.err.find("give another folder with -o"), std::string::npos) << ended.err;
+  EXPECT_TRUE(finished(table("first")) == before);
+}
+
+TEST_F(TableCommand, ADamagedRecordIsNamed) {
+  // One flipped byte in a branch: exit 2, its file, and the way out; with the file removed the table is finished.
+  ASSERT_EQ(make(table("t")).exit_code, 0);
+  const auto before = finished(table("t"));
+  const fs::path record = table("t") / "branches" / "radius-0002.cbor";
+  std::string bytes = content_of(record);
+  bytes[bytes.size() / 2] ^= 1;
+  write_file(record, bytes);
+  const Ended ended = make(table("t"));
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_NE(ended.err.find("radius-0002.cbor"), std::string::npos) << ended.err;
+  fs::remove(record);
+  EXPECT_EQ(make(table("t")).exit_code, 0);
+  EXPECT_TRUE(finished(table("t")) == before);
+}
+
+TEST_F(TableCommand, ASignalEndsItCleanlyAndItGoesOn) {
+  // Ctrl-C: exit 130 and a sentence with the way on.
+  Command command_with_signal{command(table("s"))};
+  command_with_signal.arguments.insert(command_with_signal.arguments.end(),
+                                       {"--set", "table.greatest_deformation=0.05"});
+  command_with_signal.arguments.insert(command_with_signal.arguments.end(), {"--set", "table.radii=12"});
+  command_with_signal.signal = SIGINT;
+  const Ended ended = run(command_with_signal);
+  EXPECT_EQ(ended.exit_code, 130) << ended.err;
+  EXPECT_NE(ended.err.find("goes on from here"), std::string::npos) << ended.err;
+}
+
+TEST_F(TableCommand, AFullDiskIsNamed) {
+  // Files may not grow beyond 2 kB, as on a full disk.
+  Command limited{command(table("full"))};
+  limited.greatest_file_bytes = 2000;
+  const Ended ended = run(limited);
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_NE(ended.err.find("cannot be written"), std::string::npos) << ended.err;
+}
+
+TEST_F(TableCommand, OtherFilesAreNotTouched) {
+  // A folder with somebody's files is refused.
+  fs::create_directory(table("mine"));
+  write_file(table("mine") / "thesis.txt", "precious");
+  const Ended ended = make(table("mine"));
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_EQ(finished(table("mine")).size(), 1u);
+}
+
+}  // namespace
+}  // namespace rheocyte::test

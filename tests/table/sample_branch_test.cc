@@ -1,0 +1,108 @@
+#include "table/sample_branch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "case/scales.h"
+#include "solve/stationary.h"
+
+namespace rheocyte {
+namespace {
+
+TableSpec spec(const std::string& cell, const std::string& table) {
+  return parse_table_spec("[channel]\nradius_um = 10.94\n[flow]\nrate_ul_per_s = 0.04\nviscosity_mPas = 15.0\n" + cell +
+                              "[table]\nidentifier = \"TEST\"\n" + table,
+                          "test");
+}
+
+const std::string linear_solid = "[cell.bulk]\nlaw = \"linear\"\n";
+const std::string shell = "[cell.bulk]\nlaw = \"none\"\n[cell.cortex]\nlaw = \"neo-hookean\"\ntension_ratio = 0.1\n";
+
+double solved_deformation(const TableSpec& table, double radius_um, double stiffness) {
+  Problem problem = problem_of(case_at(table, radius_um, stiffness));
+  problem.accuracy = 1e-5;
+  const StationaryState state = solve_stationary(problem);
+  EXPECT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
+  return state.shape.deformation;
+}
+
+/// Greatest relative difference of the deformation between samples from direct solves at the middles of the softest
+/// intervals, where the branch bends most.
+double greatest_difference(const TableSpec& table, const SampledBranch& branch) {
+  double greatest = 0;
+  for (int i = std::max(1, branch.samples() - 7); i < branch.samples(); ++i) {
+    const double stiffness = std::sqrt(branch.stiffness[i - 1] * branch.stiffness[i]);
+    const double d = interpolate(branch, Measure::deformation, stiffness);
+    greatest = std::max(greatest, std::abs(d / solved_deformation(table, branch.radius_um, stiffness) - 1));
+  }
+  return greatest;
+}
+
+TEST(SampleBranch, BetweenItsSamplesTheDeformationIsThatOfDirectSolves) {
+  // Within the wanted accuracy of 2e-4, for a solid to the end of its branch and for a shell.
+  const TableSpec solid = spec(linear_solid, "radii = 3\n");
+  const SampledBranch branch = sample_branch(solid, 6);
+  EXPECT_EQ(branch.end.status, "surface-unstable");
+  EXPECT_GT(branch.at(branch.samples() - 1, Measure::deformation), 0.16);
+  EXPECT_LT(branch.at(0, Measure::deformation), solid.least_deformation);
+  EXPECT_LT(greatest_difference(solid, branch), 2e-4);
+  const TableSpec thin = spec(shell, "greatest_deformation = 0.03\n");
+  const SampledBranch shells = sample_branch(thin, 7.66);
+  EXPECT_EQ(shells.end.status, "covered");
+  EXPECT_LT(greatest_difference(thin, shells), 2e-4);
+}
+
+TEST(SampleBranch, TheSlopesAreThoseOfTheSamples) {
+  // d(value)/d(ln stiffness) by differences of neighbouring interpolations would be circular: compare with direct
+  // solves.
+  const TableSpec table = spec(linear_solid, "greatest_deformation = 0.02\n");
+  const SampledBranch branch = sample_branch(table, 6);
+  const int i = branch.samples() - 2;
+  const double E = branch.stiffness[i], h = 0.01;
+  const double difference =
+      (solved_deformation(table, 6, E * std::exp(h)) - solved_deformation(table, 6, E * std::exp(-h))) / (2 * h);
+  // Differences of 1e-2: error h^2/6 f''' of 1e-4, and 1e-5 / 1e-2 of the solves.
+  EXPECT_NEAR(branch.slope(i, int(Measure::deformation)) / difference, 1, 2e-3);
+}
+
+TEST(SampleBranch, BeyondTheBareSurfaceBendingGoesOn) {
+  // The held branch overlaps the bare one, agrees with it within the known effect of 1e4 k_B T, and goes farther.
+  const TableSpec table = spec("[cell.bulk]\nlaw = \"neo-hookean\"\n", "bending_beyond_kBT = 1e4\n");
+  const SampledBranch bare = sample_branch(table, 6);
+  EXPECT_EQ(bare.end.status, "surface-unstable");
+  const SampledBranch held = sample_held_branch(table, bare);
+  ASSERT_FALSE(held.empty()) << held.end.message;
+  EXPECT_EQ(held.bending_kBT, 1e4);
+  EXPECT_GT(held.stiffness.front(), bare.stiffness.back());
+  EXPECT_LT(held.stiffness.back(), bare.stiffness.back());
+  EXPECT_GT(held.at(held.samples() - 1, Measure::deformation), 0.1);
+  const double d = interpolate(bare, Measure::deformation, held.stiffness.front());
+  EXPECT_NEAR(held.at(0, Measure::deformation) / d, 1, 0.01);  // docs/verification.md, sec. 6
+}
+
+TEST(SampleBranch, NothingIsHeldWhereNothingIsUnstable) {
+  // A branch that leaves the table's range, and a spec that asks for no bending.
+  const TableSpec covered = spec(linear_solid, "greatest_deformation = 0.01\nbending_beyond_kBT = 1e4\n");
+  EXPECT_TRUE(sample_held_branch(covered, sample_branch(covered, 6)).empty());
+}
+
+TEST(SampleBranch, TheSameBranchHasTheSameBits) {
+  // Two runs, the time that they took apart.
+  const TableSpec table = spec(linear_solid, "greatest_deformation = 0.01\n");
+  SampledBranch one = sample_branch(table, 4), other = sample_branch(table, 4);
+  for (SampledBranch* branch : {&one, &other}) branch->seconds = branch->factorisation_seconds = 0;
+  EXPECT_EQ(to_bytes(one, "x"), to_bytes(other, "x"));
+}
+
+TEST(SampleBranch, AStopEndsItAndSaysSo) {
+  // Before the first state already.
+  const std::atomic<bool> stop = true;
+  const SampledBranch branch = sample_branch(spec(linear_solid, ""), 6, &stop);
+  EXPECT_EQ(branch.end.status, "stopped");
+  EXPECT_TRUE(branch.empty());
+}
+
+}  // namespace
+}  // namespace rheocyte

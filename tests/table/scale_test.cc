@@ -1,0 +1,99 @@
+// Scaling there and back changes nothing, it commutes with the formulas of the field, and doubts are told.
+#include "table/scale.h"
+
+#include <gtest/gtest.h>
+
+#include "case/scales.h"
+
+namespace rheocyte {
+namespace {
+
+TableText table_with(nlohmann::ordered_json more = {}) {
+  TableText table;
+  table.metadata = {{"channel_width", 20.0},           {"channel_width_unit", "um"}, {"flow_rate", 0.04},
+                    {"flow_rate_unit", "uL/s"},        {"fluid_density", 1000.0},    {"fluid_viscosity", 15.0},
+                    {"fluid_viscosity_unit", "mPa s"}, {"identifier", "XX-2D-26"}};
+  for (const auto& [key, value] : more.items()) table.metadata[key] = value;
+  table.rows = {{36.4233, 0.108169, 0.740832}, {290, 0.03, 11.46}};
+  return table;
+}
+
+TEST(Scale, FollowsTheFormulaOfTheField) {
+  // dclab: area (W/W0)^2, E (Q/Q0) (eta/eta0) (W0/W)^3.
+  const auto out = scaled(table_with(), {30, 0.16, 5.0731}, "0");
+  const double modulus = 0.16 / 0.04 * 5.0731 / 15 * 8.0 / 27;
+  EXPECT_NEAR(out.rows[0][0] / (36.4233 * 2.25), 1, 1e-15);
+  EXPECT_EQ(out.rows[0][1], 0.108169);
+  EXPECT_NEAR(out.rows[0][2] / (0.740832 * modulus), 1, 1e-15);
+  EXPECT_EQ(out.metadata.at("channel_width"), 30);
+  EXPECT_EQ(out.metadata.at("fluid_viscosity"), 5.0731);
+}
+
+TEST(Scale, ThereAndBackIsTheSameTable) {
+  for (const auto abscissa : {Abscissa::area, Abscissa::volume})
+    for (const auto* stiffness : {"cell.bulk.young_modulus_kPa", "cell.cortex.modulus_mN_per_m"}) {
+      auto table =
+          table_with({{"stiffness", stiffness}, {"case", {{"cell", {{"cortex", {{"tension_mN_per_m", 0.3}}}}}}}});
+      table.abscissa = abscissa;
+      const auto back = scaled(scaled(table, {31, 0.07, 4}, "0"), conditions_of(table), "0");
+      for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back.rows[i][k] / table.rows[i][k], 1, 1e-14);  // rounding
+      EXPECT_NEAR(back.metadata["case"]["cell"]["cortex"]["tension_mN_per_m"].get<double>(), 0.3, 1e-15);
+    }
+}
+
+TEST(Scale, KeepsTheDimensionlessGroups) {
+  Case c;
+  c.channel.width_um = 20;
+  c.flow = {0.04, LiquidLaw::newtonian, 15.0, {}, {}, {}, 0};
+  c.cell.radius_um = 7;
+  c.cell.bulk.young_modulus_kPa = 2;
+  c.cell.cortex.modulus_mN_per_m = 31;
+  const auto before = problem_of(c);
+  const auto factor = scale_factors({20, 0.04, 15}, {33, 0.11, 4});
+  c.channel.width_um = 33;
+  c.flow.rate_ul_per_s = 0.11;
+  c.flow.viscosity_mPas = 4;
+  c.cell.radius_um *= std::sqrt(factor.area);
+  *c.cell.bulk.young_modulus_kPa *= factor.modulus;
+  *c.cell.cortex.modulus_mN_per_m *= factor.cortex_modulus;
+  const auto after = problem_of(c);
+  EXPECT_NEAR(after.radius_ratio / before.radius_ratio, 1, 1e-14);  // rounding
+  EXPECT_NEAR(after.shear_modulus / before.shear_modulus, 1, 1e-14);
+  EXPECT_NEAR(after.cortex_modulus / before.cortex_modulus, 1, 1e-14);
+}
+
+TEST(Scale, ShearThinningLiquidsOfOneExponentScaleWithTheViscosityAtTheWall) {
+  // S = K (U/R)^n and the viscosity at the wall K (Q/W^3)^(n-1) give the factor of the Newtonian formula.
+  auto table = table_with({{"fluid_density", 0},
+                           {"fluid_flow_behaviour_index", 0.6039},
+                           {"fluid_consistency_coefficient", 0.4057},
+                           {"case", {{"flow", {{"law", "power-law"}, {"consistency_Pa_sn", 0.4057}}}}}});
+  const ChannelConditions to{30, 0.16, 9};
+  const auto out = scaled(table, to, "0");
+  const double K = out.metadata.at("fluid_consistency_coefficient"), n = 0.6039;
+  const auto stress = [n](double k, const ChannelConditions& at) {
+    return k * std::pow(at.flow_rate_ul_s / std::pow(at.channel_width_um, 3), n);
+  };
+  EXPECT_NEAR(out.rows[0][2] / table.rows[0][2], stress(K, to) / stress(0.4057, conditions_of(table)), 1e-13);
+  EXPECT_EQ(out.metadata["case"]["flow"]["consistency_Pa_sn"], K);
+  ASSERT_EQ(doubts_of_scaling(table, to).size(), 1u);
+  EXPECT_NE(doubts_of_scaling(table, to)[0].find("shear-thinning"), std::string::npos);
+}
+
+TEST(Scale, DoubtsAreInertiaAndBendingWhereTheyMatter) {
+  EXPECT_TRUE(doubts_of_scaling(table_with(), {20, 0.04, 15}).empty());
+  EXPECT_TRUE(doubts_of_scaling(table_with(), {25, 0.04, 15}).empty());  // Reynolds number from 0.078 to 0.062
+  ASSERT_EQ(doubts_of_scaling(table_with(), {20, 0.12, 5}).size(), 1u);  // to 0.70
+  EXPECT_NE(doubts_of_scaling(table_with(), {20, 0.12, 5})[0].find("inertia changes the deformation by about 0.8 %"),
+            std::string::npos);
+  EXPECT_TRUE(doubts_of_scaling(table_with({{"fluid_density", 0}}), {20, 0.12, 5}).empty());
+  const auto bent = table_with({{"regularised_rows", 7}, {"fluid_density", 0}});
+  EXPECT_TRUE(doubts_of_scaling(bent, {25, 0.04, 15}).empty());  // c_b / (eta Q) is what counts
+  EXPECT_EQ(doubts_of_scaling(bent, {20, 0.08, 15}).size(), 1u);
+  const auto text = scaled(bent, {20, 0.08, 15}, "0").comments;
+  EXPECT_NE(text[1].find("Not exact: its bending stiffness"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rheocyte
