@@ -26,7 +26,7 @@ from rheocyte.files import InputError, reason, run, save_figure  # noqa: E402
 from rheocyte.figures.style import STYLE, thousands  # noqa: E402
 
 AXES_IN = np.array([2.6, 2.15])
-MARGINS_IN = (0.5, 0.4, 0.42, 0.42)  # of each panel: left, right, bottom, top
+MARGINS_IN = (0.5, 0.4, 0.42, 0.56)  # of each panel: left, right, bottom, top
 LEGEND_IN = 0.26  # below all panels
 GREATEST_NUMBER = 12000  # of events drawn in a panel; all count for colours and contours
 STANDARD_AREA, STANDARD_DEFORMATION, STANDARD_WIDTH = 200, 0.2, 20
@@ -175,9 +175,9 @@ def label_lines(axes, lines, rectangle):
             continue
         end = part[-1] / (right, top)
         at_right, at_top = end[0] > 0.999, end[1] > 0.999
-        if any(np.hypot(*((end - other) * AXES_IN)) < 0.085 for other in taken):
+        if any((np.abs(end - other) * AXES_IN < room).all() for other, room in taken):
             continue
-        taken.append(end)
+        taken.append((end, (0.36 if first else 0.22, 0.085)))  # inches that the words need
         offset, alignment = ((3, 0), ("left", "center")) if at_right else ((0, 2), ("center", "bottom"))
         text = f"{modulus:#.2g}" if modulus < 10 else f"{modulus:.0f}"
         if first:
@@ -188,21 +188,31 @@ def label_lines(axes, lines, rectangle):
 
 
 def draw_words(axes, panel, rectangle):
-    """File, sample, conditions and number of events."""
+    """File, sample, number of events and conditions, in three rows above the labels of the lines."""
     story = panel.story
-    axes.set_title(story["title"], pad=20)
-    words = " · ".join(filter(None, [story["sample"], story["measured"]]))
-    axes.annotate(words, (0, 1), xycoords="axes fraction", xytext=(0, 12), textcoords="offset points", fontsize=5.8,
-                  color="#56616b", va="bottom")
+    small = {"xycoords": "axes fraction", "textcoords": "offset points", "fontsize": 5.8, "color": "#56616b"}
+    axes.set_title(shortened(story["title"], 44), pad=27)
+    axes.annotate(shortened(story["sample"], 34), (0, 1), xytext=(0, 19), **small)
+    axes.annotate(shortened(story["measured"], 64), (0, 1), xytext=(0, 11), **small)
+    axes.annotate(number_of_events(panel, rectangle), (1, 1), xytext=(0, 19), ha="right", **{**small, "color": colours.INK})
+
+
+def number_of_events(panel, rectangle):
+    """All events, and how many of them are not in the picture."""
     (_, right), (_, top) = rectangle
+    story = panel.story
     outside = int(np.sum((panel.events[:, 0] > right) | (panel.events[:, 1] > top) | (panel.events < 0).any(axis=1)))
-    lines = [f"{thousands(story['events'])} event" + ("s" if story["events"] != 1 else "")]
+    words = [f"{thousands(story['events'])} event" + ("s" if story["events"] != 1 else "")]
     if story["drawable"] < story["events"]:
-        lines.append(f"{thousands(story['events'] - story['drawable'])} without shape")
+        words.append(f"{thousands(story['events'] - story['drawable'])} without shape")
     if outside:
-        lines.append(f"{thousands(outside)} outside the picture")
-    axes.text(0.02, 0.98, "\n".join(lines), transform=axes.transAxes, ha="left", va="top", fontsize=6, zorder=5,
-              path_effects=[withStroke(linewidth=1.6, foreground="white")])
+        words.append(f"{thousands(outside)} outside")
+    return ", ".join(words)
+
+
+def shortened(text, longest):
+    """The text, or its beginning and an ellipsis."""
+    return text if len(text) <= longest else text[:longest - 1] + "\u2026"
 
 
 def draw_legend(figure, panels):

@@ -105,9 +105,9 @@ class Pictures(unittest.TestCase):
             process = self.call(self.folder, self.folder / "out")
             self.assertEqual((process.returncode, process.stderr), (0, ""))
             self.assertTrue((self.folder / "out.png").read_bytes().startswith(b"\x89PNG"))
-        # Letters are outlines in the file; matplotlib keeps the text as comments, but not of text with a halo.
+        # Letters are outlines in the file; matplotlib keeps the text as comments.
         svg = (self.folder / "out.svg").read_text()
-        for words in ("M001.rtdc", "1.2 kPa", "beads", "20 µm", "range of the table", "equal modulus, TEST"):
+        for words in ("M001.rtdc", "1.2 kPa", "beads", "20 µm", "3\u2009002 events, 2 without shape", "range of the table", "equal modulus, TEST"):
             self.assertTrue(words in svg, words)
         self.assertLess((self.folder / "out.svg").stat().st_size, 6e5)
 

@@ -16,9 +16,9 @@
 #include "app/extract_recording.h"
 #include "app/standard_error.h"
 #include "app/stop_signal.h"
+#include "app/synth_shapes.h"
 #include "case/case_text.h"
 #include "case/user_error.h"
-#include "synth/analytic_shapes.h"
 #include "synth/virtual_recording.h"
 
 namespace rheocyte {
@@ -46,15 +46,6 @@ void check_output(const SynthOptions& options) {
     throw UserError(fmt::format("{}: there is no such folder.", one_line(parent.string(), 300)));
 }
 
-AnalyticShapes shapes_of(const SynthSpec& spec) {
-  return AnalyticShapes({.channel_width_um = spec.channel_width_um,
-                         .flow_rate_ul_s = spec.flow_rate_ul_s,
-                         .is_shell = spec.kind == CellKind::shell,
-                         .tension_ratio = spec.tension_ratio,
-                         .duct = spec.square_duct ? Duct::square : Duct::tube,
-                         .greatest_deformation = spec.greatest_deformation});
-}
-
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
@@ -72,11 +63,10 @@ VirtualRecording recording_from_json(const std::string& text) {
 }
 
 // In the child.
-std::string write(const SynthSpec& spec, const std::string& text, const fs::path& output,
-                  const TellProgress& on_progress) {
+std::string write(const SynthSpec& spec, const CellShapes& shapes, const RecordingProvenance& provenance,
+                  const fs::path& output, const TellProgress& on_progress) {
   const fs::path scratch = unfinished(output);
-  const RecordingProvenance provenance{fmt::format("rheocyte {}", version), lines_of(text)};
-  const auto result = write_virtual_recording(spec, shapes_of(spec), provenance, scratch, on_progress);
+  const auto result = write_virtual_recording(spec, shapes, provenance, scratch, on_progress);
   std::error_code error;
   fs::rename(scratch, output, error);
   if (error)
@@ -96,7 +86,8 @@ void report(const SynthOptions& options, const VirtualRecording& r) {
 int run(const SynthOptions& options) {
   check_output(options);
   const std::string text = read_case_text(options.spec);
-  const SynthSpec spec = parse_synth_spec(text, options.spec.string());
+  SynthSpec spec = parse_synth_spec(text, options.spec.string());
+  if (!spec.table.empty()) spec.table = options.spec.parent_path() / spec.table;  // an absolute one stays
   auto last = std::chrono::steady_clock::now();
   const auto show = [&](double fraction) {
     const auto now = std::chrono::steady_clock::now();
@@ -104,7 +95,11 @@ int run(const SynthOptions& options) {
     last = now;
     tell(fmt::format("{:.0f} %", 100 * fraction));
   };
-  const auto work = [&](const TellProgress& on_progress) { return write(spec, text, options.output, on_progress); };
+  const auto shapes = shapes_of(spec);
+  const RecordingProvenance provenance{fmt::format("rheocyte {}", version), lines_of(text)};
+  const auto work = [&](const TellProgress& on_progress) {
+    return write(spec, *shapes, provenance, options.output, on_progress);
+  };
   const ContainedEnd end = run_contained(work, {}, show);
   if (end.kind == ContainedEnd::Kind::finished) {
     if (!options.quiet) report(options, recording_from_json(end.text));

@@ -89,7 +89,7 @@ LevelLine LineFinder::line(double modulus_kPa) const {
   LevelLine result{modulus_kPa, {}};
   const double first = triangulation_.least_x(), last = triangulation_.greatest_x();
   double near = nan;
-  for (int i = columns - 1; i > rim * columns; --i) {
+  for (int i = columns - 1 - static_cast<int>(rim * columns); i > rim * columns; --i) {
     const double x = first + (last - first) * i / (columns - 1), y = deformation_at(x, modulus_kPa, near);
     if (y < (1 - rim) * triangulation_.border_at(x).upper) {  // false for NaN
       result.points.push_back({x * greatest_area_, y * greatest_deformation_});

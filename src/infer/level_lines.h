@@ -37,7 +37,7 @@ class LineFinder {
   std::vector<double> even_levels(int count) const;
 
   /// The lines of these moduli at the table's own conditions: where linear interpolation between its points has the
-  /// modulus, at equal steps of the area. They end a little before the upper rim of the support, where there is nothing
+  /// modulus, at equal steps of the area. They end a little before the rim of the support, where there is nothing
   /// to interpolate between. A modulus that the table does not have gives no line.
   LevelLines lines(std::span<const double> levels_kPa) const;
 

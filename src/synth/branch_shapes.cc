@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <utility>
 
 namespace rheocyte {
 
@@ -54,8 +56,8 @@ CellShape blended(double radius_um, std::span<const ScaledState> states) {
 
 }  // namespace
 
-BranchShapes::BranchShapes(std::span<const SampledBranch> branches, const BranchConditions& conditions)
-    : radii_(by_radius(branches)), conditions_(conditions) {
+BranchShapes::BranchShapes(std::vector<SampledBranch> branches, const BranchConditions& conditions)
+    : branches_(std::move(branches)), radii_(by_radius(branches_)), conditions_(conditions) {
   assert(radii_.size() > 1);
 }
 

@@ -1,9 +1,7 @@
 // Virtual cells by sampled branches of simulated states: interpolation between radii and stiffnesses.
 #pragma once
-#include <span>
 #include <vector>
 
-#include "case/case.h"
 #include "synth/cell_shapes.h"
 #include "table/radius_branches.h"
 
@@ -21,8 +19,8 @@ struct BranchConditions {
 /// polynomial in the radius through up to four branches at the same stiffness.
 class BranchShapes : public CellShapes {
  public:
-  /// The branches must outlive it; at least two radii (asserted).
-  BranchShapes(std::span<const SampledBranch> branches, const BranchConditions& conditions);
+  /// At least two radii, all contours with the same points (asserted).
+  BranchShapes(std::vector<SampledBranch> branches, const BranchConditions& conditions);
 
   std::variant<CellShape, NoShape> shape(const VirtualCell& cell) const override;
   std::string description() const override;
@@ -30,6 +28,7 @@ class BranchShapes : public CellShapes {
  private:
   std::variant<CellShape, NoShape> at(double radius_um, double stiffness) const;
 
+  std::vector<SampledBranch> branches_;
   std::vector<RadiusBranches> radii_;
   BranchConditions conditions_;
 };

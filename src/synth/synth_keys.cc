@@ -75,6 +75,9 @@ const std::array table{
              spread<&SynthSpec::stiffness>({1e-6, 1e6})},
     SynthKey{"cell.tension_ratio", "", "tension of shells over E2D", number<&SynthSpec::tension_ratio>({0, 100}, 0)},
 
+    SynthKey{"shapes.table", "",
+             "folder of a table by `rheocyte table`, seen from the spec; without it the closed model",
+             SynthWord{{}, "", [](SynthSpec& spec, const std::string& word) { spec.table = word; }}},
     SynthKey{"shapes.greatest_deformation", "",
              "cells that the model would deform more are left out; 0: the range in which "
              "the model holds",

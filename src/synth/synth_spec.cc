@@ -177,7 +177,14 @@ void check_pattern(const GivenByKey& keys, const std::string& key, std::string_v
     refuse(given->second, fmt::format("{} must have the form {}.", stated(given->second), shown));
 }
 
-void take_default_range(SynthSpec& spec) {
+void check_shapes(SynthSpec& spec, const GivenByKey& keys) {
+  if (!spec.table.empty()) {
+    for (const char* const key : {"shapes.greatest_deformation", "shapes.duct", "cell.tension_ratio"})
+      if (const auto given = keys.find(key); given != keys.end())
+        refuse(given->second, fmt::format("{} has no effect, because shapes.table is given; remove one of them.",
+                                          stated(given->second)));
+    return;
+  }
   if (spec.greatest_deformation == 0)
     spec.greatest_deformation = spec.kind == CellKind::solid ? greatest_solid_deformation : greatest_shell_deformation;
 }
@@ -218,12 +225,8 @@ SynthSpec parse_synth_spec(std::string_view text, const std::string& name) {
   if (spec.image_size().height > 4000)
     throw UserError(fmt::format("{}: the channel is {} pixels wide; give a larger recording.pixel_size_um.", name,
                                 std::floor(spec.channel_width_um / spec.pixel_size_um)));
-  take_default_range(spec);
+  check_shapes(spec, keys);
   return spec;
-}
-
-SynthSpec read_synth_spec(const std::filesystem::path& file) {
-  return parse_synth_spec(read_case_text(file), file.string());
 }
 
 }  // namespace rheocyte

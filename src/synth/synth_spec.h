@@ -39,6 +39,7 @@ struct SynthSpec {
   Spread stiffness;  ///< Young's modulus (kPa) of solids, modulus of the cortex (mN/m) of shells
   double tension_ratio = 0;
   // [shapes]
+  std::filesystem::path table;  ///< folder of a table of `rheocyte table`; empty: the closed model
   double greatest_deformation = 0;
   bool square_duct = false;
   // [noise]
@@ -47,9 +48,8 @@ struct SynthSpec {
   ImageSize image_size() const;
 };
 
-/// Reads and checks a spec. UserError: one sentence with file, line, key, value, range and the nearest known key.
-SynthSpec read_synth_spec(const std::filesystem::path& file);
-/// The same from text; `name` stands for the file in messages.
+/// Reads and checks a spec; `name` stands for its file in messages. UserError: one sentence with file, line, key,
+/// value, range and the nearest known key.
 SynthSpec parse_synth_spec(std::string_view text, const std::string& name);
 
 }  // namespace rheocyte

@@ -63,6 +63,21 @@ TEST_F(Synth, SaysWhatItMadeAndWhatItLeftOut) {
   EXPECT_NE(ended.err.find("of 100 cells are left out: too soft."), std::string::npos) << ended.err;
 }
 
+TEST_F(Synth, ATableInPlaceOfTheClosedModelIsLookedForBesideTheSpec) {
+  const std::string flow =
+      "[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\nviscosity_mPas = 15\n[cell]\nradius_um = 6\n"
+      "young_modulus_kPa = 4\n[shapes]\ntable = \"table\"\n";
+  test::write_file(folder_ / "spec.toml", flow);
+  expect_refusal({"synth", path("spec.toml"), "-o", path("v.rtdc")}, path("table") + ": there is no table");
+  const std::string of_shells =
+      "channel.width_um = 20\nflow.rate_ul_per_s = 0.04\nflow.viscosity_mPas = 15\ncell.bulk.law = \"none\"\n"
+      "cell.cortex.law = \"linear\"\n[table]\nidentifier = \"SHELL\"\nstiffness = "
+      "\"cell.cortex.modulus_mN_per_m\"\n";
+  fs::create_directories(folder_ / "table");
+  test::write_file(folder_ / "table/spec.toml", of_shells);
+  expect_refusal({"synth", path("spec.toml"), "-o", path("v.rtdc")}, "holds other files");
+}
+
 TEST_F(Synth, WhatIsWrongIsSaidAndLeavesNothing) {
   const std::string spec = path("spec.toml");
   expect_refusal({"synth", spec}, "--output is required");

@@ -76,6 +76,8 @@ TEST(SynthSpec, MistakesAreNamedWithTheWayOut) {
   expect_refusal(channel + "medium = \"0.83% MC-PBS\"\nviscosity_model = \"herold-2017\"\n" + cell, "0.83%");
   expect_refusal(channel + liquid + "medium = \"water\"\n" + cell, "has no effect, because flow.viscosity_mPas");
   expect_refusal(channel + liquid + "temperature_C.sd = 1\n" + cell, "has no effect, because flow.viscosity_mPas");
+  expect_refusal(channel + liquid + cell + "[shapes]\ntable = \"t\"\nduct = \"square\"\n",
+                 "because shapes.table is given");
   expect_refusal(channel + liquid + cell + "tension_ratio = 0.1\n", "because cell.kind is \"solid\"");
   expect_refusal(channel + liquid + cell + "kind = \"shell\"\n", "because cell.kind is \"shell\"");
   expect_refusal(channel + liquid + "[cell]\nkind = \"shell\"\nradius_um = 6\n",
@@ -85,14 +87,21 @@ TEST(SynthSpec, MistakesAreNamedWithTheWayOut) {
                  "\"normal\" or \"lognormal\"");
 }
 
-TEST(SynthSpec, TheExampleIsOne) { EXPECT_EQ(read_synth_spec(SYNTH_EXAMPLE).pictures, Pictures::images); }
-
-TEST(SynthSpec, EveryKeyIsDocumented) {
-  std::ifstream file(SYNTH_DOCUMENT);
+std::string content_of(const char* name) {
+  std::ifstream file(name);
   std::stringstream text;
   text << file.rdbuf();
+  return text.str();
+}
+
+TEST(SynthSpec, TheExampleIsOne) {
+  EXPECT_EQ(parse_synth_spec(content_of(SYNTH_EXAMPLE), "example").pictures, Pictures::images);
+}
+
+TEST(SynthSpec, EveryKeyIsDocumented) {
+  const std::string text = content_of(SYNTH_DOCUMENT);
   for (const auto& key : synth_keys())
-    EXPECT_NE(text.str().find("`" + std::string(key.key) + "`"), std::string::npos) << key.key;
+    EXPECT_NE(text.find("`" + std::string(key.key) + "`"), std::string::npos) << key.key;
 }
 
 }  // namespace
