@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/table_folder.h"
 #include "measurement/recording.h"
 #include "measurement/recording_writer.h"
 #include "robustness/run_program.h"
+#include "synth/analytic_branches.h"
 
 namespace rheocyte {
 namespace {
@@ -32,6 +34,12 @@ class Synth : public testing::Test {
     EXPECT_TRUE(test::is_one_line(ended.err)) << ended.err;
     EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
   }
+  std::vector<double> column(const std::string& name, const std::string& feature) const {
+    const Recording recording(folder_ / name);
+    std::vector<double> values(recording.events());
+    recording.read_scalar(feature, 0, values);
+    return values;
+  }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   test::ScratchFolder folder_;
 };
@@ -42,9 +50,7 @@ TEST_F(Synth, ModuliOfAVirtualRecordingAreThoseOfItsCells) {
   const auto table = fs::directory_iterator(folder_ / "table")->path().string();
   const auto ended = run({"extract", path("v.rtdc"), "--table", table, "--viscosity", "15"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  const Recording companion(folder_ / "v_rheocyte.rtdc");
-  std::vector<double> moduli(companion.events());
-  companion.read_scalar("emodulus", 0, moduli);
+  auto moduli = column("v_rheocyte.rtdc", "emodulus");
   std::erase_if(moduli, [](double value) { return std::isnan(value); });
   ASSERT_GT(moduli.size(), 350U);
   std::ranges::sort(moduli);
@@ -76,6 +82,25 @@ TEST_F(Synth, ATableInPlaceOfTheClosedModelIsLookedForBesideTheSpec) {
   fs::create_directories(folder_ / "table");
   test::write_file(folder_ / "table/spec.toml", of_shells);
   expect_refusal({"synth", path("spec.toml"), "-o", path("v.rtdc")}, "holds other files");
+}
+
+TEST_F(Synth, CellsOfAComputedTableHaveItsShapes) {
+  const auto spec = parse_table_spec(
+      "channel.width_um = 20\nflow.rate_ul_per_s = 0.04\nflow.viscosity_mPas = 15\n[table]\nidentifier = \"CLOSED\"\n"
+      "stiffness = \"cell.bulk.young_modulus_kPa\"\nleast_area_um2 = 45\ngreatest_area_um2 = 190\nradii = 12\n",
+      "table");
+  const TableFolder folder(folder_ / "table", spec);
+  for (int i = 0; i < folder.radii(); ++i) folder.keep(i, test::analytic_branch(folder.radius_um(i)), false);
+  test::write_file(folder_ / "spec.toml",
+                   test::content_of(folder_ / "spec.toml") + "[noise]\nlateral_um = 0\n[shapes]\n");
+  ASSERT_EQ(run({"synth", path("spec.toml"), "-o", path("closed.rtdc")}).exit_code, 0);
+  test::write_file(folder_ / "spec.toml", test::content_of(folder_ / "spec.toml") + "table = \"table\"\n");
+  const auto ended = run({"synth", path("spec.toml"), "-o", path("table.rtdc")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto closed = column("closed.rtdc", "userdef4"), table = column("table.rtdc", "userdef4");
+  ASSERT_EQ(closed.size(), table.size());
+  // Cubics between twelve radii.
+  for (std::size_t i = 0; i < closed.size(); ++i) EXPECT_NEAR(table[i], closed[i], 3e-3 * closed[i]);
 }
 
 TEST_F(Synth, WhatIsWrongIsSaidAndLeavesNothing) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "synth/analytic_branches.h"
 #include "synth/analytic_shapes.h"
 
 namespace rheocyte {
@@ -12,37 +13,9 @@ namespace {
 
 constexpr double viscosity = 15;
 
-// Branches of the closed model at 20 um and 0.04 ul/s, with slopes by differences.
 std::vector<SampledBranch> analytic_branches() {
-  const AnalyticShapes model({.channel_width_um = 20, .flow_rate_ul_s = 0.04, .greatest_deformation = 0.1});
-  const auto state = [&](double radius, double stiffness) {
-    return std::get<CellShape>(model.shape({radius, stiffness, viscosity}));
-  };
   std::vector<SampledBranch> branches;
-  for (double radius = 4; radius < 8.2; radius += 0.25) {
-    SampledBranch branch;
-    branch.radius_um = radius;
-    constexpr int samples = 16;
-    branch.value = Eigen::MatrixXd::Zero(samples, measure_count);
-    branch.slope = branch.value;
-    for (int i = 0; i < samples; ++i) {
-      const double stiffness = 20 * std::pow(4. / 20, i / (samples - 1.)), step = 1e-4;
-      const auto here = state(radius, stiffness), stiffer = state(radius, stiffness * std::exp(step)),
-                 softer = state(radius, stiffness * std::exp(-step));
-      branch.stiffness.push_back(stiffness);
-      branch.error.push_back(1e-4);
-      const auto take = [&](Measure m, double CellShape::*field) {
-        branch.value(i, int(m)) = here.*field;
-        branch.slope(i, int(m)) = (stiffer.*field - softer.*field) / (2 * step);
-      };
-      take(Measure::area_um2, &CellShape::area_um2);
-      take(Measure::deformation, &CellShape::deformation);
-      take(Measure::volume_um3, &CellShape::volume_um3);
-      branch.contour.push_back(here.meridian);
-      branch.contour_slope.emplace_back((stiffer.meridian - softer.meridian) / (2 * step));
-    }
-    branches.push_back(branch);
-  }
+  for (double radius = 4; radius < 8.2; radius += 0.25) branches.push_back(test::analytic_branch(radius));
   return branches;
 }
 
