@@ -23,7 +23,7 @@ struct ScaleFactors {
 ScaleFactors scale_factors(const ChannelConditions& from, const ChannelConditions& to);
 
 /// Why the scaling is not exact, one phrase each; empty: it is. The share of inertia counts from 0.1 % of the
-/// deformation on, by the increase of 1.3 % for each unit of the Reynolds number (docs/verification.md).
+/// deformation on, by an increase of 1.3 % for each unit of the Reynolds number (docs/tables.md).
 std::vector<std::string> doubts_of_scaling(const TableText& table, const ChannelConditions& to);
 
 /// The scaled table; header and metadata say from what, and the doubts.

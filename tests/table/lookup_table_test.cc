@@ -130,6 +130,14 @@ TEST(LookupTable, TheTextHoldsUprightColumnsAndAllParameters) {
   EXPECT_FALSE(area.metadata.at("case").at("cell").contains("radius_um"));
 }
 
+TEST(LookupTable, BranchesWithoutStatesGiveFilesWithoutRows) {
+  const auto spec = spec_with({});
+  const std::vector<SampledBranch> branches(3, SampledBranch{5, 0, {}, {}, {}, {}, {}, {}, {"no-first-state", "x"}});
+  const auto files = table_files(make_lookup_table(spec, branches, "0"));
+  EXPECT_NE(files.front().content.find("\"rows\": 0"), std::string::npos);
+  EXPECT_EQ(std::ranges::count(end_of_branch_csv(make_lookup_table(spec, branches, "0")), '\n'), 1);
+}
+
 TEST(LookupTable, ShearThinningLiquidsHaveTheirWallViscosity) {
   const auto spec = parse_table_spec(
       short_spec, "spec.toml",
