@@ -10,9 +10,11 @@
 
 #include "app/build_info.h"
 #include "app/exit_codes.h"
+#include "app/picture.h"
 #include "app/standard_error.h"
 #include "app/table_folder.h"
 #include "app/table_processes.h"
+#include "case/user_error.h"
 #include "table/lookup_table.h"
 #include "table/simulations_file.h"
 
@@ -23,16 +25,20 @@ namespace {
 struct TableOptions {
   std::filesystem::path spec, folder;
   std::vector<std::string> settings;
+  std::vector<double> levels;  ///< of the lines; empty: chosen by the table
   int jobs = 0;
-  bool quiet = false;
+  bool quiet = false, no_picture = false;
 };
 
-void write_files(const TableFolder& folder) {
+void write_files(const TableFolder& folder, const TableOptions& options) {
   const auto branches = folder.read_all();
   const LookupTable table = make_lookup_table(folder.spec(), branches, version);
-  for (const auto& [name, content] : table_files(table)) folder.publish(name, content);
+  for (const auto& [name, content] : table_files(table, options.levels)) folder.publish(name, content);
   folder.publish(fmt::format("simulations_{}.h5", folder.spec().identifier), simulations_file(table));
   folder.tidy();
+  if (options.no_picture) return;
+  if (const auto failure = draw_table_pictures(folder.path()); !failure.empty())
+    tell(fmt::format("rheocyte: warning: no pictures ({}); the tables are complete.", one_line(failure, 300)));
 }
 
 std::string summary(const TableFolder& folder) {
@@ -67,7 +73,7 @@ int make_table(const TableOptions& options) {
   }
   if (!end.complete) return end.worker_code;
   if (rank.number > 0) return exit_converged;
-  write_files(folder);
+  write_files(folder, options);
   if (!options.quiet) fmt::print("{}  folder {}\n", summary(folder), options.folder.string());
   return exit_converged;
 }
@@ -80,6 +86,10 @@ void add_table_command(CLI::App& app, int& exit_code) {
   command->add_option("SPEC", options->spec, "spec of the table (TOML), see examples/tables")->required();
   command->add_option("-o,--output", options->folder, "folder of the table")->required();
   command->add_option("--set", options->settings, "key=value in place of the spec's")->allow_extra_args(false);
+  command->add_option("--levels", options->levels, "stiffnesses of the lines, comma-separated; default: 11 that fit")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--no-picture", options->no_picture, "no pictures");
   command->add_option("-j,--jobs", options->jobs, "processes on this machine; default: all processors")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", options->quiet, "no progress, no summary");

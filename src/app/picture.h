@@ -9,4 +9,7 @@ namespace rheocyte {
 /// The environment's RHEOCYTE_PYTHON replaces the folder in which the Python package is looked for.
 std::string draw_picture(const std::filesystem::path& folder);
 
+/// Draws lines, coverage and error of a finished table. Empty, or why it failed.
+std::string draw_table_pictures(const std::filesystem::path& folder);
+
 }  // namespace rheocyte

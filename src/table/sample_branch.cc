@@ -288,7 +288,10 @@ class BranchSampler {
   /// The deformation of the interpolated contour against the interpolated deformation, relative, in the middle: the
   /// convex hull makes the deformation less smooth than the contour where a dent appears.
   double middle_mismatch(const Node& a, const Node& b) {
-    if (a.level != b.level || a.tangent.size() == 0) return 0;
+    const auto is_convex = [](const Node& node) {
+      return node.state.value(int(Measure::deformation_raw)) <= node.state.value(0) * (1 + 1e-5);
+    };
+    if ((is_convex(a) && is_convex(b)) || a.level != b.level || a.tangent.size() == 0) return 0;
     const double h = b.u - a.u;
     const VectorXd middle = (a.unknowns + b.unknowns) / 2 + h / 8 * (a.tangent - b.tangent);
     const double log_d = (a.log_d() + b.log_d()) / 2 + h / 8 * (a.log_d_slope() - b.log_d_slope());

@@ -39,7 +39,7 @@ class TableCommand : public testing::Test {
   fs::path spec() const { return folder_.path() / "spec.toml"; }
   fs::path table(const std::string& name) const { return folder_.path() / name; }
   std::vector<std::string> command(const fs::path& output) const {
-    return {RHEOCYTE, "table", spec().string(), "-o", output.string(), "--jobs", "2"};
+    return {RHEOCYTE, "table", spec().string(), "-o", output.string(), "--jobs", "2", "--no-picture"};
   }
   Ended make(const fs::path& output, std::map<std::string, std::string> environment = {}) const {
     return run({command(output), environment});
