@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "app/contained.h"
+#include "app/contained_sentence.h"
 #include "app/exit_codes.h"
 #include "app/extract_recording.h"
 #include "app/extract_summary.h"
@@ -43,27 +44,6 @@ class ProgressLines {
   bool quiet_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-std::string sentence_for(const RecordingTask& task, const ContainedEnd& end, double patience_s) {
-  const std::string name = one_line(task.recording.string(), 300);
-  switch (end.kind) {
-    case Kind::user_error: return end.text;
-    case Kind::no_memory:
-      return fmt::format("{}: reading it needs more memory than any sound recording does; it is damaged.", name);
-    case Kind::hung:
-      return fmt::format(
-          "{}: nothing could be read for {} s; it is damaged, or its drive does not answer (--patience "
-          "waits longer).",
-          name, patience_s);
-    case Kind::broke_down:
-      return fmt::format(
-          "{}: the HDF5 library broke down while reading it ({}); it is damaged, copy it once more from "
-          "where it was recorded.",
-          name, one_line(end.text, 100));
-    default:
-      return fmt::format("{}: an error of the program itself, please report it: {}", name, one_line(end.text, 300));
-  }
-}
 
 void make_folder_for(const fs::path& file) {
   std::error_code error;
@@ -114,7 +94,7 @@ class Batch {
       for (const auto& file : {task.output.companion, task.output.events}) fs::remove(unfinished(file), ignored);
       if (end.kind == Kind::stopped) return false;
       failed_ = true;
-      lines_.push_back({task.recording, {}, sentence_for(task, end, options_.patience_s)});
+      lines_.push_back({task.recording, {}, sentence_for(task.recording, end, options_.patience_s)});
       tell(lines_.back().error);
     }
     return true;

@@ -17,7 +17,9 @@ void check_positive(const std::optional<double>& value, const char* option) {
     throw UserError(fmt::format("rheocyte: {} must be a positive number.", option));
 }
 
-void check(const ExtractOptions& options) {
+}  // namespace
+
+void check_measuring_options(const ExtractOptions& options) {
   check_positive(options.channel_width_um, "--channel-width");
   check_positive(options.flow_rate_ul_s, "--flow-rate");
   check_positive(options.pixel_size_um, "--pixel-size");
@@ -32,18 +34,7 @@ void check(const ExtractOptions& options) {
     throw UserError(fmt::format("rheocyte: --viscosity and {} contradict each other; give one of them.", other));
 }
 
-}  // namespace
-
-void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run) {
-  command.add_option("FILES", options.inputs, "recordings (.rtdc); folders with -r")->required();
-  command.add_option("-o,--output", options.folder, "folder for the results; without it they go beside each recording")
-      ->type_name("DIR");
-  command.add_flag("-r,--recursive", options.recursive, "search the given folders for recordings");
-  command
-      .add_option("--table", options.table,
-                  "look-up table: a file in dclab's format, or the identifier of a table of an installed dclab")
-      ->type_name("TABLE")
-      ->required();
+void declare_measuring_options(CLI::App& command, ExtractOptions& options) {
   command.add_option("--channel-width", options.channel_width_um, "um; default: from the recording");
   command.add_option("--flow-rate", options.flow_rate_ul_s, "ul/s, sample and sheath; default: from the recording");
   command.add_option("--pixel-size", options.pixel_size_um, "um; default: from the recording");
@@ -55,12 +46,25 @@ void declare_extract_options(CLI::App& command, ExtractOptions& options, std::fu
                   "degC; or feature: of each event; or metadata; default: of each event if the recording has it")
       ->type_name("VALUE|feature|metadata");
   command.add_flag("--no-pixelation", options.no_pixelation, "do not correct deformations for the pixels");
-  command.add_flag("--no-tsv", options.no_tsv, "do not write a table with one line per event");
-  command.add_flag("--quiet", options.quiet, "print neither progress nor results");
   command.add_option("--patience", options.patience_s,
                      "give a recording up when nothing was read from it for so many seconds (60)");
+}
+
+void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run) {
+  command.add_option("FILES", options.inputs, "recordings (.rtdc); folders with -r")->required();
+  command.add_option("-o,--output", options.folder, "folder for the results; without it they go beside each recording")
+      ->type_name("DIR");
+  command.add_flag("-r,--recursive", options.recursive, "search the given folders for recordings");
+  command
+      .add_option("--table", options.table,
+                  "look-up table: a file in dclab's format, or the identifier of a table of an installed dclab")
+      ->type_name("TABLE")
+      ->required();
+  declare_measuring_options(command, options);
+  command.add_flag("--no-tsv", options.no_tsv, "do not write a table with one line per event");
+  command.add_flag("--quiet", options.quiet, "print neither progress nor results");
   command.callback([&options, run = std::move(run)] {
-    check(options);
+    check_measuring_options(options);
     run();
   });
 }

@@ -24,7 +24,12 @@ struct ExtractOptions {
   double patience_s = 60;
 };
 
-/// Declares the options on the command; `run` is called when they are complete. UserError if they contradict.
+/// Declares those that say how a recording was measured: channel, flow, pixels, viscosity, temperature, patience.
+void declare_measuring_options(CLI::App& command, ExtractOptions& options);
+/// UserError if a value is not positive or two of them contradict.
+void check_measuring_options(const ExtractOptions& options);
+
+/// Declares all options on the command; `run` is called when they are complete. UserError if they contradict.
 void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run);
 
 }  // namespace rheocyte

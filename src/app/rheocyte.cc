@@ -8,8 +8,10 @@
 #include "app/command_help.h"
 #include "app/command_line.h"
 #include "app/command_picture.h"
+#include "app/command_plot.h"
 #include "app/command_scale.h"
 #include "app/command_solve.h"
+#include "app/command_synth.h"
 #include "app/command_table.h"
 
 int main(int argc, char** argv) {
@@ -23,7 +25,9 @@ int main(int argc, char** argv) {
   rheocyte::add_picture_command(app, exit_code);
   rheocyte::add_analytic_command(app);
   rheocyte::add_extract_command(app, exit_code);
+  rheocyte::add_plot_command(app, exit_code);
   rheocyte::add_scale_command(app);
+  rheocyte::add_synth_command(app, exit_code);
   rheocyte::add_figure_command(app, exit_code);
   rheocyte::add_table_command(app, exit_code);
   rheocyte::add_help_command(app);

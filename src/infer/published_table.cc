@@ -66,13 +66,14 @@ double quantity(const Reader& reader, const json& metadata, const std::string& k
   return value->get<double>();
 }
 
-void take_metadata(const Reader& reader, const json& metadata, PublishedTable& table) {
+void take_metadata(const Reader& reader, const json& metadata, const std::string& identifier_key,
+                   PublishedTable& table) {
   table.channel_width_um = quantity(reader, metadata, "channel_width", "um");
   table.flow_rate_ul_s = quantity(reader, metadata, "flow_rate", "uL/s");
   table.viscosity_mPas = quantity(reader, metadata, "fluid_viscosity", "mPa s");
-  const auto identifier = metadata.find("identifier");
+  const auto identifier = metadata.find(identifier_key);
   if (identifier == metadata.end() || !identifier->is_string())
-    reader.refuse("the metadata need a text \"identifier\".");
+    reader.refuse(fmt::format("the metadata need a text \"{}\".", identifier_key));
   table.identifier = one_line(identifier->get<std::string>(), 100);
 }
 
@@ -111,7 +112,7 @@ void take_row(const Reader& reader, PublishedTable& table) {
 
 }  // namespace
 
-PublishedTable read_published_table(const fs::path& file) {
+PublishedTable read_published_table(const fs::path& file, const std::string& identifier_key) {
   Reader reader(file);
   PublishedTable table;
   std::string metadata, header;
@@ -123,7 +124,7 @@ PublishedTable read_published_table(const fs::path& file) {
     } else if (line == end_metadata && in_metadata) {
       in_metadata = false;
       had_metadata = true;
-      take_metadata(reader, parse_metadata(reader, metadata), table);
+      take_metadata(reader, parse_metadata(reader, metadata), identifier_key, table);
     } else if (line.starts_with('#')) {
       if (in_metadata) metadata += std::string(line.substr(1)) + "\n";
       if (!in_metadata) header = line;

@@ -19,7 +19,8 @@ struct PublishedTable {
 
 /// Reads a table in the format of dclab. UserError with file and line: no such file, no metadata, a missing or wrong
 /// unit, other columns, numbers that are none, fewer than three rows, no
-/// positive deformation.
-PublishedTable read_published_table(const std::filesystem::path& file);
+/// positive deformation. Files of isoelasticity lines differ only in the key that names the table.
+PublishedTable read_published_table(const std::filesystem::path& file,
+                                    const std::string& identifier_key = "identifier");
 
 }  // namespace rheocyte

@@ -1,21 +1,17 @@
 #include "measurement/companion_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <map>
 
 #include "case/user_error.h"
 #include "measurement/basin.h"
 #include "measurement/hdf5_handle.h"
 #include "measurement/hdf5_reading.h"
-#include "measurement/zstd_filter.h"
+#include "measurement/hdf5_writing.h"
 
 namespace rheocyte {
 
@@ -23,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_log_line = 100;  // bytes; the field's checker complains about longer ones
-constexpr std::size_t chunk_bytes = 1 << 20;
 constexpr std::size_t greatest_attribute = 1 << 20;
 constexpr const char* version_key = "setup:software version";
 constexpr const char* count_key = "experiment:event count";
@@ -61,57 +55,6 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* tar
   ::H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, values.data());
   return 0;
 }
-
-Hdf5Handle text_type(std::size_t size) {
-  Hdf5Handle type(::H5Tcopy(H5T_C_S1));
-  ::H5Tset_size(type.get(), size);
-  ::H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
-  return type;
-}
-
-bool write_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
-  const Hdf5Handle space(::H5Screate(H5S_SCALAR));
-  const Hdf5Handle attribute(::H5Acreate2(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT));
-  return attribute && ::H5Awrite(attribute.get(), type, value) >= 0;
-}
-
-bool write_text(hid_t object, const std::string& name, const std::string& text) {
-  Hdf5Handle type(::H5Tcopy(H5T_C_S1));
-  ::H5Tset_size(type.get(), H5T_VARIABLE);
-  ::H5Tset_cset(type.get(), H5T_CSET_UTF8);
-  const char* pointer = text.c_str();
-  return write_attribute(object, name, type.get(), static_cast<const void*>(&pointer));
-}
-
-bool write_lines(hid_t file, const std::string& path, const std::vector<std::string>& lines) {
-  std::size_t longest = longest_log_line;
-  for (const auto& line : lines) longest = std::max(longest, line.size());
-  std::vector<char> characters(longest * lines.size(), '\0');
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    std::memcpy(characters.data() + i * longest, lines[i].data(), lines[i].size());
-  const hsize_t extent = lines.size();
-  const Hdf5Handle type = text_type(longest), space(::H5Screate_simple(1, &extent, nullptr));
-  const Hdf5Handle links(::H5Pcreate(H5P_LINK_CREATE));
-  ::H5Pset_create_intermediate_group(links.get(), 1);
-  const Hdf5Handle dataset(
-      ::H5Dcreate2(file, path.c_str(), type.get(), space.get(), links.get(), H5P_DEFAULT, H5P_DEFAULT));
-  return dataset && ::H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, characters.data()) >= 0;
-}
-
-/// Least, greatest and mean of the finite values, as the field's programs keep them with each feature.
-struct Extremes {
-  double least = std::numeric_limits<double>::infinity(), greatest = -least, sum = 0;
-  std::size_t count = 0;
-  void add(std::span<const double> values) {
-    for (const double value : values) {
-      if (!std::isfinite(value)) continue;
-      least = std::min(least, value);
-      greatest = std::max(greatest, value);
-      sum += value;
-      ++count;
-    }
-  }
-};
 
 struct Feature {
   Hdf5Handle dataset;
@@ -164,14 +107,10 @@ void CompanionFile::add_user_metadata(const std::string& key, const std::string&
 void CompanionFile::add_feature(const std::string& feature) {
   Content& c = *content_;
   const hsize_t extent = c.events, unlimited = H5S_UNLIMITED;
-  const hsize_t chunk = std::clamp<hsize_t>(extent, 10, chunk_bytes / sizeof(double));
-  const unsigned level = 5;
-  const Hdf5Handle space(::H5Screate_simple(1, &extent, &unlimited)), properties(::H5Pcreate(H5P_DATASET_CREATE));
+  const hsize_t chunk = std::clamp<hsize_t>(extent, 10, written_chunk_bytes / sizeof(double));
+  const Hdf5Handle space(::H5Screate_simple(1, &extent, &unlimited)), properties = compressed({&chunk, 1});
   const Hdf5Handle access(::H5Pcreate(H5P_DATASET_ACCESS));
-  ::H5Pset_chunk(properties.get(), 1, &chunk);
-  ::H5Pset_filter(properties.get(), zstd_filter_number, H5Z_FLAG_MANDATORY, 1, &level);
-  ::H5Pset_fletcher32(properties.get());
-  ::H5Pset_chunk_cache(access.get(), 521, 4 * chunk_bytes, 1.0);
+  ::H5Pset_chunk_cache(access.get(), 521, 4 * written_chunk_bytes, 1.0);
   Feature& added = c.features[feature];
   added.dataset = Hdf5Handle(::H5Dcreate2(c.file.get(), ("events/" + feature).c_str(), H5T_IEEE_F64LE, space.get(),
                                           H5P_DEFAULT, properties.get(), access.get()));
@@ -191,11 +130,7 @@ void CompanionFile::write(const std::string& feature, std::size_t first, std::sp
 }
 
 void CompanionFile::add_log(const std::string& name, const std::vector<std::string>& lines) {
-  std::vector<std::string> broken;
-  for (const auto& line : lines)
-    for (std::size_t at = 0; at == 0 || at < line.size(); at += longest_log_line)
-      broken.push_back(line.substr(at, longest_log_line));
-  content_->check(write_lines(content_->file.get(), "logs/" + name, broken), "the log");
+  content_->check(write_lines(content_->file.get(), "logs/" + name, broken_lines(lines)), "the log");
 }
 
 void CompanionFile::add_basin(const std::vector<std::string>& paths) {
@@ -205,24 +140,9 @@ void CompanionFile::add_basin(const std::vector<std::string>& paths) {
 
 void CompanionFile::close() {
   Content& c = *content_;
-  for (auto& [name, feature] : c.features) {
-    const auto& [least, greatest, sum, count] = feature.extremes;
-    if (count > 0) {
-      const double mean = sum / static_cast<double>(count);
-      const hid_t dataset = feature.dataset.get(), type = H5T_NATIVE_DOUBLE;
-      c.check(write_attribute(dataset, "min", type, &least) && write_attribute(dataset, "max", type, &greatest) &&
-                  write_attribute(dataset, "mean", type, &mean),
-              name);
-    }
-  }
-  // Closing flushes the chunks; only flushing says whether that worked.
-  const bool flushed = ::H5Fflush(c.file.get(), H5F_SCOPE_LOCAL) >= 0;
+  for (const auto& [name, feature] : c.features) c.check(write_extremes(feature.dataset.get(), feature.extremes), name);
   c.features.clear();
-  c.file = Hdf5Handle();
-  const int descriptor = ::open(c.path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool on_disk = descriptor >= 0 && ::fsync(descriptor) == 0;
-  if (descriptor >= 0) ::close(descriptor);
-  c.check(flushed && on_disk, "the file");
+  c.check(close_on_disk(c.file, c.path.string()), "the file");
 }
 
 }  // namespace rheocyte

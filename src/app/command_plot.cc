@@ -1,0 +1,179 @@
+#include "app/command_plot.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+
+#include "app/child_process.h"
+#include "app/contained.h"
+#include "app/contained_sentence.h"
+#include "app/exit_codes.h"
+#include "app/find_table.h"
+#include "app/plot_options.h"
+#include "app/plot_panel.h"
+#include "app/python_package.h"
+#include "app/standard_error.h"
+#include "app/stop_signal.h"
+#include "case/user_error.h"
+#include "infer/level_lines.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int number_of_lines = 11;  // as many as the published files have
+
+/// A folder for what goes to the drawing program; removed with the object.
+class HandOver {
+ public:
+  HandOver() {
+    std::error_code error;
+    std::string name = (fs::temp_directory_path(error) / "rheocyte-plot-XXXXXX").string();
+    if (error || !::mkdtemp(name.data()))
+      throw UserError("rheocyte: there is no place for temporary files; TMPDIR names a folder for them.");
+    path_ = name;
+  }
+  ~HandOver() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  HandOver(const HandOver&) = delete;
+  HandOver& operator=(const HandOver&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+json as_json(std::span<const PlanePoint> points) {
+  json area = json::array(), deformation = json::array();
+  for (const auto& point : points) {
+    area.push_back(point.x);
+    deformation.push_back(point.y);
+  }
+  return {{"area_um2", std::move(area)}, {"deformation", std::move(deformation)}};
+}
+
+double rounded(double value) { return std::stod(fmt::format("{:.2g}", value)); }
+
+/// The picture of one call.
+class Plot {
+ public:
+  explicit Plot(const PlotOptions& options) : options_(options), stem_(picture_stem(options)) {
+    if (!options.measuring.table.empty()) finder_.emplace(read_published_table(find_table(options.measuring.table)));
+    if (!options.lines.empty()) given_lines_ = read_level_lines(options.lines);
+  }
+
+  int run() {
+    json panels = json::array();
+    for (const auto& recording : options_.measuring.inputs) {
+      const auto name = fmt::format("events-{}", panels.size());
+      const ContainedEnd end = read(recording, folder_.path() / name);
+      if (end.kind == ContainedEnd::Kind::stopped) return exit_signal + signal_received();
+      if (end.kind != ContainedEnd::Kind::finished)
+        throw UserError(sentence_for(recording, end, options_.measuring.patience_s));
+      panels.push_back(described(recording, panel_from_json(end.text)));
+      panels.back()["events_file"] = name;
+    }
+    std::ofstream file(folder_.path() / "plot.json");
+    file << json{{"panels", panels}}.dump(-1, ' ', false, json::error_handler_t::replace);
+    file.close();
+    if (!file) throw UserError("rheocyte: the disk for temporary files is full; TMPDIR names another folder.");
+    return draw();
+  }
+
+ private:
+  bool wants_lines() const { return finder_ || given_lines_; }
+
+  ContainedEnd read(const fs::path& recording, const fs::path& events) const {
+    Containment limits;
+    limits.patience_s = options_.measuring.patience_s;
+    const auto work = [&](const TellProgress& on_progress) {
+      return to_json(plot_panel(recording, events, options_, wants_lines(), on_progress));
+    };
+    return run_contained(work, limits, [](double) {});
+  }
+
+  json described(const fs::path& recording, const PlotPanel& panel) const {
+    json j{{"title", one_line(recording.filename().string(), 100)},
+           {"sample", panel.sample},
+           {"measured", panel.measured},
+           {"events", panel.events},
+           {"drawable", panel.drawable},
+           {"width_um", panel.width_um},
+           {"lines", json::array()}};
+    if (!options_.measuring.quiet)
+      for (const auto& warning : panel.warnings)
+        tell(fmt::format("{}: {}", one_line(recording.string(), 200), warning));
+    if (!panel.has_conditions) return j;
+    const LevelLines lines = lines_for(panel);
+    const double factor = modulus_factor(lines, panel.conditions, panel.viscosity_mPas);
+    for (const auto& line : lines.lines) {
+      j["lines"].push_back(as_json(as_measured(line.points, lines.channel_width_um, panel.conditions)));
+      j["lines"].back()["young_modulus_kPa"] = line.modulus_kPa * factor;
+    }
+    j["table"] = lines.identifier;
+    j["pixels"] = panel.conditions.pixel_size_um;
+    if (finder_)
+      j["support"] = as_json(as_measured(finder_->support(), finder_->table().channel_width_um, panel.conditions));
+    return j;
+  }
+
+  // Of the levels that spread over the picture, those next to two digits in the recording's own channel.
+  LevelLines lines_for(const PlotPanel& panel) const {
+    if (given_lines_) return *given_lines_;
+    const double factor = modulus_factor(finder_->lines({}), panel.conditions, panel.viscosity_mPas);
+    std::vector<double> levels = options_.levels_kPa;
+    if (levels.empty())
+      for (const double level : finder_->even_levels(number_of_lines)) levels.push_back(rounded(level * factor));
+    for (double& level : levels) level /= factor;
+    return finder_->lines(levels);
+  }
+
+  int draw() const {
+    if (stop_wanted()) return exit_signal + signal_received();
+    auto call = python_call("rheocyte.event_plot");
+    call.insert(call.end(), {"--", folder_.path().string(), stem_.string()});
+    const auto drawn = run_child(call, python_environment());
+    if (stop_wanted()) return exit_signal + signal_received();
+    if (drawn.exit_code == exit_user_error) throw UserError(drawn.last_line);
+    if (drawn.exit_code != 0) {
+      tell(fmt::format("rheocyte: the picture could not be drawn ({}).",
+                       drawn.last_line.empty() ? "the drawing program failed" : one_line(drawn.last_line, 300)));
+      return exit_own_bug;
+    }
+    if (!options_.measuring.quiet) fmt::print("{0}.png and {0}.svg\n", stem_.string());
+    return exit_converged;
+  }
+
+  const PlotOptions& options_;
+  fs::path stem_;
+  std::optional<LineFinder> finder_;
+  std::optional<LevelLines> given_lines_;
+  HandOver folder_;
+};
+
+}  // namespace
+
+void add_plot_command(CLI::App& app, int& exit_code) {
+  auto* command =
+      app.add_subcommand("plot", "area against deformation of recordings (.rtdc), with lines of equal modulus");
+  auto options = std::make_shared<PlotOptions>();
+  declare_plot_options(*command, *options, [options, &exit_code] {
+    watch_signals();
+    exit_code = Plot(*options).run();
+  });
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,132 @@
+#include "app/command_synth.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
+
+#include "app/build_info.h"
+#include "app/contained.h"
+#include "app/exit_codes.h"
+#include "app/extract_recording.h"
+#include "app/standard_error.h"
+#include "app/stop_signal.h"
+#include "app/synth_shapes.h"
+#include "case/case_text.h"
+#include "case/user_error.h"
+#include "synth/virtual_recording.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SynthOptions {
+  fs::path spec, output;
+  bool force = false, quiet = false;
+};
+
+void check_output(const SynthOptions& options) {
+  const std::string name = one_line(options.output.string(), 300);
+  std::error_code error;
+  if (options.output.extension() != ".rtdc")
+    throw UserError(fmt::format("{}: recordings have names that end in .rtdc; give such a name with -o.", name));
+  if (fs::is_directory(options.output, error))
+    throw UserError(fmt::format("{}: is a folder; give the name of a file with -o.", name));
+  if (!options.force && fs::exists(options.output, error))
+    throw UserError(fmt::format("{}: is there already; give another name with -o, or --force to replace it.", name));
+  const auto parent = fs::absolute(options.output, error).parent_path();
+  if (!fs::is_directory(parent, error))
+    throw UserError(fmt::format("{}: there is no such folder.", one_line(parent.string(), 300)));
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string to_json(const VirtualRecording& r) {
+  return nlohmann::json{r.cells, r.events, r.missing, r.mean_area_error, r.mean_deformation_error}.dump();
+}
+
+VirtualRecording recording_from_json(const std::string& text) {
+  const auto j = nlohmann::json::parse(text);
+  return {j[0], j[1], j[2], j[3], j[4]};
+}
+
+// In the child.
+std::string write(const SynthSpec& spec, const CellShapes& shapes, const RecordingProvenance& provenance,
+                  const fs::path& output, const TellProgress& on_progress) {
+  const fs::path scratch = unfinished(output);
+  const auto result = write_virtual_recording(spec, shapes, provenance, scratch, on_progress);
+  std::error_code error;
+  fs::rename(scratch, output, error);
+  if (error)
+    throw UserError(
+        fmt::format("{}: cannot be put in its place ({}).", one_line(output.string(), 300), error.message()));
+  return to_json(result);
+}
+
+void report(const SynthOptions& options, const VirtualRecording& r) {
+  fmt::print("{}: {} events; areas measured {:+.2f} %, deformations {:+.5f} from the true ones on average\n",
+             options.output.string(), r.events, 100 * r.mean_area_error, r.mean_deformation_error);
+  for (std::size_t k = 0; k < r.missing.size(); ++k)
+    if (r.missing[k] > 0)
+      tell(fmt::format("{} of {} cells are left out: {}.", r.missing[k], r.cells, names_of_missing_shapes[k]));
+}
+
+int run(const SynthOptions& options) {
+  check_output(options);
+  const std::string text = read_case_text(options.spec);
+  SynthSpec spec = parse_synth_spec(text, options.spec.string());
+  if (!spec.table.empty()) spec.table = options.spec.parent_path() / spec.table;  // an absolute one stays
+  auto last = std::chrono::steady_clock::now();
+  const auto show = [&](double fraction) {
+    const auto now = std::chrono::steady_clock::now();
+    if (options.quiet || now - last < std::chrono::seconds(2)) return;
+    last = now;
+    tell(fmt::format("{:.0f} %", 100 * fraction));
+  };
+  const auto shapes = shapes_of(spec);
+  const RecordingProvenance provenance{fmt::format("rheocyte {}", version), lines_of(text)};
+  const auto work = [&](const TellProgress& on_progress) {
+    return write(spec, *shapes, provenance, options.output, on_progress);
+  };
+  const ContainedEnd end = run_contained(work, {}, show);
+  if (end.kind == ContainedEnd::Kind::finished) {
+    if (!options.quiet) report(options, recording_from_json(end.text));
+    return exit_converged;
+  }
+  std::error_code ignored;
+  fs::remove(unfinished(options.output), ignored);
+  if (end.kind == ContainedEnd::Kind::stopped) return exit_signal + signal_received();
+  if (end.kind == ContainedEnd::Kind::user_error) throw UserError(end.text);
+  if (end.kind == ContainedEnd::Kind::no_memory) throw std::bad_alloc();
+  throw std::runtime_error(end.kind == ContainedEnd::Kind::hung ? "writing the recording hung" : end.text);
+}
+
+}  // namespace
+
+void add_synth_command(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("synth", "a virtual recording (.rtdc) of a population of cells");
+  auto options = std::make_shared<SynthOptions>();
+  command->add_option("SPEC", options->spec, "population, channel, camera and noise (TOML), see docs/plot-and-synth.md")
+      ->required();
+  command->add_option("-o,--output", options->output, "the recording")->type_name("FILE.rtdc")->required();
+  command->add_flag("--force", options->force, "replace a file that is there");
+  command->add_flag("--quiet", options->quiet, "print nothing but errors");
+  command->callback([options, &exit_code] {
+    watch_signals();
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,78 @@
+#include "app/plot_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t greatest_number_of_panels = 24, greatest_number_of_levels = 50;
+
+void check(const PlotOptions& options) {
+  check_measuring_options(options.measuring);
+  const auto& recordings = options.measuring.inputs;
+  if (recordings.size() > greatest_number_of_panels)
+    throw UserError(fmt::format("rheocyte: {} recordings do not fit into one picture; give at most {}.",
+                                recordings.size(), greatest_number_of_panels));
+  std::error_code error;
+  for (const auto& file : recordings)
+    if (fs::is_directory(file, error))
+      throw UserError(fmt::format("{}: is a folder; give recordings.", one_line(file.string(), 300)));
+  if (options.levels_kPa.empty()) return;
+  if (!options.lines.empty() || options.measuring.table.empty())
+    throw UserError("rheocyte: --levels needs the table from which the lines are made; give --table and no --lines.");
+  if (options.levels_kPa.size() > greatest_number_of_levels)
+    throw UserError(fmt::format("rheocyte: --levels: give at most {} moduli.", greatest_number_of_levels));
+  for (const double level : options.levels_kPa)
+    if (!(level > 0 && std::isfinite(level)))
+      throw UserError("rheocyte: --levels must be positive moduli (kPa), separated by commas.");
+}
+
+}  // namespace
+
+void declare_plot_options(CLI::App& command, PlotOptions& options, std::function<void()> run) {
+  auto& measuring = options.measuring;
+  command.add_option("FILES", measuring.inputs, "recordings (.rtdc), one panel each")->required();
+  command
+      .add_option("-o,--output", options.output,
+                  "name of the pictures; NAME.png and NAME.svg are written; default: beside the first recording")
+      ->type_name("NAME");
+  command
+      .add_option("--table", measuring.table,
+                  "look-up table for lines of equal modulus and the shaded region: a file in dclab's format, or the "
+                  "identifier of a table of an installed dclab")
+      ->type_name("TABLE");
+  command.add_option("--lines", options.lines, "isoelasticity lines in dclab's format, in place of the table's own")
+      ->type_name("FILE");
+  command.add_option("--levels", options.levels_kPa, "moduli (kPa) of the table's lines, e.g. 0.5,1,2")->delimiter(',');
+  declare_measuring_options(command, measuring);
+  command.add_flag("--quiet", measuring.quiet, "print nothing but errors");
+  command.callback([&options, run = std::move(run)] {
+    check(options);
+    run();
+  });
+}
+
+fs::path picture_stem(const PlotOptions& options) {
+  fs::path stem = options.output;
+  if (stem.empty()) {
+    const fs::path& first = options.measuring.inputs.front();
+    return first.parent_path() / (first.stem().string() + "_rheocyte");
+  }
+  if (stem.extension() == ".png" || stem.extension() == ".svg") stem.replace_extension();
+  if (!stem.has_filename() || fs::is_directory(stem))
+    throw UserError(
+        fmt::format("{}: is a folder; give a name for the pictures with -o.", one_line(options.output.string(), 300)));
+  return stem;
+}
+
+}  // namespace rheocyte

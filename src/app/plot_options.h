@@ -1,0 +1,25 @@
+// The command line of `rheocyte plot`.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/extract_options.h"
+
+namespace rheocyte {
+
+struct PlotOptions {
+  ExtractOptions measuring;        ///< recordings, table, channel, flow, viscosity, temperature, pixels
+  std::filesystem::path lines;     ///< a file of isoelasticity lines; empty: lines of the table
+  std::vector<double> levels_kPa;  ///< of the lines, in the recording's channel; empty: spread over the picture
+  std::filesystem::path output;    ///< as given, with or without .png or .svg; empty: beside the first recording
+};
+
+/// Declares the options on the command; `run` is called when they are complete. UserError if they contradict.
+void declare_plot_options(CLI::App& command, PlotOptions& options, std::function<void()> run);
+
+/// Name of the pictures without .png or .svg.
+std::filesystem::path picture_stem(const PlotOptions& options);
+
+}  // namespace rheocyte

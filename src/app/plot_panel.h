@@ -1,0 +1,33 @@
+// What one panel of the picture of events needs from a recording.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/plot_options.h"
+#include "infer/modulus_parity.h"
+
+namespace rheocyte {
+
+struct PlotPanel {
+  std::size_t events = 0;          ///< rows of the recording
+  std::size_t drawable = 0;        ///< of these, with area and deformation
+  bool has_conditions = false;     ///< false if no lines are wanted, or for a recording of the reservoir
+  MeasuringConditions conditions;  ///< pixel size 0: nothing is added to the lines
+  double viscosity_mPas = 0;       ///< at the median temperature
+  double width_um = 0;             ///< of the channel, 0 if unknown
+  std::string sample, measured;    ///< the metadata's name of the sample; channel, flow, viscosity in one line
+  std::vector<std::string> warnings;
+};
+
+/// Reads a recording and writes area (um^2) and deformation of each drawable event as pairs of 32-bit numbers to
+/// `events_file`. With `wants_lines` the conditions of the measurement are found, too. UserError.
+PlotPanel plot_panel(const std::filesystem::path& recording, const std::filesystem::path& events_file,
+                     const PlotOptions& options, bool wants_lines, const std::function<void(double)>& on_progress);
+
+/// Through the pipe from the process that read the recording.
+std::string to_json(const PlotPanel&);
+PlotPanel panel_from_json(const std::string& text);
+
+}  // namespace rheocyte

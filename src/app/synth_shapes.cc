@@ -1,0 +1,68 @@
+#include "app/synth_shapes.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <system_error>
+
+#include "app/table_folder.h"
+#include "case/user_error.h"
+#include "synth/analytic_shapes.h"
+#include "synth/branch_shapes.h"
+#include "table/table_metadata.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const SynthSpec& spec, const std::string& reason) {
+  throw UserError(fmt::format("{}: {}", one_line(spec.table.string(), 300), reason));
+}
+
+// Those that are there: a table that is still being computed serves, too.
+std::vector<SampledBranch> finished_branches(const TableFolder& folder) {
+  std::vector<SampledBranch> branches;
+  for (int i = 0; i < folder.radii(); ++i)
+    for (const bool held : {false, true})
+      if (folder.has(i, held)) branches.push_back(folder.read(i, held));
+  std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
+  return branches;
+}
+
+std::unique_ptr<CellShapes> shapes_of_table(const SynthSpec& spec) {
+  std::error_code error;
+  if (!fs::exists(spec.table / "spec.toml", error))
+    refuse(spec,
+           "there is no table of `rheocyte table` (no spec.toml in this folder); shapes.table names such a folder.");
+  const TableFolder folder(spec.table, read_table_spec(spec.table / "spec.toml"));
+  const bool is_shell = folder.spec().stiffness_key == "cell.cortex.modulus_mN_per_m";
+  if (is_shell != (spec.kind == CellKind::shell))
+    refuse(spec, fmt::format("its cells are told apart by {}, so cell.kind must be \"{}\".",
+                             folder.spec().stiffness_key, is_shell ? "shell" : "solid"));
+  auto branches = finished_branches(folder);
+  std::set<double> radii;
+  for (const auto& branch : branches) radii.insert(branch.radius_um);
+  if (radii.size() < 2) refuse(spec, "has fewer than two finished branches; let `rheocyte table` go on.");
+  const Case& base = folder.spec().base;
+  return std::make_unique<BranchShapes>(
+      std::move(branches),
+      BranchConditions{channel_width_um(base), base.flow.rate_ul_per_s, effective_viscosity_mPas(base),
+                       spec.channel_width_um, spec.flow_rate_ul_s, is_shell});
+}
+
+}  // namespace
+
+std::unique_ptr<CellShapes> shapes_of(const SynthSpec& spec) {
+  if (!spec.table.empty()) return shapes_of_table(spec);
+  return std::make_unique<AnalyticShapes>(
+      AnalyticConditionsOfCells{.channel_width_um = spec.channel_width_um,
+                                .flow_rate_ul_s = spec.flow_rate_ul_s,
+                                .is_shell = spec.kind == CellKind::shell,
+                                .tension_ratio = spec.tension_ratio,
+                                .duct = spec.square_duct ? Duct::square : Duct::tube,
+                                .greatest_deformation = spec.greatest_deformation});
+}
+
+}  // namespace rheocyte

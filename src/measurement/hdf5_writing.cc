@@ -1,0 +1,101 @@
+#include "measurement/hdf5_writing.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "measurement/zstd_filter.h"
+
+namespace rheocyte {
+
+namespace {
+
+Hdf5Handle text_type(std::size_t size) {
+  Hdf5Handle type(::H5Tcopy(H5T_C_S1));
+  ::H5Tset_size(type.get(), size);
+  ::H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+  return type;
+}
+
+}  // namespace
+
+bool write_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
+  const Hdf5Handle space(::H5Screate(H5S_SCALAR));
+  const Hdf5Handle attribute(::H5Acreate2(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT));
+  return attribute && ::H5Awrite(attribute.get(), type, value) >= 0;
+}
+
+bool write_text(hid_t object, const std::string& name, const std::string& text) {
+  Hdf5Handle type(::H5Tcopy(H5T_C_S1));
+  ::H5Tset_size(type.get(), H5T_VARIABLE);
+  ::H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  const char* pointer = text.c_str();
+  return write_attribute(object, name, type.get(), static_cast<const void*>(&pointer));
+}
+
+bool write_lines(hid_t file, const std::string& path, const std::vector<std::string>& lines) {
+  std::size_t longest = longest_log_line;
+  for (const auto& line : lines) longest = std::max(longest, line.size());
+  std::vector<char> characters(longest * lines.size(), '\0');
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    std::memcpy(characters.data() + i * longest, lines[i].data(), lines[i].size());
+  const hsize_t extent = lines.size();
+  const Hdf5Handle type = text_type(longest), space(::H5Screate_simple(1, &extent, nullptr));
+  const Hdf5Handle links(::H5Pcreate(H5P_LINK_CREATE)), properties(::H5Pcreate(H5P_DATASET_CREATE));
+  ::H5Pset_create_intermediate_group(links.get(), 1);
+  ::H5Pset_obj_track_times(properties.get(), false);
+  const Hdf5Handle dataset(
+      ::H5Dcreate2(file, path.c_str(), type.get(), space.get(), links.get(), properties.get(), H5P_DEFAULT));
+  return dataset && ::H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, characters.data()) >= 0;
+}
+
+std::vector<std::string> broken_lines(const std::vector<std::string>& lines) {
+  std::vector<std::string> broken;
+  for (const auto& line : lines)
+    for (std::size_t at = 0; at == 0 || at < line.size(); at += longest_log_line)
+      broken.push_back(line.substr(at, longest_log_line));
+  return broken;
+}
+
+Hdf5Handle compressed(std::span<const hsize_t> chunk) {
+  Hdf5Handle properties(::H5Pcreate(H5P_DATASET_CREATE));
+  const unsigned level = 5;
+  ::H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
+  ::H5Pset_filter(properties.get(), zstd_filter_number, H5Z_FLAG_MANDATORY, 1, &level);
+  ::H5Pset_fletcher32(properties.get());
+  ::H5Pset_obj_track_times(properties.get(), false);
+  return properties;
+}
+
+void Extremes::add(std::span<const double> values) {
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+    sum += value;
+    ++count;
+  }
+}
+
+bool write_extremes(hid_t dataset, const Extremes& extremes) {
+  if (extremes.count == 0) return true;
+  const double mean = extremes.sum / static_cast<double>(extremes.count);
+  const hid_t type = H5T_NATIVE_DOUBLE;
+  return write_attribute(dataset, "min", type, &extremes.least) &&
+         write_attribute(dataset, "max", type, &extremes.greatest) && write_attribute(dataset, "mean", type, &mean);
+}
+
+bool close_on_disk(Hdf5Handle& file, const std::string& path) {
+  // Closing flushes the chunks; only flushing says whether that worked.
+  const bool flushed = ::H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0;
+  file = Hdf5Handle();
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool on_disk = descriptor >= 0 && ::fsync(descriptor) == 0;
+  if (descriptor >= 0) ::close(descriptor);
+  return flushed && on_disk;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,40 @@
+// What a virtual cell looks like in the channel: the one interface between the populations and the models of shapes.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace rheocyte {
+
+/// A cell and the liquid round it; the channel and the flow rate are those of the recording.
+struct VirtualCell {
+  double radius_um = 0;  ///< of the sphere at rest
+  double stiffness = 0;  ///< Young's modulus (kPa) of a solid, modulus of the cortex (mN/m) of a shell
+  double viscosity_mPas = 0;
+};
+
+/// The stationary state of a cell, in um.
+struct CellShape {
+  Eigen::MatrixX2d meridian;  ///< points (x, r) from the front pole to the rear pole
+  double area_um2 = 0;        ///< of the convex hull
+  double deformation = 0;     ///< of the convex hull
+  double volume_um3 = 0;
+};
+
+/// Why a model has no shape for a cell.
+enum class NoShape { too_small, too_large, too_stiff, too_soft, outside_picture };
+
+inline constexpr std::array<std::string_view, 5> names_of_missing_shapes{"too small", "too large", "too stiff",
+                                                                         "too soft", "outside the picture"};
+
+class CellShapes {
+ public:
+  virtual ~CellShapes() = default;
+  virtual std::variant<CellShape, NoShape> shape(const VirtualCell& cell) const = 0;
+  /// In one line, with its range.
+  virtual std::string description() const = 0;
+};
+
+}  // namespace rheocyte

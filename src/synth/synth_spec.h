@@ -1,0 +1,55 @@
+// What a virtual recording is to contain. Keys, ranges and defaults stand in synth_keys.cc only.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "measurement/pixel_contour.h"
+
+namespace rheocyte {
+
+/// How a property is spread over the population.
+struct Spread {
+  enum class Law { normal, lognormal };
+  Law law = Law::normal;
+  double mean = 0, deviation = 0;  ///< of the property itself, also for the lognormal law
+
+  /// The value that belongs to a standard normal number.
+  double at(double normal) const;
+};
+
+enum class CellKind { solid, shell };
+enum class Pictures { none, masks, images };  ///< images: masks and pictures in shades of grey
+
+struct SynthSpec {
+  // [recording]
+  double cells = 0, seed = 0, frame_rate_Hz = 0, cells_per_s = 0, pixel_size_um = 0;
+  double width_px = 0, height_px = 0;  ///< height 0: as high as the channel and its walls
+  Pictures pictures = Pictures::masks;
+  std::string sample, date, time;
+  // [channel], [flow]
+  double channel_width_um = 0, flow_rate_ul_s = 0;
+  std::optional<double> viscosity_mPas;
+  std::string medium, viscosity_model;  ///< empty medium: the viscosity is given
+  Spread temperature_C;
+  // [cell]
+  CellKind kind = CellKind::solid;
+  Spread radius_um;
+  Spread stiffness;  ///< Young's modulus (kPa) of solids, modulus of the cortex (mN/m) of shells
+  double tension_ratio = 0;
+  // [shapes]
+  std::filesystem::path table;  ///< folder of a table of `rheocyte table`; empty: the closed model
+  double greatest_deformation = 0;
+  bool square_duct = false;
+  // [noise]
+  double lateral_um = 0, contour_um = 0, contour_correlation_um = 0, thermometer_C = 0;
+
+  ImageSize image_size() const;
+};
+
+/// Reads and checks a spec; `name` stands for its file in messages. UserError: one sentence with file, line, key,
+/// value, range and the nearest known key.
+SynthSpec parse_synth_spec(std::string_view text, const std::string& name);
+
+}  // namespace rheocyte

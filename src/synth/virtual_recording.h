@@ -1,0 +1,35 @@
+// A recording of cells that never were: population, shapes, camera, features, file.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "synth/cell_shapes.h"
+#include "synth/synth_spec.h"
+
+namespace rheocyte {
+
+struct VirtualRecording {
+  std::size_t cells = 0, events = 0;                                  ///< drawn, and recorded
+  std::array<std::size_t, names_of_missing_shapes.size()> missing{};  ///< by NoShape
+  double mean_area_error = 0;                                         ///< of the events: measured area / true area - 1
+  double mean_deformation_error = 0;                                  ///< measured - true deformation
+};
+
+/// What else the file tells.
+struct RecordingProvenance {
+  std::string program;            ///< name and version
+  std::vector<std::string> spec;  ///< lines of the spec, for the log
+};
+
+/// Draws the cells of the spec, lets `shapes` say what they look like, renders each to a mask of pixels at a random
+/// place, measures the mask as a real one, and writes the recording. Features userdef1 to userdef6 hold the true
+/// values; their meanings are in the metadata "user:". Cells without a shape or outside the picture are left out and
+/// counted. Calls `on_progress` from time to time. UserError if no cell is left, or for whatever is wrong with writing.
+VirtualRecording write_virtual_recording(const SynthSpec& spec, const CellShapes& shapes,
+                                         const RecordingProvenance& provenance, const std::filesystem::path& file,
+                                         const std::function<void(double)>& on_progress);
+
+}  // namespace rheocyte

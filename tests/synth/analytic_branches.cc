@@ -1,0 +1,40 @@
+#include "synth/analytic_branches.h"
+
+#include <cmath>
+
+#include "synth/analytic_shapes.h"
+
+namespace rheocyte::test {
+
+SampledBranch analytic_branch(double radius_um) {
+  constexpr double viscosity = 15;
+  const AnalyticShapes model({.channel_width_um = 20, .flow_rate_ul_s = 0.04, .greatest_deformation = 0.1});
+  const auto state = [&](double radius, double stiffness) {
+    return std::get<CellShape>(model.shape({radius, stiffness, viscosity}));
+  };
+  SampledBranch branch;
+  branch.radius_um = radius_um;
+  constexpr int samples = 16;
+  branch.value = Eigen::MatrixXd::Zero(samples, measure_count);
+  branch.slope = branch.value;
+  for (int i = 0; i < samples; ++i) {
+    const double stiffness = 20 * std::pow(4. / 20, i / (samples - 1.)), step = 1e-4;
+    const auto here = state(radius_um, stiffness), stiffer = state(radius_um, stiffness * std::exp(step)),
+               softer = state(radius_um, stiffness * std::exp(-step));
+    branch.stiffness.push_back(stiffness);
+    branch.error.push_back(1e-4);
+    const auto take = [&](Measure m, double CellShape::*field) {
+      branch.value(i, int(m)) = here.*field;
+      branch.slope(i, int(m)) = (stiffer.*field - softer.*field) / (2 * step);
+    };
+    take(Measure::area_um2, &CellShape::area_um2);
+    take(Measure::deformation, &CellShape::deformation);
+    take(Measure::volume_um3, &CellShape::volume_um3);
+    branch.contour.push_back(here.meridian);
+    branch.contour_slope.emplace_back((stiffer.meridian - softer.meridian) / (2 * step));
+  }
+  branch.end = {"covered", "down to 4 kPa"};
+  return branch;
+}
+
+}  // namespace rheocyte::test
