@@ -1,6 +1,6 @@
 """python -m rheocyte.figure --program PATH N DIR: figure N of Mokbel et al. 2017, solving what is missing for it.
 
-Writes DIR/figure-N.png, .svg and .csv and keeps the results in DIR/cases. Exit code 2 and one sentence on stderr for
+Writes DIR/figure-N.png, .svg and .csv and keeps the results in DIR/cases and DIR/tables. Exit code 2 and one sentence on stderr for
 the user's errors, 1 if a cell could not be solved (the figure says so at its place), 128 + number after a signal.
 """
 
@@ -93,7 +93,7 @@ def main():
     try:
         failures = make(number, arguments.folder, arguments.program)
     except Stopped as stopped:
-        print(f"rheocyte: stopped; what was solved is kept in {arguments.folder / 'cases'}, the same command goes on "
+        print(f"rheocyte: stopped; what was solved is kept in {arguments.folder}, the same command goes on "
               "from there.", file=sys.stderr)
         sys.exit(128 + stopped.number)
     if failures:

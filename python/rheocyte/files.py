@@ -33,10 +33,10 @@ def read_table(path, columns):
     try:
         with open(path, newline="", encoding="utf-8") as file:
             reader = csv.DictReader(file)
-            rows = list(reader)
+            rows, names = list(reader), reader.fieldnames or []
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path} cannot be read: {reason(error)}.") from error
-    missing = [name for name in columns if name not in (reader.fieldnames or [])]
+    missing = [name for name in columns if name not in names]
     if missing:
         raise InputError(f"{path} has no column \"{missing[0]}\"; wanted are {', '.join(columns)}.")
     return rows

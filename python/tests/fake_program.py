@@ -58,10 +58,44 @@ def solve(arguments):
 def analytic(arguments):
     """rheocyte analytic cell ... --json -o FILE"""
     radius = float(arguments[arguments.index("--radius-um") + 1])
-    write_contour(arguments[arguments.index("-o") + 1], 0.98 * radius)
-    print(json.dumps({"deformation": 0.04, "deformation_raw": 0.04, "area_um2": 90.0, "area_raw_um2": 90.0}))
+    if "-o" in arguments:
+        write_contour(arguments[arguments.index("-o") + 1], 0.98 * radius)
+    area = math.pi * radius**2
+    print(json.dumps({"deformation": 0.04, "deformation_raw": 0.04, "area_um2": area, "area_raw_um2": area,
+                      "moment_ratio": 0.9}))
+    return 0
+
+
+def table_rows():
+    """Rows of a table: twelve radii, d = 0.02 r^2 / E^2, and the last row is the end of the branch."""
+    for radius in (3.5 + 0.5 * k for k in range(12)):
+        for step in range(60):
+            modulus, end = 100 * 0.9**step, step == 59
+            deformation = 0.02 * radius**2 / modulus**2
+            yield (f"{radius},{modulus},{deformation},{math.pi * radius**2 * (1 + deformation)},"
+                   f"{1 - 2 * deformation},{int(end)}\n")
+
+
+def table(arguments):
+    """rheocyte table SPEC -o DIR --levels ... --no-picture -j N"""
+    file = Path(arguments[0])
+    folder = Path(arguments[arguments.index("-o") + 1])
+    if os.environ.get("FAKE_REFUSES", "\0") in file.stem:
+        print("rheocyte: holds a table that was begun as another", file=sys.stderr)
+        return 2
+    print("12 of 12 radii, 3 s elapsed", file=sys.stderr)
+    with open(os.environ["FAKE_LOG"], "a") as log:
+        log.write(file.stem + "\n")
+    if os.environ.get("FAKE_FAILS", "\0") in file.stem:
+        print("rheocyte: a worker has ended", file=sys.stderr)
+        return 1
+    folder.mkdir(exist_ok=True)
+    stiffness = "cortex_modulus_mN_per_m" if "shell" in file.stem else "young_modulus_kPa"
+    header = f"radius_um,{stiffness},deformation,area_um2,moment_ratio,end_of_branch\n"
+    (folder / f"table_{file.stem}.csv").write_text(header + "".join(table_rows()))
+    print("720 states on 12 branches, 100 solves, 5 s of one processor\n  folder")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit({"solve": solve, "analytic": analytic}[sys.argv[1]](sys.argv[2:]))
+    sys.exit({"solve": solve, "analytic": analytic, "table": table}[sys.argv[1]](sys.argv[2:]))

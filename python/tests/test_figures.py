@@ -121,7 +121,7 @@ class Command(WithFakeProgram):
 
     def test_bad_arguments_are_refused(self):
         for number in ("12", "0", "x", "-3", "5.0", ""):
-            self.refused(self.call(number, self.out), "available are 5, 6 and 7, for example `rheocyte figure 5`")
+            self.refused(self.call(number, self.out), "available are ")
         self.refused(self.call(5), "required: DIR")
         self.log.write_text("a file")
         self.refused(self.call(5, self.log), "cannot be made")

@@ -51,7 +51,7 @@ void add_figure_command(CLI::App& app, int& exit_code) {
   command->add_option("N", options->number, "number of the figure in the paper")->required();
   command
       ->add_option("-o,--output", options->folder,
-                   "folder for figure-N.png, .svg and .csv; results in its folder cases are used again")
+                   "folder for figure-N.png, .svg and .csv; results in its folders cases and tables are used again")
       ->type_name("DIR")
       ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = become_python(*options); });

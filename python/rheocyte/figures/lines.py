@@ -1,0 +1,186 @@
+"""Lines of equal stiffness in the plane of area and a measure, from the branches of tables or the analytical model."""
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from rheocyte.figures import paper
+from rheocyte.figures.cases import analytic_options
+from rheocyte.figures.tables import MEASURES, branches
+
+NODES = 6  # of the polynomials between radii
+POINTS = 400
+BEYOND = 0.15  # a line goes on over its first and last radius by this share of the distance between radii
+ANALYTICAL_RADII_UM = np.linspace(3.8, 9.4, 21)
+STEP_UM2 = 5  # of the rows in the tables
+LEAST_RADII = 3
+
+
+@dataclass
+class Kind:
+    """Solids or shells: their moduli, tables and cells."""
+
+    name: str
+    unit: str
+    symbol: str
+    moduli: list
+    table: object  # name, law -> spec
+    cell: object  # radius, modulus, law -> case
+    power: int  # the strain is a function of r0^power / modulus in a wide channel
+
+
+SOLIDS = Kind("solid", "kPa", "$E$", paper.YOUNG_MODULI_KPA, paper.solid_table, paper.solid, 1)
+SHELLS = Kind("shell", "mN/m", "$E_{2D}$", paper.CORTEX_MODULI_MN_PER_M, paper.shell_table, paper.shell, 2)
+
+
+@dataclass
+class Line:
+    """Cells of one modulus, dense in the radius at rest."""
+
+    modulus: float
+    radius_um: np.ndarray
+    measures: dict  # name -> values
+    ended: bool  # where the smooth branches end
+
+    def __getitem__(self, name):
+        return self.measures[name]
+
+    def at_area(self, area, name):
+        """A measure at areas; nan where the line has none."""
+        return np.interp(area, self["area_um2"], self[name], left=np.nan, right=np.nan)
+
+    def at_radius(self, radius_um, name):
+        """A measure at a radius at rest; nan where the line has none."""
+        return float(np.interp(radius_um, self.radius_um, self[name], left=np.nan, right=np.nan))
+
+
+def numerical(laboratory, kind, law):
+    """Lines of a law; an empty list if its table failed."""
+    name = f"{law}-{kind.name}"
+    found = branches(laboratory, name, kind.table(name, law), kind.moduli)
+    lines = [line_of_branches(found, modulus, kind.power) for modulus in kind.moduli]
+    return [line for line in lines if line]
+
+
+def line_of_branches(found, modulus, power):
+    """The line of a modulus up to the first radius whose branch ends before; None if there are too few radii.
+
+    Between the radii runs a polynomial through the states of neighbours at nearly equal strain, which is a function of
+    r0^power / modulus: along them everything changes slowly.
+    """
+    reached = [k for k, branch in enumerate(found) if branch.reaches(modulus)]
+    if len(reached) < LEAST_RADII:
+        return None
+    last = next((k for k in range(reached[0], len(found)) if not found[k].reaches(modulus)), len(found)) - 1
+    own = np.array([branch.radius_um for branch in found])
+    end = end_between(found, last, modulus)
+    beyond = BEYOND * (own[1] - own[0])
+    radii = np.linspace(own[reached[0]] - beyond, own[last] + beyond if end is None else end[0], POINTS)
+    states = [branch.at(modulus * (branch.radius_um / radii) ** power) for branch in found]
+    logarithm, area, ratio = (np.array([state[name] for state in states]) for name in MEASURES)
+    known = np.isfinite(logarithm).sum(axis=0) >= LEAST_RADII
+    radii, logarithm, area, ratio = radii[known], logarithm[:, known], area[:, known], ratio[:, known]
+    between = [neighbours(own, radius, np.isfinite(column)) for radius, column in zip(radii, logarithm.T)]
+    logarithm, area, ratio = (np.array([weights @ values[chosen, k] for k, (chosen, weights) in enumerate(between)])
+                              for values in (np.log(logarithm), area / own[:, None] ** 2, ratio))
+    measures = dict(zip(MEASURES, (np.exp(logarithm), area * radii**2, ratio)))
+    if end:
+        radii = np.append(radii, end[0])
+        measures = {name: np.append(values, end[1][name]) for name, values in measures.items()}
+    return Line(modulus, radii, measures, end is not None)
+
+
+def neighbours(own, radius, usable):
+    """The usable radii nearest to a place, and the weights of their values there."""
+    chosen = np.flatnonzero(usable)
+    chosen = np.sort(chosen[np.argsort(np.abs(own[chosen] - radius), kind="stable")[:NODES]])
+    return chosen, weights_at(own[chosen], radius)
+
+
+def end_between(found, last, modulus):
+    """Radius and measures where the branches of two neighbours end just at the modulus; None if they do not."""
+    if last + 1 >= len(found) or not (found[last].ended and found[last + 1].ended):
+        return None
+    here, there = found[last], found[last + 1]
+    if not here.modulus[-1] < modulus < there.modulus[-1]:
+        return None
+    share = np.log(modulus / here.modulus[-1]) / np.log(there.modulus[-1] / here.modulus[-1])
+    measures = {name: (1 - share) * here.measures[name][-1] + share * there.measures[name][-1] for name in MEASURES}
+    return (1 - share) * here.radius_um + share * there.radius_um, measures
+
+
+def analytical(laboratory, kind):
+    """Lines of the closed model, each up to the greatest radius for which it answers."""
+    cells = [(modulus, radius) for modulus in kind.moduli for radius in ANALYTICAL_RADII_UM]
+    with ThreadPoolExecutor(laboratory.processors) as pool:
+        answers = dict(zip(cells, pool.map(lambda cell: analytical_cell(laboratory, kind, *cell), cells)))
+    lines = []
+    for modulus in kind.moduli:
+        nodes = []
+        for radius in ANALYTICAL_RADII_UM:
+            if answers[modulus, radius] is None:
+                break
+            nodes.append((radius, answers[modulus, radius]))
+        if len(nodes) >= LEAST_RADII:
+            lines.append(line_through(modulus, nodes))
+    return lines
+
+
+def analytical_cell(laboratory, kind, modulus, radius):
+    """Measures of one cell, None where the model refuses."""
+    case = kind.cell(round(float(radius), 6), modulus, "linear")
+    ended = laboratory.call("analytic", "cell", *analytic_options(case), "--json")
+    if ended.returncode != 0:
+        return None
+    try:
+        answer = json.loads(ended.stdout)
+        return {name: float(answer[name]) for name in MEASURES}
+    except (json.JSONDecodeError, KeyError, TypeError, ValueError):
+        return None
+
+
+def line_through(modulus, nodes):
+    """A dense line through nodes (radius, measures); the deformation, which spans decades, by its logarithm."""
+    own = np.array([radius for radius, _ in nodes])
+    radii = np.linspace(own[0], own[-1], POINTS)
+    values = {name: np.array([measures[name] for _, measures in nodes]) for name in MEASURES}
+    dense = {name: smooth(own, values[name], radii) for name in MEASURES}
+    return Line(modulus, radii, dense | {"deformation": np.exp(smooth(own, np.log(values["deformation"]), radii))}, False)
+
+
+def smooth(own, values, places):
+    """Values at places of the polynomials through the nodes around them."""
+    everywhere = np.ones(len(own), dtype=bool)
+    between = [neighbours(own, place, everywhere) for place in places]
+    return np.array([weights @ values[chosen] for chosen, weights in between])
+
+
+def weights_at(nodes, place):
+    """Weights of the values at nodes in the polynomial through them, at a place."""
+    return np.array([np.prod((place - np.delete(nodes, k)) / (node - np.delete(nodes, k)))
+                     for k, node in enumerate(nodes)])
+
+
+def relative_difference(line, reference, name="deformation"):
+    """Areas within the paper's, and the relative difference of a line from another one there."""
+    area = np.linspace(*paper.AREAS_UM2, POINTS)
+    difference = line.at_area(area, name) / reference.at_area(area, name) - 1
+    known = np.isfinite(difference)
+    return area[known], difference[known]
+
+
+def rows(kind, model, lines, names):
+    """Lines of the table: measures at round areas, and where a line ends."""
+    for line in lines:
+        areas = [(float(area), "") for area in np.arange(paper.AREAS_UM2[0], paper.AREAS_UM2[1] + STEP_UM2 / 2, STEP_UM2)
+                 if np.isfinite(line.at_area(area, "deformation"))]
+        end = float(line["area_um2"][-1])
+        if line.ended and end < paper.AREAS_UM2[1]:
+            areas.append((end, "end of the smooth branch"))
+        for area, note in areas:
+            yield {"cell": kind.name, "model": model, "modulus": f"{line.modulus:g}", "unit": kind.unit,
+                   "area_um2": f"{area:.2f}",
+                   "radius_um": f"{np.interp(area, line['area_um2'], line.radius_um):.4f}",
+                   **{name: f"{line.at_area(area, name):.7f}" for name in names}, "note": note}
