@@ -39,6 +39,8 @@ struct Problem {
   double tension = 0;            ///< gamma / (S R)
   double bending_stiffness = 0;  ///< c_b / (S R^3)
   double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation
+  double cell_viscosity = 0;     ///< eta1 U / (R S); acts only while the cell moves
+  double cell_reynolds = 0;      ///< of the cell's density, rho1 U^2 / S; likewise
 };
 
 }  // namespace rheocyte

@@ -1,0 +1,86 @@
+// The cell on its way, step by step (docs/theory-time.md, sec. 3): implicit steps of controlled size and order.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "fem/moving_system.h"
+#include "solve/bdf.h"
+#include "solve/newton.h"
+#include "solve/path.h"
+
+namespace rheocyte {
+
+/// A state at a time, in R/U. Velocities are those of the nodes, (x, r) node by node, relative to the frame.
+struct TimeLevel {
+  double time = 0;
+  VectorXd unknowns, velocities;
+};
+
+/// All that the next step depends on.
+struct TimeState {
+  std::vector<TimeLevel> levels;  ///< the latest first
+  int order = 1;                  ///< of the next step
+  int steps_at_order = 0;
+  double next_step = 0;
+};
+
+struct TimeStepOptions {
+  double accuracy = 1e-5;   ///< of the surface's positions in each step, in r0
+  double first_step = 1e-3;  ///< in R/U
+  double least_step = 1e-9;
+  double greatest_step = 1;
+  int greatest_order = greatest_bdf_order;
+  double fixed_step = 0;  ///< > 0: all steps have this size and, as soon as there are enough levels, the greatest order
+  NewtonOptions newton = {1e-9};
+};
+
+struct TimeStepReport {
+  Status status = Status::not_started;
+  double step = 0;
+  int order = 0;
+  int newton_iterations = 0;  ///< refused steps included
+  int refused = 0;
+};
+
+/// Laws of cell and liquid for steps in time.
+Media moving_media(const Problem&);
+
+class TimeStepper {
+ public:
+  TimeStepper(const Problem&, const Resolution&, const TimeStepOptions&);
+
+  /// The unstressed sphere at time zero, in the steady flow round it as if it were rigid.
+  Status start();
+  /// Goes on from a state of the same problem and resolution.
+  void resume(TimeState state) { state_ = std::move(state); }
+
+  /// One accepted step, shortened if it would pass `limit`. If the report is not `converged`, the state is the last good
+  /// one.
+  TimeStepReport step(double limit);
+
+  const TimeState& state() const { return state_; }
+  const TimeLevel& now() const { return state_.levels.front(); }
+  /// Unknowns at a time within the last step, by the polynomial of the formula.
+  VectorXd unknowns_at(double time) const;
+
+  const Discretisation& space() const { return discrete_->space; }
+  const Media& media() const { return media_; }
+  const WorkMeter& work() const { return system_.work(); }
+
+ private:
+  struct Trial;
+  Trial attempt(double step, int order);
+  double surface_change(const VectorXd& difference) const;
+  StepErrors errors(const Trial&, int order) const;
+  void accept(const Trial&, int order);
+  VectorXd extrapolate(int levels, double time) const;
+
+  Problem problem_;
+  TimeStepOptions options_;
+  std::shared_ptr<Discrete> discrete_;
+  MovingSystem system_;
+  Media media_;
+  TimeState state_;
+};
+
+}  // namespace rheocyte
