@@ -17,11 +17,16 @@ enum class BulkLaw { linear, neo_hookean, mooney_rivlin, none };
 /// Mokbel et al. 2017; `neo_hookean_reference` is the usual membrane law with its energy per reference area.
 enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_reference };
 
+/// How a case is computed: the stationary shape at once, or the way to it (docs/theory-time.md).
+enum class TimeScheme { stationary, monolithic };
+
 /// Physical size of the dimensionless units, SI.
 struct Scales {
   double length_m = 1;          ///< tube radius R
   double velocity_m_per_s = 1;  ///< mean speed U = Q / (pi R^2)
   double stress_Pa = 1;         ///< S = eta U / R, or K (U/R)^n
+
+  double time_s() const { return length_m / velocity_m_per_s; }
 };
 
 /// One stationary case, dimensionless.
