@@ -112,6 +112,8 @@ TimeStepper::Trial TimeStepper::attempt(double step, int order) {
   trial.newton = newton(system_, media_, options_.newton, trial.level.unknowns);
   if (trial.newton.status != Status::converged) return trial;
   trial.level.velocities = system_.node_velocities(trial.level.unknowns);
+  const int v = space().cell_velocity();
+  trial.level.frame_acceleration = motion.rate * trial.level.unknowns(v) + motion.unknowns(v);
   const double share = levels > order ? trial.formula.error_share : 0.5;  // the first step has nothing to compare with
   trial.error = share * surface_change(trial.level.unknowns - guess);
   return trial;
@@ -160,6 +162,7 @@ TimeStepReport TimeStepper::step(double limit) {
     const Trial trial = attempt(last ? room : size, order);
     report.newton_iterations += trial.newton.iterations;
     report.status = trial.newton.status;
+    report.residual = trial.newton.residual;
     if (report.status == Status::stopped) return report;
     const bool controlled = options_.fixed_step == 0;
     if (report.status != Status::converged) {

@@ -1,28 +1,14 @@
 // The cell on its way, step by step (docs/theory-time.md, sec. 3): implicit steps of controlled size and order.
 #pragma once
 #include <memory>
-#include <vector>
 
 #include "fem/moving_system.h"
 #include "solve/bdf.h"
 #include "solve/newton.h"
 #include "solve/path.h"
+#include "solve/time_state.h"
 
 namespace rheocyte {
-
-/// A state at a time, in R/U. Velocities are those of the nodes, (x, r) node by node, relative to the frame.
-struct TimeLevel {
-  double time = 0;
-  VectorXd unknowns, velocities;
-};
-
-/// All that the next step depends on.
-struct TimeState {
-  std::vector<TimeLevel> levels;  ///< the latest first
-  int order = 1;                  ///< of the next step
-  int steps_at_order = 0;
-  double next_step = 0;
-};
 
 struct TimeStepOptions {
   double accuracy = 1e-5;   ///< of the surface's positions in each step, in r0
@@ -39,6 +25,7 @@ struct TimeStepReport {
   double step = 0;
   int order = 0;
   int newton_iterations = 0;  ///< refused steps included
+  double residual = 0;        ///< relative, of the last step
   int refused = 0;
 };
 
@@ -64,6 +51,8 @@ class TimeStepper {
   VectorXd unknowns_at(double time) const;
 
   const Discretisation& space() const { return discrete_->space; }
+  const std::shared_ptr<Discrete>& discrete() const { return discrete_; }
+  const Problem& problem() const { return problem_; }  ///< with an elastic interior in any case
   const Media& media() const { return media_; }
   const WorkMeter& work() const { return system_.work(); }
 
