@@ -5,12 +5,23 @@
 
 namespace rheocyte {
 
-std::string draw_picture(const std::filesystem::path& folder) {
-  auto call = python_call("rheocyte.picture");
+namespace {
+
+std::string draw(const std::string& module, const std::filesystem::path& folder) {
+  auto call = python_call(module);
   call.push_back(folder.string());
   const auto drawn = run_child(call, python_environment());
   if (drawn.exit_code == 0) return {};
   return drawn.last_line.empty() ? "the drawing program failed" : drawn.last_line;
+}
+
+}  // namespace
+
+std::string draw_picture(const std::filesystem::path& folder) {
+  const auto failure = draw("rheocyte.picture", folder);
+  std::error_code error;
+  if (!failure.empty() || !std::filesystem::exists(folder / "history.csv", error)) return failure;
+  return draw("rheocyte.time_picture", folder);
 }
 
 }  // namespace rheocyte
