@@ -200,8 +200,8 @@ Checkpoint read_checkpoint(const fs::path& folder, const Case& c) {
   if (!latest && failure) throw *failure;
   if (!latest) refuse(folder, "holds no checkpoint; --continue takes the folder of a result with a [time] section.");
   if (const double reached = latest->record.rows.back().t_us; reached > *c.time.end_us * (1 + 1e-12))
-    refuse(folder, fmt::format("has reached {:g} us already, time.end_us = {:g} lies before it.", reached,
-                               *c.time.end_us));
+    refuse(folder,
+           fmt::format("has reached {:g} us already, time.end_us = {:g} lies before it.", reached, *c.time.end_us));
   return *latest;
 }
 

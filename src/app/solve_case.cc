@@ -41,7 +41,8 @@ int solve_case(const SolveOptions& options) {
   watch_signals();
   if (c.time.scheme != TimeScheme::stationary) return solve_in_time(c, options);
   if (!options.continue_from.empty())
-    throw UserError("rheocyte: --continue is for a case with a [time] section; a stationary one has nothing to continue.");
+    throw UserError(
+        "rheocyte: --continue is for a case with a [time] section; a stationary one has nothing to continue.");
 
   Result result{c, scales_of(c), problem_of(c), {}};
   const auto progress = options.quiet ? ProgressCallback{} : progress_lines(c);

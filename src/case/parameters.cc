@@ -74,7 +74,8 @@ const std::array table{
     Parameter{"cell.bulk.mooney_share", "", "share of the neo-hookean law in the mooney-rivlin one, the rest is linear",
               number<FIELD(cell.bulk.mooney_share)>({0, 1}, 0.5), mooney_rivlin},
 
-    Parameter{"cell.viscosity_mPas", "mPa s", "viscosity of the cell's interior; a stationary shape does not depend on it",
+    Parameter{"cell.viscosity_mPas", "mPa s",
+              "viscosity of the cell's interior; a stationary shape does not depend on it",
               number<FIELD(cell.viscosity_mPas)>({1e-3, 1e9}), in_time},
     Parameter{"cell.density_kg_per_m3", "kg/m3", "density of the cell",
               number<FIELD(cell.density_kg_per_m3)>({0, 1e6}, 1000), in_time},

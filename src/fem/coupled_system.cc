@@ -137,8 +137,7 @@ VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, d
   return total;
 }
 
-VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, double& least_det,
-                                     bool& factorised) {
+VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, double& least_det, bool& factorised) {
   VectorXd total = VectorXd::Zero(space_.unknowns());
   std::fill(matrix_->value.begin(), matrix_->value.end(), 0.0);
   least_det = std::numeric_limits<double>::infinity();

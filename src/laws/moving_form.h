@@ -1,5 +1,5 @@
-// The weak forms at a quadrature point while cell and liquid move (docs/theory-time.md, eq:momentum-time). They are those
-// of the stationary problem plus what depends on time.
+// The weak forms at a quadrature point while cell and liquid move (docs/theory-time.md, eq:momentum-time). They are
+// those of the stationary problem plus what depends on time.
 //
 // Within a time step the derivative of a field is affine in its new value: d(field)/dt = rate * field + history
 // (docs/theory-time.md, eq:bdf). So the time terms are functions of the same unknowns, and dual numbers see them.

@@ -13,9 +13,7 @@ constexpr double worthwhile_growth = 1.2;
 /// Of the step that the error estimate permits.
 constexpr double safety = 0.85;
 
-double permitted(int order, double error) {
-  return safety * std::pow(std::max(error, 1e-12), -1.0 / (order + 1));
-}
+double permitted(int order, double error) { return safety * std::pow(std::max(error, 1e-12), -1.0 / (order + 1)); }
 
 }  // namespace
 
@@ -41,8 +39,8 @@ BdfFormula bdf_formula(std::span<const double> past, int order, double time) {
     }
     formula.weights(i) = slope;
   }
-  // Both errors are multiples of the same divided difference of order + 2 values.
-  if (int(past.size()) > order) formula.error_share = 1 / (formula.rate * (time - past[order]));
+  // The errors of formula and extrapolation are multiples of the same divided difference of order + 2 values.
+  if (int(past.size()) > order) formula.error_share = 1 / (formula.rate * (time - past[order]) + 1);
   return formula;
 }
 

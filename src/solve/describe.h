@@ -14,7 +14,8 @@ struct DiscreteState {
   VectorXd unknowns;
 };
 
-/// Fills in shape, surface, flow, sizes and the writer of fields; the outcome, errors and counts of work are left alone.
+/// Fills in shape, surface, flow, sizes and the writer of fields; the outcome, errors and counts of work are left
+/// alone.
 void describe_state(const Problem&, const DiscreteState&, StationaryState&);
 
 }  // namespace rheocyte

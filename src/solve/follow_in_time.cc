@@ -11,7 +11,8 @@
 namespace rheocyte {
 namespace {
 
-/// Resolves the stationary states of the paper's cells to 1e-5 of the deformation at degree 6 (docs/verification-time.md).
+/// Resolves the stationary states of the paper's cells to 1e-5 of the deformation at degree 6
+/// (docs/verification-time.md).
 constexpr Subdivision subdivision = {2, 4, 1, 2};
 
 TimeStepOptions step_options(const TimeRun& run, const std::atomic<bool>* stop) {
@@ -50,7 +51,8 @@ class TimeFollower {
   }
 
  private:
-  static constexpr const char* start_failed = "The flow round the sphere at rest was not found; please report this case.";
+  static constexpr const char* start_failed =
+      "The flow round the sphere at rest was not found; please report this case.";
 
   bool at_end() const { return stepper_.now().time >= run_.end * (1 - 1e-12); }
 
@@ -117,9 +119,10 @@ class TimeFollower {
     const double share = 100 * stepper_.now().time / run_.end;
     if (status == Status::stopped)
       return fmt::format("Stopped by a signal at {:.4g} % of the time; --continue goes on from there.", share);
-    return fmt::format("No step in time succeeds beyond {:.4g} % of the time ({}): the cell is drawn out or wrinkles; "
-                       "the last good state is kept.",
-                       share, name(status));
+    return fmt::format(
+        "No step in time succeeds beyond {:.4g} % of the time ({}): the cell is drawn out or wrinkles; "
+        "the last good state is kept.",
+        share, name(status));
   }
 
   TimeRun run_;

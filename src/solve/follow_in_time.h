@@ -29,7 +29,7 @@ struct TimeFrame {
 };
 
 struct TimeObserver {
-  std::function<void(const TimeFrame&)> frame;                     ///< at 0, output_every, 2 output_every, ..., end
+  std::function<void(const TimeFrame&)> frame;                   ///< at 0, output_every, 2 output_every, ..., end
   std::function<void(const TimePoint&, const TimeState&)> step;  ///< at the start and after each step and its frames
 };
 

@@ -11,9 +11,9 @@
 namespace rheocyte {
 
 struct TimeStepOptions {
-  double accuracy = 1e-5;   ///< of the surface's positions in each step, in r0
+  double accuracy = 1e-5;    ///< of the surface's positions in each step, in r0
   double first_step = 1e-3;  ///< in R/U
-  double least_step = 1e-9;
+  double least_step = 1e-13;
   double greatest_step = 1;
   int greatest_order = greatest_bdf_order;
   double fixed_step = 0;  ///< > 0: all steps have this size and, as soon as there are enough levels, the greatest order
@@ -41,8 +41,8 @@ class TimeStepper {
   /// Goes on from a state of the same problem and resolution.
   void resume(TimeState state) { state_ = std::move(state); }
 
-  /// One accepted step, shortened if it would pass `limit`. If the report is not `converged`, the state is the last good
-  /// one.
+  /// One accepted step, shortened if it would pass `limit`. If the report is not `converged`, the state is the last
+  /// good one.
   TimeStepReport step(double limit);
 
   const TimeState& state() const { return state_; }
