@@ -4,6 +4,8 @@
 #include <chrono>
 #include <limits>
 
+#include "fem/outlet_load.h"
+
 namespace rheocyte {
 namespace {
 
@@ -132,7 +134,7 @@ VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, d
       if (rows[i] >= 0) total(rows[i]) += element_.residual(i);
     }
   }
-  add_outlet_pressure(media.liquid, total);
+  total += outlet_load(space_, media.liquid);
   add_surface(media.cortex, unknowns, Want::residual, total);
   return total;
 }
@@ -155,7 +157,7 @@ VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, 
     const Stopwatch watch(work_.condensation_s);
     condense(elements_[e], condensed_[e], element_.tangent);
   }
-  add_outlet_pressure(media.liquid, total);
+  total += outlet_load(space_, media.liquid);
   add_surface(media.cortex, unknowns, Want::residual_and_tangent, total);
   const Stopwatch watch(work_.sparse_s);
   factorised = lu_->factorise();
@@ -201,24 +203,6 @@ VectorXd CoupledSystem::solve(const VectorXd& rhs) {
     for (int i = 0; i < inner.size(); ++i) x(c.inner_unknown[i]) = inner(i);
   }
   return x;
-}
-
-void CoupledSystem::add_outlet_pressure(const Liquid& liquid, VectorXd& residual) const {
-  const ReferenceElement& reference = space_.reference();
-  const double pressure = -undisturbed_pressure_gradient(liquid) * space_.mesh().geometry().half_length();
-  const MatrixXd value = reference.lagrange(reference.points_1d);
-  for (const BoundaryEdge& edge : space_.outlet()) {
-    VectorXd r(edge.nodes.size());
-    for (int k = 0; k < r.size(); ++k) r(k) = space_.node_points()[edge.nodes[k]](1);
-    const double width = r.maxCoeff() - r.minCoeff();
-    const VectorXd load = value.transpose() * (reference.weights_1d.array() * (value * r).array()).matrix();
-    for (int k = 0; k < r.size(); ++k) {
-      const Slot& slot = space_.velocity(edge.nodes[k], 0);
-      if (slot.unknown >= 0 && slot.unknown != space_.cell_velocity()) {
-        residual(slot.unknown) += pressure * width * load(k);
-      }
-    }
-  }
 }
 
 void CoupledSystem::add_surface(const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& residual) {

@@ -56,9 +56,6 @@ class CoupledSystem {
 
  private:
   struct Condensed;
-  /// Traction of the outlet, whose pressure is chosen so that the undisturbed pressure vanishes at the cell: the
-  /// pressures of cell and liquid then stay of the size of the stresses that deform the cell.
-  void add_outlet_pressure(const Liquid&, VectorXd& residual) const;
   /// Cortex, volume of a pure shell, and barycentre.
   void add_surface(const Cortex&, const VectorXd& unknowns, Want, VectorXd& residual);
   void condense(const ElementUnknowns&, Condensed&, const MatrixXd& tangent);

@@ -3,20 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/observe.h"
+#include "solve/rigid_start.h"
 
 namespace rheocyte {
 namespace {
-
-/// So much stiffer than the flow that the displacement does not matter.
-constexpr double rigid_modulus = 1e7;
-constexpr double exponent_step = 0.1;
-
-Problem with_elastic_interior(Problem problem) {
-  if (problem.bulk == BulkLaw::none) problem.shear_modulus = 0;
-  problem.bulk = problem.bulk == BulkLaw::none ? BulkLaw::neo_hookean : problem.bulk;
-  return problem;
-}
 
 std::vector<double> times(const TimeState& state) {
   std::vector<double> result;
@@ -25,13 +15,6 @@ std::vector<double> times(const TimeState& state) {
 }
 
 }  // namespace
-
-Media moving_media(const Problem& problem) {
-  Media media = media_at(problem, 1);
-  media.bulk.viscosity = problem.cell_viscosity;
-  media.bulk.reynolds = problem.cell_reynolds;
-  return media;
-}
 
 /// A solved step that is not yet accepted.
 struct TimeStepper::Trial {
@@ -51,19 +34,9 @@ TimeStepper::TimeStepper(const Problem& problem, const Resolution& resolution, c
 }
 
 Status TimeStepper::start() {
-  VectorXd unknowns = system_.sphere();
-  Media rigid = media_;
-  rigid.bulk = {rigid_modulus, 1};
-  rigid.cortex = {};
-  double exponent = 1;
-  do {  // a power law is singular where nothing flows yet: from the Newtonian flow in steps of its exponent
-    const double wanted = media_.liquid.exponent;
-    exponent += std::clamp(wanted - exponent, -exponent_step, exponent_step);
-    rigid.liquid.exponent = exponent;
-    const NewtonReport report = newton(system_, rigid, options_.newton, unknowns);
-    if (report.status != Status::converged) return report.status;
-  } while (exponent != media_.liquid.exponent);
-  scale_displacement(space(), 0, unknowns);
+  VectorXd unknowns;
+  const Status status = flow_round_sphere(system_, media_, options_.newton, unknowns);
+  if (status != Status::converged) return status;
   state_ = {};
   state_.levels = {{0, unknowns, system_.node_velocities(unknowns)}};
   state_.next_step = options_.fixed_step > 0 ? options_.fixed_step : options_.first_step;

@@ -29,9 +29,6 @@ struct TimeStepReport {
   int refused = 0;
 };
 
-/// Laws of cell and liquid for steps in time.
-Media moving_media(const Problem&);
-
 class TimeStepper {
  public:
   TimeStepper(const Problem&, const Resolution&, const TimeStepOptions&);
