@@ -96,6 +96,7 @@ void write_state(Writer& writer, const TimeState& state) {
   writer.number(state.order);
   writer.number(state.steps_at_order);
   writer.number(state.next_step);
+  writer.matrix(state.traction);
   writer.number(std::uint64_t(state.levels.size()));
   for (const TimeLevel& level : state.levels) {
     writer.number(level.time);
@@ -110,6 +111,7 @@ TimeState read_state(Reader& reader) {
   state.order = reader.number<int>();
   state.steps_at_order = reader.number<int>();
   state.next_step = reader.number<double>();
+  state.traction = reader.matrix<Eigen::VectorXd>();
   state.levels.resize(reader.count(32));
   for (TimeLevel& level : state.levels) {
     level.time = reader.number<double>();

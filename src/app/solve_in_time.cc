@@ -26,7 +26,14 @@ constexpr const char* fields_folder = "fields";
 
 TimeRun run_of(const Case& c, const Scales& scales) {
   const double unit_us = scales.time_s() * us_per_s;
-  return {*c.time.end_us / unit_us, *c.time.output_every_us / unit_us, *c.time.accuracy, int(*c.time.degree)};
+  TimeRun run;
+  run.end = *c.time.end_us / unit_us;
+  run.output_every = *c.time.output_every_us / unit_us;
+  run.accuracy = c.time.accuracy.value_or(run.accuracy);
+  run.degree = int(*c.time.degree);
+  run.scheme = c.time.scheme;
+  run.step = c.time.step_us.value_or(0) / unit_us;
+  return run;
 }
 
 /// Keeps the record of a computation and writes what must not be lost.

@@ -42,7 +42,7 @@ struct Cell {
 /// The way of the cell in time; all but the scheme empty for a stationary case.
 struct TimeCase {
   TimeScheme scheme = TimeScheme::stationary;
-  std::optional<double> end_us, output_every_us, accuracy, degree;
+  std::optional<double> end_us, output_every_us, accuracy, step_us, degree;
 };
 
 struct Numerics {

@@ -18,7 +18,7 @@ enum class BulkLaw { linear, neo_hookean, mooney_rivlin, none };
 enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_reference };
 
 /// How a case is computed: the stationary shape at once, or the way to it (docs/theory-time.md).
-enum class TimeScheme { stationary, monolithic };
+enum class TimeScheme { stationary, monolithic, partitioned };
 
 /// Physical size of the dimensionless units, SI.
 struct Scales {

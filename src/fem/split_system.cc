@@ -111,8 +111,8 @@ void SplitSystem::integrate_cell(int e, const Media& media, double step, const S
   const auto form_at = [&](int q) {
     Plane<double> G;
     G << here(q, 0), here(q, 1), here(q, 2), here(q, 3);
-    return SplitCellPoint{media.bulk, element.reference[q], Place<double>(G, here(q, 4)), 1 / step,
-                          {fields(q, 0), fields(q, 1)}};
+    return SplitCellPoint{
+        media.bulk, element.reference[q], Place<double>(G, here(q, 4)), 1 / step, {fields(q, 0), fields(q, 1)}};
   };
   evaluate_points<SplitCellPoint>(fields, reference.weights, form_at, Want::residual_and_tangent, element_);
   test_residual(reference, element_);
@@ -148,8 +148,8 @@ bool SplitSystem::step_liquid(const Media& media, double step, SplitState& state
   for (int node = 0; node < space_.nodes().count; ++node) {
     if (space_.displacement(node, 0) >= 0) continue;
     for (int c = 0; c < 2; ++c)
-      state.velocities(2 * node + c) = space_.velocity(node, c).value(state.unknowns) +
-                                       (c == 0 ? state.unknowns(space_.cell_velocity()) : 0);
+      state.velocities(2 * node + c) =
+          space_.velocity(node, c).value(state.unknowns) + (c == 0 ? state.unknowns(space_.cell_velocity()) : 0);
   }
   return load.allFinite();
 }

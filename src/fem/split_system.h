@@ -8,9 +8,9 @@ namespace rheocyte {
 
 /// What a step starts from. Velocities are those in the laboratory, (x, r) node by node.
 struct SplitState {
-  VectorXd unknowns;    ///< displacements, pressures, v_cell; velocities of the liquid relative to v_cell
+  VectorXd unknowns;  ///< displacements, pressures, v_cell; velocities of the liquid relative to v_cell
   VectorXd velocities;
-  VectorXd traction;    ///< that the cell feels, as loads in the equations of the surface's displacements
+  VectorXd traction;  ///< that the cell feels, as loads in the equations of the surface's displacements
 };
 
 class SplitSystem {
@@ -18,8 +18,8 @@ class SplitSystem {
   /// The discretisation must outlive this object; its interior has to be elastic.
   explicit SplitSystem(const Discretisation&);
 
-  /// The liquid after an implicit Euler step round the cell as it is and moves; sets `load` to the force on the surface,
-  /// that of the cortex included. False if the matrix is singular.
+  /// The liquid after an implicit Euler step round the cell as it is and moves; sets `load` to the force on the
+  /// surface, that of the cortex included. False if the matrix is singular.
   bool step_liquid(const Media&, double step, SplitState&, VectorXd& load);
   /// The cell's velocity after an implicit Euler step with the traction and the elastic stress of the present shape.
   bool step_cell(const Media&, double step, SplitState&);

@@ -11,6 +11,8 @@ struct TimeRun {
   double output_every = 0.1;
   double accuracy = 1e-5;  ///< of the surface's positions in each step, in r0
   int degree = 6;
+  TimeScheme scheme = TimeScheme::monolithic;
+  double step = 2e-3;  ///< of the splitting scheme
 };
 
 /// What is recorded of each step; dimensionless.

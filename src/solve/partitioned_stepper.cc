@@ -1,41 +1,86 @@
 #include "solve/partitioned_stepper.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "solve/rigid_start.h"
 
 namespace rheocyte {
+namespace {
+
+constexpr double folded = 1e-3;  ///< least volume of an element, in that at rest, that a shape may have
+
+/// Whether the cell still has a shape: finite, and no element turned inside out.
+bool is_sound(const Discretisation& space, const VectorXd& unknowns) {
+  if (!unknowns.allFinite()) return false;
+  for (int e = 0; e < int(space.elements().size()); ++e) {
+    const MatrixXd f = fields_at_points(space, e, unknowns);
+    for (int q = 0; q < f.rows(); ++q) {
+      const double det = f(q, 0) * f(q, 3) - f(q, 1) * f(q, 2);
+      if (!(det > folded * space.elements()[e].reference[q].det)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
 
 PartitionedStepper::PartitionedStepper(const Problem& problem, const Resolution& resolution,
                                        const PartitionedOptions& options)
-    : options_(options),
-      discrete_(std::make_shared<Discrete>(with_elastic_interior(problem), resolution)),
-      system_(discrete_->space),
-      media_(moving_media(with_elastic_interior(problem))) {}
+    : Stepper(problem, resolution), options_(options), system_(space()) {}
 
 Status PartitionedStepper::start() {
   MovingSystem rigid(space());
   NewtonOptions options = {1e-9};
   options.residual_scale = residual_scale(rigid, media_);
-  const Status status = flow_round_sphere(rigid, media_, options, state_.unknowns);
+  TimeLevel level;
+  const Status status = flow_round_sphere(rigid, media_, options, level.unknowns);
   if (status != Status::converged) return status;
-  const double v_cell = state_.unknowns(space().cell_velocity());
-  state_.velocities = rigid.node_velocities(state_.unknowns);
-  for (int node = 0; node < space().nodes().count; ++node) state_.velocities(2 * node) += v_cell;
-  state_.traction.resize(0);
-  time_ = 0;
+  level.velocities = rigid.node_velocities(level.unknowns);
+  const double v_cell = level.unknowns(space().cell_velocity());
+  for (int node = 0; node < space().nodes().count; ++node) level.velocities(2 * node) += v_cell;
+  state_ = {};
+  state_.levels = {level};
+  state_.next_step = options_.step;
   return Status::converged;
 }
 
-Status PartitionedStepper::step() {
+TimeStepReport PartitionedStepper::step(double limit) {
+  TimeStepReport report;
+  const double room = limit - now().time, size = std::min(options_.step, room);
+  report.step = size > room * (1 - 1e-9) ? room : size;
+  report.order = 1;
+  SplitState split{now().unknowns, now().velocities, state_.traction};
   VectorXd load;
-  if (!system_.step_liquid(media_, options_.step, state_, load)) return Status::singular_matrix;
+  report.status = Status::singular_matrix;
+  if (!system_.step_liquid(media_, report.step, split, load)) return report;
   // The sphere that starts feels the whole traction of its liquid.
-  const double share = state_.traction.size() == 0 ? 1 : options_.relaxation;
-  if (share == 1) state_.traction = load;
-  state_.traction = (1 - share) * state_.traction + share * load;
-  if (!system_.step_cell(media_, options_.step, state_)) return Status::singular_matrix;
-  system_.move(options_.step, state_);
-  time_ += options_.step;
-  return state_.unknowns.allFinite() ? Status::converged : Status::not_finite;
+  split.traction = split.traction.size() == 0
+                       ? load
+                       : VectorXd((1 - options_.relaxation) * split.traction + options_.relaxation * load);
+  if (!system_.step_cell(media_, report.step, split)) return report;
+  system_.move(report.step, split);
+  report.status = is_sound(space(), split.unknowns) ? Status::converged : Status::mesh_folded;
+  if (report.status != Status::converged) return report;
+  const int v = space().cell_velocity();
+  TimeLevel level{now().time + report.step, split.unknowns, split.velocities, 0};
+  level.frame_acceleration = (split.unknowns(v) - now().unknowns(v)) / report.step;
+  state_.levels = {level, now()};
+  state_.traction = split.traction;
+  return report;
+}
+
+VectorXd PartitionedStepper::unknowns_at(double time) const {
+  if (state_.levels.size() < 2) return now().unknowns;
+  const TimeLevel& before = state_.levels[1];
+  const double share = (time - before.time) / (now().time - before.time);
+  return share * now().unknowns + (1 - share) * before.unknowns;
+}
+
+WorkMeter PartitionedStepper::work() const {
+  WorkMeter work;
+  work.factorisations = system_.factorisations();
+  return work;
 }
 
 }  // namespace rheocyte

@@ -5,7 +5,8 @@
 
 namespace rheocyte {
 
-/// A state at a time, in R/U. Velocities are those of the nodes, (x, r) node by node, relative to the frame.
+/// A state at a time, in R/U. Velocities are those of the nodes, (x, r) node by node, relative to the frame;
+/// in the splitting scheme those in the laboratory.
 struct TimeLevel {
   double time = 0;
   Eigen::VectorXd unknowns, velocities;
@@ -18,6 +19,7 @@ struct TimeState {
   int order = 1;                  ///< of the next step
   int steps_at_order = 0;
   double next_step = 0;
+  Eigen::VectorXd traction;  ///< on the cell, of the splitting scheme only (fem/split_system.h)
 };
 
 }  // namespace rheocyte

@@ -25,11 +25,7 @@ struct TimeStepper::Trial {
 };
 
 TimeStepper::TimeStepper(const Problem& problem, const Resolution& resolution, const TimeStepOptions& options)
-    : problem_(with_elastic_interior(problem)),
-      options_(options),
-      discrete_(std::make_shared<Discrete>(problem_, resolution)),
-      system_(discrete_->space),
-      media_(moving_media(problem_)) {
+    : Stepper(problem, resolution), options_(options), system_(space()) {
   options_.newton.residual_scale = residual_scale(system_, media_);
 }
 

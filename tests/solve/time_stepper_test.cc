@@ -67,7 +67,7 @@ TEST(TimeStepper, TheErrorFallsWithTheOrderOfTheFormula) {
   const auto error = [&](int order, int step) {
     TimeStepper stepper(problem, resolution(3),
                         {.greatest_order = order, .fixed_step = step * fine, .newton = {1e-11}});
-    TimeState state{{}, order, 0, step * fine};
+    TimeState state{{}, order, 0, step * fine, {}};
     for (int i = 0; i < order; ++i) state.levels.push_back(levels[i * step]);
     stepper.resume(state);
     EXPECT_EQ(go(stepper, end), Status::converged);
