@@ -17,7 +17,12 @@ std::string draw(const std::string& module, const std::filesystem::path& folder)
 
 }  // namespace
 
-std::string draw_picture(const std::filesystem::path& folder) { return draw("rheocyte.picture", folder); }
+std::string draw_picture(const std::filesystem::path& folder) {
+  const auto failure = draw("rheocyte.picture", folder);
+  std::error_code error;
+  if (!failure.empty() || !std::filesystem::exists(folder / "history.csv", error)) return failure;
+  return draw("rheocyte.time_picture", folder);
+}
 
 std::string draw_table_pictures(const std::filesystem::path& folder) { return draw("rheocyte.table_picture", folder); }
 

@@ -5,7 +5,8 @@
 
 namespace rheocyte {
 
-/// Draws picture.png and picture.svg from the files in the folder. Returns the reason if it fails, else an empty text.
+/// Draws picture.png and picture.svg from the files in the folder, and of a result in time also time.png, time.svg and
+/// the animation time.gif (python/rheocyte/time_picture.py). Returns the reason if it fails, else an empty text.
 /// The environment's RHEOCYTE_PYTHON replaces the folder in which the Python package is looked for.
 std::string draw_picture(const std::filesystem::path& folder);
 

@@ -22,8 +22,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 6> own_files{"result.json", "contour.csv", "fields.vtu",
-                                                    "case.toml",   "picture.png", "picture.svg"};
+constexpr std::array<std::string_view, 15> own_files{
+    "result.json",      "contour.csv",      "fields.vtu",   "case.toml",  "picture.png",
+    "picture.svg",      "history.csv",      "contours.csv", "fields.pvd", "fields",
+    "checkpoint-1.bin", "checkpoint-2.bin", "time.png",     "time.svg",   "time.gif"};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
   throw UserError(fmt::format("{}: {}", path.string(), reason));
@@ -144,7 +146,7 @@ void ResultFolder::write(const std::string& file_name, std::string_view content)
 }
 
 void ResultFolder::publish() {
-  for (const auto& entry : fs::directory_iterator(scratch_))
+  for (const auto& entry : fs::recursive_directory_iterator(scratch_))
     if (entry.is_regular_file()) bring_to_disk(entry.path());
   bring_to_disk(scratch_);
   check_replaceable(folder_);  // the world may have changed during the computation

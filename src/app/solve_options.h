@@ -13,10 +13,11 @@ namespace rheocyte {
 
 struct SolveOptions {
   std::filesystem::path case_file;
-  std::filesystem::path folder;       ///< of the results
-  std::vector<std::string> settings;  ///< "key=value"
-  bool json = false;                  ///< result.json on standard output and nothing else there
-  bool quiet = false;                 ///< no progress, no summary
+  std::filesystem::path folder;         ///< of the results
+  std::filesystem::path continue_from;  ///< folder of an earlier result in time; empty: from the sphere
+  std::vector<std::string> settings;    ///< "key=value"
+  bool json = false;                    ///< result.json on standard output and nothing else there
+  bool quiet = false;                   ///< no progress, no summary
   bool no_picture = false;
   bool check_only = false;  ///< validate the case, solve nothing
 };

@@ -36,6 +36,13 @@ struct Cell {
   double radius_um = 0;
   BulkCase bulk;
   CortexCase cortex;
+  std::optional<double> viscosity_mPas, density_kg_per_m3;  ///< only in time
+};
+
+/// The way of the cell in time; all but the scheme empty for a stationary case.
+struct TimeCase {
+  TimeScheme scheme = TimeScheme::stationary;
+  std::optional<double> end_us, output_every_us, accuracy, step_us, degree;
 };
 
 struct Numerics {
@@ -47,6 +54,7 @@ struct Case {
   Channel channel;
   Flow flow;
   Cell cell;
+  TimeCase time;
   Numerics numerics;
 };
 

@@ -31,7 +31,8 @@ Choice choice(std::vector<std::string_view> options, int fallback) {
 
 constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "power-law"},
     mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
-    has_shell{"cell.cortex.law", "none", true};
+    has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
+    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"};
 
 // The options of a choice stand in the order of its enumeration (case/problem.h).
 // The ranges are wide; they catch wrong units and keep every dimensionless group finite.
@@ -74,6 +75,12 @@ const std::array table{
     Parameter{"cell.bulk.mooney_share", "", "share of the neo-hookean law in the mooney-rivlin one, the rest is linear",
               number<FIELD(cell.bulk.mooney_share)>({0, 1}, 0.5), mooney_rivlin},
 
+    Parameter{"cell.viscosity_mPas", "mPa s",
+              "viscosity of the cell's interior; a stationary shape does not depend on it",
+              number<FIELD(cell.viscosity_mPas)>({1e-3, 1e9}), in_time},
+    Parameter{"cell.density_kg_per_m3", "kg/m3", "density of the cell",
+              number<FIELD(cell.density_kg_per_m3)>({0, 1e6}, 1000), in_time},
+
     Parameter{
         "cell.cortex.law", "", "elastic law of the cell's surface, the cortex",
         choice<FIELD(cell.cortex.law)>({"none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference"}, 0)},
@@ -90,6 +97,21 @@ const std::array table{
     Parameter{"cell.cortex.bending_kBT", "kBT",
               "bending stiffness c_b of the cell's surface in units of k_B T at 25 degrees C (4.116e-21 J)",
               number<FIELD(cell.cortex.bending_kBT)>({0, 1e12}, 0)},
+
+    Parameter{"time.scheme", "",
+              "stationary: the final shape at once; monolithic: the way to it, in implicit steps of controlled size; "
+              "partitioned: in the splitting of Mokbel et al. 2017",
+              choice<FIELD(time.scheme)>({"stationary", "monolithic", "partitioned"}, 0)},
+    Parameter{"time.end_us", "us", "time to follow the cell, which starts as a sphere",
+              number<FIELD(time.end_us)>({1e-6, 1e12}), in_time},
+    Parameter{"time.output_every_us", "us", "time between contours, fields and frames of the animation",
+              number<FIELD(time.output_every_us)>({1e-6, 1e12}, 10), in_time},
+    Parameter{"time.accuracy", "", "wanted accuracy of the surface's positions in each step, relative to the radius",
+              number<FIELD(time.accuracy)>({1e-9, 1e-2}, 1e-5), monolithic},
+    Parameter{"time.step_us", "us", "step of the splitting, which is explicit in the elasticity",
+              number<FIELD(time.step_us)>({1e-6, 1e6}, 0.2), partitioned},
+    Parameter{"time.degree", "", "polynomial degree of the spaces, a whole number",
+              number<FIELD(time.degree)>({2, 10}, 6), in_time},
 
     Parameter{"numerics.accuracy", "", "wanted relative accuracy of the deformation, mesh and degree are chosen for it",
               number<FIELD(numerics.accuracy)>({1e-7, 1e-1}, 1e-4)},

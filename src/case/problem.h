@@ -17,11 +17,16 @@ enum class BulkLaw { linear, neo_hookean, mooney_rivlin, none };
 /// Mokbel et al. 2017; `neo_hookean_reference` is the usual membrane law with its energy per reference area.
 enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_reference };
 
+/// How a case is computed: the stationary shape at once, or the way to it (docs/theory-time.md).
+enum class TimeScheme { stationary, monolithic, partitioned };
+
 /// Physical size of the dimensionless units, SI.
 struct Scales {
   double length_m = 1;          ///< tube radius R
   double velocity_m_per_s = 1;  ///< mean speed U = Q / (pi R^2)
   double stress_Pa = 1;         ///< S = eta U / R, or K (U/R)^n
+
+  double time_s() const { return length_m / velocity_m_per_s; }
 };
 
 /// One stationary case, dimensionless.
@@ -39,6 +44,8 @@ struct Problem {
   double tension = 0;            ///< gamma / (S R)
   double bending_stiffness = 0;  ///< c_b / (S R^3)
   double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation
+  double cell_viscosity = 0;     ///< eta1 U / (R S); acts only while the cell moves
+  double cell_reynolds = 0;      ///< of the cell's density, rho1 U^2 / S; likewise
 };
 
 }  // namespace rheocyte

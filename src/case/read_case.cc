@@ -103,6 +103,10 @@ void read_choices(Case& c, const GivenByKey& keys) {
     if (choice->fallback) choice->set(c, *choice->fallback);
     if (const auto given = keys.find(parameter.key); given != keys.end()) set_choice(c, parameter, given->second);
   }
+  // Who gives a time wants to follow it.
+  const auto first_of_time = keys.lower_bound("time.");
+  const bool has_time = first_of_time != keys.end() && first_of_time->first.starts_with("time.");
+  if (has_time && !keys.contains("time.scheme")) c.time.scheme = TimeScheme::monolithic;
 }
 
 bool was_set(const GivenByKey& keys, std::string_view key) {
@@ -119,7 +123,8 @@ void check_effect(const Case& c, const Parameter& parameter, GivenByKey& keys) {
     keys.erase(given);
     return;
   }
-  const auto choice = condition.negated ? "another law" : fmt::format("\"{}\"", condition.option);
+  const auto kind = condition.key.substr(condition.key.rfind('.') + 1);
+  const auto choice = condition.negated ? fmt::format("another {}", kind) : fmt::format("\"{}\"", condition.option);
   refuse(given->second, fmt::format("{} has no effect, because {} is \"{}\"; remove it or choose {}.",
                                     stated(given->second), condition.key, chosen_option(c, condition.key), choice));
 }
@@ -169,6 +174,20 @@ void check_cell_is_elastic(const Case& c, const GivenByKey& keys) {
                                  : "a cell without any elasticity or tension"));
 }
 
+// Frames are kept in memory and drawn one by one.
+constexpr double greatest_outputs = 10000;
+
+void check_time(const Case& c, const GivenByKey& keys) {
+  if (c.time.scheme == TimeScheme::stationary) return;
+  if (const double degree = *c.time.degree; degree != std::round(degree))
+    refuse(keys.at("time.degree"), fmt::format("{} is not a whole number.", stated(keys.at("time.degree"))));
+  const double end = *c.time.end_us, outputs = end / *c.time.output_every_us;
+  if (outputs > greatest_outputs)
+    refuse(keys.at("time.end_us"),
+           fmt::format("{} and time.output_every_us = {:g} ask for {:.3g} outputs; at most {:g} are possible.",
+                       stated(keys.at("time.end_us")), *c.time.output_every_us, outputs, greatest_outputs));
+}
+
 }  // namespace
 
 Case case_of_keys(std::vector<GivenKey> keys_in_order, const std::string& name,
@@ -189,6 +208,7 @@ Case case_of_keys(std::vector<GivenKey> keys_in_order, const std::string& name,
       read_number(c, parameter, keys, name);
   if (!is_open("cell.radius_um")) check_cell_in_tube(c, keys);
   check_cell_is_elastic(c, keys);
+  check_time(c, keys);
   return c;
 }
 

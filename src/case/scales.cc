@@ -60,6 +60,8 @@ Problem problem_of(const Case& c) {
   problem.tension = tension_mN_per_m(c) * N_per_mN / (S * R);
   problem.bending_stiffness = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R);
   problem.accuracy = c.numerics.accuracy;
+  problem.cell_viscosity = c.cell.viscosity_mPas.value_or(0) * Pas_per_mPas * U / (S * R);
+  problem.cell_reynolds = c.cell.density_kg_per_m3.value_or(0) * U * U / S;
   return problem;
 }
 

@@ -9,6 +9,8 @@ namespace rheocyte {
 struct Bulk {
   double shear_modulus = 1;
   double mooney_share = 1;
+  double viscosity = 0;  ///< eta1 U / (R S); acts while the cell moves
+  double reynolds = 0;   ///< of the cell's density, rho1 U^2 / S; likewise
 };
 
 /// Extra Kirchhoff stress J sigma = mu [a B + (1 - a)(I1 B - B^2)] - mu (2 - a) I, B = F F^T; the pressure comes on

@@ -16,7 +16,7 @@ constexpr double chord_reduction = 0.1;
 constexpr double hopeless_residual = 1e6;
 
 /// Takes the longest step 1, 1/2, 1/4, ... that does not fold the mesh; returns whether there is one.
-bool step(StationarySystem& system, const Media& media, const VectorXd& correction, double det_before, VectorXd& x,
+bool step(CoupledSystem& system, const Media& media, const VectorXd& correction, double det_before, VectorXd& x,
           VectorXd& residual) {
   double share = 1;
   for (int i = 0; i <= greatest_halvings; ++i, share /= 2) {
@@ -37,14 +37,14 @@ constexpr double round_off_displacement = 1e-14, round_off_residual = 1e-6;
 
 }  // namespace
 
-double residual_scale(StationarySystem& system, const Media& media) {
+double residual_scale(CoupledSystem& system, const Media& media) {
   double det = 0;
   return system.residual(media, system.sphere(), det).norm();
 }
 
-NewtonReport newton(StationarySystem& system, const Media& media, const NewtonOptions& options, VectorXd& x) {
+NewtonReport newton(CoupledSystem& system, const Media& media, const NewtonOptions& options, VectorXd& x) {
   NewtonReport report;
-  const double scale = residual_scale(system, media);
+  const double scale = options.residual_scale > 0 ? options.residual_scale : residual_scale(system, media);
   bool fresh = false;  // whether the factorisation belongs to the present state
   double det = 0;
   VectorXd residual;

@@ -1,16 +1,17 @@
-// Newton's method on the stationary system, with chord steps while a kept factorisation still contracts well.
+// Newton's method on the coupled system, with chord steps while a kept factorisation still contracts well.
 #pragma once
 #include <atomic>
 
-#include "fem/stationary_system.h"
+#include "fem/coupled_system.h"
 #include "solve/outcome.h"
 
 namespace rheocyte {
 
 struct NewtonOptions {
-  double tolerance = 1e-11;  ///< of the residual, relative to that of the undeformed sphere in a liquid at rest
-  int iteration_limit = 12;  ///< factorisations
-  bool chord_steps = true;   ///< reuse a factorisation while each step reduces the residual tenfold
+  double tolerance = 1e-11;   ///< of the residual, relative to that of the undeformed sphere in a liquid at rest
+  int iteration_limit = 12;   ///< factorisations
+  bool chord_steps = true;    ///< reuse a factorisation while each step reduces the residual tenfold
+  double residual_scale = 0;  ///< what residuals are relative to; 0: the function below
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -23,10 +24,10 @@ struct NewtonReport {
 };
 
 /// Norm of the residual of the undeformed sphere in a liquid at rest: the scale of the driving forces.
-double residual_scale(StationarySystem&, const Media&);
+double residual_scale(CoupledSystem&, const Media&);
 
 /// Improves `unknowns` in place. If the report is not `converged`, `unknowns` are unspecified; the caller keeps the
 /// last good state. The system keeps the last factorisation.
-NewtonReport newton(StationarySystem&, const Media&, const NewtonOptions&, VectorXd& unknowns);
+NewtonReport newton(CoupledSystem&, const Media&, const NewtonOptions&, VectorXd& unknowns);
 
 }  // namespace rheocyte

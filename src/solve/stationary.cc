@@ -5,9 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "fem/write_fields.h"
+#include "solve/describe.h"
 #include "solve/resolved_branch.h"
 
 namespace rheocyte {
@@ -131,41 +130,13 @@ class StationarySolver {
   }
 
   void describe(const ResolvedState& state) {
-    const Discretisation& space = state.discrete->space;
-    const VectorXd& unknowns = state.branch.unknowns;
-    const Media media = media_at(problem_, state.branch.parameter);
     StationaryState& r = result_;
-    r.contour = contour(space, unknowns);
-    r.shape = measure(r.contour);
-    r.cell_velocity = unknowns(space.cell_velocity());
-    const double half = space.mesh().geometry().half_length();
-    const double gradient = undisturbed_pressure_gradient(media.liquid);
-    r.channel_length = 2 * half;
-    r.pressure_drop = inlet_pressure(space, unknowns) + gradient * half;
-    r.additional_pressure_drop = r.pressure_drop - gradient * r.channel_length;
-    r.relative_volume_change = r.shape.volume / (4.0 / 3 * std::numbers::pi * std::pow(problem_.radius_ratio, 3)) - 1;
-    describe_surface(space, media.cortex, unknowns);
-    if (const int p = space.inner_pressure(); p >= 0)
-      r.inner_pressure = unknowns(p) + 2 * media.cortex.tension / problem_.radius_ratio;
+    const auto& [parameter, unknowns, tangent, iterations] = state.branch;
+    describe_state(problem_, {state.discrete, media_at(problem_, parameter), unknowns}, r);
     r.residual = state.residual;
-    r.outcome.reached = state.branch.parameter;
-    if (state.branch.parameter < 1) r.estimated_error = std::numeric_limits<double>::quiet_NaN();
-    r.statistics.unknowns = space.unknowns();
+    r.outcome.reached = parameter;
+    if (parameter < 1) r.estimated_error = std::numeric_limits<double>::quiet_NaN();
     r.statistics.degree = state.resolution.degree;
-    r.statistics.elements = int(space.elements().size());
-    r.write_fields = [discrete = state.discrete, media, unknowns](const std::string& path, const Scales& scales) {
-      return write_fields(discrete->space, media, unknowns, scales, path);
-    };
-  }
-
-  void describe_surface(const Discretisation& space, const Cortex& cortex, const VectorXd& unknowns) {
-    const SurfaceState surface = surface_state(space, unknowns, SurfaceProfile::points_per_piece);
-    const Eigen::MatrixX2d tension = surface_tensions(cortex, surface);
-    result_.surface = {surface.angle, surface.point, surface.stretch, tension, surface.curvature};
-    result_.least_meridional_stretch = surface.stretch.col(0).minCoeff();
-    result_.least_tension = tension.col(0).minCoeff();
-    result_.biot_ratio = least_biot_ratio(surface);
-    result_.stability_margin = stability_margin(problem_, surface);
   }
 
   /// Settles the reason and says it in a sentence.

@@ -11,6 +11,7 @@
 
 #include "app/table_worker.h"
 #include "shape/curve.h"
+#include "solve/follow_in_time.h"
 #include "solve/stationary.h"
 
 namespace rheocyte {
@@ -95,6 +96,12 @@ StationaryState solve_stationary(const Problem& problem, const ProgressCallback&
   if (failure == "nan") state.pressure_drop = std::numeric_limits<double>::quiet_NaN();
   state.write_fields = write_some_fields;
   return state;
+}
+
+/// In time nothing fails on demand: one state, no step.
+StationaryState follow_in_time(const Problem& problem, const TimeRun&, const TimeObserver&, const TimeState*,
+                               const std::atomic<bool>* stop) {
+  return solve_stationary(problem, {}, stop);
 }
 
 }  // namespace rheocyte

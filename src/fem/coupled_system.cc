@@ -1,8 +1,10 @@
-#include "fem/stationary_system.h"
+#include "fem/coupled_system.h"
 
 #include <algorithm>
 #include <chrono>
 #include <limits>
+
+#include "fem/outlet_load.h"
 
 namespace rheocyte {
 namespace {
@@ -40,13 +42,12 @@ WorkMeter WorkMeter::operator-(const WorkMeter& other) const {
 }
 
 /// One element's elimination: inner unknowns belong to it alone, outer ones couple it to others.
-struct StationarySystem::Condensed {
+struct CoupledSystem::Condensed {
   std::vector<int> inner_row, inner_column, inner_unknown;  ///< slots, and the unknown of each
   std::vector<int> outer_row, outer_equation;               ///< slots, and the equation of each
   std::vector<int> outer_unknown;                           ///< each once
   struct Gather {
     int slot, outer;
-    double factor;
   };
   std::vector<Gather> outer_column;  ///< column slots that add to an outer unknown
   std::vector<int> position;         ///< in the sparse matrix: outer_equation x outer_unknown
@@ -58,8 +59,8 @@ struct StationarySystem::Condensed {
   Condensed(const ElementUnknowns&, int outer_unknowns);
 };
 
-StationarySystem::Condensed::Condensed(const ElementUnknowns& element, int outer_unknowns) {
-  const int offset = int(element.columns.size() - element.rows.size());
+CoupledSystem::Condensed::Condensed(const ElementUnknowns& element, int outer_unknowns) {
+  const int offset = element.liquid ? 2 * element.position_columns : 0;
   for (int i = 0; i < int(element.rows.size()); ++i) {
     const int unknown = element.rows[i];
     if (unknown >= outer_unknowns) {
@@ -75,14 +76,15 @@ StationarySystem::Condensed::Condensed(const ElementUnknowns& element, int outer
     const Slot& slot = element.columns[j];
     if (slot.unknown < 0 || slot.unknown >= outer_unknowns) continue;
     const auto it = std::find(outer_unknown.begin(), outer_unknown.end(), slot.unknown);
-    outer_column.push_back({j, int(it - outer_unknown.begin()), slot.factor});
+    outer_column.push_back({j, int(it - outer_unknown.begin())});
     if (it == outer_unknown.end()) outer_unknown.push_back(slot.unknown);
   }
 }
 
-StationarySystem::StationarySystem(const Discretisation& space) : space_(space), surface_(space) {
+CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnknowns> elements)
+    : space_(space), elements_(std::move(elements)), surface_(space) {
   std::vector<std::pair<int, int>> entries;
-  for (const ElementUnknowns& element : space.elements()) {
+  for (const ElementUnknowns& element : elements_) {
     const Condensed& c = condensed_.emplace_back(element, space.outer_unknowns());
     for (const int i : c.outer_equation) {
       for (const int j : c.outer_unknown) entries.emplace_back(i, j);
@@ -111,52 +113,51 @@ StationarySystem::StationarySystem(const Discretisation& space) : space_(space),
   lu_ = std::make_unique<SparseLU>(*matrix_);
 }
 
-StationarySystem::~StationarySystem() = default;
+CoupledSystem::~CoupledSystem() = default;
 
-VectorXd StationarySystem::sphere() const {
+VectorXd CoupledSystem::sphere() const {
   VectorXd unknowns = VectorXd::Zero(space_.unknowns());
   unknowns(space_.cell_velocity()) = 1;
   return unknowns;
 }
 
-VectorXd StationarySystem::residual(const Media& media, const VectorXd& unknowns, double& least_det) {
+VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, double& least_det) {
   const Stopwatch watch(work_.assembly_s);
   VectorXd total = VectorXd::Zero(space_.unknowns());
   least_det = std::numeric_limits<double>::infinity();
   for (int e = 0; e < int(condensed_.size()); ++e) {
-    if (space_.elements()[e].is_empty()) continue;
-    integrate_element(space_, e, media, unknowns, Want::residual, element_);
+    if (elements_[e].is_empty()) continue;
+    integrate(e, media, unknowns, Want::residual, element_);
     least_det = std::min(least_det, element_.least_det);
-    const auto& rows = space_.elements()[e].rows;
+    const auto& rows = elements_[e].rows;
     for (int i = 0; i < int(rows.size()); ++i) {
       if (rows[i] >= 0) total(rows[i]) += element_.residual(i);
     }
   }
-  add_outlet_pressure(media.liquid, total);
+  total += outlet_load(space_, media.liquid);
   add_surface(media.cortex, unknowns, Want::residual, total);
   return total;
 }
 
-VectorXd StationarySystem::linearise(const Media& media, const VectorXd& unknowns, double& least_det,
-                                     bool& factorised) {
+VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, double& least_det, bool& factorised) {
   VectorXd total = VectorXd::Zero(space_.unknowns());
   std::fill(matrix_->value.begin(), matrix_->value.end(), 0.0);
   least_det = std::numeric_limits<double>::infinity();
   for (int e = 0; e < int(condensed_.size()); ++e) {
-    if (space_.elements()[e].is_empty()) continue;
+    if (elements_[e].is_empty()) continue;
     {
       const Stopwatch watch(work_.assembly_s);
-      integrate_element(space_, e, media, unknowns, Want::residual_and_tangent, element_);
+      integrate(e, media, unknowns, Want::residual_and_tangent, element_);
     }
     least_det = std::min(least_det, element_.least_det);
-    const auto& rows = space_.elements()[e].rows;
+    const auto& rows = elements_[e].rows;
     for (int i = 0; i < int(rows.size()); ++i) {
       if (rows[i] >= 0) total(rows[i]) += element_.residual(i);
     }
     const Stopwatch watch(work_.condensation_s);
-    condense(condensed_[e], element_.tangent);
+    condense(elements_[e], condensed_[e], element_.tangent);
   }
-  add_outlet_pressure(media.liquid, total);
+  total += outlet_load(space_, media.liquid);
   add_surface(media.cortex, unknowns, Want::residual_and_tangent, total);
   const Stopwatch watch(work_.sparse_s);
   factorised = lu_->factorise();
@@ -165,13 +166,14 @@ VectorXd StationarySystem::linearise(const Media& media, const VectorXd& unknown
   return total;
 }
 
-void StationarySystem::condense(Condensed& c, const MatrixXd& tangent) {
+void CoupledSystem::condense(const ElementUnknowns& element, Condensed& c, const MatrixXd& tangent) {
   const int inner = int(c.inner_row.size()), rows = int(c.outer_row.size()), columns = int(c.outer_unknown.size());
   const MatrixXd inner_inner = tangent(c.inner_row, c.inner_column);
   c.outer_inner = tangent(c.outer_row, c.inner_column);
   c.inner_outer.setZero(inner, columns);
   c.schur.setZero(rows, columns);
-  for (const auto& [slot, outer, factor] : c.outer_column) {
+  for (const auto& [slot, outer] : c.outer_column) {
+    const double factor = element.columns[slot].factor;
     for (int i = 0; i < inner; ++i) c.inner_outer(i, outer) += factor * tangent(c.inner_row[i], slot);
     for (int i = 0; i < rows; ++i) c.schur(i, outer) += factor * tangent(c.outer_row[i], slot);
   }
@@ -184,7 +186,7 @@ void StationarySystem::condense(Condensed& c, const MatrixXd& tangent) {
   for (const int position : c.position) matrix_->value[position] += *value++;
 }
 
-VectorXd StationarySystem::solve(const VectorXd& rhs) {
+VectorXd CoupledSystem::solve(const VectorXd& rhs) {
   const Stopwatch watch(work_.solve_s);
   VectorXd outer = rhs.head(space_.outer_unknowns());
   for (Condensed& c : condensed_) {
@@ -203,25 +205,7 @@ VectorXd StationarySystem::solve(const VectorXd& rhs) {
   return x;
 }
 
-void StationarySystem::add_outlet_pressure(const Liquid& liquid, VectorXd& residual) const {
-  const ReferenceElement& reference = space_.reference();
-  const double pressure = -undisturbed_pressure_gradient(liquid) * space_.mesh().geometry().half_length();
-  const MatrixXd value = reference.lagrange(reference.points_1d);
-  for (const BoundaryEdge& edge : space_.outlet()) {
-    VectorXd r(edge.nodes.size());
-    for (int k = 0; k < r.size(); ++k) r(k) = space_.node_points()[edge.nodes[k]](1);
-    const double width = r.maxCoeff() - r.minCoeff();
-    const VectorXd load = value.transpose() * (reference.weights_1d.array() * (value * r).array()).matrix();
-    for (int k = 0; k < r.size(); ++k) {
-      const Slot& slot = space_.velocity(edge.nodes[k], 0);
-      if (slot.unknown >= 0 && slot.unknown != space_.cell_velocity()) {
-        residual(slot.unknown) += pressure * width * load(k);
-      }
-    }
-  }
-}
-
-void StationarySystem::add_surface(const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& residual) {
+void CoupledSystem::add_surface(const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& residual) {
   const Stopwatch watch(work_.assembly_s);
   for (int k = 0; k < surface_.active(cortex); ++k) {
     surface_.integrate(k, cortex, unknowns, want, element_);
@@ -237,12 +221,12 @@ void StationarySystem::add_surface(const Cortex& cortex, const VectorXd& unknown
   }
 }
 
-VectorXd StationarySystem::apply_tangent(const Media& media, const VectorXd& unknowns, const VectorXd& direction) {
+VectorXd CoupledSystem::apply_tangent(const Media& media, const VectorXd& unknowns, const VectorXd& direction) {
   VectorXd product = VectorXd::Zero(space_.unknowns());
   for (int e = 0; e < int(condensed_.size()); ++e) {
-    const ElementUnknowns& element = space_.elements()[e];
+    const ElementUnknowns& element = elements_[e];
     if (element.is_empty()) continue;
-    integrate_element(space_, e, media, unknowns, Want::residual_and_tangent, element_);
+    integrate(e, media, unknowns, Want::residual_and_tangent, element_);
     VectorXd local(element.columns.size());
     for (int j = 0; j < local.size(); ++j) {
       const Slot& slot = element.columns[j];

@@ -1,0 +1,126 @@
+"""python -m rheocyte.time_picture DIR: the way of a cell, from result.json, history.csv and contours.csv in DIR.
+
+Writes DIR/time.png and DIR/time.svg, the deformation over time with some contours above it, and DIR/time.gif, the cell
+in its channel. Exit code 2 and one sentence on stderr if a file is missing or damaged.
+"""
+
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
+import numpy as np  # noqa: E402
+from matplotlib.animation import FuncAnimation, PillowWriter  # noqa: E402
+
+from rheocyte import colours  # noqa: E402
+from rheocyte.contour import closed  # noqa: E402
+from rheocyte.files import (InputError, current_umask, number, read_result, read_table, reason, run,  # noqa: E402
+                            save_figure)
+from rheocyte.picture import STYLE, WIDTH_IN, find, made_of  # noqa: E402
+
+SHOWN = 5  # contours above the curve
+GREATEST_FRAMES = 120  # of the animation
+FILL, EDGE = "#fbc873", "#9c1f3a"
+
+
+def read_contours(path):
+    """Times in us and contours (n, 2) in um."""
+    rows = read_table(path, ["t_us", "x_um", "r_um"])
+    table = np.array([[number(row, name, path) for name in ("t_us", "x_um", "r_um")] for row in rows])
+    if len(table) < 3:
+        raise InputError(f"{path} holds no contour.")
+    starts = np.flatnonzero(np.diff(table[:, 0], prepend=np.nan) != 0)
+    return table[starts, 0], [part[:, 1:] for part in np.split(table, starts[1:])]
+
+
+def read_history(path):
+    """Time in us and deformation."""
+    rows = read_table(path, ["t_us", "deformation"])
+    if not rows:
+        raise InputError(f"{path} holds no step.")
+    return tuple(np.array([number(row, name, path) for row in rows]) for name in ("t_us", "deformation"))
+
+
+def draw(result, history, contours):
+    """d(t), and above it the cell at equal steps of its deformation."""
+    plt.rcParams.update(STYLE)
+    times, shapes = contours
+    t, d = history
+    figure = plt.figure(figsize=(WIDTH_IN, 2.6))
+    axes = figure.add_axes([0.13, 0.15, 0.83, 0.55])
+    axes.plot(t, d, color=EDGE, linewidth=1)
+    axes.set(xlim=(0, t[-1] or 1), xlabel="time (µs)", ylabel="deformation")
+    axes.set_ylim(bottom=0)
+    axes.spines[["top", "right"]].set_visible(False)
+    above = figure.add_axes([0.13, 0.72, 0.83, 0.2])
+    above.axis("off")
+    size = 1.15 * max(np.ptp(shape[:, 0]) for shape in shapes)
+    chosen = chosen_frames(times, t, d)
+    for place, k in enumerate(chosen):
+        outline = closed(shapes[k]) + [size * place, 0]
+        above.fill(*outline.T, facecolor=FILL, edgecolor=EDGE, linewidth=0.7)
+        above.text(size * place, -0.62 * size, f"{times[k]:.4g} µs", ha="center", va="top", fontsize=5.4)
+        axes.plot(times[k], np.interp(times[k], t, d), "o", color=EDGE, markersize=2.2)
+    above.set(xlim=(-0.6 * size, (SHOWN - 0.4) * size), ylim=(-0.6 * size, 0.6 * size), aspect="equal")
+    figure.text(0.5, 0.985, "   ".join(filter(None, made_of(result))), ha="center", va="top", weight="bold")
+    return figure
+
+
+def chosen_frames(times, t, d):
+    """Frames at equal steps of the deformation, the first and the last among them."""
+    values = np.interp(times, t, d)
+    wanted = np.linspace(values[0], values[-1], SHOWN)
+    return sorted({int(np.argmin(np.abs(values - value))) for value in wanted} | {0, len(times) - 1})[:SHOWN + 1]
+
+
+def animate(result, history, contours, path):
+    """The cell between the walls, as a film."""
+    plt.rcParams.update(STYLE)
+    times, shapes = contours
+    steps = np.unique(np.linspace(0, len(times) - 1, min(len(times), GREATEST_FRAMES)).round().astype(int))
+    radius = find(result, "tube_radius_um") or 1.2 * max(shape[:, 1].max() for shape in shapes)
+    figure = plt.figure(figsize=(4.4, 2.6), dpi=110)
+    axes = figure.add_axes([0, 0, 1, 1])
+    axes.set(xlim=(-2 * radius, 2 * radius), ylim=(-1.18 * radius, 1.18 * radius), aspect="equal")
+    axes.axis("off")
+    for side in (-1, 1):
+        axes.fill_between([-3 * radius, 3 * radius], side * radius, side * 1.3 * radius, color="#9aa5ad")
+    (cell,) = axes.fill(*closed(shapes[0]).T, facecolor=FILL, edgecolor=EDGE, linewidth=1.2)
+    label = axes.text(-1.9 * radius, 0.97 * radius, "", va="top", fontsize=9)
+
+    def show(k):
+        cell.set_xy(closed(shapes[k]))
+        label.set_text(f"{times[k]:.4g} µs\nd = {np.interp(times[k], *history):.4f}")
+        return cell, label
+
+    handle, temporary = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=".gif", dir=path.parent)
+    os.close(handle)
+    try:
+        FuncAnimation(figure, show, frames=steps).save(temporary, writer=PillowWriter(fps=12))
+        os.chmod(temporary, 0o666 & ~current_umask())
+        os.replace(temporary, path)
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {reason(error)}.") from error
+    finally:
+        if os.path.exists(temporary):
+            os.unlink(temporary)
+        plt.close(figure)
+
+
+def main():
+    """Command line."""
+    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+        raise InputError("give the folder of one result in time: python -m rheocyte.time_picture DIR.")
+    folder = Path(sys.argv[1])
+    result = read_result(folder / "result.json")
+    history, contours = read_history(folder / "history.csv"), read_contours(folder / "contours.csv")
+    save_figure(draw(result, history, contours), folder / "time", dpi=400)
+    animate(result, history, contours, folder / "time.gif")
+
+
+if __name__ == "__main__":
+    run(main)

@@ -1,0 +1,31 @@
+// Checkpoints of a computation in time: two slots, written in turn, each with its case, its length and a checksum.
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "app/time_record.h"
+#include "case/case.h"
+
+namespace rheocyte {
+
+/// All that a later run needs to go on as if it had never stopped.
+struct Checkpoint {
+  TimeState state;
+  TimeRecord record;
+};
+
+/// Equal for cases that may continue each other: the end of the time does not count.
+std::string time_case_hash(const Case&);
+
+/// "checkpoint-1.bin" or "checkpoint-2.bin".
+std::string checkpoint_file(int slot);
+
+/// The content of a slot, and back. UserError, which names the file: damaged, of another case, of another version.
+std::string encode_checkpoint(const Checkpoint&, const Case&);
+Checkpoint decode_checkpoint(const std::string& content, const Case&, const std::filesystem::path& file);
+
+/// The later one of the checkpoints of a result that can be read. UserError if there is none, or if the time that it
+/// has reached lies beyond the end of the case.
+Checkpoint read_checkpoint(const std::filesystem::path& folder, const Case&);
+
+}  // namespace rheocyte

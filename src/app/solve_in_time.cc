@@ -1,0 +1,138 @@
+#include "app/solve_in_time.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/checkpoint.h"
+#include "app/finish_result.h"
+#include "app/standard_error.h"
+#include "app/stop_signal.h"
+#include "case/scales.h"
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double us_per_s = 1e6;
+constexpr auto time_between_checkpoints = std::chrono::seconds(10);
+constexpr const char* fields_folder = "fields";
+
+TimeRun run_of(const Case& c, const Scales& scales) {
+  const double unit_us = scales.time_s() * us_per_s;
+  TimeRun run;
+  run.end = *c.time.end_us / unit_us;
+  run.output_every = *c.time.output_every_us / unit_us;
+  run.accuracy = c.time.accuracy.value_or(run.accuracy);
+  run.degree = int(*c.time.degree);
+  run.scheme = c.time.scheme;
+  run.step = c.time.step_us.value_or(0) / unit_us;
+  return run;
+}
+
+/// Keeps the record of a computation and writes what must not be lost.
+class Recorder {
+ public:
+  Recorder(const Result& result, const SolveOptions& options, ResultFolder& folder)
+      : result_(result), options_(options), folder_(folder) {
+    fs::create_directory(folder_.scratch() / fields_folder);
+  }
+
+  /// Takes over what an earlier run has recorded, its field files included.
+  void take_over(const Checkpoint& from) {
+    const TimeRecord& record = from.record;
+    record_ = record;
+    last_state_ = from.state;
+    for (std::size_t i = 0; i < record.frames.size(); ++i) {
+      const fs::path file = fs::path(fields_folder) / field_file(i);
+      std::error_code error;
+      fs::copy_file(options_.continue_from / file, folder_.scratch() / file, error);
+      if (error)
+        throw UserError(fmt::format("{}: cannot be copied ({}); start anew without --continue.",
+                                    (options_.continue_from / file).string(), error.message()));
+    }
+  }
+
+  TimeObserver observer() {
+    return {[this](const TimeFrame& frame) { add(frame); },
+            [this](const TimePoint& point, const TimeState& state) { add(point, state); }};
+  }
+
+  const TimeRecord& record() const { return record_; }
+
+  void write_all() {
+    if (last_state_) write_checkpoint();
+    folder_.write("history.csv", history_csv(record_));
+    folder_.write("contours.csv", contours_csv(record_));
+    folder_.write("fields.pvd", field_collection(record_, fields_folder));
+  }
+
+ private:
+  void add(const TimeFrame& frame) {
+    const fs::path file = folder_.scratch() / fields_folder / field_file(record_.frames.size());
+    write_field_file(frame.write_fields, result_.scales, file, options_.folder);
+    record_.frames.push_back(contour_frame(frame, result_.scales));
+  }
+
+  void add(const TimePoint& point, const TimeState& state) {
+    record_.rows.push_back(history_row(point, result_.scales, result_.input.flow.rate_ul_per_s));
+    last_state_ = state;
+    const HistoryRow& row = record_.rows.back();
+    if (!options_.quiet)
+      tell(fmt::format("t {:>10.4f} us  step {:<9.3g} order {}  deformation {:.6f}  {} Newton iterations", row.t_us,
+                       row.step_us, row.order, row.deformation, row.newton_iterations));
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_checkpoint_ < time_between_checkpoints) return;
+    last_checkpoint_ = now;
+    write_checkpoint();
+  }
+
+  void write_checkpoint() {
+    folder_.write(checkpoint_file(slot_), encode_checkpoint({*last_state_, record_}, result_.input));
+    slot_ = 3 - slot_;
+  }
+
+  const Result& result_;
+  const SolveOptions& options_;
+  ResultFolder& folder_;
+  TimeRecord record_;
+  std::optional<TimeState> last_state_;
+  int slot_ = 1;
+  std::chrono::steady_clock::time_point last_checkpoint_ = std::chrono::steady_clock::now();
+};
+
+nlohmann::ordered_json time_numbers(const TimeRecord& record) {
+  if (record.rows.empty()) return nullptr;
+  double greatest_volume_change = 0;
+  for (const HistoryRow& row : record.rows)
+    greatest_volume_change = std::max(greatest_volume_change, std::abs(row.relative_volume_change));
+  return {{"t_us", record.rows.back().t_us},
+          {"steps", record.rows.size() - 1},
+          {"frames", record.frames.size()},
+          {"greatest_relative_volume_change", greatest_volume_change}};
+}
+
+}  // namespace
+
+int solve_in_time(const Case& c, const SolveOptions& options) {
+  Result result{c, scales_of(c), problem_of(c), {}};
+  std::optional<Checkpoint> from;
+  if (!options.continue_from.empty()) from = read_checkpoint(options.continue_from, c);
+  ResultFolder folder(options.folder);
+  Recorder recorder(result, options, folder);
+  if (from) recorder.take_over(*from);
+  result.state = follow_in_time(result.problem, run_of(c, result.scales), recorder.observer(),
+                                from ? &from->state : nullptr, &stop_wanted());
+  recorder.write_all();
+  auto numbers = to_json(result);
+  numbers["time"] = time_numbers(recorder.record());
+  return finish_result(result, folder, options, numbers);
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,12 @@
+// `rheocyte solve` of a case with a [time] section, on the engine's side.
+#pragma once
+#include "app/solve_options.h"
+#include "case/case.h"
+
+namespace rheocyte {
+
+/// Follows the cell, writes the folder, prints. Returns the exit code; UserError for checkpoints and the disk. Signals
+/// are watched already.
+int solve_in_time(const Case&, const SolveOptions&);
+
+}  // namespace rheocyte

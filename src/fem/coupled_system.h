@@ -1,0 +1,74 @@
+// The nonlinear system of cell and liquid: residual, exact tangent, and its factorisation with the unknowns inside
+// elements condensed (docs/theory.md, eq:condensation). What an element contributes, the derived systems say.
+#pragma once
+#include <Eigen/LU>
+
+#include "fem/element_integrals.h"
+#include "fem/sparse_lu.h"
+#include "fem/surface_integrals.h"
+
+namespace rheocyte {
+
+/// Seconds and counts of the parts of the work.
+struct WorkMeter {
+  double assembly_s = 0;      ///< integrals over elements, with and without tangent
+  double condensation_s = 0;  ///< dense elimination inside elements
+  double sparse_s = 0;        ///< numeric sparse factorisation
+  double solve_s = 0;
+  int factorisations = 0;
+  double sparse_flops = 0;  ///< of the last sparse factorisation
+
+  WorkMeter& operator+=(const WorkMeter&);
+  WorkMeter operator-(const WorkMeter&) const;
+};
+
+class CoupledSystem {
+ public:
+  virtual ~CoupledSystem();
+  CoupledSystem(const CoupledSystem&) = delete;
+  CoupledSystem& operator=(const CoupledSystem&) = delete;
+
+  const Discretisation& space() const { return space_; }
+
+  /// The unstressed sphere in a liquid at rest, moving with the mean speed of the flow.
+  VectorXd sphere() const;
+
+  /// Residual of all equations; `least_det` is set to the least relative det of the mesh.
+  VectorXd residual(const Media&, const VectorXd& unknowns, double& least_det);
+  /// The same, and the tangent factorised. False in `factorised` if the tangent is singular or not finite.
+  VectorXd linearise(const Media&, const VectorXd& unknowns, double& least_det, bool& factorised);
+  /// Solves with the tangent of the last `linearise`.
+  VectorXd solve(const VectorXd& rhs);
+  /// Tangent times a vector at given unknowns (for tests; assembles anew).
+  VectorXd apply_tangent(const Media&, const VectorXd& unknowns, const VectorXd& direction);
+
+  const WorkMeter& work() const { return work_; }
+
+ protected:
+  /// The discretisation must outlive this object. Which unknowns a column refers to stays as it is given here; factors
+  /// and constants of the columns may change.
+  CoupledSystem(const Discretisation&, std::vector<ElementUnknowns>);
+  /// Residual and, if wanted, tangent of one element that is not empty.
+  virtual void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const = 0;
+
+  std::vector<ElementUnknowns>& elements() { return elements_; }
+  const std::vector<ElementUnknowns>& elements() const { return elements_; }
+
+ private:
+  struct Condensed;
+  /// Cortex, volume of a pure shell, and barycentre.
+  void add_surface(const Cortex&, const VectorXd& unknowns, Want, VectorXd& residual);
+  void condense(const ElementUnknowns&, Condensed&, const MatrixXd& tangent);
+
+  const Discretisation& space_;
+  std::vector<ElementUnknowns> elements_;
+  SurfaceIntegrals surface_;
+  std::vector<Condensed> condensed_;
+  std::vector<std::vector<int>> surface_position_;  ///< in the sparse matrix, patch by patch: unknowns x unknowns
+  std::unique_ptr<SparseMatrix> matrix_;
+  std::unique_ptr<SparseLU> lu_;
+  ElementSystem element_;
+  WorkMeter work_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,41 @@
+// The system of one time step (docs/theory-time.md, eq:momentum-time).
+#pragma once
+#include "fem/coupled_system.h"
+#include "laws/moving_form.h"
+
+namespace rheocyte {
+
+/// How derivatives follow from new values within a time step: d(value)/dt = rate * value + history. All zero: at rest.
+struct Motion {
+  double rate = 0;
+  VectorXd unknowns;    ///< histories of the unknowns
+  VectorXd velocities;  ///< histories of the nodes' velocities, (x, r) node by node
+};
+
+/// Cell and liquid on their way. The cell's velocities are the derivatives of its displacements, in a frame that moves
+/// with v_cell; on the surface they are the liquid's, too. The interior has to be `Interior::elastic`; with modulus
+/// zero it is a viscous liquid that carries its mesh along.
+class MovingSystem final : public CoupledSystem {
+ public:
+  /// The discretisation must outlive this object.
+  explicit MovingSystem(const Discretisation&);
+
+  void set_motion(const Motion&);
+
+  /// Velocities relative to the frame, (x, r) node by node, of a state at the end of the step.
+  VectorXd node_velocities(const VectorXd& unknowns) const;
+
+ private:
+  void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const override;
+  void tell_liquid(int element);
+  void tell_cell(int element);
+  CellHistory cell_history(int element, int point) const;
+
+  Motion motion_;
+  ShapeTable ones_;  ///< of a column that is constant in space
+  /// Element by element, points x fields. Liquid: mesh velocity, acceleration. Cell: velocity, its slopes row by row,
+  /// acceleration.
+  std::vector<MatrixXd> history_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,154 @@
+#include "solve/follow_in_time.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "solve/describe.h"
+#include "solve/partitioned_stepper.h"
+#include "solve/time_stepper.h"
+
+namespace rheocyte {
+namespace {
+
+/// Resolves the stationary states of the paper's cells to 1e-5 of the deformation at degree 6
+/// (docs/verification-time.md).
+constexpr Subdivision subdivision = {2, 4, 1, 2};
+
+TimeStepOptions step_options(const TimeRun& run, const std::atomic<bool>* stop) {
+  TimeStepOptions options;
+  options.accuracy = run.accuracy;
+  options.newton.stop = stop;
+  return options;
+}
+
+std::unique_ptr<Stepper> make_stepper(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
+  const Resolution resolution{subdivision, run.degree};
+  if (run.scheme == TimeScheme::partitioned)
+    return std::make_unique<PartitionedStepper>(problem, resolution, PartitionedOptions{run.step});
+  return std::make_unique<TimeStepper>(problem, resolution, step_options(run, stop));
+}
+
+class TimeFollower {
+ public:
+  TimeFollower(const Problem& problem, const TimeRun& run, const TimeObserver& observer, const std::atomic<bool>* stop)
+      : run_(run), observer_(observer), stop_(stop), stepper_(make_stepper(problem, run, stop)) {}
+
+  StationaryState follow(const TimeState* from) {
+    const auto start = std::chrono::steady_clock::now();
+    StationaryState result;
+    Outcome& outcome = result.outcome;
+    if (from) {
+      stepper_->resume(*from);
+      outcome.status = Status::converged;
+    } else {
+      outcome.status = stepper_->start();
+      if (outcome.status != Status::converged) return outcome.message = start_failed, result;
+      show_frame(0, stepper_->now().unknowns);
+      if (observer_.step) observer_.step(describe(TimeStepReport{}), stepper_->state());
+    }
+    advance(result);
+    describe_state(stepper_->problem(), state_of(stepper_->now().unknowns), result);
+    result.pressure_drop = describe(TimeStepReport{}).pressure_drop;
+    outcome.reached = 1;
+    outcome.message = explanation(outcome.status);
+    result.statistics.degree = run_.degree;
+    result.statistics.total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+  }
+
+ private:
+  static constexpr const char* start_failed =
+      "The flow round the sphere at rest was not found; please report this case.";
+
+  bool at_end() const { return stepper_->now().time >= run_.end * (1 - 1e-12); }
+
+  void advance(StationaryState& result) {
+    SolveStatistics& statistics = result.statistics;
+    while (result.outcome.status == Status::converged && !at_end()) {
+      if (stop_ && *stop_) {
+        result.outcome.status = Status::stopped;
+        break;
+      }
+      const double before = stepper_->now().time;
+      const TimeStepReport report = stepper_->step(run_.end);
+      result.outcome.status = report.status;
+      statistics.newton_iterations += report.newton_iterations;
+      if (report.status != Status::converged) break;
+      ++statistics.continuation_steps;
+      result.residual = report.residual;
+      show_frames(before);
+      if (observer_.step) observer_.step(describe(report), stepper_->state());
+    }
+    const WorkMeter work = stepper_->work();
+    statistics.factorisations = work.factorisations;
+    statistics.assembly_s = work.assembly_s;
+    statistics.factorisation_s = work.condensation_s + work.sparse_s;
+    statistics.substitution_s = work.solve_s;
+  }
+
+  DiscreteState state_of(const VectorXd& unknowns) const { return {stepper_->discrete(), stepper_->media(), unknowns}; }
+
+  TimePoint describe(const TimeStepReport& report) const {
+    StationaryState state;
+    const TimeLevel& now = stepper_->now();
+    describe_state(stepper_->problem(), state_of(now.unknowns), state);
+    // In the accelerated frame the solver's pressure contains that of the inertial force (eq:frame-pressure); the
+    // splitting scheme solves in the laboratory.
+    const double inertia = run_.scheme == TimeScheme::monolithic ? stepper_->media().liquid.reynolds : 0;
+    const double drop = state.pressure_drop + inertia * now.frame_acceleration * state.channel_length;
+    return {now.time,
+            report.step,
+            report.order,
+            report.newton_iterations,
+            report.refused,
+            state.shape,
+            state.cell_velocity,
+            state.relative_volume_change,
+            drop};
+  }
+
+  void show_frame(double time, const VectorXd& unknowns) const {
+    if (!observer_.frame) return;
+    StationaryState state;
+    describe_state(stepper_->problem(), state_of(unknowns), state);
+    observer_.frame({time, state.contour, state.write_fields});
+  }
+
+  /// Those between the last step and the one before.
+  void show_frames(double before) const {
+    const double now = stepper_->now().time;
+    for (long i = std::lround(std::floor(before / run_.output_every * (1 + 1e-12))) + 1;; ++i) {
+      const double time = i * run_.output_every;
+      if (time > now * (1 + 1e-12) || time > run_.end * (1 - 1e-9)) break;
+      show_frame(time, stepper_->unknowns_at(time));
+    }
+    if (at_end()) show_frame(run_.end, stepper_->now().unknowns);
+  }
+
+  std::string explanation(Status status) const {
+    if (status == Status::converged) return "The cell was followed to the end.";
+    const double share = 100 * stepper_->now().time / run_.end;
+    if (status == Status::stopped)
+      return fmt::format("Stopped by a signal at {:.4g} % of the time; --continue goes on from there.", share);
+    return fmt::format(
+        "No step in time succeeds beyond {:.4g} % of the time ({}): the cell is drawn out or wrinkles; "
+        "the last good state is kept.",
+        share, name(status));
+  }
+
+  TimeRun run_;
+  TimeObserver observer_;
+  const std::atomic<bool>* stop_;
+  std::unique_ptr<Stepper> stepper_;
+};
+
+}  // namespace
+
+StationaryState follow_in_time(const Problem& problem, const TimeRun& run, const TimeObserver& observer,
+                               const TimeState* from, const std::atomic<bool>* stop) {
+  return TimeFollower(problem, run, observer, stop).follow(from);
+}
+
+}  // namespace rheocyte

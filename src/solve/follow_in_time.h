@@ -1,0 +1,43 @@
+// The way of a cell from the sphere, with everything that is recorded on it (docs/theory-time.md).
+#pragma once
+#include "solve/stationary.h"
+#include "solve/time_state.h"
+
+namespace rheocyte {
+
+/// Times in R/U.
+struct TimeRun {
+  double end = 1;
+  double output_every = 0.1;
+  double accuracy = 1e-5;  ///< of the surface's positions in each step, in r0
+  int degree = 6;
+  TimeScheme scheme = TimeScheme::monolithic;
+  double step = 2e-3;  ///< of the splitting scheme
+};
+
+/// What is recorded of each step; dimensionless.
+struct TimePoint {
+  double time = 0, step = 0;
+  int order = 0, newton_iterations = 0, refused_steps = 0;
+  ShapeMeasures shape;
+  double cell_velocity = 0, relative_volume_change = 0, pressure_drop = 0;
+};
+
+/// What is recorded at the times of output; interpolated between steps.
+struct TimeFrame {
+  double time = 0;
+  Contour contour;
+  std::function<bool(const std::string& path, const Scales&)> write_fields;
+};
+
+struct TimeObserver {
+  std::function<void(const TimeFrame&)> frame;                   ///< at 0, output_every, 2 output_every, ..., end
+  std::function<void(const TimePoint&, const TimeState&)> step;  ///< at the start and after each step and its frames
+};
+
+/// Follows the cell from the sphere, or from the state that an earlier run ended with. The result describes the last
+/// state; its `reached` is 1 as the moduli are the wanted ones throughout. Never throws for a numerical failure.
+StationaryState follow_in_time(const Problem&, const TimeRun&, const TimeObserver&, const TimeState* from = nullptr,
+                               const std::atomic<bool>* stop = nullptr);
+
+}  // namespace rheocyte

@@ -1,0 +1,86 @@
+#include "solve/partitioned_stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/rigid_start.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr double folded = 1e-3;  ///< least volume of an element, in that at rest, that a shape may have
+
+/// Whether the cell still has a shape: finite, and no element turned inside out.
+bool is_sound(const Discretisation& space, const VectorXd& unknowns) {
+  if (!unknowns.allFinite()) return false;
+  for (int e = 0; e < int(space.elements().size()); ++e) {
+    const MatrixXd f = fields_at_points(space, e, unknowns);
+    for (int q = 0; q < f.rows(); ++q) {
+      const double det = f(q, 0) * f(q, 3) - f(q, 1) * f(q, 2);
+      if (!(det > folded * space.elements()[e].reference[q].det)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+PartitionedStepper::PartitionedStepper(const Problem& problem, const Resolution& resolution,
+                                       const PartitionedOptions& options)
+    : Stepper(problem, resolution), options_(options), system_(space()) {}
+
+Status PartitionedStepper::start() {
+  MovingSystem rigid(space());
+  NewtonOptions options = {1e-9};
+  options.residual_scale = residual_scale(rigid, media_);
+  TimeLevel level;
+  const Status status = flow_round_sphere(rigid, media_, options, level.unknowns);
+  if (status != Status::converged) return status;
+  level.velocities = rigid.node_velocities(level.unknowns);
+  const double v_cell = level.unknowns(space().cell_velocity());
+  for (int node = 0; node < space().nodes().count; ++node) level.velocities(2 * node) += v_cell;
+  state_ = {};
+  state_.levels = {level};
+  state_.next_step = options_.step;
+  return Status::converged;
+}
+
+TimeStepReport PartitionedStepper::step(double limit) {
+  TimeStepReport report;
+  const double room = limit - now().time, size = std::min(options_.step, room);
+  report.step = size > room * (1 - 1e-9) ? room : size;
+  report.order = 1;
+  SplitState split{now().unknowns, now().velocities, state_.traction};
+  VectorXd load;
+  report.status = Status::singular_matrix;
+  if (!system_.step_liquid(media_, report.step, split, load)) return report;
+  // The sphere that starts feels the whole traction of its liquid.
+  split.traction = split.traction.size() == 0
+                       ? load
+                       : VectorXd((1 - options_.relaxation) * split.traction + options_.relaxation * load);
+  if (!system_.step_cell(media_, report.step, split)) return report;
+  system_.move(report.step, split);
+  report.status = is_sound(space(), split.unknowns) ? Status::converged : Status::mesh_folded;
+  if (report.status != Status::converged) return report;
+  const int v = space().cell_velocity();
+  TimeLevel level{now().time + report.step, split.unknowns, split.velocities, 0};
+  level.frame_acceleration = (split.unknowns(v) - now().unknowns(v)) / report.step;
+  state_.levels = {level, now()};
+  state_.traction = split.traction;
+  return report;
+}
+
+VectorXd PartitionedStepper::unknowns_at(double time) const {
+  if (state_.levels.size() < 2) return now().unknowns;
+  const TimeLevel& before = state_.levels[1];
+  const double share = (time - before.time) / (now().time - before.time);
+  return share * now().unknowns + (1 - share) * before.unknowns;
+}
+
+WorkMeter PartitionedStepper::work() const {
+  WorkMeter work;
+  work.factorisations = system_.factorisations();
+  return work;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,29 @@
+// The splitting of Mokbel et al. 2017 (docs/theory-time.md, sec. 3): the reference that the implicit steps are compared
+// with.
+#pragma once
+#include "fem/split_system.h"
+#include "solve/stepper.h"
+
+namespace rheocyte {
+
+struct PartitionedOptions {
+  double step = 2e-3;        ///< in R/U
+  double relaxation = 0.25;  ///< share of the new traction in each step
+};
+
+class PartitionedStepper final : public Stepper {
+ public:
+  PartitionedStepper(const Problem&, const Resolution&, const PartitionedOptions&);
+
+  Status start() override;
+  TimeStepReport step(double limit) override;
+  /// Linear between the last two levels.
+  VectorXd unknowns_at(double time) const override;
+  WorkMeter work() const override;
+
+ private:
+  PartitionedOptions options_;
+  SplitSystem system_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,25 @@
+// All that a computation in time needs to go on.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+namespace rheocyte {
+
+/// A state at a time, in R/U. Velocities are those of the nodes, (x, r) node by node, relative to the frame;
+/// in the splitting scheme those in the laboratory.
+struct TimeLevel {
+  double time = 0;
+  Eigen::VectorXd unknowns, velocities;
+  double frame_acceleration = 0;  ///< d(v_cell)/dt, in U^2/R
+};
+
+/// All that the next step depends on.
+struct TimeState {
+  std::vector<TimeLevel> levels;  ///< the latest first
+  int order = 1;                  ///< of the next step
+  int steps_at_order = 0;
+  double next_step = 0;
+  Eigen::VectorXd traction;  ///< on the cell, of the splitting scheme only (fem/split_system.h)
+};
+
+}  // namespace rheocyte

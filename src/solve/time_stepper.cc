@@ -1,0 +1,158 @@
+#include "solve/time_stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/rigid_start.h"
+
+namespace rheocyte {
+namespace {
+
+std::vector<double> times(const TimeState& state) {
+  std::vector<double> result;
+  for (const TimeLevel& level : state.levels) result.push_back(level.time);
+  return result;
+}
+
+}  // namespace
+
+/// A solved step that is not yet accepted.
+struct TimeStepper::Trial {
+  NewtonReport newton;
+  BdfFormula formula;
+  TimeLevel level;
+  double error = 0;  ///< relative to the wanted accuracy
+};
+
+TimeStepper::TimeStepper(const Problem& problem, const Resolution& resolution, const TimeStepOptions& options)
+    : Stepper(problem, resolution), options_(options), system_(space()) {
+  options_.newton.residual_scale = residual_scale(system_, media_);
+}
+
+Status TimeStepper::start() {
+  VectorXd unknowns;
+  const Status status = flow_round_sphere(system_, media_, options_.newton, unknowns);
+  if (status != Status::converged) return status;
+  state_ = {};
+  state_.levels = {{0, unknowns, system_.node_velocities(unknowns)}};
+  state_.next_step = options_.fixed_step > 0 ? options_.fixed_step : options_.first_step;
+  return Status::converged;
+}
+
+VectorXd TimeStepper::extrapolate(int levels, double time) const {
+  const std::vector<double> past = times(state_);
+  const VectorXd weights = extrapolation_weights(std::span<const double>(past).first(levels), time);
+  VectorXd result = weights(0) * state_.levels[0].unknowns;
+  for (int i = 1; i < levels; ++i) result += weights(i) * state_.levels[i].unknowns;
+  return result;
+}
+
+VectorXd TimeStepper::unknowns_at(double time) const {
+  return extrapolate(std::min<int>(state_.order + 1, int(state_.levels.size())), time);
+}
+
+double TimeStepper::surface_change(const VectorXd& difference) const {
+  double greatest = 0;
+  for (const BoundaryEdge& edge : space().surface()) {
+    for (const int node : edge.nodes) {
+      for (int c = 0; c < 2; ++c) {
+        const int unknown = space().displacement(node, c);
+        if (unknown >= 0) greatest = std::max(greatest, std::abs(difference(unknown)));
+      }
+    }
+  }
+  return greatest / problem_.radius_ratio / options_.accuracy;
+}
+
+TimeStepper::Trial TimeStepper::attempt(double step, int order) {
+  Trial trial;
+  const std::vector<double> past = times(state_);
+  trial.level.time = past[0] + step;
+  trial.formula = bdf_formula(past, order, trial.level.time);
+  Motion motion{trial.formula.rate, VectorXd::Zero(space().unknowns()), VectorXd::Zero(2 * space().nodes().count)};
+  for (int i = 0; i < order; ++i) {
+    motion.unknowns += trial.formula.weights(i) * state_.levels[i].unknowns;
+    motion.velocities += trial.formula.weights(i) * state_.levels[i].velocities;
+  }
+  system_.set_motion(motion);
+  const int levels = std::min<int>(order + 1, int(past.size()));
+  const VectorXd guess = extrapolate(levels, trial.level.time);
+  trial.level.unknowns = guess;
+  trial.newton = newton(system_, media_, options_.newton, trial.level.unknowns);
+  if (trial.newton.status != Status::converged) return trial;
+  trial.level.velocities = system_.node_velocities(trial.level.unknowns);
+  const int v = space().cell_velocity();
+  trial.level.frame_acceleration = motion.rate * trial.level.unknowns(v) + motion.unknowns(v);
+  const double share = levels > order ? trial.formula.error_share : 0.5;  // the first step has nothing to compare with
+  trial.error = share * surface_change(trial.level.unknowns - guess);
+  return trial;
+}
+
+StepErrors TimeStepper::errors(const Trial& trial, int order) const {
+  StepErrors result{-1, trial.error, -1};
+  const std::vector<double> past = times(state_);
+  const auto error_at = [&](int other) {
+    const double share = bdf_formula(past, other, trial.level.time).error_share;
+    return share * surface_change(trial.level.unknowns - extrapolate(other + 1, trial.level.time));
+  };
+  if (order > 1) result.below = error_at(order - 1);
+  const bool settled = state_.steps_at_order > order && order < options_.greatest_order;
+  if (settled && int(past.size()) >= order + 2) result.above = error_at(order + 1);
+  return result;
+}
+
+void TimeStepper::accept(const Trial& trial, int order) {
+  const double step = trial.level.time - now().time;
+  if (options_.fixed_step > 0) {
+    state_.order = std::min<int>(order + 1, options_.greatest_order);
+  } else {
+    const StepChoice choice = choose_step(order, errors(trial, order));
+    state_.steps_at_order = choice.order == order ? state_.steps_at_order + 1 : 0;
+    state_.order = choice.order;
+    state_.next_step = std::min(choice.factor * step, options_.greatest_step);
+  }
+  state_.levels.insert(state_.levels.begin(), trial.level);
+  if (int(state_.levels.size()) > options_.greatest_order + 2) state_.levels.pop_back();
+}
+
+TimeStepReport TimeStepper::step(double limit) {
+  TimeStepReport report;
+  double size = state_.next_step;
+  int order = state_.order;
+  const auto refuse = [&](double factor) {
+    size *= factor;
+    ++report.refused;
+    if (report.refused > 2) order = 1;
+  };
+  for (;;) {
+    const double room = limit - now().time;
+    const bool last = size > room * (1 - 1e-9);
+    const double wanted = size;
+    const Trial trial = attempt(last ? room : size, order);
+    report.newton_iterations += trial.newton.iterations;
+    report.status = trial.newton.status;
+    report.residual = trial.newton.residual;
+    if (report.status == Status::stopped) return report;
+    const bool controlled = options_.fixed_step == 0;
+    if (report.status != Status::converged) {
+      if (!controlled) return report;
+      if (last) size = room;
+      refuse(0.25);
+    } else if (controlled && !(trial.error <= 1)) {
+      if (last) size = room;
+      refuse(shortening(order, trial.error));
+    } else {
+      report.step = trial.level.time - now().time;
+      report.order = order;
+      accept(trial, order);
+      if (last) state_.next_step = std::max(state_.next_step, wanted);
+      return report;
+    }
+    if (size < options_.least_step) {
+      if (report.status == Status::converged) report.status = Status::accuracy_not_reached;
+      return report;
+    }
+  }
+}
+
+}  // namespace rheocyte

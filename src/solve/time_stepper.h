@@ -1,0 +1,42 @@
+// The cell on its way, step by step (docs/theory-time.md, sec. 3): implicit steps of controlled size and order.
+#pragma once
+#include "fem/moving_system.h"
+#include "solve/bdf.h"
+#include "solve/newton.h"
+#include "solve/stepper.h"
+
+namespace rheocyte {
+
+struct TimeStepOptions {
+  double accuracy = 1e-5;    ///< of the surface's positions in each step, in r0
+  double first_step = 1e-3;  ///< in R/U
+  double least_step = 1e-13;
+  double greatest_step = 1;
+  int greatest_order = greatest_bdf_order;
+  double fixed_step = 0;  ///< > 0: all steps have this size and, as soon as there are enough levels, the greatest order
+  NewtonOptions newton = {1e-9};
+};
+
+class TimeStepper final : public Stepper {
+ public:
+  TimeStepper(const Problem&, const Resolution&, const TimeStepOptions&);
+
+  Status start() override;
+  TimeStepReport step(double limit) override;
+  /// By the polynomial of the formula.
+  VectorXd unknowns_at(double time) const override;
+  WorkMeter work() const override { return system_.work(); }
+
+ private:
+  struct Trial;
+  Trial attempt(double step, int order);
+  double surface_change(const VectorXd& difference) const;
+  StepErrors errors(const Trial&, int order) const;
+  void accept(const Trial&, int order);
+  VectorXd extrapolate(int levels, double time) const;
+
+  TimeStepOptions options_;
+  MovingSystem system_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,88 @@
+#include "fem/moving_system.h"
+
+#include <gtest/gtest.h>
+
+#include "fem/stationary_system.h"
+#include "small_channel.h"
+
+namespace rheocyte {
+namespace {
+
+using test::SmallChannel;
+
+/// Viscous, heavier than the liquid, with a cortex: every time term acts.
+const Media media{{LiquidLaw::power_law, 0.7, 0.1, 0.5}, {12, 0.4, 2, 0.8}, {CortexLaw::linear, 8, 0.8, 0}};
+
+Motion some_motion(const Discretisation& space) {
+  return {7.0, 0.3 * test::random_vector(space.unknowns(), 3), 0.3 * test::random_vector(2 * space.nodes().count, 4)};
+}
+
+TEST(MovingSystem, AtRestItIsTheStationarySystem) {
+  // Without rate and history the residuals agree to rounding.
+  SmallChannel channel(0.6, 4, media.liquid);
+  MovingSystem moving(channel.space);
+  const VectorXd x = test::deformed_state(channel.system, media);
+  double det = 0, moving_det = 0;
+  const VectorXd expected = channel.system.residual(media, x, det), found = moving.residual(media, x, moving_det);
+  EXPECT_LT((found - expected).norm() / expected.norm(), 1e-13);
+  EXPECT_EQ(det, moving_det);
+}
+
+TEST(MovingSystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
+  // At a deformed, moving state in a random direction: halving the step quarters the remainder.
+  SmallChannel channel(0.6, 4, media.liquid);
+  MovingSystem moving(channel.space);
+  const VectorXd x = test::deformed_state(channel.system, media);
+  const VectorXd d = test::random_vector(channel.space.unknowns());
+  moving.set_motion(some_motion(channel.space));
+  const auto remainder = [&](double h) {
+    double det = 0;
+    const VectorXd at = moving.residual(media, x, det), beyond = moving.residual(media, x + h * d, det);
+    return (beyond - at - h * moving.apply_tangent(media, x, d)).norm();
+  };
+  double before = remainder(1e-4);
+  for (double h = 5e-5; h > 1e-5; h /= 2) {
+    const double now = remainder(h);
+    EXPECT_NEAR(std::log2(before / now), 2.0, 0.1);
+    before = now;
+  }
+}
+
+TEST(MovingSystem, TheCondensedSystemSolvesTheWholeOne) {
+  // K (K^-1 b) = b for random b while everything moves.
+  SmallChannel channel(0.6, 4, media.liquid);
+  MovingSystem moving(channel.space);
+  const VectorXd x = test::deformed_state(channel.system, media);
+  moving.set_motion(some_motion(channel.space));
+  double det = 0;
+  bool factorised = false;
+  moving.linearise(media, x, det, factorised);
+  ASSERT_TRUE(factorised);
+  const VectorXd b = test::random_vector(channel.space.unknowns(), 2);
+  // Condition number near 1e6 times rounding.
+  EXPECT_LT((moving.apply_tangent(media, x, moving.solve(b)) - b).norm() / b.norm(), 1e-9);
+}
+
+TEST(MovingSystem, TheVelocityIsContinuousAcrossTheSurface) {
+  // Nodes of the surface move with rate * displacement + history, those of walls with -v_cell.
+  SmallChannel channel(0.6);
+  MovingSystem moving(channel.space);
+  const Motion motion = some_motion(channel.space);
+  moving.set_motion(motion);
+  const VectorXd x = test::random_vector(channel.space.unknowns());
+  const VectorXd velocities = moving.node_velocities(x);
+  for (const BoundaryEdge& edge : channel.space.surface()) {
+    for (const int node : edge.nodes) {
+      const int u = channel.space.displacement(node, 0);
+      EXPECT_DOUBLE_EQ(velocities(2 * node), motion.rate * x(u) + motion.unknowns(u));
+    }
+  }
+  for (int node = 0; node < channel.space.nodes().count; ++node) {
+    if (channel.space.node_points()[node](1) > 1 - 1e-10) {
+      EXPECT_DOUBLE_EQ(velocities(2 * node), -x(channel.space.cell_velocity()));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rheocyte

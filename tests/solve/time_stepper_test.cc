@@ -1,0 +1,218 @@
+#include "solve/time_stepper.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases.h"
+#include "fem/observe.h"
+#include "shape/measures.h"
+#include "solve/stationary.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr double stress_Pa = 145.864, unit_us = 102.835;  // S and R/U of cases.h
+
+/// The paper's cell, viscous as the liquid, with inertia.
+Problem moving_cell(double mooney_share) {
+  Problem problem = test::problem({7.66, 3.437, mooney_share}, 1e-4);
+  problem.reynolds = problem.cell_reynolds = 0.0776;
+  problem.cell_viscosity = 1;
+  return problem;
+}
+
+/// The paper's shell: E2D = 31.3 mN/m, tension 0.1 E2D.
+Problem moving_shell(CortexLaw law) {
+  Problem problem = moving_cell(1);
+  problem.bulk = BulkLaw::none;
+  problem.cortex = law;
+  problem.cortex_modulus = 31.3e-3 / (stress_Pa * 10.94e-6);
+  problem.tension = 0.1 * problem.cortex_modulus;
+  return problem;
+}
+
+Resolution resolution(int degree) { return {{2, 4, 1, 2}, degree}; }
+
+ShapeMeasures shape(const TimeStepper& stepper) { return measure(contour(stepper.space(), stepper.now().unknowns)); }
+
+/// Positions of the surface, in R.
+VectorXd surface(const TimeStepper& stepper) {
+  const SurfaceState state = surface_state(stepper.space(), stepper.now().unknowns, 9);
+  return state.point.reshaped();
+}
+
+Status go(TimeStepper& stepper, double end) {
+  while (stepper.now().time < end * (1 - 1e-9)) {
+    const TimeStepReport report = stepper.step(end);
+    if (report.status != Status::converged) return report.status;
+  }
+  return Status::converged;
+}
+
+TEST(TimeStepper, TheErrorFallsWithTheOrderOfTheFormula) {
+  // Surface positions against a reference of much smaller steps, from common smooth starting values: the slopes are the
+  // orders within 0.1. At order 4 the errors of the finer steps come near those of Newton.
+  const Problem problem = moving_cell(0);
+  constexpr double fine = 0.1 / unit_us, end = 60 / unit_us;
+  constexpr int stride = 20;  // the coarsest step is 2 us
+  TimeStepper reference(problem, resolution(3), {.greatest_order = 4, .fixed_step = fine, .newton = {1e-11}});
+  ASSERT_EQ(reference.start(), Status::converged);
+  std::vector<TimeLevel> levels;  // every one of the fine steps up to 20 us, the latest first
+  while (levels.size() < 201) {
+    levels.insert(levels.begin(), reference.now());
+    ASSERT_EQ(reference.step(1e9).status, Status::converged);
+  }
+  ASSERT_EQ(go(reference, end), Status::converged);
+  const auto error = [&](int order, int step) {
+    TimeStepper stepper(problem, resolution(3),
+                        {.greatest_order = order, .fixed_step = step * fine, .newton = {1e-11}});
+    TimeState state{{}, order, 0, step * fine, {}};
+    for (int i = 0; i < order; ++i) state.levels.push_back(levels[i * step]);
+    stepper.resume(state);
+    EXPECT_EQ(go(stepper, end), Status::converged);
+    return (surface(stepper) - surface(reference)).norm();
+  };
+  for (const int order : {1, 2, 3}) {
+    const double coarse = error(order, stride), half = error(order, stride / 2);
+    EXPECT_NEAR(std::log2(coarse / half), order, 0.1) << "order " << order;
+  }
+}
+
+TEST(TimeStepper, TheEndStateIsTheStationaryOneForEveryModelOfThePaper) {
+  // After 3 ms d agrees with the stationary solver's within 1e-4 and, relatively, 1e-3; the cell keeps its volume on
+  // the whole way: Newton's residual leaves less than 1e-8.
+  for (const Problem& problem :
+       {moving_cell(0), moving_cell(1), moving_shell(CortexLaw::linear), moving_shell(CortexLaw::neo_hookean)}) {
+    TimeStepper stepper(problem, resolution(5), {.accuracy = 1e-4});
+    ASSERT_EQ(stepper.start(), Status::converged);
+    const double volume = shape(stepper).volume;
+    while (stepper.now().time < 3000 / unit_us) {
+      ASSERT_EQ(stepper.step(3000 / unit_us).status, Status::converged);
+      EXPECT_NEAR(shape(stepper).volume / volume, 1, 1e-8);
+    }
+    const StationaryState stationary = solve_stationary(problem);
+    EXPECT_NEAR(shape(stepper).deformation, stationary.shape.deformation, 1e-4);
+    EXPECT_NEAR(shape(stepper).deformation / stationary.shape.deformation, 1, 1e-3);
+    EXPECT_NEAR(stepper.now().unknowns(stepper.space().cell_velocity()) / stationary.cell_velocity, 1, 1e-4);
+  }
+}
+
+TEST(TimeStepper, TheStationaryStateDoesNotDependOnTheCellsViscosity) {
+  // eta1 / eta0 = 0.2 and 20, after 60 of their time constants; both also differ in density.
+  double deformation = 0;
+  for (const double ratio : {0.2, 20.0}) {
+    Problem problem = moving_cell(1);
+    problem.cell_viscosity = ratio;
+    problem.cell_reynolds *= ratio;
+    TimeStepper stepper(problem, resolution(4), {.accuracy = 1e-4});
+    ASSERT_EQ(stepper.start(), Status::converged);
+    const double half_way = 30 * (1 + ratio) / unit_us;
+    ASSERT_EQ(go(stepper, half_way), Status::converged);
+    EXPECT_LT(shape(stepper).deformation, 0.03);  // not there yet
+    ASSERT_EQ(go(stepper, 100 * half_way), Status::converged);
+    if (deformation > 0) {
+      EXPECT_NEAR(shape(stepper).deformation, deformation, 1e-8);
+    }
+    deformation = shape(stepper).deformation;
+  }
+}
+
+TEST(TimeStepper, TheErrorControlKeepsItsPromise) {
+  // With a tolerance ten times smaller the deformation at 60 us changes by less than ten tolerances.
+  double before = 0;
+  for (const double accuracy : {1e-4, 1e-5, 1e-6}) {
+    TimeStepper stepper(moving_cell(0), resolution(4), {.accuracy = accuracy});
+    ASSERT_EQ(stepper.start(), Status::converged);
+    ASSERT_EQ(go(stepper, 60 / unit_us), Status::converged);
+    const double now = shape(stepper).deformation;
+    if (before > 0) {
+      EXPECT_NEAR(now, before, 100 * accuracy);
+    }
+    before = now;
+  }
+}
+
+TEST(TimeStepper, ResumingASavedStateChangesNothing) {
+  // Same bits, whether or not a new stepper takes over in between.
+  TimeStepper one(moving_cell(0), resolution(4), {}), other(moving_cell(0), resolution(4), {});
+  ASSERT_EQ(one.start(), Status::converged);
+  for (int i = 0; i < 12; ++i) one.step(1);
+  other.resume(one.state());
+  for (int i = 0; i < 6; ++i) {
+    one.step(1);
+    other.step(1);
+  }
+  EXPECT_EQ(one.now().time, other.now().time);
+  EXPECT_EQ(one.now().unknowns, other.now().unknowns);
+}
+
+constexpr double radius = 0.05;  // in R
+
+/// Half the length of the cell over its radius, minus 1.
+double elongation(const TimeStepper& stepper) {
+  const Contour curve = contour(stepper.space(), stepper.now().unknowns);
+  const double front = curve.pieces.front()(0, 0), rear = curve.pieces.back().bottomRows(1)(0, 0);
+  return (front - rear) / (2 * stepper.problem().radius_ratio) - 1;
+}
+
+/// Rate at which a small elongation disappears without inertia between two times, in a flow far too weak to matter.
+double relaxation_rate(Problem problem, double from, double to) {
+  problem.radius_ratio = radius;  // the walls change the rate by about (r0/R)^3, the finite strain by 1e-3
+  problem.reynolds = problem.cell_reynolds = 0;
+  TimeStepper stepper(problem, resolution(4), {.accuracy = 3e-9, .first_step = 1e-3 * from, .newton = {1e-8}});
+  EXPECT_EQ(stepper.start(), Status::converged);
+  TimeState state = stepper.state();
+  const Discretisation& space = stepper.space();
+  constexpr double strain = 1e-3;
+  for (int node = 0; node < space.nodes().count; ++node) {
+    const int x = space.displacement(node, 0), r = space.displacement(node, 1);
+    const Point& X = space.node_points()[node];
+    if (x >= 0) state.levels[0].unknowns(x) = X(0) * std::expm1(2 * strain);  // keeps every volume
+    if (r >= 0) state.levels[0].unknowns(r) = X(1) * std::expm1(-strain);
+  }
+  stepper.resume(state);
+  EXPECT_EQ(go(stepper, from), Status::converged);
+  const double before = elongation(stepper);
+  EXPECT_EQ(go(stepper, to), Status::converged);
+  return std::log(before / elongation(stepper)) / (to - from);
+}
+
+TEST(TimeStepper, ACapillaryDropRelaxesWithItsExactRate) {
+  // docs/theory-time.md, eq:drop-rate, within 0.2 %: gamma / (eta0 r0) 40 (1 + m) / ((2 m + 3)(19 m + 16)).
+  for (const double m : {0.5, 1.0, 5.0}) {
+    Problem problem = moving_cell(1);
+    problem.shear_modulus = 0;
+    problem.tension = 1e3;
+    problem.cell_viscosity = m;
+    const double exact = problem.tension / radius * 40 * (1 + m) / ((2 * m + 3) * (19 * m + 16));
+    EXPECT_NEAR(relaxation_rate(problem, 1 / exact, 3 / exact) / exact, 1, 0.002) << "viscosity ratio " << m;
+  }
+}
+
+TEST(TimeStepper, AViscoelasticSphereRelaxesWithItsExactRate) {
+  // docs/theory-time.md, eq:sphere-rate, within 0.2 %: mu / (eta1 + 3/2 eta0) once the faster mode is gone.
+  for (const double m : {0.1, 0.5}) {
+    Problem problem = moving_cell(1);
+    problem.shear_modulus = 1e4;
+    problem.cell_viscosity = m;
+    const double exact = problem.shear_modulus / (m + 1.5);
+    EXPECT_NEAR(relaxation_rate(problem, 4 / exact, 6 / exact) / exact, 1, 0.002) << "viscosity ratio " << m;
+  }
+}
+
+TEST(TimeStepper, AStepThatCannotBeSolvedIsANamedFailureAndKeepsTheState) {
+  // A law that is not a number: no step succeeds, the state stays at the start.
+  Problem problem = moving_cell(1);
+  TimeStepper good(problem, resolution(3), {});
+  ASSERT_EQ(good.start(), Status::converged);
+  problem.cell_viscosity = std::nan("");
+  TimeStepper bad(problem, resolution(3), {});
+  bad.resume(good.state());
+  EXPECT_NE(bad.step(1).status, Status::converged);
+  EXPECT_EQ(bad.now().time, 0);
+  EXPECT_EQ(bad.now().unknowns, good.now().unknowns);
+}
+
+}  // namespace
+}  // namespace rheocyte
