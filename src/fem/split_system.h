@@ -1,4 +1,4 @@
-// The two halves of a step of Mokbel et al. 2017, one after the other: liquid, then cell (docs/theory-time.md, sec. 4).
+// The two halves of a step of Mokbel et al. 2017, one after the other: liquid, then cell (docs/theory-time.md, sec. 3).
 #pragma once
 #include "fem/element_integrals.h"
 #include "fem/subset_matrix.h"

@@ -1,4 +1,4 @@
-// The cell on its way, step by step (docs/theory-time.md, sec. 3): implicit steps of controlled size and order.
+// The cell on its way, step by step (docs/theory-time.md, sec. 2): implicit steps of controlled size and order.
 #pragma once
 #include "fem/moving_system.h"
 #include "solve/bdf.h"
