@@ -36,7 +36,7 @@ def draw(families):
         plane.tell_moduli(upper, by_law["neo-hookean"], "deformation", style.NEO_HOOKEAN)
         for law in [law for law, drawn in by_law.items() if not drawn]:
             plane.missing(upper, NAMES[law])
-        draw_difference(figure.add_axes([left, 0.115, plane.WIDTH, 0.295]), kind, by_law)
+        draw_difference(figure.add_axes([left, 0.115, plane.WIDTH, 0.295]), by_law)
     plane.draw_legend(figure, legend(), [line for _, by_law in families for drawn in by_law.values() for line in drawn])
     return figure
 
@@ -47,10 +47,10 @@ def pairs(by_law):
             if line.modulus == other.modulus]
 
 
-def draw_difference(axes, kind, by_law):
+def draw_difference(axes, by_law):
     """How much more or less the neo-Hookean cell deforms at equal area and modulus, against the deformation."""
     axes.axhline(0, color="#9aa3ab", linewidth=0.6, zorder=1)
-    axes.set(xlim=(0, HIGHEST), xlabel="deformation $d$ after the linear law", ylabel="neo-Hookean $-$ linear (%)")
+    axes.set(xlabel="deformation $d$ after the linear law", ylabel="neo-Hookean $-$ linear (%)")
     both = pairs(by_law)
     for index, (linear, neo_hookean) in enumerate(both):
         area, difference = lines.relative_difference(neo_hookean, linear)
@@ -59,9 +59,11 @@ def draw_difference(axes, kind, by_law):
         colour = colours.LIQUID(0.35 + 0.6 * index / max(len(both) - 1, 1))
         axes.plot(deformation[shown], 100 * difference[shown], color=colour, linewidth=1.0, zorder=2 + 0.1 * index)
         if shown.any():
-            axes.annotate(f"{linear.modulus:g}", (deformation[shown][-1], 100 * difference[shown][-1]), xytext=(2, 0),
-                          textcoords="offset points", va="center", fontsize=5.5, color=colour)
+            axes.annotate(f"{linear.modulus:g}", (deformation[shown][-1], 100 * difference[shown][-1]), xytext=(2, -2),
+                          textcoords="offset points", ha="right", va="top", fontsize=6, color=colour)
     axes.margins(y=0.12)
+    axes.set_xlim(left=0)
+    axes.yaxis.set_label_coords(*plane.NAME_PLACE)
 
 
 def legend():

@@ -22,7 +22,7 @@ def make(laboratory):
 def draw(families):
     """Solids on the left, shells on the right; where lines overlap is shaded."""
     plt.rcParams.update(style.STYLE)
-    figure = plt.figure(figsize=(style.WIDTH_IN, 3.2))
+    figure = plt.figure(figsize=(style.WIDTH_IN, 3.1))
     for column, (kind, drawn) in enumerate(families):
         left = plane.head(figure, column, kind)
         axes = figure.add_axes([left, 0.130, plane.WIDTH, 0.765])

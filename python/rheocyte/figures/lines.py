@@ -12,7 +12,7 @@ from rheocyte.figures.tables import MEASURES, branches
 
 NODES = 6  # of the polynomials between radii
 POINTS = 400
-BEYOND = 0.15  # a line goes on over its first and last radius by this share of the distance between radii
+BEYOND = 0.15  # of the distance between radii: so far polynomials go beyond their nodes
 ANALYTICAL_RADII_UM = np.linspace(3.8, 9.4, 21)
 STEP_UM2 = 5  # of the rows in the tables
 LEAST_RADII = 3
@@ -68,28 +68,41 @@ def line_of_branches(found, modulus, power):
     """The line of a modulus up to the first radius whose branch ends before; None if there are too few radii.
 
     Between the radii runs a polynomial through the states of neighbours at nearly equal strain, which is a function of
-    r0^power / modulus: along them everything changes slowly.
+    r0^power / modulus: along them everything changes slowly. Where the branches of neighbours end before that, it runs
+    through their states of this modulus.
     """
     reached = [k for k, branch in enumerate(found) if branch.reaches(modulus)]
     if len(reached) < LEAST_RADII:
         return None
-    last = next((k for k in range(reached[0], len(found)) if not found[k].reaches(modulus)), len(found)) - 1
-    own = np.array([branch.radius_um for branch in found])
+    first = reached[0]
+    last = next((k for k in range(first, len(found)) if not found[k].reaches(modulus)), len(found)) - 1
+    nodes = [(branch.radius_um, branch.at(modulus)) for branch in found[first:last + 1]]
+    beyond = BEYOND * (found[1].radius_um - found[0].radius_um)
     end = end_between(found, last, modulus)
-    beyond = BEYOND * (own[1] - own[0])
-    radii = np.linspace(own[reached[0]] - beyond, own[last] + beyond if end is None else end[0], POINTS)
-    states = [branch.at(modulus * (branch.radius_um / radii) ** power) for branch in found]
-    logarithm, area, ratio = (np.array([state[name] for state in states]) for name in MEASURES)
-    known = np.isfinite(logarithm).sum(axis=0) >= LEAST_RADII
-    radii, logarithm, area, ratio = radii[known], logarithm[:, known], area[:, known], ratio[:, known]
-    between = [neighbours(own, radius, np.isfinite(column)) for radius, column in zip(radii, logarithm.T)]
-    logarithm, area, ratio = (np.array([weights @ values[chosen, k] for k, (chosen, weights) in enumerate(between)])
-                              for values in (np.log(logarithm), area / own[:, None] ** 2, ratio))
-    measures = dict(zip(MEASURES, (np.exp(logarithm), area * radii**2, ratio)))
     if end:
-        radii = np.append(radii, end[0])
-        measures = {name: np.append(values, end[1][name]) for name, values in measures.items()}
+        nodes = [node for node in nodes if end[0] - node[0] > beyond] + [end]
+    if len(nodes) < LEAST_RADII:
+        return None
+    radii = np.linspace(nodes[0][0] - beyond, nodes[-1][0] + (0 if end else beyond), POINTS)
+    line, strained = line_through(modulus, nodes, radii), at_equal_strain(found, modulus, power, radii, beyond)
+    measures = {name: np.where(np.isfinite(strained[name]), strained[name], line[name]) for name in MEASURES}
     return Line(modulus, radii, measures, end is not None)
+
+
+def at_equal_strain(found, modulus, power, radii, beyond):
+    """Measures at radii from the branches at equal strain; nan where there are too few around."""
+    own = np.array([branch.radius_um for branch in found])
+    states = [branch.at(modulus * (branch.radius_um / radii) ** power) for branch in found]
+    value = {name: np.array([state[name] for state in states]) for name in MEASURES}
+    value["deformation"] = np.log(value["deformation"])
+    value["area_um2"] /= own[:, None] ** 2
+    measures = {name: np.full(len(radii), np.nan) for name in MEASURES}
+    for k, radius in enumerate(radii):
+        chosen, weights = neighbours(own, radius, np.isfinite(value["deformation"][:, k]))
+        if len(chosen) >= LEAST_RADII and own[chosen[0]] - beyond <= radius <= own[chosen[-1]] + beyond:
+            for name in MEASURES:
+                measures[name][k] = weights @ value[name][chosen, k]
+    return measures | {"deformation": np.exp(measures["deformation"]), "area_um2": measures["area_um2"] * radii**2}
 
 
 def neighbours(own, radius, usable):
@@ -124,7 +137,7 @@ def analytical(laboratory, kind):
                 break
             nodes.append((radius, answers[modulus, radius]))
         if len(nodes) >= LEAST_RADII:
-            lines.append(line_through(modulus, nodes))
+            lines.append(line_through(modulus, nodes, np.linspace(nodes[0][0], nodes[-1][0], POINTS)))
     return lines
 
 
@@ -141,10 +154,9 @@ def analytical_cell(laboratory, kind, modulus, radius):
         return None
 
 
-def line_through(modulus, nodes):
-    """A dense line through nodes (radius, measures); the deformation, which spans decades, by its logarithm."""
+def line_through(modulus, nodes, radii):
+    """A line at radii through nodes (radius, measures); the deformation, which spans decades, by its logarithm."""
     own = np.array([radius for radius, _ in nodes])
-    radii = np.linspace(own[0], own[-1], POINTS)
     values = {name: np.array([measures[name] for _, measures in nodes]) for name in MEASURES}
     dense = {name: smooth(own, values[name], radii) for name in MEASURES}
     return Line(modulus, radii, dense | {"deformation": np.exp(smooth(own, np.log(values["deformation"]), radii))}, False)

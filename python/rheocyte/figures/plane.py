@@ -9,6 +9,7 @@ from rheocyte.figures import paper, style
 
 LEFT, COLUMN, WIDTH = 0.080, 0.505, 0.366  # first panel, distance of the second one, width, in widths of the figure
 TITLE_IN = 0.09  # below the upper edge
+NAME_PLACE = (-0.158, 0.5)  # of the vertical axis, in sizes of the axes
 GAP = 0.036  # least distance between two moduli at the right edge, in heights of the axes
 ROOM = 0.05  # least distance between two moduli above the upper edge, in widths of the axes
 
@@ -35,8 +36,8 @@ def prepare(axes, name, lowest, highest):
     """Limits and names of the axes."""
     axes.set(xlim=paper.AREAS_UM2, ylim=(lowest, highest), xlabel="area (µm²)", ylabel=name)
     axes.set_xticks(np.arange(60, 241, 20))
-    axes.yaxis.set_major_locator(MaxNLocator(5))
-    axes.yaxis.set_label_coords(-0.158, 0.5)
+    axes.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
+    axes.yaxis.set_label_coords(*NAME_PLACE)
 
 
 def draw_lines(axes, lines, name, **how):
@@ -60,8 +61,10 @@ def tell_moduli(axes, lines, name, colour):
         elif area[-1] > paper.AREAS_UM2[1] - 2:
             right.append([(value[-1] - low) / (high - low), f"{line.modulus:g}"])
         else:
-            axes.annotate(f"{line.modulus:g}", (area[-1], value[-1]), xytext=(0, 3.5), textcoords="offset points",
-                          ha="center", va="bottom", fontsize=6, color=colour)
+            below = value[-1] < low + 0.01 * (high - low)
+            axes.annotate(f"{line.modulus:g}", (area[-1], value[-1]), xytext=(-5, 3) if below else (0, 3.5),
+                          textcoords="offset points", ha="right" if below else "center", va="bottom", fontsize=6,
+                          color=colour)
     for place, text in apart(right, GAP):
         axes.text(1.012, place, text, transform=axes.transAxes, va="center", fontsize=6, color=colour)
     for place, text in apart(above, ROOM):
