@@ -38,7 +38,7 @@ class PairWriter {
     for (std::size_t i = 0; i < x.size(); ++i)
       if (std::isfinite(x[i]) && std::isfinite(y[i]))
         pairs_.insert(pairs_.end(), {static_cast<float>(x[i]), static_cast<float>(y[i])});
-    if (std::fwrite(pairs_.data(), sizeof(float), pairs_.size(), file_) != pairs_.size()) refuse();
+    if (!pairs_.empty() && std::fwrite(pairs_.data(), sizeof(float), pairs_.size(), file_) != pairs_.size()) refuse();
     return pairs_.size() / 2;
   }
   void close() {
