@@ -34,6 +34,9 @@ constexpr Law correlation_law{{{-1.0575, 2.81051, -9.41081},
                                {-213.815, 2413.81, -8839.48},
                                {728.66, -8786.06, 31960.6}}};
 
+// Below what masks show; for shapes that few pixels cannot have.
+constexpr double least_area_deviation = 0.2, least_deformation_deviation = 0.05;
+
 double value(const Law& law, double deformation, double s) {
   double sum = 0;
   for (int i = powers_of_deformation; i-- > 0;)
@@ -48,8 +51,9 @@ PixelErrors pixel_errors(double log_area_px, double deformation) {
   static const double least = std::log(least_fitted_area_px), greatest = std::log(greatest_fitted_area_px);
   const double s = std::exp(-std::clamp(log_area_px, least, greatest) / 3), s2 = s * s;
   const double d = std::clamp(deformation, 0.0, greatest_fitted_deformation);
-  return {1 + s2 * value(area_law, d, s), s2 * value(deformation_law, d, s), s2 * value(area_deviation_law, d, s),
-          s2 * value(deformation_deviation_law, d, s), std::clamp(value(correlation_law, d, s), -1.0, 1.0)};
+  return {1 + s2 * value(area_law, d, s), s2 * value(deformation_law, d, s),
+          s2 * std::max(value(area_deviation_law, d, s), least_area_deviation),
+          s2 * std::max(value(deformation_deviation_law, d, s), least_deformation_deviation), std::clamp(value(correlation_law, d, s), -1.0, 1.0)};
 }
 
 PixelShape seen_through_pixels(const PixelShape& smooth) {

@@ -59,8 +59,10 @@ std::vector<double> slopes_by_column(std::span<const double> values, std::size_t
   return all;
 }
 
-// Weights of two values and two slopes at a place between 0 and 1, and those of the derivative there.
-struct Hermite {
+}  // namespace
+
+/// Weights of two values and two slopes at a place between 0 and 1, and those of the derivative there.
+struct StiffnessGrid::Hermite {
   double first, last, first_slope, last_slope;
 
   explicit Hermite(double t)
@@ -77,8 +79,6 @@ struct Hermite {
     return first * a + last * b + first_slope * a_slope + last_slope * b_slope;
   }
 };
-
-}  // namespace
 
 StiffnessGrid::Patch StiffnessGrid::ready(const GridPatch& patch) {
   Patch made{patch.regularised, patch.first_column, patch.columns, patch.rows, {}, {}, {}, {}, {}};
@@ -109,50 +109,62 @@ StiffnessGrid::StiffnessGrid(GridContent content) : content_(std::move(content))
   for (const auto& patch : content_.patches) patches_.push_back(ready(patch));
 }
 
+/// A place between two columns of a patch.
+struct StiffnessGrid::Place {
+  std::size_t column;
+  Hermite weight, change;
+  double lower, upper;
+
+  double edge(const std::vector<Edge>& e, const Hermite& w) const {
+    return w(e[column].value, e[column + 1].value, e[column].by_column, e[column + 1].by_column);
+  }
+};
+
+GridAnswer StiffnessGrid::between(const Patch& patch, const Place& place, double log_deformation) const {
+  const double rows_per_height = (patch.rows - 1) / (place.upper - place.lower);
+  const double height = (log_deformation - place.lower) * rows_per_height;
+  const int row = std::min(static_cast<int>(height), patch.rows - 2);
+  const Hermite up(height - row), up_change = Hermite::derivative(height - row);
+  const std::size_t first = place.column * static_cast<std::size_t>(patch.rows) + static_cast<std::size_t>(row);
+  const Node *const a = &patch.nodes[first], *const b = a + patch.rows;
+  const auto along = [](const Hermite& w, const Node* n) { return w(n[0].value, n[1].value, n[0].by_row, n[1].by_row); };
+  const auto across = [](const Hermite& w, const Node* n) {
+    return w(n[0].by_column, n[1].by_column, n[0].by_both, n[1].by_both);
+  };
+  const double value_a = along(up, a), value_b = along(up, b), slope_a = across(up, a), slope_b = across(up, b);
+  const double by_row =
+      place.weight(along(up_change, a), along(up_change, b), across(up_change, a), across(up_change, b));
+  // At constant deformation the height in rows changes with the borders.
+  const double lower_change = place.edge(patch.lower, place.change), upper_change = place.edge(patch.upper, place.change);
+  const double height_change =
+      -lower_change * rows_per_height - height * (upper_change - lower_change) / (place.upper - place.lower);
+  return {place.weight(value_a, value_b, slope_a, slope_b),
+          (place.change(value_a, value_b, slope_a, slope_b) + by_row * height_change) / content_.column_step,
+          by_row * rows_per_height,
+          patch.cell_error[first],
+          NoAnswer::none,
+          patch.regularised};
+}
+
 GridAnswer StiffnessGrid::answer_at(double log_area, double log_deformation) const {
   const auto none = [](NoAnswer reason) { return GridAnswer{nan, nan, nan, nan, reason, false}; };
   const double place = (log_area - content_.least_log_area) / content_.column_step;
-  if (!(place >= 0)) return none(std::isnan(place) ? NoAnswer::invalid : NoAnswer::too_small);
-  if (!(place <= content_.columns - 1)) return none(NoAnswer::too_large);
-  if (std::isnan(log_deformation)) return none(NoAnswer::invalid);
+  if (std::isnan(place) || std::isnan(log_deformation)) return none(NoAnswer::invalid);
+  if (place < 0) return none(NoAnswer::too_small);
+  if (place > content_.columns - 1) return none(NoAnswer::too_large);
   const int column = std::min(static_cast<int>(place), content_.columns - 2);
-  const double t = place - column;
-  const Hermite weight(t);
-  NoAnswer reason = NoAnswer::unresolved;
+  const double share = place - column;
+  Place here{0, Hermite(share), Hermite::derivative(share), 0, 0};
+  NoAnswer reason = NoAnswer::too_stiff;
   for (const Patch& patch : patches_) {
-    const int c = column - patch.first_column;
-    if (c < 0 || c > patch.columns - 2) continue;
-    const auto here = static_cast<std::size_t>(c);
-    const auto edge = [&](const std::vector<Edge>& e, const Hermite& w) {
-      return w(e[here].value, e[here + 1].value, e[here].by_column, e[here + 1].by_column);
-    };
-    const double lower = edge(patch.lower, weight), upper = edge(patch.upper, weight);
-    if (log_deformation < lower) return none(&patch == patches_.data() ? NoAnswer::too_stiff : reason);
-    if (!(log_deformation <= upper)) {
-      reason = patch.beyond[here + (t > 0.5 ? 1 : 0)];
-      continue;
-    }
-    const Hermite change = Hermite::derivative(t);
-    const double rows_per_height = (patch.rows - 1) / (upper - lower);
-    const double height = (log_deformation - lower) * rows_per_height;
-    const int row = std::min(static_cast<int>(height), patch.rows - 2);
-    const double s = height - row;
-    const Hermite up(s), up_change = Hermite::derivative(s);
-    const std::size_t first = here * static_cast<std::size_t>(patch.rows) + static_cast<std::size_t>(row);
-    const Node *const a = &patch.nodes[first], *const b = a + patch.rows;
-    const auto along = [](const Hermite& w, const Node* n) { return w(n[0].value, n[1].value, n[0].by_row, n[1].by_row); };
-    const auto across = [](const Hermite& w, const Node* n) {
-      return w(n[0].by_column, n[1].by_column, n[0].by_both, n[1].by_both);
-    };
-    const double va = along(up, a), vb = along(up, b), ua = across(up, a), ub = across(up, b);
-    const double by_height =
-        weight(along(up_change, a), along(up_change, b), across(up_change, a), across(up_change, b));
-    // At constant deformation the height changes with the borders.
-    const double lower_change = edge(patch.lower, change), upper_change = edge(patch.upper, change);
-    const double height_change =
-        -lower_change * rows_per_height - height * (upper_change - lower_change) / (upper - lower);
-    return {weight(va, vb, ua, ub), (change(va, vb, ua, ub) + by_height * height_change) / content_.column_step,
-            by_height * rows_per_height, patch.cell_error[first], NoAnswer::none, patch.regularised};
+    const int in_patch = column - patch.first_column;
+    if (in_patch < 0 || in_patch > patch.columns - 2) continue;
+    here.column = static_cast<std::size_t>(in_patch);
+    here.lower = here.edge(patch.lower, here.weight);
+    here.upper = here.edge(patch.upper, here.weight);
+    if (log_deformation < here.lower) return none(reason);
+    if (log_deformation <= here.upper) return between(patch, here, log_deformation);
+    reason = patch.beyond[here.column + (share > 0.5 ? 1 : 0)];
   }
   return none(reason);
 }

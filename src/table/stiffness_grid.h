@@ -79,7 +79,10 @@ class StiffnessGrid {
     std::vector<double> cell_error;
     std::vector<NoAnswer> beyond;
   };
+  struct Hermite;
+  struct Place;
   static Patch ready(const GridPatch& patch);
+  GridAnswer between(const Patch& patch, const Place& place, double log_deformation) const;
   GridAnswer answer_at(double log_area, double log_deformation) const;
 
   GridContent content_;
