@@ -21,7 +21,9 @@ using namespace rheocyte;
 void print_differences(const char* what, std::vector<double>& all) {
   if (all.empty()) return;
   std::ranges::sort(all);
-  const auto at = [&](double share) { return all[static_cast<std::size_t>(share * static_cast<double>(all.size() - 1))]; };
+  const auto at = [&](double share) {
+    return all[static_cast<std::size_t>(share * static_cast<double>(all.size() - 1))];
+  };
   fmt::print("{}: {} points, median {:.1e}, 95 % {:.1e}, 99.9 % {:.1e}, greatest {:.1e}\n", what, all.size(), at(0.5),
              at(0.95), at(0.999), at(1));
 }
@@ -59,11 +61,13 @@ int main(int argc, char** argv) {
       if (!ours.regularised && d > 0.003 && d < 0.1) usual.push_back(difference);
       if (!ours.regularised && difference > worst) {
         worst = difference;
-        fmt::print("  {:.1e} at {:.4g} um2, deformation {:.4g}, errors stated {:.1e} and {:.1e}\n", worst, a, d, exact.error, ours.error);
+        fmt::print("  {:.1e} at {:.4g} um2, deformation {:.4g}, errors stated {:.1e} and {:.1e}\n", worst, a, d,
+                   exact.error, ours.error);
       }
     } else {
       const auto name = [](NoAnswer reason, bool regularised) {
-        return reason == NoAnswer::none ? std::string(regularised ? "regularised" : "bare") : std::string(name_of(reason));
+        return reason == NoAnswer::none ? std::string(regularised ? "regularised" : "bare")
+                                        : std::string(name_of(reason));
       };
       const std::pair key{name(exact.reason, exact.regularised), name(ours.reason, ours.regularised)};
       if (key.first != key.second) ++disagreements[key];

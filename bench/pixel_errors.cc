@@ -74,8 +74,7 @@ Eigen::RowVectorXd basis(double log_area_px, double deformation) {
   const double s = size_of(log_area_px);
   Eigen::RowVectorXd row(terms);
   for (int i = 0; i < powers_of_deformation; ++i)
-    for (int j = 0; j < powers_of_size; ++j)
-      row(i * powers_of_size + j) = std::pow(deformation, i) * std::pow(s, j);
+    for (int j = 0; j < powers_of_size; ++j) row(i * powers_of_size + j) = std::pow(deformation, i) * std::pow(s, j);
   return row;
 }
 
@@ -104,7 +103,8 @@ class Law {
     fmt::print("constexpr Law {}{{{{", name);
     for (int i = 0; i < powers_of_deformation; ++i) {
       fmt::print("{}{{", i ? ", " : "");
-      for (int j = 0; j < powers_of_size; ++j) fmt::print("{}{:.6g}", j ? ", " : "", coefficients_(i * powers_of_size + j));
+      for (int j = 0; j < powers_of_size; ++j)
+        fmt::print("{}{:.6g}", j ? ", " : "", coefficients_(i * powers_of_size + j));
       fmt::print("}}");
     }
     fmt::print("}}}};\n");
@@ -137,7 +137,8 @@ Eigen::MatrixX2d residuals(const Seen& seen, const Law& log_ratio, const Law& ex
   Eigen::MatrixX2d left(seen.places.rows(), 2);
   for (Eigen::Index i = 0; i < left.rows(); ++i) {
     const double a = seen.places(i, 0), d = seen.places(i, 1);
-    left.row(i) << a + std::log1p(log_ratio.at(a, d)) - seen.smooth_log_area, d - excess.at(a, d) - seen.smooth_deformation;
+    left.row(i) << a + std::log1p(log_ratio.at(a, d)) - seen.smooth_log_area,
+        d - excess.at(a, d) - seen.smooth_deformation;
   }
   return left;
 }

@@ -43,7 +43,8 @@ void report(const char* file) {
   }
   const double n = static_cast<double>(bias.size());
   fmt::print(
-      "{}: {} of {} cells, deformation {:.4f} ({:.4f} to {:.4f}), bias {:+.2f} % (5 to 95 %: {:+.1f} to {:+.1f}), standard "
+      "{}: {} of {} cells, deformation {:.4f} ({:.4f} to {:.4f}), bias {:+.2f} % (5 to 95 %: {:+.1f} to {:+.1f}), "
+      "standard "
       "error {:.1f} %, in the 90 % interval {:.1f} %, in the 68 % interval {:.1f} %\n",
       file, bias.size(), modulus.size(), quantile(depth, 0.5), quantile(depth, 0.05), quantile(depth, 0.95),
       quantile(bias, 0.5), quantile(bias, 0.05), quantile(bias, 0.95), quantile(share, 0.5), 100 * covered / n,

@@ -39,7 +39,9 @@ void write_files(const TableFolder& folder, const TableOptions& options) {
   if (const auto grid = make_stiffness_grid(folder.spec(), branches, version))
     folder.publish(grid_file_name(folder.spec().identifier), to_bytes(*grid));
   else
-    tell("rheocyte: warning: the branches are too few or too short for a grid; `rheocyte extract` takes the text table.");
+    tell(
+        "rheocyte: warning: the branches are too few or too short for a grid; `rheocyte extract` takes the text "
+        "table.");
   folder.tidy();
   if (options.no_picture) return;
   if (const auto failure = draw_table_pictures(folder.path()); !failure.empty())

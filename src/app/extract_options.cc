@@ -56,9 +56,10 @@ void declare_extract_options(CLI::App& command, ExtractOptions& options, std::fu
       ->type_name("DIR");
   command.add_flag("-r,--recursive", options.recursive, "search the given folders for recordings");
   command
-      .add_option("--table", options.table,
-                  "look-up table in place of the program's own: a folder of `rheocyte table`, a file (grid_*.cbor, or in "
-                  "dclab's format), or an identifier of the program's tables or of an installed dclab's")
+      .add_option(
+          "--table", options.table,
+          "look-up table in place of the program's own: a folder of `rheocyte table`, a file (grid_*.cbor, or in "
+          "dclab's format), or an identifier of the program's tables or of an installed dclab's")
       ->type_name("TABLE");
   declare_measuring_options(command, options);
   command.add_flag("--no-area-correction", options.no_area_correction,

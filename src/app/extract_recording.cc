@@ -61,8 +61,8 @@ struct Columns {
   std::vector<ModulusState> states, other_states;
 
   void resize(std::size_t count) {
-    for (auto* const column : {&area, &deformation, &temperature, &viscosity, &modulus, &standard_error, &state_numbers,
-                               &other_modulus})
+    for (auto* const column :
+         {&area, &deformation, &temperature, &viscosity, &modulus, &standard_error, &state_numbers, &other_modulus})
       column->resize(count);
     states.resize(count);
     other_states.resize(count);

@@ -88,15 +88,15 @@ double median_of(std::span<float> values) {
 std::string to_json(const ExtractSummary& s) {
   const auto& d = s.modulus_kPa;
   const auto& c = s.conditions;
-  return json{{"events", s.events},
-              {"counts", s.counts},
-              {"modulus", {d.median, d.first_quartile, d.third_quartile, d.mean, d.standard_deviation}},
-              {"viscosity", s.mean_viscosity_mPas},
-              {"texts", {s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from,
-                         s.corrected}},
-              {"standard_error", s.median_standard_error_kPa},
-              {"conditions", {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um}},
-              {"warnings", s.warnings}}
+  return json{
+      {"events", s.events},
+      {"counts", s.counts},
+      {"modulus", {d.median, d.first_quartile, d.third_quartile, d.mean, d.standard_deviation}},
+      {"viscosity", s.mean_viscosity_mPas},
+      {"texts", {s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from, s.corrected}},
+      {"standard_error", s.median_standard_error_kPa},
+      {"conditions", {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um}},
+      {"warnings", s.warnings}}
       .dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
@@ -132,8 +132,10 @@ std::string summary_table(std::span<const SummaryLine> lines) {
   }
   text +=
       "\tvalid_percent\tyoung_modulus_median_kPa\tyoung_modulus_first_quartile_kPa\tyoung_modulus_third_quartile_kPa"
-      "\tyoung_modulus_mean_kPa\tyoung_modulus_standard_deviation_kPa\tyoung_modulus_standard_error_median_kPa\ttable\tmedium\tviscosity_model"
-      "\tmean_viscosity_mPas\ttemperature\tchannel_width_um\tflow_rate_ul_s\tpixelation_pixel_size_um\tcorrected_for_pixels\tarea_from"
+      "\tyoung_modulus_mean_kPa\tyoung_modulus_standard_deviation_kPa\tyoung_modulus_standard_error_median_"
+      "kPa\ttable\tmedium\tviscosity_model"
+      "\tmean_viscosity_mPas\ttemperature\tchannel_width_um\tflow_rate_ul_s\tpixelation_pixel_size_um\tcorrected_for_"
+      "pixels\tarea_from"
       "\tdeformation_from\tremarks\n";
   for (const auto& line : lines) {
     text += cell(line.recording.string());

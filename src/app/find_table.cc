@@ -97,9 +97,8 @@ fs::path find_table(const std::string& wanted) {
         "rheocyte: --table {}: there is no such file, and no installed dclab with tables was found; give the path of a "
         "table.",
         one_line(wanted, 200)));
-  throw UserError(
-      fmt::format("rheocyte: --table {}: there is neither such a file nor such a table{} (there are {}).",
-                  one_line(wanted, 200), did_you_mean(wanted, names), all));
+  throw UserError(fmt::format("rheocyte: --table {}: there is neither such a file nor such a table{} (there are {}).",
+                              one_line(wanted, 200), did_you_mean(wanted, names), all));
 }
 
 }  // namespace rheocyte

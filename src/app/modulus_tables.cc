@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <system_error>
 #include <utility>
 
+#include "app/any_table.h"
 #include "app/find_table.h"
 #include "app/shipped_tables.h"
 #include "case/user_error.h"
@@ -20,50 +18,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* standard_table = "LE-2D-26";
-
-// The grid in the folder of a table.
-fs::path grid_in(const fs::path& folder) {
-  std::vector<fs::path> found;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".cbor" && entry.path().filename().string().starts_with("grid_"))
-      found.push_back(entry.path());
-  const std::string name = one_line(folder.string(), 300);
-  if (found.empty())
-    throw UserError(fmt::format("{}: this folder holds no grid_*.cbor, which `rheocyte table` writes when a table is "
-                                "complete; give --table the folder of a complete table, or a file.",
-                                name));
-  if (found.size() > 1) throw UserError(fmt::format("{}: holds several grid_*.cbor; give --table one of them.", name));
-  return found.front();
-}
-
-std::string content_of(const fs::path& path) {
-  constexpr std::uintmax_t greatest_file = 64 << 20;
-  std::error_code error;
-  const auto size = fs::file_size(path, error);
-  std::ifstream file(path, std::ios::binary);
-  if (error || !file || size > greatest_file)
-    throw UserError(fmt::format("{}: {}", one_line(path.string(), 300),
-                                !error && size > greatest_file ? "is too large for a grid of a table."
-                                                               : "cannot be read; check its permissions."));
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::variant<ParityModulus, GridModulus> read_table(const fs::path& path) {
-  std::error_code error;
-  const fs::path file = fs::is_directory(path, error) ? grid_in(path) : path;
-  if (file.extension() == ".cbor") return GridModulus(grid_from_bytes(content_of(file), one_line(file.string(), 300)));
-  ParityModulus published(read_published_table(file));
+std::variant<ParityModulus, GridModulus> ready_table(const fs::path& path) {
+  AnyTable table = read_any_table(path);
+  if (auto* const grid = std::get_if<GridContent>(&table)) return GridModulus(std::move(*grid));
+  ParityModulus published(std::get<PublishedTable>(std::move(table)));
   if (published.table().abscissa != PublishedTable::Abscissa::area)
     throw UserError(fmt::format("rheocyte: --table {}: holds volumes; only tables of areas are used for recordings.",
-                                one_line(file.string(), 200)));
+                                one_line(path.string(), 200)));
   return published;
 }
 
 }  // namespace
 
-ModulusTable::ModulusTable(const fs::path& file) : table_(read_table(file)) {}
+ModulusTable::ModulusTable(const fs::path& file) : table_(ready_table(file)) {}
 
 const std::string& ModulusTable::identifier() const {
   if (const auto* const grid = std::get_if<GridModulus>(&table_)) return grid->origin().identifier;
@@ -136,7 +103,9 @@ ModulusTables::Choice ModulusTables::choose(const ExtractSettings& settings) con
   const ModulusTable* const thick = newtonian();
   const ModulusTable* const thinning = settings.flow_exponent < 1 ? matching(settings.flow_exponent) : nullptr;
   const ModulusTable* const used = given_ ? first : thinning ? thinning : thick ? thick : first;
-  const ModulusTable* const other = used->flow_exponent() == 1 ? thinning : settings.flow_exponent < 1 ? thick : nullptr;
+  const ModulusTable* const other = used->flow_exponent() == 1   ? thinning
+                                    : settings.flow_exponent < 1 ? thick
+                                                                 : nullptr;
   return {used, other == used ? nullptr : other};
 }
 

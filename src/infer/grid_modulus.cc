@@ -52,8 +52,8 @@ struct GridModulus::Block {
 
 GridModulus::GridModulus(GridContent grid) : grid_(std::move(grid)) {
   if (origin().is_shell)
-    throw UserError(fmt::format(
-        "The table {} holds moduli of a cortex (mN/m); Young's moduli need a table of solids.", origin().identifier));
+    throw UserError(fmt::format("The table {} holds moduli of a cortex (mN/m); Young's moduli need a table of solids.",
+                                origin().identifier));
 }
 
 void GridModulus::estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
@@ -94,8 +94,7 @@ void GridModulus::estimate_block(const MeasuringConditions& conditions, const Bl
   }
   log_area.head(rows) += 2 * std::log(width_ratio);
   // A deformation below zero is one that is too small, not one that is missing.
-  for (Eigen::Index k = 0; k < rows; ++k)
-    log_deformation[k] = deformation[k] < 0 ? 0 : deformation[k];
+  for (Eigen::Index k = 0; k < rows; ++k) log_deformation[k] = deformation[k] < 0 ? 0 : deformation[k];
   log_deformation.head(rows) = log_deformation.head(rows).log();
   grid_.answer({log_area.data(), count}, {log_deformation.data(), count}, {answers.data(), count});
   const double factor = conditions.flow_rate_ul_s / origin().flow_rate_ul_s / origin().viscosity_mPas * width_ratio *
@@ -106,7 +105,8 @@ void GridModulus::estimate_block(const MeasuringConditions& conditions, const Bl
     const auto k = static_cast<Eigen::Index>(i);
     const bool has = answers[i].reason == NoAnswer::none && std::isfinite(block.viscosity[i]);
     const double value = has ? modulus[k] * factor * block.viscosity[i] : nan;
-    const double variance = answers[i].error * answers[i].error + variance_by_pixels(answers[i], pixels[i], deformation[k]);
+    const double variance =
+        answers[i].error * answers[i].error + variance_by_pixels(answers[i], pixels[i], deformation[k]);
     estimates.modulus_kPa[i] = value;
     estimates.standard_error_kPa[i] = value * std::sqrt(variance);
     estimates.state[i] = answers[i].reason == NoAnswer::none && !has ? ModulusState::no_data : state_of(answers[i]);

@@ -27,11 +27,13 @@ class GridModulus {
   /// Area and deformation less what the pixels do (unless the pixel size is 0), area and modulus scaled to the table's
   /// channel, flow and viscosity (eq:scaling), the grid between; the standard error from the scatter by pixels and the
   /// table's error (eq:standard-error). Spans of one length (asserted).
-  void estimate(const MeasuringConditions& conditions, const MeasuredEvents& events, const EstimatedModuli& estimates) const;
+  void estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
+                const EstimatedModuli& estimates) const;
 
  private:
   struct Block;
-  void estimate_block(const MeasuringConditions& conditions, const Block& block, const EstimatedModuli& estimates) const;
+  void estimate_block(const MeasuringConditions& conditions, const Block& block,
+                      const EstimatedModuli& estimates) const;
 
   StiffnessGrid grid_;
 };

@@ -53,7 +53,8 @@ PixelErrors pixel_errors(double log_area_px, double deformation) {
   const double d = std::clamp(deformation, 0.0, greatest_fitted_deformation);
   return {1 + s2 * value(area_law, d, s), s2 * value(deformation_law, d, s),
           s2 * std::max(value(area_deviation_law, d, s), least_area_deviation),
-          s2 * std::max(value(deformation_deviation_law, d, s), least_deformation_deviation), std::clamp(value(correlation_law, d, s), -1.0, 1.0)};
+          s2 * std::max(value(deformation_deviation_law, d, s), least_deformation_deviation),
+          std::clamp(value(correlation_law, d, s), -1.0, 1.0)};
 }
 
 PixelShape seen_through_pixels(const PixelShape& smooth) {

@@ -6,11 +6,11 @@ namespace rheocyte {
 
 /// For a contour through the centres of the outermost pixels.
 struct PixelErrors {
-  double area_factor = 1;             ///< area of the smooth contour's hull / measured area
-  double deformation_excess = 0;      ///< measured deformation - that of the smooth contour
-  double area_deviation = 0;          ///< standard deviation of ln(area) from cell to cell
-  double deformation_deviation = 0;   ///< of the deformation
-  double correlation = 0;             ///< of both
+  double area_factor = 1;            ///< area of the smooth contour's hull / measured area
+  double deformation_excess = 0;     ///< measured deformation - that of the smooth contour
+  double area_deviation = 0;         ///< standard deviation of ln(area) from cell to cell
+  double deformation_deviation = 0;  ///< of the deformation
+  double correlation = 0;            ///< of both
 };
 
 /// Areas (pixels) for which the law was fitted; outside, the nearest one counts.

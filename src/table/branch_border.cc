@@ -8,7 +8,7 @@ namespace rheocyte {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int reach = 2;         // columns over which the border is evened
+constexpr int reach = 2;  // columns over which the border is evened
 constexpr int points_per_column = 8;
 
 /// Where a branch ends.
@@ -85,8 +85,7 @@ class EndPolygon {
 }  // namespace
 
 LogBranch::Point LogBranch::at(double log_stiffness) const {
-  const double stiffness =
-      std::clamp(std::exp(log_stiffness), branch_->stiffness.back(), branch_->stiffness.front());
+  const double stiffness = std::clamp(std::exp(log_stiffness), branch_->stiffness.back(), branch_->stiffness.front());
   return {std::log(interpolate(*branch_, Measure::area_um2, stiffness)),
           std::log(interpolate(*branch_, Measure::deformation, stiffness))};
 }

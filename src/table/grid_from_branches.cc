@@ -53,7 +53,8 @@ std::optional<NodeValue> value_at(std::span<const Crossing> line, double log_are
   const auto at_column = [&](std::span<const Crossing> some, double Crossing::*member) {
     return polynomial(some, log_area, &Crossing::log_area, member);
   };
-  const double value = at_column(nodes, &Crossing::log_stiffness), height = at_column(nodes, &Crossing::log_deformation);
+  const double value = at_column(nodes, &Crossing::log_stiffness),
+               height = at_column(nodes, &Crossing::log_deformation);
   // As in the interpolation between the branches: the polynomial of two degrees less tells the error. A deformation
   // that is off counts half, because d ~ E^-2.
   const auto inner = count > 3 ? nodes.subspan(1, nodes.size() - 2) : nodes.first(2);
@@ -69,15 +70,15 @@ NodeValue resampled(std::span<const NodeValue> column, std::size_t row, double l
   const std::size_t count = std::min(points, column.size());
   const std::size_t first = std::min(row > 1 ? row - 1 : 0, column.size() - count);
   const auto nodes = column.subspan(first, count);
-  return {log_deformation,
-          polynomial(nodes, log_deformation, &NodeValue::log_deformation, &NodeValue::log_stiffness),
+  return {log_deformation, polynomial(nodes, log_deformation, &NodeValue::log_deformation, &NodeValue::log_stiffness),
           column[row].error};
 }
 
 /// One family of branches on its way to a patch.
 class PatchMaker {
  public:
-  PatchMaker(std::vector<LogBranch> branches, const Columns& columns) : branches_(std::move(branches)), columns_(columns) {}
+  PatchMaker(std::vector<LogBranch> branches, const Columns& columns)
+      : branches_(std::move(branches)), columns_(columns) {}
 
   std::optional<GridPatch> patch(const std::vector<double>& lower, const Border& upper, int rows) const {
     const auto count = static_cast<std::size_t>(columns_.count);
@@ -130,8 +131,7 @@ class PatchMaker {
       const auto& own = branch.branch();
       const double stiffness = std::clamp(std::exp(log_stiffness), own.stiffness.back(), own.stiffness.front());
       const auto point = branch.at(log_stiffness);
-      line.push_back(
-          {point.log_area, point.log_deformation, log_stiffness, stiffness_error(point_at(own, stiffness))});
+      line.push_back({point.log_area, point.log_deformation, log_stiffness, stiffness_error(point_at(own, stiffness))});
     }
     std::ranges::sort(line, {}, &Crossing::log_area);
     return line;
@@ -202,7 +202,8 @@ std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<
   if (!bare) return {};
   GridContent grid{origin_of(spec, version), columns.first, columns.step, columns.count, {*bare}};
   if (spec.bending_beyond_kBT > 0 && held.size() > 1) {
-    auto above = PatchMaker(held, columns).patch(border.height, upper_border(held, spec, columns), resolution.held_rows);
+    auto above =
+        PatchMaker(held, columns).patch(border.height, upper_border(held, spec, columns), resolution.held_rows);
     if (above) {
       above->regularised = true;
       add_step_to_error(*bare, *above);

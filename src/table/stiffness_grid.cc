@@ -127,7 +127,9 @@ GridAnswer StiffnessGrid::between(const Patch& patch, const Place& place, double
   const Hermite up(height - row), up_change = Hermite::derivative(height - row);
   const std::size_t first = place.column * static_cast<std::size_t>(patch.rows) + static_cast<std::size_t>(row);
   const Node *const a = &patch.nodes[first], *const b = a + patch.rows;
-  const auto along = [](const Hermite& w, const Node* n) { return w(n[0].value, n[1].value, n[0].by_row, n[1].by_row); };
+  const auto along = [](const Hermite& w, const Node* n) {
+    return w(n[0].value, n[1].value, n[0].by_row, n[1].by_row);
+  };
   const auto across = [](const Hermite& w, const Node* n) {
     return w(n[0].by_column, n[1].by_column, n[0].by_both, n[1].by_both);
   };
@@ -135,7 +137,8 @@ GridAnswer StiffnessGrid::between(const Patch& patch, const Place& place, double
   const double by_row =
       place.weight(along(up_change, a), along(up_change, b), across(up_change, a), across(up_change, b));
   // At constant deformation the height in rows changes with the borders.
-  const double lower_change = place.edge(patch.lower, place.change), upper_change = place.edge(patch.upper, place.change);
+  const double lower_change = place.edge(patch.lower, place.change),
+               upper_change = place.edge(patch.upper, place.change);
   const double height_change =
       -lower_change * rows_per_height - height * (upper_change - lower_change) / (place.upper - place.lower);
   return {place.weight(value_a, value_b, slope_a, slope_b),
@@ -177,6 +180,15 @@ void StiffnessGrid::answer(std::span<const double> log_area, std::span<const dou
 
 GridAnswer StiffnessGrid::answer(double area_um2, double deformation) const {
   return answer_at(std::log(area_um2), std::log(deformation));
+}
+
+std::optional<StiffnessGrid::Range> StiffnessGrid::smooth_range(double area_um2) const {
+  const double place = (std::log(area_um2) - content_.least_log_area) / content_.column_step;
+  if (!(place >= 0 && place <= content_.columns - 1)) return {};
+  const int column = std::min(static_cast<int>(place), content_.columns - 2);
+  const Patch& bare = patches_.front();
+  const Place here{static_cast<std::size_t>(column), Hermite(place - column), Hermite::derivative(0), 0, 0};
+  return Range{here.edge(bare.lower, here.weight), here.edge(bare.upper, here.weight)};
 }
 
 std::string grid_file_name(const std::string& identifier) { return "grid_" + identifier + ".cbor"; }

@@ -27,10 +27,10 @@ struct GridOrigin {
 struct GridPatch {
   bool regularised = false;  ///< of the branches that a bending stiffness holds smooth
   int first_column = 0, columns = 0, rows = 0;
-  std::vector<double> lower, upper;    ///< ln(deformation) of the first and the last row
-  std::vector<double> log_stiffness;   ///< at the nodes
-  std::vector<double> error;           ///< relative, of the stiffness, at the nodes
-  std::vector<double> beyond;          ///< why there is nothing above the last row: a NoAnswer as a number
+  std::vector<double> lower, upper;   ///< ln(deformation) of the first and the last row
+  std::vector<double> log_stiffness;  ///< at the nodes
+  std::vector<double> error;          ///< relative, of the stiffness, at the nodes
+  std::vector<double> beyond;         ///< why there is nothing above the last row: a NoAnswer as a number
 };
 
 /// All that a file of a grid holds.
@@ -42,7 +42,7 @@ struct GridContent {
 };
 
 struct GridAnswer {
-  double log_stiffness = 0;  ///< ln(kPa) or ln(mN/m)
+  double log_stiffness = 0;                        ///< ln(kPa) or ln(mN/m)
   double by_log_area = 0, by_log_deformation = 0;  ///< its derivatives
   double error = 0;                                ///< estimated, relative, as in StiffnessAnswer
   NoAnswer reason = NoAnswer::none;                ///< if there is one, the numbers mean nothing
@@ -63,6 +63,12 @@ class StiffnessGrid {
   void answer(std::span<const double> log_area, std::span<const double> log_deformation,
               std::span<GridAnswer> answers) const;
   GridAnswer answer(double area_um2, double deformation) const;
+
+  /// ln(deformation) of the first and the last smooth state of a bare surface at an area; nothing outside the areas.
+  struct Range {
+    double lower, upper;
+  };
+  std::optional<Range> smooth_range(double area_um2) const;
 
  private:
   struct alignas(32) Node {

@@ -120,8 +120,9 @@ GridContent grid_from_bytes(std::string_view bytes, const std::string& name) {
   } catch (const std::length_error&) {
   } catch (const std::bad_alloc&) {
   }
-  throw UserError(fmt::format(
-      "{}: this grid of a table cannot be used: {}; `rheocyte table` with the table's spec writes it anew.", name, what));
+  throw UserError(
+      fmt::format("{}: this grid of a table cannot be used: {}; `rheocyte table` with the table's spec writes it anew.",
+                  name, what));
 }
 
 }  // namespace rheocyte

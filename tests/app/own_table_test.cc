@@ -28,7 +28,8 @@ std::vector<double> column(const fs::path& file, const std::string& feature) {
 
 class OwnTable : public testing::Test {
  protected:
-  test::Ended run(std::vector<std::string> arguments, const std::map<std::string, std::string>& environment = {}) const {
+  test::Ended run(std::vector<std::string> arguments,
+                  const std::map<std::string, std::string>& environment = {}) const {
     arguments.insert(arguments.begin(), RHEOCYTE);
     return test::run({arguments, environment});
   }
@@ -66,7 +67,8 @@ TEST_F(OwnTable, NothingButTheRecordingIsNeeded) {
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(column(folder_ / "a_rheocyte.rtdc", "userdef0"), (std::vector<double>{0, 2, 3, 4, 5, 1, 8}))
       << "valid, too small, too large, too stiff, too soft, no data, regularised";
-  const auto modulus = column(folder_ / "a_rheocyte.rtdc", "emodulus"), error = column(folder_ / "a_rheocyte.rtdc", "userdef1");
+  const auto modulus = column(folder_ / "a_rheocyte.rtdc", "emodulus"),
+             error = column(folder_ / "a_rheocyte.rtdc", "userdef1");
   EXPECT_GT(error[0] / modulus[0], 0.02) << "2 to 5 % by the place between the pixels";
   EXPECT_LT(error[0] / modulus[0], 0.06);
   EXPECT_GT(error[6], 0);
@@ -88,7 +90,8 @@ TEST_F(OwnTable, AgreesWithThePublishedTableOfTheSameModel) {
     writer.scalar("area_um", {80});
     writer.scalar("deform", {0.03});
   }
-  ASSERT_EQ(run({"extract", path("a.rtdc"), "--no-pixelation", "--viscosity", "5.3563", "--flow-rate", "0.06"}).exit_code, 0);
+  ASSERT_EQ(
+      run({"extract", path("a.rtdc"), "--no-pixelation", "--viscosity", "5.3563", "--flow-rate", "0.06"}).exit_code, 0);
   // By LE-2D-FEM-19, whose moduli ours meet to 0.4 %.
   EXPECT_NEAR(column(folder_ / "a_rheocyte.rtdc", "emodulus")[0], 1.0486, 0.004 * 1.0486);
 }
@@ -165,17 +168,18 @@ TEST_F(OwnTable, ModuliComeBackAndIntervalsHoldWhatTheyPromise) {
     double modulus, deviation, radius;
   };
   for (const auto& [modulus, deviation, radius] : {Population{5, 0.3, 6.2}, {6, 0.4, 7}, {9, 0.6, 7.2}}) {
-    test::write_file(folder_ / "spec.toml",
-                     "[recording]\ncells = 500\npictures = \"none\"\n[channel]\nwidth_um = 20\n[flow]\n"
-                     "rate_ul_per_s = 0.04\nviscosity_mPas = 15\n[shapes]\ntable = \"table\"\n[cell]\nradius_um = {mean = " +
-                         std::to_string(radius) + ", sd = 0.3}\nyoung_modulus_kPa = {mean = " +
-                         std::to_string(modulus) + ", sd = " + std::to_string(deviation) + "}\n");
+    test::write_file(
+        folder_ / "spec.toml",
+        "[recording]\ncells = 500\npictures = \"none\"\n[channel]\nwidth_um = 20\n[flow]\n"
+        "rate_ul_per_s = 0.04\nviscosity_mPas = 15\n[shapes]\ntable = \"table\"\n[cell]\nradius_um = {mean = " +
+            std::to_string(radius) + ", sd = 0.3}\nyoung_modulus_kPa = {mean = " + std::to_string(modulus) +
+            ", sd = " + std::to_string(deviation) + "}\n");
     fs::remove(folder_ / "v.rtdc");
     ASSERT_EQ(run({"synth", path("spec.toml"), "-o", path("v.rtdc")}).exit_code, 0);
     const auto ended = run({"extract", path("v.rtdc"), "--table", path("table"), "--viscosity", "15"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    const auto found = column(folder_ / "v_rheocyte.rtdc", "emodulus"), error = column(folder_ / "v_rheocyte.rtdc", "userdef1"),
-               truth = column(folder_ / "v.rtdc", "userdef2");
+    const auto found = column(folder_ / "v_rheocyte.rtdc", "emodulus"),
+               error = column(folder_ / "v_rheocyte.rtdc", "userdef1"), truth = column(folder_ / "v.rtdc", "userdef2");
     std::vector<double> bias;
     int covered = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -52,7 +52,9 @@ TEST_F(GridModulusTest, ManyEventsAreEachLikeOne) {
     EXPECT_EQ(std::isnan(modulus[i]), std::isnan(one.modulus)) << i;
     EXPECT_EQ(std::isfinite(modulus[i]), has_modulus(state[i])) << i;
     // Vectors and single numbers may round the logarithms differently.
-    if (has_modulus(state[i])) { EXPECT_NEAR(modulus[i], one.modulus, 1e-12 * one.modulus); }
+    if (has_modulus(state[i])) {
+      EXPECT_NEAR(modulus[i], one.modulus, 1e-12 * one.modulus);
+    }
   }
 }
 
@@ -60,7 +62,8 @@ TEST_F(GridModulusTest, TakesAwayWhatPixelsDo) {
   const double pixel = 0.34, area = 100, deformation = 0.03;
   const auto pixels = pixel_errors(std::log(area / (pixel * pixel)), deformation);
   const double smooth = deformation - pixels.deformation_excess;
-  const double both = test::invented_modulus(area * pixels.area_factor, smooth), one = test::invented_modulus(area, smooth);
+  const double both = test::invented_modulus(area * pixels.area_factor, smooth),
+               one = test::invented_modulus(area, smooth);
   EXPECT_NEAR(at({20, 0.04, pixel}, area, deformation).modulus, both, 1e-5 * both);
   EXPECT_NEAR(at({20, 0.04, pixel, false}, area, deformation).modulus, one, 1e-5 * one);
   EXPECT_GT(both, 1.01 * one) << "areas are measured too small";

@@ -181,7 +181,8 @@ TEST(StiffnessGrid, ADamagedFileIsRefused) {
     EXPECT_NE(refusal(damaged).find("grid.cbor: this grid of a table cannot be used"), std::string::npos) << at;
     EXPECT_NE(refusal(bytes.substr(0, at)).find("cannot be used"), std::string::npos) << at;
   }
-  EXPECT_NE(refusal(to_bytes(invented_branch(7), "0123456789abcdef")).find("it is no rheocyte grid"), std::string::npos);
+  EXPECT_NE(refusal(to_bytes(invented_branch(7), "0123456789abcdef")).find("it is no rheocyte grid"),
+            std::string::npos);
 }
 
 }  // namespace
