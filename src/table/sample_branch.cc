@@ -27,6 +27,8 @@ constexpr double tolerance = 1e-10;
 constexpr double first_displacement = 0.006;
 /// Steps of the samples in ln stiffness.
 constexpr double first_step = 0.25, first_held_step = 0.08, greatest_step = 0.9, least_step = 2e-3;
+/// So many states in a row may fail to be accurate before a branch is given up; each is nearer than the one before.
+constexpr int greatest_unsampled = 4;
 /// Of the step that the last interval would have allowed: towards its end a branch needs ever smaller ones.
 constexpr double growth = 0.6;
 /// A branch that is steeper than this (-d ln d / d ln E) nears a fold: finer meshes would not go farther.
@@ -158,6 +160,7 @@ class BranchSampler {
     nodes_.push_back(last_);
     std::optional<Node> last;  // the farthest state, once a step has failed
     Status failure = Status::not_started;
+    int unsampled = 0;  // states in a row that were not accurate
     for (double h = result_.bending_kBT > 0 ? first_held_step : first_step; h > least_step / 2;) {
       const Node& before = nodes_.back();
       Node next;
@@ -167,7 +170,13 @@ class BranchSampler {
         const Status status = advance(before, before.u + h, next);
         if (status == Status::stopped) return end(status);
         const bool moved = next.u > before.u + least_step / 4;
-        if (moved && !sample(next)) return end(Status::accuracy_not_reached);
+        if (moved && !sample(next)) {
+          // One state may fail where its neighbours do not.
+          if (++unsampled > greatest_unsampled) return end(Status::accuracy_not_reached);
+          h = 0.6 * (next.u - before.u);
+          continue;
+        }
+        unsampled = 0;
         if (!moved) next = before;
         if (status != Status::converged) last = next, failure = status;
       }
