@@ -185,7 +185,7 @@ class BranchSampler {
         h = 0.7 * allowed;
         continue;
       }
-      if (moved > 0) nodes_.push_back(std::move(next));
+      if (moved > 0) nodes_.push_back(std::move(next)), release_coarse(nodes_.back().level);
       h = std::clamp(growth * allowed, 0.2 * moved, greatest_step);
       if (is_covered(nodes_.back())) return end("covered", "The branch leaves the table's ranges.");
       if (!last || nodes_.back().u < last->u) continue;
@@ -215,7 +215,7 @@ class BranchSampler {
   /// From the bare cell's state to the one with bending stiffness, which becomes the first state here.
   bool change_bending(BranchSampler& bare, double at_stiffness) {
     first_stiffness_ = at_stiffness;
-    discrete_ = bare.discrete_;
+    discrete_ = std::move(bare.discrete_);
     factorisation_before_ = factorisation_seconds();
     const Problem from = bare.problem(bare.last_.u), to = problem(0);
     const int level = bare.last_.level;
@@ -326,10 +326,20 @@ class BranchSampler {
     ++result_.solves;
     result_.newton_iterations += iterations;
   }
+  /// A state needs its own level and the one before, which tells its error; factors take some 100 MB on the others.
+  void release_coarse(int level) {
+    for (int i = 0; i < level - 1; ++i) {
+      if (discrete_[i]) released_factorisation_ += factorisation_seconds(*discrete_[i]);
+      discrete_[i].reset();
+    }
+  }
+  static double factorisation_seconds(const Discrete& discrete) {
+    return discrete.system.work().condensation_s + discrete.system.work().sparse_s;
+  }
   double factorisation_seconds() const {
-    double seconds = 0;
+    double seconds = released_factorisation_;
     for (const auto& discrete : discrete_) {
-      if (discrete) seconds += discrete->system.work().condensation_s + discrete->system.work().sparse_s;
+      if (discrete) seconds += factorisation_seconds(*discrete);
     }
     return seconds;
   }
@@ -362,6 +372,7 @@ class BranchSampler {
   NewtonOptions newton_;
   std::array<std::shared_ptr<Discrete>, ladder.size()> discrete_;
   double factorisation_before_ = 0;  ///< of systems that were taken over
+  double released_factorisation_ = 0;
   Node last_;
   std::vector<Node> nodes_;
   SampledBranch result_;
