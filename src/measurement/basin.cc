@@ -1,5 +1,7 @@
 #include "measurement/basin.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
@@ -51,6 +53,12 @@ std::optional<BasinDefinition> read_basin_definition(const std::string& json_tex
     basin.features = texts_in(*features);
   if (const auto mapping = text_at(definition, "mapping"); mapping != "same") basin.mapping = mapping;
   return basin;
+}
+
+std::optional<std::string> name_of_remote_basin(const std::string& json_text) {
+  const json definition = json::parse(json_text, nullptr, false);
+  if (!definition.is_object() || text_at(definition, "type") != "remote") return std::nullopt;
+  return fmt::format("{} ({})", text_at(definition, "name"), text_at(definition, "format"));
 }
 
 std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths) {

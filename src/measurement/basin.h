@@ -22,6 +22,9 @@ struct BasinDefinition {
 /// Reads a definition (JSON). Nothing if it is broken or of a kind that needs a network.
 std::optional<BasinDefinition> read_basin_definition(const std::string& json_text);
 
+/// Name and format of a basin on a network; nothing if the definition is another one.
+std::optional<std::string> name_of_remote_basin(const std::string& json_text);
+
 /// The definition of a basin of kind file with equal numbers of events, in lines for /basins.
 std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths);
 

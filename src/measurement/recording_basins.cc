@@ -46,7 +46,13 @@ void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
   Content& c = *content_;
   const auto definition = read_basin_definition(json);
   if (!definition) {
-    c.remarks.emplace_back("a basin is not used: it is on a network, or its definition is broken.");
+    if (const auto remote = name_of_remote_basin(json))
+      c.remarks.push_back(
+          fmt::format("the basin \"{}\" is not used: it is on a network, from which nothing is read; "
+                      "download the file and refer to it, or put its features into the recording.",
+                      one_line(*remote, 80)));
+    else
+      c.remarks.emplace_back("a basin is not used: its definition is broken.");
     return;
   }
   const std::string name = one_line(definition->name, 60);

@@ -29,10 +29,13 @@ ShapeSource::ShapeSource(const Recording& recording, double pixel_size_um)
       area_from_(first_there(recording, "area_um", "area_cvx")),
       deformation_from_(first_there(recording, "deform", "circ")) {
   const auto name = one_line(recording.file().string(), 300);
-  if (area_from_.empty() || deformation_from_.empty())
+  if (area_from_.empty() || deformation_from_.empty()) {
+    std::string remarks;  // perhaps they lie where they were not found
+    for (const auto& remark : recording.remarks()) remarks += "; " + remark;
     throw UserError(
-        fmt::format("{}: has neither {} nor contours nor masks, so there is nothing to tell a modulus from.", name,
-                    area_from_.empty() ? "area_um" : "deform"));
+        fmt::format("{}: has neither {} nor contours nor masks, so there is nothing to tell a modulus from{}", name,
+                    area_from_.empty() ? "area_um" : "deform", remarks.empty() ? "." : remarks));
+  }
   if (area_from_ != "area_um" && !(pixel_size_um > 0))
     throw UserError(
         fmt::format("{}: its areas are in pixels, and the pixel size is missing; give --pixel-size (um).", name));

@@ -3,9 +3,11 @@
 
 #include <cmath>
 
+#include "case/user_error.h"
 #include "measurement/recording.h"
 #include "measurement/recording_writer.h"
 #include "measurement/reference_files.h"
+#include "measurement/shape_source.h"
 
 namespace rheocyte {
 namespace {
@@ -109,6 +111,24 @@ TEST(Basin, InternalOnesLieInTheSameFile) {
                               R"(["basin_events"], "features": ["temp"], "mapping": "basinmap0"})"});
   }
   EXPECT_EQ(column(Recording(folder / "a.rtdc"), "temp"), (std::vector<double>{22, 22, 24}));
+}
+
+TEST(Basin, ARemoteOneIsNamedAndNotRead) {
+  const ScratchFolder folder;
+  {
+    RecordingWriter writer(folder / "a.rtdc");
+    write_referring(writer);
+    writer.scalar("userdef0", {1, 2, 3, 4, 5, 6});
+    writer.lines("basins/0",
+                 {R"({"type": "remote", "format": "http", "name": "store",)", R"("urls": ["https://x.org/a"]})"});
+  }
+  const Recording recording(folder / "a.rtdc");
+  ASSERT_EQ(recording.remarks().size(), 1U);
+  EXPECT_EQ(
+      recording.remarks()[0],
+      "the basin \"store (http)\" is not used: it is on a network, from which nothing is read; download the file and "
+      "refer to it, or put its features into the recording.");
+  EXPECT_THROW(ShapeSource(recording, 0.34), UserError);
 }
 
 TEST(Basin, AnotherMeasurementAMissingFileOrALoopIsARemark) {
