@@ -1,11 +1,15 @@
 // How well the structured grid of a finished table repeats the interpolation between its branches: check_grid DIR
+// [GRID]
 //
-// At random areas and deformations, uniform in their logarithms, both answer.
+// At random areas and deformations, uniform in their logarithms, both answer. With a file of a grid it is said whether
+// that is the table's.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <random>
 #include <vector>
@@ -31,7 +35,7 @@ void print_differences(const char* what, std::vector<double>& all) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) return fmt::print("check_grid DIR\n"), 2;
+  if (argc < 2) return fmt::print("check_grid DIR [GRID]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
   const auto branches = TableFolder(argv[1], spec).read_all();
   const auto start = std::chrono::steady_clock::now();
@@ -42,6 +46,13 @@ int main(int argc, char** argv) {
   for (const auto& patch : content->patches)
     fmt::print("{} x {} nodes from column {}{}\n", patch.columns, patch.rows, patch.first_column,
                patch.regularised ? ", regularised" : "");
+  if (argc > 2) {
+    std::ifstream file(argv[2], std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    GridContent same = *content;
+    same.origin.program = grid_from_bytes(bytes, argv[2]).origin.program;
+    fmt::print("{} is {}this table's grid\n", argv[2], to_bytes(same) == bytes ? "" : "not ");
+  }
   const StiffnessGrid grid(*content);
   const TableInterpolation table(spec, branches);
   std::mt19937 random(1);
