@@ -97,6 +97,7 @@ void write_state(Writer& writer, const TimeState& state) {
   writer.number(state.steps_at_order);
   writer.number(state.next_step);
   writer.matrix(state.traction);
+  writer.number(state.inlet_pressure);
   writer.number(std::uint64_t(state.levels.size()));
   for (const TimeLevel& level : state.levels) {
     writer.number(level.time);
@@ -112,6 +113,7 @@ TimeState read_state(Reader& reader) {
   state.steps_at_order = reader.number<int>();
   state.next_step = reader.number<double>();
   state.traction = reader.matrix<Eigen::VectorXd>();
+  state.inlet_pressure = reader.number<double>();
   state.levels.resize(reader.count(32));
   for (TimeLevel& level : state.levels) {
     level.time = reader.number<double>();

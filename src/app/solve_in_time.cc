@@ -81,7 +81,7 @@ class Recorder {
   }
 
   void add(const TimePoint& point, const TimeState& state) {
-    record_.rows.push_back(history_row(point, result_.scales, result_.input.flow.rate_ul_per_s));
+    record_.rows.push_back(history_row(point, result_.scales));
     last_state_ = state;
     const HistoryRow& row = record_.rows.back();
     if (!options_.quiet)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "case/scales.h"
+
 namespace rheocyte {
 
 namespace {
@@ -13,7 +15,7 @@ constexpr double um_per_m = 1e6, us_per_s = 1e6;
 
 }  // namespace
 
-HistoryRow history_row(const TimePoint& point, const Scales& scales, double flow_rate_ul_per_s) {
+HistoryRow history_row(const TimePoint& point, const Scales& scales) {
   const double um = scales.length_m * um_per_m, us = scales.time_s() * us_per_s;
   const ShapeMeasures& shape = point.shape;
   return {us * point.time,
@@ -23,7 +25,7 @@ HistoryRow history_row(const TimePoint& point, const Scales& scales, double flow
           um * um * um * shape.volume,
           point.relative_volume_change,
           scales.velocity_m_per_s * point.cell_velocity,
-          flow_rate_ul_per_s,
+          unit_rate_ul_per_s(scales) * point.flow_rate,
           scales.stress_Pa * point.pressure_drop,
           us * point.step,
           double(point.order),

@@ -24,7 +24,7 @@ struct TimeRecord {
   std::vector<ContourFrame> frames;
 };
 
-HistoryRow history_row(const TimePoint&, const Scales&, double flow_rate_ul_per_s);
+HistoryRow history_row(const TimePoint&, const Scales&);
 ContourFrame contour_frame(const TimeFrame&, const Scales&);
 
 std::string history_csv(const TimeRecord&);

@@ -9,11 +9,13 @@ namespace rheocyte {
 /// The tube, or the square channel that is mapped to it; exactly one of the two is given.
 struct Channel {
   std::optional<double> width_um, radius_um;
+  std::optional<double> length_um;  ///< only where the pressure drop is given
 };
 
 /// The liquid and how much of it flows. Empty: the key has no effect for this law.
 struct Flow {
-  double rate_ul_per_s = 0;
+  Drive drive = Drive::rate;
+  std::optional<double> rate_ul_per_s, pressure_drop_Pa;
   LiquidLaw law = LiquidLaw::newtonian;
   std::optional<double> viscosity_mPas, consistency_Pa_sn, exponent, shear_rate_floor;
   double density_kg_per_m3 = 0;

@@ -32,7 +32,9 @@ Choice choice(std::vector<std::string_view> options, int fallback) {
 constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "power-law"},
     mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
     has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
-    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"};
+    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
+    has_rate{"flow.drive", "pressure-drop", true},
+    has_pressure_drop{"flow.drive", "pressure-drop"};
 
 // The options of a choice stand in the order of its enumeration (case/problem.h).
 // The ranges are wide; they catch wrong units and keep every dimensionless group finite.
@@ -49,9 +51,17 @@ const std::array table{
               number<FIELD(channel.radius_um)>({0.5, 5000}),
               {},
               "channel.width_um"},
+    Parameter{"channel.length_um", "um", "length of the channel over which the given pressure drops",
+              number<FIELD(channel.length_um)>({1, 1e6}), has_pressure_drop},
 
+    Parameter{"flow.drive", "",
+              "what is given: the flow rate; the pressure drop, with the flow rate as a result; the flow rate, reached "
+              "through a pressure drop that is adapted in each step as in Mokbel et al. 2017",
+              choice<FIELD(flow.drive)>({"rate", "pressure-drop", "controlled-pressure"}, 0)},
     Parameter{"flow.rate_ul_per_s", "ul/s", "flow rate through the channel, sheath and sample together",
-              number<FIELD(flow.rate_ul_per_s)>({1e-9, 1e3})},
+              number<FIELD(flow.rate_ul_per_s)>({1e-9, 1e3}), has_rate},
+    Parameter{"flow.pressure_drop_Pa", "Pa", "pressure drop over channel.length_um, with the cell in it",
+              number<FIELD(flow.pressure_drop_Pa)>({1e-6, 1e12}), has_pressure_drop},
     Parameter{"flow.law", "", "law of the liquid, power-law: viscosity = consistency x shear rate^(exponent - 1)",
               choice<FIELD(flow.law)>({"newtonian", "power-law"}, 0)},
     Parameter{"flow.viscosity_mPas", "mPa s", "viscosity of the liquid",

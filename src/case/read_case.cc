@@ -107,6 +107,8 @@ void read_choices(Case& c, const GivenByKey& keys) {
   const auto first_of_time = keys.lower_bound("time.");
   const bool has_time = first_of_time != keys.end() && first_of_time->first.starts_with("time.");
   if (has_time && !keys.contains("time.scheme")) c.time.scheme = TimeScheme::monolithic;
+  const bool has_drop = keys.contains("flow.pressure_drop_Pa") && !keys.contains("flow.rate_ul_per_s");
+  if (has_drop && !keys.contains("flow.drive")) c.flow.drive = Drive::pressure_drop;
 }
 
 bool was_set(const GivenByKey& keys, std::string_view key) {
@@ -163,6 +165,17 @@ void check_cell_in_tube(const Case& c, const GivenByKey& keys) {
                             greatest_radius_ratio, R));
 }
 
+// The ends of the channel must not see the cell.
+void check_length(const Case& c, const GivenByKey& keys) {
+  if (!c.channel.length_um) return;
+  const double R = tube_radius_um(c), least = 2 * R * least_half_length(c.cell.radius_um / R);
+  if (*c.channel.length_um >= least) return;
+  const auto& given = keys.at("channel.length_um");
+  refuse(given, fmt::format("{} is too short for the flow round the cell; it must be at least {:.4g} um, give the "
+                            "pressure drop over such a length.",
+                            stated(given), std::ceil(least)));
+}
+
 // A liquid interior at rest holds no shear stress: the surface must, or the liquid drags it round without end.
 void check_cell_is_elastic(const Case& c, const GivenByKey& keys) {
   if (c.cell.bulk.law != BulkLaw::none || c.cell.cortex.law != CortexLaw::none) return;
@@ -178,6 +191,11 @@ void check_cell_is_elastic(const Case& c, const GivenByKey& keys) {
 constexpr double greatest_outputs = 10000;
 
 void check_time(const Case& c, const GivenByKey& keys) {
+  if (c.flow.drive == Drive::controlled_pressure && c.time.scheme != TimeScheme::partitioned)
+    refuse(keys.at("flow.drive"),
+           fmt::format("{} adapts the pressure step by step, which is for time.scheme = \"partitioned\" only; remove it, "
+                       "a given flow rate is met exactly.",
+                       stated(keys.at("flow.drive"))));
   if (c.time.scheme == TimeScheme::stationary) return;
   if (const double degree = *c.time.degree; degree != std::round(degree))
     refuse(keys.at("time.degree"), fmt::format("{} is not a whole number.", stated(keys.at("time.degree"))));
@@ -206,7 +224,10 @@ Case case_of_keys(std::vector<GivenKey> keys_in_order, const std::string& name,
   for (const auto& parameter : parameters())
     if (std::holds_alternative<Number>(parameter.value) && !is_open(parameter.key))
       read_number(c, parameter, keys, name);
-  if (!is_open("cell.radius_um")) check_cell_in_tube(c, keys);
+  if (!is_open("cell.radius_um")) {
+    check_cell_in_tube(c, keys);
+    check_length(c, keys);
+  }
   check_cell_is_elastic(c, keys);
   check_time(c, keys);
   return c;

@@ -32,11 +32,19 @@ double tension_mN_per_m(const Case& c) {
 }
 
 Scales scales_of(const Case& c) {
-  const double R = tube_radius_um(c) * m_per_um;
-  const double Q = c.flow.rate_ul_per_s * m3_per_ul;
-  const double U = Q / (std::numbers::pi * R * R);
-  if (c.flow.law == LiquidLaw::newtonian) return {R, U, c.flow.viscosity_mPas.value() * Pas_per_mPas * U / R};
-  return {R, U, c.flow.consistency_Pa_sn.value() * std::pow(U / R, c.flow.exponent.value())};
+  const bool newtonian = c.flow.law == LiquidLaw::newtonian;
+  const double R = tube_radius_um(c) * m_per_um, n = newtonian ? 1 : c.flow.exponent.value();
+  const double K = newtonian ? c.flow.viscosity_mPas.value() * Pas_per_mPas : c.flow.consistency_Pa_sn.value();
+  if (c.flow.drive == Drive::pressure_drop) {
+    const double S = *c.flow.pressure_drop_Pa * R / (*c.channel.length_um * m_per_um) / undisturbed_pressure_gradient(n);
+    return {R, R * std::pow(S / K, 1 / n), S};
+  }
+  const double U = *c.flow.rate_ul_per_s * m3_per_ul / (std::numbers::pi * R * R);
+  return {R, U, newtonian ? K * U / R : K * std::pow(U / R, n)};
+}
+
+double unit_rate_ul_per_s(const Scales& scales) {
+  return std::numbers::pi * scales.length_m * scales.length_m * scales.velocity_m_per_s / m3_per_ul;
 }
 
 Problem problem_of(const Case& c) {
@@ -51,6 +59,8 @@ Problem problem_of(const Case& c) {
     problem.exponent = c.flow.exponent.value();
     problem.shear_rate_floor = c.flow.shear_rate_floor.value();
   }
+  problem.drive = c.flow.drive;
+  problem.channel_length = c.channel.length_um.value_or(0) / tube_radius_um(c);
   problem.reynolds = c.flow.density_kg_per_m3 * U * U / S;
   problem.bulk = c.cell.bulk.law;
   problem.shear_modulus = E / (3 * S);

@@ -25,8 +25,14 @@ std::vector<int> edge_nodes(const MeshElement& element, const std::vector<int>& 
 
 }  // namespace
 
-Discretisation::Discretisation(const ChannelMesh& mesh, int degree, const Liquid& liquid, Interior interior)
-    : mesh_(&mesh), interior_(interior), reference_(degree), nodes_(mesh.number_nodes(degree)), points_(nodes_.count) {
+Discretisation::Discretisation(const ChannelMesh& mesh, int degree, const Liquid& liquid, Interior interior,
+                               Drive drive)
+    : mesh_(&mesh),
+      interior_(interior),
+      open_inlet_(drive != Drive::rate),
+      reference_(degree),
+      nodes_(mesh.number_nodes(degree)),
+      points_(nodes_.count) {
   const VectorXd& s = reference_.nodes_1d;
   for (std::size_t e = 0; e < mesh.elements().size(); ++e) {
     for (int k = 0; k < reference_.nodes(); ++k) {
@@ -77,7 +83,7 @@ void Discretisation::number_unknowns(const std::vector<NodeFlags>& flags, const 
         displacement_[2 * i] = unknowns_++;
         if (!f.axis) displacement_[2 * i + 1] = unknowns_++;
       } else {
-        if (!f.wall && !f.inlet) velocity_[2 * i].unknown = unknowns_++;
+        if (!f.wall && (!f.inlet || open_inlet_)) velocity_[2 * i].unknown = unknowns_++;
         if (!f.wall && !f.inlet && !f.outlet && !f.axis) velocity_[2 * i + 1].unknown = unknowns_++;
       }
     }
@@ -98,7 +104,7 @@ void Discretisation::number_unknowns(const std::vector<NodeFlags>& flags, const 
   }
   // Walls and inlet move backwards past the cell.
   for (int i = 0; i < nodes_.count; ++i) {
-    if (flags[i].cell || !(flags[i].wall || flags[i].inlet)) continue;
+    if (flags[i].cell || !(flags[i].wall || (flags[i].inlet && !open_inlet_))) continue;
     const double inflow = flags[i].wall ? 0 : undisturbed_velocity(liquid, points_[i](1));
     velocity_[2 * i] = {cell_velocity_, -1, inflow};
   }

@@ -49,10 +49,12 @@ struct BoundaryEdge {
 
 class Discretisation {
  public:
-  Discretisation(const ChannelMesh&, int degree, const Liquid&, Interior = Interior::elastic);
+  Discretisation(const ChannelMesh&, int degree, const Liquid&, Interior = Interior::elastic, Drive = Drive::rate);
 
   const ChannelMesh& mesh() const { return *mesh_; }
   const ReferenceElement& reference() const { return reference_; }
+  /// Whether the inlet has a given pressure, as the outlet, rather than given velocities.
+  bool has_open_inlet() const { return open_inlet_; }
   const std::vector<ElementUnknowns>& elements() const { return elements_; }
   const NodeNumbers& nodes() const { return nodes_; }
   const std::vector<Point>& node_points() const { return points_; }
@@ -88,6 +90,7 @@ class Discretisation {
 
   const ChannelMesh* mesh_;
   Interior interior_;
+  bool open_inlet_;
   ReferenceElement reference_;
   NodeNumbers nodes_;
   std::vector<Point> points_;

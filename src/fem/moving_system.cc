@@ -142,6 +142,15 @@ void MovingSystem::integrate(int e, const Media& media, const VectorXd& unknowns
   }
 }
 
+CoupledSystem::InletPressure MovingSystem::inlet_pressure(const Media& media) const {
+  // The solver's pressure contains that of the inertial force (eq:frame-pressure).
+  const double mass = media.liquid.reynolds * 2 * space().mesh().geometry().half_length();
+  InletPressure pressure = CoupledSystem::inlet_pressure(media);
+  pressure.fixed -= mass * motion_.unknowns(space().cell_velocity());
+  pressure.slope -= mass * motion_.rate;
+  return pressure;
+}
+
 VectorXd MovingSystem::node_velocities(const VectorXd& unknowns) const {
   VectorXd velocities(2 * space().nodes().count);
   for (int i = 0; i < velocities.size(); ++i) {

@@ -27,6 +27,7 @@ class MovingSystem final : public CoupledSystem {
 
  private:
   void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const override;
+  InletPressure inlet_pressure(const Media&) const override;
   void tell_liquid(int element);
   void tell_cell(int element);
   CellHistory cell_history(int element, int point) const;

@@ -106,6 +106,7 @@ class TimeFollower {
             state.shape,
             state.cell_velocity,
             state.relative_volume_change,
+            state.flow_rate,
             drop};
   }
 

@@ -19,7 +19,8 @@ struct TimeState {
   int order = 1;                  ///< of the next step
   int steps_at_order = 0;
   double next_step = 0;
-  Eigen::VectorXd traction;  ///< on the cell, of the splitting scheme only (fem/split_system.h)
+  Eigen::VectorXd traction;   ///< on the cell, of the splitting scheme only (fem/split_system.h)
+  double inlet_pressure = 0;  ///< beyond that of the undisturbed flow; only where it is controlled
 };
 
 }  // namespace rheocyte

@@ -150,6 +150,11 @@ void refuse_swept_keys(const TableSpec& spec, const std::vector<GivenKey>& keys)
     refuse(*stiffness, fmt::format("{} must not be given, because a table sweeps it; choose table.least_deformation "
                                    "and table.greatest_deformation.",
                                    stated(*stiffness)));
+  for (const auto key : {"flow.drive", "flow.pressure_drop_Pa"})
+    if (const auto* drive = last_of(keys, key))
+      refuse(*drive, fmt::format("{} must not be given, because a table is that of one flow rate; choose "
+                                 "flow.rate_ul_per_s.",
+                                 stated(*drive)));
   if (const auto* accuracy = last_of(keys, accuracy_key))
     refuse(*accuracy, fmt::format("{} has no effect on a table; choose table.accuracy.", stated(*accuracy)));
 }
