@@ -102,6 +102,8 @@ void write_state(Writer& writer, const TimeState& state) {
   for (const TimeLevel& level : state.levels) {
     writer.number(level.time);
     writer.number(level.frame_acceleration);
+    writer.number(level.position);
+    writer.matrix(level.outward);
     writer.matrix(level.unknowns);
     writer.matrix(level.velocities);
   }
@@ -118,6 +120,8 @@ TimeState read_state(Reader& reader) {
   for (TimeLevel& level : state.levels) {
     level.time = reader.number<double>();
     level.frame_acceleration = reader.number<double>();
+    level.position = reader.number<double>();
+    level.outward = reader.matrix<Eigen::VectorXd>();
     level.unknowns = reader.matrix<Eigen::VectorXd>();
     level.velocities = reader.matrix<Eigen::VectorXd>();
   }

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "case/scales.h"
+#include "laws/wall_profile.h"
 
 namespace rheocyte {
 
@@ -30,7 +31,8 @@ HistoryRow history_row(const TimePoint& point, const Scales& scales) {
           us * point.step,
           double(point.order),
           double(point.newton_iterations),
-          double(point.refused_steps)};
+          double(point.refused_steps),
+          um * point.position};
 }
 
 ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
@@ -48,13 +50,13 @@ ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
 std::string history_csv(const TimeRecord& record) {
   std::string text =
       "t_us,deformation,deformation_raw,area_um2,volume_um3,relative_volume_change,velocity_m_per_s,"
-      "flow_rate_ul_per_s,pressure_drop_Pa,step_us,order,newton_iterations,refused_steps\n";
+      "flow_rate_ul_per_s,pressure_drop_Pa,step_us,order,newton_iterations,refused_steps,position_um\n";
   for (const HistoryRow& r : record.rows)
     fmt::format_to(std::back_inserter(text),
-                   "{:.12g},{:.10g},{:.10g},{:.10g},{:.12g},{:.3e},{:.8g},{:.10g},{:.8g},{:.6g},{},{},{}\n", r.t_us,
+                   "{:.12g},{:.10g},{:.10g},{:.10g},{:.12g},{:.3e},{:.8g},{:.10g},{:.8g},{:.6g},{},{},{},{:.10g}\n", r.t_us,
                    r.deformation, r.deformation_raw, r.area_um2, r.volume_um3, r.relative_volume_change,
                    r.velocity_m_per_s, r.flow_rate_ul_per_s, r.pressure_drop_Pa, r.step_us, r.order,
-                   r.newton_iterations, r.refused_steps);
+                   r.newton_iterations, r.refused_steps, r.position_um);
   return text;
 }
 
@@ -64,6 +66,19 @@ std::string contours_csv(const TimeRecord& record) {
     for (Eigen::Index i = 0; i < frame.point_um.rows(); ++i)
       fmt::format_to(std::back_inserter(text), "{:.10g},{:.8g},{:.8g}\n", frame.t_us, frame.point_um(i, 0),
                      std::max(frame.point_um(i, 1), 0.0));
+  return text;
+}
+
+std::string channel_csv(const WallTable& table, const Scales& scales) {
+  constexpr int samples = 500;
+  constexpr double beyond = 4;  // tube radii
+  const WallProfile wall(table);
+  const double um = scales.length_m * um_per_m, start = table.x.front() - beyond, end = table.x.back() + beyond;
+  std::string text = "x_um,R_um\n";
+  for (int i = 0; i <= samples; ++i) {
+    const double x = start + (end - start) * i / samples;
+    fmt::format_to(std::back_inserter(text), "{:.8g},{:.8g}\n", um * x, um * wall.radius(x));
+  }
   return text;
 }
 

@@ -18,6 +18,11 @@ Number number(Range range, std::optional<double> fallback = {}) {
 }
 
 template <auto field>
+List list(Range range) {
+  return {range, [](Case& c) -> std::vector<double>& { return field(c); }};
+}
+
+template <auto field>
 Choice choice(std::vector<std::string_view> options, int fallback) {
   return {std::move(options), fallback, [](const Case& c) { return static_cast<int>(field(c)); },
           [](Case& c, int option) {
@@ -53,6 +58,12 @@ const std::array table{
               "channel.width_um"},
     Parameter{"channel.length_um", "um", "length of the channel over which the given pressure drops",
               number<FIELD(channel.length_um)>({1, 1e6}), has_pressure_drop},
+    Parameter{"channel.profile.x_um", "um",
+              "places along a channel that is not straight, in place of its width or radius; the cell starts at 0",
+              list<FIELD(channel.profile.x_um)>({-1e6, 1e6}), monolithic},
+    Parameter{"channel.profile.R_um", "um",
+              "radii of the wall at these places, smooth and monotonic in between, constant beyond the ends",
+              list<FIELD(channel.profile.R_um)>({0.5, 5000}), monolithic},
 
     Parameter{"flow.drive", "",
               "what is given: the flow rate; the pressure drop, with the flow rate as a result; the flow rate, reached "
@@ -120,6 +131,9 @@ const std::array table{
               number<FIELD(time.accuracy)>({1e-9, 1e-2}, 1e-5), monolithic},
     Parameter{"time.step_us", "us", "step of the splitting, which is explicit in the elasticity",
               number<FIELD(time.step_us)>({1e-6, 1e6}, 0.2), partitioned},
+    Parameter{"time.grid_um", "um",
+              "size of the elements along the cell's surface, 0.2 in Mokbel et al. 2017; 0: the mesh of the implicit steps",
+              number<FIELD(time.grid_um)>({0, 1000}, 0), partitioned},
     Parameter{"time.degree", "", "polynomial degree of the spaces, a whole number",
               number<FIELD(time.degree)>({2, 10}, 6), in_time},
 
@@ -169,9 +183,12 @@ std::string condition_text(const Condition& condition) {
 }
 
 std::string allowed_values(const Parameter& parameter) {
-  if (const auto* number = std::get_if<Number>(&parameter.value))
-    return fmt::format("{} .. {}{}{}", short_number(number->range.least), short_number(number->range.greatest),
+  const auto in_range = [&](const Range& range) {
+    return fmt::format("{} .. {}{}{}", short_number(range.least), short_number(range.greatest),
                        parameter.unit.empty() ? "" : " ", parameter.unit);
+  };
+  if (const auto* number = std::get_if<Number>(&parameter.value)) return in_range(number->range);
+  if (const auto* list = std::get_if<List>(&parameter.value)) return "a list of numbers " + in_range(list->range);
   std::vector<std::string> quoted;
   for (const auto option : std::get<Choice>(parameter.value).options) quoted.push_back(fmt::format("\"{}\"", option));
   return fmt::format("{}", fmt::join(quoted, " or "));
@@ -182,6 +199,7 @@ std::string fallback_text(const Parameter& parameter) {
     if (number->fallback) return short_number(*number->fallback);
     return is_required(parameter) ? "required" : "not given";
   }
+  if (std::holds_alternative<List>(parameter.value)) return "not given";
   const auto& choice = std::get<Choice>(parameter.value);
   return choice.fallback ? fmt::format("\"{}\"", choice.options[static_cast<std::size_t>(*choice.fallback)])
                          : "required";

@@ -4,6 +4,7 @@
 // S = eta U / R for a Newtonian liquid and S = K (U/R)^n for a power-law liquid (docs/theory.md, eq:scales).
 #pragma once
 #include <cmath>
+#include <vector>
 
 namespace rheocyte {
 
@@ -46,6 +47,13 @@ struct Scales {
   double time_s() const { return length_m / velocity_m_per_s; }
 };
 
+/// Radii of a channel that is not straight, at places from the start of the cell; constant beyond the ends. Empty:
+/// straight. In R, which is the least of the radii.
+struct WallTable {
+  std::vector<double> x, radius;
+  bool is_straight() const { return x.empty(); }
+};
+
 /// One stationary case, dimensionless.
 struct Problem {
   double radius_ratio = 0.5;  ///< r0 / R, in (0, 0.95)
@@ -63,6 +71,7 @@ struct Problem {
   double tension = 0;            ///< gamma / (S R)
   double bending_stiffness = 0;  ///< c_b / (S R^3)
   double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation
+  WallTable wall;                ///< the way of the cell; acts in time only
   double cell_viscosity = 0;     ///< eta1 U / (R S); acts only while the cell moves
   double cell_reynolds = 0;      ///< of the cell's density, rho1 U^2 / S; likewise
 };

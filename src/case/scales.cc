@@ -1,5 +1,6 @@
 #include "case/scales.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,7 +23,13 @@ double mooney_share(const BulkCase& bulk) {
 }  // namespace
 
 double tube_radius_um(const Case& c) {
+  if (const auto& radii = c.channel.profile.R_um; !radii.empty()) return *std::ranges::min_element(radii);
   return c.channel.radius_um ? *c.channel.radius_um : tube_radius_per_channel_width * c.channel.width_um.value();
+}
+
+int surface_elements(const Case& c) {
+  const double grid = c.time.grid_um.value_or(0);
+  return grid > 0 ? std::max(8, int(std::ceil(std::numbers::pi * c.cell.radius_um / grid))) : 0;
 }
 
 double tension_mN_per_m(const Case& c) {
@@ -69,6 +76,9 @@ Problem problem_of(const Case& c) {
   problem.cortex_modulus = c.cell.cortex.modulus_mN_per_m.value_or(0) * N_per_mN / (S * R);
   problem.tension = tension_mN_per_m(c) * N_per_mN / (S * R);
   problem.bending_stiffness = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R);
+  problem.wall = {c.channel.profile.x_um, c.channel.profile.R_um};
+  for (auto* column : {&problem.wall.x, &problem.wall.radius})
+    for (double& value : *column) value /= tube_radius_um(c);
   problem.accuracy = c.numerics.accuracy;
   problem.cell_viscosity = c.cell.viscosity_mPas.value_or(0) * Pas_per_mPas * U / (S * R);
   problem.cell_reynolds = c.cell.density_kg_per_m3.value_or(0) * U * U / S;

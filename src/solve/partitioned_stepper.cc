@@ -69,6 +69,7 @@ TimeStepReport PartitionedStepper::step(double limit) {
   if (report.status != Status::converged) return report;
   const int v = space().cell_velocity();
   TimeLevel level{now().time + report.step, split.unknowns, split.velocities, 0};
+  level.position = now().position + report.step * split.unknowns(v);
   level.frame_acceleration = (split.unknowns(v) - now().unknowns(v)) / report.step;
   state_.levels = {level, now()};
   state_.traction = split.traction;

@@ -11,6 +11,8 @@ struct TimeLevel {
   double time = 0;
   Eigen::VectorXd unknowns, velocities;
   double frame_acceleration = 0;  ///< d(v_cell)/dt, in U^2/R
+  double position = 0;            ///< of the cell's barycentre along the channel, from its start, in R
+  Eigen::VectorXd outward = {};   ///< where a wall that is not straight moves the mesh's nodes; empty: straight
 };
 
 /// All that the next step depends on.
