@@ -53,8 +53,8 @@ std::string history_csv(const TimeRecord& record) {
       "flow_rate_ul_per_s,pressure_drop_Pa,step_us,order,newton_iterations,refused_steps,position_um\n";
   for (const HistoryRow& r : record.rows)
     fmt::format_to(std::back_inserter(text),
-                   "{:.12g},{:.10g},{:.10g},{:.10g},{:.12g},{:.3e},{:.8g},{:.10g},{:.8g},{:.6g},{},{},{},{:.10g}\n", r.t_us,
-                   r.deformation, r.deformation_raw, r.area_um2, r.volume_um3, r.relative_volume_change,
+                   "{:.12g},{:.10g},{:.10g},{:.10g},{:.12g},{:.3e},{:.8g},{:.10g},{:.8g},{:.6g},{},{},{},{:.10g}\n",
+                   r.t_us, r.deformation, r.deformation_raw, r.area_um2, r.volume_um3, r.relative_volume_change,
                    r.velocity_m_per_s, r.flow_rate_ul_per_s, r.pressure_drop_Pa, r.step_us, r.order,
                    r.newton_iterations, r.refused_steps, r.position_um);
   return text;

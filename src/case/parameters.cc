@@ -38,12 +38,11 @@ constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "p
     mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
     has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
     monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
-    has_rate{"flow.drive", "pressure-drop", true},
-    has_pressure_drop{"flow.drive", "pressure-drop"};
+    has_rate{"flow.drive", "pressure-drop", true}, has_pressure_drop{"flow.drive", "pressure-drop"};
 
 // The options of a choice stand in the order of its enumeration (case/problem.h).
 // The ranges are wide; they catch wrong units and keep every dimensionless group finite.
-const std::array table{
+const std::array table = {
     Parameter{"channel.width_um",
               "um",
               "width of the square channel, mapped to a tube of radius 0.547 x width",
@@ -131,9 +130,10 @@ const std::array table{
               number<FIELD(time.accuracy)>({1e-9, 1e-2}, 1e-5), monolithic},
     Parameter{"time.step_us", "us", "step of the splitting, which is explicit in the elasticity",
               number<FIELD(time.step_us)>({1e-6, 1e6}, 0.2), partitioned},
-    Parameter{"time.grid_um", "um",
-              "size of the elements along the cell's surface, 0.2 in Mokbel et al. 2017; 0: the mesh of the implicit steps",
-              number<FIELD(time.grid_um)>({0, 1000}, 0), partitioned},
+    Parameter{
+        "time.grid_um", "um",
+        "size of the elements along the cell's surface, 0.2 in Mokbel et al. 2017; 0: the mesh of the implicit steps",
+        number<FIELD(time.grid_um)>({0, 1000}, 0), partitioned},
     Parameter{"time.degree", "", "polynomial degree of the spaces, a whole number",
               number<FIELD(time.degree)>({2, 10}, 6), in_time},
 

@@ -35,7 +35,7 @@ struct Choice {
 
 /// A parameter that is a list of numbers, not given by default.
 struct List {
-  Range range;                                    ///< of each number
+  Range range;  ///< of each number
   std::vector<double>& (*at)(Case&);
 };
 

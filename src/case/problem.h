@@ -22,11 +22,12 @@ enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_refere
 /// How a case is computed: the stationary shape at once, or the way to it (docs/theory-time.md).
 enum class TimeScheme { stationary, monolithic, partitioned };
 
-/// What drives the liquid: a given flow rate, a given pressure drop over the channel, or a pressure drop that is adapted
-/// in each step in time until the flow rate is the wanted one (Mokbel et al. 2017).
+/// What drives the liquid: a given flow rate, a given pressure drop over the channel, or a pressure drop that is
+/// adapted in each step in time until the flow rate is the wanted one (Mokbel et al. 2017).
 enum class Drive { rate, pressure_drop, controlled_pressure };
 
-/// Pressure gradient (positive number, in S/R) of a power-law liquid in a tube of radius 1 at mean speed 1: 8 for n = 1.
+/// Pressure gradient (positive number, in S/R) of a power-law liquid in a tube of radius 1 at mean speed 1: 8 for n
+/// = 1.
 inline double undisturbed_pressure_gradient(double exponent) {
   return 2 * std::pow((3 * exponent + 1) / exponent, exponent);
 }

@@ -190,9 +190,10 @@ void check_wall(const ChannelProfile& wall, const GivenKey& x, const GivenKey& R
       refuse(x, fmt::format("{} does not increase from {} to {}; give the places in the order of the flow.", profile_x,
                             wall.x_um[i - 1], wall.x_um[i]));
     if (change > steepest_wall * length)
-      refuse(R, fmt::format("{} changes by {:.4g} um between x = {} and {} um, which is too short and too steep for the "
-                            "mesh; give this change a length of {:.4g} um.",
-                            profile_R, change, wall.x_um[i - 1], wall.x_um[i], change / steepest_wall));
+      refuse(R,
+             fmt::format("{} changes by {:.4g} um between x = {} and {} um, which is too short and too steep for the "
+                         "mesh; give this change a length of {:.4g} um.",
+                         profile_R, change, wall.x_um[i - 1], wall.x_um[i], change / steepest_wall));
   }
 }
 
@@ -212,21 +213,23 @@ void check_profile(const Case& c, const GivenByKey& keys) {
   check_wall(c.channel.profile, x, R);
   const double least = tube_radius_um(c), widest = *std::ranges::max_element(c.channel.profile.R_um);
   if (widest > greatest_widening * least)
-    refuse(R, fmt::format("{} goes from {:g} to {:g} um; the widest part may be {:g} times as wide as the narrowest one.",
-                          profile_R, least, widest, greatest_widening));
+    refuse(R,
+           fmt::format("{} goes from {:g} to {:g} um; the widest part may be {:g} times as wide as the narrowest one.",
+                       profile_R, least, widest, greatest_widening));
   if (c.flow.drive == Drive::rate) return;
   const auto& drive = keys.at(keys.contains("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa");
-  refuse(drive, fmt::format("{} is for straight channels; give flow.rate_ul_per_s with [channel.profile].",
-                            stated(drive)));
+  refuse(drive,
+         fmt::format("{} is for straight channels; give flow.rate_ul_per_s with [channel.profile].", stated(drive)));
 }
 
 void check_cell_in_tube(const Case& c, const GivenByKey& keys) {
   const double R = tube_radius_um(c), r0 = c.cell.radius_um;
   if (has_profile(keys) && r0 > greatest_radius_ratio * R)
-    refuse(keys.at(profile_R),
-           fmt::format("{} falls to {:g} um, which is narrower than the cell of cell.radius_um = {:g} can pass; at least "
-                       "{:.4g} um are needed.",
-                       profile_R, R, r0, r0 / greatest_radius_ratio));
+    refuse(
+        keys.at(profile_R),
+        fmt::format("{} falls to {:g} um, which is narrower than the cell of cell.radius_um = {:g} can pass; at least "
+                    "{:.4g} um are needed.",
+                    profile_R, R, r0, r0 / greatest_radius_ratio));
   if (r0 >= least_radius_ratio * R && r0 <= greatest_radius_ratio * R) return;
   const auto& given = keys.at("cell.radius_um");
   refuse(given, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the tube radius {:.6g} um.",
@@ -277,10 +280,11 @@ void check_grid(const Case& c, const GivenByKey& keys) {
 
 void check_time(const Case& c, const GivenByKey& keys) {
   if (c.flow.drive == Drive::controlled_pressure && c.time.scheme != TimeScheme::partitioned)
-    refuse(keys.at("flow.drive"),
-           fmt::format("{} adapts the pressure step by step, which is for time.scheme = \"partitioned\" only; remove it, "
-                       "a given flow rate is met exactly.",
-                       stated(keys.at("flow.drive"))));
+    refuse(
+        keys.at("flow.drive"),
+        fmt::format("{} adapts the pressure step by step, which is for time.scheme = \"partitioned\" only; remove it, "
+                    "a given flow rate is met exactly.",
+                    stated(keys.at("flow.drive"))));
   if (c.time.scheme == TimeScheme::stationary) return;
   if (const double degree = *c.time.degree; degree != std::round(degree))
     refuse(keys.at("time.degree"), fmt::format("{} is not a whole number.", stated(keys.at("time.degree"))));
@@ -309,9 +313,11 @@ Case case_of_keys(std::vector<GivenKey> keys_in_order, const std::string& name,
   }
   for (const auto& parameter : parameters()) {
     const bool is_number = std::holds_alternative<Number>(parameter.value);
-    const bool replaced = has_profile(keys) && (parameter.key == "channel.width_um" || parameter.key == "channel.radius_um");
+    const bool replaced =
+        has_profile(keys) && (parameter.key == "channel.width_um" || parameter.key == "channel.radius_um");
     if (is_number && !replaced && !is_open(parameter.key)) read_number(c, parameter, keys, name);
-    if (const auto given = keys.find(parameter.key); given != keys.end() && std::holds_alternative<List>(parameter.value))
+    if (const auto given = keys.find(parameter.key);
+        given != keys.end() && std::holds_alternative<List>(parameter.value))
       set_list(c, parameter, given->second);
   }
   check_profile(c, keys);

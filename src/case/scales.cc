@@ -43,7 +43,8 @@ Scales scales_of(const Case& c) {
   const double R = tube_radius_um(c) * m_per_um, n = newtonian ? 1 : c.flow.exponent.value();
   const double K = newtonian ? c.flow.viscosity_mPas.value() * Pas_per_mPas : c.flow.consistency_Pa_sn.value();
   if (c.flow.drive == Drive::pressure_drop) {
-    const double S = *c.flow.pressure_drop_Pa * R / (*c.channel.length_um * m_per_um) / undisturbed_pressure_gradient(n);
+    const double S =
+        *c.flow.pressure_drop_Pa * R / (*c.channel.length_um * m_per_um) / undisturbed_pressure_gradient(n);
     return {R, R * std::pow(S / K, 1 / n), S};
   }
   const double U = *c.flow.rate_ul_per_s * m3_per_ul / (std::numbers::pi * R * R);

@@ -257,8 +257,7 @@ VectorXd CoupledSystem::apply_tangent(const Media& media, const VectorXd& unknow
       if (element.rows[i] >= 0) product(element.rows[i]) += change(i);
     }
   }
-  if (space_.has_open_inlet())
-    product += inlet_pressure(media).slope * direction(space_.cell_velocity()) * inlet_load_;
+  if (space_.has_open_inlet()) product += inlet_pressure(media).slope * direction(space_.cell_velocity()) * inlet_load_;
   for (int k = 0; k < surface_.active(media.cortex); ++k) {
     surface_.integrate(k, media.cortex, unknowns, Want::residual_and_tangent, element_);
     const auto& rows = surface_.patches()[k].unknowns;

@@ -74,9 +74,9 @@ class CoupledSystem {
   SurfaceIntegrals surface_;
   std::vector<Condensed> condensed_;
   std::vector<std::vector<int>> surface_position_;  ///< in the sparse matrix, patch by patch: unknowns x unknowns
-  VectorXd inlet_load_;              ///< per pressure, of an open inlet
-  std::vector<int> inlet_equation_;  ///< where it is not zero
-  std::vector<int> inlet_position_;  ///< of these equations' entries for v_cell in the sparse matrix
+  VectorXd inlet_load_;                             ///< per pressure, of an open inlet
+  std::vector<int> inlet_equation_;                 ///< where it is not zero
+  std::vector<int> inlet_position_;                 ///< of these equations' entries for v_cell in the sparse matrix
   std::unique_ptr<SparseMatrix> matrix_;
   std::unique_ptr<SparseLU> lu_;
   ElementSystem element_;

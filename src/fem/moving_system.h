@@ -10,7 +10,8 @@ struct Motion {
   double rate = 0;
   VectorXd unknowns;    ///< histories of the unknowns
   VectorXd velocities;  ///< histories of the nodes' velocities, (x, r) node by node
-  /// Rates at which a wall that is not straight moves the nodes outward; empty: straight. The space has its nodes there.
+  /// Rates at which a wall that is not straight moves the nodes outward; empty: straight. The space has its nodes
+  /// there.
   VectorXd outward = {};
 };
 

@@ -108,16 +108,8 @@ class TimeFollower {
     // splitting scheme solves in the laboratory.
     const double inertia = run_.scheme == TimeScheme::monolithic ? stepper_->media().liquid.reynolds : 0;
     const double drop = state.pressure_drop + inertia * now.frame_acceleration * state.channel_length;
-    return {now.time,
-            report.step,
-            report.order,
-            report.newton_iterations,
-            report.refused,
-            state.shape,
-            now.position,
-            state.cell_velocity,
-            state.relative_volume_change,
-            state.flow_rate,
+    return {now.time,    report.step,  report.order,        report.newton_iterations,     report.refused,
+            state.shape, now.position, state.cell_velocity, state.relative_volume_change, state.flow_rate,
             drop};
   }
 

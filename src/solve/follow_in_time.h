@@ -12,8 +12,8 @@ struct TimeRun {
   double accuracy = 1e-5;  ///< of the surface's positions in each step, in r0
   int degree = 6;
   TimeScheme scheme = TimeScheme::monolithic;
-  double step = 2e-3;         ///< of the splitting scheme
-  int surface_elements = 0;   ///< of the splitting scheme; 0: the mesh of the implicit steps
+  double step = 2e-3;        ///< of the splitting scheme
+  int surface_elements = 0;  ///< of the splitting scheme; 0: the mesh of the implicit steps
 };
 
 /// What is recorded of each step; dimensionless.

@@ -66,9 +66,8 @@ TEST(Scales, TheUndisturbedPressureDropGivesTheSameProblemAsItsRate) {
     driven.flow.drive = Drive::pressure_drop;
     driven.flow.rate_ul_per_s.reset();
     driven.channel.length_um = 1e6 * L;
-    driven.flow.pressure_drop_Pa = newtonian
-                                       ? 8 * 15e-3 * U * L / (R * R)
-                                       : 2 * 0.4 * std::pow((3 * n + 1) / n * U, n) * L / std::pow(R, n + 1);
+    driven.flow.pressure_drop_Pa =
+        newtonian ? 8 * 15e-3 * U * L / (R * R) : 2 * 0.4 * std::pow((3 * n + 1) / n * U, n) * L / std::pow(R, n + 1);
     const Scales a = scales_of(given), b = scales_of(driven);
     EXPECT_NEAR(b.velocity_m_per_s / a.velocity_m_per_s, 1, 10 * rounding);
     EXPECT_NEAR(b.stress_Pa / a.stress_Pa, 1, 10 * rounding);

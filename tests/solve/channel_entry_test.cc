@@ -65,9 +65,9 @@ TEST(ChannelEntry, AProfileOfOneRadiusChangesNothing) {
 }
 
 TEST(ChannelEntry, NoLiquidIsLostAndTheEndStateIsThatOfTheNarrowTube) {
-  // At every step the outlet passes what the inlet takes in (but for the error with which the formula differentiates the
-  // motion of the cell, 4e-5 here), and the cell keeps its volume. Far
-  // behind the contraction d is the stationary solver's within 1e-3 of it.
+  // At every step the outlet passes what the inlet takes in, but for the error with which the formula differentiates
+  // the motion of the cell (4e-5 here), and the cell keeps its volume. Far behind the contraction d is the stationary
+  // solver's within 1e-3 of it.
   Problem problem = entering_cell();
   TimeStepper stepper(problem, resolution(4), {.accuracy = 1e-4});
   ASSERT_EQ(stepper.start(), Status::converged);
@@ -100,8 +100,8 @@ TEST(ChannelEntry, ARigidSphereMovesAsInTheStraightChannelOfItsPlace) {
 }
 
 TEST(ChannelEntry, AFailedRunKeepsItsLastGoodStateAndItsHistory) {
-  // A soft cell is drawn out in the contraction until no step succeeds: a named status, a sentence, and finite numbers of
-  // the last state with the walls where they were.
+  // A soft cell is drawn out in the contraction until no step succeeds: a named status, a sentence, and finite numbers
+  // of the last state with the walls where they were.
   Problem problem = entering_cell();
   problem.shear_modulus /= 30;
   int steps = 0;

@@ -42,8 +42,8 @@ TEST(PartitionedStepper, AgreesWithTheImplicitStepsAtAllTimes) {
 }
 
 TEST(PartitionedStepper, TheControllerReachesTheWantedFlowRate) {
-  // Mokbel et al. adapt the pressure drop in each step: after 40 us the flow rate is the wanted one within 1e-3, and the
-  // shape on the way is that of the given rate within 1 % of the final one.
+  // Mokbel et al. adapt the pressure drop in each step: after 40 us the flow rate is the wanted one within 1e-3, and
+  // the shape on the way is that of the given rate within 1 % of the final one.
   Problem controlled = moving_cell();
   controlled.drive = Drive::controlled_pressure;
   PartitionedStepper one(controlled, resolution, {0.2 / unit_us}), other(moving_cell(), resolution, {0.2 / unit_us});

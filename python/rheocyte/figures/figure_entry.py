@@ -48,6 +48,12 @@ def history(solution):
     return columns(solution.folder / "history.csv", ["t_us", "position_um", "deformation"])
 
 
+def parabola(x, y):
+    """Place and value of the greatest value of the parabola through three points."""
+    a, b, c = np.polyfit(x - x[1], y, 2)
+    return x[1] - b / (2 * a), c - b * b / (4 * a)
+
+
 def rows(solved):
     """Lines of the table."""
     still = solved["entry-stationary"]
@@ -60,9 +66,10 @@ def rows(solved):
         if solution.converged and still.converged:
             t, x, d = history(solution)
             top = np.argmax(d)
+            peak = parabola(x[top - 1:top + 2], d[top - 1:top + 2])
             volume = columns(solution.folder / "history.csv", ["relative_volume_change"])
-            row |= {"greatest_deformation": f"{d[top]:.6f}", "at_position_um": f"{x[top]:.1f}",
-                    "least_deformation_behind": f"{d[top:].min():.6f}", "deformation_at_end": f"{d[-1]:.7f}",
+            row |= {"greatest_deformation": f"{peak[1]:.5f}", "at_position_um": f"{peak[0]:.1f}",
+                    "least_deformation_behind": f"{d[top:].min():.5f}", "deformation_at_end": f"{d[-1]:.7f}",
                     "stationary_deformation": f"{still['deformation']:.7f}",
                     "relative_difference": f"{d[-1] / still['deformation'] - 1:.1e}",
                     "greatest_relative_volume_change": f"{np.abs(volume).max():.1e}"}
