@@ -23,7 +23,19 @@ std::string name_of_type(const toml::node& node) {
   }
 }
 
+// Empty if not all of the elements are numbers.
+std::vector<double> numbers_of(const toml::array& array) {
+  std::vector<double> numbers;
+  for (const auto& element : array) {
+    if (!element.is_number()) return {};
+    numbers.push_back(element.value<double>().value());
+  }
+  return numbers;
+}
+
 decltype(GivenKey::value) value_of(const toml::node& node) {
+  if (const auto* array = node.as_array())
+    if (auto numbers = numbers_of(*array); !numbers.empty()) return numbers;
   if (const auto number = node.value_exact<double>()) return *number;
   if (const auto integer = node.value_exact<int64_t>()) return static_cast<double>(*integer);
   if (const auto text = node.value_exact<std::string>()) return *text;
@@ -84,6 +96,10 @@ GivenKey key_in_setting(std::string_view setting) {
   const auto [end, error] = std::from_chars(start, text.data() + text.size(), number);
   GivenKey given{std::string(key), "--set", std::string(without_quotes(text)), true};
   if (error == std::errc{} && end == text.data() + text.size()) given.value = number;
+  if (text.starts_with('[')) {
+    auto list = keys_in_toml(fmt::format("list = {}", text), fmt::format("--set {}", one_line(key, longest_value)));
+    given.value = std::move(list.front().value);
+  }
   return given;
 }
 
@@ -91,6 +107,7 @@ std::string value_text(const GivenKey& given) {
   if (const auto* number = std::get_if<double>(&given.value)) return fmt::format("{}", *number);
   if (const auto* text = std::get_if<std::string>(&given.value))
     return fmt::format("\"{}\"", one_line(*text, longest_value));
+  if (std::holds_alternative<std::vector<double>>(given.value)) return "an array";
   return std::get<Unusable>(given.value).what;
 }
 
