@@ -15,6 +15,7 @@
 #include "app/table_folder.h"
 #include "app/table_processes.h"
 #include "case/user_error.h"
+#include "table/grid_from_branches.h"
 #include "table/lookup_table.h"
 #include "table/simulations_file.h"
 
@@ -35,6 +36,12 @@ void write_files(const TableFolder& folder, const TableOptions& options) {
   const LookupTable table = make_lookup_table(folder.spec(), branches, version);
   for (const auto& [name, content] : table_files(table, options.levels)) folder.publish(name, content);
   folder.publish(fmt::format("simulations_{}.h5", folder.spec().identifier), simulations_file(table));
+  if (const auto grid = make_stiffness_grid(folder.spec(), branches, version))
+    folder.publish(grid_file_name(folder.spec().identifier), to_bytes(*grid));
+  else
+    tell(
+        "rheocyte: warning: the branches are too few or too short for a grid; `rheocyte extract` takes the text "
+        "table.");
   folder.tidy();
   if (options.no_picture) return;
   if (const auto failure = draw_table_pictures(folder.path()); !failure.empty())
