@@ -64,8 +64,8 @@ std::string summary(const TableFolder& folder) {
   return fmt::format(
       "{} states on {} branches, {} solves, {:.0f} s of one processor ({:.0f} % factorisation)\n"
       "{} branches end at the instability of the surface, {} at another end; {} states refused\n",
-      samples, folder.branches(), solves, seconds, 100 * factorisation / std::max(seconds, 1e-9), unstable, short_of_range,
-      refused);
+      samples, folder.branches(), solves, seconds, 100 * factorisation / std::max(seconds, 1e-9), unstable,
+      short_of_range, refused);
 }
 
 int make_table(const TableOptions& options) {

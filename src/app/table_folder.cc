@@ -82,7 +82,8 @@ void TableFolder::begin() const {
 }
 
 fs::path TableFolder::record(int i, bool held) const {
-  return folder_ / work / fmt::format("{}-{:04}{}.cbor", spec_.is_combined() ? "branch" : "radius", i, held ? "-held" : "");
+  return folder_ / work /
+         fmt::format("{}-{:04}{}.cbor", spec_.is_combined() ? "branch" : "radius", i, held ? "-held" : "");
 }
 
 bool TableFolder::has(int i, bool held) const {

@@ -68,4 +68,17 @@ ShapeErrors PixelLaw::at(const CellCoordinates& cell) const {
   return sum;
 }
 
+ModuliEstimate fit_pixels(const SeveralModuli& moduli, const PixelLaw& law, const ShapeVector& measured,
+                          const FlowConditions& conditions) {
+  constexpr int rounds = 3;  // the bias hardly depends on the cell: the third one changes nothing that matters
+  CellCoordinates cell = law.middle();
+  ModuliEstimate estimate;
+  for (int round = 0; round < rounds; ++round) {
+    estimate = moduli.fit({measured, law.at(cell)}, conditions);
+    if (estimate.status == ModuliStatus::no_data) break;
+    cell = estimate.cell;
+  }
+  return estimate;
+}
+
 }  // namespace rheocyte

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "infer/several_moduli.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte {
@@ -15,6 +16,7 @@ class PixelLaw {
   PixelLaw(const CombinedInterpolation& table, double pixel_size_um, int draws = 200);
 
   ShapeErrors at(const CellCoordinates& cell) const;
+  CellCoordinates middle() const { return (box_.least + box_.greatest) / 2; }
 
  private:
   static constexpr int axes = 3;
@@ -23,5 +25,9 @@ class PixelLaw {
   CellBox box_;
   std::vector<ShapeErrors> errors_;
 };
+
+/// The moduli of a cell in pixels: the errors are those of the law at the cell that is found.
+ModuliEstimate fit_pixels(const SeveralModuli& moduli, const PixelLaw& law, const ShapeVector& measured,
+                          const FlowConditions& conditions);
 
 }  // namespace rheocyte

@@ -110,7 +110,8 @@ class Misfit {
       const double d = std::exp(cell(x_deformation));
       return {d, d * CellCoordinates::Unit(x_deformation)};
     }
-    static_assert(moment_ratio_row == int(ShapeFeature::moment_ratio) && first_mode_row == int(ShapeFeature::first_mode));
+    static_assert(moment_ratio_row == int(ShapeFeature::moment_ratio) &&
+                  first_mode_row == int(ShapeFeature::first_mode));
     return {state.value(number), state.gradient.row(number).transpose()};
   }
 
@@ -181,9 +182,10 @@ std::string sentence(const ModuliEstimate& e) {
     case ModuliStatus::no_data: return "There is no shape, or no error of it.";
     case ModuliStatus::outside_table: return "No cell of the table has such a shape.";
     case ModuliStatus::poor_fit:
-      return fmt::format("The nearest cell of the table differs from the shape by more than its errors "
-                         "(chi2 = {:.3g} at {} degrees of freedom).",
-                         e.chi_squared, e.freedom);
+      return fmt::format(
+          "The nearest cell of the table differs from the shape by more than its errors "
+          "(chi2 = {:.3g} at {} degrees of freedom).",
+          e.chi_squared, e.freedom);
     case ModuliStatus::resolved:
       return fmt::format("{}, {}.", stated(Modulus::young, "E", "kPa"), stated(Modulus::cortex, "E2D", "mN/m"));
     case ModuliStatus::not_told_apart: break;
@@ -244,8 +246,8 @@ ModuliEstimate SeveralModuli::fit(const MeasuredShape& measured, const FlowCondi
   CellCoordinates start;
   const double size = shape.features(0) - shape.errors.bias(0);
   const double d = shape.features(int(ShapeFeature::deformation)) - shape.errors.bias(int(ShapeFeature::deformation));
-  start(x_radius) = shape.size_is_volume ? (size - std::log(4 * std::numbers::pi / 3)) / 3
-                                         : (size - std::log(std::numbers::pi)) / 2;
+  start(x_radius) =
+      shape.size_is_volume ? (size - std::log(4 * std::numbers::pi / 3)) / 3 : (size - std::log(std::numbers::pi)) / 2;
   start(x_deformation) = std::log(std::max(d, 1.01 * std::exp(box.least(x_deformation))));
   start(x_ratio) = options_.tension_ratio;
   start = start.cwiseMax(box.least).cwiseMin(box.greatest);
@@ -256,11 +258,12 @@ ModuliEstimate SeveralModuli::fit(const MeasuredShape& measured, const FlowCondi
   }
   const Candidate best = *std::ranges::min_element(minima, {}, &Candidate::chi_squared);
   const bool is_ambiguous = std::ranges::any_of(minima, [&](const Candidate& other) {
-    return other.chi_squared < best.chi_squared + same_chi_squared && std::abs(other.cell(x_share) - best.cell(x_share)) > 0.1;
+    return other.chi_squared < best.chi_squared + same_chi_squared &&
+           std::abs(other.cell(x_share) - best.cell(x_share)) > 0.1;
   });
   ModuliEstimate estimate = estimate_of(shape, best, is_ambiguous);
-  const double load = conditions.flow_rate_ul_s * conditions.viscosity_mPas /
-                      (simulated_.flow_rate_ul_s * simulated_.viscosity_mPas);
+  const double load =
+      conditions.flow_rate_ul_s * conditions.viscosity_mPas / (simulated_.flow_rate_ul_s * simulated_.viscosity_mPas);
   const double bulk = load * width * width * width, surface = load * width * width;
   const Eigen::Vector3d scale(bulk, surface, surface);
   estimate.modulus = estimate.modulus.cwiseProduct(scale);

@@ -10,6 +10,7 @@ namespace rheocyte {
 ShapeErrors pixel_errors(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random);
 
 /// Features of the outline in one picture with the cell's middle at `place_px` from the middle of a pixel.
-ShapeVector pixel_features(const Eigen::MatrixX2d& outline_um, double pixel_size_um, const Eigen::RowVector2d& place_px);
+ShapeVector pixel_features(const Eigen::MatrixX2d& outline_um, double pixel_size_um,
+                           const Eigen::RowVector2d& place_px);
 
 }  // namespace rheocyte

@@ -38,7 +38,6 @@ struct BranchEnd {
 /// Samples from stiff to soft; every row of the matrices is one converged state within the wanted accuracy.
 struct SampledBranch {
   double radius_um = 0;    ///< of the sphere at rest
-  double cortex_share = 0, tension_ratio = 0;  ///< of combined cells, see BranchPlace
   double bending_kBT = 0;  ///< that holds the surface beyond the end of the bare branch; 0: the case's own branch
   std::vector<double> stiffness;                ///< value of the swept parameter, falling
   Eigen::MatrixXd value;                        ///< samples x measures
@@ -49,6 +48,7 @@ struct SampledBranch {
   BranchEnd end;
   int solves = 0, newton_iterations = 0, refused = 0;  ///< refused: states that were wrinkled or not accurate
   double seconds = 0, factorisation_seconds = 0;
+  double cortex_share = 0, tension_ratio = 0;  ///< of combined cells, see BranchPlace
 
   bool empty() const { return stiffness.empty(); }
   int samples() const { return int(stiffness.size()); }

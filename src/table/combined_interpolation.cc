@@ -147,8 +147,8 @@ bool CombinedInterpolation::reaches(int ratio, int share, double log_radius, dou
 CombinedInterpolation::Sum CombinedInterpolation::over_radii(int ratio, int share, const CellCoordinates& cell) const {
   const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
   const auto window = window_of(log_radii_, x, [&](int i) { return curve(ratio, share, i).reaches(log_d); });
-  const auto weights = lagrange(std::span(log_radii_).subspan(std::size_t(window.first),
-                                                              std::size_t(window.end - window.first)), x);
+  const auto weights =
+      lagrange(std::span(log_radii_).subspan(std::size_t(window.first), std::size_t(window.end - window.first)), x);
   Sum sum;
   for (int i = window.first; i < window.end; ++i) {
     const Curve& branch = curve(ratio, share, i);
@@ -178,8 +178,8 @@ CombinedInterpolation::Sum CombinedInterpolation::over_shares(int ratio, const C
   const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
   const double share = cell(int(CellCoordinate::cortex_share));
   const auto window = window_of(shares_, share, [&](int j) { return reaches(ratio, j, x, log_d); });
-  const auto weights = lagrange(std::span(shares_).subspan(std::size_t(window.first),
-                                                           std::size_t(window.end - window.first)), share);
+  const auto weights =
+      lagrange(std::span(shares_).subspan(std::size_t(window.first), std::size_t(window.end - window.first)), share);
   Sum sum;
   for (int j = window.first; j < window.end; ++j) {
     const auto w = std::size_t(j - window.first);

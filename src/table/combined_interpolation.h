@@ -7,8 +7,8 @@
 
 namespace rheocyte {
 
-/// The coordinates of a cell. The deformation is one of them, not the stiffness: all branches reach the same deformations
-/// and turn back at none, and states of equal deformation change least from branch to branch.
+/// The coordinates of a cell. The deformation is one of them, not the stiffness: all branches reach the same
+/// deformations and turn back at none, and states of equal deformation change least from branch to branch.
 enum class CellCoordinate { log_radius, cortex_share, log_deformation, tension_ratio, count };
 inline constexpr int coordinate_count = int(CellCoordinate::count);
 using CellCoordinates = Eigen::Matrix<double, coordinate_count, 1>;

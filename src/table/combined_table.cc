@@ -17,8 +17,9 @@ namespace {
 constexpr int leading_columns = 8;  // before the features
 
 std::vector<std::string> column_names() {
-  std::vector<std::string> names{"radius_um",         "cortex_share",           "tension_ratio",    "stiffness_kPa",
-                                 "young_modulus_kPa", "cortex_modulus_mN_per_m", "tension_mN_per_m", "deformation_error"};
+  std::vector<std::string> names{"radius_um",        "cortex_share",      "tension_ratio",
+                                 "stiffness_kPa",    "young_modulus_kPa", "cortex_modulus_mN_per_m",
+                                 "tension_mN_per_m", "deformation_error"};
   for (const auto& name : feature_names()) names.push_back(name);
   for (const auto& name : feature_names()) names.push_back("slope_" + name);
   return names;
@@ -56,8 +57,8 @@ CombinedBranch combined_branch(const SampledBranch& branch) {
 std::string row_text(const CombinedBranch& branch, int i) {
   const auto& [radius, share, ratio] = branch.place;
   const double S = branch.stiffness_kPa[std::size_t(i)], cortex = share * S * radius;
-  std::vector<double> numbers{radius, share, ratio, S, (1 - share) * S, cortex, ratio * cortex,
-                              branch.error[std::size_t(i)]};
+  std::vector<double> numbers{radius,          share,  ratio,          S,
+                              (1 - share) * S, cortex, ratio * cortex, branch.error[std::size_t(i)]};
   for (const auto* matrix : {&branch.value, &branch.slope})
     for (int f = 0; f < feature_count; ++f) numbers.push_back((*matrix)(i, f));
   return fmt::format("{}\n", fmt::join(numbers, ","));

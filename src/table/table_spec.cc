@@ -90,15 +90,16 @@ TableKeys take_table_keys(std::vector<GivenKey>& keys) {
 }
 
 std::string range_text(const TableKey& key, const Range& range) {
-  return fmt::format("{:g} .. {:g}{}{} ({})", range.least, range.greatest, key.unit.empty() ? "" : " ",
-                     key.unit, key.sentence);
+  return fmt::format("{:g} .. {:g}{}{} ({})", range.least, range.greatest, key.unit.empty() ? "" : " ", key.unit,
+                     key.sentence);
 }
 
 void set_list(TableSpec& spec, const TableKey& key, const TableList& list, const GivenKey& given) {
   const auto* numbers = std::get_if<std::vector<double>>(&given.value);
   const auto allowed = range_text(key, list.range);
   if (!numbers)
-    refuse(given, fmt::format("{} is not a list of numbers such as [0, 0.5, 1]; they can be {}.", stated(given), allowed));
+    refuse(given,
+           fmt::format("{} is not a list of numbers such as [0, 0.5, 1]; they can be {}.", stated(given), allowed));
   for (const double number : *numbers)
     if (!list.range.contains(number))
       refuse(given, fmt::format("{:g} in {} is outside its range {}.", number, key.key, allowed));
@@ -153,9 +154,11 @@ void check_combined(TableSpec& spec, const std::vector<GivenKey>& keys, const Ta
   spec.stiffness_key = combined_stiffness;
   if (!has_bulk(keys) || !has_cortex(keys))
     refuse(shares, "table.cortex_share needs a law of the bulk and one of the cortex.");
-  if (spec.cortex_shares.size() < 2) refuse(shares, "table.cortex_share needs at least two shares, such as [0, 0.5, 1].");
+  if (spec.cortex_shares.size() < 2)
+    refuse(shares, "table.cortex_share needs at least two shares, such as [0, 0.5, 1].");
   if (const auto* tension = last_of(keys, tension_key))
-    refuse(*tension, fmt::format("{} does not go with table.cortex_share; give {} instead.", stated(*tension), ratio_key));
+    refuse(*tension,
+           fmt::format("{} does not go with table.cortex_share; give {} instead.", stated(*tension), ratio_key));
   const auto* ratio = last_of(keys, ratio_key);
   if (ratio && given.contains("table.tension_ratio"))
     refuse(*ratio, fmt::format("{} and table.tension_ratio exclude each other; give one of them.", stated(*ratio)));
@@ -342,8 +345,7 @@ std::string to_toml(const TableSpec& spec) {
     text += fmt::format("{} = ", key.key.substr(key.key.find('.') + 1));
     if (list)
       text += fmt::format("[{}]\n", fmt::join(spec.*(list->field), ", "));
-    else
-    if (const auto* word = std::get_if<TableWord>(&key.value))
+    else if (const auto* word = std::get_if<TableWord>(&key.value))
       text += fmt::format("\"{}\"\n", spec.*(word->field));
     else
       text += fmt::format("{}\n", std::get<TableNumber>(key.value).get(spec));

@@ -29,8 +29,8 @@ TEST(OutlineShape, AnEllipseHasItsExactMeasures) {
 }
 
 TEST(OutlineShape, ModesThatAreDrawnAreModesThatAreMeasured) {
-  // The outline of some modes has the same modes again, but for its centroid, which the third mode moves by second order:
-  // c2 c3 = 6e-4 at most.
+  // The outline of some modes has the same modes again, but for its centroid, which the third mode moves by second
+  // order: c2 c3 = 6e-4 at most.
   std::array<double, mode_count> modes{};
   modes[0] = 0.06, modes[1] = -0.01, modes[2] = 0.005;
   const auto shape = outline_shape(outline_of_modes(modes, 100, 2000));
