@@ -104,10 +104,6 @@ int main(int argc, char** argv) {
     const CombinedState state = between.at(place);
     if (!state.inside) continue;
     stiffness.push_back(std::abs(state.value(log_stiffness_row) - std::log(S)));
-    if (std::getenv("DETAIL")) {
-      const auto f = by_contour.fit({shape, fine}, conditions), g = by_figure.fit({shape, fine}, conditions);
-      fmt::print("r {:.2f} phi {:.3f} d {:.4f}: dlnS {:+.4f} dc2 {:+.5f} dc3 {:+.5f} dc4 {:+.5f} dc5 {:+.5f} dratio {:+.5f} darea {:+.5f} | E {:.3f}: contour {:.3f} {:.3f} {} {:.1f}, figure {:.3f} {:.3f} {}\n", cell.radius_um, place(1), shape(1), state.value(0)-std::log(S), state.value(3)-shape(3), state.value(4)-shape(4), state.value(5)-shape(5), state.value(6)-shape(6), state.value(2)-shape(2), state.value(1)-shape(0), cell.young_kPa, f.value(Modulus::young), f.cell(1), name_of(f.status), f.chi_squared, g.value(Modulus::young), g.cell(1), name_of(g.status));
-    }
     modes.push_back((state.value.tail<mode_count>() - shape.tail<mode_count>()).cwiseAbs().maxCoeff());
     exact_figure.take(by_figure.fit({shape, fine}, conditions), cell);
     exact_contour.take(by_contour.fit({shape, fine}, conditions), cell);

@@ -29,7 +29,7 @@ struct CellBox {
 };
 
 /// Cubics along the branches in ln d, of quantities that hardly vary there; between the branches polynomials through up
-/// to six radii, six shares, and all tensions.
+/// to four radii, four shares, and all tensions.
 class CombinedInterpolation {
  public:
   /// At least two radii and two shares, the same radii in all sheets; UserError otherwise.

@@ -32,7 +32,7 @@ struct Cell {
 
 class SeveralModuliOf : public testing::Test {
  protected:
-  SeveralModuliOf() : between_(table_), simulated_(conditions_of(table_.spec)) {}
+  SeveralModuliOf() : between_(whole_combined_table()), simulated_(conditions_of(whole_combined_table().spec)) {}
 
   SeveralModuli estimator(std::vector<int> features, bool free_tension = false, double ratio = 0.15) const {
     return {between_, simulated_, {std::move(features), free_tension, ratio}};
@@ -47,7 +47,6 @@ class SeveralModuliOf : public testing::Test {
     return {{radius, uniform(0.1, 0.9), ratio}, std::pow(radius / 8, 1.5) * uniform(1.2, 2)};
   }
 
-  CombinedTable table_ = invented_combined_table();
   CombinedInterpolation between_;
   FlowConditions simulated_;
   std::mt19937 engine_{1};

@@ -57,8 +57,7 @@ TEST(CombinedTable, HoldsTheModesOfTheContours) {
 
 class Interpolation : public testing::Test {
  protected:
-  CombinedTable table_ = invented_combined_table();
-  CombinedInterpolation between_{table_};
+  CombinedInterpolation between_{whole_combined_table()};
   std::mt19937 engine_{1};
 
   /// Anywhere in the box but near its ends of the deformation.
@@ -115,7 +114,7 @@ TEST(CombinedSpec, SharesAndTensionsMakeTheSweep) {
   const TableSpec spec = parse_table_spec(combined_spec, "spec.toml");
   EXPECT_TRUE(spec.is_combined());
   const auto places = sweep_places(spec);
-  EXPECT_EQ(places.size(), 7u * (5 + 4 + 4));
+  EXPECT_EQ(places.size(), 9u * (7 + 6 + 6));
   const Case both = case_at(spec, {8, 0.25, 0.15}, 4), bulk = case_at(spec, {8, 0, 0.15}, 4),
              shell = case_at(spec, {8, 1, 0.3}, 4);
   EXPECT_EQ(both.cell.bulk.young_modulus_kPa, 3);

@@ -55,16 +55,22 @@ law = "neo-hookean"
 bending_kBT = 1e4
 [table]
 identifier = "XC-2D-26"
-cortex_share = [0, 0.25, 0.5, 0.75, 1]
+cortex_share = [0, 0.125, 0.25, 0.5, 0.75, 0.875, 1]
 tension_ratio = [0, 0.15, 0.3]
 least_area_um2 = 60
 greatest_area_um2 = 220
-radii = 7
+radii = 9
 )";
 
 inline CombinedTable invented_combined_table(std::span<const std::string> settings = {}) {
   CombinedTable table{parse_table_spec(combined_spec, "spec.toml", settings), {}};
   for (const auto& place : sweep_places(table.spec)) table.branches.push_back(invented_combined_branch(place));
+  return table;
+}
+
+/// The same for all tests of a program: it takes half a second.
+inline const CombinedTable& whole_combined_table() {
+  static const CombinedTable table = invented_combined_table();
   return table;
 }
 
