@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 // Those that are there: a table that is still being computed serves, too.
 std::vector<SampledBranch> finished_branches(const TableFolder& folder) {
   std::vector<SampledBranch> branches;
-  for (int i = 0; i < folder.radii(); ++i)
+  for (int i = 0; i < folder.branches(); ++i)
     for (const bool held : {false, true})
       if (folder.has(i, held)) branches.push_back(folder.read(i, held));
   std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
@@ -37,6 +37,8 @@ std::unique_ptr<CellShapes> shapes_of_table(const SynthSpec& spec) {
     refuse(spec,
            "there is no table of `rheocyte table` (no spec.toml in this folder); shapes.table names such a folder.");
   const TableFolder folder(spec.table, read_table_spec(spec.table / "spec.toml"));
+  if (folder.spec().is_combined())
+    refuse(spec, "its cells have a bulk and a cortex; shapes.table needs a table that sweeps one modulus.");
   const bool is_shell = folder.spec().stiffness_key == "cell.cortex.modulus_mN_per_m";
   if (is_shell != (spec.kind == CellKind::shell))
     refuse(spec, fmt::format("its cells are told apart by {}, so cell.kind must be \"{}\".",

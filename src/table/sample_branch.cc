@@ -27,8 +27,8 @@ constexpr double tolerance = 1e-10;
 constexpr double first_displacement = 0.006;
 /// Steps of the samples in ln stiffness.
 constexpr double first_step = 0.25, first_held_step = 0.08, greatest_step = 0.9, least_step = 2e-3;
-/// So many states in a row may fail to be accurate before a branch is given up; each is nearer than the one before.
-constexpr int greatest_unsampled = 4;
+/// A state that is not accurate ends the branch if it is as near as this.
+constexpr double shortest_retry = 0.04;
 /// Of the step that the last interval would have allowed: towards its end a branch needs ever smaller ones.
 constexpr double growth = 0.6;
 /// A branch that is steeper than this (-d ln d / d ln E) nears a fold: finer meshes would not go farther.
@@ -73,11 +73,13 @@ double fourth_derivative(const Node& a, const Node& b, const Node& c) {
 
 class BranchSampler {
  public:
-  BranchSampler(const TableSpec& spec, double radius_um, const std::atomic<bool>* stop)
-      : spec_(spec), radius_(radius_um) {
+  BranchSampler(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop)
+      : spec_(spec), place_(place) {
     newton_.stop = stop;
     newton_.tolerance = tolerance;
-    result_.radius_um = radius_um;
+    result_.radius_um = place.radius_um;
+    result_.cortex_share = place.cortex_share;
+    result_.tension_ratio = place.tension_ratio;
     result_.bending_kBT = 0;
   }
 
@@ -98,7 +100,7 @@ class BranchSampler {
 
  private:
   double stiffness(double u) const { return first_stiffness_ * std::exp(-u); }
-  Problem problem(double u) const { return problem_of(case_at(spec_, radius_, stiffness(u))); }
+  Problem problem(double u) const { return problem_of(case_at(spec_, place_, stiffness(u))); }
 
   Discrete& at_level(int level) {
     if (!discrete_[level]) discrete_[level] = std::make_shared<Discrete>(problem(0), ladder[level]);
@@ -160,7 +162,6 @@ class BranchSampler {
     nodes_.push_back(last_);
     std::optional<Node> last;  // the farthest state, once a step has failed
     Status failure = Status::not_started;
-    int unsampled = 0;  // states in a row that were not accurate
     for (double h = result_.bending_kBT > 0 ? first_held_step : first_step; h > least_step / 2;) {
       const Node& before = nodes_.back();
       Node next;
@@ -171,12 +172,11 @@ class BranchSampler {
         if (status == Status::stopped) return end(status);
         const bool moved = next.u > before.u + least_step / 4;
         if (moved && !sample(next)) {
-          // One state may fail where its neighbours do not.
-          if (++unsampled > greatest_unsampled) return end(Status::accuracy_not_reached);
-          h = 0.6 * (next.u - before.u);
+          if (next.u - before.u < shortest_retry) return end(Status::accuracy_not_reached);
+          h = (next.u - before.u) / 2;  // a nearer state may still be accurate
+          last.reset();
           continue;
         }
-        unsampled = 0;
         if (!moved) next = before;
         if (status != Status::converged) last = next, failure = status;
       }
@@ -309,7 +309,7 @@ class BranchSampler {
 
   bool is_covered(const Node& node) const {
     return node.state.value(int(Measure::deformation)) > spec_.greatest_deformation ||
-           node.state.value(int(Measure::area_um2)) > 1.02 * spec_.greatest_area_um2;
+           (!spec_.is_combined() && node.state.value(int(Measure::area_um2)) > 1.02 * spec_.greatest_area_um2);
   }
 
   /// Newton's failure at the end of a branch is the end of the branch.
@@ -321,7 +321,7 @@ class BranchSampler {
   static double deformation(const Discretisation& space, const VectorXd& unknowns) {
     return measure(contour(space, unknowns)).deformation;
   }
-  Scales scales() const { return scales_of(case_at(spec_, radius_, first_stiffness_)); }
+  Scales scales() const { return scales_of(case_at(spec_, place_, first_stiffness_)); }
   void count(int iterations) {
     ++result_.solves;
     result_.newton_iterations += iterations;
@@ -368,7 +368,8 @@ class BranchSampler {
   }
 
   TableSpec spec_;
-  double radius_, first_stiffness_ = 1;
+  BranchPlace place_;
+  double first_stiffness_ = 1;
   NewtonOptions newton_;
   std::array<std::shared_ptr<Discrete>, ladder.size()> discrete_;
   double factorisation_before_ = 0;  ///< of systems that were taken over
@@ -380,8 +381,8 @@ class BranchSampler {
 
 }  // namespace
 
-SampledBranch sample_branch(const TableSpec& spec, double radius_um, const std::atomic<bool>* stop) {
-  return BranchSampler(spec, radius_um, stop).from_sphere();
+SampledBranch sample_branch(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop) {
+  return BranchSampler(spec, place, stop).from_sphere();
 }
 
 SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own, const std::atomic<bool>* stop) {
@@ -391,8 +392,8 @@ SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own
   TableSpec held = spec;
   held.base.cell.cortex.bending_kBT = spec.bending_beyond_kBT;
   const double stiffness = std::min(overlap * own.stiffness.back(), own.stiffness.front());
-  BranchSampler bare(spec, own.radius_um, stop);
-  return BranchSampler(held, own.radius_um, stop).from_bare(bare, stiffness);
+  BranchSampler bare(spec, {own.radius_um}, stop);
+  return BranchSampler(held, {own.radius_um}, stop).from_bare(bare, stiffness);
 }
 
 }  // namespace rheocyte
