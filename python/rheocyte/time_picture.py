@@ -51,12 +51,12 @@ def draw(result, history, contours):
     times, shapes = contours
     t, d = history
     figure = plt.figure(figsize=(WIDTH_IN, 2.6))
-    axes = figure.add_axes([0.13, 0.15, 0.83, 0.55])
+    axes = figure.add_axes([0.16, 0.15, 0.8, 0.55])
     axes.plot(t, d, color=EDGE, linewidth=1)
     axes.set(xlim=(0, t[-1] or 1), xlabel="time (µs)", ylabel="deformation")
     axes.set_ylim(bottom=0)
     axes.spines[["top", "right"]].set_visible(False)
-    above = figure.add_axes([0.13, 0.72, 0.83, 0.2])
+    above = figure.add_axes([0.16, 0.72, 0.8, 0.2])
     above.axis("off")
     size = 1.15 * max(np.ptp(shape[:, 0]) for shape in shapes)
     chosen = chosen_frames(times, t, d)
@@ -71,10 +71,10 @@ def draw(result, history, contours):
 
 
 def chosen_frames(times, t, d):
-    """Frames at equal steps of the deformation, the first and the last among them."""
-    values = np.interp(times, t, d)
-    wanted = np.linspace(values[0], values[-1], SHOWN)
-    return sorted({int(np.argmin(np.abs(values - value))) for value in wanted} | {0, len(times) - 1})[:SHOWN + 1]
+    """Frames at equal steps of the deformation, up or down, the first and the last among them."""
+    way = np.concatenate([[0], np.cumsum(np.abs(np.diff(np.interp(times, t, d))))])
+    wanted = np.linspace(0, way[-1], SHOWN)
+    return sorted({int(np.argmin(np.abs(way - value))) for value in wanted} | {0, len(times) - 1})[:SHOWN + 1]
 
 
 def read_wall(folder):

@@ -18,7 +18,7 @@ CONTRACTION_UM = (60.0, 100.0)  # from the start of the cell
 END_US = 4000.0
 VISCOSITIES = [5.0, 15.0, 50.0, 150.0]
 SHOWN_UM = (40.0, 320.0)  # of the way
-PLACES_UM = [45.0, 70.0, 85.0, 100.0, 120.0, 150.0, 190.0]  # of the contours
+PLACES_UM = [45.0, 72.0, 93.0, 118.0, 150.0, 190.0]  # of the contours
 FILL, EDGE, WALL = "#fbc873", "#9c1f3a", "#9aa5ad"
 
 
@@ -35,7 +35,7 @@ def entering(narrow, viscosity):
     case = {key: value for key, value in narrow.items() if key != "channel.radius_um"}
     profile = {"x_um": list(CONTRACTION_UM), "R_um": [WIDE_UM, NARROW_UM]}
     return paper.section("channel.profile", profile) | case | {
-        "cell.viscosity_mPas": viscosity, **paper.section("time", {"end_us": END_US, "output_every_us": 10.0})}
+        "cell.viscosity_mPas": viscosity, **paper.section("time", {"end_us": END_US, "output_every_us": 25.0})}
 
 
 def columns(path, names):
@@ -48,10 +48,11 @@ def history(solution):
     return columns(solution.folder / "history.csv", ["t_us", "position_um", "deformation"])
 
 
-def parabola(x, y):
-    """Place and value of the greatest value of the parabola through three points."""
-    a, b, c = np.polyfit(x - x[1], y, 2)
-    return x[1] - b / (2 * a), c - b * b / (4 * a)
+def peak(x, d):
+    """Step, place and value of the greatest deformation in the contraction: of the parabola through three steps."""
+    k = np.argmax(np.where(x < CONTRACTION_UM[1] + RADIUS_UM, d, 0))
+    a, b, c = np.polyfit(x[k - 1:k + 2] - x[k], d[k - 1:k + 2], 2)
+    return k, x[k] - b / (2 * a), c - b * b / (4 * a)
 
 
 def rows(solved):
@@ -60,15 +61,14 @@ def rows(solved):
     for eta in VISCOSITIES:
         solution = solved[f"entry-{eta:g}mPas"]
         row = {"cell_viscosity_mPas": eta, "status": solution.result["status"]}
-        row |= dict.fromkeys(["greatest_deformation", "at_position_um", "least_deformation_behind", "deformation_at_end",
+        row |= dict.fromkeys(["peak_deformation", "peak_position_um", "least_deformation_behind", "deformation_at_end",
                               "stationary_deformation", "relative_difference",
                               "greatest_relative_volume_change"], "")
         if solution.converged and still.converged:
             t, x, d = history(solution)
-            top = np.argmax(d)
-            peak = parabola(x[top - 1:top + 2], d[top - 1:top + 2])
+            top, place, highest = peak(x, d)
             volume = columns(solution.folder / "history.csv", ["relative_volume_change"])
-            row |= {"greatest_deformation": f"{peak[1]:.5f}", "at_position_um": f"{peak[0]:.1f}",
+            row |= {"peak_deformation": f"{highest:.5f}", "peak_position_um": f"{place:.1f}",
                     "least_deformation_behind": f"{d[top:].min():.5f}", "deformation_at_end": f"{d[-1]:.7f}",
                     "stationary_deformation": f"{still['deformation']:.7f}",
                     "relative_difference": f"{d[-1] / still['deformation'] - 1:.1e}",
