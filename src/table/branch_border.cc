@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace rheocyte {
 
@@ -116,15 +117,17 @@ Border upper_border(std::span<const LogBranch> branches, const TableSpec& spec, 
     const auto near = window(least, margin + c * points_per_column);
     for (std::size_t k = 0; k < near.size(); ++k) {
       const double distance = 2.0 * static_cast<double>(k) / static_cast<double>(near.size() - 1) - 1;
-      const double weight = 1 + std::cos(3.141592653589793 * distance);
+      const double weight = 1 + std::cos(std::numbers::pi * distance);
       sum += weight * near[k];
       weights += weight;
     }
     border.height.push_back(sum / weights);
-    border.beyond.push_back(border.height.back() > greatest - 1e-9 ? NoAnswer::too_soft
-                                                                   : polygon.beyond(columns.at(c)));
-    if (border.beyond.back() == NoAnswer::too_soft && border.height.back() < greatest - 1e-9)
-      border.beyond.back() = NoAnswer::unstable;
+    // Where the border is evened below the table's greatest deformation, the next states are not in the grid.
+    const bool is_highest = border.height.back() > greatest - 1e-9;
+    const NoAnswer beyond = polygon.beyond(columns.at(c));
+    border.beyond.push_back(is_highest                     ? NoAnswer::too_soft
+                            : beyond == NoAnswer::too_soft ? NoAnswer::unstable
+                                                           : beyond);
   }
   return border;
 }
