@@ -1,15 +1,20 @@
 // Throughput of the extraction of moduli, one core: from memory, and outlines from masks.
 //
-//     bench_extract TABLE [options of Google Benchmark]        TABLE: a published table, e.g. lut_LE-2D-FEM-19.txt
+//     bench_extract TABLE GRID [options of Google Benchmark]
+//
+// TABLE: a published table, e.g. lut_LE-2D-FEM-19.txt; GRID: one of rheocyte, e.g. data/grid_LE-2D-26.cbor
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <random>
 #include <vector>
 
 #include "case/user_error.h"
+#include "infer/grid_modulus.h"
 #include "infer/modulus_parity.h"
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
@@ -20,6 +25,7 @@ namespace {
 
 constexpr std::size_t events = 1'000'000;
 std::unique_ptr<ParityModulus> table;
+std::unique_ptr<GridModulus> grid;
 
 struct Events {
   std::vector<double> area, deformation, temperature;
@@ -84,6 +90,35 @@ void moduli_of_a_population(benchmark::State& state) {
   moduli(state, all);
 }
 
+// Viscosity of each event's temperature, pixels, modulus, standard error and state.
+void own_moduli(benchmark::State& state, const Events& all) {
+  const Buffer buffer(Medium::methyl_cellulose_049, ViscosityModel::buyukurganci_2022);
+  const std::size_t block = 1 << 16;
+  std::vector<double> viscosity(block), modulus(block), error(block);
+  std::vector<ModulusState> states(block);
+  for (auto _ : state)
+    for (std::size_t first = 0; first < events; first += block) {
+      const std::size_t count = std::min(block, events - first);
+      const auto part = [&](const std::vector<double>& column) { return std::span(column).subspan(first, count); };
+      const std::span<double> eta(viscosity.data(), count);
+      buffer.viscosity({20, 0.06}, part(all.temperature), eta);
+      grid->estimate({20, 0.06, 0.34}, {part(all.area), part(all.deformation), eta},
+                     {{modulus.data(), count}, {error.data(), count}, {states.data(), count}});
+      benchmark::DoNotOptimize(modulus.data());
+    }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
+}
+
+void own_moduli_uniform(benchmark::State& state) {
+  static const Events all = uniform_in_hull();
+  own_moduli(state, all);
+}
+
+void own_moduli_of_a_population(benchmark::State& state) {
+  static const Events all = population();
+  own_moduli(state, all);
+}
+
 void viscosities(benchmark::State& state) {
   static const Events all = population();
   const Buffer buffer(Medium::methyl_cellulose_049, ViscosityModel::buyukurganci_2022);
@@ -131,6 +166,8 @@ void features_from_masks(benchmark::State& state) {
 
 BENCHMARK(moduli_uniform_in_hull)->Unit(benchmark::kMillisecond);
 BENCHMARK(moduli_of_a_population)->Unit(benchmark::kMillisecond);
+BENCHMARK(own_moduli_uniform)->Unit(benchmark::kMillisecond);
+BENCHMARK(own_moduli_of_a_population)->Unit(benchmark::kMillisecond);
 BENCHMARK(viscosities)->Unit(benchmark::kMillisecond);
 BENCHMARK(table_and_triangulation)->Unit(benchmark::kMillisecond);
 BENCHMARK(features_from_masks)->Unit(benchmark::kMillisecond);
@@ -141,8 +178,11 @@ BENCHMARK(features_from_masks)->Unit(benchmark::kMillisecond);
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   try {
-    if (argc != 2) throw rheocyte::UserError("usage: bench_extract TABLE [options of Google Benchmark]");
+    if (argc != 3) throw rheocyte::UserError("usage: bench_extract TABLE GRID [options of Google Benchmark]");
     rheocyte::table = std::make_unique<rheocyte::ParityModulus>(rheocyte::read_published_table(argv[1]));
+    std::ifstream file(argv[2], std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    rheocyte::grid = std::make_unique<rheocyte::GridModulus>(rheocyte::grid_from_bytes(bytes, argv[2]));
   } catch (const rheocyte::UserError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

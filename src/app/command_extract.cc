@@ -13,7 +13,7 @@
 #include "app/exit_codes.h"
 #include "app/extract_recording.h"
 #include "app/extract_summary.h"
-#include "app/find_table.h"
+#include "app/modulus_tables.h"
 #include "app/own_file.h"
 #include "app/recording_list.h"
 #include "app/standard_error.h"
@@ -61,11 +61,7 @@ class Batch {
       : options_(options),
         tasks_(list_recordings(options)),
         summary_file_(summary_file(options, tasks_)),
-        modulus_(read_published_table(find_table(options.table))) {
-    if (modulus_.table().abscissa != PublishedTable::Abscissa::area)
-      throw UserError(fmt::format("rheocyte: --table {}: holds volumes; only tables of areas are used for recordings.",
-                                  one_line(options.table, 200)));
-  }
+        tables_(options) {}
 
   int run() {
     for (const auto& task : tasks_) {
@@ -84,7 +80,7 @@ class Batch {
     Containment limits;
     limits.patience_s = options_.patience_s;
     const auto work = [&](const TellProgress& tell_progress) {
-      return to_json(extract_recording(task.recording, task.output, options_, modulus_, tell_progress));
+      return to_json(extract_recording(task.recording, task.output, options_, tables_, tell_progress));
     };
     const ContainedEnd end = run_contained(work, limits, [&](double fraction) { progress(fraction); });
     if (end.kind == Kind::finished) {
@@ -117,7 +113,7 @@ class Batch {
   const ExtractOptions& options_;
   std::vector<RecordingTask> tasks_;
   fs::path summary_file_;
-  ParityModulus modulus_;
+  ModulusTables tables_;
   std::vector<SummaryLine> lines_;
   std::size_t done_ = 0;
   bool failed_ = false, empty_ = false;

@@ -12,11 +12,13 @@
 #include <optional>
 #include <system_error>
 
+#include "app/any_table.h"
 #include "app/child_process.h"
 #include "app/contained.h"
 #include "app/contained_sentence.h"
 #include "app/exit_codes.h"
 #include "app/find_table.h"
+#include "app/line_source.h"
 #include "app/plot_options.h"
 #include "app/plot_panel.h"
 #include "app/python_package.h"
@@ -71,8 +73,14 @@ double rounded(double value) { return std::stod(fmt::format("{:.2g}", value)); }
 class Plot {
  public:
   explicit Plot(const PlotOptions& options) : options_(options), stem_(picture_stem(options)) {
-    if (!options.measuring.table.empty()) finder_.emplace(read_published_table(find_table(options.measuring.table)));
+    if (!options.measuring.table.empty()) finder_.emplace(find_table(options.measuring.table));
     if (!options.lines.empty()) given_lines_ = read_level_lines(options.lines);
+    if (finder_ || given_lines_) {
+      lines_ = LinesWanted::yes;
+    } else if (const auto own = standard_table_file(); own && !options.no_lines) {
+      finder_.emplace(*own);
+      lines_ = options.levels_kPa.empty() ? LinesWanted::if_possible : LinesWanted::yes;
+    }
   }
 
   int run() {
@@ -94,13 +102,11 @@ class Plot {
   }
 
  private:
-  bool wants_lines() const { return finder_ || given_lines_; }
-
   ContainedEnd read(const fs::path& recording, const fs::path& events) const {
     Containment limits;
     limits.patience_s = options_.measuring.patience_s;
     const auto work = [&](const TellProgress& on_progress) {
-      return to_json(plot_panel(recording, events, options_, wants_lines(), on_progress));
+      return to_json(plot_panel(recording, events, options_, lines_, on_progress));
     };
     return run_contained(work, limits, [](double) {});
   }
@@ -120,15 +126,17 @@ class Plot {
     const LevelLines lines = lines_for(panel);
     const double factor = modulus_factor(lines, panel.conditions, panel.viscosity_mPas);
     for (const auto& line : lines.lines) {
-      j["lines"].push_back(as_json(as_measured(line.points, lines.channel_width_um, panel.conditions)));
+      j["lines"].push_back(as_json(as_measured(line.points, lines.channel_width_um, panel.conditions, pixel_law())));
       j["lines"].back()["young_modulus_kPa"] = line.modulus_kPa * factor;
     }
     j["table"] = lines.identifier;
     j["pixels"] = panel.conditions.pixel_size_um;
     if (finder_)
-      j["support"] = as_json(as_measured(finder_->support(), finder_->table().channel_width_um, panel.conditions));
+      j["support"] = as_json(as_measured(finder_->support(), lines.channel_width_um, panel.conditions, pixel_law()));
     return j;
   }
+
+  PixelLaw pixel_law() const { return finder_ ? finder_->pixel_law() : PixelLaw::field; }
 
   // Of the levels that spread over the picture, those next to two digits in the recording's own channel.
   LevelLines lines_for(const PlotPanel& panel) const {
@@ -159,7 +167,8 @@ class Plot {
 
   const PlotOptions& options_;
   fs::path stem_;
-  std::optional<LineFinder> finder_;
+  LinesWanted lines_ = LinesWanted::no;
+  std::optional<LineSource> finder_;
   std::optional<LevelLines> given_lines_;
   HandOver folder_;
 };

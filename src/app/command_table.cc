@@ -16,6 +16,7 @@
 #include "app/table_processes.h"
 #include "case/user_error.h"
 #include "table/combined_table.h"
+#include "table/grid_from_branches.h"
 #include "table/lookup_table.h"
 #include "table/simulations_file.h"
 
@@ -43,6 +44,12 @@ void write_files(const TableFolder& folder, const TableOptions& options) {
   const LookupTable table = make_lookup_table(folder.spec(), branches, version);
   for (const auto& [name, content] : table_files(table, options.levels)) folder.publish(name, content);
   folder.publish(fmt::format("simulations_{}.h5", folder.spec().identifier), simulations_file(table));
+  if (const auto grid = make_stiffness_grid(folder.spec(), branches, version))
+    folder.publish(grid_file_name(folder.spec().identifier), to_bytes(*grid));
+  else
+    tell(
+        "rheocyte: warning: the branches are too few or too short for a grid; `rheocyte extract` takes the text "
+        "table.");
   folder.tidy();
   if (options.no_picture) return;
   if (const auto failure = draw_table_pictures(folder.path()); !failure.empty())
@@ -58,12 +65,14 @@ std::string summary(const TableFolder& folder) {
     solves += branch.solves;
     seconds += branch.seconds;
     factorisation += branch.factorisation_seconds;
+    if (branch.bending_kBT > 0 || branch.empty()) continue;  // those that go on where others have ended
     unstable += branch.end.status == "surface-unstable";
     short_of_range += branch.end.status != "surface-unstable" && branch.end.status != "covered";
   }
   return fmt::format(
       "{} states on {} branches, {} solves, {:.0f} s of one processor ({:.0f} % factorisation)\n"
-      "{} branches end at the instability of the surface, {} at another end; {} states refused\n",
+      "{} branches end at the instability of the surface, {} short of the range for other reasons (end-of-branch.csv); "
+      "{} states refused\n",
       samples, folder.branches(), solves, seconds, 100 * factorisation / std::max(seconds, 1e-9), unstable,
       short_of_range, refused);
 }

@@ -27,11 +27,12 @@ char* put_number(char* at, double number) {
 
 }  // namespace
 
-EventTable::EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks)
-    : path_(file), file_(std::fopen(file.c_str(), "wbe")) {
+EventTable::EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks, bool has_errors)
+    : path_(file), file_(std::fopen(file.c_str(), "wbe")), has_errors_(has_errors) {
   if (!file_) refuse();
   for (const auto& remark : remarks) text_ += "# " + one_line(remark, 1000) + "\n";
-  text_ += "event\tarea_um2\tdeformation\tviscosity_mPas\tyoung_modulus_kPa\tstate\n";
+  text_ += "event\tarea_um2\tdeformation\tviscosity_mPas\tyoung_modulus_kPa\t";
+  text_ += has_errors_ ? "standard_error_kPa\tstate\n" : "state\n";
   write_out();
 }
 
@@ -57,6 +58,10 @@ void EventTable::append(const EventBlock& block) {
          {block.area_um2[i], block.deformation[i], block.viscosity_mPas[i], block.young_modulus_kPa[i]}) {
       *at++ = '\t';
       at = put_number(at, number);
+    }
+    if (has_errors_) {
+      *at++ = '\t';
+      at = put_number(at, block.standard_error_kPa[i]);
     }
     *at++ = '\t';
     text_.append(line, at);

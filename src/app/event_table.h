@@ -13,14 +13,16 @@ namespace rheocyte {
 /// What a block of events has to say, all equally long.
 struct EventBlock {
   std::span<const double> area_um2, deformation, viscosity_mPas, young_modulus_kPa;
+  std::span<const double> standard_error_kPa;  ///< empty if unknown
   std::span<const ModulusState> state;
 };
 
 /// Writes tab-separated lines with the shortest decimals that give back single precision (relative 6e-8).
 class EventTable {
  public:
-  /// `remarks` go above the columns' names, each behind "# ". UserError.
-  EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks);
+  /// `remarks` go above the columns' names, each behind "# ". With a column for standard errors if they are known.
+  /// UserError.
+  EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks, bool has_errors);
   ~EventTable();
   EventTable(const EventTable&) = delete;
   EventTable& operator=(const EventTable&) = delete;
@@ -38,6 +40,7 @@ class EventTable {
   std::filesystem::path path_;
   std::FILE* file_ = nullptr;
   std::string text_;
+  bool has_errors_;
   std::size_t events_ = 0;
 };
 

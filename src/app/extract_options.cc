@@ -45,7 +45,7 @@ void declare_measuring_options(CLI::App& command, ExtractOptions& options) {
       .add_option("--temperature", options.temperature,
                   "degC; or feature: of each event; or metadata; default: of each event if the recording has it")
       ->type_name("VALUE|feature|metadata");
-  command.add_flag("--no-pixelation", options.no_pixelation, "do not correct deformations for the pixels");
+  command.add_flag("--no-pixelation", options.no_pixelation, "correct nothing for the pixels");
   command.add_option("--patience", options.patience_s,
                      "give a recording up when nothing was read from it for so many seconds (60)");
 }
@@ -56,11 +56,14 @@ void declare_extract_options(CLI::App& command, ExtractOptions& options, std::fu
       ->type_name("DIR");
   command.add_flag("-r,--recursive", options.recursive, "search the given folders for recordings");
   command
-      .add_option("--table", options.table,
-                  "look-up table: a file in dclab's format, or the identifier of a table of an installed dclab")
-      ->type_name("TABLE")
-      ->required();
+      .add_option(
+          "--table", options.table,
+          "look-up table in place of the program's own: a folder of `rheocyte table`, a file (grid_*.cbor, or in "
+          "dclab's format), or an identifier of the program's tables or of an installed dclab's")
+      ->type_name("TABLE");
   declare_measuring_options(command, options);
+  command.add_flag("--no-area-correction", options.no_area_correction,
+                   "do not correct areas for the pixels; published tables never do");
   command.add_flag("--no-tsv", options.no_tsv, "do not write a table with one line per event");
   command.add_flag("--quiet", options.quiet, "print neither progress nor results");
   command.callback([&options, run = std::move(run)] {

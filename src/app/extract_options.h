@@ -16,11 +16,11 @@ struct ExtractOptions {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path folder;  ///< of the results; empty: beside each recording
   bool recursive = false;
-  std::string table;  ///< a file, or the identifier of a table of an installed dclab
+  std::string table;  ///< a file, a folder of a table, or an identifier; empty: the tables that come with the program
   std::optional<double> channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas;
   std::optional<std::string> medium, viscosity_model;
   std::string temperature;  ///< degC, "feature", "metadata", or empty: the feature if there is one
-  bool no_pixelation = false, no_tsv = false, quiet = false;
+  bool no_pixelation = false, no_area_correction = false, no_tsv = false, quiet = false;
   double patience_s = 60;
 };
 

@@ -27,16 +27,20 @@ constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible wh
 
 std::string program() { return fmt::format("rheocyte {}", version); }
 
+std::string corrected_for_pixels(const MeasuringConditions& conditions, const ModulusTable& table) {
+  if (conditions.pixel_size_um == 0) return "nothing";
+  return table.is_own() && conditions.correct_area ? "area and deformation" : "deformation";
+}
+
 std::vector<std::string> setting_lines(const ExtractSettings& settings, const ShapeSource& shapes,
-                                       const PublishedTable& table) {
+                                       const ModulusTable& table) {
   const auto& c = settings.conditions;
   std::vector<std::string> lines{
-      fmt::format("table: {} ({} um, {} ul/s, {} mPa s)", table.identifier, table.channel_width_um,
-                  table.flow_rate_ul_s, table.viscosity_mPas),
+      fmt::format("table: {}", table.description()),
       fmt::format("area from {}, deformation from {}", shapes.area_from(), shapes.deformation_from()),
       fmt::format("channel width: {} um", c.channel_width_um), fmt::format("flow rate: {} ul/s", c.flow_rate_ul_s)};
-  lines.push_back(c.pixel_size_um > 0 ? fmt::format("deformations corrected for pixels of {} um", c.pixel_size_um)
-                                      : "deformations not corrected for pixels");
+  lines.push_back(fmt::format("corrected for pixels: {}", corrected_for_pixels(c, table)));
+  if (c.pixel_size_um > 0) lines.push_back(fmt::format("pixel size: {} um", c.pixel_size_um));
   if (settings.buffer)
     lines.push_back(fmt::format("viscosity: {} by {}, temperature {}", settings.medium_text(), settings.model_text(),
                                 settings.temperature_text()));
@@ -53,24 +57,28 @@ std::string meaning_of_states() {
 
 // The columns of one block of events.
 struct Columns {
-  std::vector<double> area, deformation, temperature, viscosity, modulus, state_numbers;
-  std::vector<ModulusState> states;
+  std::vector<double> area, deformation, temperature, viscosity, modulus, standard_error, state_numbers, other_modulus;
+  std::vector<ModulusState> states, other_states;
 
   void resize(std::size_t count) {
-    for (auto* const column : {&area, &deformation, &temperature, &viscosity, &modulus, &state_numbers})
+    for (auto* const column :
+         {&area, &deformation, &temperature, &viscosity, &modulus, &standard_error, &state_numbers, &other_modulus})
       column->resize(count);
     states.resize(count);
+    other_states.resize(count);
   }
 };
 
 /// One recording on its way through the blocks.
 class Extraction {
  public:
-  Extraction(const Recording& recording, const ExtractOptions& options, const ParityModulus& modulus)
+  Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables)
       : recording_(recording),
-        modulus_(modulus),
         settings_(extract_settings(options, recording)),
+        tables_(tables.choose(settings_)),
         shapes_(recording, settings_.pixel_size_um) {}
+
+  const ModulusTable& table() const { return *tables_.used; }
 
   std::size_t block() const {
     const auto stored = [](const std::string& source) { return source != "mask" && source != "contour"; };
@@ -91,11 +99,13 @@ class Extraction {
     } else {
       std::ranges::fill(c.viscosity, settings_.viscosity_mPas);
     }
-    modulus_.moduli(settings_.conditions, {c.area, c.deformation, c.viscosity}, c.modulus);
-    for (std::size_t i = 0; i < count; ++i) {
-      c.states[i] = modulus_.state(settings_.conditions, c.area[i], c.deformation[i], c.modulus[i]);
-      c.state_numbers[i] = static_cast<double>(c.states[i]);
+    const MeasuredEvents events{c.area, c.deformation, c.viscosity};
+    if (tables_.other) {
+      // Its standard errors are overwritten by those that count.
+      tables_.other->estimate(settings_.conditions, events, {c.other_modulus, c.standard_error, c.other_states});
     }
+    table().estimate(settings_.conditions, events, {c.modulus, c.standard_error, c.states});
+    for (std::size_t i = 0; i < count; ++i) c.state_numbers[i] = static_cast<double>(c.states[i]);
     collect();
     return c;
   }
@@ -105,7 +115,9 @@ class Extraction {
     s.events = recording_.events();
     s.modulus_kPa = distribution_of(moduli_);
     s.mean_viscosity_mPas = viscosity_sum_ / static_cast<double>(viscosities_);
-    s.table = modulus_.table().identifier;
+    s.median_standard_error_kPa = median_of(standard_errors_);
+    s.table = table().identifier();
+    s.corrected = corrected_for_pixels(settings_.conditions, table());
     s.medium = settings_.medium_text();
     s.viscosity_model = settings_.model_text();
     s.temperature = settings_.temperature_text();
@@ -120,33 +132,58 @@ class Extraction {
                       "model {} was measured.",
                       outside_temperature_, settings_.buffer->measured().lowest, settings_.buffer->measured().highest,
                       settings_.model_text()));
+    if (tables_.other) s.warnings.push_back(comparison());
     if (recording_.has_scalar("emodulus"))
       s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
     return s;
   }
 
-  std::vector<std::string> lines() const { return setting_lines(settings_, shapes_, modulus_.table()); }
+  std::vector<std::string> lines() const { return setting_lines(settings_, shapes_, table()); }
 
  private:
+  // Where a table of the matching liquid and one of a Newtonian liquid are at hand, both are used.
+  std::string comparison() const {
+    const auto way = [](const ModulusTable& table) {
+      return table.flow_exponent() < 1
+                 ? fmt::format("{} (its liquid has the exponent {:.3g})", table.identifier(), table.flow_exponent())
+                 : fmt::format("{} with the effective viscosity", table.identifier());
+    };
+    const std::string text = fmt::format("the medium thins in shear (exponent {:.3g}); moduli are from {}",
+                                         settings_.flow_exponent, way(table()));
+    if (compared_ == 0) return text + ".";
+    const double percent = 100 * std::expm1(log_ratios_ / static_cast<double>(compared_));
+    return fmt::format("{}; those from {} are {:.1f} % {} (geometric mean of {} events).", text, way(*tables_.other),
+                       std::abs(percent), percent < 0 ? "smaller" : "greater", compared_);
+  }
+
   void collect() {
     for (std::size_t i = 0; i < columns_.states.size(); ++i) {
       ++summary_.counts[static_cast<std::size_t>(columns_.states[i])];
-      if (columns_.states[i] == ModulusState::valid) moduli_.push_back(columns_.modulus[i]);
+      if (has_modulus(columns_.states[i])) take_modulus(i);
       if (!std::isfinite(columns_.viscosity[i])) continue;
       viscosity_sum_ += columns_.viscosity[i];
       ++viscosities_;
     }
   }
 
+  void take_modulus(std::size_t i) {
+    moduli_.push_back(columns_.modulus[i]);
+    if (table().is_own()) standard_errors_.push_back(static_cast<float>(columns_.standard_error[i]));
+    if (!tables_.other || !has_modulus(columns_.other_states[i])) return;
+    log_ratios_ += std::log(columns_.other_modulus[i] / columns_.modulus[i]);
+    ++compared_;
+  }
+
   const Recording& recording_;
-  const ParityModulus& modulus_;
   ExtractSettings settings_;
+  ModulusTables::Choice tables_;
   ShapeSource shapes_;
   Columns columns_;
   ExtractSummary summary_;
   std::vector<double> moduli_;
-  double viscosity_sum_ = 0;
-  std::size_t viscosities_ = 0, outside_temperature_ = 0;
+  std::vector<float> standard_errors_;
+  double viscosity_sum_ = 0, log_ratios_ = 0;
+  std::size_t viscosities_ = 0, compared_ = 0, outside_temperature_ = 0;
 };
 
 std::string now_utc() {
@@ -170,11 +207,15 @@ std::vector<std::string> paths_to(const fs::path& original, const fs::path& comp
 }
 
 void describe(CompanionFile& companion, const ExtractOutput& output, const Recording& recording,
-              const std::vector<std::string>& settings) {
+              const Extraction& extraction) {
   companion.add_user_metadata("rheocyte emodulus", "Young's modulus (kPa), with the settings in the log");
   companion.add_user_metadata("rheocyte userdef0", meaning_of_states());
+  if (extraction.table().is_own())
+    companion.add_user_metadata("rheocyte userdef1", "standard error of emodulus (kPa), of pixels and of the table");
+  companion.add_user_metadata("rheocyte table", extraction.table().identifier());
   std::vector<std::string> log{program() + " extract", "time: " + now_utc(),
                                "recording: " + recording.file().filename().string()};
+  const auto settings = extraction.lines();
   log.insert(log.end(), settings.begin(), settings.end());
   companion.add_log("rheocyte-extract", log);
   companion.add_basin(paths_to(recording.file(), output.companion));
@@ -192,18 +233,20 @@ void publish(const fs::path& file) {
 fs::path unfinished(const fs::path& file) { return file.string() + "~"; }
 
 ExtractSummary extract_recording(const fs::path& file, const ExtractOutput& output, const ExtractOptions& options,
-                                 const ParityModulus& modulus, const std::function<void(double)>& on_progress) {
+                                 const ModulusTables& tables, const std::function<void(double)>& on_progress) {
   const Recording recording(file);
-  Extraction extraction(recording, options, modulus);
+  Extraction extraction(recording, options, tables);
+  const bool has_errors = extraction.table().is_own();
   CompanionFile companion(unfinished(output.companion), recording, program());
-  describe(companion, output, recording, extraction.lines());
+  describe(companion, output, recording, extraction);
   companion.add_feature("emodulus");
   companion.add_feature("userdef0");
+  if (has_errors) companion.add_feature("userdef1");
   std::unique_ptr<EventTable> table;
   if (!options.no_tsv) {
     auto remarks = extraction.lines();
     remarks.insert(remarks.begin(), {program() + " extract", "recording: " + file.string()});
-    table = std::make_unique<EventTable>(unfinished(output.events), remarks);
+    table = std::make_unique<EventTable>(unfinished(output.events), remarks, has_errors);
   }
   const std::size_t events = recording.events(), block = extraction.block();
   for (std::size_t first = 0; first < events; first += block) {
@@ -211,7 +254,8 @@ ExtractSummary extract_recording(const fs::path& file, const ExtractOutput& outp
     const Columns& c = extraction.compute(first, count);
     companion.write("emodulus", first, c.modulus);
     companion.write("userdef0", first, c.state_numbers);
-    if (table) table->append({c.area, c.deformation, c.viscosity, c.modulus, c.states});
+    if (has_errors) companion.write("userdef1", first, c.standard_error);
+    if (table) table->append({c.area, c.deformation, c.viscosity, c.modulus, c.standard_error, c.states});
     on_progress(static_cast<double>(first + count) / static_cast<double>(events));
   }
   companion.close();

@@ -5,7 +5,7 @@
 
 #include "app/extract_options.h"
 #include "app/extract_summary.h"
-#include "infer/modulus_parity.h"
+#include "app/modulus_tables.h"
 
 namespace rheocyte {
 
@@ -20,7 +20,7 @@ std::filesystem::path unfinished(const std::filesystem::path& file);
 /// Works through a recording in blocks, so that memory does not grow with it but for 8 bytes per event. UserError for
 /// whatever is wrong with the recording or with writing. Calls `on_progress` after each block.
 ExtractSummary extract_recording(const std::filesystem::path& file, const ExtractOutput& output,
-                                 const ExtractOptions& options, const ParityModulus& modulus,
+                                 const ExtractOptions& options, const ModulusTables& tables,
                                  const std::function<void(double)>& on_progress);
 
 }  // namespace rheocyte

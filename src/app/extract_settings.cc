@@ -93,6 +93,14 @@ void warn_about_temperature(ExtractSettings& settings) {
                   settings.temperature_C, range.lowest, range.highest, name_of(settings.buffer->model())));
 }
 
+// The one of the recording as a whole; a degree changes the exponents of methyl cellulose by 0.002.
+double usual_temperature_C(const ExtractSettings& settings, const Recording& recording) {
+  constexpr double laboratory_C = 23;
+  if (!settings.viscosity_varies()) return settings.temperature_C;
+  const double stored = recording.metadata().number("setup:temperature").value_or(laboratory_C);
+  return std::isfinite(stored) ? stored : laboratory_C;
+}
+
 }  // namespace
 
 std::string ExtractSettings::medium_text() const { return buffer ? std::string(name_of(buffer->medium())) : ""; }
@@ -121,6 +129,7 @@ ExtractSettings extract_settings(const ExtractOptions& options, const Recording&
   else
     settings.pixel_size_um =
         options.pixel_size_um.value_or(recording.metadata().number("imaging:pixel size").value_or(0));
+  conditions.correct_area = !options.no_area_correction;
   if (options.viscosity_mPas) {
     settings.viscosity_mPas = *options.viscosity_mPas;
     return settings;
@@ -128,6 +137,7 @@ ExtractSettings extract_settings(const ExtractOptions& options, const Recording&
   settings.buffer.emplace(chosen_medium(options, recording), chosen_model(options));
   choose_temperature(options, recording, settings);
   warn_about_temperature(settings);
+  settings.flow_exponent = settings.buffer->flow_exponent(usual_temperature_C(settings, recording));
   if (!settings.viscosity_varies())
     settings.viscosity_mPas =
         settings.buffer->viscosity({conditions.channel_width_um, conditions.flow_rate_ul_s}, settings.temperature_C);

@@ -22,6 +22,7 @@ struct ExtractSettings {
   double viscosity_mPas = 0;       ///< if it is the same for all events
   TemperatureSource temperature_from = TemperatureSource::none;
   double temperature_C = 0;           ///< if it is the same for all events
+  double flow_exponent = 1;           ///< n of the medium at the recording's temperature, 1: Newtonian or unknown
   std::vector<std::string> warnings;  ///< sentences without the file's name
 
   bool viscosity_varies() const { return temperature_from == TemperatureSource::feature; }

@@ -40,7 +40,7 @@ void append_cell(std::string& text, const std::string& content) {
   text += cell(content);
 }
 
-constexpr std::size_t cells_after_counts = 16;  // before the remarks
+constexpr std::size_t cells_after_counts = 18;  // before the remarks
 
 // Everything of one recording but its name.
 void append_numbers(std::string& text, const ExtractSummary& s) {
@@ -48,7 +48,8 @@ void append_numbers(std::string& text, const ExtractSummary& s) {
   for (const std::size_t count : s.counts) append_cell(text, std::to_string(count));
   const double share = static_cast<double>(s.valid()) / static_cast<double>(std::max<std::size_t>(s.events, 1));
   const auto& d = s.modulus_kPa;
-  for (const double value : {100 * share, d.median, d.first_quartile, d.third_quartile, d.mean, d.standard_deviation})
+  for (const double value : {100 * share, d.median, d.first_quartile, d.third_quartile, d.mean, d.standard_deviation,
+                             s.median_standard_error_kPa})
     append_cell(text, number_text(value));
   for (const auto& word : {s.table, s.medium, s.viscosity_model}) append_cell(text, word);
   append_cell(text, number_text(s.mean_viscosity_mPas));
@@ -56,6 +57,7 @@ void append_numbers(std::string& text, const ExtractSummary& s) {
   const auto& c = s.conditions;
   for (const double value : {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um})
     append_cell(text, number_text(value));
+  append_cell(text, s.corrected);
   append_cell(text, s.area_from);
   append_cell(text, s.deformation_from);
   std::string remarks;
@@ -76,16 +78,25 @@ Distribution distribution_of(std::span<double> values) {
           values.size() > 1 ? std::sqrt(squares / (count - 1)) : nan};
 }
 
+double median_of(std::span<float> values) {
+  if (values.empty()) return nan;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 std::string to_json(const ExtractSummary& s) {
   const auto& d = s.modulus_kPa;
   const auto& c = s.conditions;
-  return json{{"events", s.events},
-              {"counts", s.counts},
-              {"modulus", {d.median, d.first_quartile, d.third_quartile, d.mean, d.standard_deviation}},
-              {"viscosity", s.mean_viscosity_mPas},
-              {"texts", {s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from}},
-              {"conditions", {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um}},
-              {"warnings", s.warnings}}
+  return json{
+      {"events", s.events},
+      {"counts", s.counts},
+      {"modulus", {d.median, d.first_quartile, d.third_quartile, d.mean, d.standard_deviation}},
+      {"viscosity", s.mean_viscosity_mPas},
+      {"texts", {s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from, s.corrected}},
+      {"standard_error", s.median_standard_error_kPa},
+      {"conditions", {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um}},
+      {"warnings", s.warnings}}
       .dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
@@ -104,6 +115,8 @@ ExtractSummary summary_from_json(const std::string& text) {
   s.temperature = texts.at(3);
   s.area_from = texts.at(4);
   s.deformation_from = texts.at(5);
+  s.corrected = texts.at(6);
+  s.median_standard_error_kPa = number_of(all.at("standard_error"));
   const auto& c = all.at("conditions");
   s.conditions = {number_of(c.at(0)), number_of(c.at(1)), number_of(c.at(2))};
   s.warnings = all.at("warnings").get<std::vector<std::string>>();
@@ -119,8 +132,10 @@ std::string summary_table(std::span<const SummaryLine> lines) {
   }
   text +=
       "\tvalid_percent\tyoung_modulus_median_kPa\tyoung_modulus_first_quartile_kPa\tyoung_modulus_third_quartile_kPa"
-      "\tyoung_modulus_mean_kPa\tyoung_modulus_standard_deviation_kPa\ttable\tmedium\tviscosity_model"
-      "\tmean_viscosity_mPas\ttemperature\tchannel_width_um\tflow_rate_ul_s\tpixelation_pixel_size_um\tarea_from"
+      "\tyoung_modulus_mean_kPa\tyoung_modulus_standard_deviation_kPa\tyoung_modulus_standard_error_median_"
+      "kPa\ttable\tmedium\tviscosity_model"
+      "\tmean_viscosity_mPas\ttemperature\tchannel_width_um\tflow_rate_ul_s\tpixelation_pixel_size_um\tcorrected_for_"
+      "pixels\tarea_from"
       "\tdeformation_from\tremarks\n";
   for (const auto& line : lines) {
     text += cell(line.recording.string());
@@ -138,6 +153,8 @@ std::string in_one_line(const ExtractSummary& s) {
   if (s.valid() > 0)
     text += fmt::format(", E median {:.4g} kPa (quartiles {:.4g} to {:.4g})", s.modulus_kPa.median,
                         s.modulus_kPa.first_quartile, s.modulus_kPa.third_quartile);
+  if (std::isfinite(s.median_standard_error_kPa))
+    text += fmt::format(", standard error {:.2g} kPa", s.median_standard_error_kPa);
   std::string others;
   for (std::size_t k = 1; k < s.counts.size(); ++k)
     if (s.counts[k] > 0)

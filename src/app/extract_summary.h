@@ -19,16 +19,22 @@ struct Distribution {
 /// Sorts the values. Quartiles between two values are interpolated linearly.
 Distribution distribution_of(std::span<double> values);
 
+/// The middle of the values, which it changes the order of; NaN if there are none.
+double median_of(std::span<float> values);
+
 struct ExtractSummary {
   std::size_t events = 0;
   std::array<std::size_t, names_of_modulus_states.size()> counts{};  ///< by ModulusState
   Distribution modulus_kPa;
+  double median_standard_error_kPa = 0;  ///< of the events with a modulus; NaN if unknown
   double mean_viscosity_mPas = 0;
   std::string table, medium, viscosity_model, temperature, area_from, deformation_from;
+  std::string corrected;  ///< for the pixels: "area and deformation", "deformation", "nothing"
   MeasuringConditions conditions;
   std::vector<std::string> warnings;
 
-  std::size_t valid() const { return counts[0]; }
+  /// Events with a modulus, those of regularised states included.
+  std::size_t valid() const { return counts[0] + counts[static_cast<std::size_t>(ModulusState::regularised)]; }
 };
 
 /// Through the pipe from the process that read the recording.

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "app/shipped_tables.h"
 #include "case/nearest_name.h"
 #include "case/user_error.h"
 
@@ -82,7 +83,8 @@ std::map<std::string, fs::path> installed_tables() {
 fs::path find_table(const std::string& wanted) {
   std::error_code error;
   if (fs::exists(wanted, error)) return wanted;
-  const auto tables = installed_tables();
+  auto tables = shipped_tables();
+  tables.merge(installed_tables());
   if (const auto found = tables.find(wanted); found != tables.end()) return found->second;
   std::vector<std::string_view> names;
   std::string all;
@@ -95,10 +97,8 @@ fs::path find_table(const std::string& wanted) {
         "rheocyte: --table {}: there is no such file, and no installed dclab with tables was found; give the path of a "
         "table.",
         one_line(wanted, 200)));
-  throw UserError(
-      fmt::format("rheocyte: --table {}: there is neither such a file nor such a table of dclab{} (it has "
-                  "{}).",
-                  one_line(wanted, 200), did_you_mean(wanted, names), all));
+  throw UserError(fmt::format("rheocyte: --table {}: there is neither such a file nor such a table{} (there are {}).",
+                              one_line(wanted, 200), did_you_mean(wanted, names), all));
 }
 
 }  // namespace rheocyte

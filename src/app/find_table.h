@@ -5,8 +5,9 @@
 
 namespace rheocyte {
 
-/// A file of this name, or the table of this identifier in an installed dclab (its folder features/emodulus below the
-/// site-packages of a virtual environment, of the user or of the system). UserError naming those that were found.
+/// A file or folder of this name, the table of this identifier that comes with the program, or that of an installed
+/// dclab (its folder features/emodulus below the site-packages of a virtual environment, of the user or of the system).
+/// UserError naming those that were found.
 std::filesystem::path find_table(const std::string& wanted);
 
 }  // namespace rheocyte

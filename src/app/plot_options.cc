@@ -27,9 +27,15 @@ void check(const PlotOptions& options) {
   for (const auto& file : recordings)
     if (fs::is_directory(file, error))
       throw UserError(fmt::format("{}: is a folder; give recordings.", one_line(file.string(), 300)));
+  const bool has_table = !options.measuring.table.empty(), has_lines = !options.lines.empty();
+  if (options.no_lines && (has_table || has_lines || !options.levels_kPa.empty()))
+    throw UserError(
+        fmt::format("rheocyte: --no-lines and {} contradict each other; give one of them.", has_table   ? "--table"
+                                                                                            : has_lines ? "--lines"
+                                                                                                        : "--levels"));
   if (options.levels_kPa.empty()) return;
-  if (!options.lines.empty() || options.measuring.table.empty())
-    throw UserError("rheocyte: --levels needs the table from which the lines are made; give --table and no --lines.");
+  if (has_lines)
+    throw UserError("rheocyte: --levels and --lines contradict each other; levels are for the lines of a table.");
   if (options.levels_kPa.size() > greatest_number_of_levels)
     throw UserError(fmt::format("rheocyte: --levels: give at most {} moduli.", greatest_number_of_levels));
   for (const double level : options.levels_kPa)
@@ -48,11 +54,12 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
       ->type_name("NAME");
   command
       .add_option("--table", measuring.table,
-                  "look-up table for lines of equal modulus and the shaded region: a file in dclab's format, or the "
-                  "identifier of a table of an installed dclab")
+                  "look-up table for lines of equal modulus and the shaded region, as for extract; default: the "
+                  "program's own")
       ->type_name("TABLE");
   command.add_option("--lines", options.lines, "isoelasticity lines in dclab's format, in place of the table's own")
       ->type_name("FILE");
+  command.add_flag("--no-lines", options.no_lines, "draw no lines, not even those of the program's own table");
   command.add_option("--levels", options.levels_kPa, "moduli (kPa) of the table's lines, e.g. 0.5,1,2")->delimiter(',');
   declare_measuring_options(command, measuring);
   command.add_flag("--quiet", measuring.quiet, "print nothing but errors");

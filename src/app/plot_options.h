@@ -13,6 +13,7 @@ struct PlotOptions {
   ExtractOptions measuring;        ///< recordings, table, channel, flow, viscosity, temperature, pixels
   std::filesystem::path lines;     ///< a file of isoelasticity lines; empty: lines of the table
   std::vector<double> levels_kPa;  ///< of the lines, in the recording's channel; empty: spread over the picture
+  bool no_lines = false;           ///< not even those of the program's own table
   std::filesystem::path output;    ///< as given, with or without .png or .svg; empty: beside the first recording
 };
 

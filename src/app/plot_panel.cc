@@ -100,7 +100,7 @@ void take_conditions(const Recording& recording, const PlotOptions& options,
 
 }  // namespace
 
-PlotPanel plot_panel(const fs::path& file, const fs::path& events_file, const PlotOptions& options, bool wants_lines,
+PlotPanel plot_panel(const fs::path& file, const fs::path& events_file, const PlotOptions& options, LinesWanted lines,
                      const std::function<void(double)>& on_progress) {
   const Recording recording(file);
   PlotPanel panel;
@@ -110,10 +110,16 @@ PlotPanel plot_panel(const fs::path& file, const fs::path& events_file, const Pl
   panel.width_um = options.measuring.channel_width_um.value_or(metadata.number("setup:channel width").value_or(0));
   if (is_of_the_reservoir(recording)) {
     panel.measured = "reservoir";
-    if (wants_lines)
+    if (lines == LinesWanted::yes)
       panel.warnings.emplace_back("was recorded in the reservoir, where no lines of equal modulus exist.");
-  } else if (wants_lines) {
+  } else if (lines == LinesWanted::yes) {
     take_conditions(recording, options, on_progress, panel);
+  } else if (lines == LinesWanted::if_possible) {
+    try {
+      take_conditions(recording, options, on_progress, panel);
+    } catch (const UserError& missing) {
+      panel.warnings.push_back(fmt::format("drawn without lines of equal modulus. {}", missing.what()));
+    }
   }
   panel.warnings.insert(panel.warnings.begin(), recording.remarks().begin(), recording.remarks().end());
   const double pixel_size_um =

@@ -21,10 +21,13 @@ struct PlotPanel {
   std::vector<std::string> warnings;
 };
 
+/// Lines of equal modulus; if possible: with a warning where the recording does not say how it was measured.
+enum class LinesWanted { no, if_possible, yes };
+
 /// Reads a recording and writes area (um^2) and deformation of each drawable event as pairs of 32-bit numbers to
-/// `events_file`. With `wants_lines` the conditions of the measurement are found, too. UserError.
+/// `events_file`. The conditions of the measurement are found, too, where lines are wanted. UserError.
 PlotPanel plot_panel(const std::filesystem::path& recording, const std::filesystem::path& events_file,
-                     const PlotOptions& options, bool wants_lines, const std::function<void(double)>& on_progress);
+                     const PlotOptions& options, LinesWanted lines, const std::function<void(double)>& on_progress);
 
 /// Through the pipe from the process that read the recording.
 std::string to_json(const PlotPanel&);

@@ -91,7 +91,7 @@ bool TableFolder::has(int i, bool held) const {
   return fs::exists(record(i, held), error);
 }
 
-bool TableFolder::is_done(int i) const { return has(i, false) && (!wants_held(i) || has(i, true)); }
+bool TableFolder::is_done(int i) const { return has(i, false) && (!wants_held() || has(i, true)); }
 
 int TableFolder::done() const {
   int count = 0;
@@ -120,7 +120,7 @@ std::vector<SampledBranch> TableFolder::read_all() const {
   std::vector<SampledBranch> all;
   for (int i = 0; i < branches(); ++i) {
     all.push_back(read(i, false));
-    if (wants_held(i)) all.push_back(read(i, true));
+    if (wants_held()) all.push_back(read(i, true));
   }
   return all;
 }

@@ -62,9 +62,12 @@ LevelLines read_level_lines(const std::filesystem::path& file);
 /// at (width um, flow ul/s, viscosity mPa s) (eq:scaling).
 double modulus_factor(const LevelLines& made_at, const MeasuringConditions& conditions, double viscosity_mPas);
 
-/// The same points in a picture of a measurement: areas scaled to its channel, and the pixels' part added to the
-/// deformation, unless the pixel size is 0.
+/// By which law pixels are taken into account: that of the field's programs, which leaves areas alone, or our own.
+enum class PixelLaw { field, own };
+
+/// The same points in a picture of a measurement: areas scaled to its channel, and what the pixels do added, unless the
+/// pixel size is 0.
 std::vector<PlanePoint> as_measured(std::span<const PlanePoint> points, double made_in_width_um,
-                                    const MeasuringConditions& conditions);
+                                    const MeasuringConditions& conditions, PixelLaw law = PixelLaw::field);
 
 }  // namespace rheocyte

@@ -13,7 +13,8 @@ namespace rheocyte {
 struct MeasuringConditions {
   double channel_width_um = 0;
   double flow_rate_ul_s = 0;
-  double pixel_size_um = 0;  ///< 0: deformations are not corrected for pixels
+  double pixel_size_um = 0;  ///< 0: nothing is corrected for pixels
+  bool correct_area = true;  ///< for pixels, with tables of rheocyte; those of others are made for areas as measured
 };
 
 /// What was measured, one value per event; viscosities may be a single value for all.

@@ -24,6 +24,8 @@ using Target = Eigen::Map<Array>;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kelvin_at_0_celsius = 273.15;
 
+constexpr double exponent_per_kelvin = 0.00223;  // of methyl cellulose, by Buyukurganci
+
 constexpr std::array<std::pair<std::string_view, Medium>, 13> names_of_media{{
     {"0.49% mc-pbs", Medium::methyl_cellulose_049},
     {"0.5% mc-pbs", Medium::methyl_cellulose_049},
@@ -64,15 +66,17 @@ void buyukurganci_viscosity(Medium medium, const ChannelFlow& flow, const Source
   const double width_mm = 1e-3 * flow.channel_width_um;
   const double shear_scale = 8 * flow.flow_rate_ul_s / (width_mm * width_mm * width_mm);
   const Array kelvin = celsius + kelvin_at_0_celsius;
-  const Array n = 0.00223 * kelvin + offset;
+  const Array n = exponent_per_kelvin * kelvin + offset;
   // One exponential for the consistency and the power of the shear rate together.
   viscosity = 1000 * factor * (3379.7 / kelvin + (n - 1) * (std::log(shear_scale) + (0.6671 + 0.2121 / n).log())).exp();
 }
 
+double herold_exponent(Medium medium) { return medium == Medium::methyl_cellulose_049 ? 0.677 : 0.634; }
+
 void herold_viscosity(Medium medium, const ChannelFlow& flow, const Source& celsius, Target& viscosity) {
   const bool is_049 = medium == Medium::methyl_cellulose_049;
   const double consistency = is_049 ? 0.179 : 0.360;
-  const double n = is_049 ? 0.677 : 0.634;
+  const double n = herold_exponent(medium);
   const double reference = is_049 ? 23.2 : 23.6;
   const double width_m = 1e-6 * flow.channel_width_um;
   const double shear = 1.1856 * 6 * (1e-9 * flow.flow_rate_ul_s) / (width_m * width_m * width_m) * 2 / 3;
@@ -164,6 +168,12 @@ double Buffer::viscosity(const ChannelFlow& flow, double celsius) const {
   double value = nan;
   viscosity(flow, {&celsius, 1}, {&value, 1});
   return value;
+}
+
+double Buffer::flow_exponent(double celsius) const {
+  if (medium_ == Medium::water) return 1;
+  if (model_ == ViscosityModel::herold_2017) return herold_exponent(medium_);
+  return exponent_per_kelvin * (celsius + kelvin_at_0_celsius) + buyukurganci(medium_).offset;
 }
 
 }  // namespace rheocyte

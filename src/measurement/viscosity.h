@@ -56,6 +56,9 @@ class Buffer {
   /// The same at one temperature.
   double viscosity(const ChannelFlow& flow, double celsius) const;
 
+  /// n of eta ~ (shear rate)^(n - 1) at a temperature (degC); 1 for water.
+  double flow_exponent(double celsius) const;
+
  private:
   Medium medium_;
   ViscosityModel model_;

@@ -200,7 +200,7 @@ TEST_F(Extract, ContradictingAndWrongOptionsAreRefused) {
   expect_refusal({path("none.rtdc")}, "no such file");
   const auto no_table = test::run({{RHEOCYTE, "extract", file, "--table", path("none.txt")}});
   EXPECT_EQ(no_table.exit_code, 2);
-  EXPECT_NE(no_table.err.find("there is no such file"), std::string::npos) << no_table.err;
+  EXPECT_NE(no_table.err.find("there is neither such a file nor such a table"), std::string::npos) << no_table.err;
 }
 
 TEST_F(Extract, ATemperatureOutsideTheModelIsAWarning) {

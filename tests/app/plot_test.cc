@@ -81,6 +81,23 @@ TEST_F(Plot, NeedsNoTable) {
   EXPECT_TRUE(fs::exists(folder_ / "out.png"));
 }
 
+TEST_F(Plot, WithoutATableTheLinesAreThoseOfTheProgramsOwn) {
+  ASSERT_EQ(plot({path("a.rtdc"), "-o", path("own")}).exit_code, 0);
+  ASSERT_EQ(plot({path("a.rtdc"), "-o", path("named"), "--table", "LE-2D-26"}).exit_code, 0);
+  ASSERT_EQ(plot({path("a.rtdc"), "-o", path("none"), "--no-lines"}).exit_code, 0);
+  EXPECT_EQ(test::content_of(folder_ / "own.svg"), test::content_of(folder_ / "named.svg"));
+  EXPECT_NE(test::content_of(folder_ / "own.svg"), test::content_of(folder_ / "none.svg"));
+  {
+    RecordingWriter writer(folder_ / "bare.rtdc");
+    writer.scalar("area_um", {80, 90, 100});
+    writer.scalar("deform", {0.02, 0.03, 0.04});
+  }
+  const auto bare = plot({path("bare.rtdc")});
+  EXPECT_EQ(bare.exit_code, 0) << bare.err;
+  EXPECT_NE(bare.err.find("drawn without lines of equal modulus"), std::string::npos) << bare.err;
+  EXPECT_NE(bare.err.find("--channel-width"), std::string::npos) << bare.err;
+}
+
 TEST_F(Plot, SeveralRecordingsAndTheReservoirShareOnePicture) {
   write_recording("b.rtdc", "reservoir");
   const auto ended = plot({path("a.rtdc"), path("b.rtdc"), "--table", path("table.txt"), "-o", path("out")});
@@ -92,9 +109,10 @@ TEST_F(Plot, WhatCannotBeDrawnIsSaid) {
   const std::string a = path("a.rtdc"), table = path("table.txt");
   expect_refusal({path("none.rtdc")}, "no such file");
   expect_refusal({path(".")}, "is a folder; give recordings");
-  expect_refusal({a, "--table", path("none.txt")}, "there is no such file");
+  expect_refusal({a, "--table", path("none.txt")}, "there is neither such a file");
   expect_refusal({a, "--lines", table}, "need a text \"lut identifier\"");
-  expect_refusal({a, "--levels", "1,2"}, "--levels needs the table");
+  expect_refusal({a, "--levels", "1,2", "--lines", table}, "--levels and --lines contradict");
+  expect_refusal({a, "--no-lines", "--table", table}, "--no-lines and --table contradict");
   expect_refusal({a, "--table", table, "--levels", "1,-2"}, "positive moduli");
   expect_refusal({a, "--table", table, "--viscosity", "5", "--medium", "water"}, "contradict each other");
   expect_refusal({a, "-o", path(".")}, "is a folder; give a name");

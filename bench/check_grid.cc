@@ -1,0 +1,81 @@
+// How well the structured grid of a finished table repeats the interpolation between its branches: check_grid DIR
+//
+// At random areas and deformations, uniform in their logarithms, both answer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <random>
+#include <vector>
+
+#include "app/table_folder.h"
+#include "table/grid_from_branches.h"
+#include "table/table_interpolation.h"
+
+namespace {
+
+using namespace rheocyte;
+
+void print_differences(const char* what, std::vector<double>& all) {
+  if (all.empty()) return;
+  std::ranges::sort(all);
+  const auto at = [&](double share) {
+    return all[static_cast<std::size_t>(share * static_cast<double>(all.size() - 1))];
+  };
+  fmt::print("{}: {} points, median {:.1e}, 95 % {:.1e}, 99.9 % {:.1e}, greatest {:.1e}\n", what, all.size(), at(0.5),
+             at(0.95), at(0.999), at(1));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) return fmt::print("check_grid DIR\n"), 2;
+  const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
+  const auto branches = TableFolder(argv[1], spec).read_all();
+  const auto start = std::chrono::steady_clock::now();
+  const auto content = make_stiffness_grid(spec, branches, "check");
+  if (!content) return fmt::print("the table has too few states for a grid\n"), 1;
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  fmt::print("made in {:.2f} s, {} kB\n", seconds.count(), to_bytes(*content).size() / 1024);
+  for (const auto& patch : content->patches)
+    fmt::print("{} x {} nodes from column {}{}\n", patch.columns, patch.rows, patch.first_column,
+               patch.regularised ? ", regularised" : "");
+  const StiffnessGrid grid(*content);
+  const TableInterpolation table(spec, branches);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> area(std::log(spec.least_area_um2), std::log(spec.greatest_area_um2)),
+      deformation(std::log(spec.least_deformation), std::log(spec.greatest_deformation));
+  std::vector<double> bare, held, usual;
+  std::map<std::pair<std::string, std::string>, int> disagreements;
+  double worst = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const double a = std::exp(area(random)), d = std::exp(deformation(random));
+    const auto exact = table.by_area(a, d);
+    const auto ours = grid.answer(a, d);
+    const bool has = exact.reason == NoAnswer::none;
+    if (has && ours.reason == NoAnswer::none && exact.regularised == ours.regularised) {
+      const double difference = std::abs(std::exp(ours.log_stiffness) / exact.stiffness - 1);
+      (ours.regularised ? held : bare).push_back(difference);
+      if (!ours.regularised && d > 0.003 && d < 0.1) usual.push_back(difference);
+      if (!ours.regularised && difference > worst) {
+        worst = difference;
+        fmt::print("  {:.1e} at {:.4g} um2, deformation {:.4g}, errors stated {:.1e} and {:.1e}\n", worst, a, d,
+                   exact.error, ours.error);
+      }
+    } else {
+      const auto name = [](NoAnswer reason, bool regularised) {
+        return reason == NoAnswer::none ? std::string(regularised ? "regularised" : "bare")
+                                        : std::string(name_of(reason));
+      };
+      const std::pair key{name(exact.reason, exact.regularised), name(ours.reason, ours.regularised)};
+      if (key.first != key.second) ++disagreements[key];
+    }
+  }
+  print_differences("bare surface", bare);
+  print_differences("of these, deformations of 0.003 to 0.1", usual);
+  print_differences("regularised", held);
+  for (const auto& [names, count] : disagreements)
+    fmt::print("{:.3f} %: {} between the branches, {} in the grid\n", count / 2000.0, names.first, names.second);
+}

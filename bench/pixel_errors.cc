@@ -1,0 +1,201 @@
+// Fits the law of src/measurement/pixel_errors.cc: pixel_errors DIR [SHAPES [PLACES]]
+//
+// Cells of random radius and stiffness from the branches of the table in DIR are drawn into masks of pixels at random
+// places, in pixels of random size; area and deformation of the masks' contours are compared with those of the smooth
+// contour. Prints the coefficients as they stand in the source, and how well they describe the masks.
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+#include "app/table_folder.h"
+#include "measurement/contour_features.h"
+#include "measurement/contour_from_mask.h"
+#include "synth/branch_shapes.h"
+#include "synth/outline.h"
+#include "synth/pixel_picture.h"
+#include "table/table_metadata.h"
+
+namespace {
+
+using namespace rheocyte;
+
+constexpr int powers_of_deformation = 4, powers_of_size = 3, terms = powers_of_deformation * powers_of_size;
+constexpr double least_area_px = 50, greatest_area_px = 9000, least_deformation = 3e-4;
+
+/// A shape seen at many places. "Log ratio": ln(smooth area / measured area); excess: measured - smooth deformation.
+struct Seen {
+  double log_area_px = 0, deformation = 0;  ///< means, as measured
+  double log_ratio = 0, excess = 0;         ///< means
+  Eigen::MatrixX2d places;                  ///< the measured ln(area) and deformation at each place
+  double smooth_log_area = 0, smooth_deformation = 0;
+};
+
+class Camera {
+ public:
+  Seen look(const CellShape& shape, double area_px, int places) {
+    const double per_um = std::sqrt(area_px / shape.area_um2);
+    const Eigen::MatrixX2d outline = silhouette(shape.meridian) * per_um;
+    const Eigen::RowVector2d low = outline.colwise().minCoeff(), high = outline.colwise().maxCoeff();
+    const ImageSize size{static_cast<std::size_t>(high.x() - low.x()) + 4,
+                         static_cast<std::size_t>(high.y() - low.y()) + 4};
+    std::vector<std::uint8_t> mask(size.pixels());
+    Seen seen;
+    seen.places.resize(places, 2);
+    seen.smooth_log_area = std::log(area_px);
+    seen.smooth_deformation = shape.deformation;
+    for (int i = 0; i < places; ++i) {
+      const Eigen::RowVector2d shift(1 + unit_(random_), 1 + unit_(random_));
+      fill_mask((outline.rowwise() + (shift - low)).eval(), size, mask);
+      const auto features = measurer_.measure(finder_.contour_of({size, mask}), 1);
+      seen.places.row(i) << std::log(features.area_um2), features.deformation;
+    }
+    seen.log_area_px = seen.places.col(0).mean();
+    seen.deformation = seen.places.col(1).mean();
+    seen.log_ratio = seen.smooth_log_area - seen.log_area_px;
+    seen.excess = seen.deformation - seen.smooth_deformation;
+    return seen;
+  }
+
+ private:
+  std::mt19937_64 random_{7};
+  std::uniform_real_distribution<double> unit_{0, 1};
+  ContourFinder finder_;
+  ContourMeasurer measurer_;
+};
+
+double size_of(double log_area_px) { return std::exp(-log_area_px / 3); }
+
+Eigen::RowVectorXd basis(double log_area_px, double deformation) {
+  const double s = size_of(log_area_px);
+  Eigen::RowVectorXd row(terms);
+  for (int i = 0; i < powers_of_deformation; ++i)
+    for (int j = 0; j < powers_of_size; ++j) row(i * powers_of_size + j) = std::pow(deformation, i) * std::pow(s, j);
+  return row;
+}
+
+/// Least squares for value = s^2 times (or once) a polynomial.
+class Law {
+ public:
+  template <class Value>
+  Law(const std::vector<Seen>& all, bool by_square, const Value& value) : by_square_(by_square) {
+    Eigen::MatrixXd matrix(all.size(), terms);
+    Eigen::VectorXd wanted(all.size());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      const double s = size_of(all[k].log_area_px);
+      matrix.row(row) = basis(all[k].log_area_px, all[k].deformation);
+      wanted(row) = value(all[k]) / (by_square ? s * s : 1);
+    }
+    coefficients_ = matrix.colPivHouseholderQr().solve(wanted);
+  }
+
+  double at(double log_area_px, double deformation) const {
+    const double s = size_of(log_area_px);
+    return basis(log_area_px, deformation).dot(coefficients_) * (by_square_ ? s * s : 1);
+  }
+
+  void print(const char* name) const {
+    fmt::print("constexpr Law {}{{{{", name);
+    for (int i = 0; i < powers_of_deformation; ++i) {
+      fmt::print("{}{{", i ? ", " : "");
+      for (int j = 0; j < powers_of_size; ++j)
+        fmt::print("{}{:.6g}", j ? ", " : "", coefficients_(i * powers_of_size + j));
+      fmt::print("}}");
+    }
+    fmt::print("}}}};\n");
+  }
+
+ private:
+  bool by_square_;
+  Eigen::VectorXd coefficients_;
+};
+
+std::vector<Seen> look_at_shapes(const CellShapes& shapes, const TableSpec& spec, int count, int places) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto log_uniform = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
+  Camera camera;
+  std::vector<Seen> all;
+  while (static_cast<int>(all.size()) < count) {
+    const auto radii = sweep_radii_um(spec);
+    const double radius = radii.front() + unit(random) * (radii.back() - radii.front());
+    const auto shape = shapes.shape({radius, log_uniform(0.5, 100), effective_viscosity_mPas(spec.base)});
+    const auto* const found = std::get_if<CellShape>(&shape);
+    if (!found || found->deformation < least_deformation) continue;
+    all.push_back(camera.look(*found, log_uniform(least_area_px, greatest_area_px), places));
+  }
+  return all;
+}
+
+/// Differences from the smooth contour after the correction.
+Eigen::MatrixX2d residuals(const Seen& seen, const Law& log_ratio, const Law& excess) {
+  Eigen::MatrixX2d left(seen.places.rows(), 2);
+  for (Eigen::Index i = 0; i < left.rows(); ++i) {
+    const double a = seen.places(i, 0), d = seen.places(i, 1);
+    left.row(i) << a + std::log1p(log_ratio.at(a, d)) - seen.smooth_log_area,
+        d - excess.at(a, d) - seen.smooth_deformation;
+  }
+  return left;
+}
+
+// About zero: what the mean law misses of a single shape counts as scatter.
+Eigen::RowVector2d deviations(const Eigen::MatrixX2d& left) {
+  return (left.colwise().squaredNorm() / static_cast<double>(left.rows())).cwiseSqrt();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) return fmt::print("pixel_errors DIR [SHAPES [PLACES]]\n"), 2;
+  const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
+  const double width = channel_width_um(spec.base), rate = spec.base.flow.rate_ul_per_s,
+               viscosity = effective_viscosity_mPas(spec.base);
+  auto branches = TableFolder(argv[1], spec).read_all();
+  std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
+  const BranchShapes shapes(std::move(branches), {width, rate, viscosity, width, rate, false});
+  const int count = argc > 2 ? std::atoi(argv[2]) : 1500, places = argc > 3 ? std::atoi(argv[3]) : 300;
+  const auto all = look_at_shapes(shapes, spec, count, places);
+  const Law area(all, true, [](const Seen& s) { return std::expm1(s.log_ratio); });
+  const Law excess(all, true, [](const Seen& s) { return s.excess; });
+  std::vector<Eigen::MatrixX2d> left;
+  for (const auto& seen : all) left.push_back(residuals(seen, area, excess));
+  const auto of = [&](const Seen& seen) -> const Eigen::MatrixX2d& {
+    return left[static_cast<std::size_t>(&seen - all.data())];
+  };
+  const Law area_deviation(all, true, [&](const Seen& s) { return deviations(of(s))(0); });
+  const Law deformation_deviation(all, true, [&](const Seen& s) { return deviations(of(s))(1); });
+  const Law correlation(all, false, [&](const Seen& s) {
+    return of(s).col(0).dot(of(s).col(1)) / (of(s).col(0).norm() * of(s).col(1).norm());
+  });
+  area.print("area_law");
+  excess.print("deformation_law");
+  area_deviation.print("area_deviation_law");
+  deformation_deviation.print("deformation_deviation_law");
+  correlation.print("correlation_law");
+  for (const double low : {50., 200., 500., 1000., 3000.}) {
+    std::vector<double> area_left, excess_left, area_ratio, deformation_ratio;
+    for (const auto& seen : all) {
+      if (seen.log_area_px < std::log(low) || seen.log_area_px > std::log(low * 3)) continue;
+      area_left.push_back(std::abs(of(seen).col(0).mean()));
+      excess_left.push_back(std::abs(of(seen).col(1).mean()));
+      const auto d = deviations(of(seen));
+      area_ratio.push_back(area_deviation.at(seen.log_area_px, seen.deformation) / d(0));
+      deformation_ratio.push_back(deformation_deviation.at(seen.log_area_px, seen.deformation) / d(1));
+    }
+    if (area_left.empty()) continue;
+    const auto at = [](std::vector<double>& v, double share) {
+      std::ranges::sort(v);
+      return v[static_cast<std::size_t>(share * static_cast<double>(v.size() - 1))];
+    };
+    fmt::print(stderr,
+               "{:5.0f} px and more: left of ln(area) {:.1e} (95 % below {:.1e}), of the deformation {:.1e} ({:.1e}); "
+               "fitted / seen deviations {:.2f} to {:.2f} and {:.2f} to {:.2f} (5, 95 %)\n",
+               low, at(area_left, 0.5), at(area_left, 0.95), at(excess_left, 0.5), at(excess_left, 0.95),
+               at(area_ratio, 0.05), at(area_ratio, 0.95), at(deformation_ratio, 0.05), at(deformation_ratio, 0.95));
+  }
+}

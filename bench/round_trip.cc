@@ -1,0 +1,64 @@
+// How well moduli of virtual cells come back: round_trip COMPANION...
+//
+// COMPANION: what `rheocyte extract` wrote for a recording of `rheocyte synth`. The true moduli are in the recording
+// itself (userdef2), to which the companion leads.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "case/user_error.h"
+#include "measurement/recording.h"
+
+namespace {
+
+using namespace rheocyte;
+
+std::vector<double> column(const Recording& recording, const char* feature) {
+  std::vector<double> values(recording.events());
+  recording.read_scalar(feature, 0, values);
+  return values;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return NAN;
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+void report(const char* file) {
+  const Recording recording(file);
+  const auto modulus = column(recording, "emodulus"), error = column(recording, "userdef1"),
+             truth = column(recording, "userdef2"), deformation = column(recording, "userdef4");
+  std::vector<double> bias, share, depth;
+  int covered = 0, within = 0;
+  for (std::size_t i = 0; i < modulus.size(); ++i) {
+    if (!std::isfinite(modulus[i])) continue;
+    bias.push_back(100 * (modulus[i] / truth[i] - 1));
+    share.push_back(100 * error[i] / modulus[i]);
+    depth.push_back(deformation[i]);
+    covered += std::abs(modulus[i] - truth[i]) < 1.6449 * error[i];
+    within += std::abs(modulus[i] - truth[i]) < error[i];
+  }
+  const double n = static_cast<double>(bias.size());
+  fmt::print(
+      "{}: {} of {} cells, deformation {:.4f} ({:.4f} to {:.4f}), bias {:+.2f} % (5 to 95 %: {:+.1f} to {:+.1f}), "
+      "standard "
+      "error {:.1f} %, in the 90 % interval {:.1f} %, in the 68 % interval {:.1f} %\n",
+      file, bias.size(), modulus.size(), quantile(depth, 0.5), quantile(depth, 0.05), quantile(depth, 0.95),
+      quantile(bias, 0.5), quantile(bias, 0.05), quantile(bias, 0.95), quantile(share, 0.5), 100 * covered / n,
+      100 * within / n);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) return fmt::print("round_trip COMPANION...\n"), 2;
+  try {
+    for (int i = 1; i < argc; ++i) report(argv[i]);
+  } catch (const UserError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+}

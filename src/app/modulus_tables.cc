@@ -1,0 +1,112 @@
+#include "app/modulus_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "app/any_table.h"
+#include "app/find_table.h"
+#include "app/shipped_tables.h"
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::variant<ParityModulus, GridModulus> ready_table(const fs::path& path) {
+  AnyTable table = read_any_table(path);
+  if (auto* const grid = std::get_if<GridContent>(&table)) return GridModulus(std::move(*grid));
+  ParityModulus published(std::get<PublishedTable>(std::move(table)));
+  if (published.table().abscissa != PublishedTable::Abscissa::area)
+    throw UserError(fmt::format("rheocyte: --table {}: holds volumes; only tables of areas are used for recordings.",
+                                one_line(path.string(), 200)));
+  return published;
+}
+
+}  // namespace
+
+ModulusTable::ModulusTable(const fs::path& file) : table_(ready_table(file)) {}
+
+const std::string& ModulusTable::identifier() const {
+  if (const auto* const grid = std::get_if<GridModulus>(&table_)) return grid->origin().identifier;
+  return std::get<ParityModulus>(table_).table().identifier;
+}
+
+std::string ModulusTable::description() const {
+  if (const auto* const grid = std::get_if<GridModulus>(&table_)) {
+    const GridOrigin& o = grid->origin();
+    return fmt::format("{} ({}, {} um, {} ul/s, {:.6g} mPa s, by {})", o.identifier, o.model, o.channel_width_um,
+                       o.flow_rate_ul_s, o.viscosity_mPas, o.program);
+  }
+  const PublishedTable& t = std::get<ParityModulus>(table_).table();
+  return fmt::format("{} ({} um, {} ul/s, {} mPa s)", t.identifier, t.channel_width_um, t.flow_rate_ul_s,
+                     t.viscosity_mPas);
+}
+
+double ModulusTable::flow_exponent() const {
+  const auto* const grid = std::get_if<GridModulus>(&table_);
+  return grid ? grid->origin().flow_exponent : 1;
+}
+
+void ModulusTable::estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
+                            const EstimatedModuli& estimates) const {
+  if (const auto* const grid = std::get_if<GridModulus>(&table_)) return grid->estimate(conditions, events, estimates);
+  const auto& parity = std::get<ParityModulus>(table_);
+  parity.moduli(conditions, events, estimates.modulus_kPa);
+  std::ranges::fill(estimates.standard_error_kPa, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < estimates.state.size(); ++i)
+    estimates.state[i] = parity.state(conditions, events.size[i], events.deformation[i], estimates.modulus_kPa[i]);
+}
+
+ModulusTables::ModulusTables(const ExtractOptions& options) : given_(!options.table.empty()) {
+  if (given_) tables_.push_back(std::make_unique<ModulusTable>(find_table(options.table)));
+  if (!given_ || own())
+    for (const auto& [identifier, file] : shipped_tables())
+      if (!given_ || identifier != tables_.front()->identifier())
+        tables_.push_back(std::make_unique<ModulusTable>(file));
+  if (tables_.empty())
+    throw UserError(
+        "rheocyte: the tables that come with the program are missing; give one with --table, or name their folder in "
+        "RHEOCYTE_TABLES.");
+  if (options.no_area_correction && !own())
+    throw UserError(fmt::format(
+        "rheocyte: --no-area-correction and --table {} contradict each other; published tables are used with areas as "
+        "measured always.",
+        one_line(options.table, 200)));
+}
+
+const ModulusTable* ModulusTables::newtonian() const {
+  const ModulusTable* found = nullptr;
+  for (const auto& table : tables_)
+    if (table->flow_exponent() == 1 && (!found || table->identifier() == standard_table)) found = table.get();
+  return found;
+}
+
+const ModulusTable* ModulusTables::matching(double flow_exponent) const {
+  const ModulusTable* best = nullptr;
+  const auto distance = [&](const ModulusTable& table) { return std::abs(table.flow_exponent() - flow_exponent); };
+  for (const auto& table : tables_)
+    if (table->flow_exponent() != 1 && distance(*table) <= flow_exponent_tolerance &&
+        (!best || distance(*table) < distance(*best)))
+      best = table.get();
+  return best;
+}
+
+ModulusTables::Choice ModulusTables::choose(const ExtractSettings& settings) const {
+  const ModulusTable* const first = tables_.front().get();
+  if (!own()) return {first};
+  const ModulusTable* const thick = newtonian();
+  const ModulusTable* const thinning = settings.flow_exponent < 1 ? matching(settings.flow_exponent) : nullptr;
+  const ModulusTable* const used = given_ ? first : thinning ? thinning : thick ? thick : first;
+  const ModulusTable* const other = used->flow_exponent() == 1   ? thinning
+                                    : settings.flow_exponent < 1 ? thick
+                                                                 : nullptr;
+  return {used, other == used ? nullptr : other};
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,13 @@
+// The tables that come with the program.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace rheocyte {
+
+/// Files grid_<identifier>.cbor by identifier, in share/rheocyte/tables beside an installed program or in the folder
+/// data of the sources; RHEOCYTE_TABLES in the environment names another folder.
+std::map<std::string, std::filesystem::path> shipped_tables();
+
+}  // namespace rheocyte

@@ -1,0 +1,116 @@
+#include "infer/grid_modulus.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "case/user_error.h"
+#include "measurement/pixel_errors.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr std::size_t block_size = 512;  // columns of a block stay in the fastest memory
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using Column = Eigen::Array<double, block_size, 1>;
+
+ModulusState state_of(const GridAnswer& answer) {
+  switch (answer.reason) {
+    case NoAnswer::none: return answer.regularised ? ModulusState::regularised : ModulusState::valid;
+    case NoAnswer::invalid: return ModulusState::no_data;
+    case NoAnswer::too_small: return ModulusState::too_small;
+    case NoAnswer::too_large: return ModulusState::too_large;
+    case NoAnswer::too_stiff: return ModulusState::too_stiff;
+    case NoAnswer::too_soft: return ModulusState::too_soft;
+    case NoAnswer::unstable: return ModulusState::unstable;
+    case NoAnswer::unresolved: return ModulusState::unresolved;
+  }
+  return ModulusState::no_data;
+}
+
+// Variance of ln(modulus) by scattering area and deformation (eq:standard-error).
+double variance_by_pixels(const GridAnswer& answer, const PixelErrors& pixels, double deformation) {
+  const double by_area = answer.by_log_area * pixels.area_deviation;
+  const double by_deformation = answer.by_log_deformation * pixels.deformation_deviation / deformation;
+  return by_area * by_area + by_deformation * by_deformation + 2 * pixels.correlation * by_area * by_deformation;
+}
+
+}  // namespace
+
+/// Some events, at most block_size.
+struct GridModulus::Block {
+  std::span<const double> area, deformation, viscosity;
+};
+
+GridModulus::GridModulus(GridContent grid) : grid_(std::move(grid)) {
+  if (origin().is_shell)
+    throw UserError(fmt::format("The table {} holds moduli of a cortex (mN/m); Young's moduli need a table of solids.",
+                                origin().identifier));
+}
+
+void GridModulus::estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
+                           const EstimatedModuli& estimates) const {
+  const std::size_t all = estimates.modulus_kPa.size();
+  assert(events.size.size() == all && events.deformation.size() == all && events.viscosity_mPas.size() == all);
+  assert(estimates.standard_error_kPa.size() == all && estimates.state.size() == all);
+  for (std::size_t first = 0; first < all; first += block_size) {
+    const std::size_t count = std::min(block_size, all - first);
+    estimate_block(conditions,
+                   {events.size.subspan(first, count), events.deformation.subspan(first, count),
+                    events.viscosity_mPas.subspan(first, count)},
+                   {estimates.modulus_kPa.subspan(first, count), estimates.standard_error_kPa.subspan(first, count),
+                    estimates.state.subspan(first, count)});
+  }
+}
+
+void GridModulus::estimate_block(const MeasuringConditions& conditions, const Block& block,
+                                 const EstimatedModuli& estimates) const {
+  const std::size_t count = block.area.size();
+  const auto rows = static_cast<Eigen::Index>(count);
+  Column log_area, deformation, log_deformation, modulus;
+  std::array<PixelErrors, block_size> pixels;
+  std::array<GridAnswer, block_size> answers;
+  const double width_ratio = origin().channel_width_um / conditions.channel_width_um;
+  log_area.head(rows) = Eigen::Map<const Eigen::ArrayXd>(block.area.data(), rows).log();
+  std::ranges::copy(block.deformation, deformation.data());
+  if (conditions.pixel_size_um > 0) {
+    const double log_pixel_area = 2 * std::log(conditions.pixel_size_um);
+    Column factor = Column::Ones();
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      pixels[i] = errors_in_pixels(log_area[k] - log_pixel_area, deformation[k]);
+      deformation[k] -= pixels[i].deformation_excess;
+      factor[k] = pixels[i].area_factor;
+    }
+    if (conditions.correct_area) log_area.head(rows) += factor.head(rows).log();
+  }
+  log_area.head(rows) += 2 * std::log(width_ratio);
+  // A deformation below zero is one that is too small, not one that is missing.
+  for (Eigen::Index k = 0; k < rows; ++k) log_deformation[k] = deformation[k] < 0 ? 0 : deformation[k];
+  log_deformation.head(rows) = log_deformation.head(rows).log();
+  grid_.answer({log_area.data(), count}, {log_deformation.data(), count}, {answers.data(), count});
+  const double factor = conditions.flow_rate_ul_s / origin().flow_rate_ul_s / origin().viscosity_mPas * width_ratio *
+                        width_ratio * width_ratio;
+  for (std::size_t i = 0; i < count; ++i) modulus[static_cast<Eigen::Index>(i)] = answers[i].log_stiffness;
+  modulus.head(rows) = modulus.head(rows).exp();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const bool has = answers[i].reason == NoAnswer::none && std::isfinite(block.viscosity[i]);
+    const double value = has ? modulus[k] * factor * block.viscosity[i] : nan;
+    const double variance =
+        answers[i].error * answers[i].error + variance_by_pixels(answers[i], pixels[i], deformation[k]);
+    estimates.modulus_kPa[i] = value;
+    estimates.standard_error_kPa[i] = value * std::sqrt(variance);
+    estimates.state[i] = answers[i].reason == NoAnswer::none && !has ? ModulusState::no_data : state_of(answers[i]);
+  }
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,30 @@
+// What pixels do to area and deformation of a cell's contour, on average and at random (docs/theory-extract.md,
+// eq:pixel-errors).
+#pragma once
+
+namespace rheocyte {
+
+/// For a contour through the centres of the outermost pixels.
+struct PixelErrors {
+  double area_factor = 1;            ///< area of the smooth contour's hull / measured area
+  double deformation_excess = 0;     ///< measured deformation - that of the smooth contour
+  double area_deviation = 0;         ///< standard deviation of ln(area) from cell to cell
+  double deformation_deviation = 0;  ///< of the deformation
+  double correlation = 0;            ///< of both
+};
+
+/// Areas (pixels) for which the law was fitted; outside, the nearest one counts.
+inline constexpr double least_fitted_area_px = 50, greatest_fitted_area_px = 9000;
+/// Deformations go up to this; greater ones count as this.
+inline constexpr double greatest_fitted_deformation = 0.2;
+
+/// By the natural logarithm of the measured area in pixels and the measured deformation.
+PixelErrors pixel_errors(double log_area_px, double deformation);
+
+/// The inverse: the mean measured area in pixels and deformation of a smooth contour.
+struct PixelShape {
+  double area_px = 0, deformation = 0;
+};
+PixelShape seen_through_pixels(const PixelShape& smooth);
+
+}  // namespace rheocyte

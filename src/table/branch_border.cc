@@ -1,0 +1,135 @@
+#include "table/branch_border.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int reach = 2;  // columns over which the border is evened
+constexpr int points_per_column = 8;
+
+/// Where a branch ends.
+struct End {
+  LogBranch::Point point;
+  NoAnswer beyond;
+};
+
+End end_of(const LogBranch& branch, double greatest) {
+  const double s = branch.crossing([&](const LogBranch::Point& p) { return p.log_deformation - greatest; });
+  if (std::isfinite(s)) return {{branch.at(s).log_area, greatest}, NoAnswer::too_soft};
+  const auto& status = branch.branch().end.status;
+  const bool physical = status == "surface-unstable" || status == "branch-ended";
+  return {branch.last(), physical ? NoAnswer::unstable : NoAnswer::unresolved};
+}
+
+// Without those that were not followed to their end: one to three of them between two that were.
+std::vector<End> ends_of(std::span<const LogBranch> branches, double greatest) {
+  constexpr std::size_t greatest_gap = 3;
+  std::vector<End> kept, gap;
+  for (const auto& branch : branches) {
+    const End end = end_of(branch, greatest);
+    if (end.beyond == NoAnswer::unresolved) {
+      gap.push_back(end);
+      continue;
+    }
+    if (kept.empty() || gap.size() > greatest_gap) kept.insert(kept.end(), gap.begin(), gap.end());
+    gap.clear();
+    kept.push_back(end);
+  }
+  kept.insert(kept.end(), gap.begin(), gap.end());
+  std::ranges::stable_sort(kept, {}, [](const End& end) { return end.point.log_area; });
+  return kept;
+}
+
+/// The polygon through the ends. Left of the first one the smallest cells, right of the last one the largest ones bound
+/// the states.
+class EndPolygon {
+ public:
+  EndPolygon(std::span<const LogBranch> branches, double greatest)
+      : ends_(ends_of(branches, greatest)), smallest_(branches.front()), largest_(branches.back()) {}
+
+  double at(double log_area) const {
+    if (ends_.empty() || log_area > ends_.back().point.log_area) return beyond_the_last(log_area);
+    if (log_area < ends_.front().point.log_area) return on_the_smallest(log_area);
+    const auto above = std::ranges::upper_bound(ends_, log_area, {}, [](const End& e) { return e.point.log_area; });
+    if (above == ends_.end()) return ends_.back().point.log_deformation;
+    const auto &a = (above - 1)->point, &b = above->point;
+    const double share = (log_area - a.log_area) / (b.log_area - a.log_area);
+    return a.log_deformation + share * (b.log_deformation - a.log_deformation);
+  }
+
+  NoAnswer beyond(double log_area) const {
+    const End* nearest = &ends_.front();
+    for (const End& end : ends_)
+      if (std::abs(end.point.log_area - log_area) < std::abs(nearest->point.log_area - log_area)) nearest = &end;
+    return nearest->beyond;
+  }
+
+ private:
+  double on_the_smallest(double log_area) const {
+    const double s = smallest_.crossing([&](const LogBranch::Point& p) { return p.log_area - log_area; });
+    return std::isfinite(s) ? smallest_.at(s).log_deformation : -infinity;
+  }
+  // The largest cells have all states up to their end, as long as their stiffest one is larger still.
+  double beyond_the_last(double log_area) const {
+    return log_area <= largest_.first().log_area ? largest_.last().log_deformation : -infinity;
+  }
+
+  std::vector<End> ends_;
+  LogBranch smallest_, largest_;
+};
+
+}  // namespace
+
+LogBranch::Point LogBranch::at(double log_stiffness) const {
+  const double stiffness = std::clamp(std::exp(log_stiffness), branch_->stiffness.back(), branch_->stiffness.front());
+  return {std::log(interpolate(*branch_, Measure::area_um2, stiffness)),
+          std::log(interpolate(*branch_, Measure::deformation, stiffness))};
+}
+
+double LogBranch::stiffest() const { return std::log(branch_->stiffness.front()); }
+double LogBranch::softest() const { return std::log(branch_->stiffness.back()); }
+
+Border upper_border(std::span<const LogBranch> branches, const TableSpec& spec, const Columns& columns) {
+  const double greatest = std::log(spec.greatest_deformation);
+  const EndPolygon polygon(branches, greatest);
+  // The least height within the reach, then the mean of these within the reach: never above the polygon, and smooth.
+  const int margin = 2 * reach * points_per_column, count = (columns.count - 1) * points_per_column + 1 + 2 * margin;
+  std::vector<double> line(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double column = std::clamp(static_cast<double>(i - margin) / points_per_column, 0.0, columns.count - 1.0);
+    line[static_cast<std::size_t>(i)] = std::min(polygon.at(columns.at(column)), greatest);
+  }
+  const auto window = [&](const std::vector<double>& values, int middle) {
+    return std::span(values).subspan(static_cast<std::size_t>(middle - reach * points_per_column),
+                                     2 * reach * points_per_column + 1);
+  };
+  std::vector<double> least(line.size(), -infinity);
+  for (int i = margin / 2; i < count - margin / 2; ++i)
+    least[static_cast<std::size_t>(i)] = std::ranges::min(window(line, i));
+  Border border;
+  for (int c = 0; c < columns.count; ++c) {
+    double sum = 0, weights = 0;
+    const auto near = window(least, margin + c * points_per_column);
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const double distance = 2.0 * static_cast<double>(k) / static_cast<double>(near.size() - 1) - 1;
+      const double weight = 1 + std::cos(std::numbers::pi * distance);
+      sum += weight * near[k];
+      weights += weight;
+    }
+    border.height.push_back(sum / weights);
+    // Where the border is evened below the table's greatest deformation, the next states are not in the grid.
+    const bool is_highest = border.height.back() > greatest - 1e-9;
+    const NoAnswer beyond = polygon.beyond(columns.at(c));
+    border.beyond.push_back(is_highest                     ? NoAnswer::too_soft
+                            : beyond == NoAnswer::too_soft ? NoAnswer::unstable
+                                                           : beyond);
+  }
+  return border;
+}
+
+}  // namespace rheocyte

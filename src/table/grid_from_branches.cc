@@ -1,0 +1,219 @@
+#include "table/grid_from_branches.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "table/branch_border.h"
+#include "table/table_metadata.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr int greatest_stencil = 6;
+constexpr double least_height = 0.02;  // of a column, in ln(deformation)
+
+/// One crossing of a line of equal height with a branch.
+struct Crossing {
+  double log_area, log_deformation, log_stiffness, error;
+};
+
+/// What the polynomials through the crossings of one line are at a column.
+struct NodeValue {
+  double log_deformation, log_stiffness, error;
+};
+
+// Lagrange's polynomial through some members y(x) of a range.
+template <class Range, class Member>
+double polynomial(const Range& nodes, double at, Member x, Member y) {
+  double sum = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    double weight = 1;
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (k != i) weight *= (at - nodes[k].*x) / (nodes[i].*x - nodes[k].*x);
+    sum += weight * nodes[i].*y;
+  }
+  return sum;
+}
+
+// Between the crossings, or at most half their distance beyond them.
+std::optional<NodeValue> value_at(std::span<const Crossing> line, double log_area) {
+  const auto size = static_cast<std::ptrdiff_t>(line.size());
+  if (size < 2) return {};
+  const auto behind = std::ranges::upper_bound(line, log_area, {}, &Crossing::log_area) - line.begin();
+  const auto below = std::clamp<std::ptrdiff_t>(behind - 1, 0, size - 2);
+  const auto &a = line[static_cast<std::size_t>(below)], &b = line[static_cast<std::size_t>(below) + 1];
+  const double slack = 0.5 * (b.log_area - a.log_area);
+  if (log_area < a.log_area - slack || log_area > b.log_area + slack) return {};
+  const auto count = std::min<std::ptrdiff_t>(greatest_stencil, size);
+  const auto first = std::clamp<std::ptrdiff_t>(below - count / 2 + 1, 0, size - count);
+  const auto nodes = line.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
+  const auto at_column = [&](std::span<const Crossing> some, double Crossing::*member) {
+    return polynomial(some, log_area, &Crossing::log_area, member);
+  };
+  const double value = at_column(nodes, &Crossing::log_stiffness),
+               height = at_column(nodes, &Crossing::log_deformation);
+  // As in the interpolation between the branches: the polynomial of two degrees less tells the error. A deformation
+  // that is off counts half, because d ~ E^-2.
+  const auto inner = count > 3 ? nodes.subspan(1, nodes.size() - 2) : nodes.first(2);
+  const double value_change = value - at_column(inner, &Crossing::log_stiffness);
+  const double height_change = height - at_column(inner, &Crossing::log_deformation);
+  return NodeValue{height, value, std::max(a.error, b.error) + std::abs(value_change + 0.5 * height_change)};
+}
+
+// The value of a column at a height. A line of equal height bends with the border, more than the branches resolve; its
+// polynomials miss its height by as much as its value, so that value and height together are right.
+NodeValue resampled(std::span<const NodeValue> column, std::size_t row, double log_deformation) {
+  constexpr std::size_t points = 4;
+  const std::size_t count = std::min(points, column.size());
+  const std::size_t first = std::min(row > 1 ? row - 1 : 0, column.size() - count);
+  const auto nodes = column.subspan(first, count);
+  return {log_deformation, polynomial(nodes, log_deformation, &NodeValue::log_deformation, &NodeValue::log_stiffness),
+          column[row].error};
+}
+
+/// One family of branches on its way to a patch.
+class PatchMaker {
+ public:
+  PatchMaker(std::vector<LogBranch> branches, const Columns& columns)
+      : branches_(std::move(branches)), columns_(columns) {}
+
+  std::optional<GridPatch> patch(const std::vector<double>& lower, const Border& upper, int rows) const {
+    const auto count = static_cast<std::size_t>(columns_.count);
+    std::vector<std::vector<NodeValue>> values(count);  // by column
+    for (int row = 0; row < rows; ++row) {
+      const auto line = crossings(lower, upper.height, static_cast<double>(row) / (rows - 1));
+      for (std::size_t c = 0; c < count; ++c)
+        if (const auto value = value_at(line, columns_.at(static_cast<double>(c)))) values[c].push_back(*value);
+    }
+    const auto is_whole = [&](std::size_t c) {
+      return values[c].size() == static_cast<std::size_t>(rows) && upper.height[c] - lower[c] >= least_height;
+    };
+    const auto [first, end] = longest_run(count, is_whole);
+    if (end - first < 2) return {};
+    GridPatch patch;
+    patch.first_column = static_cast<int>(first);
+    patch.columns = static_cast<int>(end - first);
+    patch.rows = rows;
+    for (std::size_t c = first; c < end; ++c) {
+      patch.lower.push_back(lower[c]);
+      patch.upper.push_back(upper.height[c]);
+      patch.beyond.push_back(static_cast<double>(upper.beyond[c]));
+      for (std::size_t row = 0; row < values[c].size(); ++row) {
+        const double share = static_cast<double>(row) / (rows - 1);
+        const auto node = resampled(values[c], row, (1 - share) * lower[c] + share * upper.height[c]);
+        patch.log_stiffness.push_back(node.log_stiffness);
+        patch.error.push_back(node.error);
+      }
+    }
+    return patch;
+  }
+
+ private:
+  // Heights between and, in straight lines, beyond the columns.
+  double height(const std::vector<double>& border, double log_area) const {
+    const double place = (log_area - columns_.first) / columns_.step;
+    const int column = std::clamp(static_cast<int>(std::floor(place)), 0, columns_.count - 2);
+    const double a = border[static_cast<std::size_t>(column)], b = border[static_cast<std::size_t>(column) + 1];
+    return a + (place - column) * (b - a);
+  }
+
+  std::vector<Crossing> crossings(const std::vector<double>& lower, const std::vector<double>& upper,
+                                  double share) const {
+    std::vector<Crossing> line;
+    for (const auto& branch : branches_) {
+      const double log_stiffness = branch.crossing([&](const LogBranch::Point& p) {
+        return p.log_deformation - (1 - share) * height(lower, p.log_area) - share * height(upper, p.log_area);
+      });
+      if (!std::isfinite(log_stiffness)) continue;
+      const auto& own = branch.branch();
+      const double stiffness = std::clamp(std::exp(log_stiffness), own.stiffness.back(), own.stiffness.front());
+      const auto point = branch.at(log_stiffness);
+      line.push_back({point.log_area, point.log_deformation, log_stiffness, stiffness_error(point_at(own, stiffness))});
+    }
+    std::ranges::sort(line, {}, &Crossing::log_area);
+    return line;
+  }
+
+  template <class Condition>
+  static std::pair<std::size_t, std::size_t> longest_run(std::size_t count, const Condition& holds) {
+    std::size_t first = 0, end = 0;
+    for (std::size_t start = 0; start < count;) {
+      std::size_t stop = start;
+      while (stop < count && holds(stop)) ++stop;
+      if (stop - start > end - first) first = start, end = stop;
+      start = stop + 1;
+    }
+    return {first, end};
+  }
+
+  std::vector<LogBranch> branches_;
+  Columns columns_;
+};
+
+GridOrigin origin_of(const TableSpec& spec, std::string_view version) {
+  const Case& c = spec.base;
+  return {spec.identifier,
+          model_text(c),
+          fmt::format("rheocyte {}", version),
+          to_toml(spec),
+          channel_width_um(c),
+          c.flow.rate_ul_per_s,
+          effective_viscosity_mPas(c),
+          c.flow.law == LiquidLaw::power_law ? c.flow.exponent.value() : 1,
+          stiffness_unit(spec) != "kPa"};
+}
+
+// Bending makes cells stiffer: moduli drop by some percent where it takes over, and nobody knows the bending of a cell.
+void add_step_to_error(const GridPatch& bare, GridPatch& held) {
+  for (int c = 0; c < held.columns; ++c) {
+    const int under = held.first_column + c - bare.first_column;
+    if (under < 0 || under >= bare.columns) continue;
+    const double below = bare.log_stiffness[static_cast<std::size_t>((under + 1) * bare.rows - 1)];
+    const auto column = static_cast<std::size_t>(c * held.rows);
+    const double step = std::abs(held.log_stiffness[column] - below);
+    for (std::size_t row = 0; row < static_cast<std::size_t>(held.rows); ++row) held.error[column + row] += step;
+  }
+}
+
+// To the columns that the bare branches cover.
+void trim_to(GridContent& grid, const GridPatch& bare) {
+  grid.least_log_area += bare.first_column * grid.column_step;
+  grid.columns = bare.columns;
+}
+
+}  // namespace
+
+std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<const SampledBranch> branches,
+                                               std::string_view version, const GridResolution& resolution) {
+  std::vector<LogBranch> own, held;
+  for (const auto& radius : by_radius(branches)) {
+    if (radius.own() && radius.own()->samples() > 1) own.emplace_back(*radius.own());
+    if (radius.beyond() && radius.beyond()->samples() > 1) held.emplace_back(*radius.beyond());
+  }
+  if (own.size() < 2) return {};
+  const double first = std::log(spec.least_area_um2), last = std::log(spec.greatest_area_um2);
+  const Columns columns{first, (last - first) / (resolution.columns - 1), resolution.columns};
+  const Border border = upper_border(own, spec, columns);
+  const std::vector<double> least(static_cast<std::size_t>(columns.count), std::log(spec.least_deformation));
+  const auto bare = PatchMaker(own, columns).patch(least, border, resolution.rows);
+  if (!bare) return {};
+  GridContent grid{origin_of(spec, version), columns.first, columns.step, columns.count, {*bare}};
+  if (spec.bending_beyond_kBT > 0 && held.size() > 1) {
+    auto above =
+        PatchMaker(held, columns).patch(border.height, upper_border(held, spec, columns), resolution.held_rows);
+    if (above) {
+      above->regularised = true;
+      add_step_to_error(*bare, *above);
+      grid.patches.push_back(std::move(*above));
+    }
+  }
+  const int shift = bare->first_column;
+  trim_to(grid, *bare);
+  for (auto& patch : grid.patches) patch.first_column -= shift;
+  return grid;
+}
+
+}  // namespace rheocyte

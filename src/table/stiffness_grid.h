@@ -1,0 +1,106 @@
+// The stiffness of a cell from its area and deformation, millions of times a second: a table as a structured grid.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "table/table_interpolation.h"
+
+namespace rheocyte {
+
+/// For what a grid was computed.
+struct GridOrigin {
+  std::string identifier;  ///< of the table
+  std::string model;       ///< e.g. "linear solid / newtonian fluid"
+  std::string program;     ///< name and version
+  std::string spec;        ///< the complete spec of the table
+  double channel_width_um = 0, flow_rate_ul_s = 0;
+  double viscosity_mPas = 0;  ///< of a shear-thinning liquid the effective one at the wall of the square channel
+  double flow_exponent = 1;   ///< n of the liquid, 1: Newtonian
+  bool is_shell = false;      ///< the stiffness is the modulus of a cortex (mN/m), not Young's modulus (kPa)
+};
+
+/// Between two curves in the plane of ln(area) and ln(deformation), rows at equal distances in each column. Vectors
+/// with one value per column, or columns x rows with the rows of a column behind each other.
+struct GridPatch {
+  bool regularised = false;  ///< of the branches that a bending stiffness holds smooth
+  int first_column = 0, columns = 0, rows = 0;
+  std::vector<double> lower, upper;   ///< ln(deformation) of the first and the last row
+  std::vector<double> log_stiffness;  ///< at the nodes
+  std::vector<double> error;          ///< relative, of the stiffness, at the nodes
+  std::vector<double> beyond;         ///< why there is nothing above the last row: a NoAnswer as a number
+};
+
+/// All that a file of a grid holds.
+struct GridContent {
+  GridOrigin origin;
+  double least_log_area = 0, column_step = 0;  ///< ln(um^2)
+  int columns = 0;
+  std::vector<GridPatch> patches;  ///< the bare surface's first; each lies on top of the one before
+};
+
+struct GridAnswer {
+  double log_stiffness = 0;                        ///< ln(kPa) or ln(mN/m)
+  double by_log_area = 0, by_log_deformation = 0;  ///< its derivatives
+  double error = 0;                                ///< estimated, relative, as in StiffnessAnswer
+  NoAnswer reason = NoAnswer::none;                ///< if there is one, the numbers mean nothing
+  bool regularised = false;
+};
+
+/// Bicubic (Hermite) in the logarithms, with slopes from five nodes. The curved end of the smooth branches is a line of
+/// the grid (docs/tables.md, sec. "grid").
+class StiffnessGrid {
+ public:
+  explicit StiffnessGrid(GridContent content);
+
+  const GridContent& content() const { return content_; }
+  const GridOrigin& origin() const { return content_.origin; }
+
+  /// Logarithms of area (um^2) and deformation; -infinity is a deformation of zero, NaN no number. Equally long
+  /// (asserted).
+  void answer(std::span<const double> log_area, std::span<const double> log_deformation,
+              std::span<GridAnswer> answers) const;
+  GridAnswer answer(double area_um2, double deformation) const;
+
+  /// ln(deformation) of the first and the last smooth state of a bare surface at an area; nothing outside the areas.
+  struct Range {
+    double lower, upper;
+  };
+  std::optional<Range> smooth_range(double area_um2) const;
+
+ private:
+  struct alignas(32) Node {
+    double value, by_column, by_row, by_both;
+  };
+  struct Edge {
+    double value, by_column;
+  };
+  struct Patch {
+    bool regularised;
+    int first_column, columns, rows;
+    std::vector<Node> nodes;
+    std::vector<Edge> lower, upper;
+    std::vector<double> cell_error;
+    std::vector<NoAnswer> beyond;
+  };
+  struct Hermite;
+  struct Place;
+  static Patch ready(const GridPatch& patch);
+  GridAnswer between(const Patch& patch, const Place& place, double log_deformation) const;
+  GridAnswer answer_at(double log_area, double log_deformation) const;
+
+  GridContent content_;
+  std::vector<Patch> patches_;
+};
+
+/// The file of a grid: CBOR with a checksum.
+std::string to_bytes(const GridContent&);
+/// UserError naming `name` if the bytes are damaged or no grid.
+GridContent grid_from_bytes(std::string_view bytes, const std::string& name);
+
+/// Name of the file beside the other files of a table: grid_<identifier>.cbor.
+std::string grid_file_name(const std::string& identifier);
+
+}  // namespace rheocyte

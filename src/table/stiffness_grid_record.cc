@@ -1,0 +1,128 @@
+// The file of a grid.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "case/user_error.h"
+#include "case/write_case.h"
+#include "table/checked_record.h"
+#include "table/stiffness_grid.h"
+
+namespace rheocyte {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr RecordKind kind{"rheocyte grid", "1"};
+constexpr int greatest_side = 10000;
+
+json record_of(const GridPatch& patch) {
+  return {{"regularised", patch.regularised},
+          {"first_column", patch.first_column},
+          {"columns", patch.columns},
+          {"rows", patch.rows},
+          {"lower", blob_of(patch.lower)},
+          {"upper", blob_of(patch.upper)},
+          {"log_stiffness", blob_of(patch.log_stiffness)},
+          {"error", blob_of(patch.error)},
+          {"beyond", blob_of(patch.beyond)}};
+}
+
+json record_of(const GridContent& grid) {
+  const GridOrigin& o = grid.origin;
+  json patches = json::array();
+  for (const auto& patch : grid.patches) patches.push_back(record_of(patch));
+  return {{"identifier", o.identifier},
+          {"model", o.model},
+          {"program", o.program},
+          {"spec", o.spec},
+          {"channel_width_um", o.channel_width_um},
+          {"flow_rate_ul_per_s", o.flow_rate_ul_s},
+          {"viscosity_mPas", o.viscosity_mPas},
+          {"flow_exponent", o.flow_exponent},
+          {"is_shell", o.is_shell},
+          {"least_log_area", grid.least_log_area},
+          {"column_step", grid.column_step},
+          {"columns", grid.columns},
+          {"patches", std::move(patches)}};
+}
+
+void check(bool good, const char* what) {
+  if (!good) throw DamagedRecord{what};
+}
+
+int side(const json& record, const char* key, int least, int greatest) {
+  const int value = record.at(key);
+  check(value >= least && value <= greatest, "a size is out of range");
+  return value;
+}
+
+double positive(const json& record, const char* key) {
+  const double value = record.at(key);
+  check(value > 0 && std::isfinite(value), "a number is out of range");
+  return value;
+}
+
+GridPatch patch_of(const json& record, int columns) {
+  GridPatch patch;
+  patch.regularised = record.at("regularised");
+  patch.columns = side(record, "columns", 2, columns);
+  patch.first_column = side(record, "first_column", 0, columns - patch.columns);
+  patch.rows = side(record, "rows", 2, greatest_side);
+  const auto wide = static_cast<std::size_t>(patch.columns), all = wide * static_cast<std::size_t>(patch.rows);
+  patch.lower = numbers_of(record, "lower", wide);
+  patch.upper = numbers_of(record, "upper", wide);
+  patch.log_stiffness = numbers_of(record, "log_stiffness", all);
+  patch.error = numbers_of(record, "error", all);
+  patch.beyond = numbers_of(record, "beyond", wide);
+  for (std::size_t c = 0; c < wide; ++c) {
+    check(patch.upper[c] > patch.lower[c], "a column has no height");
+    check(patch.beyond[c] >= 0 && patch.beyond[c] <= static_cast<double>(NoAnswer::unresolved), "a reason is unknown");
+  }
+  return patch;
+}
+
+GridContent content_of(const json& record) {
+  GridContent grid;
+  GridOrigin& o = grid.origin;
+  o.identifier = record.at("identifier");
+  o.model = record.at("model");
+  o.program = record.at("program");
+  o.spec = record.at("spec");
+  o.channel_width_um = positive(record, "channel_width_um");
+  o.flow_rate_ul_s = positive(record, "flow_rate_ul_per_s");
+  o.viscosity_mPas = positive(record, "viscosity_mPas");
+  o.flow_exponent = positive(record, "flow_exponent");
+  o.is_shell = record.at("is_shell");
+  grid.least_log_area = record.at("least_log_area");
+  grid.column_step = positive(record, "column_step");
+  grid.columns = side(record, "columns", 2, greatest_side);
+  for (const auto& patch : record.at("patches")) grid.patches.push_back(patch_of(patch, grid.columns));
+  check(!grid.patches.empty(), "it has no states");
+  return grid;
+}
+
+}  // namespace
+
+std::string to_bytes(const GridContent& grid) {
+  return sealed_record(kind, fingerprint(grid.origin.spec), record_of(grid));
+}
+
+GridContent grid_from_bytes(std::string_view bytes, const std::string& name) {
+  std::string what = "it is cut or damaged";
+  try {
+    return content_of(opened_record(kind, bytes).record);
+  } catch (const DamagedRecord& damage) {
+    what = damage.what;
+  } catch (const json::exception&) {
+  } catch (const std::length_error&) {
+  } catch (const std::bad_alloc&) {
+  }
+  throw UserError(
+      fmt::format("{}: this grid of a table cannot be used: {}; `rheocyte table` with the table's spec writes it anew.",
+                  name, what));
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,202 @@
+// `rheocyte extract` with tables of rheocyte: without any argument, with errors that hold, and with named refusals.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "app/table_folder.h"
+#include "lookup_table_file.h"
+#include "measurement/recording.h"
+#include "measurement/recording_writer.h"
+#include "robustness/run_program.h"
+#include "synth/analytic_branches.h"
+#include "table/grid_from_branches.h"
+
+namespace rheocyte {
+namespace {
+
+namespace fs = std::filesystem;
+using test::RecordingWriter;
+
+std::vector<double> column(const fs::path& file, const std::string& feature) {
+  const Recording recording(file);
+  std::vector<double> values(recording.events());
+  recording.read_scalar(feature, 0, values);
+  return values;
+}
+
+class OwnTable : public testing::Test {
+ protected:
+  test::Ended run(std::vector<std::string> arguments,
+                  const std::map<std::string, std::string>& environment = {}) const {
+    arguments.insert(arguments.begin(), RHEOCYTE);
+    return test::run({arguments, environment});
+  }
+  void expect_refusal(const std::vector<std::string>& arguments, const std::string& words) const {
+    const auto ended = run(arguments);
+    EXPECT_EQ(ended.exit_code, 2) << words;
+    EXPECT_TRUE(test::is_one_line(ended.err)) << ended.err;
+    EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
+  }
+  void write_recording(const std::string& name) const {
+    RecordingWriter writer(folder_ / name);
+    test::write_usual_metadata(writer);
+    writer.scalar("area_um", {120, 10, 400, 80, 250, 80, 80});
+    writer.scalar("deform", {0.016, 0.03, 0.03, -0.01, 0.3, NAN, 0.15});
+  }
+  /// The folder of a table with branches of the closed model: 4 to 20 kPa at 20 um, 0.04 ul/s, 15 mPa s.
+  TableSpec write_closed_table(const std::string& name) const {
+    const auto spec = parse_table_spec(
+        "channel.width_um = 20\nflow.rate_ul_per_s = 0.04\nflow.viscosity_mPas = 15\n[table]\nidentifier = \"CLOSED\"\n"
+        "stiffness = \"cell.bulk.young_modulus_kPa\"\nleast_area_um2 = 70\ngreatest_area_um2 = 210\nradii = 24\n"
+        "least_deformation = 5e-4\ngreatest_deformation = 0.08\n",
+        "table");
+    const TableFolder folder(folder_ / name, spec);
+    for (int i = 0; i < folder.branches(); ++i) folder.keep(i, test::analytic_branch(folder.place(i).radius_um), false);
+    folder.publish("grid_CLOSED.cbor", to_bytes(make_stiffness_grid(spec, folder.read_all(), "test").value()));
+    return spec;
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  test::ScratchFolder folder_;
+};
+
+TEST_F(OwnTable, NothingButTheRecordingIsNeeded) {
+  write_recording("a.rtdc");
+  const auto ended = run({"extract", path("a.rtdc")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(column(folder_ / "a_rheocyte.rtdc", "userdef0"), (std::vector<double>{0, 2, 3, 4, 5, 1, 8}))
+      << "valid, too small, too large, too stiff, too soft, no data, regularised";
+  const auto modulus = column(folder_ / "a_rheocyte.rtdc", "emodulus"),
+             error = column(folder_ / "a_rheocyte.rtdc", "userdef1");
+  EXPECT_GT(error[0] / modulus[0], 0.02) << "2 to 5 % by the place between the pixels";
+  EXPECT_LT(error[0] / modulus[0], 0.06);
+  EXPECT_GT(error[6], 0);
+  for (int i = 1; i < 6; ++i) EXPECT_TRUE(std::isnan(modulus[i]) && std::isnan(error[i])) << i;
+  const auto events = test::content_of(folder_ / "a_rheocyte.tsv");
+  EXPECT_NE(events.find("young_modulus_kPa\tstandard_error_kPa\tstate"), std::string::npos);
+  EXPECT_NE(events.find("corrected for pixels: area and deformation"), std::string::npos);
+  const auto summary = test::content_of(folder_ / "rheocyte_summary.tsv");
+  EXPECT_NE(summary.find("\tLE-2D-26\t"), std::string::npos) << summary;
+  EXPECT_NE(ended.out.find("standard error"), std::string::npos) << ended.out;
+  const Recording companion(folder_ / "a_rheocyte.rtdc");
+  EXPECT_NE(companion.metadata().text("user:rheocyte userdef1").value_or("").find("standard error"), std::string::npos);
+}
+
+TEST_F(OwnTable, AgreesWithThePublishedTableOfTheSameModel) {
+  {
+    RecordingWriter writer(folder_ / "a.rtdc");
+    test::write_usual_metadata(writer);
+    writer.scalar("area_um", {80});
+    writer.scalar("deform", {0.03});
+  }
+  ASSERT_EQ(
+      run({"extract", path("a.rtdc"), "--no-pixelation", "--viscosity", "5.3563", "--flow-rate", "0.06"}).exit_code, 0);
+  // By LE-2D-FEM-19, whose moduli ours meet to 0.4 %.
+  EXPECT_NEAR(column(folder_ / "a_rheocyte.rtdc", "emodulus")[0], 1.0486, 0.004 * 1.0486);
+}
+
+TEST_F(OwnTable, IsFoundByIdentifierFileAndFolder) {
+  write_recording("a.rtdc");
+  write_closed_table("table");
+  const auto modulus = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"extract", path("a.rtdc")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto ended = run(arguments);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    return column(folder_ / "a_rheocyte.rtdc", "emodulus")[0];
+  };
+  EXPECT_EQ(modulus({}), modulus({"--table", "LE-2D-26"}));
+  const double by_folder = modulus({"--table", path("table")});
+  EXPECT_EQ(by_folder, modulus({"--table", path("table/grid_CLOSED.cbor")}));
+  EXPECT_NEAR(by_folder / modulus({}), 1, 0.05) << "the closed model against simulations at a deformation of 0.01";
+  EXPECT_LT(modulus({"--no-area-correction"}), 0.99 * modulus({}));
+  fs::remove(folder_ / "table/grid_CLOSED.cbor");
+  expect_refusal({"extract", path("a.rtdc"), "--table", path("table")}, "holds no grid_*.cbor");
+}
+
+TEST_F(OwnTable, ContradictingOptionsAndMissingTablesAreRefused) {
+  write_recording("a.rtdc");
+  test::write_lookup_table(folder_ / "table.txt");
+  expect_refusal({"extract", path("a.rtdc"), "--table", path("table.txt"), "--no-area-correction"},
+                 "--no-area-correction and --table");
+  expect_refusal({"extract", path("a.rtdc"), "--table", "LE-2D-27"}, "did you mean LE-2D-26");
+  std::ofstream(folder_ / "grid_broken.cbor") << "no grid";
+  expect_refusal({"extract", path("a.rtdc"), "--table", path("grid_broken.cbor")}, "cannot be used");
+  fs::create_directories(folder_ / "empty");
+  const auto ended = run({"extract", path("a.rtdc")}, {{"RHEOCYTE_TABLES", path("empty")}});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("give one with --table"), std::string::npos) << ended.err;
+}
+
+TEST_F(OwnTable, AShearThinningMediumGetsTheTableOfItsLiquid) {
+  write_recording("a.rtdc");  // in CellCarrier at 23 degC: exponent 0.655
+  const auto spec = write_closed_table("table");
+  auto grid = grid_from_bytes(test::content_of(folder_ / "table/grid_CLOSED.cbor"), "grid");
+  fs::create_directories(folder_ / "shipped");
+  const auto ship = [&](const std::string& identifier, double exponent, double factor) {
+    auto other = grid;
+    other.origin.identifier = identifier;
+    other.origin.flow_exponent = exponent;
+    for (double& value : other.patches[0].log_stiffness) value += std::log(factor);
+    test::write_file(folder_ / ("shipped/" + grid_file_name(identifier)), to_bytes(other));
+  };
+  ship("NEWTON", 1, 1);
+  ship("FAR", 0.5, 3);
+  const auto extract = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"extract", path("a.rtdc")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments, {{"RHEOCYTE_TABLES", path("shipped")}});
+  };
+  EXPECT_EQ(extract().err.find("thins in shear"), std::string::npos) << "no table has such a liquid";
+  const double newtonian = column(folder_ / "a_rheocyte.rtdc", "emodulus")[0];
+  ship("THINNING", 0.66, 1.1);
+  const auto ended = extract();
+  EXPECT_NEAR(column(folder_ / "a_rheocyte.rtdc", "emodulus")[0], 1.1 * newtonian, 1e-9);
+  EXPECT_NE(ended.err.find("moduli are from THINNING (its liquid has the exponent 0.66); those from NEWTON with the "
+                           "effective viscosity are 9.1 % smaller (geometric mean of 1 events)."),
+            std::string::npos)
+      << ended.err;
+  EXPECT_NE(test::content_of(folder_ / "rheocyte_summary.tsv").find("9.1 % smaller"), std::string::npos);
+  EXPECT_NE(extract({"--table", "NEWTON"}).err.find("those from THINNING"), std::string::npos) << "as the user wants";
+  EXPECT_EQ(extract({"--viscosity", "5"}).err, "") << "of a viscosity alone nothing is known";
+}
+
+TEST_F(OwnTable, ModuliComeBackAndIntervalsHoldWhatTheyPromise) {
+  write_closed_table("table");
+  struct Population {
+    double modulus, deviation, radius;
+  };
+  for (const auto& [modulus, deviation, radius] : {Population{5, 0.3, 6.2}, {6, 0.4, 7}, {9, 0.6, 7.2}}) {
+    test::write_file(
+        folder_ / "spec.toml",
+        "[recording]\ncells = 500\npictures = \"none\"\n[channel]\nwidth_um = 20\n[flow]\n"
+        "rate_ul_per_s = 0.04\nviscosity_mPas = 15\n[shapes]\ntable = \"table\"\n[cell]\nradius_um = {mean = " +
+            std::to_string(radius) + ", sd = 0.3}\nyoung_modulus_kPa = {mean = " + std::to_string(modulus) +
+            ", sd = " + std::to_string(deviation) + "}\n");
+    fs::remove(folder_ / "v.rtdc");
+    ASSERT_EQ(run({"synth", path("spec.toml"), "-o", path("v.rtdc")}).exit_code, 0);
+    const auto ended = run({"extract", path("v.rtdc"), "--table", path("table"), "--viscosity", "15"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const auto found = column(folder_ / "v_rheocyte.rtdc", "emodulus"),
+               error = column(folder_ / "v_rheocyte.rtdc", "userdef1"), truth = column(folder_ / "v.rtdc", "userdef2");
+    std::vector<double> bias;
+    int covered = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (std::isnan(found[i])) continue;
+      bias.push_back(found[i] / truth[i] - 1);
+      covered += std::abs(found[i] - truth[i]) < 1.645 * error[i];
+    }
+    ASSERT_GT(bias.size(), 440U) << ended.out;
+    std::ranges::nth_element(bias, bias.begin() + static_cast<std::ptrdiff_t>(bias.size() / 2));
+    EXPECT_NEAR(bias[bias.size() / 2], 0, 0.01) << modulus;
+    const double share = covered / static_cast<double>(bias.size());
+    EXPECT_GT(share, 0.85) << modulus;
+    EXPECT_LT(share, 0.95) << modulus;
+    RecordProperty("bias and share at " + std::to_string(modulus),
+                   std::to_string(bias[bias.size() / 2]) + " " + std::to_string(share));
+  }
+}
+
+}  // namespace
+}  // namespace rheocyte
