@@ -86,7 +86,7 @@ void GridModulus::estimate_block(const MeasuringConditions& conditions, const Bl
     Column factor = Column::Ones();
     for (std::size_t i = 0; i < count; ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      pixels[i] = errors_in_pixels(log_area[k] - log_pixel_area, deformation[k]);
+      pixels[i] = pixel_errors(log_area[k] - log_pixel_area, deformation[k]);
       deformation[k] -= pixels[i].deformation_excess;
       factor[k] = pixels[i].area_factor;
     }

@@ -80,7 +80,6 @@ class BranchSampler {
     result_.radius_um = place.radius_um;
     result_.cortex_share = place.cortex_share;
     result_.tension_ratio = place.tension_ratio;
-    result_.bending_kBT = 0;
   }
 
   /// From the nearly undeformed sphere.

@@ -60,7 +60,7 @@ TEST_F(GridModulusTest, ManyEventsAreEachLikeOne) {
 
 TEST_F(GridModulusTest, TakesAwayWhatPixelsDo) {
   const double pixel = 0.34, area = 100, deformation = 0.03;
-  const auto pixels = errors_in_pixels(std::log(area / (pixel * pixel)), deformation);
+  const auto pixels = pixel_errors(std::log(area / (pixel * pixel)), deformation);
   const double smooth = deformation - pixels.deformation_excess;
   const double both = test::invented_modulus(area * pixels.area_factor, smooth),
                one = test::invented_modulus(area, smooth);
@@ -71,7 +71,7 @@ TEST_F(GridModulusTest, TakesAwayWhatPixelsDo) {
 
 TEST_F(GridModulusTest, ErrorsFollowFromScatterAndTable) {
   const double pixel = 0.34, area = 100, deformation = 0.02;
-  const auto pixels = errors_in_pixels(std::log(area / (pixel * pixel)), deformation);
+  const auto pixels = pixel_errors(std::log(area / (pixel * pixel)), deformation);
   const auto here = at({20, 0.04, pixel}, area, deformation);
   const double smooth_area = area * pixels.area_factor, smooth = deformation - pixels.deformation_excess, step = 1e-4;
   const auto log_modulus = [](double a, double d) { return std::log(test::invented_modulus(a, d)); };
