@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "infer/pixel_law.h"
-#include "synth/pixel_errors.h"
+#include "synth/shape_in_pixels.h"
 
 namespace {
 
@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
     exact_contour.take(by_contour.fit({shape, fine}, conditions), cell);
     for (int k = 0; k < positions; ++k) {
       const double x = random.uniform() - 0.5, y = random.uniform() - 0.5;
-      const auto seen = pixel_features(cell.outline, pixel_um, {x, y});
+      const auto seen = features_in_pixels(cell.outline, pixel_um, {x, y});
       pixel_figure.take(fit_pixels(by_figure, law, seen, conditions), cell);
       pixel_contour.take(fit_pixels(by_contour, law, seen, conditions), cell);
     }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "synth/pixel_errors.h"
+#include "synth/shape_in_pixels.h"
 
 namespace rheocyte {
 
@@ -37,7 +37,7 @@ PixelLaw::PixelLaw(const CombinedInterpolation& table, double pixel_size_um, int
         const auto state = table.at(cell);
         CellRandom random(1, number++, Purpose::picture);
         const auto outline = outline_of_modes(modes_of(state), std::exp(state.value(log_area_row)), outline_points);
-        errors_.push_back(pixel_errors(outline, pixel_size_um, draws, random));
+        errors_.push_back(errors_in_pixels(outline, pixel_size_um, draws, random));
       }
 }
 

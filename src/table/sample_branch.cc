@@ -27,8 +27,8 @@ constexpr double tolerance = 1e-10;
 constexpr double first_displacement = 0.006;
 /// Steps of the samples in ln stiffness.
 constexpr double first_step = 0.25, first_held_step = 0.08, greatest_step = 0.9, least_step = 2e-3;
-/// A state that is not accurate ends the branch if it is as near as this.
-constexpr double shortest_retry = 0.04;
+/// So many states in a row may fail to be accurate before a branch is given up; each is nearer than the one before.
+constexpr int greatest_unsampled = 4;
 /// Of the step that the last interval would have allowed: towards its end a branch needs ever smaller ones.
 constexpr double growth = 0.6;
 /// A branch that is steeper than this (-d ln d / d ln E) nears a fold: finer meshes would not go farther.
@@ -80,7 +80,6 @@ class BranchSampler {
     result_.radius_um = place.radius_um;
     result_.cortex_share = place.cortex_share;
     result_.tension_ratio = place.tension_ratio;
-    result_.bending_kBT = 0;
   }
 
   /// From the nearly undeformed sphere.
@@ -162,6 +161,7 @@ class BranchSampler {
     nodes_.push_back(last_);
     std::optional<Node> last;  // the farthest state, once a step has failed
     Status failure = Status::not_started;
+    int unsampled = 0;  // states in a row that were not accurate
     for (double h = result_.bending_kBT > 0 ? first_held_step : first_step; h > least_step / 2;) {
       const Node& before = nodes_.back();
       Node next;
@@ -172,11 +172,12 @@ class BranchSampler {
         if (status == Status::stopped) return end(status);
         const bool moved = next.u > before.u + least_step / 4;
         if (moved && !sample(next)) {
-          if (next.u - before.u < shortest_retry) return end(Status::accuracy_not_reached);
-          h = (next.u - before.u) / 2;  // a nearer state may still be accurate
-          last.reset();
+          // One state may fail where its neighbours do not.
+          if (++unsampled > greatest_unsampled) return end(Status::accuracy_not_reached);
+          h = 0.6 * (next.u - before.u);
           continue;
         }
+        unsampled = 0;
         if (!moved) next = before;
         if (status != Status::converged) last = next, failure = status;
       }

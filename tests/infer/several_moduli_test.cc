@@ -7,7 +7,7 @@
 
 #include "../table/invented_combined.h"
 #include "infer/pixel_law.h"
-#include "synth/pixel_errors.h"
+#include "synth/shape_in_pixels.h"
 
 namespace rheocyte {
 namespace {
@@ -114,7 +114,7 @@ TEST_F(SeveralModuliOf, FromPixelsTheTruthLiesInNineOfTenIntervals) {
   for (int trial = 0; trial < cells; ++trial) {
     const Cell cell = random_cell(0.15);
     const auto features =
-        pixel_features(invented_outline(cell.place, cell.stiffness), pixel_um, {place(engine_), place(engine_)});
+        features_in_pixels(invented_outline(cell.place, cell.stiffness), pixel_um, {place(engine_), place(engine_)});
     const auto found = fit_pixels(all, law, features, simulated_);
     young += std::abs(found.value(Modulus::young) - cell.young()) < 1.645 * found.error(Modulus::young);
     cortex += std::abs(found.value(Modulus::cortex) - cell.cortex()) < 1.645 * found.error(Modulus::cortex);

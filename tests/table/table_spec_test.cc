@@ -145,7 +145,7 @@ TEST(TableSpec, EveryReadySpecIsAGoodOne) {
     EXPECT_EQ(to_toml(parse_table_spec(to_toml(spec), "again")), to_toml(spec)) << entry.path();
     ++specs;
   }
-  EXPECT_EQ(specs, 6);
+  EXPECT_EQ(specs, 7);
 }
 
 }  // namespace

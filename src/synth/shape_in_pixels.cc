@@ -1,4 +1,4 @@
-#include "synth/pixel_errors.h"
+#include "synth/shape_in_pixels.h"
 
 #include <cassert>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace rheocyte {
 
-ShapeVector pixel_features(const Eigen::MatrixX2d& outline_um, double pixel_size_um,
-                           const Eigen::RowVector2d& place_px) {
+ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um,
+                               const Eigen::RowVector2d& place_px) {
   const Eigen::RowVector2d low = outline_um.colwise().minCoeff(), high = outline_um.colwise().maxCoeff();
   const Eigen::RowVector2d extent = (high - low) / pixel_size_um;
   constexpr double margin = 3;
@@ -34,13 +34,13 @@ ShapeVector pixel_features(const Eigen::MatrixX2d& outline_um, double pixel_size
   return shape_vector(outline_shape(polygon));
 }
 
-ShapeErrors pixel_errors(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random) {
+ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random) {
   assert(draws > 1);
   const ShapeVector truth = shape_vector(outline_shape(outline_um));
   ShapeErrors errors;
   for (int draw = 0; draw < draws; ++draw) {
     const double x = random.uniform() - 0.5, y = random.uniform() - 0.5;
-    const ShapeVector error = pixel_features(outline_um, pixel_size_um, {x, y}) - truth;
+    const ShapeVector error = features_in_pixels(outline_um, pixel_size_um, {x, y}) - truth;
     errors.bias += error / draws;
     errors.covariance += error * error.transpose() / (draws - 1);
   }
