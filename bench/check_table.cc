@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
         std::exp(random(std::log(2 * spec.least_deformation), std::log(spec.greatest_deformation)));
     const double stiffness = guess_stiffness(branches, radius, deformation);
     if (stiffness == 0) continue;
-    const Case cell = case_at(spec, radius, stiffness);
+    const Case cell = case_at(spec, {radius}, stiffness);
     Problem problem = problem_of(cell);
     problem.accuracy = 1e-5;
     const StationaryState state = solve_stationary(problem);

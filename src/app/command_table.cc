@@ -15,6 +15,7 @@
 #include "app/table_folder.h"
 #include "app/table_processes.h"
 #include "case/user_error.h"
+#include "table/combined_table.h"
 #include "table/grid_from_branches.h"
 #include "table/lookup_table.h"
 #include "table/simulations_file.h"
@@ -31,8 +32,15 @@ struct TableOptions {
   bool quiet = false, no_picture = false;
 };
 
+void write_combined(const TableFolder& folder, const std::vector<SampledBranch>& branches) {
+  folder.publish(combined_table_name(folder.spec()), combined_table_csv(make_combined_table(folder.spec(), branches)));
+  folder.publish("end-of-branch.csv", combined_ends_csv(branches));
+  folder.tidy();
+}
+
 void write_files(const TableFolder& folder, const TableOptions& options) {
   const auto branches = folder.read_all();
+  if (folder.spec().is_combined()) return write_combined(folder, branches);
   const LookupTable table = make_lookup_table(folder.spec(), branches, version);
   for (const auto& [name, content] : table_files(table, options.levels)) folder.publish(name, content);
   folder.publish(fmt::format("simulations_{}.h5", folder.spec().identifier), simulations_file(table));
@@ -65,8 +73,8 @@ std::string summary(const TableFolder& folder) {
       "{} states on {} branches, {} solves, {:.0f} s of one processor ({:.0f} % factorisation)\n"
       "{} branches end at the instability of the surface, {} short of the range for other reasons (end-of-branch.csv); "
       "{} states refused\n",
-      samples, folder.radii(), solves, seconds, 100 * factorisation / std::max(seconds, 1e-9), unstable, short_of_range,
-      refused);
+      samples, folder.branches(), solves, seconds, 100 * factorisation / std::max(seconds, 1e-9), unstable,
+      short_of_range, refused);
 }
 
 int make_table(const TableOptions& options) {
@@ -76,8 +84,8 @@ int make_table(const TableOptions& options) {
   const int jobs = options.jobs > 0 ? options.jobs : rank.count > 1 ? 1 : available_processors();
   const ProcessesEnd end = run_workers(options.folder, jobs, options.quiet || rank.number > 0);
   if (end.signal) {
-    tell(fmt::format("rheocyte: stopped after {} of {} radii; the same command goes on from here.", folder.done(),
-                     folder.radii()));
+    tell(fmt::format("rheocyte: stopped after {} of {} branches; the same command goes on from here.", folder.done(),
+                     folder.branches()));
     return exit_signal + end.signal;
   }
   if (!end.complete) return end.worker_code;

@@ -7,6 +7,7 @@
 #include "app/command_figure.h"
 #include "app/command_help.h"
 #include "app/command_line.h"
+#include "app/command_moduli.h"
 #include "app/command_picture.h"
 #include "app/command_plot.h"
 #include "app/command_scale.h"
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
   rheocyte::add_picture_command(app, exit_code);
   rheocyte::add_analytic_command(app);
   rheocyte::add_extract_command(app, exit_code);
+  rheocyte::add_moduli_command(app, exit_code);
   rheocyte::add_plot_command(app, exit_code);
   rheocyte::add_scale_command(app);
   rheocyte::add_synth_command(app, exit_code);

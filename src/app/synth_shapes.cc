@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 // Those that are there: a table that is still being computed serves, too.
 std::vector<SampledBranch> finished_branches(const TableFolder& folder) {
   std::vector<SampledBranch> branches;
-  for (int i = 0; i < folder.radii(); ++i)
+  for (int i = 0; i < folder.branches(); ++i)
     for (const bool held : {false, true})
       if (folder.has(i, held)) branches.push_back(folder.read(i, held));
   std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
@@ -37,6 +37,8 @@ std::unique_ptr<CellShapes> shapes_of_table(const SynthSpec& spec) {
     refuse(spec,
            "there is no table of `rheocyte table` (no spec.toml in this folder); shapes.table names such a folder.");
   const TableFolder folder(spec.table, read_table_spec(spec.table / "spec.toml"));
+  if (folder.spec().is_combined())
+    refuse(spec, "its cells have a bulk and a cortex; shapes.table needs a table that sweeps one modulus.");
   const bool is_shell = folder.spec().stiffness_key == "cell.cortex.modulus_mN_per_m";
   if (is_shell != (spec.kind == CellKind::shell))
     refuse(spec, fmt::format("its cells are told apart by {}, so cell.kind must be \"{}\".",
@@ -48,7 +50,7 @@ std::unique_ptr<CellShapes> shapes_of_table(const SynthSpec& spec) {
   const Case& base = folder.spec().base;
   return std::make_unique<BranchShapes>(
       std::move(branches),
-      BranchConditions{channel_width_um(base), base.flow.rate_ul_per_s, effective_viscosity_mPas(base),
+      BranchConditions{channel_width_um(base), base.flow.rate_ul_per_s.value(), effective_viscosity_mPas(base),
                        spec.channel_width_um, spec.flow_rate_ul_s, is_shell});
 }
 

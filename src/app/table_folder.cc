@@ -58,7 +58,7 @@ Claim::~Claim() {
 }
 
 TableFolder::TableFolder(const fs::path& folder, const TableSpec& spec)
-    : folder_(folder), spec_(spec), hash_(spec_hash(spec)), radii_um_(sweep_radii_um(spec)) {
+    : folder_(folder), spec_(spec), hash_(spec_hash(spec)), places_(sweep_places(spec)) {
   begin();
 }
 
@@ -82,7 +82,8 @@ void TableFolder::begin() const {
 }
 
 fs::path TableFolder::record(int i, bool held) const {
-  return folder_ / work / fmt::format("radius-{:04}{}.cbor", i, held ? "-held" : "");
+  return folder_ / work /
+         fmt::format("{}-{:04}{}.cbor", spec_.is_combined() ? "branch" : "radius", i, held ? "-held" : "");
 }
 
 bool TableFolder::has(int i, bool held) const {
@@ -94,12 +95,12 @@ bool TableFolder::is_done(int i) const { return has(i, false) && (!wants_held() 
 
 int TableFolder::done() const {
   int count = 0;
-  for (int i = 0; i < radii(); ++i) count += is_done(i);
+  for (int i = 0; i < branches(); ++i) count += is_done(i);
   return count;
 }
 
 Claim TableFolder::claim(int i) const {
-  const fs::path path = folder_ / work / fmt::format("radius-{:04}.claim", i);
+  const fs::path path = folder_ / work / fmt::format("branch-{:04}.claim", i);
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) refuse(path, fmt::format("cannot be made ({}).", reason_of(errno)));
   if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return Claim(descriptor);
@@ -116,12 +117,12 @@ SampledBranch TableFolder::read(int i, bool held) const {
 }
 
 std::vector<SampledBranch> TableFolder::read_all() const {
-  std::vector<SampledBranch> branches;
-  for (int i = 0; i < radii(); ++i) {
-    branches.push_back(read(i, false));
-    if (wants_held()) branches.push_back(read(i, true));
+  std::vector<SampledBranch> all;
+  for (int i = 0; i < branches(); ++i) {
+    all.push_back(read(i, false));
+    if (wants_held()) all.push_back(read(i, true));
   }
-  return branches;
+  return all;
 }
 
 void TableFolder::tidy() const {

@@ -9,7 +9,7 @@
 
 namespace rheocyte {
 
-/// A claim on one radius; the system gives it up when the process ends, however it ends.
+/// A claim on one branch; the system gives it up when the process ends, however it ends.
 class Claim {
  public:
   Claim() = default;
@@ -32,8 +32,8 @@ class TableFolder {
   const TableSpec& spec() const { return spec_; }
   const std::filesystem::path& path() const { return folder_; }
 
-  int radii() const { return int(radii_um_.size()); }
-  double radius_um(int i) const { return radii_um_[i]; }
+  int branches() const { return int(places_.size()); }
+  const BranchPlace& place(int i) const { return places_[i]; }
   /// Whether the branches beyond the ends of the bare ones are wanted, too.
   bool wants_held() const { return spec_.bending_beyond_kBT > 0; }
 
@@ -44,7 +44,7 @@ class TableFolder {
   void keep(int i, const SampledBranch&, bool held) const;
   bool has(int i, bool held) const;
   SampledBranch read(int i, bool held) const;
-  /// All records, radius by radius. UserError naming the file if one is damaged.
+  /// All records, in the order of the places. UserError naming the file if one is damaged.
   std::vector<SampledBranch> read_all() const;
   /// Removes what claims and interrupted writes have left.
   void tidy() const;
@@ -58,7 +58,7 @@ class TableFolder {
   std::filesystem::path folder_;
   TableSpec spec_;
   std::string hash_;
-  std::vector<double> radii_um_;
+  std::vector<BranchPlace> places_;
 };
 
 }  // namespace rheocyte

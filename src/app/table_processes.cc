@@ -31,7 +31,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int greatest_replacements = 3;  ///< of killed workers without a finished radius in between
+constexpr int greatest_replacements = 3;  ///< of killed workers without a finished branch in between
 
 int number_in_environment(const char* name, int otherwise) {
   const char* text = std::getenv(name);
@@ -53,7 +53,7 @@ pid_t start_worker(const std::filesystem::path& folder) {
 class Workers {
  public:
   Workers(const TableFolder& folder, int jobs, bool quiet)
-      : folder_(folder), progress_("radii", folder.radii(), folder.done(), quiet) {
+      : folder_(folder), progress_("branches", folder.branches(), folder.done(), quiet) {
     for (int i = 0; i < jobs; ++i) children_.insert(start_worker(folder.path()));
   }
   ~Workers() {
@@ -66,7 +66,7 @@ class Workers {
     for (int done = folder_.done();; std::this_thread::sleep_for(100ms), done = folder_.done()) {
       if (done > done_) done_ = done, replacements_ = 0;
       progress_.show(done);
-      end.complete = done == folder_.radii();
+      end.complete = done == folder_.branches();
       end.signal = signal_received();
       collect(end);
       if (end.complete || end.signal || end.worker_code) break;
@@ -121,7 +121,7 @@ int available_processors() {
 
 ProcessesEnd run_workers(const std::filesystem::path& path, int jobs, bool quiet) {
   const TableFolder folder(path, read_table_spec(path / "spec.toml"));
-  const int left = folder.radii() - folder.done();
+  const int left = folder.branches() - folder.done();
   watch_signals();
   return Workers(folder, std::min(jobs, std::max(left, 1)), quiet).wait();
 }

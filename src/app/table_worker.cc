@@ -17,9 +17,9 @@ namespace {
 bool is_stopped(const SampledBranch& branch) { return branch.end.status == name(Status::stopped); }
 
 /// False if a signal ended it.
-bool sample_radius(const TableFolder& folder, int i) {
+bool sample_place(const TableFolder& folder, int i) {
   if (!folder.has(i, false)) {
-    const SampledBranch own = sample_branch(folder.spec(), folder.radius_um(i), &stop_wanted());
+    const SampledBranch own = sample_branch(folder.spec(), folder.place(i), &stop_wanted());
     if (is_stopped(own)) return false;
     folder.keep(i, own, false);
   }
@@ -37,11 +37,11 @@ int work_on_table(const std::filesystem::path& path) {
   watch_signals();
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // no work for nobody when the command is killed
   const TableFolder folder(path, read_table_spec(path / "spec.toml"));
-  for (int i = 0; i < folder.radii(); ++i) {
+  for (int i = 0; i < folder.branches(); ++i) {
     if (folder.is_done(i)) continue;
     const Claim claim = folder.claim(i);
     if (!claim || folder.is_done(i)) continue;  // somebody else works on it, or has just finished it
-    if (!sample_radius(folder, i)) return exit_signal + signal_received();
+    if (!sample_place(folder, i)) return exit_signal + signal_received();
   }
   return exit_converged;
 }

@@ -1,4 +1,4 @@
-// One process of many that compute a table: takes one radius after the other that nobody else works on.
+// One process of many that compute a table: takes one branch after the other that nobody else works on.
 #pragma once
 #include <filesystem>
 

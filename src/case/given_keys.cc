@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 
 #include "case/toml_parser.h"
 #include "case/user_error.h"
@@ -23,10 +24,23 @@ std::string name_of_type(const toml::node& node) {
   }
 }
 
+// Nothing unless every element is a number.
+std::optional<std::vector<double>> numbers_of(const toml::node& node) {
+  const auto* array = node.as_array();
+  if (!array || array->empty()) return {};
+  std::vector<double> numbers;
+  for (const auto& element : *array) {
+    if (!element.is_number()) return {};
+    numbers.push_back(element.value_or(0.0));
+  }
+  return numbers;
+}
+
 decltype(GivenKey::value) value_of(const toml::node& node) {
   if (const auto number = node.value_exact<double>()) return *number;
   if (const auto integer = node.value_exact<int64_t>()) return static_cast<double>(*integer);
   if (const auto text = node.value_exact<std::string>()) return *text;
+  if (const auto numbers = numbers_of(node)) return *numbers;
   return Unusable{name_of_type(node)};
 }
 
@@ -55,6 +69,30 @@ std::string_view without_quotes(std::string_view text) {
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
+// The whole text as a number.
+std::optional<double> as_number(std::string_view text) {
+  double number = 0;
+  const auto* start = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(start, text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return {};
+  return number;
+}
+
+// "[0, 0.5]"; nothing if it is no list of numbers.
+std::optional<std::vector<double>> as_list(std::string_view text) {
+  if (!text.starts_with('[') || !text.ends_with(']')) return {};
+  text = text.substr(1, text.size() - 2);
+  std::vector<double> numbers;
+  while (true) {
+    const auto comma = text.find(',');
+    const auto number = as_number(trim(text.substr(0, comma)));
+    if (!number) return {};
+    numbers.push_back(*number);
+    if (comma == std::string_view::npos) return numbers;
+    text.remove_prefix(comma + 1);
+  }
+}
+
 }  // namespace
 
 std::vector<GivenKey> keys_in_toml(std::string_view text, const std::string& name) {
@@ -79,11 +117,9 @@ GivenKey key_in_setting(std::string_view setting) {
     throw UserError(fmt::format("--set {}: write key=value, for example --set cell.radius_um=7.66",
                                 one_line(setting, longest_value)));
   const auto text = trim(setting.substr(equals + 1));
-  double number = 0;
-  const auto* start = text.data() + (text.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(start, text.data() + text.size(), number);
   GivenKey given{std::string(key), "--set", std::string(without_quotes(text)), true};
-  if (error == std::errc{} && end == text.data() + text.size()) given.value = number;
+  if (const auto number = as_number(text)) given.value = *number;
+  if (const auto list = as_list(text)) given.value = *list;
   return given;
 }
 
@@ -91,6 +127,7 @@ std::string value_text(const GivenKey& given) {
   if (const auto* number = std::get_if<double>(&given.value)) return fmt::format("{}", *number);
   if (const auto* text = std::get_if<std::string>(&given.value))
     return fmt::format("\"{}\"", one_line(*text, longest_value));
+  if (std::holds_alternative<std::vector<double>>(given.value)) return "an array";
   return std::get<Unusable>(given.value).what;
 }
 

@@ -15,7 +15,7 @@ struct Unusable {
 struct GivenKey {
   std::string key;    ///< dotted
   std::string where;  ///< "case.toml:7" or "--set"
-  std::variant<double, std::string, Unusable> value;
+  std::variant<double, std::string, std::vector<double>, Unusable> value;
   bool from_set = false;
 };
 
@@ -23,7 +23,8 @@ struct GivenKey {
 /// The text must have passed check_case_text.
 std::vector<GivenKey> keys_in_toml(std::string_view text, const std::string& name);
 
-/// One `--set key=value`; a value that reads as a number is one, quotes round a word are optional.
+/// One `--set key=value`; a value that reads as a number is one, [a, b] is a list of numbers, quotes round a word are
+/// optional.
 GivenKey key_in_setting(std::string_view setting);
 
 /// The value as the user would write it, on one line and not too long.

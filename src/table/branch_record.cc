@@ -40,6 +40,8 @@ std::vector<Eigen::MatrixX2d> contours(const json& record, const char* key, std:
 
 json record_of(const SampledBranch& branch) {
   return {{"radius_um", branch.radius_um},
+          {"cortex_share", branch.cortex_share},
+          {"tension_ratio", branch.tension_ratio},
           {"bending_kBT", branch.bending_kBT},
           {"samples", branch.samples()},
           {"measures", measure_names},
@@ -65,6 +67,8 @@ SampledBranch branch_of(const json& record) {
   if (samples > 1000000) throw DamagedRecord{"samples is out of range"};
   SampledBranch branch;
   branch.radius_um = record.at("radius_um");
+  branch.cortex_share = record.value("cortex_share", 0.0);
+  branch.tension_ratio = record.value("tension_ratio", 0.0);
   branch.bending_kBT = record.at("bending_kBT");
   branch.stiffness = numbers_of(record, "stiffness", samples);
   branch.value = matrix(record, "value", samples);

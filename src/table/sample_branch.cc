@@ -73,12 +73,13 @@ double fourth_derivative(const Node& a, const Node& b, const Node& c) {
 
 class BranchSampler {
  public:
-  BranchSampler(const TableSpec& spec, double radius_um, const std::atomic<bool>* stop)
-      : spec_(spec), radius_(radius_um) {
+  BranchSampler(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop)
+      : spec_(spec), place_(place) {
     newton_.stop = stop;
     newton_.tolerance = tolerance;
-    result_.radius_um = radius_um;
-    result_.bending_kBT = 0;
+    result_.radius_um = place.radius_um;
+    result_.cortex_share = place.cortex_share;
+    result_.tension_ratio = place.tension_ratio;
   }
 
   /// From the nearly undeformed sphere.
@@ -98,7 +99,7 @@ class BranchSampler {
 
  private:
   double stiffness(double u) const { return first_stiffness_ * std::exp(-u); }
-  Problem problem(double u) const { return problem_of(case_at(spec_, radius_, stiffness(u))); }
+  Problem problem(double u) const { return problem_of(case_at(spec_, place_, stiffness(u))); }
 
   Discrete& at_level(int level) {
     if (!discrete_[level]) discrete_[level] = std::make_shared<Discrete>(problem(0), ladder[level]);
@@ -309,7 +310,7 @@ class BranchSampler {
 
   bool is_covered(const Node& node) const {
     return node.state.value(int(Measure::deformation)) > spec_.greatest_deformation ||
-           node.state.value(int(Measure::area_um2)) > 1.02 * spec_.greatest_area_um2;
+           (!spec_.is_combined() && node.state.value(int(Measure::area_um2)) > 1.02 * spec_.greatest_area_um2);
   }
 
   /// Newton's failure at the end of a branch is the end of the branch.
@@ -321,7 +322,7 @@ class BranchSampler {
   static double deformation(const Discretisation& space, const VectorXd& unknowns) {
     return measure(contour(space, unknowns)).deformation;
   }
-  Scales scales() const { return scales_of(case_at(spec_, radius_, first_stiffness_)); }
+  Scales scales() const { return scales_of(case_at(spec_, place_, first_stiffness_)); }
   void count(int iterations) {
     ++result_.solves;
     result_.newton_iterations += iterations;
@@ -368,7 +369,8 @@ class BranchSampler {
   }
 
   TableSpec spec_;
-  double radius_, first_stiffness_ = 1;
+  BranchPlace place_;
+  double first_stiffness_ = 1;
   NewtonOptions newton_;
   std::array<std::shared_ptr<Discrete>, ladder.size()> discrete_;
   double factorisation_before_ = 0;  ///< of systems that were taken over
@@ -380,8 +382,8 @@ class BranchSampler {
 
 }  // namespace
 
-SampledBranch sample_branch(const TableSpec& spec, double radius_um, const std::atomic<bool>* stop) {
-  return BranchSampler(spec, radius_um, stop).from_sphere();
+SampledBranch sample_branch(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop) {
+  return BranchSampler(spec, place, stop).from_sphere();
 }
 
 SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own, const std::atomic<bool>* stop) {
@@ -391,8 +393,8 @@ SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own
   TableSpec held = spec;
   held.base.cell.cortex.bending_kBT = spec.bending_beyond_kBT;
   const double stiffness = std::min(overlap * own.stiffness.back(), own.stiffness.front());
-  BranchSampler bare(spec, own.radius_um, stop);
-  return BranchSampler(held, own.radius_um, stop).from_bare(bare, stiffness);
+  BranchSampler bare(spec, {own.radius_um}, stop);
+  return BranchSampler(held, {own.radius_um}, stop).from_bare(bare, stiffness);
 }
 
 }  // namespace rheocyte

@@ -9,7 +9,7 @@
 namespace rheocyte {
 
 /// The case's own branch, from the least deformation to the greatest one or to the branch's end.
-SampledBranch sample_branch(const TableSpec&, double radius_um, const std::atomic<bool>* stop = nullptr);
+SampledBranch sample_branch(const TableSpec&, const BranchPlace& place, const std::atomic<bool>* stop = nullptr);
 
 /// Goes on where `own` ended because its bare surface lost stability: the same cell with the bending stiffness of the
 /// spec, entered at a state before the end, so that both overlap. Empty if there is nothing to go on from.

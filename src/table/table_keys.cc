@@ -18,7 +18,7 @@ TableNumber number(Range range) {
 const std::array table{
     TableKey{"table.identifier", "", "name of the table: letters, digits and hyphens",
              TableWord{&TableSpec::identifier}},
-    TableKey{"table.stiffness", "", "the swept parameter, the modulus of the bulk or of the cortex",
+    TableKey{"table.stiffness", "", "the swept parameter, the modulus of the bulk or of the cortex, or \"combined\"",
              TableWord{&TableSpec::stiffness_key}},
     TableKey{"table.least_area_um2", "um2", "area of the smallest cells, deformed",
              number<&TableSpec::least_area_um2>({1e-3, 1e8})},
@@ -37,6 +37,10 @@ const std::array table{
     TableKey{"table.bending_beyond_kBT", "kBT",
              "bending stiffness with which branches go on where the bare surface is unstable, 0 = they end there",
              number<&TableSpec::bending_beyond_kBT>({0, 1e12})},
+    TableKey{"table.cortex_share", "", "shares of the cortex in the stiffness of combined cells, one sheet for each",
+             TableList{{0, 1}, &TableSpec::cortex_shares}},
+    TableKey{"table.tension_ratio", "", "tensions of combined cells as shares of the modulus of the cortex",
+             TableList{{0, 1e3}, &TableSpec::tension_ratios}},
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "case/parameters.h"
 #include "table/table_spec.h"
@@ -22,11 +23,17 @@ struct TableWord {
   std::string TableSpec::*field;
 };
 
+/// A list of numbers, ascending.
+struct TableList {
+  Range range;
+  std::vector<double> TableSpec::*field;
+};
+
 struct TableKey {
   std::string_view key;  ///< dotted: "table.radii"
   std::string_view unit;
   std::string_view sentence;
-  std::variant<TableNumber, TableWord> value;
+  std::variant<TableNumber, TableWord, TableList> value;
 };
 
 /// All keys in the order in which they are documented and written. Defaults are those of TableSpec.

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-bool is_of_bulk(const TableSpec& spec) { return spec.stiffness_key == "cell.bulk.young_modulus_kPa"; }
+bool is_of_cortex(const TableSpec& spec) { return spec.stiffness_key == "cell.cortex.modulus_mN_per_m"; }
 
 void add_power_law(ordered_json& metadata, const Case& c) {
   if (c.flow.law != LiquidLaw::power_law) return;
@@ -28,10 +28,8 @@ void add_power_law(ordered_json& metadata, const Case& c) {
 ordered_json case_without_swept(const TableSpec& spec) {
   ordered_json json = to_json(spec.base);
   json["cell"].erase("radius_um");
-  if (is_of_bulk(spec))
-    json["cell"]["bulk"].erase("young_modulus_kPa");
-  else
-    json["cell"]["cortex"].erase("modulus_mN_per_m");
+  if (!is_of_cortex(spec)) json["cell"]["bulk"].erase("young_modulus_kPa");
+  if (is_of_cortex(spec) || spec.is_combined()) json["cell"]["cortex"].erase("modulus_mN_per_m");
   json.erase("numerics");
   return json;
 }
@@ -45,7 +43,7 @@ double channel_width_um(const Case& c) {
 double effective_viscosity_mPas(const Case& c) {
   if (c.flow.law == LiquidLaw::newtonian) return c.flow.viscosity_mPas.value();
   const double n = c.flow.exponent.value(), width_mm = 1e-3 * channel_width_um(c);
-  const double shear_rate = 8 * c.flow.rate_ul_per_s / (width_mm * width_mm * width_mm) * (0.6671 + 0.2121 / n);
+  const double shear_rate = 8 * c.flow.rate_ul_per_s.value() / (width_mm * width_mm * width_mm) * (0.6671 + 0.2121 / n);
   return 1e3 * c.flow.consistency_Pa_sn.value() * std::pow(shear_rate, n - 1);
 }
 
@@ -63,7 +61,7 @@ ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
                         {"channel_width", channel_width_um(c)},
                         {"channel_width_unit", "um"},
                         {"dimensionality", "2Daxis"},
-                        {"flow_rate", c.flow.rate_ul_per_s},
+                        {"flow_rate", c.flow.rate_ul_per_s.value()},
                         {"flow_rate_unit", "uL/s"},
                         {"fluid_density", c.flow.density_kg_per_m3},
                         {"fluid_density_unit", "kg m^-3"},
@@ -83,10 +81,11 @@ ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
   return metadata;
 }
 
-std::string_view stiffness_unit(const TableSpec& spec) { return is_of_bulk(spec) ? "kPa" : "mN/m"; }
+std::string_view stiffness_unit(const TableSpec& spec) { return is_of_cortex(spec) ? "mN/m" : "kPa"; }
 
 std::string_view stiffness_column(const TableSpec& spec) {
-  return is_of_bulk(spec) ? "young_modulus_kPa" : "cortex_modulus_mN_per_m";
+  if (spec.is_combined()) return "stiffness_kPa";
+  return is_of_cortex(spec) ? "cortex_modulus_mN_per_m" : "young_modulus_kPa";
 }
 
 }  // namespace rheocyte

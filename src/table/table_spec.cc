@@ -1,6 +1,7 @@
 #include "table/table_spec.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -23,9 +24,12 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::string_view radius_key = "cell.radius_um", accuracy_key = "numerics.accuracy",
+constexpr std::string_view radius_key = "cell.radius_um", accuracy_key = "numerics.accuracy", drive_key = "flow.drive",
                            bulk_law_key = "cell.bulk.law", cortex_law_key = "cell.cortex.law";
-constexpr std::array<std::string_view, 2> stiffness_keys{"cell.bulk.young_modulus_kPa", "cell.cortex.modulus_mN_per_m"};
+constexpr std::string_view bulk_modulus_key = "cell.bulk.young_modulus_kPa",
+                           cortex_modulus_key = "cell.cortex.modulus_mN_per_m",
+                           tension_key = "cell.cortex.tension_mN_per_m", ratio_key = "cell.cortex.tension_ratio";
+constexpr std::array<std::string_view, 3> stiffness_keys{bulk_modulus_key, cortex_modulus_key, combined_stiffness};
 // Those that programs know already; they must not appear on other numbers.
 constexpr std::array<std::string_view, 4> foreign_identifiers{"LE-2D-FEM-19", "HE-2D-FEM-22", "HE-3D-FEM-22",
                                                               "LE-2D-ana-18"};
@@ -85,12 +89,27 @@ TableKeys take_table_keys(std::vector<GivenKey>& keys) {
   return taken;
 }
 
-std::string range_text(const TableKey& key, const TableNumber& number) {
-  return fmt::format("{:g} .. {:g}{}{} ({})", number.range.least, number.range.greatest, key.unit.empty() ? "" : " ",
-                     key.unit, key.sentence);
+std::string range_text(const TableKey& key, const Range& range) {
+  return fmt::format("{:g} .. {:g}{}{} ({})", range.least, range.greatest, key.unit.empty() ? "" : " ", key.unit,
+                     key.sentence);
+}
+
+void set_list(TableSpec& spec, const TableKey& key, const TableList& list, const GivenKey& given) {
+  const auto* numbers = std::get_if<std::vector<double>>(&given.value);
+  const auto allowed = range_text(key, list.range);
+  if (!numbers)
+    refuse(given,
+           fmt::format("{} is not a list of numbers such as [0, 0.5, 1]; they can be {}.", stated(given), allowed));
+  for (const double number : *numbers)
+    if (!list.range.contains(number))
+      refuse(given, fmt::format("{:g} in {} is outside its range {}.", number, key.key, allowed));
+  if (std::ranges::adjacent_find(*numbers, std::greater_equal<>()) != numbers->end())
+    refuse(given, fmt::format("the numbers of {} do not rise; sort them and leave out what stands twice.", key.key));
+  spec.*(list.field) = *numbers;
 }
 
 void set_value(TableSpec& spec, const TableKey& key, const GivenKey& given) {
+  if (const auto* list = std::get_if<TableList>(&key.value)) return set_list(spec, key, *list, given);
   if (const auto* word = std::get_if<TableWord>(&key.value)) {
     const auto* text = std::get_if<std::string>(&given.value);
     if (!text) refuse(given, fmt::format("{} must be a word ({}).", stated(given), key.sentence));
@@ -99,7 +118,7 @@ void set_value(TableSpec& spec, const TableKey& key, const GivenKey& given) {
   }
   const auto& number = std::get<TableNumber>(key.value);
   const auto* value = std::get_if<double>(&given.value);
-  const auto allowed = range_text(key, number);
+  const auto allowed = range_text(key, number.range);
   if (!value) refuse(given, fmt::format("{} is not a number; it can be {}.", stated(given), allowed));
   if (!number.range.contains(*value)) refuse(given, fmt::format("{} is outside its range {}.", stated(given), allowed));
   if (number.is_whole && *value != std::floor(*value))
@@ -118,10 +137,43 @@ bool is_none(const GivenKey* law) {
   return word && *word == "none";
 }
 
+bool has_bulk(const std::vector<GivenKey>& keys) { return !is_none(last_of(keys, bulk_law_key)); }
+
+bool has_cortex(const std::vector<GivenKey>& keys) {
+  const GivenKey* law = last_of(keys, cortex_law_key);
+  return law && !is_none(law);
+}
+
+// Bulk and cortex, all moduli along the sweep, tension as a share of the cortex.
+void check_combined(TableSpec& spec, const std::vector<GivenKey>& keys, const TableKeys& given) {
+  const GivenKey& shares = given.at("table.cortex_share");
+  if (given.contains("table.stiffness") && !spec.is_combined())
+    refuse(given.at("table.stiffness"),
+           fmt::format("{} does not go with table.cortex_share; write \"{}\" or leave it out.",
+                       stated(given.at("table.stiffness")), combined_stiffness));
+  spec.stiffness_key = combined_stiffness;
+  if (!has_bulk(keys) || !has_cortex(keys))
+    refuse(shares, "table.cortex_share needs a law of the bulk and one of the cortex.");
+  if (spec.cortex_shares.size() < 2)
+    refuse(shares, "table.cortex_share needs at least two shares, such as [0, 0.5, 1].");
+  if (const auto* tension = last_of(keys, tension_key))
+    refuse(*tension,
+           fmt::format("{} does not go with table.cortex_share; give {} instead.", stated(*tension), ratio_key));
+  const auto* ratio = last_of(keys, ratio_key);
+  if (ratio && given.contains("table.tension_ratio"))
+    refuse(*ratio, fmt::format("{} and table.tension_ratio exclude each other; give one of them.", stated(*ratio)));
+  if (spec.bending_beyond_kBT > 0)
+    refuse(given.at("table.bending_beyond_kBT"),
+           "table.bending_beyond_kBT has no effect on combined cells; give cell.cortex.bending_kBT, which all have.");
+  if (spec.tension_ratios.empty())
+    spec.tension_ratios = {ratio && std::holds_alternative<double>(ratio->value) ? std::get<double>(ratio->value) : 0};
+}
+
 void choose_stiffness(TableSpec& spec, const std::vector<GivenKey>& keys, const TableKeys& given) {
-  const bool bulk = !is_none(last_of(keys, bulk_law_key));
-  const GivenKey* cortex_law = last_of(keys, cortex_law_key);
-  const bool cortex = cortex_law && !is_none(cortex_law);
+  const bool bulk = has_bulk(keys), cortex = has_cortex(keys);
+  if (given.contains("table.cortex_share")) return check_combined(spec, keys, given);
+  if (given.contains("table.tension_ratio"))
+    refuse(given.at("table.tension_ratio"), "table.tension_ratio needs table.cortex_share, such as [0, 0.5, 1].");
   const auto stated_key = given.find("table.stiffness");
   if (stated_key == given.end()) {
     spec.stiffness_key = stiffness_keys[bulk ? 0 : 1];
@@ -134,10 +186,20 @@ void choose_stiffness(TableSpec& spec, const std::vector<GivenKey>& keys, const 
                                              const auto hint = did_you_mean(spec.stiffness_key, stiffness_keys);
                                              return hint.empty() ? std::string(".") : hint;
                                            }()));
+  if (spec.is_combined())
+    refuse(stated_key->second, "table.stiffness = \"combined\" needs table.cortex_share, such as [0, 0.5, 1].");
   if (found == stiffness_keys.begin() ? !bulk : !cortex)
     refuse(stated_key->second,
            fmt::format("{} cannot be swept, because {} is \"none\"; choose a law, or sweep the other modulus.",
                        stated(stated_key->second), found == stiffness_keys.begin() ? bulk_law_key : cortex_law_key));
+}
+
+// Keys of a case that the sweep gives.
+std::vector<std::string_view> swept_keys(const TableSpec& spec) {
+  std::vector<std::string_view> keys{radius_key, accuracy_key};
+  if (!spec.is_combined()) keys.push_back(spec.stiffness_key);
+  if (spec.is_combined()) keys.insert(keys.end(), {bulk_modulus_key, cortex_modulus_key});
+  return keys;
 }
 
 // What the sweep itself gives must not be given as well.
@@ -146,10 +208,16 @@ void refuse_swept_keys(const TableSpec& spec, const std::vector<GivenKey>& keys)
     refuse(*radius, fmt::format("{} must not be given, because a table sweeps it; choose table.least_area_um2 and "
                                 "table.greatest_area_um2.",
                                 stated(*radius)));
-  if (const auto* stiffness = last_of(keys, spec.stiffness_key))
-    refuse(*stiffness, fmt::format("{} must not be given, because a table sweeps it; choose table.least_deformation "
-                                   "and table.greatest_deformation.",
-                                   stated(*stiffness)));
+  for (const auto key : swept_keys(spec))
+    if (const auto* stiffness = last_of(keys, key); stiffness && key != radius_key && key != accuracy_key)
+      refuse(*stiffness, fmt::format("{} must not be given, because a table sweeps it; choose table.least_deformation "
+                                     "and table.greatest_deformation.",
+                                     stated(*stiffness)));
+  for (const auto key : {drive_key, std::string_view("flow.pressure_drop_Pa")})
+    if (const auto* drive = last_of(keys, key))
+      refuse(*drive, fmt::format("{} must not be given, because a table is that of one flow rate; choose "
+                                 "flow.rate_ul_per_s.",
+                                 stated(*drive)));
   if (const auto* accuracy = last_of(keys, accuracy_key))
     refuse(*accuracy, fmt::format("{} has no effect on a table; choose table.accuracy.", stated(*accuracy)));
 }
@@ -222,6 +290,33 @@ void set_number(Case& c, std::string_view key, double value) {
   std::get<Number>(find_parameter(key)->value).set(c, value);
 }
 
+// A share of 0 or 1 leaves nothing of the other one: not even a modulus of zero.
+void set_moduli(Case& c, const BranchPlace& place, double stiffness) {
+  const double bulk = (1 - place.cortex_share) * stiffness, cortex = place.cortex_share * stiffness * place.radius_um;
+  c.cell.bulk.young_modulus_kPa.reset();
+  c.cell.cortex.modulus_mN_per_m.reset();
+  c.cell.cortex.tension_ratio.reset();
+  c.cell.cortex.tension_mN_per_m.reset();
+  if (bulk > 0)
+    c.cell.bulk.young_modulus_kPa = bulk;
+  else
+    c.cell.bulk.law = BulkLaw::none;
+  if (cortex > 0) {
+    c.cell.cortex.modulus_mN_per_m = cortex;
+    c.cell.cortex.tension_ratio = place.tension_ratio;
+  } else {
+    c.cell.cortex.law = CortexLaw::none;
+    c.cell.cortex.tension_mN_per_m = 0;
+  }
+}
+
+// Any cell of the sweep, so that the base is a complete case.
+BranchPlace middle_of(const TableSpec& spec) {
+  BranchPlace place{tube_radius_um(spec.base) / 2};
+  if (spec.is_combined()) place = {place.radius_um, 0.5, spec.tension_ratios.front()};
+  return place;
+}
+
 }  // namespace
 
 TableSpec parse_table_spec(std::string_view text, const std::string& name, std::span<const std::string> settings) {
@@ -233,10 +328,9 @@ TableSpec parse_table_spec(std::string_view text, const std::string& name, std::
   check_order(spec, given, name);
   choose_stiffness(spec, keys, given);
   refuse_swept_keys(spec, keys);
-  const std::array<std::string_view, 3> swept{radius_key, spec.stiffness_key, accuracy_key};
-  const Case open_case = case_of_keys(std::move(keys), name, swept);
+  const Case open_case = case_of_keys(std::move(keys), name, swept_keys(spec));
   spec.base = open_case;
-  spec.base = case_at(spec, tube_radius_um(open_case) / 2, 1);
+  spec.base = case_at(spec, middle_of(spec), 1);
   check_areas(spec, given, name);
   check_bending(spec, given);
   return spec;
@@ -247,11 +341,17 @@ TableSpec read_table_spec(const std::filesystem::path& file, std::span<const std
 }
 
 std::string to_toml(const TableSpec& spec) {
-  const std::array<std::string_view, 3> left_out{radius_key, spec.stiffness_key, accuracy_key};
+  auto left_out = swept_keys(spec);
+  left_out.push_back(drive_key);
+  if (spec.is_combined()) left_out.push_back(ratio_key);
   std::string text = to_toml(spec.base, left_out) + "\n[table]\n";
   for (const auto& key : table_keys()) {
+    const auto* list = std::get_if<TableList>(&key.value);
+    if (list && (spec.*(list->field)).empty()) continue;
     text += fmt::format("{} = ", key.key.substr(key.key.find('.') + 1));
-    if (const auto* word = std::get_if<TableWord>(&key.value))
+    if (list)
+      text += fmt::format("[{}]\n", fmt::join(spec.*(list->field), ", "));
+    else if (const auto* word = std::get_if<TableWord>(&key.value))
       text += fmt::format("\"{}\"\n", spec.*(word->field));
     else
       text += fmt::format("{}\n", std::get<TableNumber>(key.value).get(spec));
@@ -272,10 +372,26 @@ std::vector<double> sweep_radii_um(const TableSpec& spec) {
   return radii;
 }
 
-Case case_at(const TableSpec& spec, double radius_um, double stiffness) {
+std::vector<BranchPlace> sweep_places(const TableSpec& spec) {
+  std::vector<BranchPlace> places;
+  const auto radii = sweep_radii_um(spec);
+  const auto add = [&](double share, double ratio) {
+    for (const double radius : radii) places.push_back({radius, share, ratio});
+  };
+  if (!spec.is_combined()) add(0, 0);
+  for (const double ratio : spec.tension_ratios)
+    for (const double share : spec.cortex_shares)
+      if (share > 0 || ratio == spec.tension_ratios.front()) add(share, ratio);
+  return places;
+}
+
+Case case_at(const TableSpec& spec, const BranchPlace& place, double stiffness) {
   Case c = spec.base;
-  set_number(c, radius_key, radius_um);
-  set_number(c, spec.stiffness_key, stiffness);
+  set_number(c, radius_key, place.radius_um);
+  if (spec.is_combined())
+    set_moduli(c, place, stiffness);
+  else
+    set_number(c, spec.stiffness_key, stiffness);
   c.numerics.accuracy = spec.accuracy;
   return c;
 }

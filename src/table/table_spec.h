@@ -10,10 +10,22 @@
 
 namespace rheocyte {
 
+/// What is swept when the cell has a bulk and a cortex: S = E + E2D / r0 in kPa, E = (1 - share) S, E2D = share S r0
+/// (docs/tables.md, sec. "combined cells").
+inline constexpr std::string_view combined_stiffness = "combined";
+
+/// The cells of one branch; share and tension have a meaning for combined cells only.
+struct BranchPlace {
+  double radius_um = 0;      ///< of the sphere at rest
+  double cortex_share = 0;   ///< (E2D / r0) / S
+  double tension_ratio = 0;  ///< gamma / E2D
+};
+
 struct TableSpec {
   std::string identifier;     ///< of the table, e.g. "LE-2D-26": letters, digits, hyphens
   Case base;                  ///< radius and stiffness hold the values of the sweep's middle and mean nothing
-  std::string stiffness_key;  ///< the swept parameter, "cell.bulk.young_modulus_kPa" or "cell.cortex.modulus_mN_per_m"
+  std::string stiffness_key;  ///< the swept parameter, "cell.bulk.young_modulus_kPa", "cell.cortex.modulus_mN_per_m" or
+                              ///< combined_stiffness
   double least_area_um2 = 30, greatest_area_um2 = 290;  ///< of the deformed cell
   double least_deformation = 5e-5, greatest_deformation = 0.19;
   int radii = 100;  ///< branches, equally spaced in the radius of the sphere
@@ -21,6 +33,9 @@ struct TableSpec {
   double accuracy = 2e-4;  ///< relative, of the deformation
   /// Bending stiffness of the branches that go on where the bare surface has lost its stability; 0: none.
   double bending_beyond_kBT = 0;
+  std::vector<double> cortex_shares, tension_ratios;  ///< of combined cells, ascending; else empty
+
+  bool is_combined() const { return stiffness_key == combined_stiffness; }
 };
 
 /// Reads a spec: the keys of a case and those of the section [table]. UserError as read_case.
@@ -35,7 +50,11 @@ std::string spec_hash(const TableSpec&);
 /// The spheres of the sweep, in um, ascending.
 std::vector<double> sweep_radii_um(const TableSpec&);
 
+/// All branches of the sweep: radius by radius within each share, share by share within each tension. Cells without a
+/// cortex have no tension: they stand once, with the first one.
+std::vector<BranchPlace> sweep_places(const TableSpec&);
+
 /// The case of one cell of the table.
-Case case_at(const TableSpec&, double radius_um, double stiffness);
+Case case_at(const TableSpec&, const BranchPlace& place, double stiffness);
 
 }  // namespace rheocyte

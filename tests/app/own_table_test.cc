@@ -53,7 +53,7 @@ class OwnTable : public testing::Test {
         "least_deformation = 5e-4\ngreatest_deformation = 0.08\n",
         "table");
     const TableFolder folder(folder_ / name, spec);
-    for (int i = 0; i < folder.radii(); ++i) folder.keep(i, test::analytic_branch(folder.radius_um(i)), false);
+    for (int i = 0; i < folder.branches(); ++i) folder.keep(i, test::analytic_branch(folder.place(i).radius_um), false);
     folder.publish("grid_CLOSED.cbor", to_bytes(make_stiffness_grid(spec, folder.read_all(), "test").value()));
     return spec;
   }

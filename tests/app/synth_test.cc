@@ -90,7 +90,7 @@ TEST_F(Synth, CellsOfAComputedTableHaveItsShapes) {
       "stiffness = \"cell.bulk.young_modulus_kPa\"\nleast_area_um2 = 45\ngreatest_area_um2 = 190\nradii = 12\n",
       "table");
   const TableFolder folder(folder_ / "table", spec);
-  for (int i = 0; i < folder.radii(); ++i) folder.keep(i, test::analytic_branch(folder.radius_um(i)), false);
+  for (int i = 0; i < folder.branches(); ++i) folder.keep(i, test::analytic_branch(folder.place(i).radius_um), false);
   test::write_file(folder_ / "spec.toml",
                    test::content_of(folder_ / "spec.toml") + "[noise]\nlateral_um = 0\n[shapes]\n");
   ASSERT_EQ(run({"synth", path("spec.toml"), "-o", path("closed.rtdc")}).exit_code, 0);

@@ -21,7 +21,7 @@ const std::string linear_solid = "[cell.bulk]\nlaw = \"linear\"\n";
 const std::string shell = "[cell.bulk]\nlaw = \"none\"\n[cell.cortex]\nlaw = \"neo-hookean\"\ntension_ratio = 0.1\n";
 
 double solved_deformation(const TableSpec& table, double radius_um, double stiffness) {
-  Problem problem = problem_of(case_at(table, radius_um, stiffness));
+  Problem problem = problem_of(case_at(table, {radius_um}, stiffness));
   problem.accuracy = 1e-5;
   const StationaryState state = solve_stationary(problem);
   EXPECT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
@@ -43,13 +43,13 @@ double greatest_difference(const TableSpec& table, const SampledBranch& branch) 
 TEST(SampleBranch, BetweenItsSamplesTheDeformationIsThatOfDirectSolves) {
   // Within the wanted accuracy of 2e-4, for a solid to the end of its branch and for a shell.
   const TableSpec solid = spec(linear_solid, "radii = 3\n");
-  const SampledBranch branch = sample_branch(solid, 6);
+  const SampledBranch branch = sample_branch(solid, {6});
   EXPECT_EQ(branch.end.status, "surface-unstable");
   EXPECT_GT(branch.at(branch.samples() - 1, Measure::deformation), 0.16);
   EXPECT_LT(branch.at(0, Measure::deformation), solid.least_deformation);
   EXPECT_LT(greatest_difference(solid, branch), 2e-4);
   const TableSpec thin = spec(shell, "greatest_deformation = 0.03\n");
-  const SampledBranch shells = sample_branch(thin, 7.66);
+  const SampledBranch shells = sample_branch(thin, {7.66});
   EXPECT_EQ(shells.end.status, "covered");
   EXPECT_LT(greatest_difference(thin, shells), 2e-4);
 }
@@ -58,7 +58,7 @@ TEST(SampleBranch, TheSlopesAreThoseOfTheSamples) {
   // d(value)/d(ln stiffness) by differences of neighbouring interpolations would be circular: compare with direct
   // solves.
   const TableSpec table = spec(linear_solid, "greatest_deformation = 0.02\n");
-  const SampledBranch branch = sample_branch(table, 6);
+  const SampledBranch branch = sample_branch(table, {6});
   const int i = branch.samples() - 2;
   const double E = branch.stiffness[i], h = 0.01;
   const double difference =
@@ -70,7 +70,7 @@ TEST(SampleBranch, TheSlopesAreThoseOfTheSamples) {
 TEST(SampleBranch, BeyondTheBareSurfaceBendingGoesOn) {
   // The held branch overlaps the bare one, agrees with it within the known effect of 1e4 k_B T, and goes farther.
   const TableSpec table = spec("[cell.bulk]\nlaw = \"neo-hookean\"\n", "bending_beyond_kBT = 1e4\n");
-  const SampledBranch bare = sample_branch(table, 6);
+  const SampledBranch bare = sample_branch(table, {6});
   EXPECT_EQ(bare.end.status, "surface-unstable");
   const SampledBranch held = sample_held_branch(table, bare);
   ASSERT_FALSE(held.empty()) << held.end.message;
@@ -85,13 +85,13 @@ TEST(SampleBranch, BeyondTheBareSurfaceBendingGoesOn) {
 TEST(SampleBranch, NothingIsHeldWhereNothingIsUnstable) {
   // A branch that leaves the table's range, and a spec that asks for no bending.
   const TableSpec covered = spec(linear_solid, "greatest_deformation = 0.01\nbending_beyond_kBT = 1e4\n");
-  EXPECT_TRUE(sample_held_branch(covered, sample_branch(covered, 6)).empty());
+  EXPECT_TRUE(sample_held_branch(covered, sample_branch(covered, {6})).empty());
 }
 
 TEST(SampleBranch, TheSameBranchHasTheSameBits) {
   // Two runs, the time that they took apart.
   const TableSpec table = spec(linear_solid, "greatest_deformation = 0.01\n");
-  SampledBranch one = sample_branch(table, 4), other = sample_branch(table, 4);
+  SampledBranch one = sample_branch(table, {4}), other = sample_branch(table, {4});
   for (SampledBranch* branch : {&one, &other}) branch->seconds = branch->factorisation_seconds = 0;
   EXPECT_EQ(to_bytes(one, "x"), to_bytes(other, "x"));
 }
@@ -99,7 +99,7 @@ TEST(SampleBranch, TheSameBranchHasTheSameBits) {
 TEST(SampleBranch, AStopEndsItAndSaysSo) {
   // Before the first state already.
   const std::atomic<bool> stop = true;
-  const SampledBranch branch = sample_branch(spec(linear_solid, ""), 6, &stop);
+  const SampledBranch branch = sample_branch(spec(linear_solid, ""), {6}, &stop);
   EXPECT_EQ(branch.end.status, "stopped");
   EXPECT_TRUE(branch.empty());
 }

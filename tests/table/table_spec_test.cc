@@ -49,8 +49,8 @@ TEST(TableSpec, TheStiffnessIsThatOfTheBulkOrElseOfTheCortex) {
   const std::vector<std::string> both{"cell.cortex.law=linear", "table.stiffness=cell.cortex.modulus_mN_per_m",
                                       "cell.bulk.young_modulus_kPa=2"};
   const auto spec = read(short_spec, both);
-  EXPECT_EQ(case_at(spec, 5, 31).cell.cortex.modulus_mN_per_m, 31);
-  EXPECT_EQ(case_at(spec, 5, 31).cell.bulk.young_modulus_kPa, 2);
+  EXPECT_EQ(case_at(spec, {5}, 31).cell.cortex.modulus_mN_per_m, 31);
+  EXPECT_EQ(case_at(spec, {5}, 31).cell.bulk.young_modulus_kPa, 2);
 }
 
 TEST(TableSpec, TheTextOfASpecGivesBackTheSameSpec) {
@@ -80,7 +80,7 @@ TEST(TableSpec, RadiiCoverTheAreasInsideTheTube) {
 }
 
 TEST(TableSpec, ACaseOfTheSweepHasItsRadiusStiffnessAndAccuracy) {
-  const Case c = case_at(read(short_spec), 6.5, 2.25);
+  const Case c = case_at(read(short_spec), {6.5}, 2.25);
   EXPECT_EQ(c.cell.radius_um, 6.5);
   EXPECT_EQ(c.cell.bulk.young_modulus_kPa, 2.25);
   EXPECT_EQ(c.numerics.accuracy, 2e-4);
@@ -91,6 +91,8 @@ TEST(TableSpec, SweptKeysMustNotBeGiven) {
   expect_refusal("cell.radius_um=5", "cell.radius_um = 5 must not be given, because a table sweeps it");
   expect_refusal("cell.bulk.young_modulus_kPa=5", "young_modulus_kPa = 5 must not be given");
   expect_refusal("numerics.accuracy=1e-4", "choose table.accuracy");
+  expect_refusal("flow.pressure_drop_Pa=1000", "a table is that of one flow rate");
+  expect_refusal("flow.drive=pressure-drop", "a table is that of one flow rate");
 }
 
 TEST(TableSpec, UnknownKeysAreNamedWithTheNearestOne) {
@@ -143,7 +145,7 @@ TEST(TableSpec, EveryReadySpecIsAGoodOne) {
     EXPECT_EQ(to_toml(parse_table_spec(to_toml(spec), "again")), to_toml(spec)) << entry.path();
     ++specs;
   }
-  EXPECT_EQ(specs, 6);
+  EXPECT_EQ(specs, 7);
 }
 
 }  // namespace

@@ -1,0 +1,84 @@
+#include "infer/pixel_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "synth/shape_in_pixels.h"
+
+namespace rheocyte {
+
+namespace {
+
+// Stiffer cells are round for a camera.
+constexpr double least_deformation = 1e-3;
+constexpr int outline_points = 400;
+
+std::array<double, mode_count> modes_of(const CombinedState& state) {
+  std::array<double, mode_count> modes{};
+  for (int k = 0; k < mode_count; ++k) modes[std::size_t(k)] = state.value(first_mode_row + k);
+  return modes;
+}
+
+}  // namespace
+
+PixelLaw::PixelLaw(const CombinedInterpolation& table, double pixel_size_um, int draws) : box_(table.box()) {
+  double& least = box_.least(int(CellCoordinate::log_deformation));
+  least = std::max(least, std::log(least_deformation));
+  std::uint64_t number = 0;
+  for (int i = 0; i < nodes[0]; ++i)
+    for (int j = 0; j < nodes[1]; ++j)
+      for (int k = 0; k < nodes[2]; ++k) {
+        CellCoordinates cell = box_.least;
+        const std::array<double, axes> share{double(i) / (nodes[0] - 1), double(j) / (nodes[1] - 1),
+                                             double(k) / (nodes[2] - 1)};
+        for (int axis = 0; axis < axes; ++axis)
+          cell(axis) += share[std::size_t(axis)] * (box_.greatest(axis) - box_.least(axis));
+        const auto state = table.at(cell);
+        CellRandom random(1, number++, Purpose::picture);
+        const auto outline = outline_of_modes(modes_of(state), std::exp(state.value(log_area_row)), outline_points);
+        errors_.push_back(errors_in_pixels(outline, pixel_size_um, draws, random));
+      }
+}
+
+ShapeErrors PixelLaw::at(const CellCoordinates& cell) const {
+  std::array<int, axes> below{};
+  std::array<double, axes> share{};
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    const auto a = Eigen::Index(axis);
+    const double range = box_.greatest(a) - box_.least(a);
+    const double place =
+        std::clamp((cell(a) - box_.least(a)) / (range > 0 ? range : 1) * (nodes[axis] - 1), 0., nodes[axis] - 1.);
+    below[axis] = std::min(int(place), nodes[axis] - 2);
+    share[axis] = place - below[axis];
+  }
+  ShapeErrors sum;
+  for (int corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    std::array<int, axes> at{};
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+      const int up = corner >> axis & 1;
+      at[axis] = below[axis] + up;
+      weight *= up ? share[axis] : 1 - share[axis];
+    }
+    const auto& node = errors_[std::size_t((at[0] * nodes[1] + at[1]) * nodes[2] + at[2])];
+    sum.bias += weight * node.bias;
+    sum.covariance += weight * node.covariance;
+  }
+  return sum;
+}
+
+ModuliEstimate fit_pixels(const SeveralModuli& moduli, const PixelLaw& law, const ShapeVector& measured,
+                          const FlowConditions& conditions) {
+  constexpr int rounds = 3;  // the bias hardly depends on the cell: the third one changes nothing that matters
+  CellCoordinates cell = law.middle();
+  ModuliEstimate estimate;
+  for (int round = 0; round < rounds; ++round) {
+    estimate = moduli.fit({measured, law.at(cell)}, conditions);
+    if (estimate.status == ModuliStatus::no_data) break;
+    cell = estimate.cell;
+  }
+  return estimate;
+}
+
+}  // namespace rheocyte

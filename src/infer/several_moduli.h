@@ -1,0 +1,85 @@
+// Moduli of bulk and cortex, and the tension, of one cell from its shape, by least squares on a combined table
+// (docs/theory-extract.md, sec. "several moduli").
+#pragma once
+#include <array>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "table/combined_interpolation.h"
+
+namespace rheocyte {
+
+enum class Modulus { young, cortex, tension, count };
+inline constexpr int modulus_count = int(Modulus::count);
+
+/// A channel; states without inertia scale exactly between Newtonian ones (eq:scaling).
+struct FlowConditions {
+  double channel_width_um = 0, flow_rate_ul_s = 0, viscosity_mPas = 0;
+};
+FlowConditions conditions_of(const TableSpec& spec);
+
+enum class ModuliStatus {
+  no_data,         ///< a feature or its error is not a number
+  resolved,        ///< every modulus that is asked for is known to better than a factor of two
+  not_told_apart,  ///< one of them is not, though the stiffness as a whole may be
+  outside_table,   ///< no cell of the table has such a shape
+  poor_fit,        ///< the nearest cell of the table differs from the shape by more than the errors allow
+};
+std::string_view name_of(ModuliStatus status);
+
+struct ModuliEstimate {
+  ModuliStatus status = ModuliStatus::no_data;
+  /// Young's modulus (kPa), E2D (mN/m), tension (mN/m), and their covariance.
+  Eigen::Vector3d modulus = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::array<bool, modulus_count> is_known{};         ///< standard error below `greatest_relative_error`
+  double stiffness_kPa = 0, stiffness_error_kPa = 0;  ///< E + E2D / r0
+  CellCoordinates cell = CellCoordinates::Zero();     ///< in the table's channel
+  double chi_squared = 0;
+  int freedom = 0;
+
+  double value(Modulus m) const { return modulus(int(m)); }
+  double error(Modulus m) const;
+};
+/// 90 % of the estimates lie between half and twice the value.
+inline constexpr double greatest_relative_error = 0.42;
+
+/// One plain sentence for the user.
+std::string sentence(const ModuliEstimate& estimate);
+
+struct MeasuredShape {
+  ShapeVector features;  ///< with ln(volume / um3) in place of ln(area) if the size is a volume
+  ShapeErrors errors;    ///< the bias is subtracted
+  bool size_is_volume = false;
+};
+
+struct FitOptions {
+  std::vector<int> features;  ///< numbers of ShapeFeature, those of the modes from ShapeFeature::first_mode on
+  bool free_tension = false;  ///< the tension ratio is fitted, too, if the table has several
+  double tension_ratio = 0;   ///< else this one
+};
+/// Area, deformation, Lambda1 / Lambda2: the two measures of figure 9 of Mokbel et al. 2017 and a size.
+std::vector<int> features_of_figure();
+/// Area and the modes up to `last`, 2 <= last <= greatest_mode: the whole contour.
+std::vector<int> features_of_contour(int last = 6);
+
+/// The table's interpolation must outlive it.
+class SeveralModuli {
+ public:
+  SeveralModuli(const CombinedInterpolation& table, const FlowConditions& simulated, FitOptions options);
+
+  ModuliEstimate fit(const MeasuredShape& shape, const FlowConditions& conditions) const;
+
+ private:
+  struct Candidate;
+  Candidate minimum_from(const MeasuredShape& shape, const CellCoordinates& start) const;
+  ModuliEstimate estimate_of(const MeasuredShape& shape, const Candidate& best, bool is_ambiguous) const;
+
+  const CombinedInterpolation& table_;
+  FlowConditions simulated_;
+  FitOptions options_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,44 @@
+// Shape of an outline as a camera sees it: its convex hull as a polygon, and the cosine modes of the hull's radius.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+
+namespace rheocyte {
+
+/// Modes k = least_mode .. greatest_mode; the first one vanishes about the centroid but for second order.
+inline constexpr int least_mode = 2, greatest_mode = 12, mode_count = greatest_mode - least_mode + 1;
+
+/// Of the convex hull of a closed polygon; moments and radius about its centroid (docs/theory-extract.md, eq:modes).
+struct OutlineShape {
+  double area = 0, deformation = 0, moment_ratio = 1;  ///< Lambda1 / Lambda2, as in shape/measures.h
+  double x = 0, y = 0;                                 ///< centroid
+  double mean_radius = 0;                              ///< over all directions
+  /// c_k of r(theta) = mean radius (1 + sum c_k cos(k theta) + sines), theta = 0 along +x, where the liquid flows to.
+  std::array<double, mode_count> modes{};
+};
+
+/// What a shape is told by: size (area, or ln of it in a ShapeVector), deformation, Lambda1 / Lambda2, and the modes.
+enum class ShapeFeature { area_um2, deformation, moment_ratio, first_mode };
+inline constexpr int feature_count = int(ShapeFeature::first_mode) + mode_count;
+
+/// ln(area), deformation, Lambda1 / Lambda2, modes: all errors are then absolute and of the size of a small number.
+using ShapeVector = Eigen::Matrix<double, feature_count, 1>;
+ShapeVector shape_vector(const OutlineShape& shape);
+
+/// What a camera adds to the features of a shape: measured = true + bias + noise.
+struct ShapeErrors {
+  ShapeVector bias = ShapeVector::Zero();
+  Eigen::Matrix<double, feature_count, feature_count> covariance =
+      Eigen::Matrix<double, feature_count, feature_count>::Zero();
+};
+
+/// Points (x, y) in order, the first one not repeated, at least three that are not on a line (asserted).
+OutlineShape outline_shape(const Eigen::MatrixX2d& polygon);
+
+/// The closed polygon of a meridian (x, r) and its mirror image.
+Eigen::MatrixX2d mirrored(const Eigen::MatrixX2d& meridian);
+
+/// The outline with these modes, area and nothing else, `points` of them; about the origin.
+Eigen::MatrixX2d outline_of_modes(const std::array<double, mode_count>& modes, double area, int points);
+
+}  // namespace rheocyte

@@ -1,0 +1,51 @@
+#include "synth/shape_in_pixels.h"
+
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "measurement/contour_from_mask.h"
+#include "synth/pixel_picture.h"
+
+namespace rheocyte {
+
+ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um,
+                               const Eigen::RowVector2d& place_px) {
+  const Eigen::RowVector2d low = outline_um.colwise().minCoeff(), high = outline_um.colwise().maxCoeff();
+  const Eigen::RowVector2d extent = (high - low) / pixel_size_um;
+  constexpr double margin = 3;
+  const ImageSize size{std::size_t(std::ceil(extent.x() + 2 * margin)) | 1U,
+                       std::size_t(std::ceil(extent.y() + 2 * margin)) | 1U};
+  const Eigen::RowVector2d middle(double(size.width / 2), double(size.height / 2));
+  const Eigen::MatrixX2d outline_px =
+      (outline_um.rowwise() - (low + high) / 2) / pixel_size_um + (middle + place_px).replicate(outline_um.rows(), 1);
+  std::vector<std::uint8_t> mask(size.pixels());
+  const bool is_whole = fill_mask(outline_px, size, mask);
+  assert(is_whole);
+  static_cast<void>(is_whole);
+  ContourFinder finder;
+  const PixelContour& contour = finder.contour_of({size, mask});
+  Eigen::MatrixX2d polygon(Eigen::Index(contour.size()), 2);
+  for (Eigen::Index i = 0; i < polygon.rows(); ++i) {
+    const PixelPoint& point = contour[std::size_t(i)];
+    polygon.row(i) << pixel_size_um * point.x, pixel_size_um * point.y;
+  }
+  return shape_vector(outline_shape(polygon));
+}
+
+ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random) {
+  assert(draws > 1);
+  const ShapeVector truth = shape_vector(outline_shape(outline_um));
+  ShapeErrors errors;
+  for (int draw = 0; draw < draws; ++draw) {
+    const double x = random.uniform() - 0.5, y = random.uniform() - 0.5;
+    const ShapeVector error = features_in_pixels(outline_um, pixel_size_um, {x, y}) - truth;
+    errors.bias += error / draws;
+    errors.covariance += error * error.transpose() / (draws - 1);
+  }
+  errors.covariance -= errors.bias * errors.bias.transpose() * (double(draws) / (draws - 1));
+  return errors;
+}
+
+}  // namespace rheocyte

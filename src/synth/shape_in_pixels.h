@@ -1,0 +1,16 @@
+// What pixels do to the features of a shape: mean and covariance over all positions of the cell on the camera.
+#pragma once
+#include "shape/outline_shape.h"
+#include "synth/cell_random.h"
+
+namespace rheocyte {
+
+/// Renders the outline (um, x along the flow) at `draws` random positions, as fill_mask does, and measures each mask's
+/// contour. The covariance is that of one picture.
+ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random);
+
+/// Features of the outline in one picture with the cell's middle at `place_px` from the middle of a pixel.
+ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um,
+                               const Eigen::RowVector2d& place_px);
+
+}  // namespace rheocyte

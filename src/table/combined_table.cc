@@ -1,0 +1,200 @@
+#include "table/combined_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr int leading_columns = 8;  // before the features
+
+std::vector<std::string> column_names() {
+  std::vector<std::string> names{"radius_um",        "cortex_share",      "tension_ratio",
+                                 "stiffness_kPa",    "young_modulus_kPa", "cortex_modulus_mN_per_m",
+                                 "tension_mN_per_m", "deformation_error"};
+  for (const auto& name : feature_names()) names.push_back(name);
+  for (const auto& name : feature_names()) names.push_back("slope_" + name);
+  return names;
+}
+
+Eigen::VectorXd modes_of(const Eigen::MatrixX2d& meridian) {
+  const auto modes = outline_shape(mirrored(meridian)).modes;
+  return Eigen::Map<const Eigen::VectorXd>(modes.data(), mode_count);
+}
+
+CombinedBranch combined_branch(const SampledBranch& branch) {
+  constexpr double step = 1e-4;  // in ln S; the hull's corners make differences over smaller steps no better
+  const int n = branch.samples();
+  CombinedBranch combined{{branch.radius_um, branch.cortex_share, branch.tension_ratio},
+                          branch.stiffness,
+                          Eigen::MatrixXd(n, feature_count),
+                          Eigen::MatrixXd(n, feature_count),
+                          branch.error};
+  for (const auto& [feature, measure] : {std::pair(ShapeFeature::area_um2, Measure::area_um2),
+                                         std::pair(ShapeFeature::deformation, Measure::deformation),
+                                         std::pair(ShapeFeature::moment_ratio, Measure::moment_ratio)}) {
+    combined.value.col(int(feature)) = branch.value.col(int(measure));
+    combined.slope.col(int(feature)) = branch.slope.col(int(measure));
+  }
+  for (int i = 0; i < n; ++i) {
+    const auto& contour = branch.contour[std::size_t(i)];
+    const Eigen::MatrixX2d move = step * branch.contour_slope[std::size_t(i)];
+    combined.value.row(i).tail(mode_count) = modes_of(contour).transpose();
+    combined.slope.row(i).tail(mode_count) =
+        (modes_of(contour + move) - modes_of(contour - move)).transpose() / (2 * step);
+  }
+  return combined;
+}
+
+std::string row_text(const CombinedBranch& branch, int i) {
+  const auto& [radius, share, ratio] = branch.place;
+  const double S = branch.stiffness_kPa[std::size_t(i)], cortex = share * S * radius;
+  std::vector<double> numbers{radius,          share,  ratio,          S,
+                              (1 - share) * S, cortex, ratio * cortex, branch.error[std::size_t(i)]};
+  for (const auto* matrix : {&branch.value, &branch.slope})
+    for (int f = 0; f < feature_count; ++f) numbers.push_back((*matrix)(i, f));
+  return fmt::format("{}\n", fmt::join(numbers, ","));
+}
+
+// Goes over the lines of a file and keeps the place of errors.
+class Reader {
+ public:
+  Reader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+  CombinedTable read(const TableSpec& spec) {
+    CombinedTable table{spec, {}};
+    if (next() != fmt::format("{}", fmt::join(column_names(), ",")))
+      refuse("the columns are not those of a combined table of this version; let `rheocyte table` write it again");
+    while (!text_.empty()) take_row(numbers_of(next()), table.branches);
+    for (auto& branch : table.branches) finish(branch);
+    if (table.branches.empty()) refuse("there are no rows");
+    return table;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw UserError(fmt::format("{}:{}: {}.", name_, line_, reason));
+  }
+
+  std::string_view next() {
+    const auto end = text_.find('\n');
+    const auto line = text_.substr(0, end);
+    text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
+    ++line_;
+    return line;
+  }
+
+  std::vector<double> numbers_of(std::string_view line) const {
+    std::vector<double> numbers;
+    const char *at = line.data(), *const end = at + line.size();
+    while (true) {
+      double number = 0;
+      const auto [stop, error] = std::from_chars(at, end, number);
+      if (error != std::errc{} || !std::isfinite(number)) refuse("there is something else than numbers");
+      numbers.push_back(number);
+      if (stop == end) break;
+      if (*stop != ',') refuse("there is something else than numbers");
+      at = stop + 1;
+    }
+    if (int(numbers.size()) != leading_columns + 2 * feature_count) refuse("the row has another number of columns");
+    return numbers;
+  }
+
+  void take_row(const std::vector<double>& row, std::vector<CombinedBranch>& branches) {
+    const auto is_of = [&](const BranchPlace& place) {
+      return place.radius_um == row[0] && place.cortex_share == row[1] && place.tension_ratio == row[2];
+    };
+    if (branches.empty() || !is_of(branches.back().place)) {
+      branches.push_back({{row[0], row[1], row[2]}, {}, {}, {}, {}});
+      rows_.emplace_back();
+    }
+    CombinedBranch& branch = branches.back();
+    const double deformation = row[leading_columns + int(ShapeFeature::deformation)];
+    if (!(row[0] > 0 && row[3] > 0 && deformation > 0)) refuse("radius, stiffness and deformation are not positive");
+    if (!branch.stiffness_kPa.empty() && row[3] >= branch.stiffness_kPa.back())
+      refuse("the stiffness does not fall along the branch");
+    branch.stiffness_kPa.push_back(row[3]);
+    branch.error.push_back(row[leading_columns - 1]);
+    rows_.back().insert(rows_.back().end(), row.begin() + leading_columns, row.end());
+  }
+
+  void finish(CombinedBranch& branch) {
+    const auto& numbers = rows_[finished_++];
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Eigen::Map<const RowMajor> all(numbers.data(), branch.samples(), 2 * feature_count);
+    branch.value = all.leftCols(feature_count);
+    branch.slope = all.rightCols(feature_count);
+  }
+
+  std::string_view text_;
+  std::string name_;
+  int line_ = 0;
+  std::vector<std::vector<double>> rows_;  ///< features and slopes of each branch
+  std::size_t finished_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> feature_names() {
+  std::vector<std::string> names{"area_um2", "deformation", "moment_ratio"};
+  for (int k = least_mode; k <= greatest_mode; ++k) names.push_back(fmt::format("mode_{}", k));
+  return names;
+}
+
+CombinedTable make_combined_table(const TableSpec& spec, std::span<const SampledBranch> branches) {
+  CombinedTable table{spec, {}};
+  for (const auto& branch : branches)
+    if (!branch.empty()) table.branches.push_back(combined_branch(branch));
+  return table;
+}
+
+std::string combined_table_csv(const CombinedTable& table) {
+  std::string text = fmt::format("{}\n", fmt::join(column_names(), ","));
+  for (const auto& branch : table.branches)
+    for (int i = 0; i < branch.samples(); ++i) text += row_text(branch, i);
+  return text;
+}
+
+std::string combined_ends_csv(std::span<const SampledBranch> branches) {
+  std::string text = "radius_um,cortex_share,tension_ratio,samples,stiffness_kPa,deformation,status\n";
+  for (const auto& branch : branches) {
+    const int last = branch.samples() - 1;
+    text += fmt::format("{},{},{},{},", branch.radius_um, branch.cortex_share, branch.tension_ratio, last + 1);
+    text += last < 0 ? "," : fmt::format("{},{}", branch.stiffness.back(), branch.at(last, Measure::deformation));
+    text += fmt::format(",{}\n", branch.end.status);
+  }
+  return text;
+}
+
+std::string combined_table_name(const TableSpec& spec) { return fmt::format("combined_{}.csv", spec.identifier); }
+
+CombinedTable parse_combined_table(const TableSpec& spec, std::string_view csv, const std::string& name) {
+  return Reader(csv, name).read(spec);
+}
+
+CombinedTable read_combined_table(const std::filesystem::path& folder) {
+  const auto refuse = [&](const std::string& reason) -> void {
+    throw UserError(fmt::format("{}: {}", one_line(folder.string(), 300), reason));
+  };
+  std::error_code error;
+  if (!std::filesystem::exists(folder / "spec.toml", error))
+    refuse("there is no table of `rheocyte table` (no spec.toml in this folder).");
+  const TableSpec spec = read_table_spec(folder / "spec.toml");
+  if (!spec.is_combined())
+    refuse("its cells differ in one modulus only; several moduli need a table with table.cortex_share.");
+  const auto path = folder / combined_table_name(spec);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(fmt::format("there is no {}; let `rheocyte table` finish it.", combined_table_name(spec)));
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  return parse_combined_table(spec, content, path.string());
+}
+
+}  // namespace rheocyte

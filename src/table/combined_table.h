@@ -1,0 +1,51 @@
+// A table of cells with bulk and cortex: states on branches of one radius, share of the cortex and tension each, with
+// the features by which their moduli are told apart.
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shape/outline_shape.h"
+#include "table/branch.h"
+#include "table/table_spec.h"
+
+namespace rheocyte {
+
+/// Of all features (shape/outline_shape.h): "area_um2", ..., "mode_12".
+std::vector<std::string> feature_names();
+
+struct CombinedBranch {
+  BranchPlace place;
+  std::vector<double> stiffness_kPa;  ///< S = E + E2D / r0, falling
+  Eigen::MatrixXd value;              ///< samples x features
+  Eigen::MatrixXd slope;              ///< d(value)/d(ln S)
+  std::vector<double> error;          ///< estimated, relative, of the deformation
+
+  int samples() const { return int(stiffness_kPa.size()); }
+};
+
+struct CombinedTable {
+  TableSpec spec;
+  std::vector<CombinedBranch> branches;  ///< those with a sample, in the order of the sweep
+};
+
+/// The modes of the computed contours with their slopes are added to the measures of the branches.
+CombinedTable make_combined_table(const TableSpec& spec, std::span<const SampledBranch> branches);
+
+/// All samples with E, E2D and tension, and slopes; the shortest digits that give back the same numbers.
+std::string combined_table_csv(const CombinedTable& table);
+/// One line for each branch: how it ended, and where.
+std::string combined_ends_csv(std::span<const SampledBranch> branches);
+
+/// Name of the first of these files.
+std::string combined_table_name(const TableSpec& spec);
+
+/// UserError with file and line: other columns, numbers that are none, rows that are not in order.
+CombinedTable parse_combined_table(const TableSpec& spec, std::string_view csv, const std::string& name);
+/// From the folder of a finished combined table. UserError if it is none.
+CombinedTable read_combined_table(const std::filesystem::path& folder);
+
+}  // namespace rheocyte

@@ -1,0 +1,70 @@
+#include "shape/outline_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace rheocyte {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Eigen::MatrixX2d ellipse(double a, double b, int points) {
+  Eigen::MatrixX2d polygon(points, 2);
+  for (int i = 0; i < points; ++i)
+    polygon.row(i) << 3 + a * std::cos(2 * pi * i / points), -1 + b * std::sin(2 * pi * i / points);
+  return polygon;
+}
+
+TEST(OutlineShape, AnEllipseHasItsExactMeasures) {
+  // Area pi a b, moments a^3 b and a b^3, no odd modes; 4000 points leave 1e-6 to the polygon.
+  const auto shape = outline_shape(ellipse(2, 1.5, 4000));
+  EXPECT_NEAR(shape.area, pi * 3, 1e-5);
+  EXPECT_NEAR(shape.moment_ratio, 2.25 / 4, 1e-6);
+  EXPECT_NEAR(shape.x, 3, 1e-9);
+  EXPECT_NEAR(shape.y, -1, 1e-9);
+  EXPECT_NEAR(shape.modes[1], 0, 1e-9);
+  EXPECT_GT(shape.modes[0], 0.1);
+}
+
+TEST(OutlineShape, ModesThatAreDrawnAreModesThatAreMeasured) {
+  // The outline of some modes has the same modes again, but for its centroid, which the third mode moves by second
+  // order: c2 c3 = 6e-4 at most.
+  std::array<double, mode_count> modes{};
+  modes[0] = 0.06, modes[1] = -0.01, modes[2] = 0.005;
+  const auto shape = outline_shape(outline_of_modes(modes, 100, 2000));
+  EXPECT_NEAR(shape.area, 100, 1e-3);
+  for (int k = 0; k < mode_count; ++k) EXPECT_NEAR(shape.modes[std::size_t(k)], modes[std::size_t(k)], 1e-3) << k;
+  // The other way round the front is the rear: odd modes change sign, even ones stay.
+  Eigen::MatrixX2d turned = outline_of_modes(modes, 100, 2000);
+  turned.col(0) *= -1;
+  const auto back = outline_shape(turned);
+  for (int k = 0; k < mode_count; ++k)
+    EXPECT_NEAR(back.modes[std::size_t(k)], (k % 2 ? -1 : 1) * shape.modes[std::size_t(k)], 1e-9) << k;
+}
+
+TEST(OutlineShape, ADentIsNotSeen) {
+  // A square with a notch is a square to the camera: d = 1 - sqrt(pi) / 2 and c4 as that of its four corners.
+  Eigen::MatrixX2d square(4, 2), notched(5, 2);
+  square << 0, 0, 2, 0, 2, 2, 0, 2;
+  notched << 0, 0, 2, 0, 2, 2, 0, 2, 0.5, 1;
+  const auto whole = outline_shape(square), dented = outline_shape(notched);
+  EXPECT_NEAR(whole.deformation, 1 - std::sqrt(pi) / 2, 1e-12);
+  EXPECT_NEAR(shape_vector(whole)(0), std::log(4.0), 1e-12);
+  EXPECT_EQ(shape_vector(dented), shape_vector(whole));
+  EXPECT_LT(whole.modes[2], -0.1);
+}
+
+TEST(OutlineShape, AMeridianClosesWithItsMirrorImage) {
+  // Half a circle gives a circle.
+  Eigen::MatrixX2d meridian(201, 2);
+  for (int i = 0; i <= 200; ++i) meridian.row(i) << std::cos(pi * i / 200), std::sin(pi * i / 200);
+  const auto shape = outline_shape(mirrored(meridian));
+  EXPECT_NEAR(shape.area, pi, 1e-3);
+  EXPECT_NEAR(shape.moment_ratio, 1, 1e-9);
+  for (const double mode : shape.modes) EXPECT_NEAR(mode, 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace rheocyte

@@ -1,0 +1,154 @@
+#include "table/combined_table.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "case/user_error.h"
+#include "invented_branch.h"
+#include "invented_combined.h"
+#include "table/combined_interpolation.h"
+
+namespace rheocyte {
+namespace {
+
+using namespace test;
+
+TEST(CombinedTable, ReadsBackToTheSameBits) {
+  // Digits are the shortest that give the same number; columns that differ are named with their line.
+  const CombinedTable table = invented_combined_table(std::vector<std::string>{"table.radii=2"});
+  const std::string csv = combined_table_csv(table);
+  const CombinedTable back = parse_combined_table(table.spec, csv, "combined.csv");
+  ASSERT_EQ(back.branches.size(), table.branches.size());
+  for (std::size_t i = 0; i < table.branches.size(); ++i) {
+    EXPECT_EQ(back.branches[i].value, table.branches[i].value);
+    EXPECT_EQ(back.branches[i].slope, table.branches[i].slope);
+    EXPECT_EQ(back.branches[i].stiffness_kPa, table.branches[i].stiffness_kPa);
+  }
+  EXPECT_EQ(combined_table_csv(back), csv);
+  for (const auto& [bad, words] : {std::pair(std::string("a,b\n1,2\n"), ":1: the columns"),
+                                   std::pair(csv + "1,2,3\n", "another number of columns"),
+                                   std::pair(csv + "1,x\n", "something else than numbers")}) {
+    try {
+      parse_combined_table(table.spec, bad, "combined.csv");
+      FAIL() << words;
+    } catch (const UserError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(CombinedTable, HoldsTheModesOfTheContours) {
+  // Those of an ellipse-like contour, with slopes against differences of the contour: both are exact to 1e-4 of c2 ~ d.
+  auto branch = invented_branch(7);
+  branch.cortex_share = 0.25;
+  TableSpec spec;
+  const auto combined = make_combined_table(spec, std::vector{branch}).branches.at(0);
+  const int i = branch.samples() - 3;
+  const double d = branch.at(i, Measure::deformation), step = 1e-5;
+  const auto c2 = [&](double deformation) {
+    return outline_shape(mirrored(invented_contour(7, deformation))).modes[0];
+  };
+  EXPECT_EQ(combined.value(i, int(ShapeFeature::first_mode)), c2(d));
+  const double slope = (c2(d + step) - c2(d - step)) / (2 * step) * branch.slope(i, int(Measure::deformation));
+  EXPECT_NEAR(combined.slope(i, int(ShapeFeature::first_mode)) / slope, 1, 1e-4);
+  EXPECT_EQ(combined.value(i, int(ShapeFeature::area_um2)), branch.at(i, Measure::area_um2));
+}
+
+class Interpolation : public testing::Test {
+ protected:
+  CombinedInterpolation between_{whole_combined_table()};
+  std::mt19937 engine_{1};
+
+  /// Anywhere in the box but near its ends of the deformation.
+  CellCoordinates random_cell() {
+    CellCoordinates cell;
+    for (int i = 0; i < coordinate_count; ++i)
+      cell(i) = std::uniform_real_distribution(between_.box().least(i), between_.box().greatest(i))(engine_);
+    cell(int(CellCoordinate::log_deformation)) =
+        std::uniform_real_distribution(std::log(2e-3), std::log(0.05))(engine_);
+    return cell;
+  }
+};
+
+TEST_F(Interpolation, BetweenTheBranchesItIsTheInventedCell) {
+  // The stiffness at a deformation leads to a cell of this deformation, area, moments and modes: 16 samples, 7 radii
+  // and 5 shares of smooth functions leave less than 1e-3 in the middle and three times as much near the borders.
+  for (int trial = 0; trial < 50; ++trial) {
+    const CellCoordinates cell = random_cell();
+    const CombinedState state = between_.at(cell);
+    EXPECT_TRUE(state.inside);
+    const ShapeVector exact = invented_features({std::exp(cell(0)), cell(1), cell(3)}, std::exp(state.value(0)));
+    EXPECT_NEAR(std::log(exact(1)), cell(2), 3e-3) << cell.transpose();
+    EXPECT_NEAR(state.value(log_area_row), exact(0), 3e-4);
+    for (int f = 2; f < feature_count; ++f) EXPECT_NEAR(state.value(f), exact(f), 3e-4) << f;
+  }
+}
+
+TEST_F(Interpolation, GradientsAreThoseOfTheValues) {
+  // Central differences, 1e-5 in each coordinate: 1e-6 of error where the cubics have a jump in their curvature.
+  for (int trial = 0; trial < 20; ++trial) {
+    const CellCoordinates cell = random_cell();
+    const CombinedState state = between_.at(cell);
+    for (int x = 0; x < coordinate_count; ++x) {
+      const CellCoordinates step = 1e-5 * CellCoordinates::Unit(x);
+      const auto difference = ((between_.at(cell + step).value - between_.at(cell - step).value) / 2e-5).eval();
+      EXPECT_LT((state.gradient.col(x) - difference).cwiseAbs().maxCoeff(), 1e-4) << x;
+    }
+  }
+}
+
+TEST_F(Interpolation, ACellBeyondTheBranchesIsSaid) {
+  // Softer than all, larger than all; the values go on nevertheless.
+  CellCoordinates cell = random_cell();
+  cell(int(CellCoordinate::log_deformation)) = std::log(0.5);
+  EXPECT_FALSE(between_.at(cell).inside);
+  EXPECT_TRUE(between_.at(cell).value.allFinite());
+  cell = random_cell();
+  cell(int(CellCoordinate::log_radius)) = std::log(15.0);
+  EXPECT_FALSE(between_.at(cell).inside);
+}
+
+TEST(CombinedSpec, SharesAndTensionsMakeTheSweep) {
+  // Radius by radius; cells without a cortex once, pure ones without the other law; it reads back from its own text.
+  const TableSpec spec = parse_table_spec(combined_spec, "spec.toml");
+  EXPECT_TRUE(spec.is_combined());
+  const auto places = sweep_places(spec);
+  EXPECT_EQ(places.size(), 9u * (7 + 6 + 6));
+  const Case both = case_at(spec, {8, 0.25, 0.15}, 4), bulk = case_at(spec, {8, 0, 0.15}, 4),
+             shell = case_at(spec, {8, 1, 0.3}, 4);
+  EXPECT_EQ(both.cell.bulk.young_modulus_kPa, 3);
+  EXPECT_EQ(both.cell.cortex.modulus_mN_per_m, 8);
+  EXPECT_EQ(both.cell.cortex.tension_ratio, 0.15);
+  EXPECT_EQ(both.cell.cortex.bending_kBT, 1e4);
+  EXPECT_EQ(bulk.cell.cortex.law, CortexLaw::none);
+  EXPECT_EQ(bulk.cell.bulk.young_modulus_kPa, 4);
+  EXPECT_EQ(shell.cell.bulk.law, BulkLaw::none);
+  EXPECT_EQ(shell.cell.cortex.modulus_mN_per_m, 32);
+  EXPECT_EQ(to_toml(parse_table_spec(to_toml(spec), "again")), to_toml(spec));
+}
+
+TEST(CombinedSpec, WhatDoesNotGoTogetherIsRefused) {
+  // One sentence each, with the key.
+  const auto refuse = [](const std::vector<std::string>& settings, const std::string& words) {
+    try {
+      parse_table_spec(combined_spec, "spec.toml", settings);
+      FAIL() << words;
+    } catch (const UserError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  };
+  refuse({"table.cortex_share=[0, 2]"}, "2 in table.cortex_share is outside its range");
+  refuse({"table.cortex_share=[0.5, 0]"}, "do not rise");
+  refuse({"table.cortex_share=[0.5]"}, "at least two shares");
+  refuse({"table.cortex_share=0.5"}, "is not a list of numbers");
+  refuse({"table.stiffness=cell.bulk.young_modulus_kPa"}, "does not go with table.cortex_share");
+  refuse({"cell.bulk.law=none"}, "needs a law of the bulk and one of the cortex");
+  refuse({"cell.bulk.young_modulus_kPa=3"}, "because a table sweeps it");
+  refuse({"cell.cortex.tension_ratio=0.1"}, "exclude each other");
+  refuse({"cell.cortex.tension_mN_per_m=0.1"}, "does not go with table.cortex_share");
+  refuse({"table.bending_beyond_kBT=1e5"}, "has no effect on combined cells");
+}
+
+}  // namespace
+}  // namespace rheocyte

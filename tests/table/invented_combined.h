@@ -1,0 +1,77 @@
+// A combined table whose cells are known in closed form: outlines of a few modes that grow with 1 / S.
+#pragma once
+#include <cmath>
+#include <numbers>
+
+#include "table/combined_table.h"
+
+namespace rheocyte::test {
+
+/// The outline of a cell in um. The cortex lifts the third mode and lowers the second, the tension changes the fourth.
+inline Eigen::MatrixX2d invented_outline(const BranchPlace& place, double stiffness) {
+  const auto& [radius, share, ratio] = place;
+  const double a = 0.3 * std::pow(radius / 8, 1.5) / stiffness, tension = share * ratio;
+  std::array<double, mode_count> modes{};
+  modes[0] = a * (1 - 0.4 * share) * (1 + 0.3 * a);
+  modes[1] = -a * (0.05 + 0.35 * share + 0.3 * tension);
+  modes[2] = a * (0.04 - 0.15 * share + 0.6 * tension);
+  modes[3] = a * (0.1 * share * share - 0.3 * tension);
+  return outline_of_modes(modes, std::numbers::pi * radius * radius * (1 + 0.2 * a), 300);
+}
+
+/// ln(area), deformation, Lambda1 / Lambda2, modes.
+inline ShapeVector invented_features(const BranchPlace& place, double stiffness) {
+  return shape_vector(outline_shape(invented_outline(place, stiffness)));
+}
+
+inline CombinedBranch invented_combined_branch(const BranchPlace& place, int samples = 16) {
+  CombinedBranch branch{
+      place, {}, Eigen::MatrixXd(samples, feature_count), Eigen::MatrixXd(samples, feature_count), {}};
+  const double stiffest = 12 * std::pow(place.radius_um / 8, 1.5), softest = stiffest / 20, step = 1e-4;
+  for (int i = 0; i < samples; ++i) {
+    const double S = stiffest * std::pow(softest / stiffest, double(i) / (samples - 1));
+    branch.stiffness_kPa.push_back(S);
+    branch.error.push_back(1e-4);
+    const auto exact = [&](double log_step) {
+      ShapeVector features = invented_features(place, S * std::exp(log_step));
+      features(0) = std::exp(features(0));
+      return features;
+    };
+    branch.value.row(i) = exact(0).transpose();
+    branch.slope.row(i) = (exact(step) - exact(-step)).transpose() / (2 * step);
+  }
+  return branch;
+}
+
+inline const std::string combined_spec = R"([channel]
+width_um = 20
+[flow]
+rate_ul_per_s = 0.04
+viscosity_mPas = 15
+[cell.bulk]
+law = "neo-hookean"
+[cell.cortex]
+law = "neo-hookean"
+bending_kBT = 1e4
+[table]
+identifier = "XC-2D-26"
+cortex_share = [0, 0.125, 0.25, 0.5, 0.75, 0.875, 1]
+tension_ratio = [0, 0.15, 0.3]
+least_area_um2 = 60
+greatest_area_um2 = 220
+radii = 9
+)";
+
+inline CombinedTable invented_combined_table(std::span<const std::string> settings = {}) {
+  CombinedTable table{parse_table_spec(combined_spec, "spec.toml", settings), {}};
+  for (const auto& place : sweep_places(table.spec)) table.branches.push_back(invented_combined_branch(place));
+  return table;
+}
+
+/// The same for all tests of a program: it takes half a second.
+inline const CombinedTable& whole_combined_table() {
+  static const CombinedTable table = invented_combined_table();
+  return table;
+}
+
+}  // namespace rheocyte::test
