@@ -138,10 +138,12 @@ class TimeFollower {
     const double share = 100 * stepper_->now().time / run_.end;
     if (status == Status::stopped)
       return fmt::format("Stopped by a signal at {:.4g} % of the time; --continue goes on from there.", share);
-    return fmt::format(
-        "No step in time succeeds beyond {:.4g} % of the time ({}): the cell is drawn out or wrinkles; "
-        "the last good state is kept.",
-        share, name(status));
+    const char* why = run_.scheme == TimeScheme::partitioned
+                          ? "the step is too large for elasticity that is explicit, lower time.step_us, or the cell is "
+                            "drawn out or wrinkles"
+                          : "the cell is drawn out or wrinkles, raise its moduli or lower flow rate or viscosity";
+    return fmt::format("No step in time succeeds beyond {:.4g} % of the time ({}): {}; the last good state is kept.",
+                       share, name(status), why);
   }
 
   TimeRun run_;
