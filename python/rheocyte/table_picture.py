@@ -46,12 +46,14 @@ class Grid:
 
 @dataclass
 class Table:
-    """Columns of all rows, the end of the smooth branches (n, 2), and the name of the stiffness."""
+    """Columns of all rows, the name of the stiffness, and the ends of branches: area and deformation, (n, 2)."""
 
     name: str
     stiffness_name: str
     column: dict
-    end: np.ndarray
+    end: np.ndarray  # where the bare surface loses its stability
+    end_radius: np.ndarray  # of the spheres (n)
+    other_end: np.ndarray  # where branches end for other reasons
 
     @property
     def unit(self):
@@ -76,9 +78,12 @@ def read_folder(folder):
         raise InputError(f"{files[0]} holds no rows with a stiffness; wanted is a column {' or '.join(UNITS)}.")
     column = {name: np.array([number(row, name, files[0]) for row in rows]) for name in COLUMNS + [stiffness]}
     path = folder / "end-of-branch.csv"
-    end = [[number(row, name, path) for name in ("area_um2", "deformation")]
-           for row in read_table(path, ["area_um2", "deformation"])]
-    return Table(files[0].stem.removeprefix("table_"), stiffness, column, np.array(end).reshape(-1, 2))
+    ends = read_table(path, ["radius_um", "area_um2", "deformation", "status"])
+    place = np.array([[number(row, name, path) for name in ("area_um2", "deformation", "radius_um")]
+                      for row in ends]).reshape(-1, 3)
+    unstable = np.array([row["status"] == "surface-unstable" for row in ends], dtype=bool)
+    return Table(files[0].stem.removeprefix("table_"), stiffness, column, place[unstable, :2], place[unstable, 2],
+                 place[~unstable, :2])
 
 
 def grid_of(table):
@@ -137,15 +142,31 @@ def new_axes(table, logarithmic):
     return figure, axes
 
 
+def inside_table(table, points):
+    """Which of the points (n, 2) lie in the table's ranges of area and deformation."""
+    area, top = table.column["area_um2"], 1.001 * table.column["deformation"].max()
+    return (points[:, 0] >= area.min()) & (points[:, 0] <= area.max()) & (points[:, 1] <= top)
+
+
+def curve_of_ends(table):
+    """The end of the smooth branches (n, 2), with gaps (NaN) where a radius between two has no such end."""
+    inside = inside_table(table, table.end)
+    place = np.searchsorted(np.unique(table.column["radius_um"]), table.end_radius[inside])
+    gaps = np.flatnonzero(np.diff(place) > 1) + 1
+    return np.insert(table.end[inside], gaps, np.nan, axis=0)
+
+
 def draw_end(axes, table):
-    """The curve behind which the bare surface is unstable, inside the table's range."""
-    low, high = table.column["area_um2"].min(), table.column["area_um2"].max()
-    inside = (table.end[:, 0] >= low) & (table.end[:, 0] <= high)
-    inside &= table.end[:, 1] <= 1.001 * table.column["deformation"].max()
-    if not inside.any():
-        return []
-    return axes.plot(*table.end[inside].T, color=colours.ALARM, linewidth=1.1, zorder=4,
-                     label="end of the smooth branches")
+    """The curve behind which the bare surface is unstable, inside the table's range, and other ends of branches."""
+    handles, curve = [], curve_of_ends(table)
+    if len(curve):
+        handles += axes.plot(*curve.T, color=colours.ALARM, linewidth=1.1, zorder=4,
+                             label="end of the smooth branches")
+    other = table.other_end[inside_table(table, table.other_end)]
+    if len(other):
+        handles += axes.plot(*other.T, color=colours.ALARM, linestyle="", marker="x", markersize=3, zorder=4,
+                             label="other ends")
+    return handles
 
 
 def label_lines(axes, drawn, levels, unit):

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from rheocyte.files import InputError
-from rheocyte.table_picture import grid_of, line_levels, read_folder, regularised_outline
+from rheocyte.table_picture import curve_of_ends, grid_of, line_levels, read_folder, regularised_outline
 
 PACKAGE = Path(__file__).resolve().parents[1]
 HEADER = "radius_um,{},deformation,area_um2,deformation_error,stiffness_error,regularised,end_of_branch\n"
@@ -76,6 +76,18 @@ class TablePicture(unittest.TestCase):
         outline = regularised_outline(table)
         np.testing.assert_allclose(outline[:12], table.end)
         np.testing.assert_allclose(outline[12:, 1], 0.19)
+
+    def test_the_curve_of_ends_has_a_gap_where_a_branch_ends_for_another_reason(self):
+        write_table(self.folder)
+        path = self.folder / "end-of-branch.csv"
+        lines = path.read_text().splitlines()
+        lines[5] = lines[5].replace("surface-unstable", "accuracy-not-reached")
+        path.write_text("\n".join(lines) + "\n")
+        table = read_folder(self.folder)
+        self.assertEqual(table.other_end.shape, (1, 2))
+        curve = curve_of_ends(table)
+        self.assertEqual(np.flatnonzero(np.isnan(curve[:, 0])).tolist(), [4])
+        self.assertEqual(len(curve), 12)
 
     def test_what_is_missing_or_damaged_is_named(self):
         for change, words in ((lambda: None, "holds 0 files table_"),

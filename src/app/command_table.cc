@@ -50,12 +50,14 @@ std::string summary(const TableFolder& folder) {
     solves += branch.solves;
     seconds += branch.seconds;
     factorisation += branch.factorisation_seconds;
+    if (branch.bending_kBT > 0 || branch.empty()) continue;  // those that go on where others have ended
     unstable += branch.end.status == "surface-unstable";
     short_of_range += branch.end.status != "surface-unstable" && branch.end.status != "covered";
   }
   return fmt::format(
       "{} states on {} branches, {} solves, {:.0f} s of one processor ({:.0f} % factorisation)\n"
-      "{} branches end at the instability of the surface, {} at another end; {} states refused\n",
+      "{} branches end at the instability of the surface, {} short of the range for other reasons (end-of-branch.csv); "
+      "{} states refused\n",
       samples, folder.radii(), solves, seconds, 100 * factorisation / std::max(seconds, 1e-9), unstable, short_of_range,
       refused);
 }

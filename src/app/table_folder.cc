@@ -90,7 +90,7 @@ bool TableFolder::has(int i, bool held) const {
   return fs::exists(record(i, held), error);
 }
 
-bool TableFolder::is_done(int i) const { return has(i, false) && (!wants_held(i) || has(i, true)); }
+bool TableFolder::is_done(int i) const { return has(i, false) && (!wants_held() || has(i, true)); }
 
 int TableFolder::done() const {
   int count = 0;
@@ -119,7 +119,7 @@ std::vector<SampledBranch> TableFolder::read_all() const {
   std::vector<SampledBranch> branches;
   for (int i = 0; i < radii(); ++i) {
     branches.push_back(read(i, false));
-    if (wants_held(i)) branches.push_back(read(i, true));
+    if (wants_held()) branches.push_back(read(i, true));
   }
   return branches;
 }

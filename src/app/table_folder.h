@@ -34,8 +34,8 @@ class TableFolder {
 
   int radii() const { return int(radii_um_.size()); }
   double radius_um(int i) const { return radii_um_[i]; }
-  /// Whether the branch beyond the end of the bare one is wanted, too: at every second radius.
-  bool wants_held(int i) const { return spec_.bending_beyond_kBT > 0 && i % 2 == 0; }
+  /// Whether the branches beyond the ends of the bare ones are wanted, too.
+  bool wants_held() const { return spec_.bending_beyond_kBT > 0; }
 
   bool is_done(int i) const;
   int done() const;

@@ -23,7 +23,7 @@ bool sample_radius(const TableFolder& folder, int i) {
     if (is_stopped(own)) return false;
     folder.keep(i, own, false);
   }
-  if (!folder.wants_held(i) || folder.has(i, true)) return true;
+  if (!folder.wants_held() || folder.has(i, true)) return true;
   // Read back: an interrupted table goes on from the record, and its bytes must not depend on that.
   const SampledBranch held = sample_held_branch(folder.spec(), folder.read(i, false), &stop_wanted());
   if (is_stopped(held)) return false;

@@ -195,16 +195,35 @@ std::string end_of_branch_csv(const LookupTable& table) {
   return text;
 }
 
+std::string regularisation_csv(const LookupTable& table) {
+  std::string text = fmt::format("radius_um,{},area_um2,bending_kBT,deformation,deformation_held,relative_change\n",
+                                 stiffness_column(table.spec));
+  for (const auto& radius : table.radii) {
+    const SampledBranch *bare = radius.own(), *held = radius.beyond();
+    for (int i = 0; bare && held && i < held->samples(); ++i) {
+      const double stiffness = held->stiffness[std::size_t(i)];
+      if (stiffness > bare->stiffness.front() || stiffness < bare->stiffness.back()) continue;
+      const double d = interpolate(*bare, Measure::deformation, stiffness), with = held->at(i, Measure::deformation);
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{:.3g}\n", radius.radius_um(), stiffness,
+                     interpolate(*bare, Measure::area_um2, stiffness), held->bending_kBT, d, with, with / d - 1);
+    }
+  }
+  return text;
+}
+
 std::vector<TableFile> table_files(const LookupTable& table, std::span<const double> levels) {
   const auto chosen = levels.empty() ? line_levels(table) : std::vector<double>(levels.begin(), levels.end());
   const std::string& id = table.spec.identifier;
-  return {{fmt::format("lut_{}.txt", id), lut_text(table, Abscissa::area)},
-          {fmt::format("lut_{}_volume.txt", id), lut_text(table, Abscissa::volume)},
-          {fmt::format("iso_{}-area_um-deform.txt", id), lines_text(table, chosen, Abscissa::area)},
-          {fmt::format("iso_{}-volume-deform.txt", id), lines_text(table, chosen, Abscissa::volume)},
-          {fmt::format("table_{}.csv", id), full_table_csv(table)},
-          {"end-of-branch.csv", end_of_branch_csv(table)},
-          {"spec.toml", to_toml(table.spec)}};
+  std::vector<TableFile> files{
+      {fmt::format("lut_{}.txt", id), lut_text(table, Abscissa::area)},
+      {fmt::format("lut_{}_volume.txt", id), lut_text(table, Abscissa::volume)},
+      {fmt::format("iso_{}-area_um-deform.txt", id), lines_text(table, chosen, Abscissa::area)},
+      {fmt::format("iso_{}-volume-deform.txt", id), lines_text(table, chosen, Abscissa::volume)},
+      {fmt::format("table_{}.csv", id), full_table_csv(table)},
+      {"end-of-branch.csv", end_of_branch_csv(table)},
+      {"spec.toml", to_toml(table.spec)}};
+  if (table.spec.bending_beyond_kBT > 0) files.push_back({"regularisation.csv", regularisation_csv(table)});
+  return files;
 }
 
 }  // namespace rheocyte

@@ -57,6 +57,10 @@ std::string full_table_csv(const LookupTable&);
 /// Where the smooth branches of the bare surface end, and why: the curve of the surface instability.
 std::string end_of_branch_csv(const LookupTable&);
 
+/// What the bending stiffness that holds the branches beyond their ends changes where the bare surface is stable as
+/// well: deformation of both at one radius and stiffness, and the relative change; one line for each held state.
+std::string regularisation_csv(const LookupTable&);
+
 /// Comments and metadata that all text files of a table share.
 TableText empty_text(const LookupTable&, Abscissa);
 

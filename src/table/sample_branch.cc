@@ -27,6 +27,8 @@ constexpr double tolerance = 1e-10;
 constexpr double first_displacement = 0.006;
 /// Steps of the samples in ln stiffness.
 constexpr double first_step = 0.25, first_held_step = 0.08, greatest_step = 0.9, least_step = 2e-3;
+/// So many states in a row may fail to be accurate before a branch is given up; each is nearer than the one before.
+constexpr int greatest_unsampled = 4;
 /// Of the step that the last interval would have allowed: towards its end a branch needs ever smaller ones.
 constexpr double growth = 0.6;
 /// A branch that is steeper than this (-d ln d / d ln E) nears a fold: finer meshes would not go farther.
@@ -158,6 +160,7 @@ class BranchSampler {
     nodes_.push_back(last_);
     std::optional<Node> last;  // the farthest state, once a step has failed
     Status failure = Status::not_started;
+    int unsampled = 0;  // states in a row that were not accurate
     for (double h = result_.bending_kBT > 0 ? first_held_step : first_step; h > least_step / 2;) {
       const Node& before = nodes_.back();
       Node next;
@@ -167,7 +170,13 @@ class BranchSampler {
         const Status status = advance(before, before.u + h, next);
         if (status == Status::stopped) return end(status);
         const bool moved = next.u > before.u + least_step / 4;
-        if (moved && !sample(next)) return end(Status::accuracy_not_reached);
+        if (moved && !sample(next)) {
+          // One state may fail where its neighbours do not.
+          if (++unsampled > greatest_unsampled) return end(Status::accuracy_not_reached);
+          h = 0.6 * (next.u - before.u);
+          continue;
+        }
+        unsampled = 0;
         if (!moved) next = before;
         if (status != Status::converged) last = next, failure = status;
       }
@@ -176,7 +185,7 @@ class BranchSampler {
         h = 0.7 * allowed;
         continue;
       }
-      if (moved > 0) nodes_.push_back(std::move(next));
+      if (moved > 0) nodes_.push_back(std::move(next)), release_coarse(nodes_.back().level);
       h = std::clamp(growth * allowed, 0.2 * moved, greatest_step);
       if (is_covered(nodes_.back())) return end("covered", "The branch leaves the table's ranges.");
       if (!last || nodes_.back().u < last->u) continue;
@@ -206,7 +215,7 @@ class BranchSampler {
   /// From the bare cell's state to the one with bending stiffness, which becomes the first state here.
   bool change_bending(BranchSampler& bare, double at_stiffness) {
     first_stiffness_ = at_stiffness;
-    discrete_ = bare.discrete_;
+    discrete_ = std::move(bare.discrete_);
     factorisation_before_ = factorisation_seconds();
     const Problem from = bare.problem(bare.last_.u), to = problem(0);
     const int level = bare.last_.level;
@@ -317,10 +326,20 @@ class BranchSampler {
     ++result_.solves;
     result_.newton_iterations += iterations;
   }
+  /// A state needs its own level and the one before, which tells its error; factors take some 100 MB on the others.
+  void release_coarse(int level) {
+    for (int i = 0; i < level - 1; ++i) {
+      if (discrete_[i]) released_factorisation_ += factorisation_seconds(*discrete_[i]);
+      discrete_[i].reset();
+    }
+  }
+  static double factorisation_seconds(const Discrete& discrete) {
+    return discrete.system.work().condensation_s + discrete.system.work().sparse_s;
+  }
   double factorisation_seconds() const {
-    double seconds = 0;
+    double seconds = released_factorisation_;
     for (const auto& discrete : discrete_) {
-      if (discrete) seconds += discrete->system.work().condensation_s + discrete->system.work().sparse_s;
+      if (discrete) seconds += factorisation_seconds(*discrete);
     }
     return seconds;
   }
@@ -353,6 +372,7 @@ class BranchSampler {
   NewtonOptions newton_;
   std::array<std::shared_ptr<Discrete>, ladder.size()> discrete_;
   double factorisation_before_ = 0;  ///< of systems that were taken over
+  double released_factorisation_ = 0;
   Node last_;
   std::vector<Node> nodes_;
   SampledBranch result_;

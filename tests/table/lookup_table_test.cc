@@ -87,6 +87,28 @@ TEST(LookupTable, TheEndsOfTheBranchesAreACurve) {
   EXPECT_EQ(ends, std::ranges::count(branches, "surface-unstable", [](const auto& b) { return b.end.status; }));
 }
 
+TEST(LookupTable, TheEffectOfBendingIsListedWhereBothBranchesExist) {
+  const auto spec = spec_with({});
+  const auto branches = invented_unstable_branches(spec);
+  std::istringstream csv(regularisation_csv(make_lookup_table(spec, branches, "0")));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "radius_um,young_modulus_kPa,area_um2,bending_kBT,deformation,deformation_held,relative_change");
+  int lines = 0;
+  for (; std::getline(csv, line); ++lines) {
+    std::ranges::replace(line, ',', ' ');
+    std::istringstream numbers(line);
+    double radius = 0, stiffness = 0, area = 0, bending = 0, bare = 0, held = 0, change = 0;
+    numbers >> radius >> stiffness >> area >> bending >> bare >> held >> change;
+    EXPECT_TRUE(numbers) << line;
+    EXPECT_EQ(bending, 1e4);
+    // The invented branches are equal, up to the interpolation of the bare one.
+    EXPECT_NEAR(held / bare, 1, 1e-3);
+    EXPECT_NEAR(change, held / bare - 1, 1e-5);
+  }
+  EXPECT_GE(lines, std::ranges::count(branches, 1e4, &SampledBranch::bending_kBT));
+}
+
 TEST(LookupTable, AllFilesAreEqualWhateverTheOrderOfTheBranches) {
   const auto spec = spec_with({});
   auto branches = invented_unstable_branches(spec), shuffled = branches;
@@ -94,7 +116,7 @@ TEST(LookupTable, AllFilesAreEqualWhateverTheOrderOfTheBranches) {
   for (auto& branch : shuffled) branch.seconds = 99;  // times must not reach any file
   const auto one = table_files(make_lookup_table(spec, branches, "0"));
   const auto two = table_files(make_lookup_table(spec, shuffled, "0"));
-  ASSERT_EQ(one.size(), 7u);
+  ASSERT_EQ(one.size(), 8u);
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].name, two[i].name);
     EXPECT_EQ(one[i].content, two[i].content) << one[i].name;
