@@ -10,6 +10,8 @@
 #include <type_traits>
 
 #include "app/build_info.h"
+#include "case/read_case.h"
+#include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
 
@@ -211,6 +213,26 @@ Checkpoint read_checkpoint(const fs::path& folder, const Case& c) {
     refuse(folder,
            fmt::format("has reached {:g} us already, time.end_us = {:g} lies before it.", reached, *c.time.end_us));
   return *latest;
+}
+
+TimeStart read_start(const fs::path& folder, const Case& c) {
+  const fs::path file = folder / "case.toml";
+  if (!fs::exists(file)) refuse(folder, "holds no result of rheocyte; --start takes the folder of a result in time.");
+  const Case other = read_case(file);
+  if (other.time.scheme == TimeScheme::stationary)
+    refuse(folder, "is a stationary result, which has no checkpoint; --start takes the folder of a result in time.");
+  const bool implicit = c.time.scheme == TimeScheme::monolithic && other.time.scheme == TimeScheme::monolithic;
+  const bool straight = c.channel.profile.x_um.empty() && other.channel.profile.x_um.empty();
+  if (!implicit || !straight)
+    refuse(folder, "cannot be a start: that is for time.scheme = \"monolithic\" in straight channels, here and there.");
+  if (tube_radius_um(c) != tube_radius_um(other) || c.cell.radius_um != other.cell.radius_um ||
+      c.time.degree != other.time.degree || c.flow.drive != other.flow.drive ||
+      c.channel.length_um != other.channel.length_um)
+    refuse(folder,
+           "is of another size; cell.radius_um, the channel, flow.drive and time.degree must be those of the start.");
+  const Scales now = scales_of(c), then = scales_of(other);
+  return {read_checkpoint(folder, other).state,
+          UnitChange{then.velocity_m_per_s / now.velocity_m_per_s, then.stress_Pa / now.stress_Pa}};
 }
 
 }  // namespace rheocyte

@@ -28,4 +28,8 @@ Checkpoint decode_checkpoint(const std::string& content, const Case&, const std:
 /// has reached lies beyond the end of the case.
 Checkpoint read_checkpoint(const std::filesystem::path& folder, const Case&);
 
+/// The last state of a result in time, of implicit steps in a straight channel, as the start of a case on the same
+/// mesh. UserError if the sizes, the degree or the scheme differ.
+TimeStart read_start(const std::filesystem::path& folder, const Case&);
+
 }  // namespace rheocyte

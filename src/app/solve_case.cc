@@ -40,6 +40,8 @@ int solve_case(const SolveOptions& options) {
   check_result_folder(options.folder);
   watch_signals();
   if (c.time.scheme != TimeScheme::stationary) return solve_in_time(c, options);
+  if (!options.start_from.empty())
+    throw UserError("rheocyte: --start is for a case with a [time] section; a stationary one starts by itself.");
   if (!options.continue_from.empty())
     throw UserError(
         "rheocyte: --continue is for a case with a [time] section; a stationary one has nothing to continue.");

@@ -134,12 +134,14 @@ nlohmann::ordered_json time_numbers(const TimeRecord& record) {
 int solve_in_time(const Case& c, const SolveOptions& options) {
   Result result{c, scales_of(c), problem_of(c), {}};
   std::optional<Checkpoint> from;
-  if (!options.continue_from.empty()) from = read_checkpoint(options.continue_from, c);
+  std::optional<TimeStart> start;
+  if (!options.continue_from.empty()) start = TimeStart{(from = read_checkpoint(options.continue_from, c))->state};
+  if (!options.start_from.empty()) start = read_start(options.start_from, c);
   ResultFolder folder(options.folder);
   Recorder recorder(result, options, folder);
   if (from) recorder.take_over(*from);
   result.state = follow_in_time(result.problem, run_of(c, result.scales), recorder.observer(),
-                                from ? &from->state : nullptr, &stop_wanted());
+                                start ? &*start : nullptr, &stop_wanted());
   recorder.write_all();
   auto numbers = to_json(result);
   numbers["time"] = time_numbers(recorder.record());

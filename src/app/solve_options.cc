@@ -20,6 +20,13 @@ void declare_solve_options(CLI::App& command, SolveOptions& options, std::functi
       .add_option("--continue", options.continue_from,
                   "go on from the last checkpoint in this folder; only for a case with a [time] section")
       ->type_name("DIR");
+  command
+      .add_option(
+          "--start", options.start_from,
+          "start from the last state in this folder, which may be that of another case of the same sizes; only for "
+          "a case with a [time] section")
+      ->type_name("DIR")
+      ->excludes("--continue");
   command.add_flag("--json", options.json, "print result.json on standard output and nothing else there");
   command.add_flag("--quiet", options.quiet, "print neither progress nor summary");
   command.add_flag("--no-picture", options.no_picture, "do not draw picture.png and picture.svg");

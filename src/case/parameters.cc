@@ -88,18 +88,17 @@ const std::array table = {
 
     Parameter{"cell.radius_um", "um", "radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius",
               number<FIELD(cell.radius_um)>({0.01, 5000})},
+    Parameter{"cell.viscosity_mPas", "mPa s",
+              "viscosity of the cell's interior; a stationary shape does not depend on it",
+              number<FIELD(cell.viscosity_mPas)>({1e-3, 1e9}), in_time},
+    Parameter{"cell.density_kg_per_m3", "kg/m3", "density of the cell",
+              number<FIELD(cell.density_kg_per_m3)>({0, 1e6}, 1000), in_time},
     Parameter{"cell.bulk.law", "", "elastic law of the cell's interior, none: a liquid, which makes the cell a shell",
               choice<FIELD(cell.bulk.law)>({"linear", "neo-hookean", "mooney-rivlin", "none"}, 1)},
     Parameter{"cell.bulk.young_modulus_kPa", "kPa", "Young's modulus of the cell's interior, which is incompressible",
               number<FIELD(cell.bulk.young_modulus_kPa)>({1e-6, 1e9}), has_bulk},
     Parameter{"cell.bulk.mooney_share", "", "share of the neo-hookean law in the mooney-rivlin one, the rest is linear",
               number<FIELD(cell.bulk.mooney_share)>({0, 1}, 0.5), mooney_rivlin},
-
-    Parameter{"cell.viscosity_mPas", "mPa s",
-              "viscosity of the cell's interior; a stationary shape does not depend on it",
-              number<FIELD(cell.viscosity_mPas)>({1e-3, 1e9}), in_time},
-    Parameter{"cell.density_kg_per_m3", "kg/m3", "density of the cell",
-              number<FIELD(cell.density_kg_per_m3)>({0, 1e6}, 1000), in_time},
 
     Parameter{
         "cell.cortex.law", "", "elastic law of the cell's surface, the cortex",

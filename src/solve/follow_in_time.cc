@@ -44,16 +44,13 @@ class TimeFollower {
   TimeFollower(const Problem& problem, const TimeRun& run, const TimeObserver& observer, const std::atomic<bool>* stop)
       : run_(run), observer_(observer), stop_(stop), stepper_(make_stepper(problem, run, stop)) {}
 
-  StationaryState follow(const TimeState* from) {
+  StationaryState follow(const TimeStart* from) {
     const auto start = std::chrono::steady_clock::now();
     StationaryState result;
     Outcome& outcome = result.outcome;
-    if (from) {
-      stepper_->resume(*from);
-      outcome.status = Status::converged;
-    } else {
-      outcome.status = stepper_->start();
-      if (outcome.status != Status::converged) return outcome.message = start_failed, result;
+    outcome.status = from ? resume(*from) : stepper_->start();
+    if (outcome.status != Status::converged) return outcome.message = start_failed, result;
+    if (!from || from->units) {
       show_frame(0, stepper_->now().unknowns);
       if (observer_.step) observer_.step(describe(TimeStepReport{}), stepper_->state());
     }
@@ -71,6 +68,13 @@ class TimeFollower {
  private:
   static constexpr const char* start_failed =
       "The flow round the sphere at rest was not found; please report this case.";
+
+  Status resume(const TimeStart& from) {
+    if (!from.units) return stepper_->resume(from.state), Status::converged;
+    TimeState state = at_time_zero(stepper_->space(), from.state, *from.units);
+    state.next_step = TimeStepOptions{}.first_step;
+    return stepper_->resume(state), Status::converged;
+  }
 
   bool at_end() const { return stepper_->now().time >= run_.end * (1 - 1e-12); }
 
@@ -138,10 +142,12 @@ class TimeFollower {
     const double share = 100 * stepper_->now().time / run_.end;
     if (status == Status::stopped)
       return fmt::format("Stopped by a signal at {:.4g} % of the time; --continue goes on from there.", share);
-    return fmt::format(
-        "No step in time succeeds beyond {:.4g} % of the time ({}): the cell is drawn out or wrinkles; "
-        "the last good state is kept.",
-        share, name(status));
+    const char* why = run_.scheme == TimeScheme::partitioned
+                          ? "the step is too large for elasticity that is explicit, lower time.step_us, or the cell is "
+                            "drawn out or wrinkles"
+                          : "the cell is drawn out or wrinkles, raise its moduli or lower flow rate or viscosity";
+    return fmt::format("No step in time succeeds beyond {:.4g} % of the time ({}): {}; the last good state is kept.",
+                       share, name(status), why);
   }
 
   TimeRun run_;
@@ -153,7 +159,7 @@ class TimeFollower {
 }  // namespace
 
 StationaryState follow_in_time(const Problem& problem, const TimeRun& run, const TimeObserver& observer,
-                               const TimeState* from, const std::atomic<bool>* stop) {
+                               const TimeStart* from, const std::atomic<bool>* stop) {
   return TimeFollower(problem, run, observer, stop).follow(from);
 }
 

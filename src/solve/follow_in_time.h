@@ -1,7 +1,7 @@
 // The way of a cell from the sphere, with everything that is recorded on it (docs/theory-time.md).
 #pragma once
 #include "solve/stationary.h"
-#include "solve/time_state.h"
+#include "solve/time_start.h"
 
 namespace rheocyte {
 
@@ -37,9 +37,9 @@ struct TimeObserver {
   std::function<void(const TimePoint&, const TimeState&)> step;  ///< at the start and after each step and its frames
 };
 
-/// Follows the cell from the sphere, or from the state that an earlier run ended with. The result describes the last
+/// Follows the cell from the sphere, or from the state of an earlier run. The result describes the last
 /// state; its `reached` is 1 as the moduli are the wanted ones throughout. Never throws for a numerical failure.
-StationaryState follow_in_time(const Problem&, const TimeRun&, const TimeObserver&, const TimeState* from = nullptr,
+StationaryState follow_in_time(const Problem&, const TimeRun&, const TimeObserver&, const TimeStart* from = nullptr,
                                const std::atomic<bool>* stop = nullptr);
 
 }  // namespace rheocyte

@@ -15,10 +15,21 @@ std::vector<Case> cases_of_all_laws() {
   const std::string newtonian = "flow.rate_ul_per_s = 0.04\nflow.viscosity_mPas = 1e7\n";
   const std::string power_law =
       "flow.rate_ul_per_s = 1e-9\nflow.law = \"power-law\"\nflow.consistency_Pa_sn = 0.4057\nflow.exponent = 0.6039\n";
-  return {parse_case("channel.width_um = 20\n" + common + newtonian, "newtonian"),
-          parse_case("channel.radius_um = 10.94\n" + common + power_law, "power law"),
-          parse_case("channel.width_um = 20\ncell.bulk.law = \"mooney-rivlin\"\n" + common + newtonian, "mooney"),
-          parse_case("channel.width_um = 20\ncell.bulk.law = \"linear\"\n" + common + newtonian, "linear")};
+  const std::string in_time = "cell.viscosity_mPas = 15\ntime.end_us = 500\n";
+  return {
+      parse_case("channel.width_um = 20\n" + common + newtonian, "newtonian"),
+      parse_case("channel.radius_um = 10.94\n" + common + power_law, "power law"),
+      parse_case("channel.width_um = 20\ncell.bulk.law = \"mooney-rivlin\"\n" + common + newtonian, "mooney"),
+      parse_case("channel.width_um = 20\ncell.bulk.law = \"linear\"\n" + common + newtonian, "linear"),
+      parse_case("channel.width_um = 20\n" + common + newtonian + in_time, "in time"),
+      parse_case("channel.width_um = 20\ntime.scheme = \"partitioned\"\n" + common + newtonian + in_time, "splitting"),
+      parse_case("channel.width_um = 20\nchannel.length_um = 200\nflow.pressure_drop_Pa = 1e3\n"
+                 "flow.viscosity_mPas = 15\n" +
+                     common,
+                 "pressure drop"),
+      parse_case(
+          "channel.profile.x_um = [60, 100.1]\nchannel.profile.R_um = [21.88, 10.94]\n" + common + newtonian + in_time,
+          "profile")};
 }
 
 TEST(WriteCase, WhatIsWrittenIsReadBackToTheSameBits) {

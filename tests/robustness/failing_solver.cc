@@ -99,7 +99,7 @@ StationaryState solve_stationary(const Problem& problem, const ProgressCallback&
 }
 
 /// In time nothing fails on demand: one state, no step.
-StationaryState follow_in_time(const Problem& problem, const TimeRun&, const TimeObserver&, const TimeState*,
+StationaryState follow_in_time(const Problem& problem, const TimeRun&, const TimeObserver&, const TimeStart*,
                                const std::atomic<bool>* stop) {
   return solve_stationary(problem, {}, stop);
 }
