@@ -153,7 +153,7 @@ Eigen::RowVector2d deviations(const Eigen::MatrixX2d& left) {
 int main(int argc, char** argv) {
   if (argc < 2) return fmt::print("pixel_errors DIR [SHAPES [PLACES]]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
-  const double width = channel_width_um(spec.base), rate = spec.base.flow.rate_ul_per_s,
+  const double width = channel_width_um(spec.base), rate = spec.base.flow.rate_ul_per_s.value(),
                viscosity = effective_viscosity_mPas(spec.base);
   auto branches = TableFolder(argv[1], spec).read_all();
   std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });

@@ -30,6 +30,8 @@ MARGINS_IN = (0.5, 0.4, 0.42, 0.56)  # of each panel: left, right, bottom, top
 LEGEND_IN = 0.26  # below all panels
 GREATEST_NUMBER = 12000  # of events drawn in a panel; all count for colours and contours
 STANDARD_AREA, STANDARD_DEFORMATION, STANDARD_WIDTH = 200, 0.2, 20
+LABELS = {"area_um": "area (µm²)", "deform": "deformation", "emodulus": "Young's modulus (kPa)",
+          "volume": "volume (µm³)", "temp": "temperature (°C)", "time": "time (s)"}
 LINE, SUPPORT, HALF = "#7d8891", "#eef1f4", "#ffffff"
 
 
@@ -74,8 +76,35 @@ def upper_end(values, standard):
     return float(np.ceil(needed / step) * step)
 
 
+def values_range(values):
+    """Round ends of an axis that hold 99 % of the values and some room."""
+    low, high = np.quantile(values, [0.005, 0.995])
+    room = 0.08 * (high - low) or 0.5 * abs(high) or 1.0
+    low, high = low - room if low < 0 or low > 2 * room else 0.0, high + room
+    step = 10 ** np.floor(np.log10(high - low)) / 10
+    return float(np.floor(low / step) * step), float(np.ceil(high / step) * step)
+
+
+def common_ranges(panels):
+    """Axes of other features, alike for all panels."""
+    events = np.concatenate([panel.events for panel in panels])
+    return [(values_range(events[:, 0]), values_range(events[:, 1]))] * len(panels)
+
+
+def label_of(feature):
+    """What stands at the axis."""
+    return LABELS.get(feature, feature.replace("_", " "))
+
+
+def is_usual(story):
+    """Whether the axes are area and deformation."""
+    return (story.get("x", "area_um"), story.get("y", "deform")) == ("area_um", "deform")
+
+
 def ranges(panels):
     """Axes ((0, area), (0, deformation)) of each panel: areas alike for channels of one width, deformations for all."""
+    if not is_usual(panels[0].story):
+        return common_ranges(panels)
     deformation = max(upper_end(panel.events[:, 1], STANDARD_DEFORMATION) for panel in panels)
     area = {}
     for panel in panels:
@@ -103,7 +132,8 @@ def draw(panels):
 
 def draw_panel(axes, panel, rectangle):
     """Support, lines, events, contours, labels, from back to front."""
-    axes.set(xlim=rectangle[0], ylim=rectangle[1], xlabel="area (µm²)", ylabel="deformation")
+    axes.set(xlim=rectangle[0], ylim=rectangle[1], xlabel=label_of(panel.story.get("x", "area_um")),
+             ylabel=label_of(panel.story.get("y", "deform")))
     axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
     axes.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
     if panel.support is not None:
@@ -199,12 +229,16 @@ def draw_words(axes, panel, rectangle):
 
 def number_of_events(panel, rectangle):
     """All events, and how many of them are not in the picture."""
-    (_, right), (_, top) = rectangle
     story = panel.story
-    outside = int(np.sum((panel.events[:, 0] > right) | (panel.events[:, 1] > top) | (panel.events < 0).any(axis=1)))
+    low, high = np.array(rectangle).T
+    outside = int(np.sum(((panel.events < low) | (panel.events > high)).any(axis=1)))
     words = [f"{thousands(story['events'])} event" + ("s" if story["events"] != 1 else "")]
-    if story["drawable"] < story["events"]:
-        words.append(f"{thousands(story['events'] - story['drawable'])} without shape")
+    gated = story.get("gated", 0)
+    if gated:
+        words.append(f"{thousands(gated)} gated")
+    if story["drawable"] + gated < story["events"]:
+        without = "shape" if is_usual(story) else "values"
+        words.append(f"{thousands(story['events'] - gated - story['drawable'])} without {without}")
     if outside:
         words.append(f"{thousands(outside)} outside")
     return ", ".join(words)

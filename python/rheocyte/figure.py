@@ -34,19 +34,18 @@ class Parser(argparse.ArgumentParser):
 
 
 def available():
-    """Numbers of the figures for which there is a module."""
-    names = (module.name.removeprefix("figure") for module in pkgutil.iter_modules(figures.__path__)
-             if module.name.startswith("figure"))
-    return sorted(int(name) for name in names if name.isdecimal())
+    """Numbers of the figures for which there is a module, then the names of those that are not in the paper."""
+    names = [module.name.removeprefix("figure").removeprefix("_") for module in pkgutil.iter_modules(figures.__path__)
+             if module.name.startswith("figure")]
+    return sorted(filter(str.isdecimal, names), key=int) + sorted(name for name in names if name.isalpha())
 
 
 def chosen(text):
-    """The number of an available figure."""
+    """The number or name of an available figure."""
     numbers = available()
-    for number in numbers:
-        if text == str(number):
-            return number
-    listed = " and ".join(filter(None, [", ".join(map(str, numbers[:-1])), str(numbers[-1])]))
+    if text in numbers:
+        return text
+    listed = " and ".join(filter(None, [", ".join(numbers[:-1]), numbers[-1]]))
     raise InputError(f"there is no figure {text[:40]!r} here; available are {listed}, for example `rheocyte figure "
                      f"{numbers[0]}`.")
 
@@ -54,7 +53,8 @@ def chosen(text):
 def drawing(number):
     """The module of a figure; it needs matplotlib, which is loaded only now."""
     try:
-        return importlib.import_module(f"rheocyte.figures.figure{number}")
+        name = f"figure{number}" if number.isdecimal() else f"figure_{number}"
+        return importlib.import_module(f"rheocyte.figures.{name}")
     except ImportError as error:
         raise InputError(f"the figures need Python with numpy and matplotlib ({error}).") from error
 

@@ -173,8 +173,23 @@ def draw_walls(axes, story):
     for lower in (story.radius, -story.radius - thickness):
         axes.add_patch(Rectangle((left, lower), right - left, thickness, facecolor="#e4e6e8", edgecolor="#9aa3ab",
                                  hatch="//////", linewidth=0, zorder=3))
-    for wall in (story.radius, -story.radius):
-        axes.plot([left, right], [wall, wall], color=colours.INK, linewidth=0.9, zorder=3.1, solid_capstyle="butt")
+    x, radii = wall_line(story)
+    for side in (1, -1):
+        axes.fill_between(x, side * radii, side * story.radius, facecolor="#e4e6e8", edgecolor="#9aa3ab", hatch="//////",
+                          linewidth=0, zorder=3)
+        axes.plot(x, side * radii, color=colours.INK, linewidth=0.9, zorder=3.1, solid_capstyle="butt")
+
+
+def wall_line(story):
+    """Places and radii of the wall: where the liquid's pixels end, smoothed over a few of them; or of a straight one."""
+    x, r = story.grid.x, story.grid.r
+    liquid = np.isfinite(story.relative[2])
+    radii = r[len(r) - 1 - np.argmax(liquid[::-1], axis=0)]
+    if not liquid.any(axis=0).all() or radii.min() > 0.98 * story.radius:
+        return x[[0, -1]], np.full(2, story.radius)
+    width = 15
+    padded = np.pad(radii, width // 2, mode="edge")
+    return x, np.convolve(padded, np.full(width, 1 / width), mode="valid")
 
 
 def draw_outlines(axes, story):

@@ -51,12 +51,12 @@ def draw(result, history, contours):
     times, shapes = contours
     t, d = history
     figure = plt.figure(figsize=(WIDTH_IN, 2.6))
-    axes = figure.add_axes([0.13, 0.15, 0.83, 0.55])
+    axes = figure.add_axes([0.16, 0.15, 0.8, 0.55])
     axes.plot(t, d, color=EDGE, linewidth=1)
     axes.set(xlim=(0, t[-1] or 1), xlabel="time (µs)", ylabel="deformation")
     axes.set_ylim(bottom=0)
     axes.spines[["top", "right"]].set_visible(False)
-    above = figure.add_axes([0.13, 0.72, 0.83, 0.2])
+    above = figure.add_axes([0.16, 0.72, 0.8, 0.2])
     above.axis("off")
     size = 1.15 * max(np.ptp(shape[:, 0]) for shape in shapes)
     chosen = chosen_frames(times, t, d)
@@ -71,31 +71,58 @@ def draw(result, history, contours):
 
 
 def chosen_frames(times, t, d):
-    """Frames at equal steps of the deformation, the first and the last among them."""
-    values = np.interp(times, t, d)
-    wanted = np.linspace(values[0], values[-1], SHOWN)
-    return sorted({int(np.argmin(np.abs(values - value))) for value in wanted} | {0, len(times) - 1})[:SHOWN + 1]
+    """Frames at equal steps of the deformation, up or down, the first and the last among them."""
+    way = np.concatenate([[0], np.cumsum(np.abs(np.diff(np.interp(times, t, d))))])
+    wanted = np.linspace(0, way[-1], SHOWN)
+    return sorted({int(np.argmin(np.abs(way - value))) for value in wanted} | {0, len(times) - 1})[:SHOWN + 1]
 
 
-def animate(result, history, contours, path):
+def read_wall(folder):
+    """Wall of a channel that is not straight and the way of the cell: (x, radius), (time, position); None if straight."""
+    if not (folder / "channel.csv").exists():
+        return None
+    tables = []
+    for name, columns in (("channel.csv", ("x_um", "R_um")), ("history.csv", ("t_us", "position_um"))):
+        rows = read_table(folder / name, list(columns))
+        tables.append([np.array([number(row, column, folder / name) for row in rows]) for column in columns])
+    return tables
+
+
+def wall_round_cell(wall, radius, time):
+    """Places from the cell's centre and the wall's radii there."""
+    reach = 2.5 * radius
+    if wall is None:
+        return np.array([-reach, reach]), np.array([radius, radius])
+    (x, radii), way = wall
+    here = np.interp(time, *way)
+    places = np.linspace(-reach, reach, 200)
+    return places, np.interp(places + here, x, radii)
+
+
+def animate(result, history, contours, wall, path):
     """The cell between the walls, as a film."""
     plt.rcParams.update(STYLE)
     times, shapes = contours
     steps = np.unique(np.linspace(0, len(times) - 1, min(len(times), GREATEST_FRAMES)).round().astype(int))
     radius = find(result, "tube_radius_um") or 1.2 * max(shape[:, 1].max() for shape in shapes)
-    figure = plt.figure(figsize=(4.4, 2.6), dpi=110)
+    widest = radius if wall is None else max(wall_round_cell(wall, radius, t)[1].max() for t in times)
+    height = 1.18 * widest
+    figure = plt.figure(figsize=(4.4, 4.4 * height / (2 * radius)), dpi=110)
     axes = figure.add_axes([0, 0, 1, 1])
-    axes.set(xlim=(-2 * radius, 2 * radius), ylim=(-1.18 * radius, 1.18 * radius), aspect="equal")
+    axes.set(xlim=(-2 * radius, 2 * radius), ylim=(-height, height), aspect="equal")
     axes.axis("off")
-    for side in (-1, 1):
-        axes.fill_between([-3 * radius, 3 * radius], side * radius, side * 1.3 * radius, color="#9aa5ad")
+    walls = [axes.fill([0], [0], color="#9aa5ad")[0] for _ in range(2)]
     (cell,) = axes.fill(*closed(shapes[0]).T, facecolor=FILL, edgecolor=EDGE, linewidth=1.2)
-    label = axes.text(-1.9 * radius, 0.97 * radius, "", va="top", fontsize=9)
+    label = axes.text(-1.9 * radius, 0.82 * height, "", va="top", fontsize=9)
 
     def show(k):
+        x, radii = wall_round_cell(wall, radius, times[k])
+        for side, drawn in zip((-1, 1), walls):
+            drawn.set_xy(np.column_stack([np.concatenate([x, x[::-1]]),
+                                          side * np.concatenate([radii, np.full(len(x), 3 * widest)])]))
         cell.set_xy(closed(shapes[k]))
         label.set_text(f"{times[k]:.4g} µs\nd = {np.interp(times[k], *history):.4f}")
-        return cell, label
+        return cell, label, *walls
 
     handle, temporary = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=".gif", dir=path.parent)
     os.close(handle)
@@ -119,7 +146,7 @@ def main():
     result = read_result(folder / "result.json")
     history, contours = read_history(folder / "history.csv"), read_contours(folder / "contours.csv")
     save_figure(draw(result, history, contours), folder / "time", dpi=400)
-    animate(result, history, contours, folder / "time.gif")
+    animate(result, history, contours, read_wall(folder), folder / "time.gif")
 
 
 if __name__ == "__main__":

@@ -84,12 +84,13 @@ class Study(unittest.TestCase):
         figure, rows = figure7.make(laboratory)
         self.assertEqual(len(figure.axes), 2)
         self.assertEqual([row["moduli"] for row in rows], ["paper's spline, as measured", "table, as measured",
-                                                           "table, pixels corrected", "truth"])
+                                                           "table, deformation corrected", "own way: both corrected",
+                                                           "truth"])
         for row in rows:
             # The invented events have the moduli themselves; the spline through seven points of a falling power is off
             # by a percent.
             self.assertAlmostEqual(float(row["quantile_0.5_kPa"]), 5.5, delta=0.12)
-        self.assertEqual([call[0] for call in laboratory.calls], ["table", "synth", "extract", "extract"])
+        self.assertEqual([call[0] for call in laboratory.calls], ["table", "synth", "extract", "extract", "extract"])
         self.assertIn("--no-pixelation", laboratory.calls[2])
         self.assertNotIn("--no-pixelation", laboratory.calls[3])
 

@@ -109,7 +109,7 @@ std::string header(const AnalyticTableInput& input, const std::string& identifie
       {"channel_width", input.conditions.input.channel.width_um.value()},
       {"channel_width_unit", "um"},
       {"dimensionality", "2Daxis"},
-      {"flow_rate", flow.rate_ul_per_s},
+      {"flow_rate", flow.rate_ul_per_s.value()},
       {"flow_rate_unit", "uL/s"},
       {"fluid_viscosity", flow.viscosity_mPas.value()},
       {"fluid_viscosity_unit", "mPa s"},

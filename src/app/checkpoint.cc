@@ -97,10 +97,13 @@ void write_state(Writer& writer, const TimeState& state) {
   writer.number(state.steps_at_order);
   writer.number(state.next_step);
   writer.matrix(state.traction);
+  writer.number(state.inlet_pressure);
   writer.number(std::uint64_t(state.levels.size()));
   for (const TimeLevel& level : state.levels) {
     writer.number(level.time);
     writer.number(level.frame_acceleration);
+    writer.number(level.position);
+    writer.matrix(level.outward);
     writer.matrix(level.unknowns);
     writer.matrix(level.velocities);
   }
@@ -112,10 +115,13 @@ TimeState read_state(Reader& reader) {
   state.steps_at_order = reader.number<int>();
   state.next_step = reader.number<double>();
   state.traction = reader.matrix<Eigen::VectorXd>();
+  state.inlet_pressure = reader.number<double>();
   state.levels.resize(reader.count(32));
   for (TimeLevel& level : state.levels) {
     level.time = reader.number<double>();
     level.frame_acceleration = reader.number<double>();
+    level.position = reader.number<double>();
+    level.outward = reader.matrix<Eigen::VectorXd>();
     level.unknowns = reader.matrix<Eigen::VectorXd>();
     level.velocities = reader.matrix<Eigen::VectorXd>();
   }

@@ -105,7 +105,8 @@ class Batch {
     }
     if (summary.valid() == 0) {
       empty_ = true;
-      tell(fmt::format("{}: all events lie outside the table {}: {}.", name, summary.table, in_one_line(summary)));
+      tell(fmt::format("{}: all events lie outside the table {}{}: {}.", name, summary.table,
+                       summary.gates.empty() ? "" : " or the gates", in_one_line(summary)));
     }
     lines_.push_back({task.recording, summary, {}});
   }

@@ -48,7 +48,8 @@ int become_python(const FigureOptions& options) {
 void add_figure_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("figure", "remake a figure of Mokbel et al. 2017, solving what is missing for it");
   auto options = std::make_shared<FigureOptions>();
-  command->add_option("N", options->number, "number of the figure in the paper")->required();
+  command->add_option("N", options->number, "number of the figure in the paper; entry: a cell enters a narrow channel")
+      ->required();
   command
       ->add_option("-o,--output", options->folder,
                    "folder for figure-N.png, .svg and .csv; results in its folders cases and tables are used again")

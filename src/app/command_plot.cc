@@ -77,7 +77,7 @@ class Plot {
     if (!options.lines.empty()) given_lines_ = read_level_lines(options.lines);
     if (finder_ || given_lines_) {
       lines_ = LinesWanted::yes;
-    } else if (const auto own = standard_table_file(); own && !options.no_lines) {
+    } else if (const auto own = standard_table_file(); own && !options.no_lines && has_usual_axes(options)) {
       finder_.emplace(*own);
       lines_ = options.levels_kPa.empty() ? LinesWanted::if_possible : LinesWanted::yes;
     }
@@ -116,7 +116,10 @@ class Plot {
            {"sample", panel.sample},
            {"measured", panel.measured},
            {"events", panel.events},
+           {"gated", panel.gated},
            {"drawable", panel.drawable},
+           {"x", options_.x},
+           {"y", options_.y},
            {"width_um", panel.width_um},
            {"lines", json::array()}};
     if (!options_.measuring.quiet)

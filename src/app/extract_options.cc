@@ -25,6 +25,7 @@ void check_measuring_options(const ExtractOptions& options) {
   check_positive(options.pixel_size_um, "--pixel-size");
   check_positive(options.viscosity_mPas, "--viscosity");
   check_positive(options.patience_s, "--patience");
+  static_cast<void>(Gates(options.gates));
   if (!options.viscosity_mPas) return;
   const char* const other = options.medium                 ? "--medium"
                             : options.viscosity_model      ? "--viscosity-model"
@@ -45,6 +46,7 @@ void declare_measuring_options(CLI::App& command, ExtractOptions& options) {
       .add_option("--temperature", options.temperature,
                   "degC; or feature: of each event; or metadata; default: of each event if the recording has it")
       ->type_name("VALUE|feature|metadata");
+  declare_gate_options(command, options.gates);
   command.add_flag("--no-pixelation", options.no_pixelation, "correct nothing for the pixels");
   command.add_option("--patience", options.patience_s,
                      "give a recording up when nothing was read from it for so many seconds (60)");

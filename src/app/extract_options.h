@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/gates.h"
+
 namespace CLI {
 class App;
 }
@@ -21,6 +23,7 @@ struct ExtractOptions {
   std::optional<std::string> medium, viscosity_model;
   std::string temperature;  ///< degC, "feature", "metadata", or empty: the feature if there is one
   bool no_pixelation = false, no_area_correction = false, no_tsv = false, quiet = false;
+  GateOptions gates;
   double patience_s = 60;
 };
 

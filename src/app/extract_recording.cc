@@ -59,6 +59,7 @@ std::string meaning_of_states() {
 struct Columns {
   std::vector<double> area, deformation, temperature, viscosity, modulus, standard_error, state_numbers, other_modulus;
   std::vector<ModulusState> states, other_states;
+  std::vector<char> inside;  // the gates
 
   void resize(std::size_t count) {
     for (auto* const column :
@@ -76,7 +77,11 @@ class Extraction {
       : recording_(recording),
         settings_(extract_settings(options, recording)),
         tables_(tables.choose(settings_)),
-        shapes_(recording, settings_.pixel_size_um) {}
+        shapes_(recording, settings_.pixel_size_um),
+        gates_(options.gates),
+        features_(recording, shapes_) {
+    gates_.check(features_, recording.file().string());
+  }
 
   const ModulusTable& table() const { return *tables_.used; }
 
@@ -105,6 +110,7 @@ class Extraction {
       tables_.other->estimate(settings_.conditions, events, {c.other_modulus, c.standard_error, c.other_states});
     }
     table().estimate(settings_.conditions, events, {c.modulus, c.standard_error, c.states});
+    if (!gates_.empty()) shut_out(first);
     for (std::size_t i = 0; i < count; ++i) c.state_numbers[i] = static_cast<double>(c.states[i]);
     collect();
     return c;
@@ -117,6 +123,7 @@ class Extraction {
     s.mean_viscosity_mPas = viscosity_sum_ / static_cast<double>(viscosities_);
     s.median_standard_error_kPa = median_of(standard_errors_);
     s.table = table().identifier();
+    s.gates = gates_.description();
     s.corrected = corrected_for_pixels(settings_.conditions, table());
     s.medium = settings_.medium_text();
     s.viscosity_model = settings_.model_text();
@@ -138,7 +145,11 @@ class Extraction {
     return s;
   }
 
-  std::vector<std::string> lines() const { return setting_lines(settings_, shapes_, table()); }
+  std::vector<std::string> lines() const {
+    auto lines = setting_lines(settings_, shapes_, table());
+    if (!gates_.empty()) lines.push_back("only events with " + gates_.description());
+    return lines;
+  }
 
  private:
   // Where a table of the matching liquid and one of a Newtonian liquid are at hand, both are used.
@@ -166,6 +177,17 @@ class Extraction {
     }
   }
 
+  void shut_out(std::size_t first) {
+    Columns& c = columns_;
+    c.inside.resize(c.states.size());
+    gates_.apply(features_, first, c.inside);
+    for (std::size_t i = 0; i < c.inside.size(); ++i) {
+      if (c.inside[i]) continue;
+      c.modulus[i] = c.standard_error[i] = std::numeric_limits<double>::quiet_NaN();
+      c.states[i] = ModulusState::gated;
+    }
+  }
+
   void take_modulus(std::size_t i) {
     moduli_.push_back(columns_.modulus[i]);
     if (table().is_own()) standard_errors_.push_back(static_cast<float>(columns_.standard_error[i]));
@@ -178,6 +200,8 @@ class Extraction {
   ExtractSettings settings_;
   ModulusTables::Choice tables_;
   ShapeSource shapes_;
+  Gates gates_;
+  EventFeatures features_;
   Columns columns_;
   ExtractSummary summary_;
   std::vector<double> moduli_;

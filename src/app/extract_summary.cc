@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -40,7 +41,26 @@ void append_cell(std::string& text, const std::string& content) {
   text += cell(content);
 }
 
-constexpr std::size_t cells_after_counts = 18;  // before the remarks
+constexpr std::array<std::string_view, 20> columns_after_counts{"valid_percent",
+                                                                "young_modulus_median_kPa",
+                                                                "young_modulus_first_quartile_kPa",
+                                                                "young_modulus_third_quartile_kPa",
+                                                                "young_modulus_mean_kPa",
+                                                                "young_modulus_standard_deviation_kPa",
+                                                                "young_modulus_standard_error_median_kPa",
+                                                                "table",
+                                                                "medium",
+                                                                "viscosity_model",
+                                                                "mean_viscosity_mPas",
+                                                                "temperature",
+                                                                "channel_width_um",
+                                                                "flow_rate_ul_s",
+                                                                "pixelation_pixel_size_um",
+                                                                "corrected_for_pixels",
+                                                                "gates",
+                                                                "area_from",
+                                                                "deformation_from",
+                                                                "remarks"};
 
 // Everything of one recording but its name.
 void append_numbers(std::string& text, const ExtractSummary& s) {
@@ -58,6 +78,7 @@ void append_numbers(std::string& text, const ExtractSummary& s) {
   for (const double value : {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um})
     append_cell(text, number_text(value));
   append_cell(text, s.corrected);
+  append_cell(text, s.gates);
   append_cell(text, s.area_from);
   append_cell(text, s.deformation_from);
   std::string remarks;
@@ -93,7 +114,8 @@ std::string to_json(const ExtractSummary& s) {
       {"counts", s.counts},
       {"modulus", {d.median, d.first_quartile, d.third_quartile, d.mean, d.standard_deviation}},
       {"viscosity", s.mean_viscosity_mPas},
-      {"texts", {s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from, s.corrected}},
+      {"texts",
+       {s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from, s.corrected, s.gates}},
       {"standard_error", s.median_standard_error_kPa},
       {"conditions", {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um}},
       {"warnings", s.warnings}}
@@ -116,6 +138,7 @@ ExtractSummary summary_from_json(const std::string& text) {
   s.area_from = texts.at(4);
   s.deformation_from = texts.at(5);
   s.corrected = texts.at(6);
+  s.gates = texts.at(7);
   s.median_standard_error_kPa = number_of(all.at("standard_error"));
   const auto& c = all.at("conditions");
   s.conditions = {number_of(c.at(0)), number_of(c.at(1)), number_of(c.at(2))};
@@ -130,19 +153,14 @@ std::string summary_table(std::span<const SummaryLine> lines) {
     std::ranges::replace(column, ' ', '_');
     append_cell(text, column);
   }
-  text +=
-      "\tvalid_percent\tyoung_modulus_median_kPa\tyoung_modulus_first_quartile_kPa\tyoung_modulus_third_quartile_kPa"
-      "\tyoung_modulus_mean_kPa\tyoung_modulus_standard_deviation_kPa\tyoung_modulus_standard_error_median_"
-      "kPa\ttable\tmedium\tviscosity_model"
-      "\tmean_viscosity_mPas\ttemperature\tchannel_width_um\tflow_rate_ul_s\tpixelation_pixel_size_um\tcorrected_for_"
-      "pixels\tarea_from"
-      "\tdeformation_from\tremarks\n";
+  for (const auto name : columns_after_counts) append_cell(text, std::string(name));
+  text += '\n';
   for (const auto& line : lines) {
     text += cell(line.recording.string());
     if (line.error.empty())
       append_numbers(text, line.summary);
     else
-      text.append(names_of_modulus_states.size() + cells_after_counts + 2, '\t').append(cell(line.error));
+      text.append(names_of_modulus_states.size() + columns_after_counts.size() + 1, '\t').append(cell(line.error));
     text += '\n';
   }
   return text;

@@ -30,6 +30,7 @@ struct ExtractSummary {
   double mean_viscosity_mPas = 0;
   std::string table, medium, viscosity_model, temperature, area_from, deformation_from;
   std::string corrected;  ///< for the pixels: "area and deformation", "deformation", "nothing"
+  std::string gates;      ///< limits of the events that count; empty: all
   MeasuringConditions conditions;
   std::vector<std::string> warnings;
 

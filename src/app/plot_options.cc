@@ -33,6 +33,13 @@ void check(const PlotOptions& options) {
         fmt::format("rheocyte: --no-lines and {} contradict each other; give one of them.", has_table   ? "--table"
                                                                                             : has_lines ? "--lines"
                                                                                                         : "--levels"));
+  if (!has_usual_axes(options) && (has_table || has_lines || !options.levels_kPa.empty()))
+    throw UserError(
+        fmt::format("rheocyte: {} and --x or --y contradict each other; lines of equal modulus are drawn over "
+                    "area_um and deform only.",
+                    has_table   ? "--table"
+                    : has_lines ? "--lines"
+                                : "--levels"));
   if (options.levels_kPa.empty()) return;
   if (has_lines)
     throw UserError("rheocyte: --levels and --lines contradict each other; levels are for the lines of a table.");
@@ -59,6 +66,8 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
       ->type_name("TABLE");
   command.add_option("--lines", options.lines, "isoelasticity lines in dclab's format, in place of the table's own")
       ->type_name("FILE");
+  command.add_option("--x", options.x, "feature on the axis to the right; default: area_um")->type_name("FEATURE");
+  command.add_option("--y", options.y, "feature on the axis upwards; default: deform")->type_name("FEATURE");
   command.add_flag("--no-lines", options.no_lines, "draw no lines, not even those of the program's own table");
   command.add_option("--levels", options.levels_kPa, "moduli (kPa) of the table's lines, e.g. 0.5,1,2")->delimiter(',');
   declare_measuring_options(command, measuring);

@@ -13,9 +13,13 @@ struct PlotOptions {
   ExtractOptions measuring;        ///< recordings, table, channel, flow, viscosity, temperature, pixels
   std::filesystem::path lines;     ///< a file of isoelasticity lines; empty: lines of the table
   std::vector<double> levels_kPa;  ///< of the lines, in the recording's channel; empty: spread over the picture
-  bool no_lines = false;           ///< not even those of the program's own table
-  std::filesystem::path output;    ///< as given, with or without .png or .svg; empty: beside the first recording
+  std::string x = "area_um", y = "deform";  ///< features on the axes
+  bool no_lines = false;                    ///< not even those of the program's own table
+  std::filesystem::path output;  ///< as given, with or without .png or .svg; empty: beside the first recording
 };
+
+/// Whether the axes are those of lines of equal modulus.
+inline bool has_usual_axes(const PlotOptions& options) { return options.x == "area_um" && options.y == "deform"; }
 
 /// Declares the options on the command; `run` is called when they are complete. UserError if they contradict.
 void declare_plot_options(CLI::App& command, PlotOptions& options, std::function<void()> run);

@@ -10,6 +10,7 @@
 
 #include "app/extract_settings.h"
 #include "case/user_error.h"
+#include "measurement/event_features.h"
 #include "measurement/shape_source.h"
 
 namespace rheocyte {
@@ -98,6 +99,43 @@ void take_conditions(const Recording& recording, const PlotOptions& options,
   panel.warnings = settings.warnings;
 }
 
+/// The two axes of a block of events.
+class Axes {
+ public:
+  Axes(const Recording& recording, ShapeSource& shapes, const PlotOptions& options)
+      : shapes_(shapes),
+        options_(options),
+        features_(recording, shapes),
+        gates_(options.measuring.gates),
+        usual_(has_usual_axes(options)) {
+    gates_.check(features_, recording.file().string());
+  }
+
+  // Events outside the gates get no numbers; returns how many they are.
+  std::size_t read(std::size_t first, std::vector<double>& x, std::vector<double>& y) {
+    if (usual_) {
+      shapes_.read(first, x, y);
+    } else {
+      features_.read(options_.x, first, x);
+      features_.read(options_.y, first, y);
+    }
+    if (gates_.empty()) return 0;
+    inside_.resize(x.size());
+    gates_.apply(features_, first, inside_);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (!inside_[i]) x[i] = NAN;
+    return static_cast<std::size_t>(std::ranges::count(inside_, char{0}));
+  }
+
+ private:
+  ShapeSource& shapes_;
+  const PlotOptions& options_;
+  EventFeatures features_;
+  Gates gates_;
+  bool usual_;
+  std::vector<char> inside_;
+};
+
 }  // namespace
 
 PlotPanel plot_panel(const fs::path& file, const fs::path& events_file, const PlotOptions& options, LinesWanted lines,
@@ -125,26 +163,29 @@ PlotPanel plot_panel(const fs::path& file, const fs::path& events_file, const Pl
   const double pixel_size_um =
       options.measuring.pixel_size_um.value_or(metadata.number("imaging:pixel size").value_or(0));
   ShapeSource shapes(recording, pixel_size_um);
+  Axes axes(recording, shapes, options);
   PairWriter writer(events_file);
-  std::vector<double> area, deformation;
+  std::vector<double> x, y;
   for (std::size_t first = 0; first < panel.events; first += block) {
     const std::size_t count = std::min(block, panel.events - first);
-    area.resize(count);
-    deformation.resize(count);
-    shapes.read(first, area, deformation);
-    panel.drawable += writer.append(area, deformation);
+    x.resize(count);
+    y.resize(count);
+    panel.gated += axes.read(first, x, y);
+    panel.drawable += writer.append(x, y);
     on_progress(static_cast<double>(first + count) / static_cast<double>(panel.events));
   }
   writer.close();
   if (panel.drawable == 0)
-    throw UserError(fmt::format("{}: no event has an area and a deformation, so there is nothing to draw.",
-                                one_line(file.string(), 300)));
+    throw UserError(fmt::format("{}: no event {}has {} and {}, so there is nothing to draw.",
+                                one_line(file.string(), 300), panel.gated > 0 ? "inside the gates " : "", options.x,
+                                options.y));
   return panel;
 }
 
 std::string to_json(const PlotPanel& panel) {
   const auto& c = panel.conditions;
   return nlohmann::json{{"events", panel.events},
+                        {"gated", panel.gated},
                         {"drawable", panel.drawable},
                         {"has_conditions", panel.has_conditions},
                         {"conditions", {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um}},
@@ -160,6 +201,7 @@ PlotPanel panel_from_json(const std::string& text) {
   const auto j = nlohmann::json::parse(text);
   PlotPanel panel;
   panel.events = j["events"];
+  panel.gated = j["gated"];
   panel.drawable = j["drawable"];
   panel.has_conditions = j["has_conditions"];
   const auto& c = j["conditions"];

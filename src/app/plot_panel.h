@@ -12,7 +12,8 @@ namespace rheocyte {
 
 struct PlotPanel {
   std::size_t events = 0;          ///< rows of the recording
-  std::size_t drawable = 0;        ///< of these, with area and deformation
+  std::size_t gated = 0;           ///< of these, outside the gates
+  std::size_t drawable = 0;        ///< of the others, with numbers on both axes
   bool has_conditions = false;     ///< false if no lines are wanted, or for a recording of the reservoir
   MeasuringConditions conditions;  ///< pixel size 0: nothing is added to the lines
   double viscosity_mPas = 0;       ///< at the median temperature

@@ -89,7 +89,8 @@ void add_flow(Json& json, const Result& result) {
   const auto& state = result.state;
   const auto& scales = result.scales;
   json["cell_velocity_m_per_s"] = state.cell_velocity * scales.velocity_m_per_s;
-  json["mean_velocity_m_per_s"] = scales.velocity_m_per_s;
+  json["mean_velocity_m_per_s"] = scales.velocity_m_per_s * state.flow_rate;
+  json["flow_rate_ul_per_s"] = unit_rate_ul_per_s(scales) * state.flow_rate;
   json["pressure_drop_Pa"] = state.pressure_drop * scales.stress_Pa;
   json["additional_pressure_drop_Pa"] = state.additional_pressure_drop * scales.stress_Pa;
   json["inner_pressure_Pa"] = state.inner_pressure * scales.stress_Pa;  // null: the interior is elastic

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double us_per_s = 1e6;
-constexpr auto time_between_checkpoints = std::chrono::seconds(10);
+// The first one at once, later ones less and less often: a run that is killed has lost half of its time at most.
+constexpr std::chrono::duration<double> least_time_between_checkpoints(0.25), greatest_time_between_checkpoints(10);
 constexpr const char* fields_folder = "fields";
 
 TimeRun run_of(const Case& c, const Scales& scales) {
@@ -33,6 +34,7 @@ TimeRun run_of(const Case& c, const Scales& scales) {
   run.degree = int(*c.time.degree);
   run.scheme = c.time.scheme;
   run.step = c.time.step_us.value_or(0) / unit_us;
+  run.surface_elements = surface_elements(c);
   return run;
 }
 
@@ -71,6 +73,8 @@ class Recorder {
     folder_.write("history.csv", history_csv(record_));
     folder_.write("contours.csv", contours_csv(record_));
     folder_.write("fields.pvd", field_collection(record_, fields_folder));
+    if (const WallTable& wall = result_.problem.wall; !wall.is_straight())
+      folder_.write("channel.csv", channel_csv(wall, result_.scales));
   }
 
  private:
@@ -81,15 +85,21 @@ class Recorder {
   }
 
   void add(const TimePoint& point, const TimeState& state) {
-    record_.rows.push_back(history_row(point, result_.scales, result_.input.flow.rate_ul_per_s));
+    record_.rows.push_back(history_row(point, result_.scales));
     last_state_ = state;
+    write_checkpoint_if_due();
     const HistoryRow& row = record_.rows.back();
     if (!options_.quiet)
       tell(fmt::format("t {:>10.4f} us  step {:<9.3g} order {}  deformation {:.6f}  {} Newton iterations", row.t_us,
                        row.step_us, row.order, row.deformation, row.newton_iterations));
+  }
+
+  void write_checkpoint_if_due() {
     const auto now = std::chrono::steady_clock::now();
-    if (now - last_checkpoint_ < time_between_checkpoints) return;
+    if (now - last_checkpoint_ < until_checkpoint_) return;
     last_checkpoint_ = now;
+    until_checkpoint_ =
+        std::clamp(2 * until_checkpoint_, least_time_between_checkpoints, greatest_time_between_checkpoints);
     write_checkpoint();
   }
 
@@ -104,6 +114,7 @@ class Recorder {
   TimeRecord record_;
   std::optional<TimeState> last_state_;
   int slot_ = 1;
+  std::chrono::duration<double> until_checkpoint_{0};
   std::chrono::steady_clock::time_point last_checkpoint_ = std::chrono::steady_clock::now();
 };
 

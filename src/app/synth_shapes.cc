@@ -50,7 +50,7 @@ std::unique_ptr<CellShapes> shapes_of_table(const SynthSpec& spec) {
   const Case& base = folder.spec().base;
   return std::make_unique<BranchShapes>(
       std::move(branches),
-      BranchConditions{channel_width_um(base), base.flow.rate_ul_per_s, effective_viscosity_mPas(base),
+      BranchConditions{channel_width_um(base), base.flow.rate_ul_per_s.value(), effective_viscosity_mPas(base),
                        spec.channel_width_um, spec.flow_rate_ul_s, is_shell});
 }
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "case/scales.h"
+#include "laws/wall_profile.h"
+
 namespace rheocyte {
 
 namespace {
@@ -13,7 +16,7 @@ constexpr double um_per_m = 1e6, us_per_s = 1e6;
 
 }  // namespace
 
-HistoryRow history_row(const TimePoint& point, const Scales& scales, double flow_rate_ul_per_s) {
+HistoryRow history_row(const TimePoint& point, const Scales& scales) {
   const double um = scales.length_m * um_per_m, us = scales.time_s() * us_per_s;
   const ShapeMeasures& shape = point.shape;
   return {us * point.time,
@@ -23,12 +26,13 @@ HistoryRow history_row(const TimePoint& point, const Scales& scales, double flow
           um * um * um * shape.volume,
           point.relative_volume_change,
           scales.velocity_m_per_s * point.cell_velocity,
-          flow_rate_ul_per_s,
+          unit_rate_ul_per_s(scales) * point.flow_rate,
           scales.stress_Pa * point.pressure_drop,
           us * point.step,
           double(point.order),
           double(point.newton_iterations),
-          double(point.refused_steps)};
+          double(point.refused_steps),
+          um * point.position};
 }
 
 ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
@@ -46,13 +50,13 @@ ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
 std::string history_csv(const TimeRecord& record) {
   std::string text =
       "t_us,deformation,deformation_raw,area_um2,volume_um3,relative_volume_change,velocity_m_per_s,"
-      "flow_rate_ul_per_s,pressure_drop_Pa,step_us,order,newton_iterations,refused_steps\n";
+      "flow_rate_ul_per_s,pressure_drop_Pa,step_us,order,newton_iterations,refused_steps,position_um\n";
   for (const HistoryRow& r : record.rows)
     fmt::format_to(std::back_inserter(text),
-                   "{:.12g},{:.10g},{:.10g},{:.10g},{:.12g},{:.3e},{:.8g},{:.10g},{:.8g},{:.6g},{},{},{}\n", r.t_us,
-                   r.deformation, r.deformation_raw, r.area_um2, r.volume_um3, r.relative_volume_change,
+                   "{:.12g},{:.10g},{:.10g},{:.10g},{:.12g},{:.3e},{:.8g},{:.10g},{:.8g},{:.6g},{},{},{},{:.10g}\n",
+                   r.t_us, r.deformation, r.deformation_raw, r.area_um2, r.volume_um3, r.relative_volume_change,
                    r.velocity_m_per_s, r.flow_rate_ul_per_s, r.pressure_drop_Pa, r.step_us, r.order,
-                   r.newton_iterations, r.refused_steps);
+                   r.newton_iterations, r.refused_steps, r.position_um);
   return text;
 }
 
@@ -62,6 +66,19 @@ std::string contours_csv(const TimeRecord& record) {
     for (Eigen::Index i = 0; i < frame.point_um.rows(); ++i)
       fmt::format_to(std::back_inserter(text), "{:.10g},{:.8g},{:.8g}\n", frame.t_us, frame.point_um(i, 0),
                      std::max(frame.point_um(i, 1), 0.0));
+  return text;
+}
+
+std::string channel_csv(const WallTable& table, const Scales& scales) {
+  constexpr int samples = 500;
+  constexpr double beyond = 4;  // tube radii
+  const WallProfile wall(table);
+  const double um = scales.length_m * um_per_m, start = table.x.front() - beyond, end = table.x.back() + beyond;
+  std::string text = "x_um,R_um\n";
+  for (int i = 0; i <= samples; ++i) {
+    const double x = start + (end - start) * i / samples;
+    fmt::format_to(std::back_inserter(text), "{:.8g},{:.8g}\n", um * x, um * wall.radius(x));
+  }
   return text;
 }
 

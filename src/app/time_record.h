@@ -11,7 +11,7 @@ namespace rheocyte {
 /// Columns of history.csv; physical units.
 struct HistoryRow {
   double t_us, deformation, deformation_raw, area_um2, volume_um3, relative_volume_change, velocity_m_per_s,
-      flow_rate_ul_per_s, pressure_drop_Pa, step_us, order, newton_iterations, refused_steps;
+      flow_rate_ul_per_s, pressure_drop_Pa, step_us, order, newton_iterations, refused_steps, position_um;
 };
 
 struct ContourFrame {
@@ -24,12 +24,15 @@ struct TimeRecord {
   std::vector<ContourFrame> frames;
 };
 
-HistoryRow history_row(const TimePoint&, const Scales&, double flow_rate_ul_per_s);
+HistoryRow history_row(const TimePoint&, const Scales&);
 ContourFrame contour_frame(const TimeFrame&, const Scales&);
 
 std::string history_csv(const TimeRecord&);
 /// contours.csv: t_us, x_um, r_um; the frames one after another.
 std::string contours_csv(const TimeRecord&);
+
+/// channel.csv: x_um, R_um; the wall of a channel that is not straight, finely, from the start of the cell.
+std::string channel_csv(const WallTable&, const Scales&);
 
 /// "fields-0003.vtu"
 std::string field_file(std::size_t frame);

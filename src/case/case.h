@@ -1,19 +1,28 @@
 // One case as the user states it, in physical units. Keys, ranges and meanings stand in parameters.cc only.
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "case/problem.h"
 
 namespace rheocyte {
 
-/// The tube, or the square channel that is mapped to it; exactly one of the two is given.
+/// Radii of a channel that is not straight; both empty for a straight one.
+struct ChannelProfile {
+  std::vector<double> x_um, R_um;
+};
+
+/// The tube, or the square channel that is mapped to it, or the profile; exactly one of the three is given.
 struct Channel {
   std::optional<double> width_um, radius_um;
+  std::optional<double> length_um = {};  ///< only where the pressure drop is given
+  ChannelProfile profile = {};
 };
 
 /// The liquid and how much of it flows. Empty: the key has no effect for this law.
 struct Flow {
-  double rate_ul_per_s = 0;
+  Drive drive = Drive::rate;
+  std::optional<double> rate_ul_per_s, pressure_drop_Pa;
   LiquidLaw law = LiquidLaw::newtonian;
   std::optional<double> viscosity_mPas, consistency_Pa_sn, exponent, shear_rate_floor;
   double density_kg_per_m3 = 0;
@@ -42,7 +51,7 @@ struct Cell {
 /// The way of the cell in time; all but the scheme empty for a stationary case.
 struct TimeCase {
   TimeScheme scheme = TimeScheme::stationary;
-  std::optional<double> end_us, output_every_us, accuracy, step_us, degree;
+  std::optional<double> end_us, output_every_us, accuracy, step_us, grid_um, degree;
 };
 
 struct Numerics {

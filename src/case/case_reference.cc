@@ -45,8 +45,9 @@ std::string indented(std::string_view text) {
 
 std::string rules() {
   return fmt::format(
-      "Whole numbers may stand for real ones. Exactly one of channel.width_um and channel.radius_um is given; a width\n"
-      "stands for a tube of radius {} x width, which has the same pressure drop. The cell's radius must be {} .. {} "
+      "Whole numbers may stand for real ones. Exactly one of channel.width_um, channel.radius_um and the section\n"
+      "[channel.profile] is given; a width stands for a tube of radius {} x width, which has the same pressure drop. "
+      "The cell's radius must be {} .. {} "
       "of\n"
       "the tube's. A key that has no effect for the chosen law is an error. `--set key=value` replaces a key of the\n"
       "file; keys of the file that lose their effect through it are dropped.\n",

@@ -18,6 +18,11 @@ Number number(Range range, std::optional<double> fallback = {}) {
 }
 
 template <auto field>
+List list(Range range) {
+  return {range, [](Case& c) -> std::vector<double>& { return field(c); }};
+}
+
+template <auto field>
 Choice choice(std::vector<std::string_view> options, int fallback) {
   return {std::move(options), fallback, [](const Case& c) { return static_cast<int>(field(c)); },
           [](Case& c, int option) {
@@ -32,11 +37,12 @@ Choice choice(std::vector<std::string_view> options, int fallback) {
 constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "power-law"},
     mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
     has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
-    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"};
+    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
+    has_rate{"flow.drive", "pressure-drop", true}, has_pressure_drop{"flow.drive", "pressure-drop"};
 
 // The options of a choice stand in the order of its enumeration (case/problem.h).
 // The ranges are wide; they catch wrong units and keep every dimensionless group finite.
-const std::array table{
+const std::array table = {
     Parameter{"channel.width_um",
               "um",
               "width of the square channel, mapped to a tube of radius 0.547 x width",
@@ -49,9 +55,23 @@ const std::array table{
               number<FIELD(channel.radius_um)>({0.5, 5000}),
               {},
               "channel.width_um"},
+    Parameter{"channel.length_um", "um", "length of the channel over which the given pressure drops",
+              number<FIELD(channel.length_um)>({1, 1e6}), has_pressure_drop},
+    Parameter{"channel.profile.x_um", "um",
+              "places along a channel that is not straight, in place of its width or radius; the cell starts at 0",
+              list<FIELD(channel.profile.x_um)>({-1e6, 1e6}), monolithic},
+    Parameter{"channel.profile.R_um", "um",
+              "radii of the wall at these places, smooth and monotonic in between, constant beyond the ends",
+              list<FIELD(channel.profile.R_um)>({0.5, 5000}), monolithic},
 
+    Parameter{"flow.drive", "",
+              "what is given: the flow rate; the pressure drop, with the flow rate as a result; the flow rate, reached "
+              "through a pressure drop that is adapted in each step as in Mokbel et al. 2017",
+              choice<FIELD(flow.drive)>({"rate", "pressure-drop", "controlled-pressure"}, 0)},
     Parameter{"flow.rate_ul_per_s", "ul/s", "flow rate through the channel, sheath and sample together",
-              number<FIELD(flow.rate_ul_per_s)>({1e-9, 1e3})},
+              number<FIELD(flow.rate_ul_per_s)>({1e-9, 1e3}), has_rate},
+    Parameter{"flow.pressure_drop_Pa", "Pa", "pressure drop over channel.length_um, with the cell in it",
+              number<FIELD(flow.pressure_drop_Pa)>({1e-6, 1e12}), has_pressure_drop},
     Parameter{"flow.law", "", "law of the liquid, power-law: viscosity = consistency x shear rate^(exponent - 1)",
               choice<FIELD(flow.law)>({"newtonian", "power-law"}, 0)},
     Parameter{"flow.viscosity_mPas", "mPa s", "viscosity of the liquid",
@@ -110,6 +130,10 @@ const std::array table{
               number<FIELD(time.accuracy)>({1e-9, 1e-2}, 1e-5), monolithic},
     Parameter{"time.step_us", "us", "step of the splitting, which is explicit in the elasticity",
               number<FIELD(time.step_us)>({1e-6, 1e6}, 0.2), partitioned},
+    Parameter{
+        "time.grid_um", "um",
+        "size of the elements along the cell's surface, 0.2 in Mokbel et al. 2017; 0: the mesh of the implicit steps",
+        number<FIELD(time.grid_um)>({0, 1000}, 0), partitioned},
     Parameter{"time.degree", "", "polynomial degree of the spaces, a whole number",
               number<FIELD(time.degree)>({2, 10}, 6), in_time},
 
@@ -159,9 +183,12 @@ std::string condition_text(const Condition& condition) {
 }
 
 std::string allowed_values(const Parameter& parameter) {
-  if (const auto* number = std::get_if<Number>(&parameter.value))
-    return fmt::format("{} .. {}{}{}", short_number(number->range.least), short_number(number->range.greatest),
+  const auto in_range = [&](const Range& range) {
+    return fmt::format("{} .. {}{}{}", short_number(range.least), short_number(range.greatest),
                        parameter.unit.empty() ? "" : " ", parameter.unit);
+  };
+  if (const auto* number = std::get_if<Number>(&parameter.value)) return in_range(number->range);
+  if (const auto* list = std::get_if<List>(&parameter.value)) return "a list of numbers " + in_range(list->range);
   std::vector<std::string> quoted;
   for (const auto option : std::get<Choice>(parameter.value).options) quoted.push_back(fmt::format("\"{}\"", option));
   return fmt::format("{}", fmt::join(quoted, " or "));
@@ -172,6 +199,7 @@ std::string fallback_text(const Parameter& parameter) {
     if (number->fallback) return short_number(*number->fallback);
     return is_required(parameter) ? "required" : "not given";
   }
+  if (std::holds_alternative<List>(parameter.value)) return "not given";
   const auto& choice = std::get<Choice>(parameter.value);
   return choice.fallback ? fmt::format("\"{}\"", choice.options[static_cast<std::size_t>(*choice.fallback)])
                          : "required";

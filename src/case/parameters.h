@@ -33,6 +33,12 @@ struct Choice {
   void (*set)(Case&, int);
 };
 
+/// A parameter that is a list of numbers, not given by default.
+struct List {
+  Range range;  ///< of each number
+  std::vector<double>& (*at)(Case&);
+};
+
 /// The parameter has an effect only if the choice `key` has the value `option`, or only if it has another one.
 struct Condition {
   std::string_view key, option;
@@ -43,7 +49,7 @@ struct Parameter {
   std::string_view key;       ///< dotted, with the unit as its last part: "cell.radius_um"
   std::string_view unit;      ///< empty for pure numbers and choices
   std::string_view sentence;  ///< what it is
-  std::variant<Number, Choice> value;
+  std::variant<Number, Choice, List> value;
   std::optional<Condition> only_for = {};
   std::string_view alternative = {};  ///< the key that may stand instead; without a fallback exactly one is given
 };

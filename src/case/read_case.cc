@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <vector>
 
 #include "case/case_text.h"
@@ -88,11 +89,22 @@ void set_choice(Case& c, const Parameter& parameter, const GivenKey& given) {
   choice.set(c, static_cast<int>(found - choice.options.begin()));
 }
 
+void set_list(Case& c, const Parameter& parameter, const GivenKey& given) {
+  const auto& list = std::get<List>(parameter.value);
+  const auto* values = std::get_if<std::vector<double>>(&given.value);
+  const auto what = fmt::format("{} ({})", allowed_values(parameter), parameter.sentence);
+  if (!values)
+    refuse(given, fmt::format("{} is no list of numbers, for example [0, 60]; it can be {}.", stated(given), what));
+  for (const double value : *values)
+    if (!list.range.contains(value))
+      refuse(given, fmt::format("{} contains {}, which is outside its range; it can be {}.", given.key, value, what));
+  list.at(c) = *values;
+}
+
 void set_value(Case& c, const Parameter& parameter, const GivenKey& given) {
-  if (std::holds_alternative<Number>(parameter.value))
-    set_number(c, parameter, given);
-  else
-    set_choice(c, parameter, given);
+  if (std::holds_alternative<Number>(parameter.value)) return set_number(c, parameter, given);
+  if (std::holds_alternative<List>(parameter.value)) return set_list(c, parameter, given);
+  set_choice(c, parameter, given);
 }
 
 // Choices come first: they decide which of the other keys have an effect.
@@ -107,6 +119,8 @@ void read_choices(Case& c, const GivenByKey& keys) {
   const auto first_of_time = keys.lower_bound("time.");
   const bool has_time = first_of_time != keys.end() && first_of_time->first.starts_with("time.");
   if (has_time && !keys.contains("time.scheme")) c.time.scheme = TimeScheme::monolithic;
+  const bool has_drop = keys.contains("flow.pressure_drop_Pa") && !keys.contains("flow.rate_ul_per_s");
+  if (has_drop && !keys.contains("flow.drive")) c.flow.drive = Drive::pressure_drop;
 }
 
 bool was_set(const GivenByKey& keys, std::string_view key) {
@@ -154,13 +168,84 @@ void read_number(Case& c, const Parameter& parameter, const GivenByKey& keys, co
                               allowed_values(parameter), parameter.sentence));
 }
 
+constexpr std::string_view profile_x = "channel.profile.x_um", profile_R = "channel.profile.R_um";
+
+bool has_profile(const GivenByKey& keys) { return keys.contains(profile_x) || keys.contains(profile_R); }
+
+// The mesh follows the wall along straight spokes and has elements as wide as the tube.
+constexpr double steepest_wall = 0.5, greatest_widening = 5;
+constexpr std::size_t most_places = 1000;
+
+void check_wall(const ChannelProfile& wall, const GivenKey& x, const GivenKey& R) {
+  const std::size_t n = wall.x_um.size();
+  if (wall.R_um.size() != n)
+    refuse(R, fmt::format("{} has {} numbers and {} has {}; give one radius for each place.", profile_R,
+                          wall.R_um.size(), profile_x, n));
+  if (n < 2 || n > most_places)
+    refuse(x, fmt::format("{} has {} places; a profile needs 2 .. {}, before and behind the contraction.", profile_x, n,
+                          most_places));
+  for (std::size_t i = 1; i < n; ++i) {
+    const double length = wall.x_um[i] - wall.x_um[i - 1], change = std::abs(wall.R_um[i] - wall.R_um[i - 1]);
+    if (!(length > 0))
+      refuse(x, fmt::format("{} does not increase from {} to {}; give the places in the order of the flow.", profile_x,
+                            wall.x_um[i - 1], wall.x_um[i]));
+    if (change > steepest_wall * length)
+      refuse(R,
+             fmt::format("{} changes by {:.4g} um between x = {} and {} um, which is too short and too steep for the "
+                         "mesh; give this change a length of {:.4g} um.",
+                         profile_R, change, wall.x_um[i - 1], wall.x_um[i], change / steepest_wall));
+  }
+}
+
+void check_profile(const Case& c, const GivenByKey& keys) {
+  if (!has_profile(keys)) return;
+  for (const auto& [one, other] : {std::pair{profile_x, profile_R}, std::pair{profile_R, profile_x}})
+    if (!keys.contains(one))
+      refuse(keys.at(other), fmt::format("{} is given without {}; give both, or channel.radius_um for a straight "
+                                         "channel.",
+                                         other, one));
+  const auto &x = keys.at(profile_x), &R = keys.at(profile_R);
+  for (const auto* straight : {"channel.width_um", "channel.radius_um"})
+    if (const auto given = keys.find(straight); given != keys.end())
+      refuse(given->second, fmt::format("{} and the section [channel.profile] exclude each other; give exactly one of "
+                                        "them.",
+                                        stated(given->second)));
+  check_wall(c.channel.profile, x, R);
+  const double least = tube_radius_um(c), widest = *std::ranges::max_element(c.channel.profile.R_um);
+  if (widest > greatest_widening * least)
+    refuse(R,
+           fmt::format("{} goes from {:g} to {:g} um; the widest part may be {:g} times as wide as the narrowest one.",
+                       profile_R, least, widest, greatest_widening));
+  if (c.flow.drive == Drive::rate) return;
+  const auto& drive = keys.at(keys.contains("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa");
+  refuse(drive,
+         fmt::format("{} is for straight channels; give flow.rate_ul_per_s with [channel.profile].", stated(drive)));
+}
+
 void check_cell_in_tube(const Case& c, const GivenByKey& keys) {
   const double R = tube_radius_um(c), r0 = c.cell.radius_um;
+  if (has_profile(keys) && r0 > greatest_radius_ratio * R)
+    refuse(
+        keys.at(profile_R),
+        fmt::format("{} falls to {:g} um, which is narrower than the cell of cell.radius_um = {:g} can pass; at least "
+                    "{:.4g} um are needed.",
+                    profile_R, R, r0, r0 / greatest_radius_ratio));
   if (r0 >= least_radius_ratio * R && r0 <= greatest_radius_ratio * R) return;
   const auto& given = keys.at("cell.radius_um");
   refuse(given, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the tube radius {:.6g} um.",
                             stated(given), least_radius_ratio * R, greatest_radius_ratio * R, least_radius_ratio,
                             greatest_radius_ratio, R));
+}
+
+// The ends of the channel must not see the cell.
+void check_length(const Case& c, const GivenByKey& keys) {
+  if (!c.channel.length_um) return;
+  const double R = tube_radius_um(c), least = 2 * R * least_half_length(c.cell.radius_um / R);
+  if (*c.channel.length_um >= least) return;
+  const auto& given = keys.at("channel.length_um");
+  refuse(given, fmt::format("{} is too short for the flow round the cell; it must be at least {:.4g} um, give the "
+                            "pressure drop over such a length.",
+                            stated(given), std::ceil(least)));
 }
 
 // A liquid interior at rest holds no shear stress: the surface must, or the liquid drags it round without end.
@@ -177,10 +262,33 @@ void check_cell_is_elastic(const Case& c, const GivenByKey& keys) {
 // Frames are kept in memory and drawn one by one.
 constexpr double greatest_outputs = 10000;
 
+// Such grids are for the low degrees of the paper; the cell has about a tenth of the square of these elements.
+constexpr int most_surface_elements = 400;
+constexpr double greatest_grid_degree = 3;
+
+void check_grid(const Case& c, const GivenByKey& keys) {
+  if (c.time.grid_um.value_or(0) == 0) return;
+  const auto& given = keys.at("time.grid_um");
+  if (surface_elements(c) > most_surface_elements)
+    refuse(given, fmt::format("{} makes {} elements along the surface; at most {} are possible, a size of {:.3g} um.",
+                              stated(given), surface_elements(c), most_surface_elements,
+                              std::numbers::pi * c.cell.radius_um / most_surface_elements));
+  if (*c.time.degree > greatest_grid_degree)
+    refuse(given, fmt::format("{} is for low degrees, and time.degree is {:g}; choose time.degree = 2 as in the paper.",
+                              stated(given), *c.time.degree));
+}
+
 void check_time(const Case& c, const GivenByKey& keys) {
+  if (c.flow.drive == Drive::controlled_pressure && c.time.scheme != TimeScheme::partitioned)
+    refuse(
+        keys.at("flow.drive"),
+        fmt::format("{} adapts the pressure step by step, which is for time.scheme = \"partitioned\" only; remove it, "
+                    "a given flow rate is met exactly.",
+                    stated(keys.at("flow.drive"))));
   if (c.time.scheme == TimeScheme::stationary) return;
   if (const double degree = *c.time.degree; degree != std::round(degree))
     refuse(keys.at("time.degree"), fmt::format("{} is not a whole number.", stated(keys.at("time.degree"))));
+  check_grid(c, keys);
   const double end = *c.time.end_us, outputs = end / *c.time.output_every_us;
   if (outputs > greatest_outputs)
     refuse(keys.at("time.end_us"),
@@ -203,10 +311,20 @@ Case case_of_keys(std::vector<GivenKey> keys_in_order, const std::string& name,
     check_effect(c, parameter, keys);
     check_alternative(parameter, keys);
   }
-  for (const auto& parameter : parameters())
-    if (std::holds_alternative<Number>(parameter.value) && !is_open(parameter.key))
-      read_number(c, parameter, keys, name);
-  if (!is_open("cell.radius_um")) check_cell_in_tube(c, keys);
+  for (const auto& parameter : parameters()) {
+    const bool is_number = std::holds_alternative<Number>(parameter.value);
+    const bool replaced =
+        has_profile(keys) && (parameter.key == "channel.width_um" || parameter.key == "channel.radius_um");
+    if (is_number && !replaced && !is_open(parameter.key)) read_number(c, parameter, keys, name);
+    if (const auto given = keys.find(parameter.key);
+        given != keys.end() && std::holds_alternative<List>(parameter.value))
+      set_list(c, parameter, given->second);
+  }
+  check_profile(c, keys);
+  if (!is_open("cell.radius_um")) {
+    check_cell_in_tube(c, keys);
+    check_length(c, keys);
+  }
   check_cell_is_elastic(c, keys);
   check_time(c, keys);
   return c;

@@ -1,5 +1,6 @@
 #include "case/scales.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,7 +23,13 @@ double mooney_share(const BulkCase& bulk) {
 }  // namespace
 
 double tube_radius_um(const Case& c) {
+  if (const auto& radii = c.channel.profile.R_um; !radii.empty()) return *std::ranges::min_element(radii);
   return c.channel.radius_um ? *c.channel.radius_um : tube_radius_per_channel_width * c.channel.width_um.value();
+}
+
+int surface_elements(const Case& c) {
+  const double grid = c.time.grid_um.value_or(0);
+  return grid > 0 ? std::max(8, int(std::ceil(std::numbers::pi * c.cell.radius_um / grid))) : 0;
 }
 
 double tension_mN_per_m(const Case& c) {
@@ -32,11 +39,20 @@ double tension_mN_per_m(const Case& c) {
 }
 
 Scales scales_of(const Case& c) {
-  const double R = tube_radius_um(c) * m_per_um;
-  const double Q = c.flow.rate_ul_per_s * m3_per_ul;
-  const double U = Q / (std::numbers::pi * R * R);
-  if (c.flow.law == LiquidLaw::newtonian) return {R, U, c.flow.viscosity_mPas.value() * Pas_per_mPas * U / R};
-  return {R, U, c.flow.consistency_Pa_sn.value() * std::pow(U / R, c.flow.exponent.value())};
+  const bool newtonian = c.flow.law == LiquidLaw::newtonian;
+  const double R = tube_radius_um(c) * m_per_um, n = newtonian ? 1 : c.flow.exponent.value();
+  const double K = newtonian ? c.flow.viscosity_mPas.value() * Pas_per_mPas : c.flow.consistency_Pa_sn.value();
+  if (c.flow.drive == Drive::pressure_drop) {
+    const double S =
+        *c.flow.pressure_drop_Pa * R / (*c.channel.length_um * m_per_um) / undisturbed_pressure_gradient(n);
+    return {R, R * std::pow(S / K, 1 / n), S};
+  }
+  const double U = *c.flow.rate_ul_per_s * m3_per_ul / (std::numbers::pi * R * R);
+  return {R, U, newtonian ? K * U / R : K * std::pow(U / R, n)};
+}
+
+double unit_rate_ul_per_s(const Scales& scales) {
+  return std::numbers::pi * scales.length_m * scales.length_m * scales.velocity_m_per_s / m3_per_ul;
 }
 
 Problem problem_of(const Case& c) {
@@ -51,6 +67,8 @@ Problem problem_of(const Case& c) {
     problem.exponent = c.flow.exponent.value();
     problem.shear_rate_floor = c.flow.shear_rate_floor.value();
   }
+  problem.drive = c.flow.drive;
+  problem.channel_length = c.channel.length_um.value_or(0) / tube_radius_um(c);
   problem.reynolds = c.flow.density_kg_per_m3 * U * U / S;
   problem.bulk = c.cell.bulk.law;
   problem.shear_modulus = E / (3 * S);
@@ -59,6 +77,9 @@ Problem problem_of(const Case& c) {
   problem.cortex_modulus = c.cell.cortex.modulus_mN_per_m.value_or(0) * N_per_mN / (S * R);
   problem.tension = tension_mN_per_m(c) * N_per_mN / (S * R);
   problem.bending_stiffness = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R);
+  problem.wall = {c.channel.profile.x_um, c.channel.profile.R_um};
+  for (auto* column : {&problem.wall.x, &problem.wall.radius})
+    for (double& value : *column) value /= tube_radius_um(c);
   problem.accuracy = c.numerics.accuracy;
   problem.cell_viscosity = c.cell.viscosity_mPas.value_or(0) * Pas_per_mPas * U / (S * R);
   problem.cell_reynolds = c.cell.density_kg_per_m3.value_or(0) * U * U / S;

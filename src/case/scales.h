@@ -16,11 +16,18 @@ inline constexpr double thermal_energy_J = 1.380649e-23 * 298.15;
 /// Surface tension of the cell, given or a share of the modulus of its cortex.
 double tension_mN_per_m(const Case&);
 
-/// Radius of the tube in um, given or mapped from the width of the square channel.
+/// Elements along the surface of the sphere that a grid of time.grid_um has; 0: not given.
+int surface_elements(const Case&);
+
+/// Radius of the tube in um: given, mapped from the width of the square channel, or the least one of the profile.
 double tube_radius_um(const Case&);
 
-/// R, U = Q / (pi R^2), and S = eta U / R or K (U/R)^n, in SI units.
+/// R, U = Q / (pi R^2), and S = eta U / R or K (U/R)^n, in SI units. Where the pressure drop is given, U is the mean
+/// speed of the liquid without the cell.
 Scales scales_of(const Case&);
+
+/// pi R^2 U, the unit of flow rates.
+double unit_rate_ul_per_s(const Scales&);
 
 /// The dimensionless groups of a complete case.
 Problem problem_of(const Case&);

@@ -1,6 +1,7 @@
 #include "case/write_case.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -19,13 +20,16 @@ std::pair<std::string_view, std::string_view> section_and_name(std::string_view 
   return {key.substr(0, dot), key.substr(dot + 1)};
 }
 
-// Calls visit(parameter, value) with a double or a word for every parameter that has an effect.
+// Calls visit(parameter, value) with a double, a word or a list for every parameter that has an effect.
 template <class Visitor>
 void for_each_value(const Case& c, Visitor&& visit) {
   for (const auto& parameter : parameters()) {
     if (!applies(parameter, c)) continue;
     if (const auto* number = std::get_if<Number>(&parameter.value)) {
       if (const auto value = number->get(c)) visit(parameter, *value);
+    } else if (const auto* list = std::get_if<List>(&parameter.value)) {
+      Case copy = c;
+      if (const auto& values = list->at(copy); !values.empty()) visit(parameter, values);
     } else {
       visit(parameter, chosen_option(c, parameter.key));
     }
@@ -41,6 +45,7 @@ std::string pointer_of(std::string_view key) {
 
 std::string toml_value(double value) { return fmt::format("{}", value); }
 std::string toml_value(std::string_view word) { return fmt::format("\"{}\"", word); }
+std::string toml_value(const std::vector<double>& list) { return fmt::format("[{}]", fmt::join(list, ", ")); }
 
 }  // namespace
 

@@ -4,22 +4,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "case/problem.h"
+
 namespace rheocyte {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 /// Size of the core relative to the cell, and how far its sides bulge from chord (0) to circle (1).
 constexpr double core_size = 0.5, core_bulge = 0.55;
-/// Undisturbed channel beyond the box. The slowest Stokes mode decays like exp(-4.47 x/R): its round trip to the end
-/// and back is damped by exp(-8.9 * 2) = 2e-8.
-constexpr double undisturbed_length = 2.0;
 
 }  // namespace
 
-ChannelGeometry::ChannelGeometry(double radius_ratio)
+ChannelGeometry::ChannelGeometry(double radius_ratio, double length)
     : radius_(radius_ratio),
-      box_(1.4 * radius_ratio + 0.8),
-      half_length_(box_ + undisturbed_length),
+      box_(disturbed_half_length(radius_ratio)),
+      half_length_(std::max(least_half_length(radius_ratio), length / 2)),
       front_corner_(0.25 * pi),
       rear_corner_(0.75 * pi) {}
 

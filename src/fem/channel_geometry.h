@@ -27,8 +27,8 @@ using Point = Eigen::Vector2d;
 /// In the core `outward` is the front's `along` (away from the axis) and `along` the top's.
 class ChannelGeometry {
  public:
-  /// Blocks for a cell of radius `radius_ratio` (in R) and channel ends at +- `half_length` (in R).
-  explicit ChannelGeometry(double radius_ratio);
+  /// Blocks for a cell of radius `radius_ratio` in a channel of `length` (both in R); 0: as short as it can be.
+  explicit ChannelGeometry(double radius_ratio, double length = 0);
 
   Point map(Block, double outward, double along) const;
 

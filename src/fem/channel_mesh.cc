@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "case/problem.h"
 #include "fem/topology.h"
 
 namespace rheocyte {
@@ -24,6 +25,16 @@ std::vector<double> graded(int n, double ratio) {
   if (std::abs(ratio - 1) < 1e-3) return uniform(n);
   std::vector<double> breaks = uniform(n);
   for (double& b : breaks) b = (std::pow(ratio, b) - 1) / (ratio - 1);
+  return breaks;
+}
+
+/// From the box to the end of the channel: one element more where it is longer than it need be.
+std::vector<double> axial_breaks(const ChannelGeometry& geometry, int n) {
+  std::vector<double> breaks = graded(n, 1.3);
+  const double box = geometry.box(), end = geometry.half_length(), least = least_half_length(geometry.radius());
+  if (end <= least) return breaks;
+  for (double& b : breaks) b *= (least - box) / (end - box);
+  breaks.push_back(1);
   return breaks;
 }
 
@@ -73,7 +84,7 @@ ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& sub
   const auto front = uniform(n.front), top = uniform(n.top), ring = uniform(n.ring);
   const int layer_count = n.layers > 0 ? n.layers : layers_for(geometry, n);
   const auto layers = graded(layer_count, std::pow(2.0, layer_count));
-  const auto axial = graded(n.axial, 1.3);
+  const auto axial = axial_breaks(geometry, n.axial);
   add_block(Block::core, front, top);
   add_block(Block::ring_front, ring, front);
   add_block(Block::ring_top, ring, top);

@@ -13,7 +13,7 @@ struct Subdivision {
   int front = 2;   ///< elements along the front's surface, the same at the rear
   int top = 4;     ///< elements along the top's surface
   int ring = 1;    ///< layers of the cell round its core
-  int axial = 2;   ///< elements from the box to each end of the channel
+  int axial = 2;   ///< elements from the box to each end of the shortest channel
   int layers = 0;  ///< of liquid from the surface to the box, each twice as high as the one below; 0: layers_for()
 };
 

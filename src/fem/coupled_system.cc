@@ -4,7 +4,7 @@
 #include <chrono>
 #include <limits>
 
-#include "fem/outlet_load.h"
+#include "fem/end_loads.h"
 
 namespace rheocyte {
 namespace {
@@ -82,7 +82,7 @@ CoupledSystem::Condensed::Condensed(const ElementUnknowns& element, int outer_un
 }
 
 CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnknowns> elements)
-    : space_(space), elements_(std::move(elements)), surface_(space) {
+    : space_(space), elements_(std::move(elements)), surface_(space), inlet_load_(inlet_load(space)) {
   std::vector<std::pair<int, int>> entries;
   for (const ElementUnknowns& element : elements_) {
     const Condensed& c = condensed_.emplace_back(element, space.outer_unknowns());
@@ -91,6 +91,10 @@ CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnk
     }
   }
   for (int i = 0; i < space.outer_unknowns(); ++i) entries.emplace_back(i, i);
+  for (int i = 0; i < inlet_load_.size(); ++i) {
+    if (inlet_load_(i) != 0) inlet_equation_.push_back(i);
+  }
+  for (const int i : inlet_equation_) entries.emplace_back(i, space.cell_velocity());
   for (const SurfacePatch& patch : surface_.patches()) {
     for (const int i : patch.unknowns) {
       for (const int j : patch.unknowns) {
@@ -110,6 +114,7 @@ CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnk
       for (const int j : patch.unknowns) positions.push_back(i < 0 || j < 0 ? -1 : matrix_->position(i, j));
     }
   }
+  for (const int i : inlet_equation_) inlet_position_.push_back(matrix_->position(i, space.cell_velocity()));
   lu_ = std::make_unique<SparseLU>(*matrix_);
 }
 
@@ -134,7 +139,7 @@ VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, d
       if (rows[i] >= 0) total(rows[i]) += element_.residual(i);
     }
   }
-  total += outlet_load(space_, media.liquid);
+  add_ends(media, unknowns, Want::residual, total);
   add_surface(media.cortex, unknowns, Want::residual, total);
   return total;
 }
@@ -157,13 +162,28 @@ VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, 
     const Stopwatch watch(work_.condensation_s);
     condense(elements_[e], condensed_[e], element_.tangent);
   }
-  total += outlet_load(space_, media.liquid);
+  add_ends(media, unknowns, Want::residual_and_tangent, total);
   add_surface(media.cortex, unknowns, Want::residual_and_tangent, total);
   const Stopwatch watch(work_.sparse_s);
   factorised = lu_->factorise();
   work_.sparse_flops = lu_->flops();
   ++work_.factorisations;
   return total;
+}
+
+CoupledSystem::InletPressure CoupledSystem::inlet_pressure(const Media& media) const {
+  return {undisturbed_inlet_pressure(space_, media.liquid), 0};
+}
+
+void CoupledSystem::add_ends(const Media& media, const VectorXd& unknowns, Want want, VectorXd& residual) {
+  residual += outlet_load(space_, media.liquid);
+  if (!space_.has_open_inlet()) return;
+  const InletPressure pressure = inlet_pressure(media);
+  residual += (pressure.fixed + pressure.slope * unknowns(space_.cell_velocity())) * inlet_load_;
+  if (want == Want::residual) return;
+  for (std::size_t k = 0; k < inlet_equation_.size(); ++k) {
+    matrix_->value[inlet_position_[k]] += pressure.slope * inlet_load_(inlet_equation_[k]);
+  }
 }
 
 void CoupledSystem::condense(const ElementUnknowns& element, Condensed& c, const MatrixXd& tangent) {
@@ -237,6 +257,7 @@ VectorXd CoupledSystem::apply_tangent(const Media& media, const VectorXd& unknow
       if (element.rows[i] >= 0) product(element.rows[i]) += change(i);
     }
   }
+  if (space_.has_open_inlet()) product += inlet_pressure(media).slope * direction(space_.cell_velocity()) * inlet_load_;
   for (int k = 0; k < surface_.active(media.cortex); ++k) {
     surface_.integrate(k, media.cortex, unknowns, Want::residual_and_tangent, element_);
     const auto& rows = surface_.patches()[k].unknowns;

@@ -45,11 +45,18 @@ class CoupledSystem {
   const WorkMeter& work() const { return work_; }
 
  protected:
+  /// Pressure at an open inlet that depends on the acceleration of the frame: fixed + slope * v_cell.
+  struct InletPressure {
+    double fixed = 0, slope = 0;
+  };
+
   /// The discretisation must outlive this object. Which unknowns a column refers to stays as it is given here; factors
   /// and constants of the columns may change.
   CoupledSystem(const Discretisation&, std::vector<ElementUnknowns>);
   /// Residual and, if wanted, tangent of one element that is not empty.
   virtual void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const = 0;
+  /// Only for an open inlet.
+  virtual InletPressure inlet_pressure(const Media&) const;
 
   std::vector<ElementUnknowns>& elements() { return elements_; }
   const std::vector<ElementUnknowns>& elements() const { return elements_; }
@@ -58,6 +65,8 @@ class CoupledSystem {
   struct Condensed;
   /// Cortex, volume of a pure shell, and barycentre.
   void add_surface(const Cortex&, const VectorXd& unknowns, Want, VectorXd& residual);
+  /// Tractions of the open ends.
+  void add_ends(const Media&, const VectorXd& unknowns, Want, VectorXd& residual);
   void condense(const ElementUnknowns&, Condensed&, const MatrixXd& tangent);
 
   const Discretisation& space_;
@@ -65,6 +74,9 @@ class CoupledSystem {
   SurfaceIntegrals surface_;
   std::vector<Condensed> condensed_;
   std::vector<std::vector<int>> surface_position_;  ///< in the sparse matrix, patch by patch: unknowns x unknowns
+  VectorXd inlet_load_;                             ///< per pressure, of an open inlet
+  std::vector<int> inlet_equation_;                 ///< where it is not zero
+  std::vector<int> inlet_position_;                 ///< of these equations' entries for v_cell in the sparse matrix
   std::unique_ptr<SparseMatrix> matrix_;
   std::unique_ptr<SparseLU> lu_;
   ElementSystem element_;

@@ -25,8 +25,15 @@ std::vector<int> edge_nodes(const MeshElement& element, const std::vector<int>& 
 
 }  // namespace
 
-Discretisation::Discretisation(const ChannelMesh& mesh, int degree, const Liquid& liquid, Interior interior)
-    : mesh_(&mesh), interior_(interior), reference_(degree), nodes_(mesh.number_nodes(degree)), points_(nodes_.count) {
+Discretisation::Discretisation(const ChannelMesh& mesh, int degree, const Liquid& liquid, Interior interior,
+                               Drive drive)
+    : mesh_(&mesh),
+      liquid_(liquid),
+      interior_(interior),
+      open_inlet_(drive != Drive::rate),
+      reference_(degree),
+      nodes_(mesh.number_nodes(degree)),
+      points_(nodes_.count) {
   const VectorXd& s = reference_.nodes_1d;
   for (std::size_t e = 0; e < mesh.elements().size(); ++e) {
     for (int k = 0; k < reference_.nodes(); ++k) {
@@ -34,8 +41,10 @@ Discretisation::Discretisation(const ChannelMesh& mesh, int degree, const Liquid
           mesh.elements()[e].map(mesh.geometry(), s(k % (degree + 1)), s(k / (degree + 1)));
     }
   }
-  number_unknowns(flag_nodes(), liquid);
+  straight_points_ = points_;
+  number_unknowns(flag_nodes());
   find_edges();
+  set_inflow();
   for (std::size_t e = 0; e < mesh.elements().size(); ++e) {
     elements_.push_back(is_cell(mesh.elements()[e].block) ? cell_element(int(e)) : liquid_element(int(e)));
   }
@@ -63,7 +72,7 @@ std::vector<Discretisation::NodeFlags> Discretisation::flag_nodes() const {
   return flags;
 }
 
-void Discretisation::number_unknowns(const std::vector<NodeFlags>& flags, const Liquid& liquid) {
+void Discretisation::number_unknowns(const std::vector<NodeFlags>& flags) {
   const int modes = reference_.pressures(), elements = int(nodes_.of_element.size());
   displacement_.assign(2 * nodes_.count, -1);
   velocity_.assign(2 * nodes_.count, Slot{});
@@ -77,7 +86,7 @@ void Discretisation::number_unknowns(const std::vector<NodeFlags>& flags, const 
         displacement_[2 * i] = unknowns_++;
         if (!f.axis) displacement_[2 * i + 1] = unknowns_++;
       } else {
-        if (!f.wall && !f.inlet) velocity_[2 * i].unknown = unknowns_++;
+        if (!f.wall && (!f.inlet || open_inlet_)) velocity_[2 * i].unknown = unknowns_++;
         if (!f.wall && !f.inlet && !f.outlet && !f.axis) velocity_[2 * i + 1].unknown = unknowns_++;
       }
     }
@@ -98,9 +107,61 @@ void Discretisation::number_unknowns(const std::vector<NodeFlags>& flags, const 
   }
   // Walls and inlet move backwards past the cell.
   for (int i = 0; i < nodes_.count; ++i) {
-    if (flags[i].cell || !(flags[i].wall || flags[i].inlet)) continue;
-    const double inflow = flags[i].wall ? 0 : undisturbed_velocity(liquid, points_[i](1));
-    velocity_[2 * i] = {cell_velocity_, -1, inflow};
+    if (flags[i].cell || !(flags[i].wall || (flags[i].inlet && !open_inlet_))) continue;
+    velocity_[2 * i] = {cell_velocity_, -1, 0};
+  }
+}
+
+void Discretisation::set_inflow() {
+  double radius = 0;
+  for (const BoundaryEdge& edge : inlet_) {
+    for (const int node : edge.nodes) radius = std::max(radius, points_[node](1));
+  }
+  for (const BoundaryEdge& edge : inlet_) {
+    for (const int node : edge.nodes) {
+      const double r = points_[node](1);
+      if (open_inlet_ || r == radius) continue;
+      velocity_[2 * node].constant = undisturbed_velocity(liquid_, r / radius) / (radius * radius);
+    }
+  }
+}
+
+VectorXd Discretisation::wall_motion(const std::function<double(double)>& wall, const VectorXd& unknowns) const {
+  const ChannelGeometry& geometry = mesh_->geometry();
+  VectorXd outward = VectorXd::Zero(nodes_.count);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if (!elements_[e].liquid) continue;
+    const MeshElement& self = mesh_->elements()[e];
+    for (int k = 0; k < reference_.nodes(); ++k) {
+      const int node = nodes_.of_element[e][k], p = reference_.degree(), i = k % (p + 1), j = k / (p + 1);
+      const auto [out, along] = self.parameters(reference_.nodes_1d(i), reference_.nodes_1d(j));
+      // The wall's point at the end of the spoke, and the share of its motion.
+      double x = straight_points_[node](0), share = straight_points_[node](1);
+      if (self.block == Block::top) {
+        const int foot = elements_[e].columns[self.outward_first ? j : i].unknown;
+        x = geometry.map(Block::top, 1, along)(0) + (foot < 0 ? 0 : wall_slide(along) * unknowns(foot));
+        share = out;
+      } else if (has_spokes(self.block)) {
+        x = self.block == Block::front ? geometry.box() : -geometry.box();
+        share = out * along;
+      }
+      outward(node) = share * (wall(x) - 1);
+    }
+  }
+  return outward;
+}
+
+void Discretisation::move_nodes(const VectorXd& outward) {
+  for (int i = 0; i < nodes_.count; ++i) points_[i](1) = straight_points_[i](1) + outward(i);
+  set_inflow();
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    ElementUnknowns& element = elements_[e];
+    if (!element.liquid) continue;
+    element.reference = reference_places(int(e));
+    for (int k = 0; k < reference_.nodes(); ++k) {
+      Slot& slot = element.columns[2 * element.position_columns + k];
+      if (slot.unknown == cell_velocity_) slot = velocity(nodes_.of_element[e][k], 0);
+    }
   }
 }
 

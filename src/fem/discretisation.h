@@ -6,6 +6,7 @@
 // surface along spokes, docs/theory.md eq:spokes) and everything that a boundary condition fixes.
 #pragma once
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "fem/channel_mesh.h"
@@ -49,13 +50,21 @@ struct BoundaryEdge {
 
 class Discretisation {
  public:
-  Discretisation(const ChannelMesh&, int degree, const Liquid&, Interior = Interior::elastic);
+  Discretisation(const ChannelMesh&, int degree, const Liquid&, Interior = Interior::elastic, Drive = Drive::rate);
 
   const ChannelMesh& mesh() const { return *mesh_; }
   const ReferenceElement& reference() const { return reference_; }
+  /// Whether the inlet has a given pressure, as the outlet, rather than given velocities.
+  bool has_open_inlet() const { return open_inlet_; }
   const std::vector<ElementUnknowns>& elements() const { return elements_; }
   const NodeNumbers& nodes() const { return nodes_; }
   const std::vector<Point>& node_points() const { return points_; }
+
+  /// How far the mesh's nodes have to move away from the axis such that the wall has the radius `wall(x)`: where the
+  /// wall's points are with these unknowns. Nodes of the liquid follow along their spokes, the cell's stay. By nodes.
+  VectorXd wall_motion(const std::function<double(double)>& wall, const VectorXd& unknowns) const;
+  /// Moves the nodes from their places in a straight channel, and adapts the flow through the inlet.
+  void move_nodes(const VectorXd& outward);
 
   int unknowns() const { return unknowns_; }
   /// Unknowns up to this number couple elements; the others belong to one element and are condensed.
@@ -79,18 +88,21 @@ class Discretisation {
          interior = false;
   };
   std::vector<NodeFlags> flag_nodes() const;
-  void number_unknowns(const std::vector<NodeFlags>&, const Liquid&);
+  void number_unknowns(const std::vector<NodeFlags>&);
   void find_edges();
+  void set_inflow();
   ElementUnknowns cell_element(int element) const;
   ElementUnknowns liquid_element(int element) const;
   void add_spokes(int element, ElementUnknowns&) const;
   std::vector<Place<double>> reference_places(int element) const;
 
   const ChannelMesh* mesh_;
+  Liquid liquid_;
   Interior interior_;
+  bool open_inlet_;
   ReferenceElement reference_;
   NodeNumbers nodes_;
-  std::vector<Point> points_;
+  std::vector<Point> points_, straight_points_;
   std::vector<int> displacement_, pressure_;
   std::vector<Slot> velocity_;
   int unknowns_ = 0, outer_unknowns_ = 0, cell_velocity_ = -1, inner_pressure_ = -1;

@@ -49,10 +49,20 @@ void MovingSystem::set_motion(const Motion& motion) {
   history_.resize(elements().size());
   for (int e = 0; e < int(elements().size()); ++e) {
     if (elements()[e].liquid) {
+      if (motion_.outward.size() > 0) follow_nodes(e);
       tell_liquid(e);
     } else {
       tell_cell(e);
     }
+  }
+}
+
+void MovingSystem::follow_nodes(int e) {
+  const ElementUnknowns& moved = space().elements()[e];
+  ElementUnknowns& element = elements()[e];
+  element.reference = moved.reference;
+  for (std::size_t i = 0; i < element.columns.size(); ++i) {
+    if (element.columns[i].unknown == space().cell_velocity()) element.columns[i] = moved.columns[i];
   }
 }
 
@@ -78,6 +88,10 @@ void MovingSystem::tell_liquid(int e) {
       slot.constant = motion_.unknowns(slot.unknown);
     }
     history.col(2 + c) = reference.shape.value * velocity;
+  }
+  if (motion_.outward.size() > 0) {
+    for (int k = 0; k < n; ++k) velocity(k) = motion_.outward(nodes[k]);
+    history.col(1) += reference.shape.value * velocity;
   }
   // The form knows r, not the radial displacement.
   for (int q = 0; q < reference.points(); ++q) history(q, 1) -= motion_.rate * element.reference[q].r;
@@ -140,6 +154,15 @@ void MovingSystem::integrate(int e, const Media& media, const VectorXd& unknowns
     };
     integrate_form<MovingCellPoint>(quadrature, fields, form_at, want, system);
   }
+}
+
+CoupledSystem::InletPressure MovingSystem::inlet_pressure(const Media& media) const {
+  // The solver's pressure contains that of the inertial force (eq:frame-pressure).
+  const double mass = media.liquid.reynolds * 2 * space().mesh().geometry().half_length();
+  InletPressure pressure = CoupledSystem::inlet_pressure(media);
+  pressure.fixed -= mass * motion_.unknowns(space().cell_velocity());
+  pressure.slope -= mass * motion_.rate;
+  return pressure;
 }
 
 VectorXd MovingSystem::node_velocities(const VectorXd& unknowns) const {

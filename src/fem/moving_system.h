@@ -10,6 +10,9 @@ struct Motion {
   double rate = 0;
   VectorXd unknowns;    ///< histories of the unknowns
   VectorXd velocities;  ///< histories of the nodes' velocities, (x, r) node by node
+  /// Rates at which a wall that is not straight moves the nodes outward; empty: straight. The space has its nodes
+  /// there.
+  VectorXd outward = {};
 };
 
 /// Cell and liquid on their way. The cell's velocities are the derivatives of its displacements, in a frame that moves
@@ -27,6 +30,8 @@ class MovingSystem final : public CoupledSystem {
 
  private:
   void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const override;
+  InletPressure inlet_pressure(const Media&) const override;
+  void follow_nodes(int element);
   void tell_liquid(int element);
   void tell_cell(int element);
   CellHistory cell_history(int element, int point) const;

@@ -156,6 +156,21 @@ double inlet_pressure(const Discretisation& space, const VectorXd& unknowns) {
   return force / area;
 }
 
+double flow_rate(const Discretisation& space, const VectorXd& unknowns) {
+  if (!space.has_open_inlet()) return 1;
+  const ReferenceElement& reference = space.reference();
+  const MatrixXd value = reference.lagrange(reference.points_1d);
+  double rate = unknowns(space.cell_velocity());
+  for (const BoundaryEdge& edge : space.inlet()) {
+    const auto point = nodal_field(edge.nodes, [&](int node, int c) { return space.node_points()[node](c); });
+    const auto w = nodal_field(edge.nodes, [&](int node, int c) { return space.velocity(node, c).value(unknowns); });
+    const double width = point.col(1).maxCoeff() - point.col(1).minCoeff();
+    const VectorXd r = value * point.col(1), flux = value * w.col(0);
+    rate += 2 * width * (reference.weights_1d.array() * r.array() * flux.array()).sum();
+  }
+  return rate;
+}
+
 double largest_displacement(const Discretisation& space, const VectorXd& unknowns) {
   double largest = 0;
   for (int node = 0; node < space.nodes().count; ++node) {

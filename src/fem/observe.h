@@ -36,6 +36,9 @@ double stretch_change(const Discretisation&, const VectorXd& from, const VectorX
 /// Mean pressure over the inlet, in S; the undisturbed pressure at the cell is zero.
 double inlet_pressure(const Discretisation&, const VectorXd& unknowns);
 
+/// Flow rate through the inlet, in pi R^2 U; 1 where it is given.
+double flow_rate(const Discretisation&, const VectorXd& unknowns);
+
 /// Largest displacement component of the cell's nodes, in R.
 double largest_displacement(const Discretisation&, const VectorXd& unknowns);
 

@@ -1,7 +1,7 @@
 #include "fem/split_system.h"
 
 #include "fem/element_quadrature.h"
-#include "fem/outlet_load.h"
+#include "fem/end_loads.h"
 #include "laws/moving_form.h"
 #include "laws/split_form.h"
 
@@ -121,7 +121,8 @@ void SplitSystem::integrate_cell(int e, const Media& media, double step, const S
 
 bool SplitSystem::step_liquid(const Media& media, double step, SplitState& state, VectorXd& load) {
   tell_surface_velocity(state);
-  VectorXd residual = outlet_load(space_, media.liquid);
+  const double inlet_pressure = undisturbed_inlet_pressure(space_, media.liquid) + state.inlet_pressure;
+  VectorXd residual = outlet_load(space_, media.liquid) + inlet_pressure * inlet_load(space_);
   liquid_.clear();
   for (int e = 0; e < int(elements_.size()); ++e) {
     if (!elements_[e].liquid) continue;

@@ -10,7 +10,8 @@ namespace rheocyte {
 struct SplitState {
   VectorXd unknowns;  ///< displacements, pressures, v_cell; velocities of the liquid relative to v_cell
   VectorXd velocities;
-  VectorXd traction;  ///< that the cell feels, as loads in the equations of the surface's displacements
+  VectorXd traction;          ///< that the cell feels, as loads in the equations of the surface's displacements
+  double inlet_pressure = 0;  ///< where the inlet is open, beyond that of the undisturbed flow
 };
 
 class SplitSystem {

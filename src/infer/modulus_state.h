@@ -11,15 +11,17 @@ enum class ModulusState : int {
   no_data = 1,    ///< area, deformation or viscosity is not a finite number
   too_small = 2,  ///< smaller than any cell of the table at this channel width
   too_large = 3,
-  too_stiff = 4,   ///< deformed less than the stiffest cell of the table of this area
-  too_soft = 5,    ///< deformed more than the softest cell of the table of this area
-  unstable = 6,    ///< the bare surface of such a soft cell wrinkles: beyond the end of the smooth states
-  unresolved = 7,  ///< a gap of the table: its states did not converge there
-  regularised = 8  ///< there is a modulus, of a cell whose surface is held smooth by bending
+  too_stiff = 4,    ///< deformed less than the stiffest cell of the table of this area
+  too_soft = 5,     ///< deformed more than the softest cell of the table of this area
+  unstable = 6,     ///< the bare surface of such a soft cell wrinkles: beyond the end of the smooth states
+  unresolved = 7,   ///< a gap of the table: its states did not converge there
+  regularised = 8,  ///< there is a modulus, of a cell whose surface is held smooth by bending
+  gated = 9         ///< outside the limits that the user set
 };
 
-inline constexpr std::array<std::string_view, 9> names_of_modulus_states{
-    "valid", "no data", "too small", "too large", "too stiff", "too soft", "unstable", "unresolved", "regularised"};
+inline constexpr std::array<std::string_view, 10> names_of_modulus_states{
+    "valid",    "no data",  "too small",  "too large",   "too stiff",
+    "too soft", "unstable", "unresolved", "regularised", "gated"};
 
 inline std::string_view name_of(ModulusState state) {
   return names_of_modulus_states.at(static_cast<std::size_t>(state));

@@ -39,10 +39,9 @@ inline double undisturbed_velocity(const Liquid& liquid, double r) {
   return (3 * n + 1) / (n + 1) * (1 - std::pow(r, (n + 1) / n));
 }
 
-/// Pressure gradient (positive number) of that flow: 8 for n = 1.
+/// Pressure gradient (positive number) of that flow.
 inline double undisturbed_pressure_gradient(const Liquid& liquid) {
-  const double n = liquid.exponent;
-  return 2 * std::pow((3 * n + 1) / n, n);
+  return undisturbed_pressure_gradient(liquid.exponent);
 }
 
 }  // namespace rheocyte

@@ -31,7 +31,9 @@ void describe_state(const Problem& problem, const DiscreteState& state, Stationa
   const double gradient = undisturbed_pressure_gradient(state.media.liquid);
   r.channel_length = 2 * half;
   r.pressure_drop = inlet_pressure(space, state.unknowns) + gradient * half;
-  r.additional_pressure_drop = r.pressure_drop - gradient * r.channel_length;
+  r.flow_rate = flow_rate(space, state.unknowns);
+  const double undisturbed = gradient * std::pow(r.flow_rate, state.media.liquid.exponent) * r.channel_length;
+  if (problem.wall.is_straight()) r.additional_pressure_drop = r.pressure_drop - undisturbed;
   r.relative_volume_change = r.shape.volume / (4.0 / 3 * std::numbers::pi * std::pow(problem.radius_ratio, 3)) - 1;
   describe_surface(problem, state, r);
   if (const int p = space.inner_pressure(); p >= 0)

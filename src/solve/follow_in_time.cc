@@ -16,6 +16,12 @@ namespace {
 /// (docs/verification-time.md).
 constexpr Subdivision subdivision = {2, 4, 1, 2};
 
+/// So many elements along the surface, and as large ones as fit to them elsewhere.
+Subdivision fine_subdivision(int surface_elements) {
+  const int front = (surface_elements + 3) / 4;
+  return {front, 2 * front, std::max(1, front / 8), 4};
+}
+
 TimeStepOptions step_options(const TimeRun& run, const std::atomic<bool>* stop) {
   TimeStepOptions options;
   options.accuracy = run.accuracy;
@@ -25,8 +31,11 @@ TimeStepOptions step_options(const TimeRun& run, const std::atomic<bool>* stop) 
 
 std::unique_ptr<Stepper> make_stepper(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
   const Resolution resolution{subdivision, run.degree};
-  if (run.scheme == TimeScheme::partitioned)
-    return std::make_unique<PartitionedStepper>(problem, resolution, PartitionedOptions{run.step});
+  if (run.scheme == TimeScheme::partitioned) {
+    const Resolution fine{fine_subdivision(run.surface_elements), run.degree};
+    return std::make_unique<PartitionedStepper>(problem, run.surface_elements > 0 ? fine : resolution,
+                                                PartitionedOptions{run.step});
+  }
   return std::make_unique<TimeStepper>(problem, resolution, step_options(run, stop));
 }
 
@@ -49,6 +58,7 @@ class TimeFollower {
       if (observer_.step) observer_.step(describe(TimeStepReport{}), stepper_->state());
     }
     advance(result);
+    stepper_->move_walls(stepper_->now().time);  // a step that failed has moved them
     describe_state(stepper_->problem(), state_of(stepper_->now().unknowns), result);
     result.pressure_drop = describe(TimeStepReport{}).pressure_drop;
     outcome.reached = 1;
@@ -98,14 +108,8 @@ class TimeFollower {
     // splitting scheme solves in the laboratory.
     const double inertia = run_.scheme == TimeScheme::monolithic ? stepper_->media().liquid.reynolds : 0;
     const double drop = state.pressure_drop + inertia * now.frame_acceleration * state.channel_length;
-    return {now.time,
-            report.step,
-            report.order,
-            report.newton_iterations,
-            report.refused,
-            state.shape,
-            state.cell_velocity,
-            state.relative_volume_change,
+    return {now.time,    report.step,  report.order,        report.newton_iterations,     report.refused,
+            state.shape, now.position, state.cell_velocity, state.relative_volume_change, state.flow_rate,
             drop};
   }
 
@@ -122,8 +126,10 @@ class TimeFollower {
     for (long i = std::lround(std::floor(before / run_.output_every * (1 + 1e-12))) + 1;; ++i) {
       const double time = i * run_.output_every;
       if (time > now * (1 + 1e-12) || time > run_.end * (1 - 1e-9)) break;
+      stepper_->move_walls(time);
       show_frame(time, stepper_->unknowns_at(time));
     }
+    stepper_->move_walls(now);
     if (at_end()) show_frame(run_.end, stepper_->now().unknowns);
   }
 

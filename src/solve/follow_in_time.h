@@ -12,7 +12,8 @@ struct TimeRun {
   double accuracy = 1e-5;  ///< of the surface's positions in each step, in r0
   int degree = 6;
   TimeScheme scheme = TimeScheme::monolithic;
-  double step = 2e-3;  ///< of the splitting scheme
+  double step = 2e-3;        ///< of the splitting scheme
+  int surface_elements = 0;  ///< of the splitting scheme; 0: the mesh of the implicit steps
 };
 
 /// What is recorded of each step; dimensionless.
@@ -20,7 +21,8 @@ struct TimePoint {
   double time = 0, step = 0;
   int order = 0, newton_iterations = 0, refused_steps = 0;
   ShapeMeasures shape;
-  double cell_velocity = 0, relative_volume_change = 0, pressure_drop = 0;
+  double position = 0;  ///< of the cell along the channel, from its start
+  double cell_velocity = 0, relative_volume_change = 0, flow_rate = 1, pressure_drop = 0;
 };
 
 /// What is recorded at the times of output; interpolated between steps.

@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/end_loads.h"
+#include "fem/observe.h"
 #include "solve/rigid_start.h"
 
 namespace rheocyte {
 namespace {
+
+/// Share of the present pressure drop that the controller leaves alone.
+constexpr double controller_inertia = 0.9;
 
 constexpr double folded = 1e-3;  ///< least volume of an element, in that at rest, that a shape may have
 
@@ -50,7 +55,7 @@ TimeStepReport PartitionedStepper::step(double limit) {
   const double room = limit - now().time, size = std::min(options_.step, room);
   report.step = size > room * (1 - 1e-9) ? room : size;
   report.order = 1;
-  SplitState split{now().unknowns, now().velocities, state_.traction};
+  SplitState split{now().unknowns, now().velocities, state_.traction, state_.inlet_pressure};
   VectorXd load;
   report.status = Status::singular_matrix;
   if (!system_.step_liquid(media_, report.step, split, load)) return report;
@@ -64,10 +69,18 @@ TimeStepReport PartitionedStepper::step(double limit) {
   if (report.status != Status::converged) return report;
   const int v = space().cell_velocity();
   TimeLevel level{now().time + report.step, split.unknowns, split.velocities, 0};
+  level.position = now().position + report.step * split.unknowns(v);
   level.frame_acceleration = (split.unknowns(v) - now().unknowns(v)) / report.step;
   state_.levels = {level, now()};
   state_.traction = split.traction;
+  if (problem_.drive == Drive::controlled_pressure) state_.inlet_pressure = controlled_pressure(split.unknowns);
   return report;
+}
+
+double PartitionedStepper::controlled_pressure(const VectorXd& unknowns) const {
+  const double at_ends = undisturbed_inlet_pressure(space(), media_.liquid), drop = 2 * at_ends + state_.inlet_pressure;
+  const double rate = flow_rate(space(), unknowns);
+  return drop / (controller_inertia + (1 - controller_inertia) * rate) - 2 * at_ends;
 }
 
 VectorXd PartitionedStepper::unknowns_at(double time) const {

@@ -22,6 +22,9 @@ class PartitionedStepper final : public Stepper {
   WorkMeter work() const override;
 
  private:
+  /// eq:controller
+  double controlled_pressure(const VectorXd& unknowns) const;
+
   PartitionedOptions options_;
   SplitSystem system_;
 };

@@ -44,8 +44,8 @@ double mean(double a, double b, double s) {
 }  // namespace
 
 Discrete::Discrete(const Problem& problem, const Resolution& resolution)
-    : mesh(ChannelGeometry(problem.radius_ratio), resolution.subdivision),
-      space(mesh, resolution.degree, media_at(problem, 1).liquid, interior_of(problem)),
+    : mesh(ChannelGeometry(problem.radius_ratio, problem.channel_length), resolution.subdivision),
+      space(mesh, resolution.degree, media_at(problem, 1).liquid, interior_of(problem), problem.drive),
       system(space) {}
 
 Media media_at(const Problem& problem, double compliance) {

@@ -57,6 +57,7 @@ struct StationaryState {
   Contour contour;      ///< barycentre at x = 0
   SurfaceProfile surface;
   double cell_velocity = no_value;             ///< in U
+  double flow_rate = no_value;                 ///< in pi R^2 U
   double pressure_drop = no_value;             ///< over the simulated channel, in S
   double additional_pressure_drop = no_value;  ///< the part that is due to the cell
   double channel_length = no_value;            ///< simulated, in R

@@ -29,6 +29,8 @@ class Stepper {
   virtual TimeStepReport step(double limit) = 0;
   /// Unknowns at a time within the last step.
   virtual VectorXd unknowns_at(double time) const = 0;
+  /// Moves the mesh to where the walls are at a time within the last step; for looking at the unknowns of that time.
+  virtual void move_walls(double) {}
   /// Of all steps so far.
   virtual WorkMeter work() const = 0;
 

@@ -11,6 +11,8 @@ struct TimeLevel {
   double time = 0;
   Eigen::VectorXd unknowns, velocities;
   double frame_acceleration = 0;  ///< d(v_cell)/dt, in U^2/R
+  double position = 0;            ///< of the cell's barycentre along the channel, from its start, in R
+  Eigen::VectorXd outward = {};   ///< where a wall that is not straight moves the mesh's nodes; empty: straight
 };
 
 /// All that the next step depends on.
@@ -19,7 +21,8 @@ struct TimeState {
   int order = 1;                  ///< of the next step
   int steps_at_order = 0;
   double next_step = 0;
-  Eigen::VectorXd traction;  ///< on the cell, of the splitting scheme only (fem/split_system.h)
+  Eigen::VectorXd traction;   ///< on the cell, of the splitting scheme only (fem/split_system.h)
+  double inlet_pressure = 0;  ///< beyond that of the undisturbed flow; only where it is controlled
 };
 
 }  // namespace rheocyte

@@ -27,24 +27,49 @@ struct TimeStepper::Trial {
 TimeStepper::TimeStepper(const Problem& problem, const Resolution& resolution, const TimeStepOptions& options)
     : Stepper(problem, resolution), options_(options), system_(space()) {
   options_.newton.residual_scale = residual_scale(system_, media_);
+  if (!problem_.wall.is_straight()) wall_.emplace(problem_.wall);
 }
 
 Status TimeStepper::start() {
-  VectorXd unknowns;
-  const Status status = flow_round_sphere(system_, media_, options_.newton, unknowns);
+  TimeLevel level;
+  if (wall_) {
+    level.outward = meet_walls(0, VectorXd::Zero(space().unknowns()));
+    const VectorXd at_rest = VectorXd::Zero(level.outward.size());
+    system_.set_motion({0, VectorXd::Zero(space().unknowns()), VectorXd::Zero(2 * space().nodes().count), at_rest});
+  }
+  const Status status = flow_round_sphere(system_, media_, options_.newton, level.unknowns);
   if (status != Status::converged) return status;
+  level.velocities = system_.node_velocities(level.unknowns);
   state_ = {};
-  state_.levels = {{0, unknowns, system_.node_velocities(unknowns)}};
+  state_.levels = {level};
   state_.next_step = options_.fixed_step > 0 ? options_.fixed_step : options_.first_step;
   return Status::converged;
 }
 
 VectorXd TimeStepper::extrapolate(int levels, double time) const {
   const std::vector<double> past = times(state_);
-  const VectorXd weights = extrapolation_weights(std::span<const double>(past).first(levels), time);
-  VectorXd result = weights(0) * state_.levels[0].unknowns;
-  for (int i = 1; i < levels; ++i) result += weights(i) * state_.levels[i].unknowns;
+  return combine(extrapolation_weights(std::span<const double>(past).first(levels), time), &TimeLevel::unknowns);
+}
+
+VectorXd TimeStepper::combine(const VectorXd& weights, VectorXd TimeLevel::*field) const {
+  VectorXd result = weights(0) * (state_.levels[0].*field);
+  for (int i = 1; i < weights.size(); ++i) result += weights(i) * (state_.levels[i].*field);
   return result;
+}
+
+VectorXd TimeStepper::meet_walls(double position, const VectorXd& unknowns) {
+  const auto wall = [&](double x) { return wall_->radius(position + x); };
+  const VectorXd outward = space().wall_motion(wall, unknowns);
+  discrete_->space.move_nodes(outward);
+  return outward;
+}
+
+void TimeStepper::move_walls(double time) {
+  if (!wall_) return;
+  const std::vector<double> past = times(state_);
+  const int levels = std::min<int>(state_.order + 1, int(past.size()));
+  const VectorXd weights = extrapolation_weights(std::span<const double>(past).first(levels), time);
+  discrete_->space.move_nodes(combine(weights, &TimeLevel::outward));
 }
 
 VectorXd TimeStepper::unknowns_at(double time) const {
@@ -69,19 +94,21 @@ TimeStepper::Trial TimeStepper::attempt(double step, int order) {
   const std::vector<double> past = times(state_);
   trial.level.time = past[0] + step;
   trial.formula = bdf_formula(past, order, trial.level.time);
-  Motion motion{trial.formula.rate, VectorXd::Zero(space().unknowns()), VectorXd::Zero(2 * space().nodes().count)};
-  for (int i = 0; i < order; ++i) {
-    motion.unknowns += trial.formula.weights(i) * state_.levels[i].unknowns;
-    motion.velocities += trial.formula.weights(i) * state_.levels[i].velocities;
+  const int v = space().cell_velocity(), levels = std::min<int>(order + 1, int(past.size()));
+  const VectorXd guess = extrapolate(levels, trial.level.time), weights = trial.formula.weights.head(order);
+  Motion motion{trial.formula.rate, combine(weights, &TimeLevel::unknowns), combine(weights, &TimeLevel::velocities)};
+  double position = 0;  // history
+  for (int i = 0; i < order; ++i) position += weights(i) * state_.levels[i].position;
+  trial.level.position = (guess(v) - position) / motion.rate;
+  if (wall_) {
+    trial.level.outward = meet_walls(trial.level.position, guess);
+    motion.outward = motion.rate * trial.level.outward + combine(weights, &TimeLevel::outward);
   }
   system_.set_motion(motion);
-  const int levels = std::min<int>(order + 1, int(past.size()));
-  const VectorXd guess = extrapolate(levels, trial.level.time);
   trial.level.unknowns = guess;
   trial.newton = newton(system_, media_, options_.newton, trial.level.unknowns);
   if (trial.newton.status != Status::converged) return trial;
   trial.level.velocities = system_.node_velocities(trial.level.unknowns);
-  const int v = space().cell_velocity();
   trial.level.frame_acceleration = motion.rate * trial.level.unknowns(v) + motion.unknowns(v);
   const double share = levels > order ? trial.formula.error_share : 0.5;  // the first step has nothing to compare with
   trial.error = share * surface_change(trial.level.unknowns - guess);

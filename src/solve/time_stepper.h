@@ -1,6 +1,9 @@
 // The cell on its way, step by step (docs/theory-time.md, sec. 2): implicit steps of controlled size and order.
 #pragma once
+#include <optional>
+
 #include "fem/moving_system.h"
+#include "laws/wall_profile.h"
 #include "solve/bdf.h"
 #include "solve/newton.h"
 #include "solve/stepper.h"
@@ -25,6 +28,7 @@ class TimeStepper final : public Stepper {
   TimeStepReport step(double limit) override;
   /// By the polynomial of the formula.
   VectorXd unknowns_at(double time) const override;
+  void move_walls(double time) override;
   WorkMeter work() const override { return system_.work(); }
 
  private:
@@ -34,8 +38,12 @@ class TimeStepper final : public Stepper {
   StepErrors errors(const Trial&, int order) const;
   void accept(const Trial&, int order);
   VectorXd extrapolate(int levels, double time) const;
+  VectorXd combine(const VectorXd& weights, VectorXd TimeLevel::*field) const;
+  /// Where the walls move the nodes with the cell at `position`; moves them.
+  VectorXd meet_walls(double position, const VectorXd& unknowns);
 
   TimeStepOptions options_;
+  std::optional<WallProfile> wall_;  ///< of a channel that is not straight
   MovingSystem system_;
 };
 

@@ -160,7 +160,7 @@ GridOrigin origin_of(const TableSpec& spec, std::string_view version) {
           fmt::format("rheocyte {}", version),
           to_toml(spec),
           channel_width_um(c),
-          c.flow.rate_ul_per_s,
+          c.flow.rate_ul_per_s.value(),
           effective_viscosity_mPas(c),
           c.flow.law == LiquidLaw::power_law ? c.flow.exponent.value() : 1,
           stiffness_unit(spec) != "kPa"};

@@ -43,7 +43,7 @@ double channel_width_um(const Case& c) {
 double effective_viscosity_mPas(const Case& c) {
   if (c.flow.law == LiquidLaw::newtonian) return c.flow.viscosity_mPas.value();
   const double n = c.flow.exponent.value(), width_mm = 1e-3 * channel_width_um(c);
-  const double shear_rate = 8 * c.flow.rate_ul_per_s / (width_mm * width_mm * width_mm) * (0.6671 + 0.2121 / n);
+  const double shear_rate = 8 * c.flow.rate_ul_per_s.value() / (width_mm * width_mm * width_mm) * (0.6671 + 0.2121 / n);
   return 1e3 * c.flow.consistency_Pa_sn.value() * std::pow(shear_rate, n - 1);
 }
 
@@ -61,7 +61,7 @@ ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
                         {"channel_width", channel_width_um(c)},
                         {"channel_width_unit", "um"},
                         {"dimensionality", "2Daxis"},
-                        {"flow_rate", c.flow.rate_ul_per_s},
+                        {"flow_rate", c.flow.rate_ul_per_s.value()},
                         {"flow_rate_unit", "uL/s"},
                         {"fluid_density", c.flow.density_kg_per_m3},
                         {"fluid_density_unit", "kg m^-3"},

@@ -24,7 +24,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::string_view radius_key = "cell.radius_um", accuracy_key = "numerics.accuracy",
+constexpr std::string_view radius_key = "cell.radius_um", accuracy_key = "numerics.accuracy", drive_key = "flow.drive",
                            bulk_law_key = "cell.bulk.law", cortex_law_key = "cell.cortex.law";
 constexpr std::string_view bulk_modulus_key = "cell.bulk.young_modulus_kPa",
                            cortex_modulus_key = "cell.cortex.modulus_mN_per_m",
@@ -213,6 +213,11 @@ void refuse_swept_keys(const TableSpec& spec, const std::vector<GivenKey>& keys)
       refuse(*stiffness, fmt::format("{} must not be given, because a table sweeps it; choose table.least_deformation "
                                      "and table.greatest_deformation.",
                                      stated(*stiffness)));
+  for (const auto key : {drive_key, std::string_view("flow.pressure_drop_Pa")})
+    if (const auto* drive = last_of(keys, key))
+      refuse(*drive, fmt::format("{} must not be given, because a table is that of one flow rate; choose "
+                                 "flow.rate_ul_per_s.",
+                                 stated(*drive)));
   if (const auto* accuracy = last_of(keys, accuracy_key))
     refuse(*accuracy, fmt::format("{} has no effect on a table; choose table.accuracy.", stated(*accuracy)));
 }
@@ -337,6 +342,7 @@ TableSpec read_table_spec(const std::filesystem::path& file, std::span<const std
 
 std::string to_toml(const TableSpec& spec) {
   auto left_out = swept_keys(spec);
+  left_out.push_back(drive_key);
   if (spec.is_combined()) left_out.push_back(ratio_key);
   std::string text = to_toml(spec.base, left_out) + "\n[table]\n";
   for (const auto& key : table_keys()) {

@@ -24,13 +24,16 @@ Case some_case(const std::vector<std::string>& settings = {}) {
 Checkpoint some_checkpoint(double t_us = 12.5) {
   Checkpoint checkpoint;
   for (const double time : {0.3, 0.2}) {
-    TimeLevel level{time, Eigen::VectorXd::LinSpaced(7, 0, 1), Eigen::VectorXd::LinSpaced(4, -1, 0.1), 0.7};
+    TimeLevel level{time, Eigen::VectorXd::LinSpaced(7, 0, 1),    Eigen::VectorXd::LinSpaced(4, -1, 0.1), 0.7,
+                    5.5,  Eigen::VectorXd::LinSpaced(2, 0.3, 0.4)};
     checkpoint.state.levels.push_back(level);
   }
   checkpoint.state.order = 2;
   checkpoint.state.steps_at_order = 3;
   checkpoint.state.next_step = 0.01;
-  checkpoint.record.rows = {{0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, {t_us, 0.1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}};
+  checkpoint.state.inlet_pressure = -0.125;
+  checkpoint.record.rows = {{0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11},
+                            {t_us, 0.1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}};
   checkpoint.record.frames = {{0, Eigen::MatrixX2d::Constant(5, 2, 1.0 / 3)}};
   return checkpoint;
 }
@@ -66,8 +69,11 @@ TEST_F(Folder, GivesBackEveryBit) {
     EXPECT_EQ(read.state.levels[i].unknowns, written.state.levels[i].unknowns);
     EXPECT_EQ(read.state.levels[i].velocities, written.state.levels[i].velocities);
     EXPECT_EQ(read.state.levels[i].frame_acceleration, 0.7);
+    EXPECT_EQ(read.state.levels[i].position, 5.5);
+    EXPECT_EQ(read.state.levels[i].outward, written.state.levels[i].outward);
   }
   EXPECT_EQ(read.state.next_step, 0.01);
+  EXPECT_EQ(read.state.inlet_pressure, -0.125);
   EXPECT_EQ(history_csv(read.record), history_csv(written.record));
   EXPECT_EQ(contours_csv(read.record), contours_csv(written.record));
 }

@@ -129,6 +129,31 @@ TEST_F(OwnTable, ContradictingOptionsAndMissingTablesAreRefused) {
   EXPECT_NE(ended.err.find("give one with --table"), std::string::npos) << ended.err;
 }
 
+TEST_F(OwnTable, GatesShutEventsOut) {
+  {
+    RecordingWriter writer(folder_ / "a.rtdc");
+    test::write_usual_metadata(writer);
+    writer.scalar("area_um", {80, 90, 100, 110});
+    writer.scalar("deform", {0.03, 0.03, 0.03, 0.03});
+    writer.scalar("area_cvx", {800, 900, 1000, 1100});
+    writer.scalar("area_msd", {790, 800, 990, NAN});
+  }
+  const auto ended = run({"extract", path("a.rtdc"), "--max", "area_ratio=1.05", "--min", "area_um=85"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(column(folder_ / "a_rheocyte.rtdc", "userdef0"), (std::vector<double>{9, 9, 0, 9}));
+  EXPECT_TRUE(std::isnan(column(folder_ / "a_rheocyte.rtdc", "emodulus")[0]));
+  EXPECT_NE(ended.out.find("1 of 4 events"), std::string::npos) << ended.out;
+  EXPECT_NE(test::content_of(folder_ / "rheocyte_summary.tsv").find("85 <= area_um, area_ratio <= 1.05"),
+            std::string::npos);
+  expect_refusal({"extract", path("a.rtdc"), "--max", "area_ratio"}, "give a feature and a number");
+  const auto unknown = run({"extract", path("a.rtdc"), "--max", "bright=5"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("has no feature bright"), std::string::npos) << unknown.err;
+  const auto none = run({"extract", path("a.rtdc"), "--max", "area_um=5"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_NE(none.err.find("outside the table LE-2D-26 or the gates"), std::string::npos) << none.err;
+}
+
 TEST_F(OwnTable, AShearThinningMediumGetsTheTableOfItsLiquid) {
   write_recording("a.rtdc");  // in CellCarrier at 23 degC: exponent 0.655
   const auto spec = write_closed_table("table");

@@ -98,6 +98,20 @@ TEST_F(Plot, WithoutATableTheLinesAreThoseOfTheProgramsOwn) {
   EXPECT_NE(bare.err.find("--channel-width"), std::string::npos) << bare.err;
 }
 
+TEST_F(Plot, OtherFeaturesAndGates) {
+  ASSERT_EQ(plot({path("a.rtdc"), "-o", path("all"), "--x", "deform", "--y", "area_um"}).exit_code, 0);
+  const auto gated = plot({path("a.rtdc"), "-o", path("gated"), "--min", "area_um=85", "--max", "deform=0.05"});
+  ASSERT_EQ(gated.exit_code, 0) << gated.err;
+  EXPECT_TRUE(fs::exists(folder_ / "gated.png"));
+  const std::string a = path("a.rtdc");
+  expect_refusal({a, "--x", "volume"}, "has no feature volume");
+  expect_refusal({a, "--x", "volume", "--levels", "1"}, "--levels and --x or --y contradict");
+  expect_refusal({a, "--min", "area_um"}, "give a feature and a number");
+  expect_refusal({a, "--min", "area_um=5", "--max", "area_um=4"}, "contradict each other");
+  expect_refusal({a, "--max", "bright=4"}, "has no feature bright, for which --min or --max");
+  expect_refusal({a, "--min", "area_um=500"}, "no event inside the gates has area_um and deform");
+}
+
 TEST_F(Plot, SeveralRecordingsAndTheReservoirShareOnePicture) {
   write_recording("b.rtdc", "reservoir");
   const auto ended = plot({path("a.rtdc"), path("b.rtdc"), "--table", path("table.txt"), "-o", path("out")});

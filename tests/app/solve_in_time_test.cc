@@ -1,6 +1,7 @@
 // `rheocyte solve` of a case with a [time] section: its folder, its restart, its refusals.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "../robustness/run_program.h"
@@ -51,6 +52,48 @@ TEST_F(InTime, ARestartContinuesToTheBit) {
   EXPECT_TRUE(text("second/contours.csv").starts_with(text("first/contours.csv")));
   ASSERT_EQ(run(solve("first", {"--set", "time.end_us=60", "--continue", at("first")})).exit_code, 0);  // in place
   EXPECT_EQ(text("first/history.csv"), text("second/history.csv"));
+}
+
+TEST_F(InTime, AKilledRunGoesOnFromItsHiddenFolder) {
+  // kill -9 after the first step is told: the folder in which the result was being written has a checkpoint, and what
+  // goes on from there equals the undisturbed run byte by byte.
+  ASSERT_EQ(run(solve("undisturbed", {"--set", "time.end_us=60"})).exit_code, 0);
+  auto command = solve("killed", {"--set", "time.end_us=60"});
+  std::erase(command.arguments, "--quiet");
+  command.signal = SIGKILL;
+  EXPECT_EQ(run(command).exit_code, 128 + SIGKILL);
+  EXPECT_FALSE(fs::exists(at("killed")));
+  fs::path hidden;
+  for (const auto& entry : fs::directory_iterator(folder_.path()))
+    if (entry.path().filename().string().starts_with(".killed.rheocyte-")) hidden = entry.path();
+  ASSERT_FALSE(hidden.empty());
+  ASSERT_EQ(run(solve("continued", {"--set", "time.end_us=60", "--continue", hidden})).exit_code, 0);
+  EXPECT_EQ(text("continued/history.csv"), text("undisturbed/history.csv"));
+  EXPECT_EQ(text("continued/contours.csv"), text("undisturbed/contours.csv"));
+}
+
+TEST_F(InTime, AChannelEntryWritesTheWallAndKeepsWhatItHasWhenItFails) {
+  // The wall goes from one radius of the table to the other; a cell that is far too soft for the contraction ends with
+  // exit code 3, its last good state and its history.
+  const auto enter = [&](const std::string& name, double young_modulus_kPa, double end_us) {
+    return run({{RHEOCYTE, "solve", std::string(EXAMPLES) + "/channel-entry.toml", "-o", at(name), "--no-picture",
+                 "--quiet", "--set", "time.degree=3", "--set", "time.accuracy=1e-3", "--set",
+                 "time.output_every_us=500", "--set", "time.end_us=" + std::to_string(end_us), "--set",
+                 "cell.bulk.young_modulus_kPa=" + std::to_string(young_modulus_kPa)}});
+  };
+  ASSERT_EQ(enter("sound", 4.58, 100).exit_code, 0);
+  const std::string wall = text("sound/channel.csv");
+  EXPECT_TRUE(wall.starts_with("x_um,R_um\n"));
+  EXPECT_NE(wall.find(",21.88\n"), std::string::npos);
+  EXPECT_TRUE(wall.ends_with(",10.94\n"));
+  const auto ended = enter("soft", 0.1, 5000);
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_NE(ended.err.find("the last good state is kept"), std::string::npos) << ended.err;
+  const auto numbers = nlohmann::json::parse(text("soft/result.json"));
+  EXPECT_NE(numbers["status"], "converged");
+  EXPECT_TRUE(numbers["deformation"].is_number());
+  EXPECT_GT(numbers["time"]["steps"], 10);
+  EXPECT_TRUE(fs::exists(at("soft") / "checkpoint-1.bin"));
 }
 
 TEST_F(InTime, RefusesWhatCannotBeContinued) {

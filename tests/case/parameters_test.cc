@@ -52,6 +52,9 @@ TEST(Parameters, AreReadAndWrittenThroughTheSameMember) {
     if (const auto* number = std::get_if<Number>(&parameter.value)) {
       number->set(c, 0.375);
       EXPECT_EQ(number->get(c), 0.375) << parameter.key;
+    } else if (const auto* list = std::get_if<List>(&parameter.value)) {
+      list->at(c) = {1, 2.5};
+      EXPECT_EQ(list->at(c), (std::vector{1, 2.5})) << parameter.key;
     } else {
       const auto& choice = std::get<Choice>(parameter.value);
       for (int option = 0; option < static_cast<int>(choice.options.size()); ++option) {

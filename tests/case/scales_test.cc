@@ -57,13 +57,33 @@ TEST(Scales, TheGroupsOfThePaperCell) {
   EXPECT_EQ(problem.accuracy, 1e-4);
 }
 
+TEST(Scales, TheUndisturbedPressureDropGivesTheSameProblemAsItsRate) {
+  // Poiseuille: drop = 8 eta U L / R^2; a power-law liquid: 2 K ((3n+1)/n U)^n L / R^(n+1).
+  const double R = 10.94e-6, U = 0.04e-9 / (std::numbers::pi * R * R), L = 100e-6, n = 0.6;
+  for (const bool newtonian : {true, false}) {
+    const Case given = newtonian ? paper_cell() : power_law_cell(n, 0.4);
+    Case driven = given;
+    driven.flow.drive = Drive::pressure_drop;
+    driven.flow.rate_ul_per_s.reset();
+    driven.channel.length_um = 1e6 * L;
+    driven.flow.pressure_drop_Pa =
+        newtonian ? 8 * 15e-3 * U * L / (R * R) : 2 * 0.4 * std::pow((3 * n + 1) / n * U, n) * L / std::pow(R, n + 1);
+    const Scales a = scales_of(given), b = scales_of(driven);
+    EXPECT_NEAR(b.velocity_m_per_s / a.velocity_m_per_s, 1, 10 * rounding);
+    EXPECT_NEAR(b.stress_Pa / a.stress_Pa, 1, 10 * rounding);
+    EXPECT_NEAR(unit_rate_ul_per_s(b), 0.04, 0.04 * 10 * rounding);
+    EXPECT_EQ(problem_of(driven).drive, Drive::pressure_drop);
+    EXPECT_NEAR(problem_of(driven).channel_length, L / R, 1e-12);
+  }
+}
+
 TEST(Scales, StokesCasesWithEqualGroupsAreOneProblem) {
   Case one = paper_cell(), other = paper_cell();
   one.flow.density_kg_per_m3 = other.flow.density_kg_per_m3 = 0;
   // Lengths x 2, flow rate x 3, viscosity x 5: the modulus scales by Q eta / R^3 = 15/8 (model of Mokbel et al.).
   other.channel.width_um = 40;
   other.cell.radius_um *= 2;
-  other.flow.rate_ul_per_s *= 3;
+  *other.flow.rate_ul_per_s *= 3;
   *other.flow.viscosity_mPas *= 5;
   *other.cell.bulk.young_modulus_kPa *= 15.0 / 8;
   const Problem a = problem_of(one), b = problem_of(other);

@@ -48,6 +48,24 @@ TEST(MovingSystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
   }
 }
 
+TEST(MovingSystem, TheTangentOfAnOpenInletIsExact) {
+  // As above where the pressure drop is given: the inlet feels the acceleration of the frame.
+  const ChannelMesh mesh(ChannelGeometry(0.6, 12), {});
+  const Discretisation space(mesh, 3, media.liquid, Interior::elastic, Drive::pressure_drop);
+  MovingSystem moving(space);
+  moving.set_motion(some_motion(space));
+  const VectorXd x = moving.sphere(), b = test::random_vector(space.unknowns());
+  double det = 0;
+  bool factorised = false;
+  const VectorXd at = moving.linearise(media, x, det, factorised);
+  ASSERT_TRUE(factorised);
+  EXPECT_LT((moving.apply_tangent(media, x, moving.solve(b)) - b).norm() / b.norm(), 1e-9);
+  const auto remainder = [&](double h) {
+    return (moving.residual(media, x + h * b, det) - at - h * moving.apply_tangent(media, x, b)).norm();
+  };
+  EXPECT_NEAR(std::log2(remainder(1e-4) / remainder(5e-5)), 2.0, 0.1);
+}
+
 TEST(MovingSystem, TheCondensedSystemSolvesTheWholeOne) {
   // K (K^-1 b) = b for random b while everything moves.
   SmallChannel channel(0.6, 4, media.liquid);

@@ -41,6 +41,24 @@ TEST(PartitionedStepper, AgreesWithTheImplicitStepsAtAllTimes) {
   }
 }
 
+TEST(PartitionedStepper, TheControllerReachesTheWantedFlowRate) {
+  // Mokbel et al. adapt the pressure drop in each step: after 40 us the flow rate is the wanted one within 1e-3, and
+  // the shape on the way is that of the given rate within 1 % of the final one.
+  Problem controlled = moving_cell();
+  controlled.drive = Drive::controlled_pressure;
+  PartitionedStepper one(controlled, resolution, {0.2 / unit_us}), other(moving_cell(), resolution, {0.2 / unit_us});
+  ASSERT_EQ(one.start(), Status::converged);
+  ASSERT_EQ(other.start(), Status::converged);
+  EXPECT_LT(flow_rate(one.space(), one.now().unknowns), 0.97);  // the cell is in the way
+  const double end = 40 / unit_us;
+  while (one.now().time < end * (1 - 1e-9)) {
+    ASSERT_EQ(one.step(end).status, Status::converged);
+    ASSERT_EQ(other.step(end).status, Status::converged);
+    EXPECT_NEAR(shape_at(one, one.now().time).deformation, shape_at(other, other.now().time).deformation, 0.01 * 0.043);
+  }
+  EXPECT_NEAR(flow_rate(one.space(), one.now().unknowns), 1, 1e-3);
+}
+
 TEST(PartitionedStepper, ItsErrorFallsInProportionToTheStep) {
   // Explicit in the elasticity: order 1. d at 10 us for steps of 0.2, 0.1, 0.05 us; ratio of the changes 2 within 0.5.
   double values[3];

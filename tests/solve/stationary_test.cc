@@ -57,6 +57,31 @@ TEST(Stationary, AConvergedStateIsComplete) {
   EXPECT_EQ(state.branch.back().deformation, state.shape.deformation);
 }
 
+TEST(Stationary, AGivenPressureDropIsThatOfTheFlowRateThatItDrives) {
+  // At its own flow rate q the same cell needs the same pressure drop. In the units of q, moduli are smaller by q and
+  // Re is larger by q. The inlets differ by the damped disturbance of the cell, 1e-7.
+  Problem driven = test::problem({6, 4.58, 0}, 1e-5);
+  driven.reynolds = 0.08;
+  driven.drive = Drive::pressure_drop;
+  driven.channel_length = 12;
+  const StationaryState one = solve_stationary(driven);
+  ASSERT_EQ(one.outcome.status, Status::converged);
+  const double q = one.flow_rate, drop = undisturbed_pressure_gradient(1) * driven.channel_length;
+  EXPECT_LT(q, 0.995);
+  EXPECT_GT(q, 0.9);
+  EXPECT_NEAR(one.pressure_drop / drop, 1, 1e-8);
+  EXPECT_NEAR(one.additional_pressure_drop / drop, 1 - q, 1e-8);
+  Problem given = driven;
+  given.drive = Drive::rate;
+  given.shear_modulus /= q;
+  given.reynolds *= q;
+  const StationaryState other = solve_stationary(given);
+  ASSERT_EQ(other.outcome.status, Status::converged);
+  EXPECT_NEAR(q * other.pressure_drop / drop, 1, 1e-6);
+  EXPECT_NEAR(q * other.cell_velocity / one.cell_velocity, 1, 1e-6);
+  EXPECT_NEAR(other.shape.deformation / one.shape.deformation, 1, 1e-5);
+}
+
 TEST(Stationary, TheCellKeepsItsVolumeAndItsPlace) {
   // Relative change of volume below 1e-6 at accuracy 1e-4 (the promise), barycentre at the origin.
   for (const test::CellInChannel& cell : {test::CellInChannel{6, 2.29, 0}, {7.66, 3.437, 1}, {8.75, 6, 0.5}}) {

@@ -7,6 +7,7 @@
 #include "cases.h"
 #include "fem/observe.h"
 #include "shape/measures.h"
+#include "solve/follow_in_time.h"
 #include "solve/stationary.h"
 
 namespace rheocyte {
@@ -131,6 +132,26 @@ TEST(TimeStepper, TheErrorControlKeepsItsPromise) {
     }
     before = now;
   }
+}
+
+TEST(TimeStepper, AGivenPressureDropStaysWhatItIs) {
+  // The frame of the heavy cell is accelerated at first; the pressure drop in the laboratory, eq:frame-pressure, is the
+  // given one all the time. The flow rate ends as the stationary one.
+  Problem problem = moving_cell(0);
+  problem.drive = Drive::pressure_drop;
+  TimeRun run{2000 / unit_us, 1e9, 1e-4, 4};
+  double greatest_acceleration = 0, rate = 0;
+  const auto observe = [&](const TimePoint& point, const TimeState& state) {
+    greatest_acceleration = std::max(greatest_acceleration, std::abs(state.levels[0].frame_acceleration));
+    EXPECT_NEAR(point.pressure_drop / (8 * 2 * least_half_length(problem.radius_ratio)), 1, 1e-6);
+    rate = point.flow_rate;
+  };
+  const StationaryState end = follow_in_time(problem, run, {{}, observe});
+  ASSERT_EQ(end.outcome.status, Status::converged);
+  EXPECT_GT(greatest_acceleration, 0.1);
+  const StationaryState stationary = solve_stationary(problem);
+  EXPECT_NEAR(rate / stationary.flow_rate, 1, 1e-5);
+  EXPECT_NEAR(end.shape.deformation / stationary.shape.deformation, 1, 1e-3);
 }
 
 TEST(TimeStepper, ResumingASavedStateChangesNothing) {

@@ -45,7 +45,8 @@ TEST(Scale, ThereAndBackIsTheSameTable) {
 TEST(Scale, KeepsTheDimensionlessGroups) {
   Case c;
   c.channel.width_um = 20;
-  c.flow = {0.04, LiquidLaw::newtonian, 15.0, {}, {}, {}, 0};
+  c.flow.rate_ul_per_s = 0.04;
+  c.flow.viscosity_mPas = 15;
   c.cell.radius_um = 7;
   c.cell.bulk.young_modulus_kPa = 2;
   c.cell.cortex.modulus_mN_per_m = 31;

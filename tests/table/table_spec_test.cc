@@ -91,6 +91,8 @@ TEST(TableSpec, SweptKeysMustNotBeGiven) {
   expect_refusal("cell.radius_um=5", "cell.radius_um = 5 must not be given, because a table sweeps it");
   expect_refusal("cell.bulk.young_modulus_kPa=5", "young_modulus_kPa = 5 must not be given");
   expect_refusal("numerics.accuracy=1e-4", "choose table.accuracy");
+  expect_refusal("flow.pressure_drop_Pa=1000", "a table is that of one flow rate");
+  expect_refusal("flow.drive=pressure-drop", "a table is that of one flow rate");
 }
 
 TEST(TableSpec, UnknownKeysAreNamedWithTheNearestOne) {

@@ -41,13 +41,14 @@ def make(laboratory):
             "cell.radius_um.mean": RADIUS_UM, "cell.radius_um.sd": RADIUS_DEVIATION_UM,
             "cell.young_modulus_kPa.mean": MEAN_KPA, "cell.young_modulus_kPa.sd": DEVIATION_KPA,
             "shapes.table": str(table.resolve())}
-    beads, moduli = measured_beads(laboratory, spec, table / f"lut_{TABLE['table.identifier']}.txt")
+    beads, moduli = measured_beads(laboratory, spec, table)
     lines = [line(states, level) for level in LEVELS_KPA]
     chosen = np.abs(beads[:, 0] - AREA_UM2) <= HALF_WIDTH_UM2
     spline = QuadraticSpline(*points_at_area(lines))
     methods = {"paper's spline,\nas measured": spline(beads[chosen, 1]),
                "table,\nas measured": moduli["plain"][chosen],
-               "table,\npixels corrected": moduli["corrected"][chosen]}
+               "table,\ndeformation\ncorrected": moduli["deformation"][chosen],
+               "own way: both\ncorrected": moduli["own"][chosen]}
     boxes = {name: box(values) for name, values in methods.items()}
     boxes["truth"] = {"count": BEADS, "quantiles": MEAN_KPA + DEVIATION_KPA * NORMAL}
     return draw(beads, lines, boxes), [row(name, one) for name, one in boxes.items()]
@@ -72,15 +73,17 @@ def finish(laboratory, *arguments):
         raise InputError(last_line(ended.stderr) or f"`rheocyte {arguments[0]}` ended without a word.")
 
 
-def measured_beads(laboratory, spec, lut):
-    """Area and deformation (n, 2) of virtual beads, and their moduli by the table, with and without correction."""
+def measured_beads(laboratory, spec, table):
+    """Area and deformation (n, 2) of virtual beads, and their moduli by the table: in the way of the field's programs,
+    without and with its correction for pixels, and in rheocyte's own."""
+    lut = table / f"lut_{TABLE['table.identifier']}.txt"
     file, recording = laboratory.folder / "beads.toml", laboratory.folder / "beads.rtdc"
     write_text(file, toml(spec))
     laboratory.tell(f"{BEADS} virtual beads in {recording}")
     finish(laboratory, "synth", file, "-o", recording, "--force")
     moduli = {}
-    for name, options in (("plain", ["--no-pixelation"]), ("corrected", [])):
-        finish(laboratory, "extract", recording, "--table", lut, "--viscosity", CONDITIONS["flow.viscosity_mPas"], "-o",
+    for name, source, options in (("plain", lut, ["--no-pixelation"]), ("deformation", lut, []), ("own", table, [])):
+        finish(laboratory, "extract", recording, "--table", source, "--viscosity", CONDITIONS["flow.viscosity_mPas"], "-o",
                laboratory.folder / f"beads-{name}", *options)
         events = read_events(laboratory.folder / f"beads-{name}" / "beads_rheocyte.tsv")
         moduli[name] = events[:, 2]
@@ -203,11 +206,11 @@ def draw_boxes(axes, boxes):
     drawn = axes.bxp(stats, showfliers=False, widths=0.5, patch_artist=True,
                      medianprops={"color": colours.INK, "linewidth": 1.1}, whiskerprops={"linewidth": 0.7},
                      capprops={"linewidth": 0.7})
-    for patch, colour in zip(drawn["boxes"], ["#f2d7cf", "#dbe3ea", "#b9d4e6", "#fdf0cf"]):
+    for patch, colour in zip(drawn["boxes"], ["#f2d7cf", "#dbe3ea", "#b9d4e6", "#bfe3c8", "#fdf0cf"]):
         patch.set(facecolor=colour, linewidth=0.7)
     truth = boxes["truth"]["quantiles"][2]
     axes.axhline(truth, color=colours.INK, linewidth=0.6, dashes=(4, 3), zorder=0)
-    axes.set_xticks(range(1, len(boxes) + 1), list(boxes), fontsize=6.2)
+    axes.set_xticks(range(1, len(boxes) + 1), list(boxes), fontsize=5.4)
     greatest = max(one["quantiles"][-1] for one in boxes.values())
     axes.set(ylabel="Young's modulus (kPa)", ylim=(0, 1.2 * greatest),
              title=f"b   moduli of beads of {AREA_UM2:g} ± {HALF_WIDTH_UM2:g} µm²")

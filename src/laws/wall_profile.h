@@ -1,0 +1,44 @@
+// The wall of a channel that is not straight: its radius as a function of the place (docs/theory-time.md, eq:wall).
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "case/problem.h"
+
+namespace rheocyte {
+
+/// Cubic pieces through the places of the table, once continuously differentiable, monotonic where the table is
+/// (Fritsch and Butland 1984), level at both ends and constant beyond them. Lengths in R.
+class WallProfile {
+ public:
+  /// The table must have at least two places, which increase.
+  explicit WallProfile(const WallTable& table) : table_(table), slope_(table.x.size(), 0.0) {
+    for (std::size_t i = 1; i + 1 < slope_.size(); ++i) {
+      const double before = secant(i), after = secant(i + 1);
+      const double h = table_.x[i] - table_.x[i - 1], k = table_.x[i + 1] - table_.x[i];
+      if (before * after > 0) slope_[i] = 3 * (h + k) / ((2 * k + h) / before + (k + 2 * h) / after);
+    }
+  }
+
+  double radius(double x) const {
+    const auto& at = table_.x;
+    if (x <= at.front()) return table_.radius.front();
+    if (x >= at.back()) return table_.radius.back();
+    const auto i = std::size_t(std::upper_bound(at.begin(), at.end(), x) - at.begin());
+    const double h = at[i] - at[i - 1], s = (x - at[i - 1]) / h, t = 1 - s;
+    return table_.radius[i - 1] * t * t * (1 + 2 * s) + table_.radius[i] * s * s * (1 + 2 * t) +
+           h * s * t * (slope_[i - 1] * t - slope_[i] * s);
+  }
+
+ private:
+  /// From the place before i to place i.
+  double secant(std::size_t i) const {
+    return (table_.radius[i] - table_.radius[i - 1]) / (table_.x[i] - table_.x[i - 1]);
+  }
+
+  WallTable table_;
+  std::vector<double> slope_;  ///< at the places
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,120 @@
+// A cell in a channel that is not straight.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases.h"
+#include "fem/observe.h"
+#include "shape/measures.h"
+#include "solve/follow_in_time.h"
+#include "solve/time_stepper.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr double unit_us = 102.835;  // R/U of cases.h, R that of the narrow tube
+
+/// A cell of 7 um that starts 4 R before a contraction from 2 R to R.
+Problem entering_cell(double mooney_share = 1) {
+  Problem problem = test::problem({7, 4.58, mooney_share}, 1e-5);
+  problem.reynolds = problem.cell_reynolds = 0.0776;
+  problem.cell_viscosity = 1;
+  problem.wall = {{4, 8}, {2, 1}};
+  return problem;
+}
+
+Resolution resolution(int degree) { return {{2, 4, 1, 2}, degree}; }
+
+ShapeMeasures shape(const TimeStepper& stepper) { return measure(contour(stepper.space(), stepper.now().unknowns)); }
+
+/// Flow rate in the laboratory through the outlet, in pi R^2 U.
+double outflow(const TimeStepper& stepper) {
+  const Discretisation& space = stepper.space();
+  const ReferenceElement& reference = space.reference();
+  const MatrixXd value = reference.lagrange(reference.points_1d);
+  const VectorXd& x = stepper.now().unknowns;
+  double rate = 0;
+  for (const BoundaryEdge& edge : space.outlet()) {
+    VectorXd r(edge.nodes.size()), v(edge.nodes.size());
+    for (int k = 0; k < r.size(); ++k) {
+      r(k) = space.node_points()[edge.nodes[k]](1);
+      v(k) = space.velocity(edge.nodes[k], 0).value(x) + x(space.cell_velocity());
+    }
+    rate += 2 * (r.maxCoeff() - r.minCoeff()) * reference.weights_1d.dot(VectorXd((value * r).cwiseProduct(value * v)));
+  }
+  return rate;
+}
+
+TEST(ChannelEntry, AProfileOfOneRadiusChangesNothing) {
+  // Against the straight channel: surface and velocity agree to rounding (1e-11) after steps of fixed size.
+  Problem straight = entering_cell(), constant = straight;
+  straight.wall = {};
+  constant.wall = {{-1, 0.5, 2}, {1, 1, 1}};
+  const TimeStepOptions options{.greatest_order = 3, .fixed_step = 0.02, .newton = {1e-13}};
+  TimeStepper one(straight, resolution(4), options), other(constant, resolution(4), options);
+  ASSERT_EQ(one.start(), Status::converged);
+  ASSERT_EQ(other.start(), Status::converged);
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_EQ(one.step(1e9).status, Status::converged);
+    ASSERT_EQ(other.step(1e9).status, Status::converged);
+  }
+  EXPECT_LT((one.now().unknowns - other.now().unknowns).lpNorm<Eigen::Infinity>(), 1e-9);
+  EXPECT_NEAR(shape(one).deformation, shape(other).deformation, 1e-11);
+  EXPECT_GT(shape(one).deformation, 0.004);
+  EXPECT_NEAR(one.now().position / other.now().position, 1, 1e-12);
+}
+
+TEST(ChannelEntry, NoLiquidIsLostAndTheEndStateIsThatOfTheNarrowTube) {
+  // At every step the outlet passes what the inlet takes in, but for the error with which the formula differentiates
+  // the motion of the cell (4e-5 here), and the cell keeps its volume. Far behind the contraction d is the stationary
+  // solver's within 1e-3 of it.
+  Problem problem = entering_cell();
+  TimeStepper stepper(problem, resolution(4), {.accuracy = 1e-4});
+  ASSERT_EQ(stepper.start(), Status::converged);
+  const double volume = shape(stepper).volume;
+  double greatest = 0;
+  while (stepper.now().position < 40) {
+    ASSERT_EQ(stepper.step(1e9).status, Status::converged);
+    EXPECT_NEAR(outflow(stepper), 1, 2e-4);
+    EXPECT_NEAR(shape(stepper).volume / volume, 1, 1e-8);
+    greatest = std::max(greatest, shape(stepper).deformation);
+  }
+  problem.wall = {};
+  const StationaryState stationary = solve_stationary(problem);
+  EXPECT_NEAR(shape(stepper).deformation / stationary.shape.deformation, 1, 1e-3);
+  EXPECT_NEAR(stepper.now().unknowns(stepper.space().cell_velocity()) / stationary.cell_velocity, 1, 1e-4);
+  EXPECT_GT(greatest, 1.02 * stationary.shape.deformation);  // overshoot
+}
+
+TEST(ChannelEntry, ARigidSphereMovesAsInTheStraightChannelOfItsPlace) {
+  // Nearly rigid, and slowly widening walls: v_cell R_w^2 is that of the straight tube within the slope, 1 %.
+  Problem problem = test::problem({3, 1e4, 1}, 1e-4);
+  problem.wall = {{0, 300}, {1.3, 1}};
+  TimeStepper stepper(problem, resolution(3), {.accuracy = 1e-3});
+  ASSERT_EQ(stepper.start(), Status::converged);
+  const auto velocity = [&] { return stepper.now().unknowns(stepper.space().cell_velocity()); };
+  const double at_start = velocity();
+  EXPECT_NEAR(at_start * 1.69, 1.97, 0.03);  // twice the mean speed on the axis, less 2/3 (r0/R)^2
+  while (stepper.now().position < 10) ASSERT_EQ(stepper.step(1e9).status, Status::converged);
+  EXPECT_NEAR(velocity() / at_start, 1, 0.01);
+}
+
+TEST(ChannelEntry, AFailedRunKeepsItsLastGoodStateAndItsHistory) {
+  // A soft cell is drawn out in the contraction until no step succeeds: a named status, a sentence, and finite numbers
+  // of the last state with the walls where they were.
+  Problem problem = entering_cell();
+  problem.shear_modulus /= 30;
+  int steps = 0;
+  double position = 0;
+  const auto count = [&](const TimePoint& point, const TimeState&) { ++steps, position = point.position; };
+  const StationaryState end = follow_in_time(problem, {60, 1e9, 1e-3, 3}, {{}, count});
+  EXPECT_NE(end.outcome.status, Status::converged);
+  EXPECT_NE(end.outcome.message.find("the last good state is kept"), std::string::npos) << end.outcome.message;
+  EXPECT_GT(steps, 5);
+  EXPECT_GT(position, 1);
+  EXPECT_TRUE(std::isfinite(end.shape.deformation));
+  EXPECT_NEAR(end.relative_volume_change, 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace rheocyte
