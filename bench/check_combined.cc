@@ -50,7 +50,7 @@ SolvedCell read_cell(const std::filesystem::path& folder) {
 /// Relative errors of E and E2D over many fits, and how many 90 % intervals hold the truth.
 struct Tally {
   std::vector<double> young, cortex;
-  int fits = 0, resolved = 0, unresolved = 0, other = 0, young_held = 0, cortex_held = 0;
+  int fits = 0, resolved = 0, unresolved = 0, other = 0, young_held = 0, cortex_held = 0, beyond = 0;
 
   void take(const ModuliEstimate& e, const SolvedCell& cell) {
     ++fits;
@@ -61,6 +61,9 @@ struct Tally {
     young_held += std::abs(miss(Modulus::young, cell.young_kPa)) < 1.645 * e.error(Modulus::young);
     cortex_held += std::abs(miss(Modulus::cortex, cell.cortex_mN_m)) < 1.645 * e.error(Modulus::cortex);
     if (e.status != ModuliStatus::resolved) return;
+    const double young_ratio = e.value(Modulus::young) / cell.young_kPa,
+                 cortex_ratio = e.value(Modulus::cortex) / cell.cortex_mN_m;
+    beyond += std::max(young_ratio, 1 / young_ratio) > 2 || std::max(cortex_ratio, 1 / cortex_ratio) > 2;
     young.push_back(std::abs(miss(Modulus::young, cell.young_kPa) / cell.young_kPa));
     cortex.push_back(std::abs(miss(Modulus::cortex, cell.cortex_mN_m) / cell.cortex_mN_m));
   }
@@ -75,6 +78,9 @@ struct Tally {
   void print(const std::string& what) const {
     fmt::print("{}: {} fits, {} resolved, {} not told apart, {} other\n  E: {}\n  E2D: {}\n", what, fits, resolved,
                unresolved, other, spread(young), spread(cortex));
+    if (resolved > 0)
+      fmt::print("  resolved, but a modulus is wrong by more than a factor of two: {:.1f} %\n",
+                 100.0 * beyond / resolved);
     fmt::print("  90 % intervals that hold the truth: E {:.1f} %, E2D {:.1f} %\n", 100.0 * young_held / fits,
                100.0 * cortex_held / fits);
   }

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "app/build_info.h"
@@ -30,7 +32,7 @@ class Outlines {
     if (!(pixel_um > 0))
       throw UserError(
           fmt::format("{}: the pixel size is missing; give --pixel-size.", one_line(recording.file().string(), 300)));
-    if (size_) pixels_.resize(size_->pixels());
+    if (size_) block_ = recording.image_rows_per_chunk("mask");
   }
 
   /// NaN where there is no cell.
@@ -48,13 +50,20 @@ class Outlines {
  private:
   PixelContour outline(std::size_t event) {
     if (!size_) return recording_.read_contour(event);
-    recording_.read_images("mask", event, 1, pixels_);
-    return finder_.contour_of({*size_, pixels_});
+    if (event < first_ || event >= first_ + count_) {
+      first_ = event - event % block_;
+      count_ = std::min(block_, recording_.events() - first_);
+      pixels_.resize(count_ * size_->pixels());
+      recording_.read_images("mask", first_, count_, pixels_);
+    }
+    return finder_.contour_of(
+        {*size_, std::span(pixels_).subspan((event - first_) * size_->pixels(), size_->pixels())});
   }
 
   const Recording& recording_;
   double pixel_um_;
   std::optional<ImageSize> size_;
+  std::size_t block_ = 1, first_ = 0, count_ = 0;  ///< events whose masks are at hand
   std::vector<std::uint8_t> pixels_;
   ContourFinder finder_;
 };

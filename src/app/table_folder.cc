@@ -127,10 +127,11 @@ std::vector<SampledBranch> TableFolder::read_all() const {
 
 void TableFolder::tidy() const {
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder_ / work, error)) {
-    const auto kind = entry.path().extension();
-    if (kind == ".claim" || kind == ".tmp") fs::remove(entry.path(), error);
-  }
+  for (const auto& place : {folder_ / work, folder_})
+    for (const auto& entry : fs::directory_iterator(place, error)) {
+      const auto kind = entry.path().extension();
+      if (kind == ".claim" || kind == ".tmp") fs::remove(entry.path(), error);
+    }
 }
 
 void TableFolder::publish(const std::string& name, std::string_view content) const {

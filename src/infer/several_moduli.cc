@@ -18,7 +18,7 @@ namespace {
 
 constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
               x_deformation = int(CellCoordinate::log_deformation), x_ratio = int(CellCoordinate::tension_ratio);
-/// Two minima that differ by less cannot be told apart at 90 %.
+/// Cells whose misfits differ by less cannot be told apart at 90 %.
 constexpr double same_chi_squared = 2.7;
 /// What is known before: an error of so many widths of the table's range. Keeps covariances finite.
 constexpr double prior_widths = 3;
@@ -214,9 +214,11 @@ SeveralModuli::SeveralModuli(const CombinedInterpolation& table, const FlowCondi
 }
 
 // All coordinates free, then those that left the table's share and tension held at its border.
-SeveralModuli::Candidate SeveralModuli::minimum_from(const MeasuredShape& shape, const CellCoordinates& start) const {
+SeveralModuli::Candidate SeveralModuli::minimum_from(const MeasuredShape& shape, const CellCoordinates& start,
+                                                     Share share) const {
   Misfit misfit(table_, shape, options_.features);
-  std::vector<int> free{x_radius, x_share, x_deformation};
+  std::vector<int> free{x_radius, x_deformation};
+  if (share == Share::fitted) free.push_back(x_share);
   if (options_.free_tension) free.push_back(x_ratio);
   CellCoordinates cell = start;
   const CellBox& box = table_.box();
@@ -243,25 +245,14 @@ ModuliEstimate SeveralModuli::fit(const MeasuredShape& measured, const FlowCondi
   shape.features(0) += (shape.size_is_volume ? 3 : 2) * std::log(width);
   if (!shape.features.allFinite() || !Misfit(table_, shape, options_.features).is_usable()) return {};
   const CellBox& box = table_.box();
-  CellCoordinates start;
-  const double size = shape.features(0) - shape.errors.bias(0);
-  const double d = shape.features(int(ShapeFeature::deformation)) - shape.errors.bias(int(ShapeFeature::deformation));
-  start(x_radius) =
-      shape.size_is_volume ? (size - std::log(4 * std::numbers::pi / 3)) / 3 : (size - std::log(std::numbers::pi)) / 2;
-  start(x_deformation) = std::log(std::max(d, 1.01 * std::exp(box.least(x_deformation))));
-  start(x_ratio) = options_.tension_ratio;
-  start = start.cwiseMax(box.least).cwiseMin(box.greatest);
+  CellCoordinates start = start_for(shape);
   std::vector<Candidate> minima;
   for (const double place : {0.1, 0.5, 0.9}) {
     start(x_share) = box.least(x_share) + place * (box.greatest(x_share) - box.least(x_share));
-    minima.push_back(minimum_from(shape, start));
+    minima.push_back(minimum_from(shape, start, Share::fitted));
   }
   const Candidate best = *std::ranges::min_element(minima, {}, &Candidate::chi_squared);
-  const bool is_ambiguous = std::ranges::any_of(minima, [&](const Candidate& other) {
-    return other.chi_squared < best.chi_squared + same_chi_squared &&
-           std::abs(other.cell(x_share) - best.cell(x_share)) > 0.1;
-  });
-  ModuliEstimate estimate = estimate_of(shape, best, is_ambiguous);
+  ModuliEstimate estimate = estimate_of(shape, best, profile(shape, best));
   const double load =
       conditions.flow_rate_ul_s * conditions.viscosity_mPas / (simulated_.flow_rate_ul_s * simulated_.viscosity_mPas);
   const double bulk = load * width * width * width, surface = load * width * width;
@@ -273,7 +264,35 @@ ModuliEstimate SeveralModuli::fit(const MeasuredShape& measured, const FlowCondi
   return estimate;
 }
 
-ModuliEstimate SeveralModuli::estimate_of(const MeasuredShape& shape, const Candidate& best, bool is_ambiguous) const {
+CellCoordinates SeveralModuli::start_for(const MeasuredShape& shape) const {
+  const CellBox& box = table_.box();
+  CellCoordinates start = CellCoordinates::Zero();
+  const double size = shape.features(0) - shape.errors.bias(0);
+  const double d = shape.features(int(ShapeFeature::deformation)) - shape.errors.bias(int(ShapeFeature::deformation));
+  start(x_radius) =
+      shape.size_is_volume ? (size - std::log(4 * std::numbers::pi / 3)) / 3 : (size - std::log(std::numbers::pi)) / 2;
+  start(x_deformation) = std::log(std::max(d, 1.01 * std::exp(box.least(x_deformation))));
+  start(x_ratio) = options_.tension_ratio;
+  return start.cwiseMax(box.least).cwiseMin(box.greatest);
+}
+
+// The best cells of other shares of the cortex that fit nearly as well. The covariance alone does not see them where
+// the features depend on the share in a bent way.
+std::vector<SeveralModuli::Candidate> SeveralModuli::profile(const MeasuredShape& shape, const Candidate& best) const {
+  constexpr int places = 13;
+  const CellBox& box = table_.box();
+  std::vector<Candidate> alike;
+  for (int i = 0; i < places; ++i) {
+    CellCoordinates start = best.cell;
+    start(x_share) = box.least(x_share) + i * (box.greatest(x_share) - box.least(x_share)) / (places - 1);
+    const Candidate held = minimum_from(shape, start, Share::held);
+    if (held.chi_squared < best.chi_squared + same_chi_squared) alike.push_back(held);
+  }
+  return alike;
+}
+
+ModuliEstimate SeveralModuli::estimate_of(const MeasuredShape& shape, const Candidate& best,
+                                          std::span<const Candidate> others) const {
   const Misfit misfit(table_, shape, options_.features);
   const CombinedState state = table_.at(best.cell.cwiseMax(table_.box().least).cwiseMin(table_.box().greatest));
   Misfit::Jacobian jacobian;
@@ -300,7 +319,11 @@ ModuliEstimate SeveralModuli::estimate_of(const MeasuredShape& shape, const Cand
   e.freedom = int(n) - (options_.free_tension ? 4 : 3);
   bool all_known = true;
   for (const Modulus m : {Modulus::young, Modulus::cortex, Modulus::tension}) {
-    const bool known = !is_ambiguous && e.error(m) <= greatest_relative_error * e.value(m);
+    const auto is_near = [&](const Candidate& other) {
+      const double value = moduli_at(other.cell, table_.at(other.cell)).value(int(m));
+      return value >= e.value(m) / 2 && value <= e.value(m) * 2;
+    };
+    const bool known = e.error(m) <= greatest_relative_error * e.value(m) && std::ranges::all_of(others, is_near);
     e.is_known[std::size_t(m)] = known;
     if (m != Modulus::tension || options_.free_tension) all_known = all_known && known;
   }

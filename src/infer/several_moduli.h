@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,8 +75,12 @@ class SeveralModuli {
 
  private:
   struct Candidate;
-  Candidate minimum_from(const MeasuredShape& shape, const CellCoordinates& start) const;
-  ModuliEstimate estimate_of(const MeasuredShape& shape, const Candidate& best, bool is_ambiguous) const;
+  enum class Share { fitted, held };
+  CellCoordinates start_for(const MeasuredShape& shape) const;
+  Candidate minimum_from(const MeasuredShape& shape, const CellCoordinates& start, Share share) const;
+  std::vector<Candidate> profile(const MeasuredShape& shape, const Candidate& best) const;
+  ModuliEstimate estimate_of(const MeasuredShape& shape, const Candidate& best,
+                             std::span<const Candidate> others) const;
 
   const CombinedInterpolation& table_;
   FlowConditions simulated_;

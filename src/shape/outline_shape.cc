@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@ double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.
 
 /// Counterclockwise, without points on its edges (monotone chain).
 std::vector<Point> hull_of(const Eigen::MatrixX2d& polygon) {
+  assert(polygon.rows() > 0);
   std::vector<Point> points;
   for (Eigen::Index i = 0; i < polygon.rows(); ++i) points.emplace_back(polygon.row(i).transpose());
   std::ranges::sort(points,
@@ -86,7 +88,12 @@ void add_edge(const Point& a, const Point& b, std::array<double, greatest_mode +
 
 OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) {
   const auto hull = hull_of(polygon);
-  assert(hull.size() > 2);
+  if (hull.size() < 3) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    OutlineShape none{nan, nan, nan, nan, nan, nan, {}};
+    none.modes.fill(nan);
+    return none;
+  }
   const Moments m = moments_of(hull);
   OutlineShape shape{m.area, 1 - 2 * std::sqrt(std::numbers::pi * m.area) / m.perimeter, m.yy / m.xx, m.centroid.x(),
                      m.centroid.y()};

@@ -32,7 +32,7 @@ struct ShapeErrors {
       Eigen::Matrix<double, feature_count, feature_count>::Zero();
 };
 
-/// Points (x, y) in order, the first one not repeated, at least three that are not on a line (asserted).
+/// Points (x, y) in order, the first one not repeated, at least one; NaN everywhere if all lie on a line.
 OutlineShape outline_shape(const Eigen::MatrixX2d& polygon);
 
 /// The closed polygon of a meridian (x, r) and its mirror image.

@@ -56,6 +56,14 @@ TEST(OutlineShape, ADentIsNotSeen) {
   EXPECT_LT(whole.modes[2], -0.1);
 }
 
+TEST(OutlineShape, PointsOnALineHaveNoShape) {
+  // NaN, not a crash: masks of one row of pixels occur.
+  Eigen::MatrixX2d line(4, 2);
+  line << 0, 1, 2, 1, 5, 1, 3, 1;
+  EXPECT_TRUE(shape_vector(outline_shape(line)).array().isNaN().all());
+  EXPECT_TRUE(shape_vector(outline_shape(line.topRows(1))).array().isNaN().all());
+}
+
 TEST(OutlineShape, AMeridianClosesWithItsMirrorImage) {
   // Half a circle gives a circle.
   Eigen::MatrixX2d meridian(201, 2);
