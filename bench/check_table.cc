@@ -35,7 +35,8 @@ double guess_stiffness(const std::vector<SampledBranch>& branches, double radius
 int main(int argc, char** argv) {
   if (argc < 2) return fmt::print("check_table DIR [POINTS]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
-  const auto branches = TableFolder(argv[1], spec).read_all();
+  auto branches = TableFolder(argv[1], spec).read_all();
+  std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
   const TableInterpolation table(spec, branches);
   const int points = argc > 2 ? std::atoi(argv[2]) : 200;
   std::mt19937 engine(1);

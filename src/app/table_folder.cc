@@ -34,6 +34,13 @@ std::string content_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+// What an interrupted write leaves: name.PROCESS.tmp. Other files of that kind are not ours.
+bool is_unfinished(const fs::path& path) {
+  const std::string process = path.stem().extension().string();
+  return path.extension() == ".tmp" && process.size() > 1 &&
+         process.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
 void write_whole(const fs::path& path, std::string_view content) {
   const fs::path scratch = path.string() + fmt::format(".{}.tmp", ::getpid());
   std::FILE* file = std::fopen(scratch.c_str(), "wbe");
@@ -128,10 +135,8 @@ std::vector<SampledBranch> TableFolder::read_all() const {
 void TableFolder::tidy() const {
   std::error_code error;
   for (const auto& place : {folder_ / work, folder_})
-    for (const auto& entry : fs::directory_iterator(place, error)) {
-      const auto kind = entry.path().extension();
-      if (kind == ".claim" || kind == ".tmp") fs::remove(entry.path(), error);
-    }
+    for (const auto& entry : fs::directory_iterator(place, error))
+      if (entry.path().extension() == ".claim" || is_unfinished(entry.path())) fs::remove(entry.path(), error);
 }
 
 void TableFolder::publish(const std::string& name, std::string_view content) const {
