@@ -1,15 +1,13 @@
 #include "app/own_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
 #include <fstream>
 #include <string>
 #include <system_error>
 
+#include "app/whole_file.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -45,25 +43,6 @@ void check_replaceable(const fs::path& path, std::string_view mark, bool force) 
     refuse(path, "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
 }
 
-void write_all(int descriptor, std::string_view content, int& failed) {
-  while (!content.empty() && !failed) {
-    const auto written = ::write(descriptor, content.data(), content.size());
-    if (written < 0 && errno != EINTR) failed = errno;
-    if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
-// 0, or the number of the error.
-int write_to_disk(const fs::path& path, std::string_view content) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) return errno;
-  int failed = 0;
-  write_all(descriptor, content, failed);
-  if (!failed && ::fsync(descriptor) != 0) failed = errno;
-  if (::close(descriptor) != 0 && !failed) failed = errno;
-  return failed;
-}
-
 }  // namespace
 
 void write_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, bool force) {
@@ -71,16 +50,11 @@ void write_own_file(const fs::path& wanted, std::string_view content, std::strin
   const fs::path path = fs::weakly_canonical(fs::absolute(wanted), error);  // a link stays a link
   if (error) refuse(wanted, fmt::format("cannot write there ({}).", error.message()));
   check_replaceable(path, mark, force);
-  std::signal(SIGXFSZ, SIG_IGN);  // a quota or limit then is an error of write() like a full disk
   fs::create_directories(path.parent_path(), error);
   if (error) refuse(wanted, fmt::format("cannot make its folder ({}).", error.message()));
   const fs::path scratch =
       path.parent_path() / fmt::format(".{:.200}.rheocyte-{}", path.filename().string(), ::getpid());
-  int failed = write_to_disk(scratch, content);
-  if (!failed && ::rename(scratch.c_str(), path.c_str()) != 0) failed = errno;
-  if (!failed) return;
-  if (failed != EEXIST) fs::remove(scratch, error);
-  refuse_writing(wanted, failed);
+  if (const int failed = write_whole_file(scratch, path, content)) refuse_writing(wanted, failed);
 }
 
 }  // namespace rheocyte

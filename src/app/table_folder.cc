@@ -6,12 +6,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
 #include "app/build_info.h"
+#include "app/whole_file.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -43,19 +43,11 @@ bool is_unfinished(const fs::path& path) {
 
 void write_whole(const fs::path& path, std::string_view content) {
   const fs::path scratch = path.string() + fmt::format(".{}.tmp", ::getpid());
-  std::FILE* file = std::fopen(scratch.c_str(), "wbe");
-  int failed = file ? 0 : errno;
-  if (file) {
-    if (std::fwrite(content.data(), 1, content.size(), file) != content.size()) failed = errno;
-    if (std::fflush(file) != 0 && !failed) failed = errno;
-    if (::fsync(::fileno(file)) != 0 && !failed && errno != EINVAL) failed = errno;
-    if (std::fclose(file) != 0 && !failed) failed = errno;
-  }
-  if (!failed && ::rename(scratch.c_str(), path.c_str()) != 0) failed = errno;
-  if (!failed) return;
-  ::unlink(scratch.c_str());
-  refuse(path, fmt::format("cannot be written ({}); what is finished is kept, start again with the same command.",
-                           reason_of(failed)));
+  std::error_code ignored;
+  fs::remove(scratch, ignored);  // of an earlier process of this number
+  if (const int failed = write_whole_file(scratch, path, content))
+    refuse(path, fmt::format("cannot be written ({}); what is finished is kept, start again with the same command.",
+                             reason_of(failed)));
 }
 
 }  // namespace

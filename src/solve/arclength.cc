@@ -17,7 +17,7 @@ struct ArcTangent {
 class ArcTracer {
  public:
   ArcTracer(const Path& path, const ArcOptions& options, const BranchState& start)
-      : path_(path), options_(options), system_(path.system(start.parameter)), unit_(unit(start.parameter)) {
+      : path_(path), options_(options), system_(path.system(start.parameter)), unit_(path.unit(start.parameter)) {
     const Discretisation& space = system_.space();
     for (const BoundaryEdge& edge : space.surface()) {
       for (const int node : edge.nodes) {
@@ -68,7 +68,6 @@ class ArcTracer {
   bool goes_on(const BranchState& state) const { return !options_.go_on || options_.go_on(system_.space(), state); }
 
  private:
-  double unit(double parameter) const { return std::isfinite(path_.origin) ? parameter - path_.origin : 1; }
   double product(const VectorXd& a, const VectorXd& b) const {
     double sum = 0;
     for (const int u : surface_) sum += a(u) * b(u);

@@ -8,11 +8,6 @@
 namespace rheocyte {
 namespace {
 
-/// What steps of the parameter are measured in.
-double step_unit(const Path& path, double parameter) {
-  return std::isfinite(path.origin) ? parameter - path.origin : 1;
-}
-
 /// Parabola through the last state with its tangent and the tangent before, at distance h.
 VectorXd predict(const BranchState& now, const BranchState* before, double h) {
   VectorXd guess = now.unknowns + h * now.tangent;
@@ -60,7 +55,7 @@ NewtonReport enter_branch(StationarySystem& system, const Problem& problem, cons
 /// Central difference: everything is smooth in the parameter, and a predictor needs no more than the 1e-9 that this
 /// gives.
 VectorXd parameter_slope(const Path& path, const BranchState& state) {
-  const double h = 1e-5 * step_unit(path, state.parameter);
+  const double h = 1e-5 * path.unit(state.parameter);
   const auto residual = [&](double parameter) {
     double det = 0;
     return path.system(parameter).residual(path.media(parameter), state.unknowns, det);
@@ -120,7 +115,7 @@ namespace {
 
 /// The next step: not beyond the end, and no small rest left for the step after.
 double limited_step(const Path& path, double parameter, double h) {
-  if (std::isfinite(path.origin)) h = std::min(h, 1.5 * step_unit(path, parameter));  // curved beyond the first states
+  if (std::isfinite(path.origin)) h = std::min(h, 1.5 * path.unit(parameter));  // curved beyond the first states
   const double remaining = path.end - parameter;
   if (h >= remaining) return remaining;
   return h > 0.7 * remaining ? 0.5 * remaining : h;
@@ -168,7 +163,7 @@ ContinuationReport continue_branch(const Path& path, const ContinuationOptions& 
       status = Status::surface_unstable;
     if (status != Status::converged) {
       h /= 2;
-      if (h < options.least_step * step_unit(path, last.parameter)) return report.status = status, report;
+      if (h < options.least_step * path.unit(last.parameter)) return report.status = status, report;
       continue;
     }
     report.residual = newton_report.residual;

@@ -57,6 +57,8 @@ Media media_at(const Problem& problem, double compliance) {
   return media;
 }
 
+double Path::unit(double parameter) const { return std::isfinite(origin) ? parameter - origin : 1; }
+
 Path stiffness_path(StationarySystem& system, const Problem& problem) {
   return {[&system](double) -> StationarySystem& { return system; },
           [problem](double compliance) { return media_at(problem, compliance); }};

@@ -36,6 +36,9 @@ struct Path {
   std::function<Media(double)> media;
   double end = 1;     ///< the wanted value
   double origin = 0;  ///< steps are limited relative to the distance from here; -infinity: not limited
+
+  /// What changes of the parameter are measured in: the distance from the origin, 1 if there is none.
+  double unit(double parameter) const;
 };
 
 /// From the rigid cell (0) to the problem (1) in the compliance of everything that is elastic. The system must outlive
