@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <string_view>
 #include <system_error>
 
@@ -62,6 +63,14 @@ int wait_for(pid_t child) {
 std::filesystem::path program_folder() {
   std::error_code error;
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+std::filesystem::path supplied_folder(const char* variable, const std::filesystem::path& installed,
+                                      const std::filesystem::path& source) {
+  if (const char* given = std::getenv(variable)) return given;
+  const std::filesystem::path place = program_folder() / installed;
+  std::error_code error;
+  return std::filesystem::exists(place, error) ? place : source;
 }
 
 ChildResult run_child(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {

@@ -9,6 +9,11 @@ namespace rheocyte {
 /// The folder of the running program, links resolved.
 std::filesystem::path program_folder();
 
+/// Where files that come with the program lie: the folder that an environment variable names, or the installed one
+/// (`installed` is seen from the program's folder), or that of the sources.
+std::filesystem::path supplied_folder(const char* variable, const std::filesystem::path& installed,
+                                      const std::filesystem::path& source);
+
 struct ChildResult {
   int exit_code = -1;     ///< -1: could not be started or was killed
   std::string last_line;  ///< of what it printed on both outputs

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../refusal.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -25,12 +26,7 @@ Case read(const std::string& text, std::vector<std::string> settings = {}) {
 }
 
 std::string refusal(const std::string& text, std::vector<std::string> settings = {}) {
-  try {
-    read(text, std::move(settings));
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal_of([&] { read(text, std::move(settings)); });
 }
 
 TEST(ReadCase, GivenValuesAreKeptAndTheOthersHaveTheirDefaults) {

@@ -1,6 +1,7 @@
 // A record gives back the same branch to the last bit; one that is cut, changed or foreign is refused by name.
 #include <gtest/gtest.h>
 
+#include "../refusal.h"
 #include "case/user_error.h"
 #include "invented_branch.h"
 
@@ -12,12 +13,7 @@ using namespace test;
 const std::string hash = "0123456789abcdef";
 
 std::string refusal(const std::string& bytes, const std::string& spec = hash) {
-  try {
-    branch_from_bytes(bytes, spec, "branch-007.cbor");
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal_of([&] { branch_from_bytes(bytes, spec, "branch-007.cbor"); });
 }
 
 TEST(BranchRecord, RoundTripIsExact) {

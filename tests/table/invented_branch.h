@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "table/branch.h"
@@ -152,5 +153,15 @@ law = "linear"
 [table]
 identifier = "XX-2D-26"
 )";
+
+inline TableSpec spec_of_fifty_radii(std::vector<std::string> settings) {
+  settings.insert(settings.begin(), "table.radii=50");
+  return parse_table_spec(short_spec, "spec.toml", settings);
+}
+
+/// A question to a table.
+struct Query {
+  double area, deformation;
+};
 
 }  // namespace rheocyte::test

@@ -15,15 +15,6 @@ namespace {
 
 using namespace test;
 
-TableSpec spec_with(std::vector<std::string> settings) {
-  settings.insert(settings.begin(), "table.radii=50");
-  return parse_table_spec(short_spec, "spec.toml", settings);
-}
-
-struct Query {
-  double area, deformation;
-};
-
 std::vector<Query> random_queries(const TableSpec& spec, int count) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> area(std::log(spec.least_area_um2), std::log(spec.greatest_area_um2)),
@@ -34,7 +25,7 @@ std::vector<Query> random_queries(const TableSpec& spec, int count) {
 }
 
 TEST(StiffnessGrid, IsTheClosedFormOfASmoothTable) {
-  const auto spec = spec_with({});
+  const auto spec = spec_of_fifty_radii({});
   const StiffnessGrid grid(make_stiffness_grid(spec, invented_branches(spec, 48), "test").value());
   double greatest = 0;
   for (const auto& [area, d] : random_queries(spec, 3000)) {
@@ -49,7 +40,7 @@ TEST(StiffnessGrid, IsTheClosedFormOfASmoothTable) {
 }
 
 TEST(StiffnessGrid, DerivativesAreThoseOfTheValues) {
-  const auto with = spec_with({"table.bending_beyond_kBT=1e4"});
+  const auto with = spec_of_fifty_radii({"table.bending_beyond_kBT=1e4"});
   const StiffnessGrid grid(make_stiffness_grid(with, invented_unstable_branches(with), "test").value());
   const double step = 1e-5;
   int compared = 0;
@@ -69,7 +60,7 @@ TEST(StiffnessGrid, DerivativesAreThoseOfTheValues) {
 }
 
 TEST(StiffnessGrid, OutsideTheTableTheReasonIsNamed) {
-  const auto spec = spec_with({});
+  const auto spec = spec_of_fifty_radii({});
   const StiffnessGrid grid(make_stiffness_grid(spec, invented_branches(spec), "test").value());
   const auto reason = [&](double area, double d) { return name_of(grid.answer(area, d).reason); };
   EXPECT_EQ(reason(29.9, 0.01), "too-small");
@@ -85,7 +76,7 @@ TEST(StiffnessGrid, OutsideTheTableTheReasonIsNamed) {
 }
 
 TEST(StiffnessGrid, EndsAtTheInstabilityOrGoesOnWithBending) {
-  const auto with = spec_with({"table.bending_beyond_kBT=1e4"}), without = spec_with({});
+  const auto with = spec_of_fifty_radii({"table.bending_beyond_kBT=1e4"}), without = spec_of_fifty_radii({});
   const auto branches = invented_unstable_branches(with);
   const StiffnessGrid bare(make_stiffness_grid(without, branches, "test").value()),
       held(make_stiffness_grid(with, branches, "test").value());
@@ -114,7 +105,7 @@ TEST(StiffnessGrid, EndsAtTheInstabilityOrGoesOnWithBending) {
 }
 
 TEST(StiffnessGrid, ABranchThatStopsShortBetweenOthersIsBridged) {
-  const auto spec = spec_with({});
+  const auto spec = spec_of_fifty_radii({});
   auto branches = invented_branches(spec);
   auto sweep = covering(spec, branches[20].radius_um);
   sweep.softest = invented_stiffness(branches[20].radius_um, 0.02);
@@ -129,7 +120,7 @@ TEST(StiffnessGrid, ABranchThatStopsShortBetweenOthersIsBridged) {
 }
 
 TEST(StiffnessGrid, AFewRadiiMakeACoarseGridAndOneMakesNone) {
-  const auto spec = spec_with({"table.radii=6"});
+  const auto spec = spec_of_fifty_radii({"table.radii=6"});
   const auto branches = invented_branches(spec);
   const StiffnessGrid grid(make_stiffness_grid(spec, branches, "test").value());
   for (const auto& [area, d] : random_queries(spec, 200)) {
@@ -144,7 +135,7 @@ TEST(StiffnessGrid, AFewRadiiMakeACoarseGridAndOneMakesNone) {
 }
 
 TEST(StiffnessGrid, IsTheSameFromItsFile) {
-  const auto spec = spec_with({"table.bending_beyond_kBT=1e4"});
+  const auto spec = spec_of_fifty_radii({"table.bending_beyond_kBT=1e4"});
   const auto content = make_stiffness_grid(spec, invented_unstable_branches(spec), "1.0").value();
   const auto bytes = to_bytes(content);
   EXPECT_LT(bytes.size(), 1U << 20);
@@ -165,7 +156,7 @@ TEST(StiffnessGrid, IsTheSameFromItsFile) {
 }
 
 TEST(StiffnessGrid, ADamagedFileIsRefused) {
-  const auto spec = spec_with({});
+  const auto spec = spec_of_fifty_radii({});
   const auto bytes = to_bytes(make_stiffness_grid(spec, invented_branches(spec), "1.0", {8, 8, 4}).value());
   const auto refusal = [](const std::string& damaged) -> std::string {
     try {

@@ -13,15 +13,6 @@ namespace {
 
 using namespace test;
 
-TableSpec spec_with(std::vector<std::string> settings) {
-  settings.insert(settings.begin(), "table.radii=50");
-  return parse_table_spec(short_spec, "spec.toml", settings);
-}
-
-struct Query {
-  double area, deformation;
-};
-
 std::vector<Query> random_queries(const TableSpec& spec, int count) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> area(spec.least_area_um2, spec.greatest_area_um2),
@@ -32,7 +23,7 @@ std::vector<Query> random_queries(const TableSpec& spec, int count) {
 }
 
 TEST(TableInterpolation, IsExactBetweenTheBranchesOfASmoothTable) {
-  const auto spec = spec_with({});
+  const auto spec = spec_of_fifty_radii({});
   const auto branches = invented_branches(spec, 24);
   const TableInterpolation table(spec, branches);
   std::vector<double> errors;
@@ -52,7 +43,7 @@ TEST(TableInterpolation, IsExactBetweenTheBranchesOfASmoothTable) {
 }
 
 TEST(TableInterpolation, VolumesGiveTheSameAnswer) {
-  const auto spec = spec_with({});
+  const auto spec = spec_of_fifty_radii({});
   const auto branches = invented_branches(spec, 60);
   const TableInterpolation table(spec, branches);
   for (const auto& [area, d] : random_queries(spec, 200)) {
@@ -63,7 +54,7 @@ TEST(TableInterpolation, VolumesGiveTheSameAnswer) {
 }
 
 TEST(TableInterpolation, RisesWithTheAreaAndFallsWithTheDeformation) {
-  const auto spec = spec_with({"table.radii=15"});
+  const auto spec = spec_of_fifty_radii({"table.radii=15"});
   const auto branches = invented_branches(spec);
   const TableInterpolation table(spec, branches);
   double last = 0;
@@ -81,7 +72,7 @@ TEST(TableInterpolation, RisesWithTheAreaAndFallsWithTheDeformation) {
 }
 
 TEST(TableInterpolation, OutsideTheTableTheReasonIsNamed) {
-  const auto spec = spec_with({});
+  const auto spec = spec_of_fifty_radii({});
   const auto branches = invented_branches(spec);
   const TableInterpolation table(spec, branches);
   const auto reason = [&](double area, double d) { return name_of(table.by_area(area, d).reason); };
@@ -98,7 +89,7 @@ TEST(TableInterpolation, OutsideTheTableTheReasonIsNamed) {
 }
 
 TEST(TableInterpolation, BeyondTheEndOfTheBranchesTheSurfaceIsUnstable) {
-  const auto with = spec_with({"table.bending_beyond_kBT=1e4"}), without = spec_with({});
+  const auto with = spec_of_fifty_radii({"table.bending_beyond_kBT=1e4"}), without = spec_of_fifty_radii({});
   const auto branches = invented_unstable_branches(with);
   const TableInterpolation bare(without, branches), regularised(with, branches);
   int unstable = 0;
@@ -119,7 +110,7 @@ TEST(TableInterpolation, BeyondTheEndOfTheBranchesTheSurfaceIsUnstable) {
 }
 
 TEST(TableInterpolation, ARadiusWithoutStatesIsBridgedAndATableWithoutStatesHasNoAnswer) {
-  const auto spec = spec_with({});
+  const auto spec = spec_of_fifty_radii({});
   auto branches = invented_branches(spec);
   branches[20] = SampledBranch{branches[20].radius_um, 0, {}, {}, {}, {}, {}, {}, {"no-first-state", "nothing"}};
   const TableInterpolation table(spec, branches);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../refusal.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
@@ -18,12 +19,7 @@ TableSpec read(const std::string& text, std::vector<std::string> settings = {}) 
 }
 
 std::string refusal(const std::string& text, std::vector<std::string> settings = {}) {
-  try {
-    read(text, std::move(settings));
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal_of([&] { read(text, std::move(settings)); });
 }
 
 void expect_refusal(const std::string& setting, const std::string& words) {

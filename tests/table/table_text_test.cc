@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../refusal.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -19,12 +20,7 @@ TableText small_table() {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_table_text(text, "lut.txt");
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal_of([&] { parse_table_text(text, "lut.txt"); });
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
