@@ -139,7 +139,7 @@ class Plot {
     return j;
   }
 
-  PixelLaw pixel_law() const { return finder_ ? finder_->pixel_law() : PixelLaw::field; }
+  PixelCorrection pixel_law() const { return finder_ ? finder_->pixel_law() : PixelCorrection::field; }
 
   // Of the levels that spread over the picture, those next to two digits in the recording's own channel.
   LevelLines lines_for(const PlotPanel& panel) const {

@@ -29,8 +29,8 @@ std::vector<PlanePoint> LineSource::support() const {
   return std::visit([](const auto& finder) { return finder.support(); }, finder_);
 }
 
-PixelLaw LineSource::pixel_law() const {
-  return std::holds_alternative<GridLineFinder>(finder_) ? PixelLaw::own : PixelLaw::field;
+PixelCorrection LineSource::pixel_law() const {
+  return std::holds_alternative<GridLineFinder>(finder_) ? PixelCorrection::own : PixelCorrection::field;
 }
 
 }  // namespace rheocyte

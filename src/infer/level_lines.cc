@@ -149,13 +149,13 @@ double modulus_factor(const LevelLines& made_at, const MeasuringConditions& cond
 }
 
 std::vector<PlanePoint> as_measured(std::span<const PlanePoint> points, double made_in_width_um,
-                                    const MeasuringConditions& conditions, PixelLaw law) {
+                                    const MeasuringConditions& conditions, PixelCorrection law) {
   const double ratio = conditions.channel_width_um / made_in_width_um;
   std::vector<PlanePoint> result;
   result.reserve(points.size());
   for (const auto& point : points) {
     const double area = point.x * ratio * ratio, pixel_area = conditions.pixel_size_um * conditions.pixel_size_um;
-    if (law == PixelLaw::own && pixel_area > 0) {
+    if (law == PixelCorrection::own && pixel_area > 0) {
       const auto seen = seen_through_pixels({area / pixel_area, point.y});
       result.push_back({seen.area_px * pixel_area, seen.deformation});
       continue;

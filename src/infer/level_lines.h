@@ -63,11 +63,12 @@ LevelLines read_level_lines(const std::filesystem::path& file);
 double modulus_factor(const LevelLines& made_at, const MeasuringConditions& conditions, double viscosity_mPas);
 
 /// By which law pixels are taken into account: that of the field's programs, which leaves areas alone, or our own.
-enum class PixelLaw { field, own };
+enum class PixelCorrection { field, own };
 
 /// The same points in a picture of a measurement: areas scaled to its channel, and what the pixels do added, unless the
 /// pixel size is 0.
 std::vector<PlanePoint> as_measured(std::span<const PlanePoint> points, double made_in_width_um,
-                                    const MeasuringConditions& conditions, PixelLaw law = PixelLaw::field);
+                                    const MeasuringConditions& conditions,
+                                    PixelCorrection law = PixelCorrection::field);
 
 }  // namespace rheocyte

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "table/branch_border.h"
+#include "table/lagrange.h"
 #include "table/table_metadata.h"
 
 namespace rheocyte {
@@ -25,19 +26,6 @@ struct NodeValue {
   double log_deformation, log_stiffness, error;
 };
 
-// Lagrange's polynomial through some members y(x) of a range.
-template <class Range, class Member>
-double polynomial(const Range& nodes, double at, Member x, Member y) {
-  double sum = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    double weight = 1;
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (k != i) weight *= (at - nodes[k].*x) / (nodes[i].*x - nodes[k].*x);
-    sum += weight * nodes[i].*y;
-  }
-  return sum;
-}
-
 // Between the crossings, or at most half their distance beyond them.
 std::optional<NodeValue> value_at(std::span<const Crossing> line, double log_area) {
   const auto size = static_cast<std::ptrdiff_t>(line.size());
@@ -51,7 +39,7 @@ std::optional<NodeValue> value_at(std::span<const Crossing> line, double log_are
   const auto first = std::clamp<std::ptrdiff_t>(below - count / 2 + 1, 0, size - count);
   const auto nodes = line.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
   const auto at_column = [&](std::span<const Crossing> some, double Crossing::*member) {
-    return polynomial(some, log_area, &Crossing::log_area, member);
+    return lagrange_value(some, log_area, &Crossing::log_area, member);
   };
   const double value = at_column(nodes, &Crossing::log_stiffness),
                height = at_column(nodes, &Crossing::log_deformation);
@@ -70,7 +58,8 @@ NodeValue resampled(std::span<const NodeValue> column, std::size_t row, double l
   const std::size_t count = std::min(points, column.size());
   const std::size_t first = std::min(row > 1 ? row - 1 : 0, column.size() - count);
   const auto nodes = column.subspan(first, count);
-  return {log_deformation, polynomial(nodes, log_deformation, &NodeValue::log_deformation, &NodeValue::log_stiffness),
+  return {log_deformation,
+          lagrange_value(nodes, log_deformation, &NodeValue::log_deformation, &NodeValue::log_stiffness),
           column[row].error};
 }
 

@@ -1,11 +1,12 @@
 #include "table/table_interpolation.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "table/lagrange.h"
 
 namespace rheocyte {
 
@@ -15,18 +16,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int greatest_stencil = 6;
 
 StiffnessAnswer no_answer(NoAnswer reason) { return {nan, nan, false, reason}; }
-
-// Lagrange's polynomial through the points (x, y) at zero.
-double extrapolate_to_zero(std::span<const double> x, std::span<const double> y) {
-  double sum = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    double weight = 1;
-    for (std::size_t k = 0; k < x.size(); ++k)
-      if (k != i) weight *= x[k] / (x[k] - x[i]);
-    sum += weight * y[i];
-  }
-  return sum;
-}
 
 }  // namespace
 
@@ -132,11 +121,8 @@ class TableInterpolation::Query {
     return nodes;
   }
 
-  static double polynomial(std::span<const Node> nodes) {
-    std::array<double, greatest_stencil> x{}, y{};
-    for (std::size_t i = 0; i < nodes.size(); ++i) x[i] = nodes[i].x, y[i] = nodes[i].y;
-    return extrapolate_to_zero(std::span(x).first(nodes.size()), std::span(y).first(nodes.size()));
-  }
+  // At the wanted size.
+  static double polynomial(std::span<const Node> nodes) { return lagrange_value(nodes, 0, &Node::x, &Node::y); }
 
   StiffnessAnswer between(int below, const Node& first, const Node& second) const {
     const auto nodes = stencil(below, first, second);

@@ -34,7 +34,7 @@ TEST_F(GridLines, AnEventOnALineGetsItsModulus) {
   const auto lines = GridLineFinder(content_).lines(std::vector<double>{1.5});
   const GridModulus modulus(content_);
   const MeasuringConditions conditions{30, 0.16, 0.34};
-  const auto seen = as_measured(lines.lines.front().points, 20, conditions, PixelLaw::own);
+  const auto seen = as_measured(lines.lines.front().points, 20, conditions, PixelCorrection::own);
   const double viscosity = 5, expected = 1.5 * modulus_factor(lines, conditions, viscosity);
   for (std::size_t i = 1; i + 1 < seen.size(); i += 20) {
     double found = 0, error = 0;
