@@ -8,7 +8,6 @@
 #include <system_error>
 #include <vector>
 
-#include "app/shipped_tables.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -53,12 +52,6 @@ AnyTable read_any_table(const fs::path& path) {
   const fs::path file = fs::is_directory(path, error) ? grid_in(path) : path;
   if (file.extension() == ".cbor") return grid_from_bytes(content_of(file), one_line(file.string(), 300));
   return read_published_table(file);
-}
-
-std::optional<fs::path> standard_table_file() {
-  const auto tables = shipped_tables();
-  const auto found = tables.find(standard_table);
-  return found == tables.end() ? std::nullopt : std::optional(found->second);
 }
 
 }  // namespace rheocyte

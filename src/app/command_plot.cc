@@ -4,28 +4,23 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <system_error>
 
-#include "app/any_table.h"
 #include "app/child_process.h"
 #include "app/contained.h"
 #include "app/contained_sentence.h"
 #include "app/exit_codes.h"
-#include "app/find_table.h"
-#include "app/line_source.h"
+#include "app/plot_lines.h"
 #include "app/plot_options.h"
 #include "app/plot_panel.h"
 #include "app/python_package.h"
 #include "app/standard_error.h"
 #include "app/stop_signal.h"
 #include "case/user_error.h"
-#include "infer/level_lines.h"
 
 namespace rheocyte {
 
@@ -33,8 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr int number_of_lines = 11;  // as many as the published files have
 
 /// A folder for what goes to the drawing program; removed with the object.
 class HandOver {
@@ -58,30 +51,10 @@ class HandOver {
   fs::path path_;
 };
 
-json as_json(std::span<const PlanePoint> points) {
-  json area = json::array(), deformation = json::array();
-  for (const auto& point : points) {
-    area.push_back(point.x);
-    deformation.push_back(point.y);
-  }
-  return {{"area_um2", std::move(area)}, {"deformation", std::move(deformation)}};
-}
-
-double rounded(double value) { return std::stod(fmt::format("{:.2g}", value)); }
-
 /// The picture of one call.
 class Plot {
  public:
-  explicit Plot(const PlotOptions& options) : options_(options), stem_(picture_stem(options)) {
-    if (!options.measuring.table.empty()) finder_.emplace(find_table(options.measuring.table));
-    if (!options.lines.empty()) given_lines_ = read_level_lines(options.lines);
-    if (finder_ || given_lines_) {
-      lines_ = LinesWanted::yes;
-    } else if (const auto own = standard_table_file(); own && !options.no_lines && has_usual_axes(options)) {
-      finder_.emplace(*own);
-      lines_ = options.levels_kPa.empty() ? LinesWanted::if_possible : LinesWanted::yes;
-    }
-  }
+  explicit Plot(const PlotOptions& options) : options_(options), stem_(picture_stem(options)), lines_(options) {}
 
   int run() {
     json panels = json::array();
@@ -106,12 +79,12 @@ class Plot {
     Containment limits;
     limits.patience_s = options_.measuring.patience_s;
     const auto work = [&](const TellProgress& on_progress) {
-      return to_json(plot_panel(recording, events, options_, lines_, on_progress));
+      return to_json(plot_panel(recording, events, options_, lines_.wanted(), on_progress));
     };
     return run_contained(work, limits, [](double) {});
   }
 
-  json described(const fs::path& recording, const PlotPanel& panel) const {
+  json described(const fs::path& recording, const PlotPanel& panel) {
     json j{{"title", one_line(recording.filename().string(), 100)},
            {"sample", panel.sample},
            {"measured", panel.measured},
@@ -126,30 +99,8 @@ class Plot {
       for (const auto& warning : panel.warnings)
         tell(fmt::format("{}: {}", one_line(recording.string(), 200), warning));
     if (!panel.has_conditions) return j;
-    const LevelLines lines = lines_for(panel);
-    const double factor = modulus_factor(lines, panel.conditions, panel.viscosity_mPas);
-    for (const auto& line : lines.lines) {
-      j["lines"].push_back(as_json(as_measured(line.points, lines.channel_width_um, panel.conditions, pixel_law())));
-      j["lines"].back()["young_modulus_kPa"] = line.modulus_kPa * factor;
-    }
-    j["table"] = lines.identifier;
-    j["pixels"] = panel.conditions.pixel_size_um;
-    if (finder_)
-      j["support"] = as_json(as_measured(finder_->support(), lines.channel_width_um, panel.conditions, pixel_law()));
+    j.update(lines_.for_panel(panel));
     return j;
-  }
-
-  PixelCorrection pixel_law() const { return finder_ ? finder_->pixel_law() : PixelCorrection::field; }
-
-  // Of the levels that spread over the picture, those next to two digits in the recording's own channel.
-  LevelLines lines_for(const PlotPanel& panel) const {
-    if (given_lines_) return *given_lines_;
-    const double factor = modulus_factor(finder_->lines({}), panel.conditions, panel.viscosity_mPas);
-    std::vector<double> levels = options_.levels_kPa;
-    if (levels.empty())
-      for (const double level : finder_->even_levels(number_of_lines)) levels.push_back(rounded(level * factor));
-    for (double& level : levels) level /= factor;
-    return finder_->lines(levels);
   }
 
   int draw() const {
@@ -170,9 +121,7 @@ class Plot {
 
   const PlotOptions& options_;
   fs::path stem_;
-  LinesWanted lines_ = LinesWanted::no;
-  std::optional<LineSource> finder_;
-  std::optional<LevelLines> given_lines_;
+  PlotLines lines_;
   HandOver folder_;
 };
 

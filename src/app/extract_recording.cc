@@ -76,7 +76,7 @@ class Extraction {
   Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables)
       : recording_(recording),
         settings_(extract_settings(options, recording)),
-        tables_(tables.choose(settings_)),
+        tables_(tables.choose(settings_.flow_exponent)),
         shapes_(recording, settings_.pixel_size_um),
         gates_(options.gates),
         features_(recording, shapes_) {

@@ -18,6 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of several tables of Newtonian liquids the one that counts.
+constexpr std::string_view standard_table = "LE-2D-26";
+
 std::variant<ParityModulus, GridModulus> ready_table(const fs::path& path) {
   AnyTable table = read_any_table(path);
   if (auto* const grid = std::get_if<GridContent>(&table)) return GridModulus(std::move(*grid));
@@ -30,7 +33,7 @@ std::variant<ParityModulus, GridModulus> ready_table(const fs::path& path) {
 
 }  // namespace
 
-ModulusTable::ModulusTable(const fs::path& file) : table_(ready_table(file)) {}
+ModulusTable::ModulusTable(const fs::path& file) : file_(file), table_(ready_table(file)) {}
 
 const std::string& ModulusTable::identifier() const {
   if (const auto* const grid = std::get_if<GridModulus>(&table_)) return grid->origin().identifier;
@@ -97,15 +100,13 @@ const ModulusTable* ModulusTables::matching(double flow_exponent) const {
   return best;
 }
 
-ModulusTables::Choice ModulusTables::choose(const ExtractSettings& settings) const {
+ModulusTables::Choice ModulusTables::choose(double flow_exponent) const {
   const ModulusTable* const first = tables_.front().get();
   if (!own()) return {first};
   const ModulusTable* const thick = newtonian();
-  const ModulusTable* const thinning = settings.flow_exponent < 1 ? matching(settings.flow_exponent) : nullptr;
+  const ModulusTable* const thinning = flow_exponent < 1 ? matching(flow_exponent) : nullptr;
   const ModulusTable* const used = given_ ? first : thinning ? thinning : thick ? thick : first;
-  const ModulusTable* const other = used->flow_exponent() == 1   ? thinning
-                                    : settings.flow_exponent < 1 ? thick
-                                                                 : nullptr;
+  const ModulusTable* const other = used->flow_exponent() == 1 ? thinning : flow_exponent < 1 ? thick : nullptr;
   return {used, other == used ? nullptr : other};
 }
 

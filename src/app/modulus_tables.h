@@ -17,6 +17,7 @@ class ModulusTable {
   /// A file in dclab's format, a grid, or the folder of a table of `rheocyte table`. UserError.
   explicit ModulusTable(const std::filesystem::path& file);
 
+  const std::filesystem::path& file() const { return file_; }
   bool is_own() const { return std::holds_alternative<GridModulus>(table_); }
   const std::string& identifier() const;
   /// Identifier, model if known, and conditions in one line.
@@ -28,6 +29,7 @@ class ModulusTable {
                 const EstimatedModuli& estimates) const;
 
  private:
+  std::filesystem::path file_;
   std::variant<ParityModulus, GridModulus> table_;
 };
 
@@ -43,9 +45,9 @@ class ModulusTables {
     const ModulusTable* used;
     const ModulusTable* other = nullptr;  ///< to compare with: the other way to take a shear-thinning liquid
   };
-  /// For a shear-thinning medium the table whose liquid has its flow exponent, if there is one; else the one of a
-  /// Newtonian liquid, with the effective viscosity. A table that the user names is used always.
-  Choice choose(const ExtractSettings& settings) const;
+  /// For a medium with eta ~ (shear rate)^(n - 1) that thins the table whose liquid has its exponent n, if there is
+  /// one; else the one of a Newtonian liquid, with the effective viscosity. A table that the user names is used always.
+  Choice choose(double flow_exponent) const;
 
   /// True if rheocyte's own tables are used, of which areas are corrected and errors known.
   bool own() const { return tables_.front()->is_own(); }

@@ -83,6 +83,7 @@ void take_conditions(const Recording& recording, const PlotOptions& options,
   panel.has_conditions = true;
   panel.conditions = settings.conditions;
   panel.viscosity_mPas = settings.viscosity_mPas;
+  panel.flow_exponent = settings.flow_exponent;
   std::string temperature = fmt::format("{:.3g} °C", settings.temperature_C);
   if (settings.viscosity_varies()) {
     const double celsius = median_temperature(recording, on_progress);
@@ -190,6 +191,7 @@ std::string to_json(const PlotPanel& panel) {
                         {"has_conditions", panel.has_conditions},
                         {"conditions", {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um}},
                         {"viscosity", panel.viscosity_mPas},
+                        {"flow_exponent", panel.flow_exponent},
                         {"width", panel.width_um},
                         {"sample", panel.sample},
                         {"measured", panel.measured},
@@ -207,6 +209,7 @@ PlotPanel panel_from_json(const std::string& text) {
   const auto& c = j["conditions"];
   panel.conditions = {c[0], c[1], c[2]};
   panel.viscosity_mPas = j["viscosity"];
+  panel.flow_exponent = j["flow_exponent"];
   panel.width_um = j["width"];
   panel.sample = j["sample"];
   panel.measured = j["measured"];

@@ -17,6 +17,7 @@ struct PlotPanel {
   bool has_conditions = false;     ///< false if no lines are wanted, or for a recording of the reservoir
   MeasuringConditions conditions;  ///< pixel size 0: nothing is added to the lines
   double viscosity_mPas = 0;       ///< at the median temperature
+  double flow_exponent = 1;        ///< n of eta ~ (shear rate)^(n - 1)
   double width_um = 0;             ///< of the channel, 0 if unknown
   std::string sample, measured;    ///< the metadata's name of the sample; channel, flow, viscosity in one line
   std::vector<std::string> warnings;

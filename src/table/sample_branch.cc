@@ -89,11 +89,11 @@ class BranchSampler {
     return finish(start);
   }
 
-  /// From a state of the same cell with another bending stiffness, at the stiffness of one of its samples.
-  SampledBranch from_bare(BranchSampler& bare, double stiffness) {
+  /// From a stiffness on; the way there from the nearly undeformed sphere is not sampled.
+  SampledBranch from_stiffness(double stiffness) {
     const auto start = std::chrono::steady_clock::now();
     result_.bending_kBT = spec_.base.cell.cortex.bending_kBT;
-    if (bare.enter() && bare.reach(stiffness) && change_bending(bare, stiffness)) follow();
+    if (enter() && reach(stiffness)) follow();
     return finish(start);
   }
 
@@ -210,24 +210,9 @@ class BranchSampler {
   /// Goes to a stiffness without samples.
   bool reach(double wanted) {
     const Node from = last_;
-    return advance(from, std::log(first_stiffness_ / wanted), last_) == Status::converged;
-  }
-
-  /// From the bare cell's state to the one with bending stiffness, which becomes the first state here.
-  bool change_bending(BranchSampler& bare, double at_stiffness) {
-    first_stiffness_ = at_stiffness;
-    discrete_ = std::move(bare.discrete_);
-    factorisation_before_ = factorisation_seconds();
-    const Problem from = bare.problem(bare.last_.u), to = problem(0);
-    const int level = bare.last_.level;
-    Path bend = path(level, 1);
-    bend.media = [from, to](double s) { return media_at(between(from, to, s), 1); };
-    ContinuationOptions free = options();
-    free.accept = {};
-    const auto report = continue_branch(bend, free, {0, bare.last_.unknowns, {}, 0});
-    count(report.newton_iterations);
-    last_ = at(0, level, report.last.unknowns);
-    return report.status == Status::converged || (end(report.status), false);
+    const Status status = advance(from, std::log(first_stiffness_ / wanted), last_);
+    if (status != Status::converged) end(status);
+    return status == Status::converged;
   }
 
   /// Measures a converged state with its slopes and its error, on finer meshes if need be; false if it is not accurate.
@@ -363,7 +348,7 @@ class BranchSampler {
       result_.contour.push_back(node.state.contour);
       result_.contour_slope.push_back(-node.contour_slope);
     }
-    result_.factorisation_seconds = factorisation_seconds() - factorisation_before_;
+    result_.factorisation_seconds = factorisation_seconds();
     result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(result_);
   }
@@ -373,7 +358,6 @@ class BranchSampler {
   double first_stiffness_ = 1;
   NewtonOptions newton_;
   std::array<std::shared_ptr<Discrete>, ladder.size()> discrete_;
-  double factorisation_before_ = 0;  ///< of systems that were taken over
   double released_factorisation_ = 0;
   Node last_;
   std::vector<Node> nodes_;
@@ -393,8 +377,8 @@ SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own
   TableSpec held = spec;
   held.base.cell.cortex.bending_kBT = spec.bending_beyond_kBT;
   const double stiffness = std::min(overlap * own.stiffness.back(), own.stiffness.front());
-  BranchSampler bare(spec, {own.radius_um}, stop);
-  return BranchSampler(held, {own.radius_um}, stop).from_bare(bare, stiffness);
+  const BranchPlace place{own.radius_um, own.cortex_share, own.tension_ratio};
+  return BranchSampler(held, place, stop).from_stiffness(stiffness);
 }
 
 }  // namespace rheocyte

@@ -12,7 +12,7 @@ namespace rheocyte {
 SampledBranch sample_branch(const TableSpec&, const BranchPlace& place, const std::atomic<bool>* stop = nullptr);
 
 /// Goes on where `own` ended because its bare surface lost stability: the same cell with the bending stiffness of the
-/// spec, entered at a state before the end, so that both overlap. Empty if there is nothing to go on from.
+/// spec, from a state before the end on, so that both overlap. Empty if there is nothing to go on from.
 SampledBranch sample_held_branch(const TableSpec&, const SampledBranch& own, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace rheocyte
