@@ -73,7 +73,7 @@ double rounded(double value) { return std::stod(fmt::format("{:.2g}", value)); }
 class Plot {
  public:
   explicit Plot(const PlotOptions& options) : options_(options), stem_(picture_stem(options)) {
-    if (!options.measuring.table.empty()) finder_.emplace(find_table(options.measuring.table));
+    if (!options.table.empty()) finder_.emplace(find_table(options.table));
     if (!options.lines.empty()) given_lines_ = read_level_lines(options.lines);
     if (finder_ || given_lines_) {
       lines_ = LinesWanted::yes;
@@ -85,7 +85,7 @@ class Plot {
 
   int run() {
     json panels = json::array();
-    for (const auto& recording : options_.measuring.inputs) {
+    for (const auto& recording : options_.inputs) {
       const auto name = fmt::format("events-{}", panels.size());
       const ContainedEnd end = read(recording, folder_.path() / name);
       if (end.kind == ContainedEnd::Kind::stopped) return exit_signal + signal_received();
@@ -122,7 +122,7 @@ class Plot {
            {"y", options_.y},
            {"width_um", panel.width_um},
            {"lines", json::array()}};
-    if (!options_.measuring.quiet)
+    if (!options_.quiet)
       for (const auto& warning : panel.warnings)
         tell(fmt::format("{}: {}", one_line(recording.string(), 200), warning));
     if (!panel.has_conditions) return j;
@@ -164,7 +164,7 @@ class Plot {
                        drawn.last_line.empty() ? "the drawing program failed" : one_line(drawn.last_line, 300)));
       return exit_own_bug;
     }
-    if (!options_.measuring.quiet) fmt::print("{0}.png and {0}.svg\n", stem_.string());
+    if (!options_.quiet) fmt::print("{0}.png and {0}.svg\n", stem_.string());
     return exit_converged;
   }
 

@@ -146,6 +146,11 @@ TEST_F(SeveralModuliOf, ShapesThatNoCellHasAreSaid) {
   };
   EXPECT_EQ(status(0, std::log(2000)), ModuliStatus::outside_table);
   EXPECT_EQ(status(0, std::nan("")), ModuliStatus::no_data);
+  FlowConditions unknown = simulated_;
+  unknown.viscosity_mPas = std::nan("");
+  const auto without_viscosity = all.fit(good, unknown);
+  EXPECT_EQ(without_viscosity.status, ModuliStatus::no_data);
+  EXPECT_TRUE(std::isnan(without_viscosity.stiffness_kPa)) << "no number stands where nothing is known";
   EXPECT_EQ(status(int(ShapeFeature::first_mode) + 4, 0.2), ModuliStatus::poor_fit);
 }
 
