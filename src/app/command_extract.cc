@@ -50,7 +50,7 @@ class Batch {
       make_folder_for(task.output.companion);
       if (!take(task)) return exit_signal + signal_received();
     }
-    write_own_file(summary_file_, summary_table(lines_), "recording\tevents\tvalid\t", false);
+    write_own_file(summary_file_, summary_table(lines_), "recording\tevents\tvalid\t", Foreign::keep);
     if (!options_.batch.quiet)
       fmt::print("{} of {} recordings, see {}\n", done_, tasks_.size(), summary_file_.string());
     return failed_ ? exit_user_error : empty_ ? exit_numerical : exit_converged;

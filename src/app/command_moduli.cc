@@ -64,7 +64,7 @@ class Batch {
     }
     const auto line_end = end.text.find('\n');
     const fs::path file = task.output.events.parent_path() / (task.recording.stem().string() + "_moduli.tsv");
-    write_own_file(file, std::string_view(end.text).substr(line_end + 1), mark, false);
+    write_own_file(file, std::string_view(end.text).substr(line_end + 1), mark, Foreign::keep);
     say(task, file, moduli_summary_from_json(end.text.substr(0, line_end)));
     return true;
   }

@@ -129,17 +129,19 @@ class Plot {
     const LevelLines lines = lines_for(panel);
     const double factor = modulus_factor(lines, panel.conditions, panel.viscosity_mPas);
     for (const auto& line : lines.lines) {
-      j["lines"].push_back(as_json(as_measured(line.points, lines.channel_width_um, panel.conditions, pixel_law())));
+      j["lines"].push_back(
+          as_json(as_measured(line.points, lines.channel_width_um, panel.conditions, pixel_correction())));
       j["lines"].back()["young_modulus_kPa"] = line.modulus_kPa * factor;
     }
     j["table"] = lines.identifier;
     j["pixels"] = panel.conditions.pixel_size_um;
     if (finder_)
-      j["support"] = as_json(as_measured(finder_->support(), lines.channel_width_um, panel.conditions, pixel_law()));
+      j["support"] =
+          as_json(as_measured(finder_->support(), lines.channel_width_um, panel.conditions, pixel_correction()));
     return j;
   }
 
-  PixelCorrection pixel_law() const { return finder_ ? finder_->pixel_law() : PixelCorrection::field; }
+  PixelCorrection pixel_correction() const { return finder_ ? finder_->pixel_correction() : PixelCorrection::field; }
 
   // Of the levels that spread over the picture, those next to two digits in the recording's own channel.
   LevelLines lines_for(const PlotPanel& panel) const {

@@ -12,7 +12,7 @@
 #include "app/extract_settings.h"
 #include "app/gates.h"
 #include "case/user_error.h"
-#include "infer/pixel_law.h"
+#include "infer/rendered_errors.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/event_features.h"
 #include "measurement/shape_source.h"
@@ -92,7 +92,7 @@ class Fits {
         shapes_(recording, settings_.pixel_size_um),
         features_(recording, shapes_),
         gates_(options.measuring.gates),
-        law_(table, settings_.pixel_size_um * simulated.channel_width_um / settings_.conditions.channel_width_um),
+        pixels_(table, settings_.pixel_size_um * simulated.channel_width_um / settings_.conditions.channel_width_um),
         moduli_(table, simulated,
                 {options.only_figure ? features_of_figure() : features_of_contour(), options.fit_tension,
                  table.tension_ratios().front()}) {
@@ -147,7 +147,7 @@ class Fits {
  private:
   ModuliEstimate fit(const ShapeVector& seen, double viscosity_mPas) const {
     const auto& c = settings_.conditions;
-    return fit_pixels(moduli_, law_, seen, {c.channel_width_um, c.flow_rate_ul_s, viscosity_mPas});
+    return fit_pixels(moduli_, pixels_, seen, {c.channel_width_um, c.flow_rate_ul_s, viscosity_mPas});
   }
 
   static ModuliEstimate gated() {
@@ -162,7 +162,7 @@ class Fits {
   ShapeSource shapes_;
   EventFeatures features_;
   Gates gates_;
-  PixelLaw law_;
+  RenderedErrors pixels_;
   SeveralModuli moduli_;
   std::vector<double> viscosity_;
   std::vector<char> inside_;
