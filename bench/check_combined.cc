@@ -1,4 +1,5 @@
 // How well moduli come back through a combined table: check_combined TABLE-FOLDER RESULT-FOLDERS...
+// Without results only this: by how much the two descriptions of the errors of pixels differ on the table's cells.
 //
 // The results are of `rheocyte solve` in the table's channel. Of each cell the exact contour and pictures of it at
 // random positions of 0.34 um pixels give E and E2D, by the measures of figure 9 and by the whole contour.
@@ -13,7 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "infer/pixel_law.h"
+#include "infer/rendered_errors.h"
+#include "measurement/pixel_errors.h"
 #include "synth/shape_in_pixels.h"
 
 namespace {
@@ -86,14 +88,46 @@ struct Tally {
   }
 };
 
+/// Rendered errors and the fitted law (measurement/pixel_errors.h) at cells of one share, deformation by deformation.
+void print_errors_of_pixels(const CombinedInterpolation& table, const RenderedErrors& rendered) {
+  constexpr int area = int(ShapeFeature::area_um2), deformation = int(ShapeFeature::deformation);
+  fmt::print("share d: bias of ln A rendered, fitted; of d; standard deviation of ln A; of d (means over the radii)\n");
+  for (const double share : {0.0, 0.5, 1.0})
+    for (const double d : {0.003, 0.01, 0.02, 0.04}) {
+      Eigen::Array<double, 8, 1> sum = Eigen::Array<double, 8, 1>::Zero();
+      int count = 0;
+      for (const double radius : {4.5, 5.5, 6.5, 7.5}) {
+        const CellCoordinates cell(std::log(radius), share, std::log(d), table.tension_ratios().front());
+        const CombinedState state = table.at(cell);
+        if (!state.inside) continue;
+        const ShapeErrors errors = rendered.at(cell);
+        const double log_area_px = state.value(log_area_row) - 2 * std::log(pixel_um);
+        const PixelShape seen = seen_through_pixels({std::exp(log_area_px), d});
+        const PixelErrors law = pixel_errors(std::log(seen.area_px), seen.deformation);
+        Eigen::Array<double, 8, 1> row;
+        row << errors.bias(area), std::log(seen.area_px) - log_area_px, errors.bias(deformation), seen.deformation - d,
+            std::sqrt(errors.covariance(area, area)), law.area_deviation,
+            std::sqrt(errors.covariance(deformation, deformation)), law.deformation_deviation;
+        sum += row;
+        ++count;
+      }
+      if (count == 0) continue;
+      sum /= count;
+      fmt::print("{} {}: {:.4f} {:.4f}; {:.5f} {:.5f}; {:.4f} {:.4f}; {:.5f} {:.5f}\n", share, d, sum(0), sum(1),
+                 sum(2), sum(3), sum(4), sum(5), sum(6), sum(7));
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) return fmt::print("check_combined TABLE-FOLDER RESULT-FOLDERS...\n"), 2;
+  if (argc < 2) return fmt::print("check_combined TABLE-FOLDER RESULT-FOLDERS...\n"), 2;
   const CombinedTable table = read_combined_table(argv[1]);
   const CombinedInterpolation between(table);
   const FlowConditions conditions = conditions_of(table.spec);
-  const PixelLaw law(between, pixel_um);
+  const RenderedErrors pixels(between, pixel_um);
+  print_errors_of_pixels(between, pixels);
+  if (argc == 2) return 0;
   const SeveralModuli by_figure(between, conditions, {features_of_figure()}),
       by_contour(between, conditions, {features_of_contour()});
   ShapeErrors fine;
@@ -116,8 +150,8 @@ int main(int argc, char** argv) {
     for (int k = 0; k < positions; ++k) {
       const double x = random.uniform() - 0.5, y = random.uniform() - 0.5;
       const auto seen = features_in_pixels(cell.outline, pixel_um, {x, y});
-      pixel_figure.take(fit_pixels(by_figure, law, seen, conditions), cell);
-      pixel_contour.take(fit_pixels(by_contour, law, seen, conditions), cell);
+      pixel_figure.take(fit_pixels(by_figure, pixels, seen, conditions), cell);
+      pixel_contour.take(fit_pixels(by_contour, pixels, seen, conditions), cell);
     }
   }
   fmt::print("{} cells inside the table\ninterpolation: ln S {}; modes {}\n", stiffness.size(),

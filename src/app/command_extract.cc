@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <system_error>
@@ -16,6 +15,7 @@
 #include "app/modulus_tables.h"
 #include "app/own_file.h"
 #include "app/recording_list.h"
+#include "app/recording_progress.h"
 #include "app/standard_error.h"
 #include "app/stop_signal.h"
 #include "case/user_error.h"
@@ -26,24 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Kind = ContainedEnd::Kind;
-
-/// Lines on standard error for a recording that takes long, at most one in two seconds.
-class ProgressLines {
- public:
-  ProgressLines(const RecordingTask& task, bool quiet) : name_(one_line(task.recording.string(), 200)), quiet_(quiet) {}
-
-  void operator()(double fraction) {
-    const auto now = std::chrono::steady_clock::now();
-    if (quiet_ || now - last_ < std::chrono::seconds(2)) return;
-    last_ = now;
-    tell(fmt::format("{}: {:.0f} %", name_, 100 * fraction));
-  }
-
- private:
-  std::string name_;
-  bool quiet_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 void make_folder_for(const fs::path& file) {
   std::error_code error;
@@ -59,26 +41,33 @@ class Batch {
  public:
   explicit Batch(const ExtractOptions& options)
       : options_(options),
-        tasks_(list_recordings(options)),
-        summary_file_(summary_file(options, tasks_)),
-        tables_(options) {}
+        tasks_(list_recordings(options.batch)),
+        summary_file_(summary_file(options.batch, tasks_)),
+        tables_(options.table) {
+    if (options.no_area_correction && !tables_.own())
+      throw UserError(fmt::format(
+          "rheocyte: --no-area-correction and --table {} contradict each other; published tables are used with areas "
+          "as measured always.",
+          one_line(options.table, 200)));
+  }
 
   int run() {
     for (const auto& task : tasks_) {
       make_folder_for(task.output.companion);
       if (!take(task)) return exit_signal + signal_received();
     }
-    write_own_file(summary_file_, summary_table(lines_), "recording\tevents\tvalid\t", false);
-    if (!options_.quiet) fmt::print("{} of {} recordings, see {}\n", done_, tasks_.size(), summary_file_.string());
+    write_own_file(summary_file_, summary_table(lines_), "recording\tevents\tvalid\t", Foreign::keep);
+    if (!options_.batch.quiet)
+      fmt::print("{} of {} recordings, see {}\n", done_, tasks_.size(), summary_file_.string());
     return failed_ ? exit_user_error : empty_ ? exit_numerical : exit_converged;
   }
 
  private:
   // False if the user wants to stop.
   bool take(const RecordingTask& task) {
-    ProgressLines progress(task, options_.quiet);
+    RecordingProgress progress(task.recording, options_.batch.quiet);
     Containment limits;
-    limits.patience_s = options_.patience_s;
+    limits.patience_s = options_.measuring.patience_s;
     const auto work = [&](const TellProgress& tell_progress) {
       return to_json(extract_recording(task.recording, task.output, options_, tables_, tell_progress));
     };
@@ -90,7 +79,7 @@ class Batch {
       for (const auto& file : {task.output.companion, task.output.events}) fs::remove(unfinished(file), ignored);
       if (end.kind == Kind::stopped) return false;
       failed_ = true;
-      lines_.push_back({task.recording, {}, sentence_for(task.recording, end, options_.patience_s)});
+      lines_.push_back({task.recording, {}, sentence_for(task.recording, end, options_.measuring.patience_s)});
       tell(lines_.back().error);
     }
     return true;
@@ -99,7 +88,7 @@ class Batch {
   void take_summary(const RecordingTask& task, const ExtractSummary& summary) {
     ++done_;
     const std::string name = one_line(task.recording.string(), 200);
-    if (!options_.quiet) {
+    if (!options_.batch.quiet) {
       fmt::print("{}: {}\n", name, in_one_line(summary));
       for (const auto& warning : summary.warnings) tell(fmt::format("{}: {}", name, warning));
     }

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "case/case_reference.h"
 
@@ -31,8 +32,12 @@ void print_help(const CLI::App& app, const HelpOptions& options) {
 void add_help_command(CLI::App& app) {
   auto* command = app.add_subcommand("help", "explain the keys of a case, or a command");
   auto options = std::make_shared<HelpOptions>();
-  auto* topic = command->add_option("TOPIC", options->topic, "case: all keys with unit, default and range");
-  topic->check(CLI::IsMember({"case", "extract", "solve"}));
+  auto* topic = command->add_option("TOPIC", options->topic,
+                                    "case: all keys with unit, default and range; or the name of a command");
+  std::vector<std::string> topics{"case"};
+  for (const auto* known : app.get_subcommands([](const CLI::App*) { return true; }))
+    topics.push_back(known->get_name());
+  topic->check(CLI::IsMember(topics));
   command->add_flag("--markdown", options->markdown, "the case's keys as a Markdown document");
   command->callback([&app, options] { print_help(app, *options); });
 }

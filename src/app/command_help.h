@@ -1,4 +1,4 @@
-// `rheocyte help [case|extract|solve]`
+// `rheocyte help [case|COMMAND]`
 #pragma once
 
 namespace CLI {

@@ -58,7 +58,7 @@ class Plot {
 
   int run() {
     json panels = json::array();
-    for (const auto& recording : options_.measuring.inputs) {
+    for (const auto& recording : options_.inputs) {
       const auto name = fmt::format("events-{}", panels.size());
       const ContainedEnd end = read(recording, folder_.path() / name);
       if (end.kind == ContainedEnd::Kind::stopped) return exit_signal + signal_received();
@@ -95,7 +95,7 @@ class Plot {
            {"y", options_.y},
            {"width_um", panel.width_um},
            {"lines", json::array()}};
-    if (!options_.measuring.quiet)
+    if (!options_.quiet)
       for (const auto& warning : panel.warnings)
         tell(fmt::format("{}: {}", one_line(recording.string(), 200), warning));
     if (!panel.has_conditions) return j;
@@ -115,7 +115,7 @@ class Plot {
                        drawn.last_line.empty() ? "the drawing program failed" : one_line(drawn.last_line, 300)));
       return exit_own_bug;
     }
-    if (!options_.measuring.quiet) fmt::print("{0}.png and {0}.svg\n", stem_.string());
+    if (!options_.quiet) fmt::print("{0}.png and {0}.svg\n", stem_.string());
     return exit_converged;
   }
 

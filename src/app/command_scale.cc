@@ -70,7 +70,7 @@ void run(const ScaleOptions& options) {
                                 options.table.string(), fmt::join(doubts, "; ")));
   TableText result = scaled(table, to, version);
   rename(result, to, options.identifier);
-  write_own_file(options.output, to_text(result), table_mark, options.force);
+  write_own_file(options.output, to_text(result), table_mark, foreign(options.force));
 }
 
 std::string check_identifier(const std::string& name) {

@@ -19,7 +19,7 @@ void check_positive(const std::optional<double>& value, const char* option) {
 
 }  // namespace
 
-void check_measuring_options(const ExtractOptions& options) {
+void check_measuring_options(const MeasuringOptions& options) {
   check_positive(options.channel_width_um, "--channel-width");
   check_positive(options.flow_rate_ul_s, "--flow-rate");
   check_positive(options.pixel_size_um, "--pixel-size");
@@ -35,7 +35,15 @@ void check_measuring_options(const ExtractOptions& options) {
     throw UserError(fmt::format("rheocyte: --viscosity and {} contradict each other; give one of them.", other));
 }
 
-void declare_measuring_options(CLI::App& command, ExtractOptions& options) {
+void declare_batch_options(CLI::App& command, BatchOptions& options) {
+  command.add_option("FILES", options.inputs, "recordings (.rtdc); folders with -r")->required();
+  command.add_option("-o,--output", options.folder, "folder for the results; without it they go beside each recording")
+      ->type_name("DIR");
+  command.add_flag("-r,--recursive", options.recursive, "search the given folders for recordings");
+  command.add_flag("--quiet", options.quiet, "print neither progress nor results");
+}
+
+void declare_measuring_options(CLI::App& command, MeasuringOptions& options) {
   command.add_option("--channel-width", options.channel_width_um, "um; default: from the recording");
   command.add_option("--flow-rate", options.flow_rate_ul_s, "ul/s, sample and sheath; default: from the recording");
   command.add_option("--pixel-size", options.pixel_size_um, "um; default: from the recording");
@@ -47,29 +55,25 @@ void declare_measuring_options(CLI::App& command, ExtractOptions& options) {
                   "degC; or feature: of each event; or metadata; default: of each event if the recording has it")
       ->type_name("VALUE|feature|metadata");
   declare_gate_options(command, options.gates);
-  command.add_flag("--no-pixelation", options.no_pixelation, "correct nothing for the pixels");
   command.add_option("--patience", options.patience_s,
                      "give a recording up when nothing was read from it for so many seconds (60)");
 }
 
 void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run) {
-  command.add_option("FILES", options.inputs, "recordings (.rtdc); folders with -r")->required();
-  command.add_option("-o,--output", options.folder, "folder for the results; without it they go beside each recording")
-      ->type_name("DIR");
-  command.add_flag("-r,--recursive", options.recursive, "search the given folders for recordings");
+  declare_batch_options(command, options.batch);
   command
       .add_option(
           "--table", options.table,
           "look-up table in place of the program's own: a folder of `rheocyte table`, a file (grid_*.cbor, or in "
           "dclab's format), or an identifier of the program's tables or of an installed dclab's")
       ->type_name("TABLE");
-  declare_measuring_options(command, options);
+  declare_measuring_options(command, options.measuring);
+  command.add_flag("--no-pixelation", options.no_pixelation, "correct nothing for the pixels");
   command.add_flag("--no-area-correction", options.no_area_correction,
                    "do not correct areas for the pixels; published tables never do");
   command.add_flag("--no-tsv", options.no_tsv, "do not write a table with one line per event");
-  command.add_flag("--quiet", options.quiet, "print neither progress nor results");
   command.callback([&options, run = std::move(run)] {
-    check_measuring_options(options);
+    check_measuring_options(options.measuring);
     run();
   });
 }

@@ -27,25 +27,14 @@ constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible wh
 
 std::string program() { return fmt::format("rheocyte {}", version); }
 
+PixelUse pixel_use(const ExtractOptions& options) {
+  if (options.no_pixelation) return PixelUse::ignore;
+  return options.no_area_correction ? PixelUse::correct_deformation : PixelUse::correct;
+}
+
 std::string corrected_for_pixels(const MeasuringConditions& conditions, const ModulusTable& table) {
   if (conditions.pixel_size_um == 0) return "nothing";
   return table.is_own() && conditions.correct_area ? "area and deformation" : "deformation";
-}
-
-std::vector<std::string> setting_lines(const ExtractSettings& settings, const ShapeSource& shapes,
-                                       const ModulusTable& table) {
-  const auto& c = settings.conditions;
-  std::vector<std::string> lines{
-      fmt::format("table: {}", table.description()),
-      fmt::format("area from {}, deformation from {}", shapes.area_from(), shapes.deformation_from()),
-      fmt::format("channel width: {} um", c.channel_width_um), fmt::format("flow rate: {} ul/s", c.flow_rate_ul_s)};
-  lines.push_back(fmt::format("corrected for pixels: {}", corrected_for_pixels(c, table)));
-  if (c.pixel_size_um > 0) lines.push_back(fmt::format("pixel size: {} um", c.pixel_size_um));
-  if (settings.buffer)
-    lines.push_back(fmt::format("viscosity: {} by {}, temperature {}", settings.medium_text(), settings.model_text(),
-                                settings.temperature_text()));
-  if (!settings.viscosity_varies()) lines.push_back(fmt::format("viscosity: {} mPa s", settings.viscosity_mPas));
-  return lines;
 }
 
 std::string meaning_of_states() {
@@ -57,13 +46,13 @@ std::string meaning_of_states() {
 
 // The columns of one block of events.
 struct Columns {
-  std::vector<double> area, deformation, temperature, viscosity, modulus, standard_error, state_numbers, other_modulus;
+  std::vector<double> area, deformation, viscosity, modulus, standard_error, state_numbers, other_modulus;
   std::vector<ModulusState> states, other_states;
   std::vector<char> inside;  // the gates
 
   void resize(std::size_t count) {
     for (auto* const column :
-         {&area, &deformation, &temperature, &viscosity, &modulus, &standard_error, &state_numbers, &other_modulus})
+         {&area, &deformation, &viscosity, &modulus, &standard_error, &state_numbers, &other_modulus})
       column->resize(count);
     states.resize(count);
     other_states.resize(count);
@@ -75,10 +64,10 @@ class Extraction {
  public:
   Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables)
       : recording_(recording),
-        settings_(extract_settings(options, recording)),
+        settings_(extract_settings(options.measuring, pixel_use(options), recording)),
         tables_(tables.choose(settings_.flow_exponent)),
         shapes_(recording, settings_.pixel_size_um),
-        gates_(options.gates),
+        gates_(options.measuring.gates),
         features_(recording, shapes_) {
     gates_.check(features_, recording.file().string());
   }
@@ -94,16 +83,7 @@ class Extraction {
     Columns& c = columns_;
     c.resize(count);
     shapes_.read(first, c.area, c.deformation);
-    if (settings_.viscosity_varies()) {
-      recording_.read_scalar("temp", first, c.temperature);
-      const auto& conditions = settings_.conditions;
-      settings_.buffer->viscosity({conditions.channel_width_um, conditions.flow_rate_ul_s}, c.temperature, c.viscosity);
-      const auto range = settings_.buffer->measured();
-      for (const double celsius : c.temperature)
-        outside_temperature_ += std::isfinite(celsius) && !range.contains(celsius);
-    } else {
-      std::ranges::fill(c.viscosity, settings_.viscosity_mPas);
-    }
+    outside_temperature_ += settings_.viscosities(recording_, first, c.viscosity);
     const MeasuredEvents events{c.area, c.deformation, c.viscosity};
     if (tables_.other) {
       // Its standard errors are overwritten by those that count.
@@ -133,12 +113,7 @@ class Extraction {
     s.conditions = settings_.conditions;
     s.warnings = recording_.remarks();
     s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
-    if (outside_temperature_ > 0)
-      s.warnings.push_back(
-          fmt::format("{} events have temperatures outside {} to {} degC, for which the viscosity "
-                      "model {} was measured.",
-                      outside_temperature_, settings_.buffer->measured().lowest, settings_.buffer->measured().highest,
-                      settings_.model_text()));
+    if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
     if (tables_.other) s.warnings.push_back(comparison());
     if (recording_.has_scalar("emodulus"))
       s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
@@ -146,7 +121,12 @@ class Extraction {
   }
 
   std::vector<std::string> lines() const {
-    auto lines = setting_lines(settings_, shapes_, table());
+    std::vector<std::string> lines{
+        fmt::format("table: {}", table().description()),
+        fmt::format("area from {}, deformation from {}", shapes_.area_from(), shapes_.deformation_from()),
+        fmt::format("corrected for pixels: {}", corrected_for_pixels(settings_.conditions, table()))};
+    const auto settings = settings_.lines();
+    lines.insert(lines.end(), settings.begin(), settings.end());
     if (!gates_.empty()) lines.push_back("only events with " + gates_.description());
     return lines;
   }

@@ -35,7 +35,7 @@ void check_region(const Recording& recording) {
                                   one_line(region, 40)));
 }
 
-ViscosityModel chosen_model(const ExtractOptions& options) {
+ViscosityModel chosen_model(const MeasuringOptions& options) {
   const std::string name = options.viscosity_model.value_or("buyukurganci-2022");
   const auto model = viscosity_model_of_name(name);
   if (model) return *model;
@@ -43,7 +43,7 @@ ViscosityModel chosen_model(const ExtractOptions& options) {
                               one_line(name, 60)));
 }
 
-Medium chosen_medium(const ExtractOptions& options, const Recording& recording) {
+Medium chosen_medium(const MeasuringOptions& options, const Recording& recording) {
   const auto name = options.medium ? options.medium : recording.metadata().text("setup:medium");
   const auto medium = name ? medium_of_name(*name) : std::nullopt;
   if (medium) return *medium;
@@ -57,7 +57,7 @@ Medium chosen_medium(const ExtractOptions& options, const Recording& recording) 
   refuse(recording, sentence);
 }
 
-void choose_temperature(const ExtractOptions& options, const Recording& recording, ExtractSettings& settings) {
+void choose_temperature(const MeasuringOptions& options, const Recording& recording, ExtractSettings& settings) {
   const std::string& wish = options.temperature;
   double value = 0;
   const auto [end, error] = std::from_chars(wish.data(), wish.data() + wish.size(), value);
@@ -85,12 +85,15 @@ void choose_temperature(const ExtractOptions& options, const Recording& recordin
   settings.temperature_C = *stored;
 }
 
-void warn_about_temperature(ExtractSettings& settings) {
+std::string outside(const ExtractSettings& settings) {
   const auto range = settings.buffer->measured();
-  if (settings.viscosity_varies() || range.contains(settings.temperature_C)) return;
-  settings.warnings.push_back(
-      fmt::format("{} degC is outside {} to {} degC, for which the viscosity model {} was measured.",
-                  settings.temperature_C, range.lowest, range.highest, name_of(settings.buffer->model())));
+  return fmt::format("outside {} to {} degC, for which the viscosity model {} was measured.", range.lowest,
+                     range.highest, settings.model_text());
+}
+
+void warn_about_temperature(ExtractSettings& settings) {
+  if (settings.viscosity_varies() || settings.buffer->measured().contains(settings.temperature_C)) return;
+  settings.warnings.push_back(fmt::format("{} degC is {}", settings.temperature_C, outside(settings)));
 }
 
 // The one of the recording as a whole; a degree changes the exponents of methyl cellulose by 0.002.
@@ -116,20 +119,50 @@ std::string ExtractSettings::temperature_text() const {
   }
 }
 
-ExtractSettings extract_settings(const ExtractOptions& options, const Recording& recording) {
+std::size_t ExtractSettings::viscosities(const Recording& recording, std::size_t first, std::span<double> mPas) const {
+  if (!viscosity_varies()) {
+    std::ranges::fill(mPas, viscosity_mPas);
+    return 0;
+  }
+  std::vector<double> temperatures(mPas.size());
+  recording.read_scalar("temp", first, temperatures);
+  buffer->viscosity({conditions.channel_width_um, conditions.flow_rate_ul_s}, temperatures, mPas);
+  const auto is_outside = [range = buffer->measured()](double celsius) {
+    return std::isfinite(celsius) && !range.contains(celsius);
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(temperatures, is_outside));
+}
+
+std::string ExtractSettings::outside_temperature_text(std::size_t events) const {
+  return fmt::format("{} events have temperatures {}", events, outside(*this));
+}
+
+std::vector<std::string> ExtractSettings::lines() const {
+  std::vector<std::string> lines{fmt::format("channel width: {} um", conditions.channel_width_um),
+                                 fmt::format("flow rate: {} ul/s", conditions.flow_rate_ul_s)};
+  if (conditions.pixel_size_um > 0) lines.push_back(fmt::format("pixel size: {} um", conditions.pixel_size_um));
+  if (buffer)
+    lines.push_back(
+        fmt::format("viscosity: {} by {}, temperature {}", medium_text(), model_text(), temperature_text()));
+  if (!viscosity_varies()) lines.push_back(fmt::format("viscosity: {} mPa s", viscosity_mPas));
+  return lines;
+}
+
+ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixels, const Recording& recording) {
   check_region(recording);
   ExtractSettings settings;
   auto& conditions = settings.conditions;
   conditions.channel_width_um =
       quantity(recording, options.channel_width_um, "setup:channel width", "--channel-width (um)");
   conditions.flow_rate_ul_s = quantity(recording, options.flow_rate_ul_s, "setup:flow rate", "--flow-rate (ul/s)");
-  if (!options.no_pixelation)
+  if (pixels != PixelUse::ignore)
     settings.pixel_size_um = conditions.pixel_size_um =
-        quantity(recording, options.pixel_size_um, "imaging:pixel size", "--pixel-size (um), or give --no-pixelation");
+        quantity(recording, options.pixel_size_um, "imaging:pixel size",
+                 pixels == PixelUse::fit ? "--pixel-size (um)" : "--pixel-size (um), or give --no-pixelation");
   else
     settings.pixel_size_um =
         options.pixel_size_um.value_or(recording.metadata().number("imaging:pixel size").value_or(0));
-  conditions.correct_area = !options.no_area_correction;
+  conditions.correct_area = pixels == PixelUse::correct;
   if (options.viscosity_mPas) {
     settings.viscosity_mPas = *options.viscosity_mPas;
     return settings;

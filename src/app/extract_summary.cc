@@ -106,13 +106,20 @@ double median_of(std::span<float> values) {
   return *middle;
 }
 
+json to_json(const Distribution& d) {
+  return {d.median, d.first_quartile, d.third_quartile, d.mean, d.standard_deviation};
+}
+
+Distribution distribution_from_json(const json& d) {
+  return {number_of(d.at(0)), number_of(d.at(1)), number_of(d.at(2)), number_of(d.at(3)), number_of(d.at(4))};
+}
+
 std::string to_json(const ExtractSummary& s) {
-  const auto& d = s.modulus_kPa;
   const auto& c = s.conditions;
   return json{
       {"events", s.events},
       {"counts", s.counts},
-      {"modulus", {d.median, d.first_quartile, d.third_quartile, d.mean, d.standard_deviation}},
+      {"modulus", to_json(s.modulus_kPa)},
       {"viscosity", s.mean_viscosity_mPas},
       {"texts",
        {s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from, s.corrected, s.gates}},
@@ -127,8 +134,7 @@ ExtractSummary summary_from_json(const std::string& text) {
   ExtractSummary s;
   s.events = all.at("events");
   s.counts = all.at("counts").get<decltype(s.counts)>();
-  const auto& d = all.at("modulus");
-  s.modulus_kPa = {number_of(d.at(0)), number_of(d.at(1)), number_of(d.at(2)), number_of(d.at(3)), number_of(d.at(4))};
+  s.modulus_kPa = distribution_from_json(all.at("modulus"));
   s.mean_viscosity_mPas = number_of(all.at("viscosity"));
   const auto texts = all.at("texts").get<std::vector<std::string>>();
   s.table = texts.at(0);

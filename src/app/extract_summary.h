@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,10 @@ struct Distribution {
 
 /// Sorts the values. Quartiles between two values are interpolated linearly.
 Distribution distribution_of(std::span<double> values);
+
+/// Both ways; what is no number is null in between.
+nlohmann::json to_json(const Distribution&);
+Distribution distribution_from_json(const nlohmann::json&);
 
 /// The middle of the values, which it changes the order of; NaN if there are none.
 double median_of(std::span<float> values);

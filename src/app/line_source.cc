@@ -29,7 +29,7 @@ std::vector<PlanePoint> LineSource::support() const {
   return std::visit([](const auto& finder) { return finder.support(); }, finder_);
 }
 
-PixelCorrection LineSource::pixel_law() const {
+PixelCorrection LineSource::pixel_correction() const {
   return std::holds_alternative<GridLineFinder>(finder_) ? PixelCorrection::own : PixelCorrection::field;
 }
 

@@ -18,7 +18,7 @@ class LineSource {
   LevelLines lines(std::span<const double> levels_kPa) const;
   std::vector<PlanePoint> support() const;
   /// By which law the events of a picture are taken to be seen.
-  PixelCorrection pixel_law() const;
+  PixelCorrection pixel_correction() const;
 
  private:
   std::variant<LineFinder, GridLineFinder> finder_;

@@ -66,8 +66,8 @@ void ModulusTable::estimate(const MeasuringConditions& conditions, const Measure
     estimates.state[i] = parity.state(conditions, events.size[i], events.deformation[i], estimates.modulus_kPa[i]);
 }
 
-ModulusTables::ModulusTables(const ExtractOptions& options) : given_(!options.table.empty()) {
-  if (given_) tables_.push_back(std::make_unique<ModulusTable>(find_table(options.table)));
+ModulusTables::ModulusTables(const std::string& name) : given_(!name.empty()) {
+  if (given_) tables_.push_back(std::make_unique<ModulusTable>(find_table(name)));
   if (!given_ || own())
     for (const auto& [identifier, file] : shipped_tables())
       if (!given_ || identifier != tables_.front()->identifier())
@@ -76,11 +76,6 @@ ModulusTables::ModulusTables(const ExtractOptions& options) : given_(!options.ta
     throw UserError(
         "rheocyte: the tables that come with the program are missing; give one with --table, or name their folder in "
         "RHEOCYTE_TABLES.");
-  if (options.no_area_correction && !own())
-    throw UserError(fmt::format(
-        "rheocyte: --no-area-correction and --table {} contradict each other; published tables are used with areas as "
-        "measured always.",
-        one_line(options.table, 200)));
 }
 
 const ModulusTable* ModulusTables::newtonian() const {

@@ -1,11 +1,11 @@
-// The tables of one call of `rheocyte extract`, and which of them a recording gets.
+// The tables of one call of `rheocyte extract` or `rheocyte plot`, and which of them a recording gets.
 #pragma once
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "app/extract_settings.h"
 #include "infer/grid_modulus.h"
 #include "infer/modulus_parity.h"
 
@@ -38,8 +38,9 @@ inline constexpr double flow_exponent_tolerance = 0.03;
 
 class ModulusTables {
  public:
-  /// The table of the options, or those that come with the program. UserError if there is none or options contradict.
-  explicit ModulusTables(const ExtractOptions& options);
+  /// The table that the user names (as in find_table); if the name is empty those that come with the program, of which
+  /// there is at least one, else UserError.
+  explicit ModulusTables(const std::string& name);
 
   struct Choice {
     const ModulusTable* used;

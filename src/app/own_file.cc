@@ -32,24 +32,26 @@ bool begins_with(const fs::path& path, std::string_view mark) {
   return file && start == mark;
 }
 
-void check_replaceable(const fs::path& path, std::string_view mark, bool force) {
+void check_replaceable(const fs::path& path, std::string_view mark, Foreign foreign) {
   std::error_code error;
   const auto status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) return;
   if (error) refuse(path, fmt::format("cannot write there ({}).", error.message()));
   if (fs::is_directory(status)) refuse(path, "is a folder; give the name of a file with -o.");
   if (!fs::is_regular_file(status)) refuse(path, "is not a regular file; give another name with -o.");
-  if (!force && !begins_with(path, mark))
-    refuse(path, "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
+  if (foreign == Foreign::replace || begins_with(path, mark)) return;
+  refuse(path, foreign == Foreign::keep
+                   ? "is there and was not written by rheocyte; move it away, or name another folder with -o."
+                   : "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
 }
 
 }  // namespace
 
-void write_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, bool force) {
+void write_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, Foreign foreign) {
   std::error_code error;
   const fs::path path = fs::weakly_canonical(fs::absolute(wanted), error);  // a link stays a link
   if (error) refuse(wanted, fmt::format("cannot write there ({}).", error.message()));
-  check_replaceable(path, mark, force);
+  check_replaceable(path, mark, foreign);
   fs::create_directories(path.parent_path(), error);
   if (error) refuse(wanted, fmt::format("cannot make its folder ({}).", error.message()));
   const fs::path scratch =

@@ -5,9 +5,18 @@
 
 namespace rheocyte {
 
+/// What becomes of a file in the wanted place that is not ours.
+enum class Foreign {
+  keep,                ///< the command has no way to replace it
+  keep_unless_forced,  ///< the sentence names --force
+  replace
+};
+/// Of a command with --force.
+inline Foreign foreign(bool force) { return force ? Foreign::replace : Foreign::keep_unless_forced; }
+
 /// Writes `content` beside the wanted place and renames it; makes the parent folders. An existing file is replaced if
-/// it begins with `mark`, the words with which all files of this kind from rheocyte begin, or if `force` is given.
+/// it begins with `mark`, the words with which all files of this kind from rheocyte begin, or as `foreign` says.
 /// UserError, and an older file is left as it was.
-void write_own_file(const std::filesystem::path&, std::string_view content, std::string_view mark, bool force);
+void write_own_file(const std::filesystem::path&, std::string_view content, std::string_view mark, Foreign foreign);
 
 }  // namespace rheocyte

@@ -30,13 +30,13 @@ double rounded(double value) { return std::stod(fmt::format("{:.2g}", value)); }
 }  // namespace
 
 PlotLines::PlotLines(const PlotOptions& options) : options_(options) {
-  const bool has_table = !options.measuring.table.empty(), has_file = !options.lines.empty();
-  if (has_table) given_table_.emplace(find_table(options.measuring.table));
+  const bool has_table = !options.table.empty(), has_file = !options.lines.empty();
+  if (has_table) given_table_.emplace(find_table(options.table));
   if (has_file) given_lines_ = read_level_lines(options.lines);
   if (has_table || has_file) {
     wanted_ = LinesWanted::yes;
   } else if (!options.no_lines && has_usual_axes(options) && !shipped_tables().empty()) {
-    own_tables_.emplace(options.measuring);
+    own_tables_.emplace(std::string{});
     wanted_ = options.levels_kPa.empty() ? LinesWanted::if_possible : LinesWanted::yes;
   }
 }
@@ -62,7 +62,7 @@ json PlotLines::for_panel(const PlotPanel& panel) {
   const LineSource* const source = source_for(panel.flow_exponent);
   const LevelLines lines = given_lines_ ? *given_lines_ : lines_from(*source, panel);
   const auto seen = [&](std::span<const PlanePoint> points) {
-    const auto pixels = source ? source->pixel_law() : PixelCorrection::field;
+    const auto pixels = source ? source->pixel_correction() : PixelCorrection::field;
     return as_json(as_measured(points, lines.channel_width_um, panel.conditions, pixels));
   };
   json j{{"lines", json::array()}, {"table", lines.identifier}, {"pixels", panel.conditions.pixel_size_um}};

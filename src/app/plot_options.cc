@@ -19,7 +19,7 @@ constexpr std::size_t greatest_number_of_panels = 24, greatest_number_of_levels 
 
 void check(const PlotOptions& options) {
   check_measuring_options(options.measuring);
-  const auto& recordings = options.measuring.inputs;
+  const auto& recordings = options.inputs;
   if (recordings.size() > greatest_number_of_panels)
     throw UserError(fmt::format("rheocyte: {} recordings do not fit into one picture; give at most {}.",
                                 recordings.size(), greatest_number_of_panels));
@@ -27,7 +27,7 @@ void check(const PlotOptions& options) {
   for (const auto& file : recordings)
     if (fs::is_directory(file, error))
       throw UserError(fmt::format("{}: is a folder; give recordings.", one_line(file.string(), 300)));
-  const bool has_table = !options.measuring.table.empty(), has_lines = !options.lines.empty();
+  const bool has_table = !options.table.empty(), has_lines = !options.lines.empty();
   if (options.no_lines && (has_table || has_lines || !options.levels_kPa.empty()))
     throw UserError(
         fmt::format("rheocyte: --no-lines and {} contradict each other; give one of them.", has_table   ? "--table"
@@ -53,14 +53,13 @@ void check(const PlotOptions& options) {
 }  // namespace
 
 void declare_plot_options(CLI::App& command, PlotOptions& options, std::function<void()> run) {
-  auto& measuring = options.measuring;
-  command.add_option("FILES", measuring.inputs, "recordings (.rtdc), one panel each")->required();
+  command.add_option("FILES", options.inputs, "recordings (.rtdc), one panel each")->required();
   command
       .add_option("-o,--output", options.output,
                   "name of the pictures; NAME.png and NAME.svg are written; default: beside the first recording")
       ->type_name("NAME");
   command
-      .add_option("--table", measuring.table,
+      .add_option("--table", options.table,
                   "look-up table for lines of equal modulus and the shaded region, as for extract; default: the "
                   "program's own")
       ->type_name("TABLE");
@@ -70,8 +69,9 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
   command.add_option("--y", options.y, "feature on the axis upwards; default: deform")->type_name("FEATURE");
   command.add_flag("--no-lines", options.no_lines, "draw no lines, not even those of the program's own table");
   command.add_option("--levels", options.levels_kPa, "moduli (kPa) of the table's lines, e.g. 0.5,1,2")->delimiter(',');
-  declare_measuring_options(command, measuring);
-  command.add_flag("--quiet", measuring.quiet, "print nothing but errors");
+  declare_measuring_options(command, options.measuring);
+  command.add_flag("--no-pixelation", options.no_pixelation, "draw the lines as they are without pixels");
+  command.add_flag("--quiet", options.quiet, "print nothing but errors");
   command.callback([&options, run = std::move(run)] {
     check(options);
     run();
@@ -81,7 +81,7 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
 fs::path picture_stem(const PlotOptions& options) {
   fs::path stem = options.output;
   if (stem.empty()) {
-    const fs::path& first = options.measuring.inputs.front();
+    const fs::path& first = options.inputs.front();
     return first.parent_path() / (first.stem().string() + "_rheocyte");
   }
   if (stem.extension() == ".png" || stem.extension() == ".svg") stem.replace_extension();

@@ -10,11 +10,15 @@
 namespace rheocyte {
 
 struct PlotOptions {
-  ExtractOptions measuring;        ///< recordings, table, channel, flow, viscosity, temperature, pixels
+  std::vector<std::filesystem::path> inputs;
+  MeasuringOptions measuring;
+  std::string table;               ///< as in ExtractOptions
   std::filesystem::path lines;     ///< a file of isoelasticity lines; empty: lines of the table
   std::vector<double> levels_kPa;  ///< of the lines, in the recording's channel; empty: spread over the picture
   std::string x = "area_um", y = "deform";  ///< features on the axes
   bool no_lines = false;                    ///< not even those of the program's own table
+  bool no_pixelation = false;               ///< lines are drawn where they are without pixels
+  bool quiet = false;
   std::filesystem::path output;  ///< as given, with or without .png or .svg; empty: beside the first recording
 };
 

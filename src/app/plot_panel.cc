@@ -79,7 +79,8 @@ bool is_of_the_reservoir(const Recording& recording) {
 
 void take_conditions(const Recording& recording, const PlotOptions& options,
                      const std::function<void(double)>& on_progress, PlotPanel& panel) {
-  ExtractSettings settings = extract_settings(options.measuring, recording);
+  ExtractSettings settings =
+      extract_settings(options.measuring, options.no_pixelation ? PixelUse::ignore : PixelUse::correct, recording);
   panel.has_conditions = true;
   panel.conditions = settings.conditions;
   panel.viscosity_mPas = settings.viscosity_mPas;

@@ -40,7 +40,7 @@ void search(const fs::path& folder, std::vector<Found>& found) {
 
 }  // namespace
 
-std::vector<RecordingTask> list_recordings(const ExtractOptions& options) {
+std::vector<RecordingTask> list_recordings(const BatchOptions& options) {
   std::vector<Found> found;
   for (const auto& input : options.inputs) {
     std::error_code error;
@@ -69,7 +69,7 @@ std::vector<RecordingTask> list_recordings(const ExtractOptions& options) {
   return tasks;
 }
 
-fs::path summary_file(const ExtractOptions& options, const std::vector<RecordingTask>& tasks) {
+fs::path summary_file(const BatchOptions& options, const std::vector<RecordingTask>& tasks) {
   const fs::path folder = options.folder.empty() ? tasks.front().output.events.parent_path() : options.folder;
   return folder / "rheocyte_summary.tsv";
 }

@@ -168,6 +168,8 @@ std::string_view name_of(ModuliStatus status) {
     case ModuliStatus::not_told_apart: return "not-told-apart";
     case ModuliStatus::outside_table: return "outside-table";
     case ModuliStatus::poor_fit: return "poor-fit";
+    case ModuliStatus::gated: return "gated";
+    case ModuliStatus::count: break;
   }
   return "";
 }
@@ -181,6 +183,7 @@ std::string sentence(const ModuliEstimate& e) {
   switch (e.status) {
     case ModuliStatus::no_data: return "There is no shape, or no error of it.";
     case ModuliStatus::outside_table: return "No cell of the table has such a shape.";
+    case ModuliStatus::gated: return "The event lies outside the limits that were set.";
     case ModuliStatus::poor_fit:
       return fmt::format(
           "The nearest cell of the table differs from the shape by more than its errors "
@@ -188,7 +191,8 @@ std::string sentence(const ModuliEstimate& e) {
           e.chi_squared, e.freedom);
     case ModuliStatus::resolved:
       return fmt::format("{}, {}.", stated(Modulus::young, "E", "kPa"), stated(Modulus::cortex, "E2D", "mN/m"));
-    case ModuliStatus::not_told_apart: break;
+    case ModuliStatus::not_told_apart:
+    case ModuliStatus::count: break;
   }
   std::string known = fmt::format("E + E2D / r0 = {:.3g} +- {:.2g} kPa", e.stiffness_kPa, e.stiffness_error_kPa);
   if (e.is_known[std::size_t(Modulus::young)]) known += ", " + stated(Modulus::young, "E", "kPa");
@@ -242,8 +246,11 @@ SeveralModuli::Candidate SeveralModuli::minimum_from(const MeasuredShape& shape,
 ModuliEstimate SeveralModuli::fit(const MeasuredShape& measured, const FlowConditions& conditions) const {
   MeasuredShape shape = measured;
   const double width = simulated_.channel_width_um / conditions.channel_width_um;
+  const double load =
+      conditions.flow_rate_ul_s * conditions.viscosity_mPas / (simulated_.flow_rate_ul_s * simulated_.viscosity_mPas);
   shape.features(0) += (shape.size_is_volume ? 3 : 2) * std::log(width);
-  if (!shape.features.allFinite() || !Misfit(table_, shape, options_.features).is_usable()) return {};
+  if (!std::isfinite(load) || !shape.features.allFinite() || !Misfit(table_, shape, options_.features).is_usable())
+    return {};
   const CellBox& box = table_.box();
   CellCoordinates start = start_for(shape);
   std::vector<Candidate> minima;
@@ -253,8 +260,6 @@ ModuliEstimate SeveralModuli::fit(const MeasuredShape& measured, const FlowCondi
   }
   const Candidate best = *std::ranges::min_element(minima, {}, &Candidate::chi_squared);
   ModuliEstimate estimate = estimate_of(shape, best, profile(shape, best));
-  const double load =
-      conditions.flow_rate_ul_s * conditions.viscosity_mPas / (simulated_.flow_rate_ul_s * simulated_.viscosity_mPas);
   const double bulk = load * width * width * width, surface = load * width * width;
   const Eigen::Vector3d scale(bulk, surface, surface);
   estimate.modulus = estimate.modulus.cwiseProduct(scale);

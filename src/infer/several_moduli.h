@@ -22,12 +22,15 @@ struct FlowConditions {
 FlowConditions conditions_of(const TableSpec& spec);
 
 enum class ModuliStatus {
-  no_data,         ///< a feature or its error is not a number
+  no_data,         ///< a feature, its error or a condition of the flow is not a number
   resolved,        ///< every modulus that is asked for is known to better than a factor of two
   not_told_apart,  ///< one of them is not, though the stiffness as a whole may be
   outside_table,   ///< no cell of the table has such a shape
   poor_fit,        ///< the nearest cell of the table differs from the shape by more than the errors allow
+  gated,           ///< outside the limits that the user has set; nothing was fitted
+  count
 };
+inline constexpr int moduli_status_count = int(ModuliStatus::count);
 std::string_view name_of(ModuliStatus status);
 
 struct ModuliEstimate {
@@ -35,10 +38,11 @@ struct ModuliEstimate {
   /// Young's modulus (kPa), E2D (mN/m), tension (mN/m), and their covariance.
   Eigen::Vector3d modulus = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  std::array<bool, modulus_count> is_known{};         ///< standard error below `greatest_relative_error`
-  double stiffness_kPa = 0, stiffness_error_kPa = 0;  ///< E + E2D / r0
-  CellCoordinates cell = CellCoordinates::Zero();     ///< in the table's channel
-  double chi_squared = 0;
+  std::array<bool, modulus_count> is_known{};  ///< standard error below `greatest_relative_error`
+  double stiffness_kPa = std::numeric_limits<double>::quiet_NaN(),
+         stiffness_error_kPa = stiffness_kPa;      ///< E + E2D / r0
+  CellCoordinates cell = CellCoordinates::Zero();  ///< in the table's channel
+  double chi_squared = std::numeric_limits<double>::quiet_NaN();
   int freedom = 0;
 
   double value(Modulus m) const { return modulus(int(m)); }

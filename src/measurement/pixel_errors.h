@@ -1,5 +1,6 @@
-// What pixels do to area and deformation of a cell's contour, on average and at random (docs/theory-extract.md,
-// eq:pixel-errors).
+// What pixels do to area and deformation of a solid cell's contour, on average and at random: a fitted law, fast enough
+// for millions of events in a second (docs/theory-extract.md, eq:pixel-errors). For cells with a cortex, and for all
+// features of a shape with their covariance, see infer/rendered_errors.h.
 #pragma once
 
 namespace rheocyte {
@@ -18,7 +19,8 @@ inline constexpr double least_fitted_area_px = 50, greatest_fitted_area_px = 900
 /// Deformations go up to this; greater ones count as this.
 inline constexpr double greatest_fitted_deformation = 0.2;
 
-/// By the natural logarithm of the measured area in pixels and the measured deformation.
+/// By the natural logarithm of the measured area in pixels and the measured deformation of a solid. By what one solid
+/// differs from another of the same area and deformation counts as scatter; a shell differs by more.
 PixelErrors pixel_errors(double log_area_px, double deformation);
 
 /// The inverse: the mean measured area in pixels and deformation of a smooth contour.

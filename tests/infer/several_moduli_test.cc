@@ -6,7 +6,7 @@
 #include <random>
 
 #include "../table/invented_combined.h"
-#include "infer/pixel_law.h"
+#include "infer/rendered_errors.h"
 #include "synth/shape_in_pixels.h"
 
 namespace rheocyte {
@@ -104,9 +104,9 @@ TEST_F(SeveralModuliOf, AnotherChannelScalesExactly) {
 
 TEST_F(SeveralModuliOf, FromPixelsTheTruthLiesInNineOfTenIntervals) {
   // 200 cells at 0.34 um and random positions: 90 % intervals hold 90 % +- 2.1 % (standard deviation of the count)
-  // where errors are normal; the bias of pixels is that of the law.
+  // where errors are normal; the bias of pixels is that of the rendered errors.
   constexpr double pixel_um = 0.34;
-  const PixelLaw law(between_, pixel_um, 100);
+  const RenderedErrors pixels(between_, pixel_um, 100);
   const auto all = estimator(features_of_contour());
   constexpr int cells = 200;
   int young = 0, cortex = 0;
@@ -115,7 +115,7 @@ TEST_F(SeveralModuliOf, FromPixelsTheTruthLiesInNineOfTenIntervals) {
     const Cell cell = random_cell(0.15);
     const auto features =
         features_in_pixels(invented_outline(cell.place, cell.stiffness), pixel_um, {place(engine_), place(engine_)});
-    const auto found = fit_pixels(all, law, features, simulated_);
+    const auto found = fit_pixels(all, pixels, features, simulated_);
     young += std::abs(found.value(Modulus::young) - cell.young()) < 1.645 * found.error(Modulus::young);
     cortex += std::abs(found.value(Modulus::cortex) - cell.cortex()) < 1.645 * found.error(Modulus::cortex);
   }
@@ -146,6 +146,11 @@ TEST_F(SeveralModuliOf, ShapesThatNoCellHasAreSaid) {
   };
   EXPECT_EQ(status(0, std::log(2000)), ModuliStatus::outside_table);
   EXPECT_EQ(status(0, std::nan("")), ModuliStatus::no_data);
+  FlowConditions unknown = simulated_;
+  unknown.viscosity_mPas = std::nan("");
+  const auto without_viscosity = all.fit(good, unknown);
+  EXPECT_EQ(without_viscosity.status, ModuliStatus::no_data);
+  EXPECT_TRUE(std::isnan(without_viscosity.stiffness_kPa)) << "no number stands where nothing is known";
   EXPECT_EQ(status(int(ShapeFeature::first_mode) + 4, 0.2), ModuliStatus::poor_fit);
 }
 

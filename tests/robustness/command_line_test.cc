@@ -77,6 +77,7 @@ TEST(CommandLine, HelpAndVersionAnswerOnStandardOutput) {
                                                                      {RHEOCYTE, "help"},
                                                                      {RHEOCYTE, "help", "case"},
                                                                      {RHEOCYTE, "help", "solve"},
+                                                                     {RHEOCYTE, "help", "moduli"},
                                                                      {RHEOCYTE, "--version"},
                                                                      {RHEOCYTE, "help", "case", "--markdown"}}) {
     const auto ended = run({arguments});

@@ -1,4 +1,4 @@
-#include "infer/pixel_law.h"
+#include "infer/rendered_errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,8 @@ std::array<double, mode_count> modes_of(const CombinedState& state) {
 
 }  // namespace
 
-PixelLaw::PixelLaw(const CombinedInterpolation& table, double pixel_size_um, int draws) : box_(table.box()) {
+RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, int draws)
+    : box_(table.box()) {
   double& least = box_.least(int(CellCoordinate::log_deformation));
   least = std::max(least, std::log(least_deformation));
   std::uint64_t number = 0;
@@ -41,7 +42,7 @@ PixelLaw::PixelLaw(const CombinedInterpolation& table, double pixel_size_um, int
       }
 }
 
-ShapeErrors PixelLaw::at(const CellCoordinates& cell) const {
+ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
   std::array<int, axes> below{};
   std::array<double, axes> share{};
   for (std::size_t axis = 0; axis < axes; ++axis) {
@@ -68,13 +69,13 @@ ShapeErrors PixelLaw::at(const CellCoordinates& cell) const {
   return sum;
 }
 
-ModuliEstimate fit_pixels(const SeveralModuli& moduli, const PixelLaw& law, const ShapeVector& measured,
+ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
                           const FlowConditions& conditions) {
   constexpr int rounds = 3;  // the bias hardly depends on the cell: the third one changes nothing that matters
-  CellCoordinates cell = law.middle();
+  CellCoordinates cell = errors.middle();
   ModuliEstimate estimate;
   for (int round = 0; round < rounds; ++round) {
-    estimate = moduli.fit({measured, law.at(cell)}, conditions);
+    estimate = moduli.fit({measured, errors.at(cell)}, conditions);
     if (estimate.status == ModuliStatus::no_data) break;
     cell = estimate.cell;
   }

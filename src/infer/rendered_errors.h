@@ -1,0 +1,38 @@
+// Errors of pixels of all features of a shape, for all cells of a combined table: what the fit of several moduli needs.
+//
+// Young's modulus of a solid needs area and deformation only, for millions of events in a second: that is the fitted
+// law of measurement/pixel_errors.h. Several moduli need the covariance of all modes, and the shape between solid and
+// shell, of which area and deformation alone tell nothing. Rendering costs about a second for each recording, beside a
+// fit of milliseconds for each event. For solids both agree (tests/infer/rendered_errors_test.cc).
+#pragma once
+#include <array>
+#include <vector>
+
+#include "infer/several_moduli.h"
+#include "table/combined_interpolation.h"
+
+namespace rheocyte {
+
+/// Bias (measured - true) and covariance of the features of a true shape at a few radii, shares and deformations of a
+/// table, by rendering at random positions; linear in ln r0, share and ln d between them. Repeatable.
+class RenderedErrors {
+ public:
+  /// The pixel (um) as wide as in the table's channel: pixel size x table's width / recording's width.
+  RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, int draws = 200);
+
+  ShapeErrors at(const CellCoordinates& cell) const;
+  CellCoordinates middle() const { return (box_.least + box_.greatest) / 2; }
+
+ private:
+  static constexpr int axes = 3;
+  static constexpr std::array<int, axes> nodes{6, 3, 6};
+
+  CellBox box_;
+  std::vector<ShapeErrors> errors_;
+};
+
+/// The moduli of a cell in pixels: the errors are those at the cell that is found.
+ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
+                          const FlowConditions& conditions);
+
+}  // namespace rheocyte
