@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "infer/pixel_law.h"
+#include "program.h"
 #include "synth/shape_in_pixels.h"
 
 namespace {
@@ -88,7 +89,7 @@ struct Tally {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int rheocyte::measure(int argc, char** argv) {
   if (argc < 3) return fmt::print("check_combined TABLE-FOLDER RESULT-FOLDERS...\n"), 2;
   const CombinedTable table = read_combined_table(argv[1]);
   const CombinedInterpolation between(table);
@@ -126,4 +127,5 @@ int main(int argc, char** argv) {
   exact_contour.print("exact contour, area and modes 2 .. 6");
   pixel_figure.print("pixels, area, d and Lambda1/Lambda2");
   pixel_contour.print("pixels, area and modes 2 .. 6");
+  return 0;
 }
