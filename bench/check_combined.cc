@@ -16,6 +16,7 @@
 
 #include "infer/rendered_errors.h"
 #include "measurement/pixel_errors.h"
+#include "program.h"
 #include "synth/shape_in_pixels.h"
 
 namespace {
@@ -120,7 +121,7 @@ void print_errors_of_pixels(const CombinedInterpolation& table, const RenderedEr
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("check_combined TABLE-FOLDER RESULT-FOLDERS...\n"), 2;
   const CombinedTable table = read_combined_table(argv[1]);
   const CombinedInterpolation between(table);
@@ -160,4 +161,5 @@ int main(int argc, char** argv) {
   exact_contour.print("exact contour, area and modes 2 .. 6");
   pixel_figure.print("pixels, area, d and Lambda1/Lambda2");
   pixel_contour.print("pixels, area and modes 2 .. 6");
+  return 0;
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "app/table_folder.h"
+#include "program.h"
 #include "table/grid_from_branches.h"
 #include "table/table_interpolation.h"
 
@@ -34,7 +35,7 @@ void print_differences(const char* what, std::vector<double>& all) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("check_grid DIR [GRID]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
   const auto branches = TableFolder(argv[1], spec).read_all();
@@ -89,4 +90,5 @@ int main(int argc, char** argv) {
   print_differences("regularised", held);
   for (const auto& [names, count] : disagreements)
     fmt::print("{:.3f} %: {} between the branches, {} in the grid\n", count / 2000.0, names.first, names.second);
+  return 0;
 }

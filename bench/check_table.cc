@@ -12,6 +12,7 @@
 
 #include "app/table_folder.h"
 #include "case/scales.h"
+#include "program.h"
 #include "solve/stationary.h"
 #include "table/table_interpolation.h"
 
@@ -32,7 +33,7 @@ double guess_stiffness(const std::vector<SampledBranch>& branches, double radius
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("check_table DIR [POINTS]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
   auto branches = TableFolder(argv[1], spec).read_all();
@@ -70,4 +71,5 @@ int main(int argc, char** argv) {
   if (n == 0) return fmt::print("no point lies in the table\n"), 1;
   fmt::print("{} points, median {:.2e}, 95 % below {:.2e}, greatest {:.2e}; {} beyond the smooth branch\n", n,
              differences[n / 2], differences[n * 95 / 100], differences.back(), beyond);
+  return 0;
 }

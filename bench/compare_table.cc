@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/table_folder.h"
+#include "program.h"
 #include "table/table_interpolation.h"
 
 namespace {
@@ -28,7 +29,7 @@ void print_distribution(const char* name, std::vector<double> differences) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int rheocyte::measure(int argc, char** argv) {
   if (argc < 3) return fmt::print("compare_table DIR PUBLISHED.txt [POINTS.csv]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
   const auto branches = TableFolder(argv[1], spec).read_all();
@@ -56,4 +57,5 @@ int main(int argc, char** argv) {
   print_distribution("bare", bare);
   print_distribution("regularised", regularised);
   for (const auto& [reason, count] : without) fmt::print("{:<12} {:>6} rows\n", reason, count);
+  return 0;
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "program.h"
 #include "shape/measures.h"
 #include "solve/resolved_branch.h"
 
@@ -60,7 +61,7 @@ void solve(const Problem& problem, const NewtonOptions& options, const ResolvedS
 
 }  // namespace
 
-int main() {
+int rheocyte::measure(int, char**) {
   const Problem problem = standard_cell();
   NewtonOptions options;
   options.tolerance = 1e-12;
@@ -76,4 +77,5 @@ int main() {
     const std::string error = row.series == reference.name ? "" : fmt::format("{:.3e}", row.deformation / limit - 1);
     fmt::print("{},{},{},{:.12f},{}\n", row.series, row.degree, row.unknowns, row.deformation, error);
   }
+  return 0;
 }

@@ -6,7 +6,6 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -19,6 +18,7 @@
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/viscosity.h"
+#include "program.h"
 
 namespace rheocyte {
 namespace {
@@ -175,17 +175,13 @@ BENCHMARK(features_from_masks)->Unit(benchmark::kMillisecond);
 }  // namespace
 }  // namespace rheocyte
 
-int main(int argc, char** argv) {
+int rheocyte::measure(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  try {
-    if (argc != 3) throw rheocyte::UserError("usage: bench_extract TABLE GRID [options of Google Benchmark]");
-    rheocyte::table = std::make_unique<rheocyte::ParityModulus>(rheocyte::read_published_table(argv[1]));
-    std::ifstream file(argv[2], std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    rheocyte::grid = std::make_unique<rheocyte::GridModulus>(rheocyte::grid_from_bytes(bytes, argv[2]));
-  } catch (const rheocyte::UserError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
+  if (argc != 3) throw UserError("usage: bench_extract TABLE GRID [options of Google Benchmark]");
+  table = std::make_unique<ParityModulus>(read_published_table(argv[1]));
+  std::ifstream file(argv[2], std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  grid = std::make_unique<GridModulus>(grid_from_bytes(bytes, argv[2]));
   benchmark::RunSpecifiedBenchmarks();
+  return 0;
 }

@@ -15,6 +15,7 @@
 #include "app/table_folder.h"
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
+#include "program.h"
 #include "synth/branch_shapes.h"
 #include "synth/outline.h"
 #include "synth/pixel_picture.h"
@@ -150,7 +151,7 @@ Eigen::RowVector2d deviations(const Eigen::MatrixX2d& left) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("pixel_errors DIR [SHAPES [PLACES]]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
   const double width = channel_width_um(spec.base), rate = spec.base.flow.rate_ul_per_s.value(),
@@ -198,4 +199,5 @@ int main(int argc, char** argv) {
                low, at(area_left, 0.5), at(area_left, 0.95), at(excess_left, 0.5), at(excess_left, 0.95),
                at(area_ratio, 0.05), at(area_ratio, 0.95), at(deformation_ratio, 0.05), at(deformation_ratio, 0.95));
   }
+  return 0;
 }

@@ -132,5 +132,30 @@ class Names(TreeTest):
             self.assertEqual(check_floors.violations(Path(folder)), [])
 
 
+class Labels(TreeTest):
+    EQUATIONS = "`eq:a`\n```math\nx\n```\n5. `eq:b`  $y$\n"
+
+    def test_labels_of_equations_pass(self):
+        self.accept({"docs/a.md": self.EQUATIONS + "by `eq:a` and eq:b\n", "src/fem/a.cc": "// docs/a.md, eq:b\n"})
+
+    def test_a_label_without_an_equation_fails(self):
+        self.reject({"docs/a.md": self.EQUATIONS, "src/fem/a.cc": "\n// eq:c\n"}, ("src/fem/a.cc", 2), "eq:c")
+
+    def test_a_label_in_another_document_fails(self):
+        tree = {"docs/a.md": self.EQUATIONS, "docs/b.md": "\n", "src/fem/a.cc": "// docs/b.md, eq:a\n"}
+        self.reject(tree, ("src/fem/a.cc", 1), "stands in docs/a.md")
+
+    def test_a_label_at_two_equations_fails(self):
+        self.reject({"docs/a.md": self.EQUATIONS, "docs/b.md": "`eq:b`\n"}, ("docs/b.md", 1), "another equation")
+
+    def test_documents_and_links_that_are_there_pass(self):
+        tree = {"docs/a.md": "[b](b.md), [c](../c.txt), [d](b.md#d), [e](https://example.org/e.md)\n", "c.txt": "\n"}
+        self.accept({**tree, "docs/b.md": "docs/a.md\n"})
+
+    def test_documents_and_links_that_are_not_there_fail(self):
+        self.reject({"docs/a.md": "[b](b.md)\n"}, ("docs/a.md", 1), "there is no docs/b.md")
+        self.reject({"src/fem/a.cc": "// docs/b.md\n"}, ("src/fem/a.cc", 1), "there is no docs/b.md")
+
+
 if __name__ == "__main__":
     unittest.main()

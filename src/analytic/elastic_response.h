@@ -1,4 +1,5 @@
-// Small displacements of an elastic sphere and of an elastic shell under a traction (docs/theory.md, sec. "response").
+// Small displacements of an elastic sphere and of an elastic shell under a traction (docs/theory-analytic.md, sec.
+// "response").
 #pragma once
 #include "analytic/surface_modes.h"
 

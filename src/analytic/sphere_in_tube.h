@@ -1,4 +1,5 @@
-// A rigid sphere that floats on the axis of a tube in Poiseuille flow, without inertia (docs/theory.md, sec. "flow").
+// A rigid sphere that floats on the axis of a tube in Poiseuille flow, without inertia (docs/theory-analytic.md, sec.
+// "flow").
 #pragma once
 #include "analytic/surface_modes.h"
 

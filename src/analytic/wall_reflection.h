@@ -1,4 +1,4 @@
-// How the wall of a tube answers a singular Stokes flow at its axis (docs/theory.md, eq:reflection).
+// How the wall of a tube answers a singular Stokes flow at its axis (docs/theory-analytic.md, eq:reflection).
 #pragma once
 #include <Eigen/Core>
 

@@ -82,7 +82,7 @@ int make_table(const TableOptions& options) {
   const TableFolder folder(options.folder, spec);
   const Rank rank = rank_from_environment();
   const int jobs = options.jobs > 0 ? options.jobs : rank.count > 1 ? 1 : available_processors();
-  const ProcessesEnd end = run_workers(options.folder, jobs, options.quiet || rank.number > 0);
+  const ProcessesEnd end = run_workers(folder, jobs, options.quiet || rank.number > 0);
   if (end.signal) {
     tell(fmt::format("rheocyte: stopped after {} of {} branches; the same command goes on from here.", folder.done(),
                      folder.branches()));

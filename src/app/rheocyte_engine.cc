@@ -22,7 +22,12 @@ int main(int argc, char** argv) {
                                   [&] { exit_code = rheocyte::solve_case(options); });
   auto* worker = app.add_subcommand("table-worker", "compute what is missing of a table");
   std::string folder;
+  bool check_only = false;
   worker->add_option("DIR", folder)->required();
-  worker->callback([&] { exit_code = rheocyte::work_on_table(folder); });
+  worker->add_flag("--check", check_only, "only whether this program can take part");
+  worker->callback([&] {
+    if (check_only) return rheocyte::check_table(folder);
+    exit_code = rheocyte::work_on_table(folder);
+  });
   return rheocyte::run_command_line(app, argc, argv, exit_code);
 }

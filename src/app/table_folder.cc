@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -13,6 +14,7 @@
 #include "app/build_info.h"
 #include "app/whole_file.h"
 #include "case/user_error.h"
+#include "case/write_case.h"
 
 namespace rheocyte {
 
@@ -22,6 +24,7 @@ namespace {
 
 constexpr const char* work = "branches";
 constexpr const char* mark = "begun-by.txt";
+constexpr const char* beginning = "begun-by.claim";  ///< whoever holds it writes spec and mark
 
 std::string reason_of(int number) { return std::generic_category().message(number); }
 
@@ -41,6 +44,28 @@ bool is_unfinished(const fs::path& path) {
          process.find_first_not_of("0123456789", 1) == std::string::npos;
 }
 
+// Nothing if another process holds it, unless the operation waits for that one.
+Claim claim_on(const fs::path& path, int operation) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) refuse(path, fmt::format("cannot be made ({}).", reason_of(errno)));
+  if (::flock(descriptor, operation) == 0) return Claim(descriptor);
+  const int reason = errno;
+  ::close(descriptor);
+  if (reason != EWOULDBLOCK)
+    refuse(path, fmt::format("cannot be locked ({}); put the table on a file system that knows locks, with -o.",
+                             reason_of(reason)));
+  return {};
+}
+
+std::string mark_of_earlier_builds(const std::string& spec_hash) {
+  return fmt::format("rheocyte {} table, spec {}\n", version, spec_hash);
+}
+
+bool is_cell_of(const BranchPlace& place, const SampledBranch& branch) {
+  return std::abs(branch.radius_um - place.radius_um) < 1e-9 * place.radius_um &&
+         branch.cortex_share == place.cortex_share && branch.tension_ratio == place.tension_ratio;
+}
+
 void write_whole(const fs::path& path, std::string_view content) {
   const fs::path scratch = path.string() + fmt::format(".{}.tmp", ::getpid());
   std::error_code ignored;
@@ -58,26 +83,61 @@ Claim::~Claim() {
 
 TableFolder::TableFolder(const fs::path& folder, const TableSpec& spec)
     : folder_(folder), spec_(spec), hash_(spec_hash(spec)), places_(sweep_places(spec)) {
+  mark_ = fmt::format("rheocyte {} table, spec {}, branches {}\n", version, hash_, fingerprint(layout()));
   begin();
 }
 
-void TableFolder::begin() const {
-  const std::string wanted = fmt::format("rheocyte {} table, spec {}\n", version, hash_);
+// Two programs that agree on this want the same files with the same cells and can read each other's. Six digits: the
+// last bits of a radius depend on the processor for which a program was built.
+std::string TableFolder::layout() const {
+  std::string text = branch_record_format() + "\n";
+  for (int i = 0; i < branches(); ++i)
+    text += fmt::format("{} {:.6g} {:.6g} {:.6g}{}\n", record(i, false).filename().string(), place(i).radius_um,
+                        place(i).cortex_share, place(i).tension_ratio, wants_held() ? " held" : "");
+  return text;
+}
+
+bool TableFolder::is_begun() const {
   std::error_code error;
-  if (fs::exists(folder_ / mark, error)) {
-    const std::string found = content_of(folder_ / mark);
-    if (found == wanted) return;
-    refuse(folder_,
-           fmt::format("holds a table that was begun as \"{}\", not as \"{}\"; give another folder with -o, or "
-                       "the spec and program of the first start.",
-                       found.substr(0, found.find('\n')), wanted.substr(0, wanted.size() - 1)));
-  }
-  if (fs::exists(folder_, error) && (!fs::is_directory(folder_, error) || !fs::is_empty(folder_, error)))
+  if (!fs::exists(folder_ / mark, error)) return false;
+  const std::string found = content_of(folder_ / mark);
+  if (found == mark_ || found == mark_of_earlier_builds(hash_)) return true;
+  refuse(folder_, fmt::format("holds a table that was begun as \"{}\", not as \"{}\"; give another folder with -o, or "
+                              "the spec and program of the first start.",
+                              found.substr(0, found.find('\n')), mark_.substr(0, mark_.size() - 1)));
+}
+
+void TableFolder::begin() const {
+  if (is_begun()) return;
+  std::error_code error, ignored;
+  fs::create_directories(folder_, error);
+  if (error && !fs::exists(folder_, ignored)) refuse(folder_, fmt::format("cannot be made ({}).", error.message()));
+  const bool has_files = !fs::is_directory(folder_, ignored) || !fs::is_empty(folder_, ignored);
+  // With the claim beside them they are ours: of a process that begins at this moment, or was lost on the way.
+  if (has_files && !fs::exists(folder_ / beginning, ignored))
     refuse(folder_, "holds other files; give a new or empty folder with -o.");
+  const Claim alone = claim_on(folder_ / beginning, LOCK_EX);
+  if (is_begun()) return;
   fs::create_directories(folder_ / work, error);
   if (error) refuse(folder_, fmt::format("cannot be made ({}).", error.message()));
   write_whole(folder_ / "spec.toml", to_toml(spec_));
-  write_whole(folder_ / mark, wanted);
+  write_whole(folder_ / mark, mark_);
+}
+
+void TableFolder::take_over() const {
+  std::string first;
+  int unusable = 0;
+  for (int i = 0; i < branches(); ++i)
+    for (const bool held : {false, true}) {
+      try {
+        if (has(i, held)) read(i, held);
+      } catch (const UserError& error) {
+        if (unusable++ == 0) first = error.what();
+      }
+    }
+  if (unusable > 1) first += fmt::format(" There are {} of that kind in this folder.", unusable);
+  if (unusable > 0) throw UserError(first);
+  if (content_of(folder_ / mark) != mark_) write_whole(folder_ / mark, mark_);
 }
 
 fs::path TableFolder::record(int i, bool held) const {
@@ -99,11 +159,12 @@ int TableFolder::done() const {
 }
 
 Claim TableFolder::claim(int i) const {
-  const fs::path path = folder_ / work / fmt::format("branch-{:04}.claim", i);
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) refuse(path, fmt::format("cannot be made ({}).", reason_of(errno)));
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return Claim(descriptor);
-  ::close(descriptor);
+  return claim_on(folder_ / work / fmt::format("branch-{:04}.claim", i), LOCK_EX | LOCK_NB);
+}
+
+std::optional<int> TableFolder::first_free() const {
+  for (int i = 0; i < branches(); ++i)
+    if (!is_done(i) && claim(i) && !is_done(i)) return i;
   return {};
 }
 
@@ -112,7 +173,10 @@ void TableFolder::keep(int i, const SampledBranch& branch, bool held) const {
 }
 
 SampledBranch TableFolder::read(int i, bool held) const {
-  return branch_from_bytes(content_of(record(i, held)), hash_, record(i, held).string());
+  SampledBranch branch = branch_from_bytes(content_of(record(i, held)), hash_, record(i, held).string());
+  if (!branch.empty() && !is_cell_of(place(i), branch))
+    refuse(record(i, held), "this record holds another cell of the sweep; delete it, and it is computed again.");
+  return branch;
 }
 
 std::vector<SampledBranch> TableFolder::read_all() const {

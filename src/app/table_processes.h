@@ -1,6 +1,6 @@
 // The processes that compute a table: as many as processors, or the share of one rank under mpirun or srun.
 #pragma once
-#include <filesystem>
+#include "app/table_folder.h"
 
 namespace rheocyte {
 
@@ -22,7 +22,8 @@ struct ProcessesEnd {
 };
 
 /// Starts workers on a table's folder and waits until nothing is left to do for them, on this machine or another. A
-/// worker that is killed is replaced as long as the work goes on.
-ProcessesEnd run_workers(const std::filesystem::path& folder, int jobs, bool quiet);
+/// worker that is killed is replaced as long as the work goes on; workers that end while branches are missing on which
+/// nobody works end it with a sentence. UserError if the solver is missing or of another build.
+ProcessesEnd run_workers(const TableFolder& folder, int jobs, bool quiet);
 
 }  // namespace rheocyte

@@ -31,12 +31,16 @@ bool sample_place(const TableFolder& folder, int i) {
   return true;
 }
 
+TableFolder opened(const std::filesystem::path& path) { return {path, read_table_spec(path / "spec.toml")}; }
+
 }  // namespace
+
+void check_table(const std::filesystem::path& path) { opened(path); }
 
 int work_on_table(const std::filesystem::path& path) {
   watch_signals();
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // no work for nobody when the command is killed
-  const TableFolder folder(path, read_table_spec(path / "spec.toml"));
+  const TableFolder folder = opened(path);
   for (int i = 0; i < folder.branches(); ++i) {
     if (folder.is_done(i)) continue;
     const Claim claim = folder.claim(i);

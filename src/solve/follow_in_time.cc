@@ -13,7 +13,7 @@ namespace rheocyte {
 namespace {
 
 /// Resolves the stationary states of the paper's cells to 1e-5 of the deformation at degree 6
-/// (docs/verification-time.md).
+/// (docs/verification.md, sec. 9).
 constexpr Subdivision subdivision = {2, 4, 1, 2};
 
 /// So many elements along the surface, and as large ones as fit to them elsewhere.

@@ -70,4 +70,7 @@ double stiffness_at(const SampledBranch&, Measure, double value);
 std::string to_bytes(const SampledBranch&, const std::string& spec_hash);
 SampledBranch branch_from_bytes(std::string_view bytes, const std::string& spec_hash, const std::string& name);
 
+/// What a record of this program is: programs with equal words can read each other's.
+std::string branch_record_format();
+
 }  // namespace rheocyte

@@ -1,5 +1,6 @@
 // A branch as bytes.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "case/user_error.h"
 #include "table/branch.h"
@@ -92,6 +93,10 @@ SampledBranch checked_branch(std::string_view bytes, const std::string& spec_has
 }
 
 }  // namespace
+
+std::string branch_record_format() {
+  return fmt::format("{} {}: {}", kind.kind, kind.format, fmt::join(measure_names, ", "));
+}
 
 std::string to_bytes(const SampledBranch& branch, const std::string& spec_hash) {
   return sealed_record(kind, spec_hash, record_of(branch));

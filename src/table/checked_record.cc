@@ -49,7 +49,9 @@ std::string sealed_record(const RecordKind& kind, const std::string& spec_hash, 
 OpenedRecord opened_record(const RecordKind& kind, std::string_view bytes) {
   const json outer = json::from_cbor(bytes.begin(), bytes.end());
   if (outer.at("kind") != kind.kind) throw DamagedRecord{fmt::format("it is no {}", kind.kind)};
-  if (outer.at("format") != kind.format) throw DamagedRecord{"it was written by another version"};
+  if (outer.at("format") != kind.format)
+    throw DamagedRecord{fmt::format("it was written by another build, in format {} and not {}",
+                                    outer.at("format").dump(), kind.format)};
   const std::vector<std::uint8_t> record = outer.at("record").get_binary();
   const std::string spec = outer.at("spec");
   if (envelope(kind, record, spec) != bytes) throw DamagedRecord{"its checksum is wrong"};

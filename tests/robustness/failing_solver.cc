@@ -72,6 +72,7 @@ Outcome wait_for_stop(const std::atomic<bool>* stop) {
 
 }  // namespace
 
+void check_table(const std::filesystem::path&) {}
 int work_on_table(const std::filesystem::path&) { return 0; }
 
 StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress,

@@ -33,7 +33,7 @@ StationaryState solved(const Problem& problem) {
 }
 
 /// d / Ca^2 for Ca = eta Q / (R^2 E2D) -> 0 and gamma = 0.1 E2D: traction on the rigid sphere (series solution), linear
-/// membrane with tension (docs/theory.md, eq:shell-modes).
+/// membrane with tension (docs/theory-analytic.md, eq:shell-response).
 struct LinearResponse {
   double lambda, per_square;
 };
