@@ -1,8 +1,10 @@
-// How well moduli come back through a combined table: check_combined TABLE-FOLDER RESULT-FOLDERS...
-// Without results only this: by how much the two descriptions of the errors of pixels differ on the table's cells.
+// What a combined table says between its branches, against cells that were solved directly:
+// check_combined TABLE-FOLDER RESULT-FOLDERS...
 //
-// The results are of `rheocyte solve` in the table's channel. Of each cell the exact contour and pictures of it at
-// random positions of 0.34 um pixels give E and E2D, by the measures of figure 9 and by the whole contour.
+// The results are of `rheocyte solve` in the table's channel, at the tension of the table's first sheets. Compared are
+// stiffness, modes and outline at the cell's radius, share and deformation, the outline of a virtual cell of these
+// moduli, and the moduli that the exact contour gives. (Moduli from pixels: `rheocyte synth`, round_trip_moduli.)
+// Without results: by how much the two descriptions of the errors of pixels differ on the table's cells.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,20 +16,20 @@
 #include <string>
 #include <vector>
 
+#include "app/table_folder.h"
 #include "infer/rendered_errors.h"
+#include "infer/several_moduli.h"
 #include "measurement/pixel_errors.h"
 #include "program.h"
-#include "synth/shape_in_pixels.h"
+#include "synth/combined_shapes.h"
+#include "synth/outline.h"
 
 namespace {
 
 using namespace rheocyte;
 
-constexpr double pixel_um = 0.34;
-constexpr int positions = 40;
-
 struct SolvedCell {
-  double radius_um, young_kPa, cortex_mN_m;
+  double radius_um, young_kPa, cortex_mN_m, tension_mN_m;
   Eigen::MatrixX2d outline;
 };
 
@@ -46,8 +48,38 @@ SolvedCell read_cell(const std::filesystem::path& folder) {
   }
   Eigen::MatrixX2d meridian(Eigen::Index(points.size()), 2);
   for (Eigen::Index i = 0; i < meridian.rows(); ++i) meridian.row(i) = points[std::size_t(i)];
-  return {cell.at("radius_um"), cell.at("bulk").at("young_modulus_kPa"), cell.at("cortex").at("modulus_mN_per_m"),
+  const auto number = [&](const char* part, const char* key) {
+    const auto found = cell.at(part).find(key);
+    return found == cell.at(part).end() || !found->is_number() ? 0. : found->get<double>();
+  };
+  const double cortex = number("cortex", "modulus_mN_per_m");
+  return {cell.at("radius_um"), number("bulk", "young_modulus_kPa"), cortex, number("cortex", "tension_ratio") * cortex,
           mirrored(meridian)};
+}
+
+/// The silhouette about the centroid of its hull, which is all that features see.
+Eigen::MatrixX2d centred(const Eigen::MatrixX2d& outline) {
+  const OutlineShape shape = outline_shape(outline);
+  return outline.rowwise() - Eigen::RowVector2d(shape.x, shape.y);
+}
+
+/// From a point to the nearest edge of a closed polygon.
+double distance(const Eigen::RowVector2d& point, const Eigen::MatrixX2d& polygon) {
+  double least = INFINITY;
+  for (Eigen::Index i = 0; i < polygon.rows(); ++i) {
+    const Eigen::RowVector2d a = polygon.row(i), edge = polygon.row((i + 1) % polygon.rows()) - a;
+    const double along = std::clamp((point - a).dot(edge) / std::max(edge.squaredNorm(), 1e-300), 0., 1.);
+    least = std::min(least, (point - a - along * edge).norm());
+  }
+  return least;
+}
+
+/// How far the outline of a solved cell is from another one, at most, in um.
+double distance_um(const Eigen::MatrixX2d& solved, const Eigen::MatrixX2d& other) {
+  const Eigen::MatrixX2d a = centred(solved), b = centred(other);
+  double greatest = 0;
+  for (Eigen::Index i = 0; i < a.rows(); ++i) greatest = std::max(greatest, distance(a.row(i), b));
+  return greatest;
 }
 
 /// Relative errors of E and E2D over many fits, and how many 90 % intervals hold the truth.
@@ -89,6 +121,41 @@ struct Tally {
   }
 };
 
+/// What is collected over the cells.
+struct Comparison {
+  std::vector<double> stiffness, modes, outline, outline_of_modes, deformation;
+  int missing = 0;
+
+  void take(const SolvedCell& cell, const CombinedInterpolation& between, const CombinedShapes& shapes,
+            double viscosity_mPas) {
+    const ShapeVector shape = shape_vector(outline_shape(cell.outline));
+    const double S = cell.young_kPa + cell.cortex_mN_m / cell.radius_um;
+    const CombinedState state = between.at(place_of(cell, between));
+    stiffness.push_back(std::abs(state.value(log_stiffness_row) - std::log(S)));
+    modes.push_back((state.value.tail<mode_count>() - shape.tail<mode_count>()).cwiseAbs().maxCoeff());
+    const Eigen::MatrixX2d seen = silhouette(cell.outline.topRows(cell.outline.rows() / 2 + 1));
+    std::array<double, mode_count> own{};
+    for (int k = 0; k < mode_count; ++k) own[std::size_t(k)] = shape(first_mode_row + k);
+    outline_of_modes.push_back(distance_um(seen, rheocyte::outline_of_modes(own, std::exp(shape(0)), 720)));
+    const auto found =
+        shapes.shape({cell.radius_um, cell.young_kPa, viscosity_mPas, cell.cortex_mN_m, cell.tension_mN_m});
+    if (const auto* virtual_cell = std::get_if<CellShape>(&found)) {
+      outline.push_back(distance_um(seen, silhouette(virtual_cell->meridian)));
+      deformation.push_back(std::abs(outline_shape(mirrored(virtual_cell->meridian)).deformation / shape(1) - 1));
+    } else {
+      ++missing;
+    }
+  }
+
+  static CellCoordinates place_of(const SolvedCell& cell, const CombinedInterpolation& between) {
+    const double S = cell.young_kPa + cell.cortex_mN_m / cell.radius_um;
+    return {std::log(cell.radius_um), 1 - cell.young_kPa / S, std::log(outline_shape(cell.outline).deformation),
+            between.tension_ratios().front()};
+  }
+};
+
+constexpr double pixel_um = 0.34;
+
 /// Rendered errors and the fitted law (measurement/pixel_errors.h) at cells of one share, deformation by deformation.
 void print_errors_of_pixels(const CombinedInterpolation& table, const RenderedErrors& rendered) {
   constexpr int area = int(ShapeFeature::area_um2), deformation = int(ShapeFeature::deformation);
@@ -123,43 +190,33 @@ void print_errors_of_pixels(const CombinedInterpolation& table, const RenderedEr
 
 int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("check_combined TABLE-FOLDER RESULT-FOLDERS...\n"), 2;
-  const CombinedTable table = read_combined_table(argv[1]);
-  const CombinedInterpolation between(table);
-  const FlowConditions conditions = conditions_of(table.spec);
-  const RenderedErrors pixels(between, pixel_um);
-  print_errors_of_pixels(between, pixels);
-  if (argc == 2) return 0;
+  const std::filesystem::path name = argv[1];
+  const TableFolder folder(name, read_table_spec(name / "spec.toml"));
+  const CombinedInterpolation between(read_combined_table(name));
+  const FlowConditions conditions = conditions_of(folder.spec());
+  if (argc == 2) return print_errors_of_pixels(between, RenderedErrors(between, pixel_um)), 0;
+  const double width = conditions.channel_width_um, rate = conditions.flow_rate_ul_s;
+  const CombinedShapes shapes(folder.spec(), folder.read_all(), {width, rate, conditions.viscosity_mPas, width, rate});
   const SeveralModuli by_figure(between, conditions, {features_of_figure()}),
       by_contour(between, conditions, {features_of_contour()});
   ShapeErrors fine;
   fine.covariance.diagonal().setConstant(1e-8);
-  Tally exact_figure, exact_contour, pixel_figure, pixel_contour;
-  std::vector<double> stiffness, modes;
-  CellRandom random(7, 0, Purpose::place);
+  Tally exact_figure, exact_contour;
+  Comparison comparison;
   for (int i = 2; i < argc; ++i) {
     const SolvedCell cell = read_cell(argv[i]);
+    if (!between.at(Comparison::place_of(cell, between)).inside) continue;
+    comparison.take(cell, between, shapes, conditions.viscosity_mPas);
     const ShapeVector shape = shape_vector(outline_shape(cell.outline));
-    const double S = cell.young_kPa + cell.cortex_mN_m / cell.radius_um;
-    const CellCoordinates place(std::log(cell.radius_um), 1 - cell.young_kPa / S, std::log(shape(1)),
-                                between.tension_ratios().front());
-    const CombinedState state = between.at(place);
-    if (!state.inside) continue;
-    stiffness.push_back(std::abs(state.value(log_stiffness_row) - std::log(S)));
-    modes.push_back((state.value.tail<mode_count>() - shape.tail<mode_count>()).cwiseAbs().maxCoeff());
     exact_figure.take(by_figure.fit({shape, fine}, conditions), cell);
     exact_contour.take(by_contour.fit({shape, fine}, conditions), cell);
-    for (int k = 0; k < positions; ++k) {
-      const double x = random.uniform() - 0.5, y = random.uniform() - 0.5;
-      const auto seen = features_in_pixels(cell.outline, pixel_um, {x, y});
-      pixel_figure.take(fit_pixels(by_figure, pixels, seen, conditions), cell);
-      pixel_contour.take(fit_pixels(by_contour, pixels, seen, conditions), cell);
-    }
   }
-  fmt::print("{} cells inside the table\ninterpolation: ln S {}; modes {}\n", stiffness.size(),
-             Tally::spread(stiffness), Tally::spread(modes));
+  fmt::print("{} cells inside the table, {} without an outline\ninterpolation: ln S {}; modes {}\n",
+             comparison.stiffness.size(), comparison.missing, Tally::spread(comparison.stiffness),
+             Tally::spread(comparison.modes));
+  fmt::print("outlines of virtual cells: off by {} um; deformation {}\nthose of the exact modes: {} um\n",
+             Tally::spread(comparison.outline), Tally::spread(comparison.deformation),
+             Tally::spread(comparison.outline_of_modes));
   exact_figure.print("exact contour, area, d and Lambda1/Lambda2");
   exact_contour.print("exact contour, area and modes 2 .. 6");
-  pixel_figure.print("pixels, area, d and Lambda1/Lambda2");
-  pixel_contour.print("pixels, area and modes 2 .. 6");
-  return 0;
 }

@@ -11,8 +11,9 @@ namespace rheocyte {
 /// A cell and the liquid round it; the channel and the flow rate are those of the recording.
 struct VirtualCell {
   double radius_um = 0;  ///< of the sphere at rest
-  double stiffness = 0;  ///< Young's modulus (kPa) of a solid, modulus of the cortex (mN/m) of a shell
+  double stiffness = 0;  ///< Young's modulus (kPa) of what has a bulk, modulus of the cortex (mN/m) of a shell
   double viscosity_mPas = 0;
+  double cortex_modulus_mN_per_m = 0, tension_mN_per_m = 0;  ///< of a combined cell
 };
 
 /// The stationary state of a cell, in um.
@@ -24,10 +25,11 @@ struct CellShape {
 };
 
 /// Why a model has no shape for a cell.
-enum class NoShape { too_small, too_large, too_stiff, too_soft, outside_picture };
+enum class NoShape { too_small, too_large, too_stiff, too_soft, outside_picture, outside_sheets };
 
-inline constexpr std::array<std::string_view, 5> names_of_missing_shapes{"too small", "too large", "too stiff",
-                                                                         "too soft", "outside the picture"};
+inline constexpr std::array<std::string_view, 6> names_of_missing_shapes{
+    "too small", "too large",           "too stiff",
+    "too soft",  "outside the picture", "of a cortex or tension outside the table"};
 
 class CellShapes {
  public:

@@ -37,10 +37,13 @@ ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_
 ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random) {
   assert(draws > 1);
   const ShapeVector truth = shape_vector(outline_shape(outline_um));
+  const double height = outline_um.col(1).maxCoeff() - outline_um.col(1).minCoeff();
   ShapeErrors errors;
   for (int draw = 0; draw < draws; ++draw) {
     const double x = random.uniform() - 0.5, y = random.uniform() - 0.5;
-    const ShapeVector error = features_in_pixels(outline_um, pixel_size_um, {x, y}) - truth;
+    const double size = 1 + (random.uniform() - 0.5) * pixel_size_um / height;
+    ShapeVector error = features_in_pixels(size * outline_um, pixel_size_um, {x, y}) - truth;
+    error(int(ShapeFeature::area_um2)) -= 2 * std::log(size);
     errors.bias += error / draws;
     errors.covariance += error * error.transpose() / (draws - 1);
   }

@@ -6,7 +6,9 @@
 namespace rheocyte {
 
 /// Renders the outline (um, x along the flow) at `draws` random positions, as fill_mask does, and measures each mask's
-/// contour. The covariance is that of one picture.
+/// contour. Sizes are spread over one pixel of the height, because a cell that is a whole number of pixels high counts
+/// as many rows nearly wherever it lies, and its errors are those of no other cell. The covariance is that of one
+/// picture.
 ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random);
 
 /// Features of the outline in one picture with the cell's middle at `place_px` from the middle of a pixel.

@@ -19,9 +19,17 @@ SynthWord text(std::string_view fallback, std::vector<std::string_view> options 
   return {std::move(options), fallback, [](SynthSpec& spec, const std::string& value) { spec.*field = value; }};
 }
 
-template <Spread SynthSpec::*field>
+template <auto field>
 SynthSpread spread(Range range, std::optional<double> fallback = {}) {
   return {range, fallback, [](SynthSpec& spec, const Spread& value) { spec.*field = value; }};
+}
+
+void set_kind(SynthSpec& spec, const std::string& word) {
+  spec.kind = word == "solid" ? CellKind::solid : word == "shell" ? CellKind::shell : CellKind::combined;
+}
+
+void set_cortex_modulus(SynthSpec& spec, const Spread& value) {
+  (spec.kind == CellKind::combined ? spec.cortex_modulus : spec.stiffness) = value;
 }
 
 // The ranges are wide; they catch wrong units.
@@ -63,17 +71,17 @@ const std::array table{
     SynthKey{"flow.temperature_C", "degC", "temperature of the medium at each cell",
              spread<&SynthSpec::temperature_C>({0, 60}, 23)},
 
-    SynthKey{"cell.kind", "", "solid, or shell round a liquid",
-             SynthWord{{"solid", "shell"},
-                       "solid",
-                       [](SynthSpec& spec, const std::string& word) {
-                         spec.kind = word == "solid" ? CellKind::solid : CellKind::shell;
-                       }}},
+    SynthKey{"cell.kind", "", "solid, shell round a liquid, or combined: a solid in a shell",
+             SynthWord{{"solid", "shell", "combined"}, "solid", set_kind}},
     SynthKey{"cell.radius_um", "um", "radius of the spheres at rest", spread<&SynthSpec::radius_um>({0.1, 500})},
-    SynthKey{"cell.young_modulus_kPa", "kPa", "Young's modulus of solids", spread<&SynthSpec::stiffness>({1e-6, 1e6})},
-    SynthKey{"cell.cortex_modulus_mN_per_m", "mN/m", "modulus E2D of shells",
+    SynthKey{"cell.young_modulus_kPa", "kPa", "Young's modulus of solids and combined cells",
              spread<&SynthSpec::stiffness>({1e-6, 1e6})},
-    SynthKey{"cell.tension_ratio", "", "tension of shells over E2D", number<&SynthSpec::tension_ratio>({0, 100}, 0)},
+    SynthKey{"cell.cortex_modulus_mN_per_m", "mN/m", "modulus E2D of shells and combined cells",
+             SynthSpread{{1e-6, 1e6}, {}, set_cortex_modulus}},
+    SynthKey{"cell.tension_ratio", "", "tension of shells and combined cells over E2D",
+             spread<&SynthSpec::tension_ratio>({0, 100})},
+    SynthKey{"cell.tension_mN_per_m", "mN/m", "tension of combined cells, in place of the ratio",
+             spread<&SynthSpec::tension_mN_per_m>({0, 1e6})},
 
     SynthKey{"shapes.table", "",
              "folder of a table by `rheocyte table`, seen from the spec; without it the closed model",

@@ -128,18 +128,54 @@ bool set_spread(SynthSpec& spec, const SynthKey& key, const SynthSpread& wanted,
   return true;
 }
 
-void read_stiffness(SynthSpec& spec, const GivenByKey& keys, const std::string& name) {
-  const bool shell = spec.kind == CellKind::shell;
-  const std::string wanted = shell ? "cell.cortex_modulus_mN_per_m" : "cell.young_modulus_kPa";
-  const std::string other = shell ? "cell.young_modulus_kPa" : "cell.cortex_modulus_mN_per_m";
-  for (const auto& [key, given] : keys)
-    if (key.starts_with(other) || (!shell && key == "cell.tension_ratio"))
-      refuse(given, fmt::format("{} has no effect, because cell.kind is \"{}\"; remove it or choose \"{}\".",
-                                stated(given), shell ? "shell" : "solid", shell ? "solid" : "shell"));
-  const auto key = std::ranges::find(synth_keys(), wanted, &SynthKey::key);
-  if (!set_spread(spec, *key, std::get<SynthSpread>(key->value), keys))
-    throw UserError(fmt::format("{}: the key {} is missing; it can be {} ({}).", name, wanted, allowed_values(*key),
-                                key->sentence));
+/// What can be given of a cell, and for which kinds.
+struct CellKey {
+  std::string_view key;
+  std::vector<CellKind> kinds;
+  bool is_required = true;
+};
+
+std::string_view name_of(CellKind kind) {
+  return kind == CellKind::solid ? "solid" : kind == CellKind::shell ? "shell" : "combined";
+}
+
+void read_moduli(SynthSpec& spec, const GivenByKey& keys, const std::string& name) {
+  using enum CellKind;
+  const std::array<CellKey, 4> table{{{"cell.young_modulus_kPa", {solid, combined}},
+                                      {"cell.cortex_modulus_mN_per_m", {shell, combined}},
+                                      {"cell.tension_ratio", {shell, combined}, false},
+                                      {"cell.tension_mN_per_m", {combined}, false}}};
+  for (const auto& [wanted, kinds, is_required] : table) {
+    const auto key = std::ranges::find(synth_keys(), wanted, &SynthKey::key);
+    if (std::ranges::find(kinds, spec.kind) != kinds.end()) {
+      if (!set_spread(spec, *key, std::get<SynthSpread>(key->value), keys) && is_required)
+        throw UserError(fmt::format("{}: the key {} is missing; it can be {} ({}).", name, wanted, allowed_values(*key),
+                                    key->sentence));
+      continue;
+    }
+    std::string others;
+    for (const CellKind kind : kinds) others += fmt::format("{}\"{}\"", others.empty() ? "" : " or ", name_of(kind));
+    for (const auto& [given_key, given] : keys)
+      if (given_key == wanted || given_key.starts_with(std::string(wanted) + "."))
+        refuse(given, fmt::format("{} has no effect, because cell.kind is \"{}\"; remove it or choose {}.",
+                                  stated(given), name_of(spec.kind), others));
+  }
+}
+
+// The first one that is given of a key and its parts.
+const GivenKey* any_part(const GivenByKey& keys, const std::string& key) {
+  const auto found = std::ranges::find_if(
+      keys, [&](const auto& entry) { return entry.first == key || entry.first.starts_with(key + "."); });
+  return found == keys.end() ? nullptr : &found->second;
+}
+
+void check_tension(const SynthSpec& spec, const GivenByKey& keys) {
+  if (spec.tension_ratio && spec.tension_mN_per_m)
+    refuse(*any_part(keys, "cell.tension_mN_per_m"),
+           "cell.tension_ratio and cell.tension_mN_per_m exclude each other; give one of them.");
+  if (spec.kind == CellKind::shell && spec.tension_ratio && spec.tension_ratio->deviation > 0)
+    refuse(keys.at("cell.tension_ratio.sd"),
+           "cell.tension_ratio is one number for all shells; only combined cells have a spread of it.");
 }
 
 void check_liquid(const SynthSpec& spec, const GivenByKey& keys, const std::string& name) {
@@ -177,14 +213,21 @@ void check_pattern(const GivenByKey& keys, const std::string& key, std::string_v
     refuse(given->second, fmt::format("{} must have the form {}.", stated(given->second), shown));
 }
 
-void check_shapes(SynthSpec& spec, const GivenByKey& keys) {
+void check_shapes(SynthSpec& spec, const GivenByKey& keys, const std::string& name) {
   if (!spec.table.empty()) {
-    for (const char* const key : {"shapes.greatest_deformation", "shapes.duct", "cell.tension_ratio"})
-      if (const auto given = keys.find(key); given != keys.end())
-        refuse(given->second, fmt::format("{} has no effect, because shapes.table is given; remove one of them.",
-                                          stated(given->second)));
+    std::vector<std::string> without_effect{"shapes.greatest_deformation", "shapes.duct"};
+    if (spec.kind != CellKind::combined) without_effect.emplace_back("cell.tension_ratio");
+    for (const auto& key : without_effect)
+      if (const auto* given = any_part(keys, key))
+        refuse(*given,
+               fmt::format("{} has no effect, because shapes.table is given; remove one of them.", stated(*given)));
     return;
   }
+  if (spec.kind == CellKind::combined)
+    throw UserError(
+        fmt::format("{}: cell.kind = \"combined\" needs shapes.table, the folder of a table with table.cortex_share; "
+                    "the closed model has no such cells.",
+                    name));
   if (spec.greatest_deformation == 0)
     spec.greatest_deformation = spec.kind == CellKind::solid ? greatest_solid_deformation : greatest_shell_deformation;
 }
@@ -212,7 +255,8 @@ SynthSpec parse_synth_spec(std::string_view text, const std::string& name) {
     if (const auto* number = std::get_if<SynthNumber>(&key.value)) set_number(spec, key, *number, keys, name);
     if (const auto* word = std::get_if<SynthWord>(&key.value)) set_word(spec, key, *word, keys);
   }
-  read_stiffness(spec, keys, name);
+  read_moduli(spec, keys, name);
+  check_tension(spec, keys);
   for (const char* const wanted : {"cell.radius_um", "flow.temperature_C"}) {
     const auto key = std::ranges::find(synth_keys(), wanted, &SynthKey::key);
     if (!set_spread(spec, *key, std::get<SynthSpread>(key->value), keys))
@@ -225,7 +269,7 @@ SynthSpec parse_synth_spec(std::string_view text, const std::string& name) {
   if (spec.image_size().height > 4000)
     throw UserError(fmt::format("{}: the channel is {} pixels wide; give a larger recording.pixel_size_um.", name,
                                 std::floor(spec.channel_width_um / spec.pixel_size_um)));
-  check_shapes(spec, keys);
+  check_shapes(spec, keys, name);
   return spec;
 }
 

@@ -19,7 +19,7 @@ struct Spread {
   double at(double normal) const;
 };
 
-enum class CellKind { solid, shell };
+enum class CellKind { solid, shell, combined };
 enum class Pictures { none, masks, images };  ///< images: masks and pictures in shades of grey
 
 struct SynthSpec {
@@ -36,8 +36,9 @@ struct SynthSpec {
   // [cell]
   CellKind kind = CellKind::solid;
   Spread radius_um;
-  Spread stiffness;  ///< Young's modulus (kPa) of solids, modulus of the cortex (mN/m) of shells
-  double tension_ratio = 0;
+  Spread stiffness;       ///< Young's modulus (kPa) of solids and combined cells, modulus E2D (mN/m) of shells
+  Spread cortex_modulus;  ///< E2D (mN/m) of combined cells
+  std::optional<Spread> tension_ratio, tension_mN_per_m;  ///< at most one; of shells the same ratio for all
   // [shapes]
   std::filesystem::path table;  ///< folder of a table of `rheocyte table`; empty: the closed model
   double greatest_deformation = 0;

@@ -71,6 +71,13 @@ class Camera {
     VirtualCell cell;
     cell.radius_um = spec_.radius_um.at(random.normal());
     cell.stiffness = spec_.stiffness.at(random.normal());
+    if (is_combined()) {
+      cell.cortex_modulus_mN_per_m = spec_.cortex_modulus.at(random.normal());
+      const double normal = random.normal();
+      cell.tension_mN_per_m = spec_.tension_mN_per_m
+                                  ? spec_.tension_mN_per_m->at(normal)
+                                  : spec_.tension_ratio.value_or(Spread{}).at(normal) * cell.cortex_modulus_mN_per_m;
+    }
     const double celsius = spec_.temperature_C.at(CellRandom(seed(), number, Purpose::temperature).normal());
     cell.viscosity_mPas = buffer_ ? buffer_->viscosity({spec_.channel_width_um, spec_.flow_rate_ul_s}, celsius)
                                   : spec_.viscosity_mPas.value_or(0);
@@ -90,6 +97,7 @@ class Camera {
   }
 
  private:
+  bool is_combined() const { return spec_.kind == CellKind::combined; }
   std::uint64_t seed() const { return static_cast<std::uint64_t>(spec_.seed); }
   void count(NoShape reason) { ++result_.missing[static_cast<std::size_t>(reason)]; }
 
@@ -114,8 +122,9 @@ class Camera {
   }
 
   void add_truth(const VirtualCell& cell, const CellShape& shape, const ContourFeatures& features, Block& block) {
-    const std::array truth{cell.radius_um,    cell.stiffness,   shape.area_um2,
-                           shape.deformation, shape.volume_um3, cell.viscosity_mPas};
+    std::vector truth{cell.radius_um,    cell.stiffness,   shape.area_um2,
+                      shape.deformation, shape.volume_um3, cell.viscosity_mPas};
+    if (is_combined()) truth.insert(truth.end(), {cell.cortex_modulus_mN_per_m, cell.tension_mN_per_m});
     for (std::size_t k = 0; k < truth.size(); ++k) block.columns[fmt::format("userdef{}", k + 1)].push_back(truth[k]);
     result_.mean_area_error += features.area_um2 / shape.area_um2 - 1;
     result_.mean_deformation_error += features.deformation - shape.deformation;
@@ -181,12 +190,14 @@ void write_metadata(const SynthSpec& spec, const RecordingProvenance& provenance
 
 void describe_truth(const SynthSpec& spec, const CellShapes& shapes, const VirtualRecording& result,
                     RecordingFile& file) {
-  const std::array meanings{"radius of the sphere at rest (um)",
-                            spec.kind == CellKind::solid ? "Young's modulus (kPa)" : "cortex modulus E2D (mN/m)",
-                            "area of the convex hull (um^2)",
-                            "deformation of the convex hull",
-                            "volume (um^3)",
-                            "viscosity (mPa s)"};
+  const char* const cortex = "cortex modulus E2D (mN/m)";
+  std::vector<const char*> meanings{"radius of the sphere at rest (um)",
+                                    spec.kind == CellKind::shell ? cortex : "Young's modulus (kPa)",
+                                    "area of the convex hull (um^2)",
+                                    "deformation of the convex hull",
+                                    "volume (um^3)",
+                                    "viscosity (mPa s)"};
+  if (spec.kind == CellKind::combined) meanings.insert(meanings.end(), {cortex, "tension of the cortex (mN/m)"});
   for (std::size_t k = 0; k < meanings.size(); ++k)
     file.add_metadata(fmt::format("user:rheocyte userdef{}", k + 1), fmt::format("true {}", meanings[k]));
   file.add_metadata("user:rheocyte shapes", shapes.description());

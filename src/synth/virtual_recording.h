@@ -25,9 +25,10 @@ struct RecordingProvenance {
 };
 
 /// Draws the cells of the spec, lets `shapes` say what they look like, renders each to a mask of pixels at a random
-/// place, measures the mask as a real one, and writes the recording. Features userdef1 to userdef6 hold the true
-/// values; their meanings are in the metadata "user:". Cells without a shape or outside the picture are left out and
-/// counted. Calls `on_progress` from time to time. UserError if no cell is left, or for whatever is wrong with writing.
+/// place, measures the mask as a real one, and writes the recording. Features userdef1 to userdef6 (8 for combined
+/// cells) hold the true values; their meanings are in the metadata "user:". Cells without a shape or outside the
+/// picture are left out and counted. Calls `on_progress` from time to time. UserError if no cell is left, or for
+/// whatever is wrong with writing.
 VirtualRecording write_virtual_recording(const SynthSpec& spec, const CellShapes& shapes,
                                          const RecordingProvenance& provenance, const std::filesystem::path& file,
                                          const std::function<void(double)>& on_progress);

@@ -127,6 +127,7 @@ CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
         };
         const auto found = std::ranges::find_if(table.branches, is_it);
         curves_.push_back(found == table.branches.end() ? Curve{} : curve_of(*found));
+        if (found != table.branches.end()) curves_.back().branch = int(found - table.branches.begin());
         if (curves_.back().log_d.empty()) continue;
         least = std::max(least, curves_.back().log_d.front());
         greatest = std::max(greatest, curves_.back().log_d.back());
@@ -189,21 +190,51 @@ CombinedInterpolation::Sum CombinedInterpolation::over_shares(int ratio, const C
   return sum;
 }
 
+bool CombinedInterpolation::is_inside(const CellCoordinates& cell) const {
+  if (!((cell - box_.least).array() >= -1e-12).all() || !((box_.greatest - cell).array() >= -1e-12).all()) return false;
+  const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
+  const int below = interval_of(shares_, cell(int(CellCoordinate::cortex_share)));
+  for (int i = 0; i < int(ratios_.size()); ++i)
+    if (!reaches(i, below, x, log_d) || !reaches(i, below + 1, x, log_d)) return false;
+  return true;
+}
+
+std::vector<BranchWeight> CombinedInterpolation::weights(const CellCoordinates& cell) const {
+  if (!is_inside(cell)) return {};
+  const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
+  const double share = cell(int(CellCoordinate::cortex_share));
+  const auto of_ratios = lagrange(ratios_, cell(int(CellCoordinate::tension_ratio)));
+  const auto part = [](const std::vector<double>& nodes, const Window& window) {
+    return std::span(nodes).subspan(std::size_t(window.first), std::size_t(window.end - window.first));
+  };
+  std::vector<BranchWeight> all;
+  for (int i = 0; i < int(ratios_.size()); ++i) {
+    const auto sheets = window_of(shares_, share, [&](int j) { return reaches(i, j, x, log_d); });
+    const auto of_shares = lagrange(part(shares_, sheets), share);
+    for (int j = sheets.first; j < sheets.end; ++j) {
+      const auto radii = window_of(log_radii_, x, [&](int k) { return curve(i, j, k).reaches(log_d); });
+      const auto of_radii = lagrange(part(log_radii_, radii), x);
+      for (int k = radii.first; k < radii.end; ++k)
+        all.push_back(
+            {curve(i, j, k).branch, of_ratios.value[std::size_t(i)] * of_shares.value[std::size_t(j - sheets.first)] *
+                                        of_radii.value[std::size_t(k - radii.first)]});
+    }
+  }
+  return all;
+}
+
 CombinedState CombinedInterpolation::at(const CellCoordinates& cell) const {
   const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
   const auto weights = lagrange(ratios_, cell(int(CellCoordinate::tension_ratio)));
   Sum sum;
-  const int below = interval_of(shares_, cell(int(CellCoordinate::cortex_share)));
-  bool inside = ((cell - box_.least).array() >= -1e-12).all() && ((box_.greatest - cell).array() >= -1e-12).all();
   for (int i = 0; i < int(ratios_.size()); ++i) {
     const auto w = std::size_t(i);
     sum.add(over_shares(i, cell), weights.value[w], weights.slope[w], CellCoordinate::tension_ratio);
-    inside = inside && reaches(i, below, x, log_d) && reaches(i, below + 1, x, log_d);
   }
   // Back from what hardly varies to what is asked for.
   const double root = std::exp(log_d / 2);
   const int by_d = int(CellCoordinate::log_deformation);
-  CombinedState state{root * sum.value, root * sum.gradient, inside};
+  CombinedState state{root * sum.value, root * sum.gradient, is_inside(cell)};
   state.gradient.col(by_d) += state.value / 2;
   state.value(log_stiffness_row) = sum.value(log_stiffness_row) - log_d / 2;
   state.gradient.row(log_stiffness_row) = sum.gradient.row(log_stiffness_row);

@@ -28,6 +28,12 @@ struct CellBox {
   CellCoordinates least, greatest;
 };
 
+/// How much of a branch is in a state.
+struct BranchWeight {
+  int branch = 0;  ///< of CombinedTable::branches
+  double weight = 0;
+};
+
 /// Cubics along the branches in ln d, of quantities that hardly vary there; between the branches polynomials through up
 /// to four radii, four shares, and all tensions.
 class CombinedInterpolation {
@@ -36,6 +42,9 @@ class CombinedInterpolation {
   explicit CombinedInterpolation(const CombinedTable& table);
 
   CombinedState at(const CellCoordinates& cell) const;
+  /// The branches of which `at` makes a state, for whatever else is known of them at this deformation, which all of
+  /// them reach; weights sum to one. Empty outside the table.
+  std::vector<BranchWeight> weights(const CellCoordinates& cell) const;
   const CellBox& box() const { return box_; }
   const std::vector<double>& radii_um() const { return radii_; }
   const std::vector<double>& tension_ratios() const { return ratios_; }
@@ -44,6 +53,7 @@ class CombinedInterpolation {
   using Row = Eigen::Matrix<double, row_count, 1>;
   /// Scaled values and slopes over ln d.
   struct Curve {
+    int branch = -1;  ///< of the table; -1: none
     std::vector<double> log_d;
     std::vector<Row> value, slope;
     bool reaches(double log_deformation) const {
@@ -57,6 +67,7 @@ class CombinedInterpolation {
   Sum over_shares(int ratio, const CellCoordinates& cell) const;
   Sum over_radii(int ratio, int share, const CellCoordinates& cell) const;
   bool reaches(int ratio, int share, double log_radius, double log_deformation) const;
+  bool is_inside(const CellCoordinates& cell) const;
 
   std::vector<double> radii_, log_radii_, shares_, ratios_;  ///< of the sheets
   std::vector<Curve> curves_;                                ///< radius by radius, share by share, ratio by ratio

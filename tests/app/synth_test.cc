@@ -9,6 +9,7 @@
 #include "measurement/recording_writer.h"
 #include "robustness/run_program.h"
 #include "synth/analytic_branches.h"
+#include "table/invented_combined.h"
 
 namespace rheocyte {
 namespace {
@@ -101,6 +102,91 @@ TEST_F(Synth, CellsOfAComputedTableHaveItsShapes) {
   ASSERT_EQ(closed.size(), table.size());
   // Cubics between twelve radii.
   for (std::size_t i = 0; i < closed.size(); ++i) EXPECT_NEAR(table[i], closed[i], 3e-3 * closed[i]);
+}
+
+/// A combined table as `rheocyte table` leaves it, of invented cells.
+void write_combined_table(const fs::path& path, const std::string& spec_text) {
+  const TableFolder folder(path, parse_table_spec(spec_text, "table"));
+  CombinedTable table{folder.spec(), {}};
+  for (int i = 0; i < folder.branches(); ++i) {
+    folder.keep(i, test::invented_combined_samples(folder.place(i)), false);
+    table.branches.push_back(test::invented_combined_branch(folder.place(i)));
+  }
+  folder.publish(combined_table_name(table.spec), combined_table_csv(table));
+}
+
+const std::string combined_cells =
+    "[recording]\ncells = 60\npixel_size_um = 0.1\nwidth_px = 260\n[channel]\nwidth_um = 20\n[flow]\n"
+    "rate_ul_per_s = 0.04\nviscosity_mPas = 30\n[shapes]\ntable = \"table\"\n[cell]\nkind = \"combined\"\n"
+    "radius_um = {mean = 6.8, sd = 0.3}\nyoung_modulus_kPa = {mean = 2, sd = 0.3}\n"
+    "cortex_modulus_mN_per_m = {mean = 12, sd = 2, distribution = \"lognormal\"}\n";
+
+std::string without_tension() {
+  std::string text = test::combined_spec;
+  const std::string ratios = "tension_ratio = [0, 0.15, 0.3]\n";
+  return text.erase(text.find(ratios), ratios.size());
+}
+
+TEST_F(Synth, ModuliOfCombinedCellsAreThoseOfTheirTruth) {
+  // The whole way through a table of one tension (none): pixels of 0.1 um and 60 cells leave a few percent of the mean.
+  write_combined_table(folder_ / "table", without_tension());
+  test::write_file(folder_ / "combined.toml", combined_cells);
+  const auto made = run({"synth", path("combined.toml"), "-o", path("v.rtdc")});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto young = column("v.rtdc", "userdef2"), cortex = column("v.rtdc", "userdef7");
+  ASSERT_GE(young.size(), 58U) << made.err;
+  EXPECT_EQ(column("v.rtdc", "userdef8"), std::vector<double>(young.size(), 0));
+  const Recording recording(folder_ / "v.rtdc");
+  EXPECT_EQ(recording.metadata().text("user:rheocyte userdef7"), "true cortex modulus E2D (mN/m)");
+  const auto ended = run({"moduli", path("v.rtdc"), "--table", path("table"), "--viscosity", "30"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  std::istringstream lines(test::content_of(folder_ / "v_moduli.tsv"));
+  std::size_t event = 0;
+  double young_ratio = 0, cortex_ratio = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#') || line.starts_with("event")) continue;
+    std::istringstream fields(line);
+    std::vector<double> numbers(12);
+    for (double& number : numbers) fields >> number;
+    ASSERT_LT(event, young.size());
+    young_ratio += numbers[3] / young[event] / double(young.size());
+    cortex_ratio += numbers[5] / cortex[event] / double(young.size());
+    ++event;
+  }
+  EXPECT_EQ(event, young.size());
+  EXPECT_NEAR(young_ratio, 1, 0.05);
+  EXPECT_NEAR(cortex_ratio, 1, 0.05);
+}
+
+TEST_F(Synth, TensionsOfCombinedCellsHaveASpreadOfTheirOwn) {
+  write_combined_table(folder_ / "table", test::combined_spec);
+  test::write_file(folder_ / "combined.toml", combined_cells + "tension_mN_per_m = {mean = 1.8, sd = 0.3}\n");
+  const auto made = run({"synth", path("combined.toml"), "-o", path("v.rtdc")});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto tension = column("v.rtdc", "userdef8");
+  const auto [least, greatest] = std::ranges::minmax(tension);
+  EXPECT_LT(least, 1.5);
+  EXPECT_GT(greatest, 2.1);
+  test::write_file(folder_ / "tense.toml", combined_cells + "tension_ratio = 0.5\n");
+  expect_refusal({"synth", path("tense.toml"), "-o", path("w.rtdc")}, "60 of a cortex or tension outside the table");
+}
+
+TEST_F(Synth, CellsAndTheirTableMustGoTogether) {
+  // Kind and tension must be those of the table; each mistake is one sentence that names the way out.
+  write_combined_table(folder_ / "table", test::combined_spec);
+  write_combined_table(folder_ / "one-tension", without_tension());
+  const auto expect = [&](const std::string& text, const std::string& words) {
+    test::write_file(folder_ / "bad.toml", text);
+    expect_refusal({"synth", path("bad.toml"), "-o", path("v.rtdc")}, words);
+  };
+  expect(combined_cells, "has the tensions 0, 0.15, 0.3 in E2D; give cell.tension_ratio or cell.tension_mN_per_m");
+  const auto replaced = [](std::string text, const std::string& old, const std::string& by) {
+    return text.replace(text.find(old), old.size(), by);
+  };
+  expect(replaced(combined_cells, "\"table\"", "\"one-tension\"") + "tension_ratio = 0.1\n",
+         "all its cells have the tension 0 E2D; remove cell.tension_ratio");
+  const std::string solids = test::content_of(folder_ / "spec.toml") + "[shapes]\ntable = \"table\"\n";
+  expect(solids, "cell.kind must be \"combined\"");
 }
 
 TEST_F(Synth, WhatIsWrongIsSaidAndLeavesNothing) {

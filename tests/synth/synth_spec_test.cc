@@ -56,6 +56,17 @@ TEST(SynthSpec, SpreadsHaveMeanDeviationAndLaw) {
   EXPECT_NEAR(spec.stiffness.at(0), 2 / std::sqrt(1.25), 1e-12) << "the median of a lognormal law";
 }
 
+TEST(SynthSpec, CombinedCellsHaveASpreadOfEachModulus) {
+  const auto spec = parse_synth_spec(channel + liquid + cell +
+                                         "kind = \"combined\"\ncortex_modulus_mN_per_m = {mean = 5, sd = 1}\n"
+                                         "tension_ratio = {mean = 0.1, sd = 0.02}\n[shapes]\ntable = \"t\"\n",
+                                     "spec.toml");
+  EXPECT_EQ(spec.kind, CellKind::combined);
+  EXPECT_EQ(spec.stiffness.mean, 3);
+  EXPECT_EQ(spec.cortex_modulus.deviation, 1);
+  EXPECT_EQ(spec.tension_ratio.value().deviation, 0.02);
+}
+
 TEST(SynthSpec, MistakesAreNamedWithTheWayOut) {
   expect_refusal("", "spec.toml");
   expect_refusal(liquid, "unknown key viscosity_mPas");
@@ -82,6 +93,19 @@ TEST(SynthSpec, MistakesAreNamedWithTheWayOut) {
   expect_refusal(channel + liquid + cell + "kind = \"shell\"\n", "because cell.kind is \"shell\"");
   expect_refusal(channel + liquid + "[cell]\nkind = \"shell\"\nradius_um = 6\n",
                  "cell.cortex_modulus_mN_per_m is missing");
+  const std::string both = cell + "kind = \"combined\"\ncortex_modulus_mN_per_m = 3\n";
+  expect_refusal(channel + liquid + both, "needs shapes.table");
+  expect_refusal(channel + liquid + cell + "kind = \"combined\"\n", "cell.cortex_modulus_mN_per_m is missing");
+  expect_refusal(channel + liquid + cell + "cortex_modulus_mN_per_m.mean = 3\n",
+                 "because cell.kind is \"solid\"; remove it or choose \"shell\" or \"combined\"");
+  expect_refusal(channel + liquid + cell + "tension_mN_per_m = 3\n", "remove it or choose \"combined\"");
+  expect_refusal(channel + liquid + both + "tension_ratio = 0.1\ntension_mN_per_m = 3\n", "exclude each other");
+  expect_refusal(channel + liquid + both + "[shapes]\ntable = \"t\"\nduct = \"square\"\n",
+                 "because shapes.table is given");
+  expect_refusal(channel + liquid +
+                     "[cell]\nkind = \"shell\"\nradius_um = 6\ncortex_modulus_mN_per_m = 9\n"
+                     "tension_ratio = {mean = 0.1, sd = 0.1}\n",
+                 "one number for all shells");
   expect_refusal(channel + liquid + "[cell]\nradius_um.sd = 6\nyoung_modulus_kPa = 3\n", "needs cell.radius_um.mean");
   expect_refusal(channel + liquid + "[cell]\nradius_um = {mean = 6, distribution = \"gamma\"}\nyoung_modulus_kPa = 3\n",
                  "\"normal\" or \"lognormal\"");
@@ -94,8 +118,9 @@ std::string content_of(const char* name) {
   return text.str();
 }
 
-TEST(SynthSpec, TheExampleIsOne) {
+TEST(SynthSpec, TheExamplesAreSome) {
   EXPECT_EQ(parse_synth_spec(content_of(SYNTH_EXAMPLE), "example").pictures, Pictures::images);
+  EXPECT_EQ(parse_synth_spec(content_of(SYNTH_COMBINED_EXAMPLE), "example").kind, CellKind::combined);
 }
 
 TEST(SynthSpec, EveryKeyIsDocumented) {

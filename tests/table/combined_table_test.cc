@@ -98,6 +98,25 @@ TEST_F(Interpolation, GradientsAreThoseOfTheValues) {
   }
 }
 
+TEST_F(Interpolation, TheWeightsOfTheBranchesAreThoseOfTheState) {
+  // They sum to one and give back radius and share of the cell, to the rounding of 64 terms.
+  const CombinedTable& table = whole_combined_table();
+  for (int trial = 0; trial < 20; ++trial) {
+    const CellCoordinates cell = random_cell();
+    double sum = 0, log_radius = 0, share = 0;
+    for (const auto& [branch, weight] : between_.weights(cell)) {
+      const BranchPlace& place = table.branches.at(std::size_t(branch)).place;
+      sum += weight;
+      log_radius += weight * std::log(place.radius_um);
+      share += weight * place.cortex_share;
+    }
+    EXPECT_NEAR(sum, 1, 1e-10);
+    EXPECT_NEAR(log_radius, cell(0), 1e-10);
+    EXPECT_NEAR(share, cell(1), 1e-10);
+  }
+  EXPECT_TRUE(between_.weights(between_.box().greatest + CellCoordinates::Ones()).empty());
+}
+
 TEST_F(Interpolation, ACellBeyondTheBranchesIsSaid) {
   // Softer than all, larger than all; the values go on nevertheless.
   CellCoordinates cell = random_cell();

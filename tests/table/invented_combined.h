@@ -43,6 +43,37 @@ inline CombinedBranch invented_combined_branch(const BranchPlace& place, int sam
   return branch;
 }
 
+/// The same states as a sweep gives them: contours from pole to pole, and no modes.
+inline SampledBranch invented_combined_samples(const BranchPlace& place, int samples = 16) {
+  const CombinedBranch features = invented_combined_branch(place, samples);
+  SampledBranch branch;
+  branch.radius_um = place.radius_um;
+  branch.cortex_share = place.cortex_share;
+  branch.tension_ratio = place.tension_ratio;
+  branch.stiffness = features.stiffness_kPa;
+  branch.error = features.error;
+  branch.value = Eigen::MatrixXd::Zero(samples, measure_count);
+  branch.slope = branch.value;
+  for (const auto& [feature, measure] : {std::pair(ShapeFeature::area_um2, Measure::area_um2),
+                                         std::pair(ShapeFeature::deformation, Measure::deformation),
+                                         std::pair(ShapeFeature::moment_ratio, Measure::moment_ratio)}) {
+    branch.value.col(int(measure)) = features.value.col(int(feature));
+    branch.slope.col(int(measure)) = features.slope.col(int(feature));
+  }
+  branch.value.col(int(Measure::volume_um3)).setConstant(4 * std::numbers::pi / 3 * std::pow(place.radius_um, 3));
+  const double step = 1e-4;
+  for (const double S : branch.stiffness) {
+    const auto meridian = [&](double log_step) -> Eigen::MatrixX2d {
+      const Eigen::MatrixX2d outline = invented_outline(place, S * std::exp(log_step));
+      return outline.topRows(outline.rows() / 2 + 1);
+    };
+    branch.contour.push_back(meridian(0));
+    branch.contour_slope.emplace_back((meridian(step) - meridian(-step)) / (2 * step));
+  }
+  branch.end = {"covered", ""};
+  return branch;
+}
+
 inline const std::string combined_spec = R"([channel]
 width_um = 20
 [flow]

@@ -1,0 +1,108 @@
+#include "synth/combined_shapes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rheocyte {
+
+namespace {
+
+constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
+              x_deformation = int(CellCoordinate::log_deformation), x_ratio = int(CellCoordinate::tension_ratio);
+
+std::vector<SampledBranch> without_empty(std::vector<SampledBranch> branches) {
+  std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
+  return branches;
+}
+
+}  // namespace
+
+CombinedShapes::CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches,
+                               const BranchConditions& conditions)
+    : branches_(without_empty(std::move(branches))),
+      between_(make_combined_table(spec, branches_)),
+      conditions_(conditions) {}
+
+std::variant<CellShape, NoShape> CombinedShapes::shape(const VirtualCell& cell) const {
+  const auto& c = conditions_;
+  const double width = c.simulated_width_um / c.channel_width_um;
+  const double load = c.flow_rate_ul_s * cell.viscosity_mPas / (c.simulated_rate_ul_s * c.simulated_viscosity_mPas);
+  const double radius = cell.radius_um * width, young = cell.stiffness / (load * width * width * width);
+  const double cortex = cell.cortex_modulus_mN_per_m / (load * width * width), S = young + cortex / radius;
+  if (!(radius > 0)) return NoShape::too_small;
+  if (!(S > 0)) return NoShape::too_soft;
+  // One tension is that of all cells; without a cortex there is none, and all sheets are the same.
+  const auto& ratios = tension_ratios();
+  const double ratio =
+      ratios.size() == 1 || !(cortex > 0) ? ratios.front() : cell.tension_mN_per_m / cell.cortex_modulus_mN_per_m;
+  auto found = at({std::log(radius), cortex / radius / S, 0, ratio}, std::log(S));
+  if (auto* const shape = std::get_if<CellShape>(&found)) {
+    shape->meridian /= width;
+    shape->area_um2 /= width * width;
+    shape->volume_um3 /= width * width * width;
+  }
+  return found;
+}
+
+// Where the table has this stiffness: it falls with the deformation.
+std::variant<CellShape, NoShape> CombinedShapes::at(CellCoordinates cell, double log_stiffness) const {
+  const CellBox& box = between_.box();
+  if (cell(x_radius) < box.least(x_radius)) return NoShape::too_small;
+  if (cell(x_radius) > box.greatest(x_radius)) return NoShape::too_large;
+  for (const int x : {x_share, x_ratio})
+    if (!(cell(x) >= box.least(x) && cell(x) <= box.greatest(x))) return NoShape::outside_sheets;
+  double low = box.least(x_deformation), high = box.greatest(x_deformation);
+  const auto excess = [&](double log_d, double& slope) {
+    cell(x_deformation) = log_d;
+    const CombinedState state = between_.at(cell);
+    slope = state.gradient(log_stiffness_row, x_deformation);
+    return state.value(log_stiffness_row) - log_stiffness;
+  };
+  double slope = 0;
+  if (excess(low, slope) < 0) return NoShape::too_stiff;
+  if (excess(high, slope) > 0) return NoShape::too_soft;
+  double log_d = (low + high) / 2;
+  for (int step = 0; step < 60; ++step) {  // Newton's steps, bisection where they leave the bracket
+    const double miss = excess(log_d, slope);
+    (miss > 0 ? low : high) = log_d;
+    const double newton = log_d - miss / slope, next = newton > low && newton < high ? newton : (low + high) / 2;
+    if (std::abs(std::exchange(log_d, next) - next) < 1e-12) break;
+  }
+  cell(x_deformation) = log_d;
+  if (!between_.at(cell).inside) return NoShape::too_soft;  // all branches begin alike but end one by one
+  return blended(cell);
+}
+
+CellShape CombinedShapes::blended(const CellCoordinates& cell) const {
+  const double radius = std::exp(cell(x_radius)), deformation = std::exp(cell(x_deformation));
+  CellShape shape;
+  shape.meridian = Eigen::MatrixX2d::Zero(branches_.front().contour.front().rows(), 2);
+  for (const auto& [number, weight] : between_.weights(cell)) {
+    const SampledBranch& branch = branches_[std::size_t(number)];
+    const double within = std::clamp(deformation, branch.at(0, Measure::deformation),  // but for rounding
+                                     branch.at(branch.samples() - 1, Measure::deformation));
+    const double scale = radius / branch.radius_um, stiffness = stiffness_at(branch, Measure::deformation, within);
+    shape.meridian += weight * scale * interpolate_contour(branch, stiffness);
+    shape.volume_um3 += weight * scale * scale * scale * interpolate(branch, Measure::volume_um3, stiffness);
+  }
+  shape.area_um2 = std::exp(between_.at(cell).value(log_area_row));
+  shape.deformation = deformation;
+  return shape;
+}
+
+std::string CombinedShapes::description() const {
+  const double width = conditions_.channel_width_um / conditions_.simulated_width_um;
+  const auto& radii = between_.radii_um();
+  const CellBox& box = between_.box();
+  return fmt::format(
+      "simulated branches of combined cells, {} radii from {:.4g} to {:.4g} um, shares of the cortex from {:g} to "
+      "{:g}, "
+      "tensions from {:g} to {:g} E2D, deformations up to {:.3g}",
+      radii.size(), radii.front() * width, radii.back() * width, box.least(x_share), box.greatest(x_share),
+      box.least(x_ratio), box.greatest(x_ratio), std::exp(box.greatest(x_deformation)));
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,34 @@
+// Virtual cells with bulk, cortex and tension by the branches of a combined table.
+#pragma once
+#include <vector>
+
+#include "synth/branch_shapes.h"
+#include "synth/cell_shapes.h"
+#include "table/combined_interpolation.h"
+
+namespace rheocyte {
+
+/// A cell is scaled to the channel of the simulations (eq:scaling) and found in the table by its radius, share of the
+/// cortex, tension and stiffness (eq:combined). Area and deformation are those of the table's interpolation; the points
+/// of the contour, in units of the radius, are the sum of those of the same branches at the same deformation, with the
+/// same weights. Modes up to the twelfth would not do: a dent makes corners in the hull, and hides the contour.
+class CombinedShapes : public CellShapes {
+ public:
+  /// All contours with the same points (asserted). UserError: fewer than two radii or shares.
+  CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches, const BranchConditions& conditions);
+
+  std::variant<CellShape, NoShape> shape(const VirtualCell& cell) const override;
+  std::string description() const override;
+  const std::vector<double>& tension_ratios() const { return between_.tension_ratios(); }
+
+ private:
+  /// In the table's channel.
+  std::variant<CellShape, NoShape> at(CellCoordinates cell, double log_stiffness) const;
+  CellShape blended(const CellCoordinates& cell) const;
+
+  std::vector<SampledBranch> branches_;  ///< in the order of the table's
+  CombinedInterpolation between_;
+  BranchConditions conditions_;
+};
+
+}  // namespace rheocyte
