@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "case/user_error.h"
 #include "table/branch.h"
 #include "table/checked_record.h"
 
@@ -12,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr RecordKind kind{"rheocyte branch", "1"};
+constexpr RecordKind kind{"rheocyte branch", "1", "record of a branch", "delete it, and it is computed again"};
 
 json blob_of_all(const std::vector<Eigen::MatrixX2d>& contours) {
   std::vector<double> all;
@@ -103,17 +102,7 @@ std::string to_bytes(const SampledBranch& branch, const std::string& spec_hash) 
 }
 
 SampledBranch branch_from_bytes(std::string_view bytes, const std::string& spec_hash, const std::string& name) {
-  std::string what = "it is cut or damaged";
-  try {
-    return checked_branch(bytes, spec_hash);
-  } catch (const DamagedRecord& damage) {
-    what = damage.what;
-  } catch (const json::exception&) {
-  } catch (const std::length_error&) {
-  } catch (const std::bad_alloc&) {
-  }
-  throw UserError(
-      fmt::format("{}: this record of a branch cannot be used: {}; delete it, and it is computed again.", name, what));
+  return read_or_refuse(kind, name, [&] { return checked_branch(bytes, spec_hash); });
 }
 
 }  // namespace rheocyte

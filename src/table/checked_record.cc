@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "case/user_error.h"
 #include "case/write_case.h"
 
 namespace rheocyte {
@@ -56,6 +57,10 @@ OpenedRecord opened_record(const RecordKind& kind, std::string_view bytes) {
   const std::string spec = outer.at("spec");
   if (envelope(kind, record, spec) != bytes) throw DamagedRecord{"its checksum is wrong"};
   return {spec, json::from_cbor(record)};
+}
+
+void refuse_record(const RecordKind& kind, const std::string& name, const std::string& reason) {
+  throw UserError(fmt::format("{}: this {} cannot be used: {}; {}.", name, kind.noun, reason, kind.way_out));
 }
 
 }  // namespace rheocyte

@@ -1,17 +1,19 @@
 // Records as bytes: an outer CBOR object with the checksum of an inner one, which holds numbers as raw doubles.
 #pragma once
 #include <Eigen/Core>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace rheocyte {
 
-/// What a record is, and in which version of its layout.
+/// What a record is, in which version of its layout, what a user calls it, and how it is made anew.
 struct RecordKind {
-  std::string_view kind, format;
+  std::string_view kind, format, noun, way_out;
 };
 
 /// Why bytes are no record; the end of a sentence.
@@ -33,5 +35,23 @@ struct OpenedRecord {
   nlohmann::json record;
 };
 OpenedRecord opened_record(const RecordKind& kind, std::string_view bytes);
+
+/// UserError: the record `name` cannot be used, why, and the way out.
+[[noreturn]] void refuse_record(const RecordKind& kind, const std::string& name, const std::string& reason);
+
+/// What `read` makes of a record; whatever it meets in damaged bytes becomes a UserError as that of refuse_record.
+template <class Read>
+auto read_or_refuse(const RecordKind& kind, const std::string& name, const Read& read) {
+  std::string reason = "it is cut or damaged";
+  try {
+    return read();
+  } catch (const DamagedRecord& damage) {
+    reason = damage.what;
+  } catch (const nlohmann::json::exception&) {
+  } catch (const std::length_error&) {
+  } catch (const std::bad_alloc&) {
+  }
+  refuse_record(kind, name, reason);
+}
 
 }  // namespace rheocyte

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "case/user_error.h"
 #include "case/write_case.h"
 #include "table/checked_record.h"
 #include "table/stiffness_grid.h"
@@ -15,7 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr RecordKind kind{"rheocyte grid", "1"};
+constexpr RecordKind kind{"rheocyte grid", "1", "grid of a table",
+                          "`rheocyte table` with the table's spec writes it anew"};
 constexpr int greatest_side = 10000;
 
 json record_of(const GridPatch& patch) {
@@ -111,18 +111,7 @@ std::string to_bytes(const GridContent& grid) {
 }
 
 GridContent grid_from_bytes(std::string_view bytes, const std::string& name) {
-  std::string what = "it is cut or damaged";
-  try {
-    return content_of(opened_record(kind, bytes).record);
-  } catch (const DamagedRecord& damage) {
-    what = damage.what;
-  } catch (const json::exception&) {
-  } catch (const std::length_error&) {
-  } catch (const std::bad_alloc&) {
-  }
-  throw UserError(
-      fmt::format("{}: this grid of a table cannot be used: {}; `rheocyte table` with the table's spec writes it anew.",
-                  name, what));
+  return read_or_refuse(kind, name, [&] { return content_of(opened_record(kind, bytes).record); });
 }
 
 }  // namespace rheocyte

@@ -34,10 +34,7 @@ class OwnTable : public testing::Test {
     return test::run({arguments, environment});
   }
   void expect_refusal(const std::vector<std::string>& arguments, const std::string& words) const {
-    const auto ended = run(arguments);
-    EXPECT_EQ(ended.exit_code, 2) << words;
-    EXPECT_TRUE(test::is_one_line(ended.err)) << ended.err;
-    EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
+    test::expect_sentence(run(arguments), words);
   }
   void write_recording(const std::string& name) const {
     RecordingWriter writer(folder_ / name);

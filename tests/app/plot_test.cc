@@ -43,10 +43,7 @@ class Plot : public testing::Test {
   }
 
   void expect_refusal(const std::vector<std::string>& arguments, const std::string& words) const {
-    const auto ended = plot(arguments);
-    EXPECT_EQ(ended.exit_code, 2) << words;
-    EXPECT_TRUE(test::is_one_line(ended.err)) << ended.err;
-    EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
+    test::expect_sentence(plot(arguments), words);
     expect_no_leftovers();
   }
 

@@ -30,10 +30,7 @@ class Synth : public testing::Test {
     return test::run({all});
   }
   void expect_refusal(const std::vector<std::string>& arguments, const std::string& words) const {
-    const auto ended = run(arguments);
-    EXPECT_EQ(ended.exit_code, 2) << words;
-    EXPECT_TRUE(test::is_one_line(ended.err)) << ended.err;
-    EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
+    test::expect_sentence(run(arguments), words);
   }
   std::vector<double> column(const std::string& name, const std::string& feature) const {
     const Recording recording(folder_ / name);

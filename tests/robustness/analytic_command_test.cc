@@ -20,11 +20,7 @@ Ended analytic(std::vector<std::string> arguments) {
 }
 
 void expect_refusal(const std::vector<std::string>& arguments, const std::string& words) {
-  const auto ended = analytic(arguments);
-  EXPECT_EQ(ended.exit_code, 2) << words;
-  EXPECT_EQ(ended.out, "");
-  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-  EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
+  expect_sentence(analytic(arguments), words);
 }
 
 std::vector<std::string> solid(std::vector<std::string> more = {}) {

@@ -14,11 +14,7 @@ const std::string good_case = std::string(EXAMPLES) + "/paper-cell.toml";
 void expect_refusal(const std::vector<std::string>& arguments, const std::string& words) {
   std::vector<std::string> all{RHEOCYTE};
   all.insert(all.end(), arguments.begin(), arguments.end());
-  const auto ended = run({all});
-  EXPECT_EQ(ended.exit_code, 2) << words;
-  EXPECT_EQ(ended.out, "");
-  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-  EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
+  expect_sentence(run({all}), words);
 }
 
 TEST(CommandLine, MistakesAreNamed) {

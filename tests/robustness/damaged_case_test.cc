@@ -19,9 +19,7 @@ Ended check(const std::string& text) {
 
 void expect_refusal(const std::string& text, const std::string& words) {
   const auto ended = check(text);
-  EXPECT_EQ(ended.exit_code, 2) << words;
-  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-  EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
+  expect_sentence(ended, words);
   EXPECT_LT(ended.seconds, 2);
 }
 

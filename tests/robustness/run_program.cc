@@ -1,6 +1,7 @@
 #include "run_program.h"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -77,6 +78,13 @@ std::string content_of(const fs::path& file) {
 }
 
 void write_file(const fs::path& file, const std::string& content) { std::ofstream(file, std::ios::binary) << content; }
+
+void expect_sentence(const Ended& ended, const std::string& words, int exit_code) {
+  EXPECT_EQ(ended.exit_code, exit_code) << words;
+  EXPECT_EQ(ended.out, "");
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
+}
 
 bool is_one_line(const std::string& text) { return text.size() > 1 && text.find('\n') == text.size() - 1; }
 

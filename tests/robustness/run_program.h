@@ -38,6 +38,10 @@ class TemporaryFolder {
 std::string content_of(const std::filesystem::path&);
 void write_file(const std::filesystem::path&, const std::string& content);
 
+/// The program has ended with this code and printed one line that holds these words to standard error, and nothing
+/// else.
+void expect_sentence(const Ended&, const std::string& words, int exit_code = 2);
+
 /// Whether the text is exactly one line that ends with a newline.
 bool is_one_line(const std::string& text);
 

@@ -32,10 +32,7 @@ class Scale : public testing::Test {
   void expect_refusal(const std::vector<std::string>& arguments, const std::string& words) const {
     auto all = arguments;
     all.insert(all.begin(), input);
-    const auto ended = scale(all);
-    EXPECT_EQ(ended.exit_code, 2) << words;
-    EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-    EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
+    expect_sentence(scale(all), words);
   }
 
   TemporaryFolder folder;

@@ -63,10 +63,7 @@ TEST_F(TableCommand, AFolderOfAnotherSpecIsLeftAlone) {
   const auto before = finished(table("first"));
   auto other = command(table("first"));
   other.insert(other.end(), {"--set", "table.radii=5"});
-  const Ended ended = run({other});
-  EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-  EXPECT_NE(ended.err.find("give another folder with -o"), std::string::npos) << ended.err;
+  expect_sentence(run({other}), "give another folder with -o");
   EXPECT_TRUE(finished(table("first")) == before);
 }
 
