@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "analytic/isoelasticity.h"
 #include "app/build_info.h"
 #include "case/parameters.h"
 #include "case/scales.h"
 #include "case/user_error.h"
+#include "table/table_metadata.h"
+#include "table/table_text.h"
 
 namespace rheocyte {
 
@@ -101,69 +100,63 @@ std::string identifier_of(const AnalyticTableInput& input) {
   return input.conditions.square_duct ? "LE-2D-ANA-26-duct" : "LE-2D-ANA-26";
 }
 
-// Comments, the metadata that dclab reads, and the names of the columns. No date: equal input gives equal files.
-std::string header(const AnalyticTableInput& input, const std::string& identifier_key) {
+// Comments and the metadata that dclab reads. No date: equal input gives equal files.
+TableText empty_table(const AnalyticTableInput& input, const char* identifier_key) {
   const auto& flow = input.conditions.input.flow;
-  nlohmann::ordered_json metadata{
-      {"authors", "rheocyte"},
-      {"channel_width", input.conditions.input.channel.width_um.value()},
-      {"channel_width_unit", "um"},
-      {"dimensionality", "2Daxis"},
-      {"flow_rate", flow.rate_ul_per_s.value()},
-      {"flow_rate_unit", "uL/s"},
-      {"fluid_viscosity", flow.viscosity_mPas.value()},
-      {"fluid_viscosity_unit", "mPa s"},
-      {identifier_key, identifier_of(input)},
-      {"method", "analytical"},
-      {"model", "linear elastic"},
-      {"publication", "https://doi.org/10.1016/j.bpj.2015.09.006"},
-      {"software", fmt::format("rheocyte {}", version)},
-      {"summary", "closed model of small deformations, linear elastic incompressible sphere in a tube"}};
-  std::string text = fmt::format(
-      "{}{}: closed model of Mietke et al. 2015 for small deformations.\n"
-      "# A linear elastic sphere in a tube of radius {:g} um, which stands for the square channel; velocity on the "
-      "axis\n"
-      "# of the {}. Area and deformation are those of the convex contour, without any pixelation.\n"
-      "# Deformations up to {:g}.\n#\n# BEGIN METADATA\n",
-      table_mark, version, tube_radius_um(input.conditions.input),
-      input.conditions.square_duct ? "square duct" : "tube", input.greatest_deformation);
-  std::istringstream lines(metadata.dump(2));
-  for (std::string line; std::getline(lines, line);) text += "# " + line + "\n";
-  return text + "# END METADATA\n#\n# area_um [um^2]\tdeform\temodulus [kPa]\n";
+  TableText table;
+  table.comments = {
+      fmt::format("{}{}: closed model of Mietke et al. 2015 for small deformations.", table_mark.substr(2), version),
+      fmt::format(
+          "A linear elastic sphere in a tube of radius {:g} um, which stands for the square channel; velocity on "
+          "the axis",
+          tube_radius_um(input.conditions.input)),
+      fmt::format("of the {}. Area and deformation are those of the convex contour, without any pixelation.",
+                  input.conditions.square_duct ? "square duct" : "tube"),
+      fmt::format("Deformations up to {:g}.", input.greatest_deformation), ""};
+  table.metadata = {{"authors", "rheocyte"},
+                    {"channel_width", input.conditions.input.channel.width_um.value()},
+                    {"channel_width_unit", "um"},
+                    {"dimensionality", "2Daxis"},
+                    {"flow_rate", flow.rate_ul_per_s.value()},
+                    {"flow_rate_unit", "uL/s"},
+                    {"fluid_viscosity", flow.viscosity_mPas.value()},
+                    {"fluid_viscosity_unit", "mPa s"},
+                    {identifier_key, identifier_of(input)},
+                    {"method", "analytical"},
+                    {"model", "linear elastic"},
+                    {"publication", "https://doi.org/10.1016/j.bpj.2015.09.006"},
+                    {"software", fmt::format("rheocyte {}", version)},
+                    {"summary", "closed model of small deformations, linear elastic incompressible sphere in a tube"}};
+  return table;
 }
 
-TextFile text_of(const AnalyticTableInput& input, const std::vector<double>& moduli, std::string text) {
+TextFile text_of(const AnalyticTableInput& input, const std::vector<double>& moduli, TableText table) {
   IsoelasticityGrid grid{radius_ratios(input), {}, input.greatest_deformation, input.conditions.duct()};
   for (const double modulus : moduli) grid.capillary_numbers.push_back(elastic_scale_kPa(input.conditions) / modulus);
   const auto lines = isoelasticity_lines(grid);
   const double R = tube_radius_um(input.conditions.input);
-  TextFile file{{}, std::move(text), 0};
   for (std::size_t i = 0; i < lines.size(); ++i)
-    for (const auto& point : lines[i]) {
-      fmt::format_to(std::back_inserter(file.content), "{:.7e}\t{:.7e}\t{:.5e}\n", point.area * R * R,
-                     point.deformation, moduli[i]);
-      ++file.rows;
-    }
-  if (file.rows == 0)
+    for (const auto& point : lines[i]) table.rows.push_back({point.area * R * R, point.deformation, moduli[i]});
+  if (table.rows.empty())
     throw UserError(
         fmt::format("rheocyte: all of these cells deform by more than {:g}; give greater moduli or a "
                     "greater --greatest-deformation.",
                     input.greatest_deformation));
-  return file;
+  return {{}, to_text(table), int(table.rows.size())};
 }
 
 }  // namespace
 
 TextFile analytic_table(const AnalyticTableInput& input) {
   check_numbers(input);
-  TextFile file = text_of(input, moduli_kPa(input), header(input, "identifier"));
+  TextFile file = text_of(input, moduli_kPa(input), empty_table(input, table_identifier_key));
   file.name = fmt::format("lut_{}.txt", identifier_of(input));
   return file;
 }
 
 TextFile analytic_lines(const AnalyticTableInput& input) {
   check_numbers(input);
-  TextFile file = text_of(input, levels_kPa(input), header(input, "lut identifier"));
+  TextFile file = text_of(input, levels_kPa(input), empty_table(input, lines_identifier_key));
   file.name = fmt::format("iso_{}-area_um-deform.txt", identifier_of(input));
   return file;
 }

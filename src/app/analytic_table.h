@@ -26,9 +26,6 @@ struct TextFile {
   int rows = 0;
 };
 
-/// Files of this kind begin so.
-inline constexpr std::string_view table_mark = "# rheocyte ";
-
 /// Look-up table (area_um, deform, emodulus) in dclab's format: radii by equal steps of r0^2, moduli by equal steps of
 /// E^(-1/2). UserError for ranges that do not fit, or if no row remains.
 TextFile analytic_table(const AnalyticTableInput&);

@@ -11,6 +11,7 @@
 #include "app/analytic_table.h"
 #include "app/own_file.h"
 #include "case/user_error.h"
+#include "table/table_metadata.h"
 
 namespace rheocyte {
 

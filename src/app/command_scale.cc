@@ -51,7 +51,7 @@ ChannelConditions wanted_conditions(const ScaleOptions& options, const TableText
 
 // Programs know a table by its name: a scaled one needs another.
 void rename(TableText& table, const ChannelConditions& to, const std::string& wanted) {
-  const char* key = table.metadata.contains("identifier") ? "identifier" : "lut identifier";
+  const char* key = table.metadata.contains(table_identifier_key) ? table_identifier_key : lines_identifier_key;
   const std::string own = table.metadata.at(key);
   table.metadata[key] = !wanted.empty() ? wanted
                                         : fmt::format("{}-{:g}um-{:g}uls-{:g}mPas", own, to.channel_width_um,

@@ -25,7 +25,7 @@ std::variant<ParityModulus, GridModulus> ready_table(const fs::path& path) {
   AnyTable table = read_any_table(path);
   if (auto* const grid = std::get_if<GridContent>(&table)) return GridModulus(std::move(*grid));
   ParityModulus published(std::get<PublishedTable>(std::move(table)));
-  if (published.table().abscissa != PublishedTable::Abscissa::area)
+  if (published.table().abscissa != Abscissa::area)
     throw UserError(fmt::format("rheocyte: --table {}: holds volumes; only tables of areas are used for recordings.",
                                 one_line(path.string(), 200)));
   return published;

@@ -29,7 +29,7 @@ std::vector<PlanePoint> normalised(const PublishedTable& table, double area, dou
 }
 
 PublishedTable of_areas(PublishedTable table) {
-  if (table.abscissa == PublishedTable::Abscissa::area) return table;
+  if (table.abscissa == Abscissa::area) return table;
   throw UserError(fmt::format("The table {} holds volumes; lines over the area need a table of areas.",
                               one_line(table.identifier, 100)));
 }
@@ -127,7 +127,7 @@ std::vector<PlanePoint> LineFinder::support() const {
 }
 
 LevelLines read_level_lines(const std::filesystem::path& file) {
-  const PublishedTable rows = of_areas(read_published_table(file, "lut identifier"));
+  const PublishedTable rows = of_areas(read_published_table(file, lines_identifier_key));
   LevelLines result{rows.identifier, rows.channel_width_um, rows.flow_rate_ul_s, rows.viscosity_mPas, {}};
   std::map<double, std::vector<PlanePoint>> by_modulus;
   for (std::size_t i = 0; i < rows.size.size(); ++i)

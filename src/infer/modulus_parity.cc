@@ -24,7 +24,7 @@ void correct(const PublishedTable& table, double pixel_size_um, std::span<const 
              std::span<const double> measured, std::span<double> corrected) {
   std::ranges::copy(measured, corrected.begin());
   if (pixel_size_um == 0) return;
-  if (table.abscissa == PublishedTable::Abscissa::area) return remove_pixelation(size, pixel_size_um, corrected);
+  if (table.abscissa == Abscissa::area) return remove_pixelation(size, pixel_size_um, corrected);
   for (std::size_t i = 0; i < size.size(); ++i) corrected[i] -= deformation_by_pixels_at_volume(size[i], pixel_size_um);
 }
 
@@ -38,7 +38,7 @@ ParityModulus::ParityModulus(PublishedTable table)
 
 double ParityModulus::size_scale(const MeasuringConditions& conditions) const {
   const double ratio = table_.channel_width_um / conditions.channel_width_um;
-  const double power = table_.abscissa == PublishedTable::Abscissa::area ? ratio * ratio : ratio * ratio * ratio;
+  const double power = table_.abscissa == Abscissa::area ? ratio * ratio : ratio * ratio * ratio;
   return power / greatest_size_;
 }
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "table/table_text.h"
+
 namespace rheocyte {
 
 /// A table for one channel, flow rate and viscosity; other conditions follow from it by scaling.
 struct PublishedTable {
-  enum class Abscissa { area, volume };
-
   std::string identifier;  ///< e.g. "LE-2D-FEM-19"
   double channel_width_um = 0, flow_rate_ul_s = 0, viscosity_mPas = 0;
   Abscissa abscissa = Abscissa::area;
@@ -17,10 +17,9 @@ struct PublishedTable {
   std::vector<double> size, deformation, modulus_kPa;
 };
 
-/// Reads a table in the format of dclab. UserError with file and line: no such file, no metadata, a missing or wrong
-/// unit, other columns, numbers that are none, fewer than three rows, no
-/// positive deformation. Files of isoelasticity lines differ only in the key that names the table.
+/// Reads a table in the format of dclab, or lines with their key. UserError with file and line as read_table_text; also
+/// for a missing name, fewer than three rows, no positive deformation.
 PublishedTable read_published_table(const std::filesystem::path& file,
-                                    const std::string& identifier_key = "identifier");
+                                    const char* identifier_key = table_identifier_key);
 
 }  // namespace rheocyte

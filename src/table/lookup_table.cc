@@ -156,7 +156,7 @@ TableText empty_text(const LookupTable& table, Abscissa abscissa) {
 std::string lut_text(const LookupTable& table, Abscissa abscissa) {
   const bool by_area = abscissa == Abscissa::area;
   TableText text = empty_text(table, abscissa);
-  if (!by_area) text.metadata["identifier"] = table.spec.identifier + "-volume";
+  if (!by_area) text.metadata[table_identifier_key] = table.spec.identifier + "-volume";
   const auto points = by_area ? upright_points(table) : points_of_rows(table);
   text.metadata["regularised_rows"] = std::ranges::count(points, true, &LutPoint::regularised);
   text.metadata["rows"] = points.size();

@@ -67,10 +67,11 @@ std::string lines_text(const LookupTable& table, std::span<const double> levels,
   TableText text = empty_text(table, abscissa);
   text.comments.insert(text.comments.begin() + 1, "Lines of equal stiffness.");
   auto metadata = nlohmann::ordered_json::object();
-  for (const auto& [key, value] : text.metadata.items()) metadata[key == "identifier" ? "lut identifier" : key] = value;
+  for (const auto& [key, value] : text.metadata.items())
+    metadata[key == table_identifier_key ? lines_identifier_key : key] = value;
   text.metadata = std::move(metadata);
   const bool by_area = abscissa == Abscissa::area;
-  if (!by_area) text.metadata["lut identifier"] = table.spec.identifier + "-volume";
+  if (!by_area) text.metadata[lines_identifier_key] = table.spec.identifier + "-volume";
   for (const double level : levels)
     for (const auto& row : line_at(table, level))
       text.rows.push_back(

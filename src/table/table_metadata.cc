@@ -7,6 +7,7 @@
 #include "case/parameters.h"
 #include "case/scales.h"
 #include "case/write_case.h"
+#include "table/table_text.h"
 
 namespace rheocyte {
 
@@ -68,7 +69,7 @@ ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
                         {"fluid_viscosity", effective_viscosity_mPas(c)},
                         {"fluid_viscosity_unit", "mPa s"}};
   add_power_law(metadata, c);
-  metadata["identifier"] = spec.identifier;
+  metadata[table_identifier_key] = spec.identifier;
   metadata["method"] = "stationary FEM, monolithic Newton, high order";
   metadata["model"] = model_text(c);
   metadata["software"] = fmt::format("rheocyte {}", version);

@@ -95,7 +95,7 @@ class Reader {
       const auto value = table_.metadata.find(key);
       return value != table_.metadata.end() && value->is_string();
     };
-    if (!is_text("identifier") && !is_text("lut identifier"))
+    if (!is_text(table_identifier_key) && !is_text(lines_identifier_key))
       refuse(place(), "the metadata above have no \"identifier\".");
   }
 
@@ -115,12 +115,14 @@ class Reader {
     if (table_.rows.empty()) check_columns();
     std::array<double, 3> row{};
     for (double& value : row) {
+      if (line.starts_with('+')) line.remove_prefix(1);  // which from_chars does not know
       const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
       const bool ends = end == line.data() + line.size() || *end == ' ' || *end == '\t';
       if (error != std::errc{} || !ends || !std::isfinite(value)) refuse(place(), "does not hold three numbers.");
       line = trim(line.substr(std::size_t(end - line.data())));
     }
     if (!line.empty()) refuse(place(), "holds more than three numbers.");
+    if (!(row[0] > 0) || !(row[2] > 0)) refuse(place(), "sizes and moduli must be positive.");
     table_.rows.push_back(row);
   }
 

@@ -61,6 +61,11 @@ TEST(TableText, WindowsLineEndsAndEmptyLinesAreAccepted) {
   EXPECT_EQ(to_text(back), to_text(small_table()));
 }
 
+TEST(TableText, SignsAndSpacesBetweenTheNumbersAreAccepted) {
+  const auto back = parse_table_text(replaced(to_text(small_table()), "\t7.634", " \t +7.634"), "x");
+  EXPECT_EQ(to_text(back), to_text(small_table()));
+}
+
 TEST(TableText, DamageIsNamedWithItsLine) {
   const auto good = to_text(small_table());
   const auto expect = [](const std::string& text, const std::string& words) {
@@ -76,6 +81,8 @@ TEST(TableText, DamageIsNamedWithItsLine) {
   expect(replaced(good, "area_um [um^2]\tdeform", "deform\tarea_um [um^2]"), "must name the columns");
   expect(replaced(good, "7.634000000e-02", "seven"), "lut.txt:21: does not hold three numbers");
   expect(replaced(good, "7.634000000e-02", "nan"), "does not hold three numbers");
+  expect(replaced(good, "2.817470000e+01", "-2.8"), "lut.txt:21: sizes and moduli must be positive");
+  expect(replaced(good, "3.770000000e-01", "0"), "lut.txt:21: sizes and moduli must be positive");
   expect(replaced(good, "3.770000000e-01", "3.77e-01\t1"), "more than three numbers");
 }
 
