@@ -148,9 +148,7 @@ class BranchSampler {
 
   static Node at(double u, int level, VectorXd unknowns) {
     Node node;
-    node.u = u;
-    node.level = level;
-    node.unknowns = std::move(unknowns);
+    node.u = u, node.level = level, node.unknowns = std::move(unknowns);
     return node;
   }
 
@@ -188,7 +186,7 @@ class BranchSampler {
       }
       if (moved > 0) nodes_.push_back(std::move(next)), release_coarse(nodes_.back().level);
       h = std::clamp(growth * allowed, 0.2 * moved, greatest_step);
-      if (is_covered(nodes_.back())) return end("covered", "The branch leaves the table's ranges.");
+      if (leaves_range(nodes_.back())) return;
       if (!last || nodes_.back().u < last->u) continue;
       if (margin(nodes_.back()) < small_margin) return end(Status::surface_unstable);
       if (nodes_.back().log_d_slope() > steep || !finer(nodes_.back())) return end(status_at_end(failure));
@@ -209,8 +207,7 @@ class BranchSampler {
 
   /// Goes to a stiffness without samples.
   bool reach(double wanted) {
-    const Node from = last_;
-    return advance(from, std::log(first_stiffness_ / wanted), last_) == Status::converged;
+    return advance(Node(last_), std::log(first_stiffness_ / wanted), last_) == Status::converged;
   }
 
   /// From the bare cell's state to the one with bending stiffness, which becomes the first state here.
@@ -308,9 +305,14 @@ class BranchSampler {
     return std::abs(std::log(deformation(at_level(a.level).space, middle)) - log_d);
   }
 
-  bool is_covered(const Node& node) const {
-    return node.state.value(int(Measure::deformation)) > spec_.greatest_deformation ||
-           (!spec_.is_combined() && node.state.value(int(Measure::area_um2)) > 1.02 * spec_.greatest_area_um2);
+  bool leaves_range(const Node& node) {
+    const auto at = [&](Measure m) { return node.state.value(int(m)); };
+    const bool is_large = !spec_.is_combined() && at(Measure::area_um2) > 1.02 * spec_.greatest_area_um2;
+    if (at(Measure::deformation) > spec_.greatest_deformation || is_large)
+      return end("covered", "The branch leaves the table's ranges."), true;
+    if (at(Measure::deformation_raw) > spec_.greatest_deformation_raw)
+      return end("dented", "The dent at the rear is as deep as the table admits."), true;
+    return false;
   }
 
   /// Newton's failure at the end of a branch is the end of the branch.
@@ -323,10 +325,7 @@ class BranchSampler {
     return measure(contour(space, unknowns)).deformation;
   }
   Scales scales() const { return scales_of(case_at(spec_, place_, first_stiffness_)); }
-  void count(int iterations) {
-    ++result_.solves;
-    result_.newton_iterations += iterations;
-  }
+  void count(int iterations) { ++result_.solves, result_.newton_iterations += iterations; }
   /// A state needs its own level and the one before, which tells its error; factors take some 100 MB on the others.
   void release_coarse(int level) {
     for (int i = 0; i < level - 1; ++i) {
@@ -339,9 +338,8 @@ class BranchSampler {
   }
   double factorisation_seconds() const {
     double seconds = released_factorisation_;
-    for (const auto& discrete : discrete_) {
+    for (const auto& discrete : discrete_)
       if (discrete) seconds += factorisation_seconds(*discrete);
-    }
     return seconds;
   }
 
