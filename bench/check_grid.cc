@@ -71,6 +71,9 @@ int rheocyte::measure(int argc, char** argv) {
       const double difference = std::abs(std::exp(ours.log_stiffness) / exact.stiffness - 1);
       (ours.regularised ? held : bare).push_back(difference);
       if (!ours.regularised && d > 0.003 && d < 0.1) usual.push_back(difference);
+      if (ours.regularised && difference > 0.3)
+        fmt::print("  held {:.4g} {:.4g}: grid {:.4g} table {:.4g}, errors {:.2e} {:.2e}\n", a, d,
+                   std::exp(ours.log_stiffness), exact.stiffness, ours.error, exact.error);
       if (!ours.regularised && difference > worst) {
         worst = difference;
         fmt::print("  {:.1e} at {:.4g} um2, deformation {:.4g}, errors stated {:.1e} and {:.1e}\n", worst, a, d,

@@ -188,7 +188,7 @@ class BranchSampler {
       }
       if (moved > 0) nodes_.push_back(std::move(next)), release_coarse(nodes_.back().level);
       h = std::clamp(growth * allowed, 0.2 * moved, greatest_step);
-      if (is_covered(nodes_.back())) return end("covered", "The branch leaves the table's ranges.");
+      if (leaves_range(nodes_.back())) return;
       if (!last || nodes_.back().u < last->u) continue;
       if (margin(nodes_.back()) < small_margin) return end(Status::surface_unstable);
       if (nodes_.back().log_d_slope() > steep || !finer(nodes_.back())) return end(status_at_end(failure));
@@ -293,9 +293,14 @@ class BranchSampler {
     return std::abs(std::log(deformation(at_level(a.level).space, middle)) - log_d);
   }
 
-  bool is_covered(const Node& node) const {
-    return node.state.value(int(Measure::deformation)) > spec_.greatest_deformation ||
-           (!spec_.is_combined() && node.state.value(int(Measure::area_um2)) > 1.02 * spec_.greatest_area_um2);
+  bool leaves_range(const Node& node) {
+    const auto at = [&](Measure m) { return node.state.value(int(m)); };
+    const bool is_large = !spec_.is_combined() && at(Measure::area_um2) > 1.02 * spec_.greatest_area_um2;
+    if (at(Measure::deformation) > spec_.greatest_deformation || is_large)
+      return end("covered", "The branch leaves the table's ranges."), true;
+    if (at(Measure::deformation_raw) > spec_.greatest_deformation_raw)
+      return end("dented", "The dent at the rear is as deep as the table admits."), true;
+    return false;
   }
 
   /// Newton's failure at the end of a branch is the end of the branch.
@@ -324,9 +329,8 @@ class BranchSampler {
   }
   double factorisation_seconds() const {
     double seconds = released_factorisation_;
-    for (const auto& discrete : discrete_) {
+    for (const auto& discrete : discrete_)
       if (discrete) seconds += factorisation_seconds(*discrete);
-    }
     return seconds;
   }
 

@@ -41,6 +41,11 @@ const std::array table{
              TableList{{0, 1}, &TableSpec::cortex_shares}},
     TableKey{"table.tension_ratio", "", "tensions of combined cells as shares of the modulus of the cortex",
              TableList{{0, 1e3}, &TableSpec::tension_ratios}},
+    TableKey{"table.bending_ratio", "", "bending stiffness of combined cells over S r0^3, 0 = cell.cortex.bending_kBT",
+             number<&TableSpec::bending_ratio>({0, 1})},
+    TableKey{"table.greatest_deformation_raw", "",
+             "deformation of the contour itself, with the dent that the hull hides, at which combined branches end",
+             number<&TableSpec::greatest_deformation_raw>({1e-7, 1})},
 };
 
 }  // namespace

@@ -28,15 +28,15 @@ constexpr std::string_view radius_key = "cell.radius_um", accuracy_key = "numeri
                            bulk_law_key = "cell.bulk.law", cortex_law_key = "cell.cortex.law";
 constexpr std::string_view bulk_modulus_key = "cell.bulk.young_modulus_kPa",
                            cortex_modulus_key = "cell.cortex.modulus_mN_per_m",
-                           tension_key = "cell.cortex.tension_mN_per_m", ratio_key = "cell.cortex.tension_ratio";
+                           tension_key = "cell.cortex.tension_mN_per_m", ratio_key = "cell.cortex.tension_ratio",
+                           bending_key = "cell.cortex.bending_kBT";
 constexpr std::array<std::string_view, 3> stiffness_keys{bulk_modulus_key, cortex_modulus_key, combined_stiffness};
 // Those that programs know already; they must not appear on other numbers.
 constexpr std::array<std::string_view, 4> foreign_identifiers{"LE-2D-FEM-19", "HE-2D-FEM-22", "HE-3D-FEM-22",
                                                               "LE-2D-ana-18"};
 constexpr std::size_t longest_identifier = 60;
-
-// Deformed cells of a table have up to a tenth more area than the sphere.
-constexpr double least_share_of_sphere = 0.9;
+constexpr std::array<std::string_view, 3> keys_of_combined{"table.tension_ratio", "table.bending_ratio",
+                                                           "table.greatest_deformation_raw"};
 
 using TableKeys = std::map<std::string_view, GivenKey>;
 
@@ -164,7 +164,11 @@ void check_combined(TableSpec& spec, const std::vector<GivenKey>& keys, const Ta
     refuse(*ratio, fmt::format("{} and table.tension_ratio exclude each other; give one of them.", stated(*ratio)));
   if (spec.bending_beyond_kBT > 0)
     refuse(given.at("table.bending_beyond_kBT"),
-           "table.bending_beyond_kBT has no effect on combined cells; give cell.cortex.bending_kBT, which all have.");
+           "table.bending_beyond_kBT has no effect on combined cells; give table.bending_ratio or "
+           "cell.cortex.bending_kBT, which all have.");
+  const auto* bending = last_of(keys, bending_key);
+  if (bending && spec.bending_ratio > 0)
+    refuse(*bending, fmt::format("{} and table.bending_ratio exclude each other; give one of them.", stated(*bending)));
   if (spec.tension_ratios.empty())
     spec.tension_ratios = {ratio && std::holds_alternative<double>(ratio->value) ? std::get<double>(ratio->value) : 0};
 }
@@ -172,8 +176,9 @@ void check_combined(TableSpec& spec, const std::vector<GivenKey>& keys, const Ta
 void choose_stiffness(TableSpec& spec, const std::vector<GivenKey>& keys, const TableKeys& given) {
   const bool bulk = has_bulk(keys), cortex = has_cortex(keys);
   if (given.contains("table.cortex_share")) return check_combined(spec, keys, given);
-  if (given.contains("table.tension_ratio"))
-    refuse(given.at("table.tension_ratio"), "table.tension_ratio needs table.cortex_share, such as [0, 0.5, 1].");
+  for (const auto key : keys_of_combined)
+    if (given.contains(key))
+      refuse(given.at(key), fmt::format("{} needs table.cortex_share, such as [0, 0.5, 1].", key));
   const auto stated_key = given.find("table.stiffness");
   if (stated_key == given.end()) {
     spec.stiffness_key = stiffness_keys[bulk ? 0 : 1];
@@ -286,35 +291,18 @@ void check_bending(const TableSpec& spec, const TableKeys& given) {
                     spec.bending_beyond_kBT, own));
 }
 
-void set_number(Case& c, std::string_view key, double value) {
-  std::get<Number>(find_parameter(key)->value).set(c, value);
-}
-
-// A share of 0 or 1 leaves nothing of the other one: not even a modulus of zero.
-void set_moduli(Case& c, const BranchPlace& place, double stiffness) {
-  const double bulk = (1 - place.cortex_share) * stiffness, cortex = place.cortex_share * stiffness * place.radius_um;
-  c.cell.bulk.young_modulus_kPa.reset();
-  c.cell.cortex.modulus_mN_per_m.reset();
-  c.cell.cortex.tension_ratio.reset();
-  c.cell.cortex.tension_mN_per_m.reset();
-  if (bulk > 0)
-    c.cell.bulk.young_modulus_kPa = bulk;
-  else
-    c.cell.bulk.law = BulkLaw::none;
-  if (cortex > 0) {
-    c.cell.cortex.modulus_mN_per_m = cortex;
-    c.cell.cortex.tension_ratio = place.tension_ratio;
-  } else {
-    c.cell.cortex.law = CortexLaw::none;
-    c.cell.cortex.tension_mN_per_m = 0;
-  }
-}
-
 // Any cell of the sweep, so that the base is a complete case.
 BranchPlace middle_of(const TableSpec& spec) {
   BranchPlace place{tube_radius_um(spec.base) / 2};
   if (spec.is_combined()) place = {place.radius_um, 0.5, spec.tension_ratios.front()};
   return place;
+}
+
+// What only combined cells have stands in a spec where it is given.
+bool is_absent(const TableSpec& spec, const TableKey& key) {
+  const auto* number = std::get_if<TableNumber>(&key.value);
+  return number && std::ranges::find(keys_of_combined, key.key) != keys_of_combined.end() &&
+         number->get(spec) == number->get(TableSpec{});
 }
 
 }  // namespace
@@ -344,10 +332,12 @@ std::string to_toml(const TableSpec& spec) {
   auto left_out = swept_keys(spec);
   left_out.push_back(drive_key);
   if (spec.is_combined()) left_out.push_back(ratio_key);
+  if (spec.bending_ratio > 0) left_out.push_back(bending_key);
   std::string text = to_toml(spec.base, left_out) + "\n[table]\n";
   for (const auto& key : table_keys()) {
     const auto* list = std::get_if<TableList>(&key.value);
     if (list && (spec.*(list->field)).empty()) continue;
+    if (is_absent(spec, key)) continue;
     text += fmt::format("{} = ", key.key.substr(key.key.find('.') + 1));
     if (list)
       text += fmt::format("[{}]\n", fmt::join(spec.*(list->field), ", "));
@@ -360,40 +350,5 @@ std::string to_toml(const TableSpec& spec) {
 }
 
 std::string spec_hash(const TableSpec& spec) { return fingerprint(to_toml(spec)); }
-
-std::vector<double> sweep_radii_um(const TableSpec& spec) {
-  const double R = tube_radius_um(spec.base);
-  const double first =
-      std::max(std::sqrt(least_share_of_sphere * spec.least_area_um2 / std::numbers::pi), least_radius_ratio * R);
-  const double last = std::min(std::sqrt(spec.greatest_area_um2 / std::numbers::pi), greatest_radius_ratio * R);
-  std::vector<double> radii;
-  for (int i = 0; i < spec.radii; ++i) radii.push_back(first + (last - first) * i / (spec.radii - 1));
-  radii.back() = last;
-  return radii;
-}
-
-std::vector<BranchPlace> sweep_places(const TableSpec& spec) {
-  std::vector<BranchPlace> places;
-  const auto radii = sweep_radii_um(spec);
-  const auto add = [&](double share, double ratio) {
-    for (const double radius : radii) places.push_back({radius, share, ratio});
-  };
-  if (!spec.is_combined()) add(0, 0);
-  for (const double ratio : spec.tension_ratios)
-    for (const double share : spec.cortex_shares)
-      if (share > 0 || ratio == spec.tension_ratios.front()) add(share, ratio);
-  return places;
-}
-
-Case case_at(const TableSpec& spec, const BranchPlace& place, double stiffness) {
-  Case c = spec.base;
-  set_number(c, radius_key, place.radius_um);
-  if (spec.is_combined())
-    set_moduli(c, place, stiffness);
-  else
-    set_number(c, spec.stiffness_key, stiffness);
-  c.numerics.accuracy = spec.accuracy;
-  return c;
-}
 
 }  // namespace rheocyte

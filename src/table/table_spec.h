@@ -34,6 +34,8 @@ struct TableSpec {
   /// Bending stiffness of the branches that go on where the bare surface has lost its stability; 0: none.
   double bending_beyond_kBT = 0;
   std::vector<double> cortex_shares, tension_ratios;  ///< of combined cells, ascending; else empty
+  double bending_ratio = 0;             ///< c_b / (S r0^3) of combined cells; 0: the base's bending stiffness for all
+  double greatest_deformation_raw = 1;  ///< of the contour itself, dent included: where branches of combined cells end
 
   bool is_combined() const { return stiffness_key == combined_stiffness; }
 };

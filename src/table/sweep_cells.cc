@@ -1,0 +1,85 @@
+// The cells of a table's branches as cases.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "case/parameters.h"
+#include "case/scales.h"
+#include "table/table_spec.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr std::string_view radius_key = "cell.radius_um";
+// Deformed cells of a table have up to a tenth more area than the sphere.
+constexpr double least_share_of_sphere = 0.9;
+
+void set_number(Case& c, std::string_view key, double value) {
+  std::get<Number>(find_parameter(key)->value).set(c, value);
+}
+
+// A share of 0 or 1 leaves nothing of the other one: not even a modulus of zero.
+void set_moduli(Case& c, const BranchPlace& place, double stiffness) {
+  const double bulk = (1 - place.cortex_share) * stiffness, cortex = place.cortex_share * stiffness * place.radius_um;
+  c.cell.bulk.young_modulus_kPa.reset();
+  c.cell.cortex.modulus_mN_per_m.reset();
+  c.cell.cortex.tension_ratio.reset();
+  c.cell.cortex.tension_mN_per_m.reset();
+  if (bulk > 0)
+    c.cell.bulk.young_modulus_kPa = bulk;
+  else
+    c.cell.bulk.law = BulkLaw::none;
+  if (cortex > 0) {
+    c.cell.cortex.modulus_mN_per_m = cortex;
+    c.cell.cortex.tension_ratio = place.tension_ratio;
+  } else {
+    c.cell.cortex.law = CortexLaw::none;
+    c.cell.cortex.tension_mN_per_m = 0;
+  }
+}
+
+double bending_kBT(double ratio, double radius_um, double stiffness_kPa) {
+  const double radius = radius_um * 1e-6, stiffness = stiffness_kPa * 1e3;
+  return ratio * stiffness * radius * radius * radius / thermal_energy_J;
+}
+
+}  // namespace
+
+std::vector<double> sweep_radii_um(const TableSpec& spec) {
+  const double R = tube_radius_um(spec.base);
+  const double first =
+      std::max(std::sqrt(least_share_of_sphere * spec.least_area_um2 / std::numbers::pi), least_radius_ratio * R);
+  const double last = std::min(std::sqrt(spec.greatest_area_um2 / std::numbers::pi), greatest_radius_ratio * R);
+  std::vector<double> radii;
+  for (int i = 0; i < spec.radii; ++i) radii.push_back(first + (last - first) * i / (spec.radii - 1));
+  radii.back() = last;
+  return radii;
+}
+
+std::vector<BranchPlace> sweep_places(const TableSpec& spec) {
+  std::vector<BranchPlace> places;
+  const auto radii = sweep_radii_um(spec);
+  const auto add = [&](double share, double ratio) {
+    for (const double radius : radii) places.push_back({radius, share, ratio});
+  };
+  if (!spec.is_combined()) add(0, 0);
+  for (const double ratio : spec.tension_ratios)
+    for (const double share : spec.cortex_shares)
+      if (share > 0 || ratio == spec.tension_ratios.front()) add(share, ratio);
+  return places;
+}
+
+Case case_at(const TableSpec& spec, const BranchPlace& place, double stiffness) {
+  Case c = spec.base;
+  set_number(c, radius_key, place.radius_um);
+  if (spec.is_combined())
+    set_moduli(c, place, stiffness);
+  else
+    set_number(c, spec.stiffness_key, stiffness);
+  if (spec.bending_ratio > 0) c.cell.cortex.bending_kBT = bending_kBT(spec.bending_ratio, place.radius_um, stiffness);
+  c.numerics.accuracy = spec.accuracy;
+  return c;
+}
+
+}  // namespace rheocyte
