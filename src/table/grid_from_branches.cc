@@ -14,7 +14,9 @@ namespace rheocyte {
 namespace {
 
 constexpr int greatest_stencil = 6;
-constexpr double least_height = 0.02;  // of a column, in ln(deformation)
+constexpr double least_height = 0.02;   // of a column, in ln(deformation)
+constexpr double trusted_error = 1e-3;  // of nodes along the border; beyond it other ways are looked at, too
+constexpr int near_branches = 10;       // on each side, among which a column finds its neighbours
 
 /// One crossing of a line of equal height with a branch.
 struct Crossing {
@@ -52,15 +54,19 @@ std::optional<NodeValue> value_at(std::span<const Crossing> line, double log_are
 }
 
 // The value of a column at a height. A line of equal height bends with the border, more than the branches resolve; its
-// polynomials miss its height by as much as its value, so that value and height together are right.
-NodeValue resampled(std::span<const NodeValue> column, std::size_t row, double log_deformation) {
+// polynomials miss its height by as much as its value, so that value and height together are right. Nothing if the
+// border is so jagged that the heights of the lines do not follow one another.
+std::optional<NodeValue> resampled(std::span<const NodeValue> column, std::size_t row, double log_deformation,
+                                   double distance) {
   constexpr std::size_t points = 4;
   const std::size_t count = std::min(points, column.size());
   const std::size_t first = std::min(row > 1 ? row - 1 : 0, column.size() - count);
   const auto nodes = column.subspan(first, count);
-  return {log_deformation,
-          lagrange_value(nodes, log_deformation, &NodeValue::log_deformation, &NodeValue::log_stiffness),
-          column[row].error};
+  for (std::size_t k = 1; k < count; ++k)
+    if (!(nodes[k].log_deformation - nodes[k - 1].log_deformation > 0.5 * distance)) return {};
+  return NodeValue{log_deformation,
+                   lagrange_value(nodes, log_deformation, &NodeValue::log_deformation, &NodeValue::log_stiffness),
+                   column[row].error};
 }
 
 /// One family of branches on its way to a patch.
@@ -71,15 +77,16 @@ class PatchMaker {
 
   std::optional<GridPatch> patch(const std::vector<double>& lower, const Border& upper, int rows) const {
     const auto count = static_cast<std::size_t>(columns_.count);
-    std::vector<std::vector<NodeValue>> values(count);  // by column
+    std::vector<std::vector<NodeValue>> lines(count), values(count);  // by column
     for (int row = 0; row < rows; ++row) {
       const auto line = crossings(lower, upper.height, static_cast<double>(row) / (rows - 1));
       for (std::size_t c = 0; c < count; ++c)
-        if (const auto value = value_at(line, columns_.at(static_cast<double>(c)))) values[c].push_back(*value);
+        if (const auto value = value_at(line, columns_.at(static_cast<double>(c)))) lines[c].push_back(*value);
     }
-    const auto is_whole = [&](std::size_t c) {
-      return values[c].size() == static_cast<std::size_t>(rows) && upper.height[c] - lower[c] >= least_height;
-    };
+    for (std::size_t c = 0; c < count; ++c)
+      if (upper.height[c] - lower[c] >= least_height)
+        values[c] = column_of(c, lines[c], {lower[c], upper.height[c]}, rows);
+    const auto is_whole = [&](std::size_t c) { return values[c].size() == static_cast<std::size_t>(rows); };
     const auto [first, end] = longest_run(count, is_whole);
     if (end - first < 2) return {};
     GridPatch patch;
@@ -90,9 +97,7 @@ class PatchMaker {
       patch.lower.push_back(lower[c]);
       patch.upper.push_back(upper.height[c]);
       patch.beyond.push_back(static_cast<double>(upper.beyond[c]));
-      for (std::size_t row = 0; row < values[c].size(); ++row) {
-        const double share = static_cast<double>(row) / (rows - 1);
-        const auto node = resampled(values[c], row, (1 - share) * lower[c] + share * upper.height[c]);
+      for (const NodeValue& node : values[c]) {
         patch.log_stiffness.push_back(node.log_stiffness);
         patch.error.push_back(node.error);
       }
@@ -101,6 +106,44 @@ class PatchMaker {
   }
 
  private:
+  struct Range {
+    double lower, upper;
+  };
+
+  // The nodes of a column: along the lines of equal height or, where these are not to be trusted, at constant
+  // deformation, whichever has the smaller error. Not all of them if some have no value.
+  std::vector<NodeValue> column_of(std::size_t c, std::span<const NodeValue> lines, const Range& range,
+                                   int rows) const {
+    std::vector<NodeValue> nodes;
+    const double distance = (range.upper - range.lower) / (rows - 1);
+    for (int row = 0; row < rows; ++row) {
+      const double height = range.lower + row * distance;
+      std::optional<NodeValue> node;
+      if (lines.size() == static_cast<std::size_t>(rows))
+        node = resampled(lines, static_cast<std::size_t>(row), height, distance);
+      if (!node || node->error > trusted_error) {
+        const auto other = at_deformation(columns_.at(static_cast<double>(c)), height);
+        if (other && (!node || other->error < node->error)) node = other;
+      }
+      if (!node) break;
+      nodes.push_back(*node);
+    }
+    return nodes;
+  }
+
+  // From the branches next to an area that have this deformation.
+  std::optional<NodeValue> at_deformation(double log_area, double log_deformation) const {
+    const auto above = std::ranges::upper_bound(branches_, log_area, {},
+                                                [](const LogBranch& branch) { return branch.first().log_area; });
+    const auto middle = above - branches_.begin(), size = std::ssize(branches_);
+    const auto first = std::max<std::ptrdiff_t>(middle - near_branches, 0),
+               end = std::min<std::ptrdiff_t>(middle + near_branches, size);
+    const auto near =
+        std::span(branches_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
+    return value_at(crossings(near, [&](const LogBranch::Point& p) { return p.log_deformation - log_deformation; }),
+                    log_area);
+  }
+
   // Heights between and, in straight lines, beyond the columns.
   double height(const std::vector<double>& border, double log_area) const {
     const double place = (log_area - columns_.first) / columns_.step;
@@ -111,11 +154,16 @@ class PatchMaker {
 
   std::vector<Crossing> crossings(const std::vector<double>& lower, const std::vector<double>& upper,
                                   double share) const {
+    return crossings(std::span(branches_), [&](const LogBranch::Point& p) {
+      return p.log_deformation - (1 - share) * height(lower, p.log_area) - share * height(upper, p.log_area);
+    });
+  }
+
+  template <class Height>
+  static std::vector<Crossing> crossings(std::span<const LogBranch> branches, const Height& height) {
     std::vector<Crossing> line;
-    for (const auto& branch : branches_) {
-      const double log_stiffness = branch.crossing([&](const LogBranch::Point& p) {
-        return p.log_deformation - (1 - share) * height(lower, p.log_area) - share * height(upper, p.log_area);
-      });
+    for (const auto& branch : branches) {
+      const double log_stiffness = branch.crossing(height);
       if (!std::isfinite(log_stiffness)) continue;
       const auto& own = branch.branch();
       const double stiffness = std::clamp(std::exp(log_stiffness), own.stiffness.back(), own.stiffness.front());

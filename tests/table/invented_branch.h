@@ -121,12 +121,16 @@ inline std::vector<SampledBranch> invented_branches(const TableSpec& spec, int s
   return branches;
 }
 
+/// Deformation at which the bare branch of a radius ends.
+inline double invented_end(double radius) { return 0.05 + 0.02 * (radius - 3); }
+
 /// The same, but the bare branches of small cells end at a deformation that rises with the radius; beyond it they go on
 /// with bending.
-inline std::vector<SampledBranch> invented_unstable_branches(const TableSpec& spec) {
+template <class End = double (*)(double)>
+std::vector<SampledBranch> invented_unstable_branches(const TableSpec& spec, const End& end_at = invented_end) {
   std::vector<SampledBranch> branches;
   for (const double radius : sweep_radii_um(spec)) {
-    const double end = 0.05 + 0.02 * (radius - 3);
+    const double end = end_at(radius);
     auto sweep = covering(spec, radius);
     if (end >= spec.greatest_deformation) {
       branches.push_back(invented_branch(radius, sweep));

@@ -104,6 +104,27 @@ TEST(StiffnessGrid, EndsAtTheInstabilityOrGoesOnWithBending) {
   EXPECT_LT(lost, 30) << "the border is evened below the ends of the branches";
 }
 
+TEST(StiffnessGrid, JaggedEndsMakeNoWrongNumbers) {
+  // Where ends jump from radius to radius, lines along the border do, too; polynomials along them go anywhere. Bending
+  // and the jumps may cost accuracy, which the error must say.
+  const auto spec = spec_of_fifty_radii({"table.bending_beyond_kBT=1e4"});
+  const auto jagged = [](double radius) {
+    const int k = static_cast<int>(radius / 0.13);
+    return (radius < 5 ? 0.08 : radius < 6.4 ? 0.12 : invented_end(radius) + 0.05) * (1 + 0.1 * (k % 3 == 0));
+  };
+  const StiffnessGrid grid(make_stiffness_grid(spec, invented_unstable_branches(spec, jagged), "test").value());
+  int held = 0;
+  for (const auto& [area, d] : random_queries(spec, 20000)) {
+    const auto answer = grid.answer(area, d);
+    if (answer.reason != NoAnswer::none) continue;
+    held += answer.regularised;
+    const double off = std::abs(std::exp(answer.log_stiffness) / invented_modulus(area, d) - 1);
+    EXPECT_LT(off, 0.02) << area << " " << d << " " << answer.regularised;
+    EXPECT_LT(off, 3 * answer.error + 1e-4) << area << " " << d << " " << answer.regularised;
+  }
+  EXPECT_GT(held, 100);
+}
+
 TEST(StiffnessGrid, ABranchThatStopsShortBetweenOthersIsBridged) {
   const auto spec = spec_of_fifty_radii({});
   auto branches = invented_branches(spec);
