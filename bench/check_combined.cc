@@ -219,4 +219,5 @@ int rheocyte::measure(int argc, char** argv) {
              Tally::spread(comparison.outline_of_modes));
   exact_figure.print("exact contour, area, d and Lambda1/Lambda2");
   exact_contour.print("exact contour, area and modes 2 .. 6");
+  return 0;
 }

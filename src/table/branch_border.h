@@ -28,7 +28,9 @@ class LogBranch {
   double crossing(const Height& height) const {
     double stiff = stiffest(), soft = softest();
     constexpr double rounding = 1e-12;
-    if (height(at(stiff)) > rounding || height(at(soft)) < -rounding) return std::numeric_limits<double>::quiet_NaN();
+    // Where the line has no height, neither holds.
+    if (!(height(at(stiff)) <= rounding && height(at(soft)) >= -rounding))
+      return std::numeric_limits<double>::quiet_NaN();
     for (int step = 0; step < 60 && stiff - soft > 1e-13; ++step) {
       const double middle = 0.5 * (stiff + soft);
       (height(at(middle)) < 0 ? stiff : soft) = middle;

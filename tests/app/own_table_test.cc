@@ -42,7 +42,7 @@ class OwnTable : public testing::Test {
     writer.scalar("area_um", {120, 10, 400, 80, 250, 80, 80});
     writer.scalar("deform", {0.016, 0.03, 0.03, -0.01, 0.3, NAN, 0.15});
   }
-  /// The folder of a table with branches of the closed model: 4 to 20 kPa at 20 um, 0.04 ul/s, 15 mPa s.
+  /// The folder of a table with branches of the closed model: 4 to 40 kPa at 20 um, 0.04 ul/s, 15 mPa s.
   TableSpec write_closed_table(const std::string& name) const {
     const auto spec = parse_table_spec(
         "channel.width_um = 20\nflow.rate_ul_per_s = 0.04\nflow.viscosity_mPas = 15\n[table]\nidentifier = \"CLOSED\"\n"
@@ -74,7 +74,7 @@ TEST_F(OwnTable, NothingButTheRecordingIsNeeded) {
   EXPECT_NE(events.find("young_modulus_kPa\tstandard_error_kPa\tstate"), std::string::npos);
   EXPECT_NE(events.find("corrected for pixels: area and deformation"), std::string::npos);
   const auto summary = test::content_of(folder_ / "rheocyte_summary.tsv");
-  EXPECT_NE(summary.find("\tLE-2D-26\t"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("\tLE-2D-MC049-26\t"), std::string::npos) << "that of the medium: " << summary;
   EXPECT_NE(ended.out.find("standard error"), std::string::npos) << ended.out;
   const Recording companion(folder_ / "a_rheocyte.rtdc");
   EXPECT_NE(companion.metadata().text("user:rheocyte userdef1").value_or("").find("standard error"), std::string::npos);
@@ -103,7 +103,7 @@ TEST_F(OwnTable, IsFoundByIdentifierFileAndFolder) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     return column(folder_ / "a_rheocyte.rtdc", "emodulus")[0];
   };
-  EXPECT_EQ(modulus({}), modulus({"--table", "LE-2D-26"}));
+  EXPECT_EQ(modulus({}), modulus({"--table", "LE-2D-MC049-26"}));
   const double by_folder = modulus({"--table", path("table")});
   EXPECT_EQ(by_folder, modulus({"--table", path("table/grid_CLOSED.cbor")}));
   EXPECT_NEAR(by_folder / modulus({}), 1, 0.05) << "the closed model against simulations at a deformation of 0.01";
@@ -148,7 +148,7 @@ TEST_F(OwnTable, GatesShutEventsOut) {
   EXPECT_NE(unknown.err.find("has no feature bright"), std::string::npos) << unknown.err;
   const auto none = run({"extract", path("a.rtdc"), "--max", "area_um=5"});
   EXPECT_EQ(none.exit_code, 3);
-  EXPECT_NE(none.err.find("outside the table LE-2D-26 or the gates"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("outside the table LE-2D-MC049-26 or the gates"), std::string::npos) << none.err;
 }
 
 TEST_F(OwnTable, AShearThinningMediumGetsTheTableOfItsLiquid) {

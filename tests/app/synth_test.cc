@@ -143,11 +143,11 @@ TEST_F(Synth, ModuliOfCombinedCellsAreThoseOfTheirTruth) {
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with('#') || line.starts_with("event")) continue;
     std::istringstream fields(line);
-    std::vector<double> numbers(12);
+    std::vector<double> numbers(13);
     for (double& number : numbers) fields >> number;
     ASSERT_LT(event, young.size());
-    young_ratio += numbers[3] / young[event] / double(young.size());
-    cortex_ratio += numbers[5] / cortex[event] / double(young.size());
+    young_ratio += numbers[4] / young[event] / double(young.size());
+    cortex_ratio += numbers[6] / cortex[event] / double(young.size());
     ++event;
   }
   EXPECT_EQ(event, young.size());

@@ -18,7 +18,7 @@ SampledBranch analytic_branch(double radius_um) {
   branch.value = Eigen::MatrixXd::Zero(samples, measure_count);
   branch.slope = branch.value;
   for (int i = 0; i < samples; ++i) {
-    const double stiffness = 20 * std::pow(4. / 20, i / (samples - 1.)), step = 1e-4;
+    const double stiffness = 40 * std::pow(4. / 40, i / (samples - 1.)), step = 1e-4;
     const auto here = state(radius_um, stiffness), stiffer = state(radius_um, stiffness * std::exp(step)),
                softer = state(radius_um, stiffness * std::exp(-step));
     branch.stiffness.push_back(stiffness);

@@ -4,7 +4,7 @@
 
 namespace rheocyte::test {
 
-/// Solids at 20 um, 0.04 ul/s, 15 mPa s: 16 samples from 20 to 4 kPa, slopes by differences.
+/// Solids at 20 um, 0.04 ul/s, 15 mPa s: 16 samples from 40 to 4 kPa, slopes by differences.
 SampledBranch analytic_branch(double radius_um);
 
 }  // namespace rheocyte::test

@@ -64,7 +64,7 @@ TEST(BranchShapes, SayWhyThereIsNoShape) {
   EXPECT_EQ(reason(3.9, 8), NoShape::too_small);
   EXPECT_EQ(reason(NAN, 8), NoShape::too_small);
   EXPECT_EQ(reason(8.3, 8), NoShape::too_large);
-  EXPECT_EQ(reason(6, 25), NoShape::too_stiff);
+  EXPECT_EQ(reason(6, 45), NoShape::too_stiff);
   EXPECT_EQ(reason(6, 3), NoShape::too_soft);
 }
 
