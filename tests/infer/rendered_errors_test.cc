@@ -41,24 +41,29 @@ constexpr double log_ratio_of_deviations = 0.4;
 
 TEST(RenderedErrors, OfSolidsAreThoseOfTheFittedLaw) {
   // Shapes of the closed model, none of which was used for the fit. The law leaves 1.3e-3 in ln(area) and 5e-4 in the
-  // deformation to single shapes (95 %), and twice the scatter of the mean of 200 pictures is 1e-3 and 2e-4.
+  // deformation to 95 % of single shapes, so that one of a dozen may exceed that, but not its double; twice the scatter
+  // of the mean of 2000 pictures is 3e-4 and 1e-4.
+  constexpr int pictures = 2000;
+  constexpr double usual_area = 1.3e-3 + 3e-4, usual_deformation = 5e-4 + 1e-4;
   const AnalyticShapes model({.channel_width_um = 20, .flow_rate_ul_s = 0.04, .greatest_deformation = 0.03});
   CellRandom random(11, 0, Purpose::place);
-  int count = 0;
+  int count = 0, unusual = 0;
   for (const double radius : {4.5, 6.0, 7.0})
     for (const double stiffness : {2.0, 4.0, 7.0, 12.0}) {
       const auto found = model.shape({radius, stiffness, 15});
       if (!std::holds_alternative<CellShape>(found)) continue;
       const auto& shape = std::get<CellShape>(found);
-      const auto errors = errors_in_pixels(silhouette(shape.meridian), pixel_um, 200, random);
+      const auto errors = errors_in_pixels(silhouette(shape.meridian), pixel_um, pictures, random);
       const auto off = difference(errors, shape.area_um2, shape.deformation);
-      EXPECT_NEAR(off.log_area, 0, 2.3e-3) << radius << " " << stiffness;
-      EXPECT_NEAR(off.deformation, 0, 7e-4) << radius << " " << stiffness;
+      EXPECT_NEAR(off.log_area, 0, 2 * usual_area) << radius << " " << stiffness;
+      EXPECT_NEAR(off.deformation, 0, 2 * usual_deformation) << radius << " " << stiffness;
       EXPECT_NEAR(off.log_area_deviation, 0, log_ratio_of_deviations) << radius << " " << stiffness;
       EXPECT_NEAR(off.deformation_deviation, 0, log_ratio_of_deviations) << radius << " " << stiffness;
       ++count;
+      unusual += std::abs(off.log_area) > usual_area || std::abs(off.deformation) > usual_deformation;
     }
   EXPECT_GE(count, 8);
+  EXPECT_LE(unusual, 1);
 }
 
 TEST(RenderedErrors, BetweenTheCellsOfATableAreThoseOfTheFittedLaw) {
