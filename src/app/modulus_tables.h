@@ -34,7 +34,7 @@ class ModulusTable {
 };
 
 /// A difference of flow exponents up to which a liquid and that of a table count as alike.
-inline constexpr double flow_exponent_tolerance = 0.03;
+inline constexpr double flow_exponent_tolerance = 0.035;
 
 class ModulusTables {
  public:

@@ -184,6 +184,21 @@ TEST_F(OwnTable, AShearThinningMediumGetsTheTableOfItsLiquid) {
   EXPECT_EQ(extract({"--viscosity", "5"}).err, "") << "of a viscosity alone nothing is known";
 }
 
+TEST_F(OwnTable, EachMediumGetsItsOwnAtEveryTemperature) {
+  // Over the temperatures for which the media were measured, 22 to 37 degC; water does not thin.
+  write_recording("a.rtdc");
+  const std::map<std::string, std::string> tables{{"CellCarrier", "LE-2D-MC049-26"},
+                                                  {"CellCarrierB", "LE-2D-MC059-26"},
+                                                  {"0.83% MC-PBS", "LE-2D-MC083-26"},
+                                                  {"water", "LE-2D-26"}};
+  for (const auto& [medium, table] : tables)
+    for (const std::string temperature : {"22", "37"}) {
+      ASSERT_NE(run({"extract", path("a.rtdc"), "--medium", medium, "--temperature", temperature}).exit_code, 2);
+      const auto summary = test::content_of(folder_ / "rheocyte_summary.tsv");
+      EXPECT_NE(summary.find("\t" + table + "\t"), std::string::npos) << medium << temperature << summary;
+    }
+}
+
 TEST_F(OwnTable, ModuliComeBackAndIntervalsHoldWhatTheyPromise) {
   write_closed_table("table");
   struct Population {
