@@ -11,6 +11,7 @@
 #include "app/build_info.h"
 #include "app/extract_settings.h"
 #include "app/gates.h"
+#include "app/modulus_tables.h"
 #include "case/user_error.h"
 #include "infer/rendered_errors.h"
 #include "measurement/contour_from_mask.h"
@@ -93,6 +94,7 @@ class Fits {
         features_(recording, shapes_),
         gates_(options.measuring.gates),
         pixels_(table, settings_.pixel_size_um * simulated.channel_width_um / settings_.conditions.channel_width_um),
+        simulated_exponent_(simulated.flow_exponent),
         moduli_(table, simulated,
                 {options.only_figure ? features_of_figure() : features_of_contour(), options.fit_tension,
                  table.tension_ratios().front()}) {
@@ -138,6 +140,11 @@ class Fits {
     s.warnings = recording_.remarks();
     s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
     if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
+    if (std::abs(settings_.flow_exponent - simulated_exponent_) > flow_exponent_tolerance)
+      s.warnings.push_back(fmt::format(
+          "the medium thins in shear with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at the "
+          "wall stands for both, and moduli are off by up to 5 %, those of large cells most.",
+          settings_.flow_exponent, simulated_exponent_));
     if (s.resolved() == 0 && s.with_stiffness() > 0)
       s.warnings.emplace_back(
           "no event tells bulk and cortex apart; what is known is E + E2D/r0, of some events perhaps single moduli.");
@@ -163,6 +170,7 @@ class Fits {
   EventFeatures features_;
   Gates gates_;
   RenderedErrors pixels_;
+  double simulated_exponent_;
   SeveralModuli moduli_;
   std::vector<double> viscosity_;
   std::vector<char> inside_;

@@ -158,7 +158,8 @@ struct SeveralModuli::Candidate {
 };
 
 FlowConditions conditions_of(const TableSpec& spec) {
-  return {channel_width_um(spec.base), spec.base.flow.rate_ul_per_s.value(), effective_viscosity_mPas(spec.base)};
+  return {channel_width_um(spec.base), spec.base.flow.rate_ul_per_s.value(), effective_viscosity_mPas(spec.base),
+          flow_exponent(spec.base)};
 }
 
 std::string_view name_of(ModuliStatus status) {

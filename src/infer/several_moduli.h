@@ -18,6 +18,7 @@ inline constexpr int modulus_count = int(Modulus::count);
 /// A channel; states without inertia scale exactly between Newtonian ones (eq:scaling).
 struct FlowConditions {
   double channel_width_um = 0, flow_rate_ul_s = 0, viscosity_mPas = 0;
+  double flow_exponent = 1;  ///< n of eta ~ (shear rate)^(n - 1); the viscosity is that at the wall
 };
 FlowConditions conditions_of(const TableSpec& spec);
 

@@ -199,7 +199,7 @@ GridOrigin origin_of(const TableSpec& spec, std::string_view version) {
           channel_width_um(c),
           c.flow.rate_ul_per_s.value(),
           effective_viscosity_mPas(c),
-          c.flow.law == LiquidLaw::power_law ? c.flow.exponent.value() : 1,
+          flow_exponent(c),
           stiffness_unit(spec) != "kPa"};
 }
 

@@ -41,6 +41,8 @@ double channel_width_um(const Case& c) {
   return c.channel.width_um ? *c.channel.width_um : tube_radius_um(c) / tube_radius_per_channel_width;
 }
 
+double flow_exponent(const Case& c) { return c.flow.law == LiquidLaw::power_law ? c.flow.exponent.value() : 1; }
+
 double effective_viscosity_mPas(const Case& c) {
   if (c.flow.law == LiquidLaw::newtonian) return c.flow.viscosity_mPas.value();
   const double n = c.flow.exponent.value(), width_mm = 1e-3 * channel_width_um(c);

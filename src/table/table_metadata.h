@@ -18,6 +18,9 @@ double channel_width_um(const Case&);
 /// eta = K g^(n-1) with g = 8 Q / L^3 (0.6671 + 0.2121 / n), by which RT-DC programs compare buffers and tables.
 double effective_viscosity_mPas(const Case&);
 
+/// n of eta ~ (shear rate)^(n - 1); 1 for a Newtonian liquid.
+double flow_exponent(const Case&);
+
 /// For example "neo-hookean solid / newtonian fluid".
 std::string model_text(const Case&);
 
