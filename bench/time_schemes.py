@@ -4,7 +4,7 @@
     bench/time_schemes.py [--program build/rheocyte] [--steps 20] [--full]
 
 Prints one line of JSON for each run and the ratios of their times. Runs follow one after another on one processor; of
-short ones the fastest of three counts. The splitting on the paper's grid (0.2 um, degree 2) takes hours: only --steps of its 2500 steps are made, between two
+short ones the fastest of three counts. The splitting on the paper's grid (0.2 um, degree 2) takes half an hour: only --steps of its 2500 steps are made, between two
 runs that differ by so many steps, and their time is scaled; --full makes all of them.
 """
 
