@@ -4,28 +4,15 @@
 // itself (userdef2), to which the companion leads.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "measurement/recording.h"
+#include "columns.h"
 #include "program.h"
 
 namespace {
 
 using namespace rheocyte;
-
-std::vector<double> column(const Recording& recording, const char* feature) {
-  std::vector<double> values(recording.events());
-  recording.read_scalar(feature, 0, values);
-  return values;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return NAN;
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 void report(const char* file) {
   const Recording recording(file);

@@ -4,7 +4,6 @@
 // in the recording (userdef1, 2, 7, 8).
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -13,24 +12,12 @@
 #include <vector>
 
 #include "case/user_error.h"
-#include "measurement/recording.h"
+#include "columns.h"
 #include "program.h"
 
 namespace {
 
 using namespace rheocyte;
-
-std::vector<double> column(const Recording& recording, const char* feature) {
-  std::vector<double> values(recording.events());
-  recording.read_scalar(feature, 0, values);
-  return values;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return NAN;
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 /// One modulus of many cells against the truth.
 struct Tally {
