@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "case/user_error.h"
 #include "columns.h"
 #include "program.h"
 
