@@ -56,23 +56,25 @@ CellShape blended(double radius_um, std::span<const ScaledState> states) {
 
 }  // namespace
 
-BranchShapes::BranchShapes(std::vector<SampledBranch> branches, const BranchConditions& conditions)
-    : branches_(std::move(branches)), radii_(by_radius(branches_)), conditions_(conditions) {
-  assert(radii_.size() > 1);
-}
-
-std::variant<CellShape, NoShape> BranchShapes::shape(const VirtualCell& cell) const {
-  const auto& c = conditions_;
-  const double width = c.simulated_width_um / c.channel_width_um;
-  const double load = c.flow_rate_ul_s * cell.viscosity_mPas / (c.simulated_rate_ul_s * c.simulated_viscosity_mPas);
-  const double stiffness = cell.stiffness / load / (c.is_shell ? width * width : width * width * width);
-  auto found = at(cell.radius_um * width, stiffness);
+std::variant<CellShape, NoShape> BranchConditions::in_channel(std::variant<CellShape, NoShape> found) const {
+  const double width = width_ratio();
   if (auto* const shape = std::get_if<CellShape>(&found)) {
     shape->meridian /= width;
     shape->area_um2 /= width * width;
     shape->volume_um3 /= width * width * width;
   }
   return found;
+}
+
+BranchShapes::BranchShapes(std::vector<SampledBranch> branches, const BranchConditions& conditions)
+    : branches_(std::move(branches)), radii_(by_radius(branches_)), conditions_(conditions) {
+  assert(radii_.size() > 1);
+}
+
+std::variant<CellShape, NoShape> BranchShapes::shape(const VirtualCell& cell) const {
+  const double width = conditions_.width_ratio(), load = conditions_.load(cell.viscosity_mPas);
+  const double stiffness = cell.stiffness / load / (conditions_.is_shell ? width * width : width * width * width);
+  return conditions_.in_channel(at(cell.radius_um * width, stiffness));
 }
 
 std::variant<CellShape, NoShape> BranchShapes::at(double radius_um, double stiffness) const {

@@ -12,6 +12,15 @@ struct BranchConditions {
   double simulated_width_um = 0, simulated_rate_ul_s = 0, simulated_viscosity_mPas = 0;
   double channel_width_um = 0, flow_rate_ul_s = 0;
   bool is_shell = false;
+
+  /// Width of the simulated channel over that of the cells.
+  double width_ratio() const { return simulated_width_um / channel_width_um; }
+  /// Flow rate times viscosity, over that of the simulations (eq:scaling).
+  double load(double viscosity_mPas) const {
+    return flow_rate_ul_s * viscosity_mPas / (simulated_rate_ul_s * simulated_viscosity_mPas);
+  }
+  /// A shape of the simulated channel in that of the cells.
+  std::variant<CellShape, NoShape> in_channel(std::variant<CellShape, NoShape> found) const;
 };
 
 /// A cell is scaled to the channel of the simulations (eq:scaling; the modulus of a shell with the square of the width)

@@ -27,9 +27,7 @@ CombinedShapes::CombinedShapes(const TableSpec& spec, std::vector<SampledBranch>
       conditions_(conditions) {}
 
 std::variant<CellShape, NoShape> CombinedShapes::shape(const VirtualCell& cell) const {
-  const auto& c = conditions_;
-  const double width = c.simulated_width_um / c.channel_width_um;
-  const double load = c.flow_rate_ul_s * cell.viscosity_mPas / (c.simulated_rate_ul_s * c.simulated_viscosity_mPas);
+  const double width = conditions_.width_ratio(), load = conditions_.load(cell.viscosity_mPas);
   const double radius = cell.radius_um * width, young = cell.stiffness / (load * width * width * width);
   const double cortex = cell.cortex_modulus_mN_per_m / (load * width * width), S = young + cortex / radius;
   if (!(radius > 0)) return NoShape::too_small;
@@ -38,13 +36,7 @@ std::variant<CellShape, NoShape> CombinedShapes::shape(const VirtualCell& cell) 
   const auto& ratios = tension_ratios();
   const double ratio =
       ratios.size() == 1 || !(cortex > 0) ? ratios.front() : cell.tension_mN_per_m / cell.cortex_modulus_mN_per_m;
-  auto found = at({std::log(radius), cortex / radius / S, 0, ratio}, std::log(S));
-  if (auto* const shape = std::get_if<CellShape>(&found)) {
-    shape->meridian /= width;
-    shape->area_um2 /= width * width;
-    shape->volume_um3 /= width * width * width;
-  }
-  return found;
+  return conditions_.in_channel(at({std::log(radius), cortex / radius / S, 0, ratio}, std::log(S)));
 }
 
 // Where the table has this stiffness: it falls with the deformation.
