@@ -16,13 +16,13 @@
 #include <string>
 #include <vector>
 
-#include "app/table_folder.h"
 #include "infer/rendered_errors.h"
 #include "infer/several_moduli.h"
 #include "measurement/pixel_errors.h"
 #include "program.h"
 #include "synth/combined_shapes.h"
 #include "synth/outline.h"
+#include "table/table_folder.h"
 
 namespace {
 

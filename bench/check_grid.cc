@@ -14,9 +14,9 @@
 #include <random>
 #include <vector>
 
-#include "app/table_folder.h"
 #include "program.h"
 #include "table/grid_from_branches.h"
+#include "table/table_folder.h"
 #include "table/table_interpolation.h"
 
 namespace {

@@ -10,10 +10,10 @@
 #include <random>
 #include <vector>
 
-#include "app/table_folder.h"
 #include "case/scales.h"
 #include "program.h"
 #include "solve/stationary.h"
+#include "table/table_folder.h"
 #include "table/table_interpolation.h"
 
 namespace {

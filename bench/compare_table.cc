@@ -11,8 +11,8 @@
 #include <sstream>
 #include <vector>
 
-#include "app/table_folder.h"
 #include "program.h"
+#include "table/table_folder.h"
 #include "table/table_interpolation.h"
 
 namespace {

@@ -12,13 +12,13 @@
 #include <random>
 #include <vector>
 
-#include "app/table_folder.h"
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "program.h"
 #include "synth/branch_shapes.h"
 #include "synth/outline.h"
 #include "synth/pixel_picture.h"
+#include "table/table_folder.h"
 #include "table/table_metadata.h"
 
 namespace {

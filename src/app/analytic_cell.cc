@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/build_info.h"
 #include "case/scales.h"
 #include "case/user_error.h"
+#include "store/build_info.h"
 
 namespace rheocyte {
 

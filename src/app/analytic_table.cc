@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "analytic/isoelasticity.h"
-#include "app/build_info.h"
 #include "case/parameters.h"
 #include "case/scales.h"
 #include "case/user_error.h"
+#include "store/build_info.h"
 #include "table/table_metadata.h"
 #include "table/table_text.h"
 

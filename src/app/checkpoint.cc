@@ -9,11 +9,11 @@
 #include <optional>
 #include <type_traits>
 
-#include "app/build_info.h"
 #include "case/read_case.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
+#include "store/build_info.h"
 
 namespace rheocyte {
 

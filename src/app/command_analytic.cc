@@ -9,8 +9,8 @@
 
 #include "app/analytic_cell.h"
 #include "app/analytic_table.h"
-#include "app/own_file.h"
 #include "case/user_error.h"
+#include "store/own_file.h"
 #include "table/table_metadata.h"
 
 namespace rheocyte {

@@ -11,10 +11,10 @@
 #include <string>
 #include <system_error>
 
-#include "app/child_process.h"
 #include "app/exit_codes.h"
-#include "app/python_package.h"
-#include "app/standard_error.h"
+#include "store/child_process.h"
+#include "store/python_package.h"
+#include "store/standard_error.h"
 
 namespace rheocyte {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/exit_codes.h"
-#include "app/standard_error.h"
 #include "case/nearest_name.h"
 #include "case/user_error.h"
+#include "store/standard_error.h"
 
 namespace rheocyte {
 

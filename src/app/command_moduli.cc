@@ -5,15 +5,16 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "app/contained_sentence.h"
 #include "app/exit_codes.h"
-#include "app/moduli_recording.h"
-#include "app/own_file.h"
-#include "app/recording_list.h"
-#include "app/recording_progress.h"
-#include "app/standard_error.h"
-#include "app/stop_signal.h"
+#include "app/extract_options.h"
 #include "case/user_error.h"
+#include "extract/moduli_recording.h"
+#include "extract/recording_list.h"
+#include "store/contained_sentence.h"
+#include "store/own_file.h"
+#include "store/recording_progress.h"
+#include "store/standard_error.h"
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 

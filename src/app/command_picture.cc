@@ -8,8 +8,8 @@
 
 #include "app/exit_codes.h"
 #include "app/picture.h"
-#include "app/standard_error.h"
 #include "case/user_error.h"
+#include "store/standard_error.h"
 
 namespace rheocyte {
 

@@ -10,17 +10,17 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "app/child_process.h"
-#include "app/contained.h"
-#include "app/contained_sentence.h"
 #include "app/exit_codes.h"
-#include "app/plot_lines.h"
 #include "app/plot_options.h"
-#include "app/plot_panel.h"
-#include "app/python_package.h"
-#include "app/standard_error.h"
-#include "app/stop_signal.h"
 #include "case/user_error.h"
+#include "extract/plot_lines.h"
+#include "extract/plot_panel.h"
+#include "store/child_process.h"
+#include "store/contained.h"
+#include "store/contained_sentence.h"
+#include "store/python_package.h"
+#include "store/standard_error.h"
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 

@@ -10,10 +10,10 @@
 #include <memory>
 #include <optional>
 
-#include "app/build_info.h"
-#include "app/own_file.h"
 #include "case/parameters.h"
 #include "case/user_error.h"
+#include "store/build_info.h"
+#include "store/own_file.h"
 #include "table/scale.h"
 #include "table/table_metadata.h"
 

@@ -10,14 +10,14 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "app/build_info.h"
-#include "app/child_process.h"
 #include "app/exit_codes.h"
-#include "app/result_folder.h"
 #include "app/solve_options.h"
-#include "app/standard_error.h"
 #include "case/read_case.h"
 #include "case/write_case.h"
+#include "store/build_info.h"
+#include "store/child_process.h"
+#include "store/result_folder.h"
+#include "store/standard_error.h"
 
 namespace rheocyte {
 

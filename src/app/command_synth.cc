@@ -10,15 +10,15 @@
 #include <sstream>
 #include <system_error>
 
-#include "app/build_info.h"
-#include "app/contained.h"
 #include "app/exit_codes.h"
-#include "app/extract_recording.h"
-#include "app/standard_error.h"
-#include "app/stop_signal.h"
-#include "app/synth_shapes.h"
 #include "case/case_text.h"
 #include "case/user_error.h"
+#include "extract/extract_recording.h"
+#include "store/build_info.h"
+#include "store/contained.h"
+#include "store/standard_error.h"
+#include "store/stop_signal.h"
+#include "synth/synth_shapes.h"
 #include "synth/virtual_recording.h"
 
 namespace rheocyte {

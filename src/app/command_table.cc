@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "app/build_info.h"
 #include "app/exit_codes.h"
 #include "app/picture.h"
-#include "app/standard_error.h"
-#include "app/table_folder.h"
 #include "app/table_processes.h"
 #include "case/user_error.h"
+#include "store/build_info.h"
+#include "store/standard_error.h"
 #include "table/combined_table.h"
 #include "table/grid_from_branches.h"
 #include "table/lookup_table.h"
 #include "table/simulations_file.h"
+#include "table/table_folder.h"
 
 namespace rheocyte {
 

@@ -1,39 +1,24 @@
 #include "app/extract_options.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <utility>
-
-#include "case/user_error.h"
 
 namespace rheocyte {
 
 namespace {
 
-void check_positive(const std::optional<double>& value, const char* option) {
-  if (value && !(*value > 0 && std::isfinite(*value)))
-    throw UserError(fmt::format("rheocyte: {} must be a positive number.", option));
+void declare_gate_options(CLI::App& command, GateOptions& options) {
+  command.add_option("--min", options.least, "take only events whose feature is not below a value, e.g. area_um=40")
+      ->type_name("FEATURE=VALUE")
+      ->allow_extra_args(false);
+  command
+      .add_option("--max", options.greatest,
+                  "take only events whose feature is not above a value, e.g. area_ratio=1.05")
+      ->type_name("FEATURE=VALUE")
+      ->allow_extra_args(false);
 }
 
 }  // namespace
-
-void check_measuring_options(const MeasuringOptions& options) {
-  check_positive(options.channel_width_um, "--channel-width");
-  check_positive(options.flow_rate_ul_s, "--flow-rate");
-  check_positive(options.pixel_size_um, "--pixel-size");
-  check_positive(options.viscosity_mPas, "--viscosity");
-  check_positive(options.patience_s, "--patience");
-  static_cast<void>(Gates(options.gates));
-  if (!options.viscosity_mPas) return;
-  const char* const other = options.medium                 ? "--medium"
-                            : options.viscosity_model      ? "--viscosity-model"
-                            : !options.temperature.empty() ? "--temperature"
-                                                           : nullptr;
-  if (other)
-    throw UserError(fmt::format("rheocyte: --viscosity and {} contradict each other; give one of them.", other));
-}
 
 void declare_batch_options(CLI::App& command, BatchOptions& options) {
   command.add_option("FILES", options.inputs, "recordings (.rtdc); folders with -r")->required();

@@ -8,10 +8,10 @@
 
 #include "app/exit_codes.h"
 #include "app/picture.h"
-#include "app/standard_error.h"
-#include "app/stop_signal.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
+#include "store/standard_error.h"
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 

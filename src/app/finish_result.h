@@ -6,8 +6,8 @@
 #include <string>
 
 #include "app/result.h"
-#include "app/result_folder.h"
 #include "app/solve_options.h"
+#include "store/result_folder.h"
 
 namespace rheocyte {
 

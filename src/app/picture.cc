@@ -1,7 +1,7 @@
 #include "app/picture.h"
 
-#include "app/child_process.h"
-#include "app/python_package.h"
+#include "store/child_process.h"
+#include "store/python_package.h"
 
 namespace rheocyte {
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/extract_options.h"
 #include "case/user_error.h"
 
 namespace rheocyte {

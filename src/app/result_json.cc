@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "app/build_info.h"
 #include "app/result.h"
 #include "case/scales.h"
 #include "case/write_case.h"
+#include "store/build_info.h"
 
 namespace rheocyte {
 

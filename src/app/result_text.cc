@@ -5,8 +5,8 @@
 #include <iterator>
 #include <numbers>
 
-#include "app/build_info.h"
 #include "app/result.h"
+#include "store/build_info.h"
 
 namespace rheocyte {
 

@@ -1,7 +1,6 @@
 // The program that the user calls. It links no solver, so that help and errors come at once.
 #include <CLI/CLI.hpp>
 
-#include "app/build_info.h"
 #include "app/command_analytic.h"
 #include "app/command_extract.h"
 #include "app/command_figure.h"
@@ -14,6 +13,7 @@
 #include "app/command_solve.h"
 #include "app/command_synth.h"
 #include "app/command_table.h"
+#include "store/build_info.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"rheocyte: shapes of cells in the channel of real-time deformability cytometry", "rheocyte"};

@@ -7,13 +7,13 @@
 #include "app/exit_codes.h"
 #include "app/finish_result.h"
 #include "app/result.h"
-#include "app/result_folder.h"
 #include "app/solve_in_time.h"
-#include "app/standard_error.h"
-#include "app/stop_signal.h"
 #include "case/read_case.h"
 #include "case/scales.h"
 #include "case/user_error.h"
+#include "store/result_folder.h"
+#include "store/standard_error.h"
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 

@@ -9,10 +9,10 @@
 
 #include "app/checkpoint.h"
 #include "app/finish_result.h"
-#include "app/standard_error.h"
-#include "app/stop_signal.h"
 #include "case/scales.h"
 #include "case/user_error.h"
+#include "store/standard_error.h"
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 

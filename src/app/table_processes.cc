@@ -18,13 +18,13 @@
 #include <utility>
 #include <vector>
 
-#include "app/child_process.h"
 #include "app/exit_codes.h"
-#include "app/progress.h"
-#include "app/standard_error.h"
-#include "app/stop_signal.h"
-#include "app/table_folder.h"
 #include "case/user_error.h"
+#include "store/child_process.h"
+#include "store/progress.h"
+#include "store/standard_error.h"
+#include "store/stop_signal.h"
+#include "table/table_folder.h"
 
 namespace rheocyte {
 

@@ -1,6 +1,6 @@
 // The processes that compute a table: as many as processors, or the share of one rank under mpirun or srun.
 #pragma once
-#include "app/table_folder.h"
+#include "table/table_folder.h"
 
 namespace rheocyte {
 

@@ -5,10 +5,10 @@
 #include <csignal>
 
 #include "app/exit_codes.h"
-#include "app/stop_signal.h"
-#include "app/table_folder.h"
 #include "solve/outcome.h"
+#include "store/stop_signal.h"
 #include "table/sample_branch.h"
+#include "table/table_folder.h"
 
 namespace rheocyte {
 

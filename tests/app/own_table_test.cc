@@ -5,13 +5,13 @@
 #include <cmath>
 #include <fstream>
 
-#include "app/table_folder.h"
 #include "lookup_table_file.h"
 #include "measurement/recording.h"
 #include "measurement/recording_writer.h"
 #include "robustness/run_program.h"
 #include "synth/analytic_branches.h"
 #include "table/grid_from_branches.h"
+#include "table/table_folder.h"
 
 namespace rheocyte {
 namespace {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/table_folder.h"
 #include "measurement/recording.h"
 #include "measurement/recording_writer.h"
 #include "robustness/run_program.h"
 #include "synth/analytic_branches.h"
 #include "table/invented_combined.h"
+#include "table/table_folder.h"
 
 namespace rheocyte {
 namespace {

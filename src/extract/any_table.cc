@@ -1,0 +1,57 @@
+#include "extract/any_table.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The grid in the folder of a table.
+fs::path grid_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".cbor" && entry.path().filename().string().starts_with("grid_"))
+      found.push_back(entry.path());
+  const std::string name = one_line(folder.string(), 300);
+  if (found.empty())
+    throw UserError(
+        fmt::format("{}: this folder holds no grid_*.cbor, which `rheocyte table` writes when a table is "
+                    "complete; give --table the folder of a complete table, or a file.",
+                    name));
+  if (found.size() > 1) throw UserError(fmt::format("{}: holds several grid_*.cbor; give --table one of them.", name));
+  return found.front();
+}
+
+std::string content_of(const fs::path& path) {
+  constexpr std::uintmax_t greatest_file = 64 << 20;
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  std::ifstream file(path, std::ios::binary);
+  if (error || !file || size > greatest_file)
+    throw UserError(fmt::format("{}: {}", one_line(path.string(), 300),
+                                !error && size > greatest_file ? "is too large for a grid of a table."
+                                                               : "cannot be read; check its permissions."));
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+AnyTable read_any_table(const fs::path& path) {
+  std::error_code error;
+  const fs::path file = fs::is_directory(path, error) ? grid_in(path) : path;
+  if (file.extension() == ".cbor") return grid_from_bytes(content_of(file), one_line(file.string(), 300));
+  return read_published_table(file);
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,54 @@
+// With which channel, flow and viscosity the events of one recording are taken: from the command line, else its
+// metadata.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "extract/options.h"
+#include "infer/modulus_parity.h"
+#include "measurement/recording.h"
+#include "measurement/viscosity.h"
+
+namespace rheocyte {
+
+enum class TemperatureSource { none, given, metadata, feature };
+
+/// What is done about the pixels.
+enum class PixelUse {
+  correct,              ///< area and deformation, as far as the table wants it
+  correct_deformation,  ///< the area stays as measured
+  ignore,               ///< nothing is corrected; the size need not be known
+  fit  ///< no correction beforehand: a fit to the contour takes account of them, so the size must be known
+};
+
+struct ExtractSettings {
+  MeasuringConditions conditions;  ///< pixel size 0: no correction
+  double pixel_size_um = 0;        ///< 0 if unknown
+  std::optional<Buffer> buffer;    ///< nothing: the viscosity was given
+  double viscosity_mPas = 0;       ///< if it is the same for all events
+  TemperatureSource temperature_from = TemperatureSource::none;
+  double temperature_C = 0;           ///< if it is the same for all events
+  double flow_exponent = 1;           ///< n of the medium at the recording's temperature, 1: Newtonian or unknown
+  std::vector<std::string> warnings;  ///< sentences without the file's name
+
+  bool viscosity_varies() const { return temperature_from == TemperatureSource::feature; }
+  /// Of events [first, first + mPas.size()) (mPa s); NaN for events whose temperature is no number. Returns how many
+  /// temperatures lie outside those for which the model was measured; there it extrapolates. UserError if the data are
+  /// damaged.
+  std::size_t viscosities(const Recording& recording, std::size_t first, std::span<double> mPas) const;
+  /// The warning for so many events.
+  std::string outside_temperature_text(std::size_t events) const;
+
+  /// What the moduli rest on, one line each: channel width, flow rate, size of a pixel if it counts, viscosity.
+  std::vector<std::string> lines() const;
+  std::string medium_text() const;       ///< "0.49% MC-PBS", or "" if the viscosity was given
+  std::string model_text() const;        ///< "buyukurganci-2022", or "given"
+  std::string temperature_text() const;  ///< "feature temp", "23 (metadata)", ""
+};
+
+/// UserError naming what is missing and the option that gives it; also for recordings of the reservoir.
+ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixels, const Recording& recording);
+
+}  // namespace rheocyte

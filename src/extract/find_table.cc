@@ -1,0 +1,104 @@
+#include "extract/find_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "case/nearest_name.h"
+#include "case/user_error.h"
+#include "extract/shipped_tables.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder_in(const char* variable) {
+  const char* const value = std::getenv(variable);
+  return value ? fs::path(value) : fs::path();
+}
+
+// Below lib/pythonX.Y of a prefix.
+void add_packages_of(const fs::path& prefix, std::vector<fs::path>& folders) {
+  if (prefix.empty()) return;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(prefix / "lib", error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("python3")) continue;
+    for (const char* const kind : {"site-packages", "dist-packages"}) folders.push_back(entry.path() / kind);
+  }
+}
+
+std::vector<fs::path> package_folders() {
+  std::vector<fs::path> folders;
+  const std::string search = folder_in("PYTHONPATH").string();
+  for (std::size_t at = 0; at < search.size();) {
+    const auto end = std::min(search.find(':', at), search.size());
+    if (end > at) folders.emplace_back(search.substr(at, end - at));
+    at = end + 1;
+  }
+  add_packages_of(folder_in("VIRTUAL_ENV"), folders);
+  add_packages_of(folder_in("CONDA_PREFIX"), folders);
+  if (const auto home = folder_in("HOME"); !home.empty()) add_packages_of(home / ".local", folders);
+  add_packages_of("/usr/local", folders);
+  add_packages_of("/usr", folders);
+  return folders;
+}
+
+// The identifier that the metadata in the head of a table give, without reading its numbers.
+std::string identifier_of(const fs::path& file) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line) && line.starts_with('#');) {
+    const auto key = line.find("\"identifier\"");
+    if (key == std::string::npos) continue;
+    const auto start = line.find('"', line.find(':', key));
+    const auto end = start == std::string::npos ? start : line.find('"', start + 1);
+    if (end != std::string::npos) return line.substr(start + 1, end - start - 1);
+  }
+  return {};
+}
+
+std::map<std::string, fs::path> installed_tables() {
+  std::map<std::string, fs::path> tables;
+  for (const auto& folder : package_folders()) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder / "dclab/features/emodulus", error)) {
+      if (entry.path().extension() != ".txt") continue;
+      const auto identifier = identifier_of(entry.path());
+      if (!identifier.empty()) tables.try_emplace(identifier, entry.path());
+    }
+  }
+  return tables;
+}
+
+}  // namespace
+
+fs::path find_table(const std::string& wanted) {
+  std::error_code error;
+  if (fs::exists(wanted, error)) return wanted;
+  auto tables = shipped_tables();
+  tables.merge(installed_tables());
+  if (const auto found = tables.find(wanted); found != tables.end()) return found->second;
+  std::vector<std::string_view> names;
+  std::string all;
+  for (const auto& [name, file] : tables) {
+    names.push_back(name);
+    all += (all.empty() ? "" : ", ") + name;
+  }
+  if (names.empty())
+    throw UserError(fmt::format(
+        "rheocyte: --table {}: there is no such file, and no installed dclab with tables was found; give the path of a "
+        "table.",
+        one_line(wanted, 200)));
+  throw UserError(fmt::format("rheocyte: --table {}: there is neither such a file nor such a table{} (there are {}).",
+                              one_line(wanted, 200), did_you_mean(wanted, names), all));
+}
+
+}  // namespace rheocyte

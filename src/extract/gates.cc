@@ -1,0 +1,83 @@
+#include "extract/gates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+std::pair<std::string, double> parsed(const std::string& text, const char* option) {
+  const auto sign = text.find('=');
+  double value = NAN;
+  if (sign != std::string::npos && sign > 0) {
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + sign + 1, end, value);
+    if (error != std::errc{} || stop != end) value = NAN;
+  }
+  if (!std::isfinite(value))
+    throw UserError(fmt::format("rheocyte: {} {}: give a feature and a number, for example {} area_ratio=1.05.", option,
+                                one_line(text, 60), option));
+  return {text.substr(0, sign), value};
+}
+
+}  // namespace
+
+Gates::Gates(const GateOptions& options) {
+  for (const auto& text : options.least) {
+    const auto [feature, value] = parsed(text, "--min");
+    limit_of(feature).least = value;
+  }
+  for (const auto& text : options.greatest) {
+    const auto [feature, value] = parsed(text, "--max");
+    limit_of(feature).greatest = value;
+  }
+  for (const auto& limit : limits_)
+    if (limit.least > limit.greatest)
+      throw UserError(
+          fmt::format("rheocyte: --min and --max of {} contradict each other: no number is at least {} and at "
+                      "most {}.",
+                      one_line(limit.feature, 60), limit.least, limit.greatest));
+}
+
+Gates::Limit& Gates::limit_of(const std::string& feature) {
+  const auto found = std::ranges::find(limits_, feature, &Limit::feature);
+  if (found != limits_.end()) return *found;
+  return limits_.emplace_back(Limit{feature});
+}
+
+std::string Gates::description() const {
+  std::string text;
+  for (const auto& [feature, least, greatest] : limits_) {
+    if (!text.empty()) text += ", ";
+    if (std::isfinite(least)) text += fmt::format("{} <= ", least);
+    text += one_line(feature, 60);
+    if (std::isfinite(greatest)) text += fmt::format(" <= {}", greatest);
+  }
+  return text;
+}
+
+void Gates::check(const EventFeatures& features, const std::string& recording) const {
+  for (const auto& limit : limits_)
+    if (!features.has(limit.feature))
+      throw UserError(fmt::format("{}: has no feature {}, for which --min or --max gives a limit.",
+                                  one_line(recording, 300), one_line(limit.feature, 60)));
+}
+
+void Gates::apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const {
+  std::ranges::fill(inside, char{1});
+  std::vector<double> values(inside.size());
+  for (const auto& [feature, least, greatest] : limits_) {
+    features.read(feature, first, values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!(values[i] >= least && values[i] <= greatest)) inside[i] = 0;
+  }
+}
+
+}  // namespace rheocyte

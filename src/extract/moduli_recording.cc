@@ -1,0 +1,198 @@
+#include "extract/moduli_recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "case/user_error.h"
+#include "extract/extract_settings.h"
+#include "extract/gates.h"
+#include "extract/modulus_tables.h"
+#include "infer/rendered_errors.h"
+#include "measurement/contour_from_mask.h"
+#include "measurement/event_features.h"
+#include "measurement/shape_source.h"
+#include "store/build_info.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr std::size_t fewest_points = 12;  // of an outline that is a cell
+constexpr std::size_t block = 256;         // of events between two words of progress
+
+/// The outlines of a recording, event by event.
+class Outlines {
+ public:
+  Outlines(const Recording& recording, double pixel_um) : recording_(recording), pixel_um_(pixel_um) {
+    if (!recording.has_contours()) size_ = recording.image_size("mask");
+    if (!recording.has_contours() && !size_)
+      throw UserError(fmt::format("{}: has neither contours nor masks; several moduli need the shape of each cell.",
+                                  one_line(recording.file().string(), 300)));
+    if (size_) block_ = recording.image_rows_per_chunk("mask");
+  }
+
+  /// NaN where there is no cell.
+  ShapeVector features(std::size_t event) {
+    const PixelContour contour = outline(event);
+    if (contour.size() < fewest_points) return ShapeVector::Constant(std::numeric_limits<double>::quiet_NaN());
+    Eigen::MatrixX2d polygon(Eigen::Index(contour.size()), 2);
+    for (Eigen::Index i = 0; i < polygon.rows(); ++i) {
+      const PixelPoint& point = contour[std::size_t(i)];
+      polygon.row(i) << pixel_um_ * point.x, pixel_um_ * point.y;
+    }
+    return shape_vector(outline_shape(polygon));
+  }
+
+ private:
+  PixelContour outline(std::size_t event) {
+    if (!size_) return recording_.read_contour(event);
+    if (event < first_ || event >= first_ + count_) {
+      first_ = event - event % block_;
+      count_ = std::min(block_, recording_.events() - first_);
+      pixels_.resize(count_ * size_->pixels());
+      recording_.read_images("mask", first_, count_, pixels_);
+    }
+    return finder_.contour_of(
+        {*size_, std::span(pixels_).subspan((event - first_) * size_->pixels(), size_->pixels())});
+  }
+
+  const Recording& recording_;
+  double pixel_um_;
+  std::optional<ImageSize> size_;
+  std::size_t block_ = 1, first_ = 0, count_ = 0;  ///< events whose masks are at hand
+  std::vector<std::uint8_t> pixels_;
+  ContourFinder finder_;
+};
+
+constexpr std::string_view columns =
+    "event\tarea_um2\tdeformation\tviscosity_mPas\tyoung_modulus_kPa\tyoung_modulus_error_kPa\t"
+    "cortex_modulus_mN_per_m\tcortex_modulus_error_mN_per_m\ttension_mN_per_m\ttension_error_mN_per_m\t"
+    "stiffness_kPa\tstiffness_error_kPa\tchi_squared\tstatus\n";
+
+std::string line(std::size_t event, const ShapeVector& seen, double viscosity_mPas, const ModuliEstimate& e) {
+  std::string text = fmt::format("{}\t{:.6g}\t{:.6g}\t{:.6g}", event + 1, std::exp(seen(0)), seen(1), viscosity_mPas);
+  for (const Modulus m : {Modulus::young, Modulus::cortex, Modulus::tension})
+    text += fmt::format("\t{:.6g}\t{:.3g}", e.value(m), e.error(m));
+  return text + fmt::format("\t{:.6g}\t{:.3g}\t{:.4g}\t{}\n", e.stiffness_kPa, e.stiffness_error_kPa, e.chi_squared,
+                            name_of(e.status));
+}
+
+/// One recording on its way through the blocks.
+class Fits {
+ public:
+  Fits(const Recording& recording, const ModuliOptions& options, const CombinedInterpolation& table,
+       const FlowConditions& simulated)
+      : recording_(recording),
+        settings_(extract_settings(options.measuring, PixelUse::fit, recording)),
+        outlines_(recording, settings_.pixel_size_um),
+        shapes_(recording, settings_.pixel_size_um),
+        features_(recording, shapes_),
+        gates_(options.measuring.gates),
+        pixels_(table, settings_.pixel_size_um * simulated.channel_width_um / settings_.conditions.channel_width_um),
+        simulated_exponent_(simulated.flow_exponent),
+        moduli_(table, simulated,
+                {options.only_figure ? features_of_figure() : features_of_contour(), options.fit_tension,
+                 table.tension_ratios().front()}) {
+    gates_.check(features_, recording.file().string());
+  }
+
+  /// What stands above the lines of the events.
+  std::string header(const ModuliOptions& options) const {
+    std::vector<std::string> remarks{
+        fmt::format("rheocyte {} moduli", version), "recording: " + recording_.file().string(),
+        "table: " + options.table.string(),
+        fmt::format(
+            "by {}; {}",
+            options.only_figure ? "area, deformation and Lambda1/Lambda2" : "area and modes 2 .. 6 of the contour",
+            options.fit_tension ? "the tension is fitted" : "the tension is that of the table")};
+    const auto settings = settings_.lines();
+    remarks.insert(remarks.end(), settings.begin(), settings.end());
+    if (!gates_.empty()) remarks.push_back("only events with " + gates_.description());
+    std::string text;
+    for (const auto& remark : remarks) text += "# " + one_line(remark, 1000) + "\n";
+    return text.append(columns);
+  }
+
+  /// The lines of a block of events.
+  std::string take(std::size_t first, std::size_t count) {
+    viscosity_.resize(count);
+    outside_temperature_ += settings_.viscosities(recording_, first, viscosity_);
+    inside_.resize(count);
+    gates_.apply(features_, first, inside_);
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i) {
+      const ShapeVector seen = outlines_.features(first + i);
+      const ModuliEstimate estimate = inside_[i] ? fit(seen, viscosity_[i]) : gated();
+      tally_.take(estimate);
+      text += line(first + i, seen, viscosity_[i], estimate);
+    }
+    return text;
+  }
+
+  ModuliSummary summary() {
+    ModuliSummary s = tally_.summary();
+    s.gates = gates_.description();
+    s.warnings = recording_.remarks();
+    s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
+    if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
+    if (std::abs(settings_.flow_exponent - simulated_exponent_) > flow_exponent_tolerance)
+      s.warnings.push_back(fmt::format(
+          "the medium thins in shear with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at the "
+          "wall stands for both, and moduli are off by up to 5 %, those of large cells most.",
+          settings_.flow_exponent, simulated_exponent_));
+    if (s.resolved() == 0 && s.with_stiffness() > 0)
+      s.warnings.emplace_back(
+          "no event tells bulk and cortex apart; what is known is E + E2D/r0, of some events perhaps single moduli.");
+    return s;
+  }
+
+ private:
+  ModuliEstimate fit(const ShapeVector& seen, double viscosity_mPas) const {
+    const auto& c = settings_.conditions;
+    return fit_pixels(moduli_, pixels_, seen, {c.channel_width_um, c.flow_rate_ul_s, viscosity_mPas});
+  }
+
+  static ModuliEstimate gated() {
+    ModuliEstimate estimate;
+    estimate.status = ModuliStatus::gated;
+    return estimate;
+  }
+
+  const Recording& recording_;
+  ExtractSettings settings_;
+  Outlines outlines_;
+  ShapeSource shapes_;
+  EventFeatures features_;
+  Gates gates_;
+  RenderedErrors pixels_;
+  double simulated_exponent_;
+  SeveralModuli moduli_;
+  std::vector<double> viscosity_;
+  std::vector<char> inside_;
+  std::size_t outside_temperature_ = 0;
+  ModuliTally tally_;
+};
+
+}  // namespace
+
+ModuliResult moduli_of_recording(const std::filesystem::path& file, const ModuliOptions& options,
+                                 const CombinedInterpolation& table, const FlowConditions& simulated,
+                                 const TellProgress& tell_progress) {
+  const Recording recording(file);
+  Fits fits(recording, options, table, simulated);
+  const std::size_t events = recording.events();
+  std::string text = fits.header(options);
+  for (std::size_t first = 0; first < events; first += block) {
+    const std::size_t count = std::min(block, events - first);
+    text += fits.take(first, count);
+    tell_progress(double(first + count) / double(events));
+  }
+  return {std::move(text), fits.summary()};
+}
+
+}  // namespace rheocyte

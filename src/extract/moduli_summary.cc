@@ -1,0 +1,71 @@
+#include "extract/moduli_summary.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace rheocyte {
+
+namespace {
+
+std::string range_text(const Distribution& d, std::string_view name, std::string_view unit) {
+  return fmt::format(", {} median {:.4g} {} (quartiles {:.4g} to {:.4g})", name, d.median, unit, d.first_quartile,
+                     d.third_quartile);
+}
+
+}  // namespace
+
+std::size_t ModuliSummary::events() const { return std::accumulate(counts.begin(), counts.end(), std::size_t{0}); }
+
+void ModuliTally::take(const ModuliEstimate& e) {
+  ++summary_.counts[std::size_t(e.status)];
+  if (e.status == ModuliStatus::resolved) {
+    young_.push_back(e.value(Modulus::young));
+    cortex_.push_back(e.value(Modulus::cortex));
+  }
+  if (e.status == ModuliStatus::resolved || e.status == ModuliStatus::not_told_apart)
+    stiffness_.push_back(e.stiffness_kPa);
+}
+
+ModuliSummary ModuliTally::summary() {
+  summary_.young_kPa = distribution_of(young_);
+  summary_.cortex_mN_per_m = distribution_of(cortex_);
+  summary_.stiffness_kPa = distribution_of(stiffness_);
+  return summary_;
+}
+
+std::string to_json(const ModuliSummary& s) {
+  return nlohmann::json{{"counts", s.counts},
+                        {"young", to_json(s.young_kPa)},
+                        {"cortex", to_json(s.cortex_mN_per_m)},
+                        {"stiffness", to_json(s.stiffness_kPa)},
+                        {"gates", s.gates},
+                        {"warnings", s.warnings}}
+      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+ModuliSummary moduli_summary_from_json(const std::string& text) {
+  const auto all = nlohmann::json::parse(text);
+  ModuliSummary s;
+  s.counts = all.at("counts").get<decltype(s.counts)>();
+  s.young_kPa = distribution_from_json(all.at("young"));
+  s.cortex_mN_per_m = distribution_from_json(all.at("cortex"));
+  s.stiffness_kPa = distribution_from_json(all.at("stiffness"));
+  s.gates = all.at("gates");
+  s.warnings = all.at("warnings").get<std::vector<std::string>>();
+  return s;
+}
+
+std::string in_one_line(const ModuliSummary& s) {
+  std::string text = fmt::format("{} of {} events {}", s.resolved(), s.events(), name_of(ModuliStatus::resolved));
+  if (s.resolved() > 0) text += range_text(s.young_kPa, "E", "kPa") + range_text(s.cortex_mN_per_m, "E2D", "mN/m");
+  if (s.with_stiffness() > 0) text += range_text(s.stiffness_kPa, "E + E2D/r0", "kPa");
+  std::string others;
+  for (int k = 0; k < moduli_status_count; ++k)
+    if (const auto status = ModuliStatus(k); status != ModuliStatus::resolved && s.counts[std::size_t(k)] > 0)
+      others += fmt::format("{}{} {}", others.empty() ? "; " : ", ", s.counts[std::size_t(k)], name_of(status));
+  return text + others;
+}
+
+}  // namespace rheocyte

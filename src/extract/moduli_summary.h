@@ -1,0 +1,45 @@
+// What `rheocyte moduli` says about all events of one recording.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "extract/extract_summary.h"
+#include "infer/several_moduli.h"
+
+namespace rheocyte {
+
+struct ModuliSummary {
+  std::array<std::size_t, moduli_status_count> counts{};  ///< by ModuliStatus
+  Distribution young_kPa, cortex_mN_per_m;                ///< of the resolved events
+  Distribution stiffness_kPa;                             ///< E + E2D / r0, of all events that have it
+  std::string gates;                                      ///< limits of the events that count; empty: all
+  std::vector<std::string> warnings;
+
+  std::size_t events() const;
+  std::size_t resolved() const { return counts[std::size_t(ModuliStatus::resolved)]; }
+  /// Events with a stiffness: those whose shape a cell of the table has.
+  std::size_t with_stiffness() const { return resolved() + counts[std::size_t(ModuliStatus::not_told_apart)]; }
+};
+
+/// Takes event by event.
+class ModuliTally {
+ public:
+  void take(const ModuliEstimate& estimate);
+  /// Counts and distributions; nothing of gates and warnings.
+  ModuliSummary summary();
+
+ private:
+  ModuliSummary summary_;
+  std::vector<double> young_, cortex_, stiffness_;
+};
+
+/// Through the pipe from the process that read the recording; one line.
+std::string to_json(const ModuliSummary&);
+ModuliSummary moduli_summary_from_json(const std::string& text);
+
+/// For the terminal: how many events are resolved, their moduli, and how many have another status.
+std::string in_one_line(const ModuliSummary&);
+
+}  // namespace rheocyte

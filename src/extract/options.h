@@ -1,0 +1,38 @@
+// What is asked of the programs that work on recordings.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "extract/gates.h"
+
+namespace rheocyte {
+
+/// Which recordings, and where the results go.
+struct BatchOptions {
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path folder;  ///< of the results; empty: beside each recording
+  bool recursive = false, quiet = false;
+};
+
+/// How recordings were measured, and which of their events count. What is not given is taken from the recording.
+struct MeasuringOptions {
+  std::optional<double> channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas;
+  std::optional<std::string> medium, viscosity_model;
+  std::string temperature;  ///< degC, "feature", "metadata", or empty: the feature if there is one
+  GateOptions gates;
+  double patience_s = 60;
+};
+
+struct ExtractOptions {
+  BatchOptions batch;
+  MeasuringOptions measuring;
+  std::string table;  ///< a file, a folder of a table, or an identifier; empty: the tables that come with the program
+  bool no_pixelation = false, no_area_correction = false, no_tsv = false;
+};
+
+/// UserError if a value is not positive or two of them contradict.
+void check_measuring_options(const MeasuringOptions& options);
+
+}  // namespace rheocyte

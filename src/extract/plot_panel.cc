@@ -1,0 +1,221 @@
+#include "extract/plot_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "case/user_error.h"
+#include "extract/extract_settings.h"
+#include "measurement/event_features.h"
+#include "measurement/shape_source.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t block = 1 << 14;
+
+/// Pairs of 32-bit numbers in a file.
+class PairWriter {
+ public:
+  explicit PairWriter(const fs::path& path) : path_(path), file_(std::fopen(path.c_str(), "wbe")) {
+    if (!file_) refuse();
+  }
+  ~PairWriter() {
+    if (file_) std::fclose(file_);
+  }
+  PairWriter(const PairWriter&) = delete;
+  PairWriter& operator=(const PairWriter&) = delete;
+
+  /// Returns how many pairs are finite; only those are written.
+  std::size_t append(const std::vector<double>& x, const std::vector<double>& y) {
+    pairs_.clear();
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (std::isfinite(x[i]) && std::isfinite(y[i]))
+        pairs_.insert(pairs_.end(), {static_cast<float>(x[i]), static_cast<float>(y[i])});
+    if (!pairs_.empty() && std::fwrite(pairs_.data(), sizeof(float), pairs_.size(), file_) != pairs_.size()) refuse();
+    return pairs_.size() / 2;
+  }
+  void close() {
+    const bool good = std::fclose(file_) == 0;
+    file_ = nullptr;
+    if (!good) refuse();
+  }
+
+ private:
+  [[noreturn]] void refuse() const {
+    throw UserError(fmt::format("{}: cannot be written; is the disk full? TMPDIR names another folder.",
+                                one_line(path_.string(), 300)));
+  }
+  fs::path path_;
+  std::FILE* file_;
+  std::vector<float> pairs_;
+};
+
+double median_temperature(const Recording& recording, const std::function<void(double)>& on_progress) {
+  std::vector<double> celsius(recording.events());
+  for (std::size_t first = 0; first < celsius.size(); first += block) {
+    recording.read_scalar("temp", first, std::span(celsius).subspan(first, std::min(block, celsius.size() - first)));
+    on_progress(0);
+  }
+  std::erase_if(celsius, [](double value) { return !std::isfinite(value); });
+  if (celsius.empty()) return NAN;
+  const auto middle = celsius.begin() + static_cast<std::ptrdiff_t>(celsius.size() / 2);
+  std::nth_element(celsius.begin(), middle, celsius.end());
+  return *middle;
+}
+
+bool is_of_the_reservoir(const Recording& recording) {
+  std::string region = recording.metadata().text("setup:chip region").value_or("channel");
+  std::ranges::transform(region, region.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return region != "channel";
+}
+
+void take_conditions(const Recording& recording, const PlotOptions& options,
+                     const std::function<void(double)>& on_progress, PlotPanel& panel) {
+  ExtractSettings settings =
+      extract_settings(options.measuring, options.no_pixelation ? PixelUse::ignore : PixelUse::correct, recording);
+  panel.has_conditions = true;
+  panel.conditions = settings.conditions;
+  panel.viscosity_mPas = settings.viscosity_mPas;
+  panel.flow_exponent = settings.flow_exponent;
+  std::string temperature = fmt::format("{:.3g} °C", settings.temperature_C);
+  if (settings.viscosity_varies()) {
+    const double celsius = median_temperature(recording, on_progress);
+    if (!std::isfinite(celsius))
+      throw UserError(fmt::format("{}: its temperatures are no numbers; give --temperature in degrees Celsius.",
+                                  one_line(recording.file().string(), 300)));
+    panel.viscosity_mPas =
+        settings.buffer->viscosity({panel.conditions.channel_width_um, panel.conditions.flow_rate_ul_s}, celsius);
+    temperature = fmt::format("{:.1f} °C", celsius);
+  }
+  panel.measured = fmt::format("{:g} µm · {:g} µl/s · {:.2f} mPa s", panel.conditions.channel_width_um,
+                               panel.conditions.flow_rate_ul_s, panel.viscosity_mPas);
+  if (settings.buffer) panel.measured += fmt::format(" ({}, {})", settings.medium_text(), temperature);
+  panel.warnings = settings.warnings;
+}
+
+/// The two axes of a block of events.
+class Axes {
+ public:
+  Axes(const Recording& recording, ShapeSource& shapes, const PlotOptions& options)
+      : shapes_(shapes),
+        options_(options),
+        features_(recording, shapes),
+        gates_(options.measuring.gates),
+        usual_(has_usual_axes(options)) {
+    gates_.check(features_, recording.file().string());
+  }
+
+  // Events outside the gates get no numbers; returns how many they are.
+  std::size_t read(std::size_t first, std::vector<double>& x, std::vector<double>& y) {
+    if (usual_) {
+      shapes_.read(first, x, y);
+    } else {
+      features_.read(options_.x, first, x);
+      features_.read(options_.y, first, y);
+    }
+    if (gates_.empty()) return 0;
+    inside_.resize(x.size());
+    gates_.apply(features_, first, inside_);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (!inside_[i]) x[i] = NAN;
+    return static_cast<std::size_t>(std::ranges::count(inside_, char{0}));
+  }
+
+ private:
+  ShapeSource& shapes_;
+  const PlotOptions& options_;
+  EventFeatures features_;
+  Gates gates_;
+  bool usual_;
+  std::vector<char> inside_;
+};
+
+}  // namespace
+
+PlotPanel plot_panel(const fs::path& file, const fs::path& events_file, const PlotOptions& options, LinesWanted lines,
+                     const std::function<void(double)>& on_progress) {
+  const Recording recording(file);
+  PlotPanel panel;
+  panel.events = recording.events();
+  panel.sample = one_line(recording.metadata().text("experiment:sample").value_or(""), 60);
+  const auto& metadata = recording.metadata();
+  panel.width_um = options.measuring.channel_width_um.value_or(metadata.number("setup:channel width").value_or(0));
+  if (is_of_the_reservoir(recording)) {
+    panel.measured = "reservoir";
+    if (lines == LinesWanted::yes)
+      panel.warnings.emplace_back("was recorded in the reservoir, where no lines of equal modulus exist.");
+  } else if (lines == LinesWanted::yes) {
+    take_conditions(recording, options, on_progress, panel);
+  } else if (lines == LinesWanted::if_possible) {
+    try {
+      take_conditions(recording, options, on_progress, panel);
+    } catch (const UserError& missing) {
+      panel.warnings.push_back(fmt::format("drawn without lines of equal modulus. {}", missing.what()));
+    }
+  }
+  panel.warnings.insert(panel.warnings.begin(), recording.remarks().begin(), recording.remarks().end());
+  const double pixel_size_um =
+      options.measuring.pixel_size_um.value_or(metadata.number("imaging:pixel size").value_or(0));
+  ShapeSource shapes(recording, pixel_size_um);
+  Axes axes(recording, shapes, options);
+  PairWriter writer(events_file);
+  std::vector<double> x, y;
+  for (std::size_t first = 0; first < panel.events; first += block) {
+    const std::size_t count = std::min(block, panel.events - first);
+    x.resize(count);
+    y.resize(count);
+    panel.gated += axes.read(first, x, y);
+    panel.drawable += writer.append(x, y);
+    on_progress(static_cast<double>(first + count) / static_cast<double>(panel.events));
+  }
+  writer.close();
+  if (panel.drawable == 0)
+    throw UserError(fmt::format("{}: no event {}has {} and {}, so there is nothing to draw.",
+                                one_line(file.string(), 300), panel.gated > 0 ? "inside the gates " : "", options.x,
+                                options.y));
+  return panel;
+}
+
+std::string to_json(const PlotPanel& panel) {
+  const auto& c = panel.conditions;
+  return nlohmann::json{{"events", panel.events},
+                        {"gated", panel.gated},
+                        {"drawable", panel.drawable},
+                        {"has_conditions", panel.has_conditions},
+                        {"conditions", {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um}},
+                        {"viscosity", panel.viscosity_mPas},
+                        {"flow_exponent", panel.flow_exponent},
+                        {"width", panel.width_um},
+                        {"sample", panel.sample},
+                        {"measured", panel.measured},
+                        {"warnings", panel.warnings}}
+      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+PlotPanel panel_from_json(const std::string& text) {
+  const auto j = nlohmann::json::parse(text);
+  PlotPanel panel;
+  panel.events = j["events"];
+  panel.gated = j["gated"];
+  panel.drawable = j["drawable"];
+  panel.has_conditions = j["has_conditions"];
+  const auto& c = j["conditions"];
+  panel.conditions = {c[0], c[1], c[2]};
+  panel.viscosity_mPas = j["viscosity"];
+  panel.flow_exponent = j["flow_exponent"];
+  panel.width_um = j["width"];
+  panel.sample = j["sample"];
+  panel.measured = j["measured"];
+  panel.warnings = j["warnings"];
+  return panel;
+}
+
+}  // namespace rheocyte

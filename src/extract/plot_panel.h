@@ -1,0 +1,38 @@
+// What one panel of the picture of events needs from a recording.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "extract/plot_options.h"
+#include "infer/modulus_parity.h"
+
+namespace rheocyte {
+
+struct PlotPanel {
+  std::size_t events = 0;          ///< rows of the recording
+  std::size_t gated = 0;           ///< of these, outside the gates
+  std::size_t drawable = 0;        ///< of the others, with numbers on both axes
+  bool has_conditions = false;     ///< false if no lines are wanted, or for a recording of the reservoir
+  MeasuringConditions conditions;  ///< pixel size 0: nothing is added to the lines
+  double viscosity_mPas = 0;       ///< at the median temperature
+  double flow_exponent = 1;        ///< n of eta ~ (shear rate)^(n - 1)
+  double width_um = 0;             ///< of the channel, 0 if unknown
+  std::string sample, measured;    ///< the metadata's name of the sample; channel, flow, viscosity in one line
+  std::vector<std::string> warnings;
+};
+
+/// Lines of equal modulus; if possible: with a warning where the recording does not say how it was measured.
+enum class LinesWanted { no, if_possible, yes };
+
+/// Reads a recording and writes area (um^2) and deformation of each drawable event as pairs of 32-bit numbers to
+/// `events_file`. The conditions of the measurement are found, too, where lines are wanted. UserError.
+PlotPanel plot_panel(const std::filesystem::path& recording, const std::filesystem::path& events_file,
+                     const PlotOptions& options, LinesWanted lines, const std::function<void(double)>& on_progress);
+
+/// Through the pipe from the process that read the recording.
+std::string to_json(const PlotPanel&);
+PlotPanel panel_from_json(const std::string& text);
+
+}  // namespace rheocyte

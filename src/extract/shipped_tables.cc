@@ -1,0 +1,25 @@
+#include "extract/shipped_tables.h"
+
+#include <system_error>
+
+#include "store/build_info.h"
+#include "store/child_process.h"
+
+namespace rheocyte {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, fs::path> shipped_tables() {
+  std::map<std::string, fs::path> tables;
+  std::error_code error;
+  const fs::path folder = supplied_folder("RHEOCYTE_TABLES", "../share/rheocyte/tables", data_folder);
+  constexpr std::string_view prefix = "grid_", suffix = ".cbor";
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() > prefix.size() + suffix.size() && name.starts_with(prefix) && name.ends_with(suffix))
+      tables.emplace(name.substr(prefix.size(), name.size() - prefix.size() - suffix.size()), entry.path());
+  }
+  return tables;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,195 @@
+#include "store/contained.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <system_error>
+
+#include "case/user_error.h"
+#include "store/stop_signal.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Kind = ContainedEnd::Kind;
+
+enum class Message : char { progress = 'p', result = 'r', user_error = 'u', own_error = 'o', no_memory = 'm' };
+
+struct Header {
+  Message message;
+  std::uint32_t length;
+};
+
+constexpr std::uint32_t longest_message = 1 << 24;
+
+void send(int pipe, Message message, const void* data, std::size_t length) {
+  std::string bytes(sizeof(Header) + length, '\0');
+  Header header{};
+  header.message = message;
+  header.length = static_cast<std::uint32_t>(length);
+  std::memcpy(bytes.data(), &header, sizeof header);
+  std::memcpy(bytes.data() + sizeof header, data, length);
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = ::write(pipe, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno != EINTR) ::_exit(1);  // the parent is gone
+    if (count > 0) done += static_cast<std::size_t>(count);
+  }
+}
+
+void send(int pipe, Message message, const std::string& text) { send(pipe, message, text.data(), text.size()); }
+
+void limit(const Containment& limits) {
+  const rlimit no_core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+#ifndef __SANITIZE_ADDRESS__  // its shadow memory needs terabytes of addresses
+  const rlimit memory{limits.memory_bytes, limits.memory_bytes};
+  ::setrlimit(RLIMIT_AS, &memory);
+#else
+  static_cast<void>(limits);
+#endif
+}
+
+[[noreturn]] void be_the_child(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
+                               int pipe) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGABRT}) std::signal(signal, SIG_DFL);
+  // The C library writes about broken memory to standard error, which would frighten more than it helps.
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere >= 0) {
+    ::dup2(nowhere, STDOUT_FILENO);
+    ::dup2(nowhere, STDERR_FILENO);
+  }
+  limit(limits);
+  try {
+    const std::string text =
+        work([pipe](double fraction) { send(pipe, Message::progress, &fraction, sizeof fraction); });
+    send(pipe, Message::result, text);
+  } catch (const UserError& error) {
+    send(pipe, Message::user_error, error.what());
+  } catch (const std::bad_alloc&) {
+    send(pipe, Message::no_memory, std::string());
+  } catch (const std::exception& error) {
+    send(pipe, Message::own_error, error.what());
+  }
+  ::_exit(0);  // no destructors of the parent's objects, no flushing of its buffers
+}
+
+/// Puts messages together from what arrives in pieces.
+class Inbox {
+ public:
+  explicit Inbox(const TellProgress& on_progress) : on_progress_(on_progress) {}
+
+  /// False at the end of the pipe.
+  bool read_from(int pipe) {
+    char buffer[65536];
+    const ssize_t count = ::read(pipe, buffer, sizeof buffer);
+    if (count < 0) return errno == EINTR || errno == EAGAIN;
+    if (count == 0) return false;
+    bytes_.append(buffer, static_cast<std::size_t>(count));
+    while (take_message()) {
+    }
+    return true;
+  }
+
+  bool has_end() const { return has_end_; }
+  const ContainedEnd& end() const { return end_; }
+
+ private:
+  bool take_message() {
+    Header header{};
+    if (bytes_.size() < sizeof header) return false;
+    std::memcpy(&header, bytes_.data(), sizeof header);
+    if (header.length > longest_message || bytes_.size() < sizeof header + header.length) return false;
+    const std::string text = bytes_.substr(sizeof header, header.length);
+    bytes_.erase(0, sizeof header + header.length);
+    if (header.message == Message::progress) {
+      double fraction = 0;
+      if (text.size() == sizeof fraction) std::memcpy(&fraction, text.data(), sizeof fraction);
+      on_progress_(fraction);
+      return true;
+    }
+    end_.text = text;
+    end_.kind = header.message == Message::result       ? Kind::finished
+                : header.message == Message::user_error ? Kind::user_error
+                : header.message == Message::no_memory  ? Kind::no_memory
+                                                        : Kind::own_error;
+    has_end_ = true;
+    return true;
+  }
+
+  const TellProgress& on_progress_;
+  std::string bytes_;
+  ContainedEnd end_;
+  bool has_end_ = false;
+};
+
+// What the messages, the status and our own impatience say together.
+ContainedEnd conclude(const Inbox& inbox, int status) {
+  if (WIFEXITED(status) && inbox.has_end()) return inbox.end();
+  // A breakdown after the result (when HDF5 closes) does not make the result good: files may be incomplete.
+  if (WIFSIGNALED(status)) return {Kind::broke_down, ::strsignal(WTERMSIG(status))};
+  return {Kind::broke_down, "it ended without a result"};
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+ContainedEnd watch(pid_t child, int pipe, double patience_s, const TellProgress& on_progress) {
+  Inbox inbox(on_progress);
+  Clock::time_point last_word = Clock::now();
+  for (;;) {
+    pollfd wanted{pipe, POLLIN, 0};
+    const int ready = ::poll(&wanted, 1, 200);
+    if (ready > 0) {
+      if (!inbox.read_from(pipe)) return conclude(inbox, wait_for(child));
+      last_word = Clock::now();
+    }
+    const bool hangs = std::chrono::duration<double>(Clock::now() - last_word).count() > patience_s;
+    if (!hangs && !stop_wanted()) continue;
+    ::kill(child, SIGKILL);
+    wait_for(child);
+    return {stop_wanted() ? Kind::stopped : Kind::hung, {}};
+  }
+}
+
+}  // namespace
+
+ContainedEnd run_contained(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
+                           const TellProgress& on_progress) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  std::fflush(nullptr);
+  const pid_t child = ::fork();
+  if (child < 0) {
+    ::close(ends[0]);
+    ::close(ends[1]);
+    throw std::system_error(errno, std::generic_category(), "fork");
+  }
+  if (child == 0) {
+    ::close(ends[0]);
+    be_the_child(work, limits, ends[1]);
+  }
+  ::close(ends[1]);
+  ContainedEnd end = watch(child, ends[0], limits.patience_s, on_progress);
+  ::close(ends[0]);
+  return end;
+}
+
+}  // namespace rheocyte

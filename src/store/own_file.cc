@@ -1,0 +1,62 @@
+#include "store/own_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "case/user_error.h"
+#include "store/whole_file.h"
+
+namespace rheocyte {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  throw UserError(fmt::format("{}: {}", path.string(), reason));
+}
+
+[[noreturn]] void refuse_writing(const fs::path& path, int error_number) {
+  refuse(path, fmt::format("cannot be written ({}); an older file is left as it was.",
+                           std::generic_category().message(error_number)));
+}
+
+bool begins_with(const fs::path& path, std::string_view mark) {
+  std::ifstream file(path, std::ios::binary);
+  std::string start(mark.size(), '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return file && start == mark;
+}
+
+void check_replaceable(const fs::path& path, std::string_view mark, Foreign foreign) {
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) return;
+  if (error) refuse(path, fmt::format("cannot write there ({}).", error.message()));
+  if (fs::is_directory(status)) refuse(path, "is a folder; give the name of a file with -o.");
+  if (!fs::is_regular_file(status)) refuse(path, "is not a regular file; give another name with -o.");
+  if (foreign == Foreign::replace || begins_with(path, mark)) return;
+  refuse(path, foreign == Foreign::keep
+                   ? "is there and was not written by rheocyte; move it away, or name another folder with -o."
+                   : "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
+}
+
+}  // namespace
+
+void write_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, Foreign foreign) {
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(fs::absolute(wanted), error);  // a link stays a link
+  if (error) refuse(wanted, fmt::format("cannot write there ({}).", error.message()));
+  check_replaceable(path, mark, foreign);
+  fs::create_directories(path.parent_path(), error);
+  if (error) refuse(wanted, fmt::format("cannot make its folder ({}).", error.message()));
+  const fs::path scratch =
+      path.parent_path() / fmt::format(".{:.200}.rheocyte-{}", path.filename().string(), ::getpid());
+  if (const int failed = write_whole_file(scratch, path, content)) refuse_writing(wanted, failed);
+}
+
+}  // namespace rheocyte

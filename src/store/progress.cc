@@ -1,0 +1,61 @@
+#include "store/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "store/standard_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr int width = 30;
+constexpr double seconds_between_lines = 10;
+
+std::string duration(double seconds) {
+  const int s = int(seconds + 0.5);
+  if (s < 90) return fmt::format("{} s", s);
+  if (s < 5400) return fmt::format("{} min", (s + 30) / 60);
+  return fmt::format("{:.1f} h", s / 3600.0);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point time) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
+}
+
+}  // namespace
+
+Progress::Progress(std::string what, int total, int done, bool quiet)
+    : what_(std::move(what)), total_(total), at_start_(done), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+std::string Progress::rate_and_rest(int done) const {
+  const double elapsed = seconds_since(start_);
+  const int fresh = done - at_start_;
+  if (fresh <= 0) return fmt::format("{} elapsed", duration(elapsed));
+  return fmt::format("{:.2g} per minute, {} left", 60 * fresh / elapsed, duration((total_ - done) * elapsed / fresh));
+}
+
+void Progress::show(int done) {
+  if (quiet_) return;
+  if (terminal_) {
+    const int filled = total_ > 0 ? width * done / total_ : width;
+    std::fputs(fmt::format("\r  [{:=<{}}{: <{}}] {}/{} {}, {}   ", "", filled, "", width - filled, done, total_, what_,
+                           rate_and_rest(done))
+                   .c_str(),
+               stderr);
+    std::fflush(stderr);
+  } else if (shown_ < 0 || (done != shown_ && (done == total_ || seconds_since(last_line_) > seconds_between_lines))) {
+    tell(fmt::format("{} of {} {}, {}", done, total_, what_, rate_and_rest(done)));
+    last_line_ = std::chrono::steady_clock::now();
+    shown_ = done;
+  }
+}
+
+void Progress::finish() {
+  if (!quiet_ && terminal_) std::fputs("\n", stderr);
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,96 @@
+#include "synth/synth_shapes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
+#include <system_error>
+
+#include "case/user_error.h"
+#include "synth/analytic_shapes.h"
+#include "synth/branch_shapes.h"
+#include "synth/combined_shapes.h"
+#include "table/table_folder.h"
+#include "table/table_metadata.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const SynthSpec& spec, const std::string& reason) {
+  throw UserError(fmt::format("{}: {}", one_line(spec.table.string(), 300), reason));
+}
+
+// Those that are there: a table that is still being computed serves, too.
+std::vector<SampledBranch> finished_branches(const TableFolder& folder) {
+  std::vector<SampledBranch> branches;
+  for (int i = 0; i < folder.branches(); ++i)
+    for (const bool held : {false, true})
+      if (folder.has(i, held)) branches.push_back(folder.read(i, held));
+  std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
+  return branches;
+}
+
+BranchConditions conditions_of(const SynthSpec& spec, const Case& base) {
+  return {
+      channel_width_um(base), base.flow.rate_ul_per_s.value(), effective_viscosity_mPas(base), spec.channel_width_um,
+      spec.flow_rate_ul_s,    spec.kind == CellKind::shell};
+}
+
+void check_tensions(SynthSpec& spec, const std::vector<double>& ratios) {
+  const bool is_given = spec.tension_ratio || spec.tension_mN_per_m;
+  if (ratios.size() > 1) {
+    if (!is_given)
+      refuse(spec, fmt::format("has the tensions {} in E2D; give cell.tension_ratio or cell.tension_mN_per_m.",
+                               fmt::join(ratios, ", ")));
+    return;
+  }
+  if (is_given)
+    refuse(spec, fmt::format("all its cells have the tension {:g} E2D; remove {}, or take a table with several numbers "
+                             "in table.tension_ratio.",
+                             ratios.front(), spec.tension_ratio ? "cell.tension_ratio" : "cell.tension_mN_per_m"));
+  spec.tension_ratio = Spread{Spread::Law::normal, ratios.front(), 0};
+}
+
+std::unique_ptr<CellShapes> shapes_of_combined_table(SynthSpec& spec, const TableFolder& folder) {
+  if (spec.kind != CellKind::combined)
+    refuse(spec, "its cells have a bulk and a cortex, so cell.kind must be \"combined\".");
+  auto branches = finished_branches(folder);
+  check_tensions(spec, folder.spec().tension_ratios);
+  return std::make_unique<CombinedShapes>(folder.spec(), std::move(branches), conditions_of(spec, folder.spec().base));
+}
+
+std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
+  std::error_code error;
+  if (!fs::exists(spec.table / "spec.toml", error))
+    refuse(spec,
+           "there is no table of `rheocyte table` (no spec.toml in this folder); shapes.table names such a folder.");
+  const TableFolder folder(spec.table, read_table_spec(spec.table / "spec.toml"));
+  if (folder.spec().is_combined()) return shapes_of_combined_table(spec, folder);
+  const bool is_shell = folder.spec().stiffness_key == "cell.cortex.modulus_mN_per_m";
+  if (spec.kind != (is_shell ? CellKind::shell : CellKind::solid))
+    refuse(spec, fmt::format("its cells are told apart by {}, so cell.kind must be \"{}\".",
+                             folder.spec().stiffness_key, is_shell ? "shell" : "solid"));
+  auto branches = finished_branches(folder);
+  std::set<double> radii;
+  for (const auto& branch : branches) radii.insert(branch.radius_um);
+  if (radii.size() < 2) refuse(spec, "has fewer than two finished branches; let `rheocyte table` go on.");
+  return std::make_unique<BranchShapes>(std::move(branches), conditions_of(spec, folder.spec().base));
+}
+
+}  // namespace
+
+std::unique_ptr<CellShapes> shapes_of(SynthSpec& spec) {
+  if (!spec.table.empty()) return shapes_of_table(spec);
+  return std::make_unique<AnalyticShapes>(
+      AnalyticConditionsOfCells{.channel_width_um = spec.channel_width_um,
+                                .flow_rate_ul_s = spec.flow_rate_ul_s,
+                                .is_shell = spec.kind == CellKind::shell,
+                                .tension_ratio = spec.tension_ratio.value_or(Spread{}).mean,
+                                .duct = spec.square_duct ? Duct::square : Duct::tube,
+                                .greatest_deformation = spec.greatest_deformation});
+}
+
+}  // namespace rheocyte

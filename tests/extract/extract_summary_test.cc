@@ -1,0 +1,67 @@
+// The summary of a recording says what its numbers are, and survives the way from one process to the other.
+#include "extract/extract_summary.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rheocyte {
+namespace {
+
+TEST(ExtractSummary, QuartilesAreInterpolatedBetweenValues) {
+  std::vector<double> values{4, 1, 3, 2};
+  const auto d = distribution_of(values);
+  EXPECT_EQ(d.first_quartile, 1.75);
+  EXPECT_EQ(d.median, 2.5);
+  EXPECT_EQ(d.third_quartile, 3.25);
+  EXPECT_EQ(d.mean, 2.5);
+  EXPECT_NEAR(d.standard_deviation, std::sqrt(5.0 / 3), 1e-15);
+}
+
+TEST(ExtractSummary, NoEventsHaveNoDistributionAndOneHasNoSpread) {
+  EXPECT_TRUE(std::isnan(distribution_of({}).median));
+  std::vector<double> one{2};
+  EXPECT_EQ(distribution_of(one).median, 2);
+  EXPECT_TRUE(std::isnan(distribution_of(one).standard_deviation));
+}
+
+TEST(ExtractSummary, ComesBackFromItsText) {
+  ExtractSummary s;
+  s.events = 7;
+  s.counts = {1, 2, 0, 3, 0, 1};
+  s.modulus_kPa = {1, 0.5, 2, 1.25, std::numeric_limits<double>::quiet_NaN()};
+  s.mean_viscosity_mPas = 5.5;
+  s.table = "name \"quoted\"";
+  s.conditions = {20, 0.04, 0.34};
+  s.warnings = {"first.", "second."};
+  const auto back = summary_from_json(to_json(s));
+  EXPECT_EQ(back.events, 7U);
+  EXPECT_EQ(back.counts, s.counts);
+  EXPECT_EQ(back.modulus_kPa.third_quartile, 2);
+  EXPECT_TRUE(std::isnan(back.modulus_kPa.standard_deviation));
+  EXPECT_EQ(back.table, s.table);
+  EXPECT_EQ(back.conditions.pixel_size_um, 0.34);
+  EXPECT_EQ(back.warnings, s.warnings);
+}
+
+TEST(ExtractSummary, EveryLineOfTheTableHasAllColumns) {
+  ExtractSummary good;
+  good.events = 1;
+  good.table = "with\ttab";
+  const std::vector<SummaryLine> lines{{"a.rtdc", good, {}}, {"b.rtdc", {}, "a sentence."}};
+  const auto text = summary_table(lines);
+  std::vector<long> tabs(1, 0);
+  for (const char c : text) {
+    if (c == '\t') ++tabs.back();
+    if (c == '\n') tabs.push_back(0);
+  }
+  ASSERT_EQ(tabs.size(), 4U);
+  EXPECT_EQ(tabs[1], tabs[0]);
+  EXPECT_EQ(tabs[2], tabs[0]);
+  EXPECT_TRUE(text.ends_with("\ta sentence.\n"));
+}
+
+}  // namespace
+}  // namespace rheocyte

@@ -1,0 +1,91 @@
+// Whatever happens to contained work, its parent lives on and knows what it was.
+#include "store/contained.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+namespace {
+
+using Kind = ContainedEnd::Kind;
+
+ContainedEnd end_of(const std::function<std::string(const TellProgress&)>& work, const Containment& limits = {}) {
+  return run_contained(work, limits, [](double) {});
+}
+
+TEST(Contained, TheResultComesBackWhole) {
+  const std::string text(300'000, 'x');  // more than a pipe holds
+  const auto end = end_of([&](const TellProgress&) { return text; });
+  EXPECT_EQ(end.kind, Kind::finished);
+  EXPECT_EQ(end.text, text);
+}
+
+TEST(Contained, ProgressIsToldInOrder) {
+  std::vector<double> told;
+  run_contained(
+      [](const TellProgress& tell) {
+        for (int i = 0; i < 100; ++i) tell(0.01 * i);
+        return std::string();
+      },
+      {}, [&](double fraction) { told.push_back(fraction); });
+  ASSERT_EQ(told.size(), 100U);
+  EXPECT_EQ(told.back(), 0.99);
+}
+
+TEST(Contained, ErrorsComeBackAsWhatTheyAre) {
+  const auto user = end_of([](const TellProgress&) -> std::string { throw UserError("a sentence."); });
+  EXPECT_EQ(user.kind, Kind::user_error);
+  EXPECT_EQ(user.text, "a sentence.");
+  const auto own = end_of([](const TellProgress&) -> std::string { throw std::logic_error("oops"); });
+  EXPECT_EQ(own.kind, Kind::own_error);
+  EXPECT_EQ(own.text, "oops");
+}
+
+TEST(Contained, ACrashIsNamed) {
+  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE}) {
+    const auto end = end_of([&](const TellProgress&) -> std::string {
+      std::signal(signal, SIG_DFL);
+      std::raise(signal);
+      return "not reached";
+    });
+    EXPECT_EQ(end.kind, Kind::broke_down) << signal;
+    EXPECT_FALSE(end.text.empty());
+  }
+}
+
+TEST(Contained, AProcessThatEndsWithoutAResultHasBrokenDown) {
+  EXPECT_EQ(end_of([](const TellProgress&) -> std::string { ::_exit(0); }).kind, Kind::broke_down);
+}
+
+TEST(Contained, SilenceEndsAfterItsPatience) {
+  const auto end = end_of(
+      [](const TellProgress&) -> std::string {
+        std::this_thread::sleep_for(std::chrono::seconds(60));
+        return "not reached";
+      },
+      {.patience_s = 0.3});
+  EXPECT_EQ(end.kind, Kind::hung);
+}
+
+#ifndef __SANITIZE_ADDRESS__  // which needs terabytes of addresses itself
+TEST(Contained, MemoryBeyondTheLimitIsRefused) {
+  const auto end = end_of(
+      [](const TellProgress&) -> std::string {
+        const std::string large(std::size_t{1} << 30U, 'x');
+        return large.substr(0, 1);
+      },
+      {.memory_bytes = std::size_t{512} << 20U});
+  EXPECT_EQ(end.kind, Kind::no_memory);
+}
+#endif
+
+}  // namespace
+}  // namespace rheocyte
