@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Whole solves through the command line: time, size, iterations and honesty of the error estimate.
 
-    bench/cases.py [--runs N] [--engine build/rheocyte]
+    bench/cases.py [--runs N] [--program build/rheocyte]
 
 Prints a table in Markdown. Times are the program's own `wall_time_s` (start-up of the process excluded), medians over
 N runs; `true error` is against a run at a thirtieth of the accuracy. The cases are those of docs/benchmarks.md.
@@ -48,14 +48,14 @@ def solve(program, radius, law, modulus, accuracy):
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("--runs", type=int, default=5)
-    arguments.add_argument("--engine", default=str(TOP / "build" / "rheocyte"))
+    arguments.add_argument("--program", default=str(TOP / "build" / "rheocyte"))
     options = arguments.parse_args()
     print("| r0 (um), law, E (kPa) | accuracy | d | estimated | true error | time (s) | unknowns | degree | iterations "
           "| factorisations | assembly | factorisation |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for radius, law, modulus, accuracy in CASES:
-        exact = solve(options.engine, radius, law, modulus, max(accuracy / 30, 1e-7))["deformation"]
-        runs = [solve(options.engine, radius, law, modulus, accuracy) for _ in range(options.runs)]
+        exact = solve(options.program, radius, law, modulus, max(accuracy / 30, 1e-7))["deformation"]
+        runs = [solve(options.program, radius, law, modulus, accuracy) for _ in range(options.runs)]
         result, work = runs[-1], runs[-1]["statistics"]
         time = statistics.median(run["wall_time_s"] for run in runs)
         share = {key: statistics.median(run["statistics"][key] / run["wall_time_s"] for run in runs)

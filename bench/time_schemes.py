@@ -21,7 +21,7 @@ CASE = {"channel.radius_um": 10.94, "flow.rate_ul_per_s": 0.04, "flow.viscosity_
         "cell.bulk.law": "linear", "cell.bulk.young_modulus_kPa": 3.437}
 END_US, STEP_US = 500.0, 0.2
 IN_TIME = {"cell.viscosity_mPas": 15.0, "time.output_every_us": END_US}
-ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
+ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 
 SHORT_S, REPEATS = 5.0, 3

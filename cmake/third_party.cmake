@@ -5,10 +5,9 @@
 #   rheocyte::umfpack    sparse LU of SuiteSparse
 #   rheocyte::jet        dual numbers ceres::Jet: headers only, libceres is not linked
 #   rheocyte::toml       toml++: headers only
-#   rheocyte::hdf5       HDF5 without MPI (deal.II brings the one with MPI; the two do not mix in one process)
+#   rheocyte::hdf5       HDF5 without MPI
 #   rheocyte::zstd       Zstandard
 #   rheocyte::qhull      Delaunay triangulation
-#   rheocyte::dealii     deal.II (only where deal.II was found)
 #
 # and RHEOCYTE_PYTHON_EXECUTABLE, an interpreter that has matplotlib and numpy.
 
@@ -51,18 +50,6 @@ target_compile_definitions(rheocyte::toml INTERFACE TOML_HEADER_ONLY=1)
 rheocyte_import(hdf5 LIBRARY hdf5 HEADER hdf5.h SUFFIXES hdf5/serial PACKAGE libhdf5-dev)
 rheocyte_import(zstd LIBRARY zstd HEADER zstd.h PACKAGE libzstd-dev)
 rheocyte_import(qhull LIBRARY qhull_r HEADER libqhull_r/libqhull_r.h PACKAGE libqhull-dev)
-
-# deal.II's own flags (C++17, its optimisation and warnings) stay with deal.II. DEBUG chooses the library with
-# assertions. It names some two hundred libraries to link; only those that are really called become ours.
-if(deal.II_FOUND)
-  include(${DEAL_II_TARGET_CONFIG})
-  add_library(rheocyte::dealii INTERFACE IMPORTED)
-  target_include_directories(rheocyte::dealii INTERFACE ${DEAL_II_INCLUDE_DIRS})
-  target_compile_definitions(rheocyte::dealii INTERFACE ${DEAL_II_USER_DEFINITIONS} $<$<CONFIG:Debug>:DEBUG>)
-  target_link_options(rheocyte::dealii INTERFACE -Wl,--as-needed)
-  target_link_libraries(rheocyte::dealii INTERFACE
-                        $<IF:$<CONFIG:Debug>,${DEAL_II_TARGET_DEBUG},${DEAL_II_TARGET_RELEASE}>)
-endif()
 
 # Debian's interpreter first: another python3 that stands earlier in PATH often lacks the packages.
 if(NOT RHEOCYTE_PYTHON_EXECUTABLE)

@@ -3,13 +3,13 @@
 set -euo pipefail
 
 # shellcheck disable=SC2034 # used by the scripts that source this file
-build_packages=(g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libeigen3-dev libopenblas-dev libceres-dev
+build_packages=(g++ cmake ninja-build libsuitesparse-dev libeigen3-dev libopenblas-dev libceres-dev
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev libbenchmark-dev
   libhdf5-dev libzstd-dev libqhull-dev
   python3 python3-matplotlib python3-numpy git)
 
-# A compilation that includes deal.II needs 1.2 GB; some room on top.
-readonly memory_per_job_MB=1536
+# What the largest compilation needs, with some room on top.
+readonly memory_per_job_MB=1024
 
 step_number=0
 
@@ -48,7 +48,7 @@ install_packages() {
   local -a missing as_root=()
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     printf 'This system has no apt-get, so nothing is installed here. Needed are a C++20 compiler, CMake 3.25, Ninja,\n'
-    printf 'deal.II 9.4 and the libraries that Debian 12 calls:\n    %s\nGoing on with what is there.\n' "$*"
+    printf 'and the libraries that Debian 12 calls:\n    %s\nGoing on with what is there.\n' "$*"
     command -v cmake >/dev/null || fail 'cmake is not there.'
     command -v ninja >/dev/null || fail 'ninja is not there.'
     return

@@ -1,4 +1,4 @@
-// What both programs do with a command line: parse, run, and turn every failure into one sentence and an exit code.
+// What the program does with a command line: parse, run, and turn every failure into one sentence and an exit code.
 #pragma once
 
 namespace CLI {

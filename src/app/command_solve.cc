@@ -1,60 +1,45 @@
 #include "app/command_solve.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstdlib>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <system_error>
 
-#include "app/exit_codes.h"
-#include "app/solve_options.h"
-#include "case/read_case.h"
-#include "case/write_case.h"
-#include "store/build_info.h"
-#include "store/child_process.h"
-#include "store/result_folder.h"
-#include "store/standard_error.h"
+#include "app/solve_case.h"
+#include "case/user_error.h"
 
 namespace rheocyte {
 
-namespace {
-
-// Returns only if the engine cannot be started.
-int become_engine(char** argv) {
-  // OpenBLAS reads this when it is loaded. Several threads would slow the small dense kernels, and change bits.
-  ::setenv("OPENBLAS_NUM_THREADS", "1", 1);
-  const auto engine = program_folder() / "rheocyte-engine";
-  ::execv(engine.c_str(), argv);
-  tell(fmt::format("rheocyte: cannot start {} ({}); build or install both programs.", engine.string(),
-                   std::generic_category().message(errno)));
-  return exit_own_bug;
-}
-
-// What a result of this case will say about it, so that a script can tell whether it has that result already.
-void print_case(const Case& c) {
-  nlohmann::ordered_json json{{"program", "rheocyte"}, {"version", version}};
-  json["case"] = to_json(c);
-  json["case_hash"] = case_hash(c);
-  fmt::print("{}\n", json.dump(2));
-}
-
-}  // namespace
-
-void add_solve_command(CLI::App& app, char** argv, int& exit_code) {
-  auto* command = app.add_subcommand("solve", "compute the stationary shape of one cell");
+void add_solve_command(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("solve", "compute the shape of one cell, stationary or in time");
   auto options = std::make_shared<SolveOptions>();
-  declare_solve_options(*command, *options, [options, argv, &exit_code] {
-    const Case c = read_case(options->case_file, options->settings);
-    if (options->check_only) {
-      if (options->json) print_case(c);
-      return;
-    }
-    check_result_folder(options->folder);
-    exit_code = become_engine(argv);
+  command->add_option("CASE", options->case_file, "the case, a TOML file (see `rheocyte help case`)")->required();
+  command->add_option("-o,--output", options->folder, "folder for the result; an older result in it is replaced")
+      ->type_name("DIR");
+  command->add_option("--set", options->settings, "replace a key of the case; may be repeated")
+      ->type_name("key=value")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option("--continue", options->continue_from,
+                  "go on from the last checkpoint in this folder; only for a case with a [time] section")
+      ->type_name("DIR");
+  command
+      ->add_option(
+          "--start", options->start_from,
+          "start from the last state in this folder, which may be that of another case of the same sizes; only for "
+          "a case with a [time] section")
+      ->type_name("DIR")
+      ->excludes("--continue");
+  command->add_flag("--json", options->json, "print result.json on standard output and nothing else there");
+  command->add_flag("--quiet", options->quiet, "print neither progress nor summary");
+  command->add_flag("--no-picture", options->no_picture, "do not draw picture.png and picture.svg");
+  command->add_flag(
+      "--check", options->check_only,
+      "only check the case: exit code 0 or 2, nothing is written; with --json, print it with all defaults");
+  command->callback([options, &exit_code] {
+    if (!options->check_only && options->folder.empty())
+      throw UserError("rheocyte: the folder for the result is missing; give one with -o, for example -o result.");
+    exit_code = solve_case(*options);
   });
 }
 

@@ -10,14 +10,15 @@
 
 #include "app/exit_codes.h"
 #include "app/picture.h"
-#include "app/table_processes.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
 #include "store/standard_error.h"
+#include "store/stop_signal.h"
 #include "table/combined_table.h"
 #include "table/grid_from_branches.h"
 #include "table/lookup_table.h"
 #include "table/simulations_file.h"
+#include "table/table_workers.h"
 #include "table/table_folder.h"
 
 namespace rheocyte {
@@ -83,13 +84,11 @@ int make_table(const TableOptions& options) {
   const TableFolder folder(options.folder, spec);
   const Rank rank = rank_from_environment();
   const int jobs = options.jobs > 0 ? options.jobs : rank.count > 1 ? 1 : available_processors();
-  const ProcessesEnd end = run_workers(folder, jobs, options.quiet || rank.number > 0);
-  if (end.signal) {
+  if (!work_on_table(folder, jobs, options.quiet || rank.number > 0)) {
     tell(fmt::format("rheocyte: stopped after {} of {} branches; the same command goes on from here.", folder.done(),
                      folder.branches()));
-    return exit_signal + end.signal;
+    return exit_signal + signal_received();
   }
-  if (!end.complete) return end.worker_code;
   if (rank.number > 0) return exit_converged;
   write_files(folder, options);
   if (!options.quiet) fmt::print("{}  folder {}\n", summary(folder), options.folder.string());
@@ -108,7 +107,7 @@ void add_table_command(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   command->add_flag("--no-picture", options->no_picture, "no pictures");
-  command->add_option("-j,--jobs", options->jobs, "processes on this machine; default: all processors")
+  command->add_option("-j,--jobs", options->jobs, "threads; default: all processors")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", options->quiet, "no progress, no summary");
   command->callback([options, &exit_code] { exit_code = make_table(*options); });

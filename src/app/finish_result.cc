@@ -60,7 +60,7 @@ void write_field_file(const FieldWriter& write, const Scales& scales, const fs::
   try {
     written = write(file.string(), scales) && is_complete_vtu(file);
   } catch (const std::exception&) {
-    // deal.II throws a page about its own source when the stream fails; the user needs the sentence below.
+    // Whatever it says of itself, the user needs the sentence below.
   }
   if (!written)
     throw UserError(fmt::format("{}: cannot write {}, is the disk full? An older result is left as it was.",

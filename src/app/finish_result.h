@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/result.h"
-#include "app/solve_options.h"
+#include "app/solve_case.h"
 #include "store/result_folder.h"
 
 namespace rheocyte {

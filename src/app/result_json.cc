@@ -33,8 +33,7 @@ Json build_and_threads() {
           {"threads",
            {{"processors", std::thread::hardware_concurrency()},
             {"OMP_NUM_THREADS", environment_value("OMP_NUM_THREADS")},
-            {"OPENBLAS_NUM_THREADS", environment_value("OPENBLAS_NUM_THREADS")},
-            {"DEAL_II_NUM_THREADS", environment_value("DEAL_II_NUM_THREADS")}}}};
+            {"OPENBLAS_NUM_THREADS", environment_value("OPENBLAS_NUM_THREADS")}}}};
 }
 
 Json statistics(const SolveStatistics& s) {

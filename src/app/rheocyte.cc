@@ -1,4 +1,6 @@
-// The program that the user calls. It links no solver, so that help and errors come at once.
+// The program that the user calls.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 
 #include "app/command_analytic.h"
@@ -16,13 +18,16 @@
 #include "store/build_info.h"
 
 int main(int argc, char** argv) {
+  // Matrices come and go by the hundred in each iteration: giving their memory back each time costs more than they do.
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
   CLI::App app{"rheocyte: shapes of cells in the channel of real-time deformability cytometry", "rheocyte"};
   app.set_version_flag("--version", std::string("rheocyte ") + rheocyte::version);
   app.require_subcommand(1);
   app.footer("First steps: rheocyte solve examples/paper-cell.toml -o paper-cell; rheocyte help case");
 
   int exit_code = 0;
-  rheocyte::add_solve_command(app, argv, exit_code);
+  rheocyte::add_solve_command(app, exit_code);
   rheocyte::add_picture_command(app, exit_code);
   rheocyte::add_analytic_command(app);
   rheocyte::add_extract_command(app, exit_code);

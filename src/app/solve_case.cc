@@ -11,6 +11,8 @@
 #include "case/read_case.h"
 #include "case/scales.h"
 #include "case/user_error.h"
+#include "case/write_case.h"
+#include "store/build_info.h"
 #include "store/result_folder.h"
 #include "store/standard_error.h"
 #include "store/stop_signal.h"
@@ -32,11 +34,22 @@ ProgressCallback progress_lines(const Case& c) {
   };
 }
 
+// What a result of this case will say about it, so that a script can tell whether it has that result already.
+void print_case(const Case& c) {
+  nlohmann::ordered_json json{{"program", "rheocyte"}, {"version", version}};
+  json["case"] = to_json(c);
+  json["case_hash"] = case_hash(c);
+  fmt::print("{}\n", json.dump(2));
+}
+
 }  // namespace
 
 int solve_case(const SolveOptions& options) {
   const Case c = read_case(options.case_file, options.settings);
-  if (options.check_only) return exit_converged;
+  if (options.check_only) {
+    if (options.json) print_case(c);
+    return exit_converged;
+  }
   check_result_folder(options.folder);
   watch_signals();
   if (c.time.scheme != TimeScheme::stationary) return solve_in_time(c, options);

@@ -1,8 +1,22 @@
-// `rheocyte solve` on the engine's side.
+// What `rheocyte solve` does once its command line is known.
 #pragma once
-#include "app/solve_options.h"
+#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace rheocyte {
+
+struct SolveOptions {
+  std::filesystem::path case_file;
+  std::filesystem::path folder;         ///< of the results
+  std::filesystem::path continue_from;  ///< folder of an earlier result in time; empty: from the sphere
+  std::filesystem::path start_from;     ///< folder of a result in time whose last state is the start; or empty
+  std::vector<std::string> settings;    ///< "key=value"
+  bool json = false;                    ///< result.json on standard output and nothing else there
+  bool quiet = false;                   ///< no progress, no summary
+  bool no_picture = false;
+  bool check_only = false;  ///< validate the case, solve nothing
+};
 
 /// Reads, solves, writes the folder, prints. Returns the exit code (exit_codes.h); UserError for the case and the disk.
 int solve_case(const SolveOptions&);

@@ -1,6 +1,6 @@
-// `rheocyte solve` of a case with a [time] section, on the engine's side.
+// `rheocyte solve` of a case with a [time] section.
 #pragma once
-#include "app/solve_options.h"
+#include "app/solve_case.h"
 #include "case/case.h"
 
 namespace rheocyte {

@@ -1,15 +1,10 @@
 #include "fem/channel_mesh.h"
 
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_tools.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "case/problem.h"
-#include "fem/topology.h"
+#include "shape/curve.h"
 
 namespace rheocyte {
 namespace {
@@ -42,21 +37,6 @@ bool runs_outward_first(Block block) {
   return block != Block::ring_rear && block != Block::rear && block != Block::upstream;
 }
 
-/// Numbers equal points once (to 1e-9 R).
-class VertexNumbers {
- public:
-  unsigned number(const Point& x) {
-    const auto key = std::array{std::lround(x(0) * 1e9), std::lround(x(1) * 1e9)};
-    const auto [it, is_new] = numbers_.try_emplace(key, unsigned(points.size()));
-    if (is_new) points.emplace_back(x(0), x(1));
-    return it->second;
-  }
-  std::vector<dealii::Point<2>> points;
-
- private:
-  std::map<std::array<long, 2>, unsigned> numbers_;
-};
-
 }  // namespace
 
 int layers_for(const ChannelGeometry& geometry, const Subdivision& n) {
@@ -76,10 +56,8 @@ std::array<double, 2> MeshElement::parameters(double xi1, double xi2) const {
   return {outward[0] + o * (outward[1] - outward[0]), along[0] + a * (along[1] - along[0])};
 }
 
-ChannelMesh::~ChannelMesh() = default;
-
 ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& subdivision)
-    : geometry_(geometry), topology_(std::make_unique<Topology>()) {
+    : geometry_(geometry) {
   const Subdivision& n = subdivision;
   const auto front = uniform(n.front), top = uniform(n.top), ring = uniform(n.ring);
   const int layer_count = n.layers > 0 ? n.layers : layers_for(geometry, n);
@@ -94,15 +72,6 @@ ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& sub
   add_block(Block::rear, layers, front);
   add_block(Block::downstream, axial, front);
   add_block(Block::upstream, axial, front);
-
-  VertexNumbers vertices;
-  std::vector<dealii::CellData<2>> cells;
-  for (const MeshElement& element : elements_) {
-    dealii::CellData<2> cell;
-    for (int k = 0; k < 4; ++k) cell.vertices[k] = vertices.number(element.map(geometry_, k % 2, k / 2));
-    cells.push_back(cell);
-  }
-  topology_->triangulation.create_triangulation(vertices.points, cells, dealii::SubCellData());
 }
 
 void ChannelMesh::add_block(Block block, const std::vector<double>& outward, const std::vector<double>& along) {
@@ -114,21 +83,11 @@ void ChannelMesh::add_block(Block block, const std::vector<double>& outward, con
 }
 
 NodeNumbers ChannelMesh::number_nodes(int degree) const {
-  const dealii::FE_Q<2> fe(degree);
-  dealii::DoFHandler<2> dofs(topology_->triangulation);
-  dofs.distribute_dofs(fe);
-  const auto hierarchic = dealii::FETools::lexicographic_to_hierarchic_numbering<2>(degree);
-
-  NodeNumbers numbers;
-  numbers.count = int(dofs.n_dofs());
-  numbers.of_element.resize(elements_.size());
-  std::vector<dealii::types::global_dof_index> indices(fe.n_dofs_per_cell());
-  for (const auto& cell : dofs.active_cell_iterators()) {
-    cell->get_dof_indices(indices);
-    auto& nodes = numbers.of_element[cell->active_cell_index()];
-    for (unsigned i = 0; i < indices.size(); ++i) nodes.push_back(int(indices[hierarchic[i]]));
-  }
-  return numbers;
+  const Eigen::VectorXd& s = lobatto_nodes(degree);
+  const int n = degree + 1;
+  return rheocyte::number_nodes<2>(int(elements_.size()), n * n, [&](int e, int k) {
+    return elements_[e].map(geometry_, s(k % n), s(k / n));
+  });
 }
 
 }  // namespace rheocyte

@@ -1,10 +1,10 @@
 // The mesh of cell and channel: quadrilaterals that subdivide the blocks of the geometry.
 #pragma once
 #include <array>
-#include <memory>
 #include <vector>
 
 #include "fem/channel_geometry.h"
+#include "fem/node_numbers.h"
 
 namespace rheocyte {
 
@@ -34,31 +34,20 @@ struct MeshElement {
   std::array<double, 2> parameters(double xi1, double xi2) const;
 };
 
-/// Numbers of the Gauss-Lobatto nodes of continuous elements of one degree: row e lists element e's (p+1)^2 nodes,
-/// first coordinate fastest.
-struct NodeNumbers {
-  int count = 0;
-  std::vector<std::vector<int>> of_element;
-};
-
 class ChannelMesh {
  public:
   ChannelMesh(const ChannelGeometry&, const Subdivision&);
-  ~ChannelMesh();
 
   const ChannelGeometry& geometry() const { return geometry_; }
   const std::vector<MeshElement>& elements() const { return elements_; }
+  /// Of the Gauss-Lobatto nodes of continuous elements of one degree.
   NodeNumbers number_nodes(int degree) const;
-
-  struct Topology;  ///< holds the deal.II triangulation; defined in topology.h for this floor's output
-  const Topology& topology() const { return *topology_; }
 
  private:
   void add_block(Block, const std::vector<double>& outward, const std::vector<double>& along);
 
   ChannelGeometry geometry_;
   std::vector<MeshElement> elements_;
-  std::unique_ptr<Topology> topology_;
 };
 
 }  // namespace rheocyte

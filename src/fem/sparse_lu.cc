@@ -1,5 +1,6 @@
 #include "fem/sparse_lu.h"
 
+#include <cblas.h>
 #include <umfpack.h>
 
 #include <algorithm>
@@ -40,6 +41,8 @@ struct SparseLU::Umfpack {
 };
 
 SparseLU::SparseLU(const SparseMatrix& matrix) : matrix_(matrix), umfpack_(std::make_unique<Umfpack>()) {
+  // Several threads would slow the small dense kernels, and change bits.
+  [[maybe_unused]] static const bool single = (openblas_set_num_threads(1), true);
   umfpack_di_defaults(umfpack_->control);
   umfpack_->control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
   umfpack_->control[UMFPACK_IRSTEP] = 1;

@@ -19,7 +19,7 @@ struct SparseMatrix {
   int position(int row, int column) const;
 };
 
-/// UMFPACK's symmetric strategy is 4 to 10 times cheaper here than its automatic one, which deal.II's wrapper takes.
+/// UMFPACK's symmetric strategy is 4 to 10 times cheaper here than its automatic one.
 class SparseLU {
  public:
   /// Orders the pattern. The matrix must outlive this object.

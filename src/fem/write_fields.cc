@@ -1,20 +1,11 @@
 #include "fem/write_fields.h"
 
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_dgq.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_fe_field.h>
-#include <deal.II/lac/vector.h>
-#include <deal.II/numerics/data_out.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "fem/observe.h"
-#include "fem/topology.h"
+#include "fem/vtu_file.h"
 
 namespace rheocyte {
 namespace {
@@ -130,52 +121,27 @@ MatrixXd nodal_fields(const Discretisation& space, int e, const Media& media, co
 
 bool write_fields(const Discretisation& space, const Media& media, const VectorXd& unknowns, const Scales& scales,
                   const std::string& path) {
-  const int p = space.reference().degree();
-  const dealii::FESystem<2> fe(dealii::FE_DGQArbitraryNodes<2>(dealii::QGaussLobatto<1>(p + 1)), field_count);
-  const dealii::FESystem<2> position_fe(dealii::FE_DGQArbitraryNodes<2>(dealii::QGaussLobatto<1>(p + 1)), 2);
-  dealii::DoFHandler<2> dofs(space.mesh().topology().triangulation);
-  dealii::DoFHandler<2> position_dofs(space.mesh().topology().triangulation);
-  dofs.distribute_dofs(fe);
-  position_dofs.distribute_dofs(position_fe);
-  dealii::Vector<double> values(dofs.n_dofs()), positions(position_dofs.n_dofs());
-
-  const auto fill = [&](const auto& cell, const MatrixXd& fields, dealii::Vector<double>& target) {
-    std::vector<dealii::types::global_dof_index> indices(cell->get_fe().n_dofs_per_cell());
-    cell->get_dof_indices(indices);
-    for (unsigned i = 0; i < indices.size(); ++i) {
-      const auto [component, node] = cell->get_fe().system_to_component_index(i);
-      target(indices[i]) = fields(node, component);
-    }
-  };
-  for (const auto& cell : dofs.active_cell_iterators()) {
-    const MatrixXd fields = nodal_fields(space, int(cell->active_cell_index()), media, unknowns, scales);
-    fill(cell, fields, values);
-    const typename dealii::DoFHandler<2>::active_cell_iterator twin(&space.mesh().topology().triangulation,
-                                                                    cell->level(), cell->index(), &position_dofs);
-    fill(twin, fields.leftCols(2), positions);
+  const ReferenceElement& reference = space.reference();
+  const int p = reference.degree(), n = reference.nodes();
+  const MatrixXd basis = reference.lagrange(VectorXd::LinSpaced(p + 1, 0, 1));
+  MatrixXd equidistant(n, n);  // from Gauss-Lobatto nodes to those of VTK
+  for (int k = 0; k < n; ++k) {
+    for (int l = 0; l < n; ++l)
+      equidistant(k, l) = basis(k % (p + 1), l % (p + 1)) * basis(k / (p + 1), l / (p + 1));
   }
-
-  using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
-  const auto scalar = Interpretation::component_is_scalar, part = Interpretation::component_is_part_of_vector;
-  const dealii::MappingFEField<2> mapping(position_dofs, positions);
-  dealii::DataOut<2> out;
-  dealii::DataOutBase::VtkFlags flags;
-  flags.write_higher_order_cells = true;
-  out.set_flags(flags);
-  out.add_data_vector(dofs, values,
-                      {"position", "position", "velocity", "velocity", "velocity_relative", "velocity_relative",
-                       "pressure", "stress", "shear_stress", "displacement", "displacement", "region"},
-                      {part, part, part, part, part, part, scalar, scalar, scalar, part, part, scalar});
-  out.build_patches(mapping, p, dealii::DataOut<2>::curved_inner_cells);
-  std::ofstream file(path);
-  if (!file) return false;
-  try {
-    out.write_vtu(file);
-  } catch (const dealii::ExcIO&) {  // the disk is full
-    return false;
+  VtuFile file(2, p);
+  for (int e = 0; e < int(space.elements().size()); ++e) {
+    const MatrixXd fields = equidistant * nodal_fields(space, e, media, unknowns, scales);
+    file.add_element(fields.middleCols(x, 2));
+    file.add_field("velocity", fields.middleCols(vx, 2));
+    file.add_field("velocity_relative", fields.middleCols(wx, 2));
+    file.add_field("pressure", fields.col(pressure));
+    file.add_field("stress", fields.col(stress));
+    file.add_field("shear_stress", fields.col(shear_stress));
+    file.add_field("displacement", fields.middleCols(ux, 2));
+    file.add_field("region", fields.col(region));
   }
-  file.flush();
-  return file.good();
+  return file.write(path);
 }
 
 }  // namespace rheocyte

@@ -9,7 +9,6 @@
 #include <string>
 #include <thread>
 
-#include "app/table_worker.h"
 #include "shape/curve.h"
 #include "solve/follow_in_time.h"
 #include "solve/stationary.h"
@@ -71,9 +70,6 @@ Outcome wait_for_stop(const std::atomic<bool>* stop) {
 }
 
 }  // namespace
-
-void check_table(const std::filesystem::path&) {}
-int work_on_table(const std::filesystem::path&) { return 0; }
 
 StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress,
                                  const std::atomic<bool>* stop) {

@@ -11,19 +11,6 @@ namespace {
 
 class TableOfSeveralBuilds : public TableCommand {
  protected:
-  /// The program beside an engine that is this shell script; a hang ends with code 124.
-  Ended make_with_engine(const std::string& script, const fs::path& output) const {
-    const fs::path bin = folder_.path() / "bin", engine = bin / "rheocyte-engine";
-    fs::create_directory(bin);
-    fs::copy(RHEOCYTE, bin / "rheocyte", fs::copy_options::overwrite_existing);
-    write_file(engine, "#!/bin/sh\n" + script + "\n");
-    fs::permissions(engine, fs::perms::owner_all);
-    auto words = command(output);
-    words[0] = (bin / "rheocyte").string();
-    words.insert(words.begin(), {"/usr/bin/timeout", "60"});
-    return run({words});
-  }
-
   /// As the program of a build with other words for its records leaves it.
   void make_foreign(const fs::path& record) const {
     std::string bytes = content_of(record);
@@ -36,31 +23,6 @@ class TableOfSeveralBuilds : public TableCommand {
   std::string mark(const fs::path& table) const { return content_of(table / "begun-by.txt"); }
   void write_mark(const fs::path& table, const std::string& text) const { write_file(table / "begun-by.txt", text); }
 };
-
-TEST_F(TableOfSeveralBuilds, AnEngineThatComputesNothingEndsTheCommand) {
-  // It finds nothing to do where the command misses all: the missing branch and the way out, and no hang.
-  const Ended ended = make_with_engine("exit 0", table("t"));
-  EXPECT_EQ(ended.exit_code, 1) << ended.err;
-  EXPECT_NE(ended.err.find("branches/radius-0000.cbor is missing"), std::string::npos) << ended.err;
-  EXPECT_NE(ended.err.find("build or install both programs"), std::string::npos) << ended.err;
-  ASSERT_EQ(make(table("t")).exit_code, 0) << "with the right one it goes on";
-}
-
-TEST_F(TableOfSeveralBuilds, AnEngineThatRefusesTheTableIsNamedOnce) {
-  // One sentence with the engine's own words, however many processes were wanted.
-  const Ended ended = make_with_engine("echo no such spec >&2; exit 2", table("t"));
-  expect_sentence(ended, "rheocyte-engine: cannot take part in this table (no such spec)");
-}
-
-TEST_F(TableOfSeveralBuilds, AnEngineRefusesAFolderWhoseMarkIsNotItsOwn) {
-  // The mark changes while the command runs, as if the engine were of another build: its sentence, and no record.
-  const std::string engine = fs::path(RHEOCYTE).parent_path() / "rheocyte-engine";
-  const std::string mark_file = table("t") / "begun-by.txt";
-  const Ended ended = make_with_engine(
-      "sed -i 's/branches .*/branches of another build/' " + mark_file + "\nexec " + engine + " \"$@\"", table("t"));
-  expect_sentence(ended, "branches of another build");
-  EXPECT_TRUE(fs::is_empty(table("t") / "branches"));
-}
 
 TEST_F(TableOfSeveralBuilds, RecordsOfAnotherFormatAreNamedBeforeAnythingIsComputed) {
   // Two of four cannot be read, one is missing: it stays missing until the two are gone.

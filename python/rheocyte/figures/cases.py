@@ -126,12 +126,10 @@ class Laboratory:
 
     def start(self, name, file):
         """The program on one case, in a session of its own: signals reach it only from here."""
-        threads = max(1, len(os.sched_getaffinity(0)) // self.processors)
         arguments = [self.program, "solve", str(file), "-o", str(self.folder / name), "--quiet", "--no-picture"]
         try:
             return subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                    stderr=subprocess.PIPE, text=True, start_new_session=True,
-                                    env={"DEAL_II_NUM_THREADS": str(threads), **os.environ})
+                                    stderr=subprocess.PIPE, text=True, start_new_session=True)
         except OSError as error:
             raise InputError(f"{self.program} cannot be started: {reason(error)}.") from error
 

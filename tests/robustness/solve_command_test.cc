@@ -12,12 +12,12 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class Engine : public testing::Test {
+class SolveCommand : public testing::Test {
  protected:
   fs::path result() const { return folder_.path() / "result"; }
 
   Command solve(const std::string& failure = "", const std::vector<std::string>& more = {}) const {
-    Command command{{FAILING_ENGINE, "solve", std::string(EXAMPLES) + "/paper-cell.toml", "-o", result()}};
+    Command command{{FAILING_RHEOCYTE, "solve", std::string(EXAMPLES) + "/paper-cell.toml", "-o", result()}};
     command.arguments.insert(command.arguments.end(), more.begin(), more.end());
     command.environment["RHEOCYTE_TEST_SOLVER"] = failure;
     return command;
@@ -31,7 +31,7 @@ class Engine : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Engine, WritesEveryFileAndEveryNumber) {
+TEST_F(SolveCommand, WritesEveryFileAndEveryNumber) {
   const auto ended = run(solve("", {"--no-picture"}));
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   for (const auto* file : {"result.json", "contour.csv", "fields.vtu", "case.toml"})
@@ -71,7 +71,7 @@ TEST_F(Engine, WritesEveryFileAndEveryNumber) {
   EXPECT_EQ(entries_beside(), 1);
 }
 
-TEST_F(Engine, ConvertsToPhysicalUnits) {
+TEST_F(SolveCommand, ConvertsToPhysicalUnits) {
   run(solve("", {"--no-picture"}));
   const auto written = numbers();
   const double pi = std::acos(-1.0), r0 = 7.66;
@@ -84,7 +84,7 @@ TEST_F(Engine, ConvertsToPhysicalUnits) {
   EXPECT_NEAR(written["branch"][1]["young_modulus_kPa"].get<double>(), 2 * 3.437, 1e-12);
 }
 
-TEST_F(Engine, TheWrittenCaseGivesTheSameResultAgain) {
+TEST_F(SolveCommand, TheWrittenCaseGivesTheSameResultAgain) {
   run(solve("", {"--no-picture"}));
   const auto first = numbers();
   auto again = solve("", {"--no-picture"});
@@ -96,19 +96,19 @@ TEST_F(Engine, TheWrittenCaseGivesTheSameResultAgain) {
   EXPECT_EQ(numbers()["case"], first["case"]);
 }
 
-TEST_F(Engine, JsonIsTheOnlyThingOnStandardOutput) {
+TEST_F(SolveCommand, JsonIsTheOnlyThingOnStandardOutput) {
   const auto ended = run(solve("", {"--no-picture", "--json"}));
   EXPECT_EQ(ended.out, content_of(result() / "result.json"));
   EXPECT_NE(ended.err.find("Newton"), std::string::npos);  // progress goes to standard error
 }
 
-TEST_F(Engine, QuietIsSilent) {
+TEST_F(SolveCommand, QuietIsSilent) {
   const auto ended = run(solve("", {"--no-picture", "--quiet"}));
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_EQ(ended.out + ended.err, "");
 }
 
-TEST_F(Engine, EveryNumericalFailureIsExitCode3WithItsNameAndTheLastState) {
+TEST_F(SolveCommand, EveryNumericalFailureIsExitCode3WithItsNameAndTheLastState) {
   for (const std::string failure : {"iteration-limit", "mesh-folded", "surface-unstable", "branch-ended",
                                     "singular-matrix", "not-finite", "accuracy-not-reached"}) {
     expect_sentence(run(solve(failure, {"--no-picture", "--quiet"})), failure + ": It failed at E = 1.2 kPa", 3);
@@ -117,14 +117,14 @@ TEST_F(Engine, EveryNumericalFailureIsExitCode3WithItsNameAndTheLastState) {
   }
 }
 
-TEST_F(Engine, ANumberThatIsNotFiniteIsNeverASuccess) {
+TEST_F(SolveCommand, ANumberThatIsNotFiniteIsNeverASuccess) {
   const auto ended = run(solve("nan", {"--no-picture"}));
   EXPECT_EQ(ended.exit_code, 3);
   EXPECT_EQ(numbers()["status"], "not-finite");
   EXPECT_TRUE(numbers()["pressure_drop_Pa"].is_null());
 }
 
-TEST_F(Engine, ASignalStopsItWithTheLastStateWritten) {
+TEST_F(SolveCommand, ASignalStopsItWithTheLastStateWritten) {
   for (const int signal : {SIGINT, SIGTERM}) {
     auto slow = solve("slow", {"--no-picture"});
     slow.signal = signal;
@@ -136,7 +136,7 @@ TEST_F(Engine, ASignalStopsItWithTheLastStateWritten) {
   EXPECT_EQ(entries_beside(), 1);
 }
 
-TEST_F(Engine, AFullDiskLeavesTheOldResultAsItWas) {
+TEST_F(SolveCommand, AFullDiskLeavesTheOldResultAsItWas) {
   ASSERT_EQ(run(solve("", {"--no-picture"})).exit_code, 0);
   const auto before = content_of(result() / "result.json");
   for (const long bytes : {0L, 200L, 5000L}) {  // in case.toml, contour.csv, fields.vtu
@@ -152,7 +152,7 @@ TEST_F(Engine, AFullDiskLeavesTheOldResultAsItWas) {
   }
 }
 
-TEST_F(Engine, FieldsThatCannotBeWrittenLeaveTheOldResultAsItWas) {
+TEST_F(SolveCommand, FieldsThatCannotBeWrittenLeaveTheOldResultAsItWas) {
   ASSERT_EQ(run(solve("", {"--no-picture"})).exit_code, 0);
   const auto before = content_of(result() / "result.json");
   for (const std::string failure : {"fields-throw", "fields-cut", "fields-false"}) {
@@ -162,12 +162,12 @@ TEST_F(Engine, FieldsThatCannotBeWrittenLeaveTheOldResultAsItWas) {
   }
 }
 
-TEST_F(Engine, AnErrorOfTheProgramItselfIsExitCode1) {
+TEST_F(SolveCommand, AnErrorOfTheProgramItselfIsExitCode1) {
   expect_sentence(run(solve("throw", {"--no-picture", "--quiet"})), "please report it: a bug?of the solver", 1);
   EXPECT_EQ(entries_beside(), 0);
 }
 
-TEST_F(Engine, TheUsersOwnFilesInAnOldResultAreKept) {
+TEST_F(SolveCommand, TheUsersOwnFilesInAnOldResultAreKept) {
   ASSERT_EQ(run(solve("", {"--no-picture"})).exit_code, 0);
   write_file(result() / "notes.txt", "precious");
   write_file(result() / "picture.png", "of the old result");
@@ -178,7 +178,7 @@ TEST_F(Engine, TheUsersOwnFilesInAnOldResultAreKept) {
   EXPECT_EQ(entries_beside(), 1);
 }
 
-TEST_F(Engine, APictureThatFailsIsAWarning) {
+TEST_F(SolveCommand, APictureThatFailsIsAWarning) {
   auto without_package = solve("", {"--quiet"});
   without_package.environment["RHEOCYTE_PYTHON"] = folder_.path();
   const auto ended = run(without_package);
@@ -186,22 +186,6 @@ TEST_F(Engine, APictureThatFailsIsAWarning) {
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
   EXPECT_NE(ended.err.find("warning: no picture"), std::string::npos) << ended.err;
   EXPECT_TRUE(fs::exists(result() / "result.json"));
-}
-
-TEST_F(Engine, IsFoundBesideTheProgramThatTheUserCalls) {
-  const auto bin = folder_.path() / "bin";
-  fs::create_directory(bin);
-  fs::copy(RHEOCYTE, bin / "rheocyte");
-  auto called = solve("", {"--no-picture", "--json"});
-  called.arguments[0] = bin / "rheocyte";
-  EXPECT_EQ(run(called).exit_code, 1);  // no engine there yet
-  fs::copy(FAILING_ENGINE, bin / "rheocyte-engine");
-  fs::create_directory(folder_.path() / "elsewhere");
-  fs::create_symlink(bin / "rheocyte", folder_.path() / "elsewhere/rheocyte");
-  called.arguments[0] = folder_.path() / "elsewhere/rheocyte";
-  const auto ended = run(called);
-  EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_EQ(json::parse(ended.out)["threads"]["OPENBLAS_NUM_THREADS"], "1");
 }
 
 }  // namespace

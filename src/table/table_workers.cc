@@ -1,0 +1,150 @@
+#include "table/table_workers.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "solve/outcome.h"
+#include "store/progress.h"
+#include "store/standard_error.h"
+#include "store/stop_signal.h"
+#include "table/sample_branch.h"
+
+namespace rheocyte {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How often to look whether other processes have finished a branch, or were lost with one.
+constexpr auto look = 100ms, look_again = 1000ms;
+
+int number_in_environment(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text && *text ? std::atoi(text) : otherwise;
+}
+
+bool is_stopped(const SampledBranch& branch) { return branch.end.status == name(Status::stopped); }
+
+class Workers {
+ public:
+  Workers(const TableFolder& folder, int jobs) : folder_(folder), jobs_(jobs) {
+    for (int i = 0; i < jobs; ++i) threads_.emplace_back([this] { work_or_fail(); });
+  }
+  ~Workers() { stop(); }
+
+  bool wait(Progress progress, bool quiet) {
+    bool has_told = false;
+    for (;;) {
+      const int done = folder_.done();
+      progress.show(done);
+      std::unique_lock lock(mutex_);
+      if (done == folder_.branches() || signal_received() || failure_) break;
+      if (idle_ == jobs_ && !quiet && !std::exchange(has_told, true))
+        tell("the rest is being computed by other processes");
+      changed_.wait_for(lock, look);
+    }
+    progress.finish();
+    stop();
+    if (failure_) std::rethrow_exception(failure_);
+    return !signal_received();
+  }
+
+ private:
+  void stop() {
+    {
+      const std::lock_guard lock(mutex_);
+      stop_ = true;
+    }
+    changed_.notify_all();
+    threads_.clear();  // joins
+  }
+
+  void work_or_fail() {
+    try {
+      while (!stop_ && folder_.done() < folder_.branches())
+        if (!take_a_branch()) idle();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+    }
+    changed_.notify_all();
+  }
+
+  /// False if all that are missing are somebody else's.
+  bool take_a_branch() {
+    for (int i = 0; i < folder_.branches() && !stop_; ++i) {
+      if (folder_.is_done(i)) continue;
+      const Claim claim = folder_.claim(i);
+      if (!claim || folder_.is_done(i)) continue;  // somebody else works on it, or has just finished it
+      sample_place(i);
+      changed_.notify_all();
+      return true;
+    }
+    return false;
+  }
+
+  void sample_place(int i) {
+    if (!folder_.has(i, false)) {
+      const SampledBranch own = sample_branch(folder_.spec(), folder_.place(i), &stop_);
+      if (is_stopped(own)) return;
+      folder_.keep(i, own, false);
+    }
+    if (!folder_.wants_held() || folder_.has(i, true)) return;
+    // Read back: an interrupted table goes on from the record, and its bytes must not depend on that.
+    const SampledBranch held = sample_held_branch(folder_.spec(), folder_.read(i, false), &stop_);
+    if (!is_stopped(held)) folder_.keep(i, held, true);
+  }
+
+  void idle() {
+    std::unique_lock lock(mutex_);
+    ++idle_;
+    changed_.wait_for(lock, look_again, [this] { return stop_.load(); });
+    --idle_;
+  }
+
+  const TableFolder& folder_;
+  int jobs_, idle_ = 0;
+  std::atomic<bool> stop_ = false;
+  std::exception_ptr failure_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace
+
+Rank rank_from_environment() {
+  for (const auto& [rank, size] : {std::pair{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
+                                   {"PMI_RANK", "PMI_SIZE"},
+                                   {"SLURM_PROCID", "SLURM_NTASKS"}}) {
+    const int count = number_in_environment(size, 1), number = number_in_environment(rank, -1);
+    if (number >= 0 && count > 1) return {number, count};
+  }
+  return {};
+}
+
+int available_processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (::sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+bool work_on_table(const TableFolder& folder, int jobs, bool quiet) {
+  folder.take_over();
+  watch_signals();
+  const int done = folder.done(), left = folder.branches() - done;
+  return Workers(folder, std::clamp(left, 1, jobs)).wait({"branches", folder.branches(), done, quiet}, quiet);
+}
+
+}  // namespace rheocyte
