@@ -21,7 +21,7 @@ void add_solve_command(CLI::App& app, int& exit_code) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       ->add_option("--continue", options->continue_from,
-                  "go on from the last checkpoint in this folder; only for a case with a [time] section")
+                   "go on from the last checkpoint in this folder; only for a case with a [time] section")
       ->type_name("DIR");
   command
       ->add_option(

@@ -18,8 +18,8 @@
 #include "table/grid_from_branches.h"
 #include "table/lookup_table.h"
 #include "table/simulations_file.h"
-#include "table/table_workers.h"
 #include "table/table_folder.h"
+#include "table/table_workers.h"
 
 namespace rheocyte {
 
@@ -107,8 +107,7 @@ void add_table_command(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   command->add_flag("--no-picture", options->no_picture, "no pictures");
-  command->add_option("-j,--jobs", options->jobs, "threads; default: all processors")
-      ->check(CLI::Range(1, 1024));
+  command->add_option("-j,--jobs", options->jobs, "threads; default: all processors")->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", options->quiet, "no progress, no summary");
   command->callback([options, &exit_code] { exit_code = make_table(*options); });
 }

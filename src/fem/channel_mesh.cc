@@ -56,8 +56,7 @@ std::array<double, 2> MeshElement::parameters(double xi1, double xi2) const {
   return {outward[0] + o * (outward[1] - outward[0]), along[0] + a * (along[1] - along[0])};
 }
 
-ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& subdivision)
-    : geometry_(geometry) {
+ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& subdivision) : geometry_(geometry) {
   const Subdivision& n = subdivision;
   const auto front = uniform(n.front), top = uniform(n.top), ring = uniform(n.ring);
   const int layer_count = n.layers > 0 ? n.layers : layers_for(geometry, n);
@@ -85,9 +84,8 @@ void ChannelMesh::add_block(Block block, const std::vector<double>& outward, con
 NodeNumbers ChannelMesh::number_nodes(int degree) const {
   const Eigen::VectorXd& s = lobatto_nodes(degree);
   const int n = degree + 1;
-  return rheocyte::number_nodes<2>(int(elements_.size()), n * n, [&](int e, int k) {
-    return elements_[e].map(geometry_, s(k % n), s(k / n));
-  });
+  return rheocyte::number_nodes<2>(int(elements_.size()), n * n,
+                                   [&](int e, int k) { return elements_[e].map(geometry_, s(k % n), s(k / n)); });
 }
 
 }  // namespace rheocyte

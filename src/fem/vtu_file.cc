@@ -116,9 +116,10 @@ bool VtuFile::write(const std::string& path) const {
     return data_array(array.name, "Float64", array.components, appended.add(std::span(array.values)));
   };
   // From version 2.2 on VTK numbers the edges of hexahedra as here.
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"2.2\" "
-                     "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-                     std::to_string(points) + "\" NumberOfCells=\"" + std::to_string(elements_) + "\">\n";
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"2.2\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+      std::to_string(points) + "\" NumberOfCells=\"" + std::to_string(elements_) + "\">\n";
   text += "<Points>\n" + numbers(points_) + "</Points>\n<Cells>\n";
   text += data_array("connectivity", "Int64", 1, appended.add(std::span<const std::int64_t>(connectivity)));
   text += data_array("offsets", "Int64", 1, appended.add(std::span<const std::int64_t>(offsets)));

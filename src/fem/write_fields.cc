@@ -126,8 +126,7 @@ bool write_fields(const Discretisation& space, const Media& media, const VectorX
   const MatrixXd basis = reference.lagrange(VectorXd::LinSpaced(p + 1, 0, 1));
   MatrixXd equidistant(n, n);  // from Gauss-Lobatto nodes to those of VTK
   for (int k = 0; k < n; ++k) {
-    for (int l = 0; l < n; ++l)
-      equidistant(k, l) = basis(k % (p + 1), l % (p + 1)) * basis(k / (p + 1), l / (p + 1));
+    for (int l = 0; l < n; ++l) equidistant(k, l) = basis(k % (p + 1), l % (p + 1)) * basis(k / (p + 1), l / (p + 1));
   }
   VtuFile file(2, p);
   for (int e = 0; e < int(space.elements().size()); ++e) {

@@ -42,7 +42,8 @@ TEST(NodeNumbers, ACubeOfElementsSharesItsFaces) {
   // n^3 elements of degree p have (n p + 1)^3 nodes.
   constexpr int n = 3, p = 4, nodes = p + 1;
   const auto numbers = number_nodes<3>(n * n * n, nodes * nodes * nodes, [&](int e, int k) -> Eigen::Vector3d {
-    const Eigen::Vector3d corner(e % n, e / n % n, e / (n * n)), inner(k % nodes, k / nodes % nodes, k / (nodes * nodes));
+    const Eigen::Vector3d corner(e % n, e / n % n, e / (n * n)),
+        inner(k % nodes, k / nodes % nodes, k / (nodes * nodes));
     return (corner + inner / p) / 7;
   });
   EXPECT_EQ(numbers.count, (n * p + 1) * (n * p + 1) * (n * p + 1));

@@ -96,7 +96,8 @@ void write_hexahedra(const std::string& folder, int degree) {
     for (int i = 0; i < 20; ++i) {
       const Eigen::Vector3d xi = probes.random_point(3);
       VectorXd expected(4);
-      expected << place(e, xi), field(e, xi);
+      expected.head<3>() = place(e, xi);
+      expected(3) = field(e, xi);
       probes.add(e, xi, expected);
     }
   }
