@@ -1,8 +1,6 @@
 # Libraries that bring no CMake targets of their own, or targets that we want thinner. All are imported, so their
 # headers count as system headers and our warnings do not reach into them.
 #
-#   rheocyte::openblas   BLAS with openblas_set_num_threads
-#   rheocyte::umfpack    sparse LU of SuiteSparse
 #   rheocyte::jet        dual numbers ceres::Jet: headers only, libceres is not linked
 #   rheocyte::toml       toml++: headers only
 #   rheocyte::hdf5       HDF5 without MPI
@@ -35,11 +33,6 @@ function(rheocyte_import target)
   endif()
   target_include_directories(rheocyte::${target} INTERFACE ${${prefix}_INCLUDE_DIR})
 endfunction()
-
-rheocyte_import(openblas LIBRARY openblas HEADER openblas_config.h SUFFIXES openblas-pthread PACKAGE libopenblas-dev)
-rheocyte_import(umfpack LIBRARY umfpack HEADER umfpack.h SUFFIXES suitesparse PACKAGE libsuitesparse-dev)
-# Named explicitly, so that UMFPACK's BLAS is OpenBLAS whatever the system's default BLAS is.
-target_link_libraries(rheocyte::umfpack INTERFACE rheocyte::openblas)
 
 rheocyte_import(jet HEADER ceres/jet.h PACKAGE libceres-dev)
 target_link_libraries(rheocyte::jet INTERFACE Eigen3::Eigen)

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -16,11 +15,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double um_per_m = 1e6;
 
-Json environment_value(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? Json(value) : Json(nullptr);
-}
-
 #ifdef __clang__
 constexpr const char* compiler = "Clang " __clang_version__;
 #else
@@ -29,11 +23,7 @@ constexpr const char* compiler = "GCC " __VERSION__;
 
 // What decides about the last bits of a result.
 Json build_and_threads() {
-  return {{"compiler", compiler},
-          {"threads",
-           {{"processors", std::thread::hardware_concurrency()},
-            {"OMP_NUM_THREADS", environment_value("OMP_NUM_THREADS")},
-            {"OPENBLAS_NUM_THREADS", environment_value("OPENBLAS_NUM_THREADS")}}}};
+  return {{"compiler", compiler}, {"threads", {{"processors", std::thread::hardware_concurrency()}}}};
 }
 
 Json statistics(const SolveStatistics& s) {

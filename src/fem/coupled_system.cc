@@ -27,7 +27,6 @@ WorkMeter& WorkMeter::operator+=(const WorkMeter& other) {
   sparse_s += other.sparse_s;
   solve_s += other.solve_s;
   factorisations += other.factorisations;
-  sparse_flops = other.sparse_flops;
   return *this;
 }
 
@@ -102,12 +101,8 @@ CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnk
       }
     }
   }
-  matrix_ = std::make_unique<SparseMatrix>(space.outer_unknowns(), std::move(entries));
-  for (Condensed& c : condensed_) {
-    for (const int j : c.outer_unknown) {
-      for (const int i : c.outer_equation) c.position.push_back(matrix_->position(i, j));
-    }
-  }
+  matrix_ = std::make_unique<SparseMatrix>(space.outer_unknowns(), entries);
+  for (Condensed& c : condensed_) matrix_->append_positions(c.outer_equation, c.outer_unknown, c.position);
   for (const SurfacePatch& patch : surface_.patches()) {
     auto& positions = surface_position_.emplace_back();
     for (const int i : patch.unknowns) {
@@ -166,7 +161,6 @@ VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, 
   add_surface(media.cortex, unknowns, Want::residual_and_tangent, total);
   const Stopwatch watch(work_.sparse_s);
   factorised = lu_->factorise();
-  work_.sparse_flops = lu_->flops();
   ++work_.factorisations;
   return total;
 }

@@ -16,7 +16,6 @@ struct WorkMeter {
   double sparse_s = 0;        ///< numeric sparse factorisation
   double solve_s = 0;
   int factorisations = 0;
-  double sparse_flops = 0;  ///< of the last sparse factorisation
 
   WorkMeter& operator+=(const WorkMeter&);
   WorkMeter operator-(const WorkMeter&) const;

@@ -27,7 +27,7 @@ SubsetMatrix::SubsetMatrix(const std::vector<ElementUnknowns>& elements, const s
         entries.emplace_back(number_of(element.rows[i]), number_of(element.columns[j].unknown));
     }
   }
-  matrix_ = std::make_unique<SparseMatrix>(int(members_.size()), std::move(entries));
+  matrix_ = std::make_unique<SparseMatrix>(int(members_.size()), entries);
   for (std::size_t e = 0; e < elements.size(); ++e) {
     Pattern& pattern = patterns_[e];
     for (const int i : pattern.row_slot) {

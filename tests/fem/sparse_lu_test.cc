@@ -55,7 +55,6 @@ TEST(SparseLU, ItSolvesWhatADenseEliminationSolves) {
     EXPECT_LT((lu.solve(b) - dense(matrix).partialPivLu().solve(b)).norm(), 1e-13);
     for (double& value : matrix.value) value *= 1.5;
   }
-  EXPECT_GT(lu.flops(), n);
   EXPECT_GT(lu.entries(), n);
 }
 
@@ -72,7 +71,7 @@ TEST(SparseLU, ASingularMatrixIsReported) {
 }
 
 TEST(SparseLU, NumbersThatAreNotFiniteAreReported) {
-  // NaN and infinity, before UMFPACK sees them; the next good values factorise again.
+  // NaN and infinity, before the elimination sees them; the next good values factorise again.
   SparseMatrix matrix = random_matrix(50);
   SparseLU lu(matrix);
   const double good = matrix.value[7];
