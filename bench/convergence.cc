@@ -39,9 +39,8 @@ Problem standard_cell() {
   Problem problem;
   problem.radius_ratio = 6 / 10.94;
   constexpr double R = 10.94e-6, Q = 0.04e-9, viscosity = 15e-3, E = 2290;  // SI
-  problem.shear_modulus = std::numbers::pi * E * R * R * R / (3 * viscosity * Q);
-  problem.bulk = BulkLaw::linear;
-  problem.mooney_share = 0;
+  problem.bulk.shear_modulus = std::numbers::pi * E * R * R * R / (3 * viscosity * Q);
+  problem.bulk.law = BulkLaw::linear;
   return problem;
 }
 

@@ -15,8 +15,8 @@ using namespace rheocyte;
 Problem standard_cell() {
   Problem problem;
   problem.radius_ratio = 6 / 10.94;
-  problem.shear_modulus = 4580.0 / 3 / 145.864;
-  problem.mooney_share = 0;
+  problem.bulk.shear_modulus = 4580.0 / 3 / 145.864;
+  problem.bulk.law = BulkLaw::linear;
   return problem;
 }
 
@@ -57,16 +57,16 @@ void warm_started_state(benchmark::State& state) {
   Problem problem = standard_cell();
   const int kind = int(state.range(0));
   if (kind >= 1) {
-    problem.cortex = CortexLaw::neo_hookean;
-    problem.cortex_modulus = 2;
-    problem.tension = 0.2;
+    problem.cortex.law = CortexLaw::neo_hookean;
+    problem.cortex.modulus = 2;
+    problem.cortex.tension = 0.2;
   }
-  if (kind == 2) problem.bending_stiffness = 0.01;
+  if (kind == 2) problem.cortex.bending = 0.01;
   if (kind == 3) {
-    problem.bulk = BulkLaw::none;
-    problem.shear_modulus = 0;
-    problem.cortex_modulus = 40;
-    problem.tension = 4;
+    problem.bulk.law = BulkLaw::none;
+    problem.bulk.shear_modulus = 0;
+    problem.cortex.modulus = 40;
+    problem.cortex.tension = 4;
   }
   Discrete discrete(problem, {{2, 4, 1, 2}, 6});
   StationarySystem& system = discrete.system;

@@ -86,7 +86,7 @@ void add_flow(Json& json, const Result& result) {
   json["simulated_length_um"] = state.channel_length * scales.length_m * um_per_m;
   json["tube_radius_um"] = tube_radius_um(result.input);
   // rho v_cell R / eta, with the viscosity of the liquid at the shear rate U/R
-  json["reynolds"] = result.problem.reynolds * state.cell_velocity;
+  json["reynolds"] = result.problem.liquid.reynolds * state.cell_velocity;
 }
 
 }  // namespace

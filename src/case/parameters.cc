@@ -40,7 +40,7 @@ constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "p
     monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
     has_rate{"flow.drive", "pressure-drop", true}, has_pressure_drop{"flow.drive", "pressure-drop"};
 
-// The options of a choice stand in the order of its enumeration (case/problem.h).
+// The options of a choice stand in the order of its enumeration (case/problem.h, laws/).
 // The ranges are wide; they catch wrong units and keep every dimensionless group finite.
 const std::array table = {
     Parameter{"channel.width_um",

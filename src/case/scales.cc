@@ -10,16 +10,6 @@ namespace {
 
 constexpr double m_per_um = 1e-6, m3_per_ul = 1e-9, Pas_per_mPas = 1e-3, Pa_per_kPa = 1e3, N_per_mN = 1e-3;
 
-double mooney_share(const BulkCase& bulk) {
-  switch (bulk.law) {
-    case BulkLaw::linear: return 0;
-    case BulkLaw::neo_hookean: return 1;
-    case BulkLaw::mooney_rivlin: return bulk.mooney_share.value();
-    case BulkLaw::none: return 1;
-  }
-  return 1;
-}
-
 }  // namespace
 
 double tube_radius_um(const Case& c) {
@@ -61,28 +51,28 @@ Problem problem_of(const Case& c) {
   const double E = c.cell.bulk.young_modulus_kPa.value_or(0) * Pa_per_kPa, R = scales.length_m;
 
   Problem problem;
-  problem.radius_ratio = c.cell.radius_um / tube_radius_um(c);
-  problem.liquid = c.flow.law;
+  problem.liquid.law = c.flow.law;
+  problem.liquid.reynolds = c.flow.density_kg_per_m3 * U * U / S;
   if (c.flow.law == LiquidLaw::power_law) {
-    problem.exponent = c.flow.exponent.value();
-    problem.shear_rate_floor = c.flow.shear_rate_floor.value();
+    problem.liquid.exponent = c.flow.exponent.value();
+    problem.liquid.shear_rate_floor = c.flow.shear_rate_floor.value();
   }
+  problem.bulk = {.law = c.cell.bulk.law,
+                  .shear_modulus = E / (3 * S),
+                  .mooney_share = c.cell.bulk.mooney_share.value_or(1),
+                  .viscosity = c.cell.viscosity_mPas.value_or(0) * Pas_per_mPas * U / (S * R),
+                  .reynolds = c.cell.density_kg_per_m3.value_or(0) * U * U / S};
+  problem.cortex = {.law = c.cell.cortex.law,
+                    .modulus = c.cell.cortex.modulus_mN_per_m.value_or(0) * N_per_mN / (S * R),
+                    .tension = tension_mN_per_m(c) * N_per_mN / (S * R),
+                    .bending = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R)};
+  problem.radius_ratio = c.cell.radius_um / tube_radius_um(c);
   problem.drive = c.flow.drive;
   problem.channel_length = c.channel.length_um.value_or(0) / tube_radius_um(c);
-  problem.reynolds = c.flow.density_kg_per_m3 * U * U / S;
-  problem.bulk = c.cell.bulk.law;
-  problem.shear_modulus = E / (3 * S);
-  problem.mooney_share = mooney_share(c.cell.bulk);
-  problem.cortex = c.cell.cortex.law;
-  problem.cortex_modulus = c.cell.cortex.modulus_mN_per_m.value_or(0) * N_per_mN / (S * R);
-  problem.tension = tension_mN_per_m(c) * N_per_mN / (S * R);
-  problem.bending_stiffness = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R);
   problem.wall = {c.channel.profile.x_um, c.channel.profile.R_um};
   for (auto* column : {&problem.wall.x, &problem.wall.radius})
     for (double& value : *column) value /= tube_radius_um(c);
   problem.accuracy = c.numerics.accuracy;
-  problem.cell_viscosity = c.cell.viscosity_mPas.value_or(0) * Pas_per_mPas * U / (S * R);
-  problem.cell_reynolds = c.cell.density_kg_per_m3.value_or(0) * U * U / S;
   return problem;
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "case/problem.h"
 #include "fem/channel_mesh.h"
 #include "fem/reference_element.h"
 #include "laws/axisymmetric.h"

@@ -1,17 +1,10 @@
 // Integrals of the weak forms over one element: residual, and the exact tangent by dual numbers at each point.
 #pragma once
 #include "fem/discretisation.h"
-#include "laws/cortex.h"
+#include "laws/media.h"
 #include "laws/weak_form.h"
 
 namespace rheocyte {
-
-/// Laws of liquid, cell and cell surface.
-struct Media {
-  Liquid liquid;
-  Bulk bulk;
-  Cortex cortex = {};
-};
 
 /// Residual and tangent of one element; rows and columns are the element's slots. Kept between calls to save memory
 /// traffic.

@@ -1,37 +1,44 @@
 // Elastic laws of the cell's bulk at a point (docs/theory.md, eq:bulk). Incompressible, mu = E/3.
 #pragma once
-#include "case/problem.h"
-#include "laws/tensor.h"
 
 namespace rheocyte {
 
-/// mu in units of S, and the share a of the neo-Hookean member: 1 = neo-Hookean, 0 = Euler-Almansi ("linear").
+/// `linear` is the Euler-Almansi law of Mokbel et al. 2017, the pure c2 member of the Mooney-Rivlin family;
+/// `neo_hookean` is the pure c1 member. `none`: no elastic interior but a liquid at rest, a pure shell.
+enum class BulkLaw { linear, neo_hookean, mooney_rivlin, none };
+
 struct Bulk {
-  double shear_modulus = 1;
-  double mooney_share = 1;
-  double viscosity = 0;  ///< eta1 U / (R S); acts while the cell moves
-  double reynolds = 0;   ///< of the cell's density, rho1 U^2 / S; likewise
+  BulkLaw law = BulkLaw::neo_hookean;
+  double shear_modulus = 10;  ///< mu / S = E / (3 S)
+  double mooney_share = 0.5;  ///< of the neo-Hookean member in the Mooney-Rivlin law
+  double viscosity = 0;       ///< eta1 U / (R S); acts only while the cell moves
+  double reynolds = 0;        ///< of the cell's density, rho1 U^2 / S; likewise
 };
+
+/// Share a of the neo-Hookean member in the law: 1 = neo-Hookean, 0 = Euler-Almansi.
+constexpr double neo_hookean_share(const Bulk& bulk) {
+  switch (bulk.law) {
+    case BulkLaw::linear: return 0;
+    case BulkLaw::mooney_rivlin: return bulk.mooney_share;
+    case BulkLaw::neo_hookean:
+    case BulkLaw::none: return 1;
+  }
+  return 1;
+}
 
 /// Extra Kirchhoff stress J sigma = mu [a B + (1 - a)(I1 B - B^2)] - mu (2 - a) I, B = F F^T; the pressure comes on
 /// top of it. For J = 1 this is mu [a (B - I) + (1 - a)(I - B^-1)] but for a multiple of I, because of Cayley and
 /// Hamilton's I1 B - B^2 = I2 I - J^2 B^-1. Written so, it derives from polyconvex energies off J = 1 as well:
 /// elements that meet J = 1 only on average would otherwise lose stability long before the material does.
-template <class T>
-Tensor<T> elastic_stress(const Bulk& bulk, const Tensor<T>& F) {
-  const double a = bulk.mooney_share, mu = bulk.shear_modulus;
-  const Tensor<T> B = F * F.transpose();
-  Tensor<T> tau = B * T(mu * a);
+template <class Tensor>
+Tensor elastic_stress(const Bulk& bulk, const Tensor& F) {
+  using T = typename Tensor::Scalar;
+  const double a = neo_hookean_share(bulk), mu = bulk.shear_modulus;
+  const Tensor B = F * F.transpose();
+  Tensor tau = B * T(mu * a);
   if (a != 1) tau += (B * B.trace() - B * B) * T(mu * (1 - a));
   for (int i = 0; i < 3; ++i) tau(i, i) -= T(mu * (2 - a));
   return tau;
-}
-
-/// Strain energy per volume whose derivative the stress is (for det F = 1): mu/2 [a (tr B - 3) + (1-a)(tr B^-1 - 3)].
-template <class T>
-T strain_energy(const Bulk& bulk, const Tensor<T>& F) {
-  const double a = bulk.mooney_share, mu = bulk.shear_modulus;
-  return (F.squaredNorm() - T(3)) * T(0.5 * mu * a) + (inverse(F).squaredNorm() - T(3)) * T(0.5 * mu * (1 - a));
 }
 
 }  // namespace rheocyte

@@ -1,22 +1,21 @@
 // Laws of the cell's surface at a point (docs/theory.md, eq:cortex): elastic shell, surface tension, bending.
 //
-// Each law is an energy; tensions, and with them the virtual work, are its derivatives. Stretches: l1 = ds/ds0 along
+// Each law is an energy; tensions (laws/surface_form.h) are its derivatives. Stretches: l1 = ds/ds0 along
 // the meridian, l2 = r/r0' in the hoop direction. Moduli and tensions in units of S R, bending stiffness of S R^3.
 #pragma once
-#include <array>
-#include <cmath>
-
-#include "case/problem.h"
-#include "laws/derivative.h"
+#include "laws/constant.h"
 
 namespace rheocyte {
 
-/// Parameters of the surface, see case/problem.h for their meaning.
+/// Elastic laws of the cell's surface: `linear`, `thin_shell`, `neo_hookean` are those of Mokbel et al. 2017;
+/// `neo_hookean_reference` is the usual membrane law with its energy per reference area.
+enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_reference };
+
 struct Cortex {
   CortexLaw law = CortexLaw::none;
-  double modulus = 0;
-  double tension = 0;
-  double bending = 0;
+  double modulus = 0;  ///< E2D / (S R)
+  double tension = 0;  ///< gamma / (S R)
+  double bending = 0;  ///< stiffness c_b / (S R^3)
 };
 
 /// Elastic energy of the shell per CURRENT area, zero at rest. Poisson's ratio 1/2, K = 4/3 E2D.
@@ -36,14 +35,6 @@ T shell_energy(const Cortex& cortex, const T& l1, const T& l2) {
       return constant<T>(E2D / 6) * (l1 * l1 + l2 * l2 + constant<T>(1) / (area * area) - constant<T>(3)) / area;
   }
   return constant<T>(0);
-}
-
-/// Principal Cauchy tensions T_i = f + l_i df/dl_i of the energy f per current area, surface tension included.
-template <class T>
-std::array<T, 2> principal_tensions(const Cortex& cortex, const T& l1, const T& l2) {
-  const auto energy = [&](const auto& l) { return shell_energy(cortex, l[0], l[1]); };
-  const auto [f, slope] = value_and_slopes<2, T>(energy, {l1, l2});
-  return {f + l1 * slope[0] + constant<T>(cortex.tension), f + l2 * slope[1] + constant<T>(cortex.tension)};
 }
 
 /// Bending energy per current area of the total curvature kappa (twice the mean curvature): c_b/8 kappa^2.

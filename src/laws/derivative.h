@@ -3,20 +3,9 @@
 #include <ceres/jet.h>
 
 #include <array>
-#include <type_traits>
 #include <utility>
 
 namespace rheocyte {
-
-/// A number as a scalar of type T, which may be a dual number of dual numbers.
-template <class T>
-T constant(double value) {
-  if constexpr (std::is_same_v<T, double>) {
-    return value;
-  } else {
-    return T(constant<typename T::Scalar>(value));
-  }
-}
 
 /// f(x) and df/dx for f: array of N numbers -> number.
 template <int N, class T, class Function>

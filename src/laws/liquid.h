@@ -2,24 +2,23 @@
 #pragma once
 #include <cmath>
 
-#include "case/problem.h"
-#include "laws/tensor.h"
-
 namespace rheocyte {
 
-/// Parameters of the liquid, see case/problem.h for their meaning.
+enum class LiquidLaw { newtonian, power_law };
+
 struct Liquid {
   LiquidLaw law = LiquidLaw::newtonian;
-  double exponent = 1;
-  double shear_rate_floor = 0;
-  double reynolds = 0;
+  double exponent = 1;             ///< flow behaviour index n of the power law
+  double shear_rate_floor = 1e-2;  ///< regularisation of the power law, in U/R: gdot -> sqrt(gdot^2 + floor^2)
+  double reynolds = 0;             ///< rho U^2 / S; 0 = Stokes
 };
 
-/// Viscous part 2 eta D of the Cauchy stress for the velocity gradient (grad v)_ij = d v_i / d x_j.
-/// Power law: eta = gdot^(n-1), gdot^2 = 2 D:D + floor^2.
-template <class T>
-Tensor<T> viscous_stress(const Liquid& liquid, const Tensor<T>& grad_v) {
-  Tensor<T> two_D = grad_v + grad_v.transpose();
+/// Viscous part 2 eta D of the Cauchy stress for the velocity gradient (grad v)_ij = d v_i / d x_j, a full 3 x 3
+/// tensor. Power law: eta = gdot^(n-1), gdot^2 = 2 D:D + floor^2.
+template <class Tensor>
+Tensor viscous_stress(const Liquid& liquid, const Tensor& grad_v) {
+  using T = typename Tensor::Scalar;
+  Tensor two_D = grad_v + grad_v.transpose();
   if (liquid.law == LiquidLaw::newtonian) return two_D;
   using std::pow;
   const T gdot_squared = two_D.squaredNorm() * T(0.5) + T(liquid.shear_rate_floor * liquid.shear_rate_floor);
@@ -28,9 +27,9 @@ Tensor<T> viscous_stress(const Liquid& liquid, const Tensor<T>& grad_v) {
 }
 
 /// Convective inertia Re (grad v) v per volume of a steady flow.
-template <class T>
-Vector<T> inertia(const Liquid& liquid, const Vector<T>& v, const Tensor<T>& grad_v) {
-  return grad_v * v * T(liquid.reynolds);
+template <class Vector, class Tensor>
+Vector inertia(const Liquid& liquid, const Vector& v, const Tensor& grad_v) {
+  return grad_v * v * typename Tensor::Scalar(liquid.reynolds);
 }
 
 /// Axial velocity of the undisturbed flow at distance r from the axis of a tube of radius 1 and mean speed 1.
@@ -39,7 +38,13 @@ inline double undisturbed_velocity(const Liquid& liquid, double r) {
   return (3 * n + 1) / (n + 1) * (1 - std::pow(r, (n + 1) / n));
 }
 
-/// Pressure gradient (positive number) of that flow.
+/// Pressure gradient (positive number, in S/R) of a power-law liquid in a tube of radius 1 at mean speed 1: 8 for n
+/// = 1.
+inline double undisturbed_pressure_gradient(double exponent) {
+  return 2 * std::pow((3 * exponent + 1) / exponent, exponent);
+}
+
+/// Pressure gradient (positive number) of the undisturbed flow.
 inline double undisturbed_pressure_gradient(const Liquid& liquid) {
   return undisturbed_pressure_gradient(liquid.exponent);
 }

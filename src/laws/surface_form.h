@@ -8,8 +8,17 @@
 #include <cmath>
 
 #include "laws/cortex.h"
+#include "laws/derivative.h"
 
 namespace rheocyte {
+
+/// Principal Cauchy tensions T_i = f + l_i df/dl_i of the energy f per current area, surface tension included.
+template <class T>
+std::array<T, 2> principal_tensions(const Cortex& cortex, const T& l1, const T& l2) {
+  const auto energy = [&](const auto& l) { return shell_energy(cortex, l[0], l[1]); };
+  const auto [f, slope] = value_and_slopes<2, T>(energy, {l1, l2});
+  return {f + l1 * slope[0] + constant<T>(cortex.tension), f + l2 * slope[1] + constant<T>(cortex.tension)};
+}
 
 /// A point of the meridian with its derivatives.
 template <class T>

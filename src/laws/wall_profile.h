@@ -4,9 +4,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "case/problem.h"
-
 namespace rheocyte {
+
+/// Radii of a channel that is not straight, at places from the start of the cell; constant beyond the ends. Empty:
+/// straight. In R, which is the least of the radii.
+struct WallTable {
+  std::vector<double> x, radius;
+  bool is_straight() const { return x.empty(); }
+};
 
 /// Cubic pieces through the places of the table, once continuously differentiable, monotonic where the table is
 /// (Fritsch and Butland 1984), level at both ends and constant beyond them. Lengths in R.

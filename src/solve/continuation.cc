@@ -19,8 +19,8 @@ VectorXd predict(const BranchState& now, const BranchState* before, double h) {
 
 /// The problem in a liquid of another exponent; 1 is the Newtonian one.
 Problem with_exponent(Problem problem, double exponent) {
-  problem.exponent = exponent;
-  if (exponent == 1) problem.liquid = LiquidLaw::newtonian;
+  problem.liquid.exponent = exponent;
+  if (exponent == 1) problem.liquid.law = LiquidLaw::newtonian;
   return problem;
 }
 
@@ -30,7 +30,7 @@ NewtonReport enter_branch(StationarySystem& system, const Problem& problem, cons
                           double compliance, VectorXd& unknowns) {
   NewtonReport report;
   int iterations = 0;
-  const double wanted = problem.exponent;
+  const double wanted = problem.liquid.exponent;
   double reached = 1, step = std::clamp(wanted - 1, -0.2, 0.2);
   for (bool first = true; first || reached != wanted;) {
     double exponent = first ? 1 : reached + step;

@@ -5,9 +5,10 @@
 namespace rheocyte {
 
 SurfaceKind surface_kind(const Problem& problem) {
-  if (problem.bending_stiffness > 0) return SurfaceKind::held;
-  if (problem.cortex != CortexLaw::none) return SurfaceKind::membrane;
-  return problem.tension > 0 ? SurfaceKind::held : SurfaceKind::bare;
+  const Cortex& cortex = problem.cortex;
+  if (cortex.bending > 0) return SurfaceKind::held;
+  if (cortex.law != CortexLaw::none) return SurfaceKind::membrane;
+  return cortex.tension > 0 ? SurfaceKind::held : SurfaceKind::bare;
 }
 
 namespace {

@@ -8,12 +8,9 @@
 
 namespace rheocyte {
 
-/// Laws at a compliance in (0, 1]: every modulus, tension and stiffness of the cell is divided by it.
-Media media_at(const Problem&, double compliance);
-
 /// What fills the cell.
 inline Interior interior_of(const Problem& problem) {
-  return problem.bulk == BulkLaw::none ? Interior::liquid : Interior::elastic;
+  return problem.bulk.law == BulkLaw::none ? Interior::liquid : Interior::elastic;
 }
 
 /// How finely a state is resolved.
@@ -44,17 +41,5 @@ struct Path {
 /// From the rigid cell (0) to the problem (1) in the compliance of everything that is elastic. The system must outlive
 /// the path.
 Path stiffness_path(StationarySystem&, const Problem&);
-
-/// The problem at a share s in [0, 1] of the way from one to another: geometric means of what is positive in both,
-/// arithmetic means of the rest. Interior and laws must be the same (asserted).
-Problem between(const Problem& from, const Problem& to, double s);
-
-/// The resolution with as many layers of liquid as both ends of a path need.
-Resolution path_resolution(const Problem& from, const Problem& to, Resolution);
-
-/// From one problem (0) to another (1), in any of their numbers: stiffness of bulk or cortex, tension, bending,
-/// inertia, flow rate (which is in all of them), radius. Where the radius changes, so does the geometry; the unknowns
-/// keep their order and meaning, and belong to the mesh of `path_resolution`.
-Path problem_path(const Problem& from, const Problem& to, const Resolution&);
 
 }  // namespace rheocyte

@@ -14,22 +14,17 @@ constexpr double exponent_step = 0.1;
 }  // namespace
 
 Problem with_elastic_interior(Problem problem) {
-  if (problem.bulk == BulkLaw::none) problem.shear_modulus = 0;
-  problem.bulk = problem.bulk == BulkLaw::none ? BulkLaw::neo_hookean : problem.bulk;
+  if (problem.bulk.law == BulkLaw::none) {
+    problem.bulk.law = BulkLaw::neo_hookean;
+    problem.bulk.shear_modulus = 0;
+  }
   return problem;
-}
-
-Media moving_media(const Problem& problem) {
-  Media media = media_at(problem, 1);
-  media.bulk.viscosity = problem.cell_viscosity;
-  media.bulk.reynolds = problem.cell_reynolds;
-  return media;
 }
 
 Status flow_round_sphere(MovingSystem& system, const Media& media, const NewtonOptions& options, VectorXd& unknowns) {
   unknowns = system.sphere();
   Media rigid = media;
-  rigid.bulk = {rigid_modulus, 1};
+  rigid.bulk = {.shear_modulus = rigid_modulus};
   rigid.cortex = {};
   double exponent = 1;
   do {  // a power law is singular where nothing flows yet: from the Newtonian flow in steps of its exponent

@@ -9,9 +9,6 @@ namespace rheocyte {
 /// The same cell with an elastic interior, of modulus zero if it is a shell.
 Problem with_elastic_interior(Problem);
 
-/// Laws of cell and liquid for steps in time.
-Media moving_media(const Problem&);
-
 /// The undeformed cell with the flow round it; `system` must be at rest.
 Status flow_round_sphere(MovingSystem& system, const Media&, const NewtonOptions&, VectorXd& unknowns);
 

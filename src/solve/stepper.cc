@@ -7,6 +7,6 @@ namespace rheocyte {
 Stepper::Stepper(const Problem& problem, const Resolution& resolution)
     : problem_(with_elastic_interior(problem)),
       discrete_(std::make_shared<Discrete>(problem_, resolution)),
-      media_(moving_media(problem_)) {}
+      media_(problem_) {}
 
 }  // namespace rheocyte

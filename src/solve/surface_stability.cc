@@ -18,11 +18,11 @@ double stability_margin(const Problem& problem, const SurfaceState& surface) {
   switch (surface_kind(problem)) {
     case SurfaceKind::bare: return (least_biot_ratio(surface) - biot_limit) / (1 - biot_limit);
     case SurfaceKind::membrane: {
-      const Cortex cortex{problem.cortex, problem.cortex_modulus, problem.tension, 0};
-      const double support = problem.shear_modulus * shortest_wave * problem.radius_ratio / std::numbers::pi;
+      const Cortex& cortex = problem.cortex;
+      const double support = problem.bulk.shear_modulus * shortest_wave * problem.radius_ratio / std::numbers::pi;
       const double least = surface_tensions(cortex, surface).col(0).minCoeff();
       // Tensions of the order of the modulus are as far as 1 from the limit.
-      return (least + support) / (problem.cortex_modulus + problem.tension + support);
+      return (least + support) / (cortex.modulus + cortex.tension + support);
     }
     case SurfaceKind::held: return 1;
   }

@@ -31,7 +31,7 @@ MeasuredState measure_state(const Discretisation& space, const Problem& problem,
   const ShapeMeasures shape = measure(curve);
   const SurfaceState surface = surface_state(space, unknowns, 4 * space.reference().degree() + 1);
   const double um = scales.length_m * um_per_m;
-  const double gradient = undisturbed_pressure_gradient(media_at(problem, 1).liquid);
+  const double gradient = undisturbed_pressure_gradient(problem.liquid);
   const double half = space.mesh().geometry().half_length();
   MeasuredState state;
   state.value.resize(measure_count);

@@ -11,7 +11,8 @@ namespace {
 using test::SmallChannel;
 
 /// Viscous, heavier than the liquid, with a cortex: every time term acts.
-const Media media{{LiquidLaw::power_law, 0.7, 0.1, 0.5}, {12, 0.4, 2, 0.8}, {CortexLaw::linear, 8, 0.8, 0}};
+const Media media{
+    {LiquidLaw::power_law, 0.7, 0.1, 0.5}, {BulkLaw::mooney_rivlin, 12, 0.4, 2, 0.8}, {CortexLaw::linear, 8, 0.8, 0}};
 
 Motion some_motion(const Discretisation& space) {
   return {7.0, 0.3 * test::random_vector(space.unknowns(), 3), 0.3 * test::random_vector(2 * space.nodes().count, 4)};

@@ -52,7 +52,7 @@ TEST(Patch, PoiseuilleFlowIsExactInTheStraightChannel) {
   // quadratic velocity lies in the space, and inlet and outlet carry the right data.
   for (const double reynolds : {0.0, 0.7}) {
     for (const int degree : {2, 4, 7}) {
-      const Media media{{LiquidLaw::newtonian, 1, 0, reynolds}, {10, 1}};
+      const Media media{{LiquidLaw::newtonian, 1, 0, reynolds}, {BulkLaw::neo_hookean, 10}};
       SmallChannel channel(0.5, degree, media.liquid);
       VectorXd state = channel.system.sphere();
       state(channel.space.cell_velocity()) = 1.3;
@@ -76,7 +76,7 @@ TEST(Patch, PoiseuilleFlowIsExactInTheStraightChannel) {
 TEST(Patch, ALinearFlowAndItsPressureAreExactInCurvedElements) {
   // v = (x, -r/2) with constant pressure has the constant stress 2 D - p I: interior equations vanish between the
   // cell and the channel, where the elements are curved; degree 4 integrates them exactly.
-  const Media media{{}, {10, 1}};
+  const Media media{{}, {BulkLaw::neo_hookean, 10}};
   SmallChannel channel(0.5, 4, media.liquid);
   VectorXd state = VectorXd::Zero(channel.space.unknowns());
   set_velocity(
@@ -103,7 +103,7 @@ TEST(Patch, ALinearFlowAndItsPressureAreExactInCurvedElements) {
 TEST(Patch, AUniformPressureIsInEquilibriumWithAnyShape) {
   // Liquid at rest and a cell without stiffness under one pressure: forces on the surface cancel to rounding in any
   // deformed state, since degree 4 integrates r cof(grad x) exactly.
-  const Media media{{}, {0, 1}};
+  const Media media{{}, {BulkLaw::neo_hookean, 0}};
   SmallChannel channel(0.6, 4);
   VectorXd state = 0.01 * test::random_vector(channel.space.unknowns());
   set_velocity(

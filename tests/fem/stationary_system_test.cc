@@ -20,19 +20,20 @@ struct Cell {
 
 // The floor of 0.1 keeps the power law's third derivatives moderate where the liquid does not shear.
 const std::vector<Cell> cells = {
-    {{{}, {12, 0}}},
-    {{{}, {12, 1}}},
-    {{{}, {12, 0.4}}},
-    {{{LiquidLaw::newtonian, 1, 0, 0.5}, {12, 1}}},
-    {{{LiquidLaw::power_law, 0.6, 0.1, 0}, {12, 0}}},
-    {{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {12, 0.4}}},
-    {{{}, {12, 1}, {CortexLaw::none, 0, 1, 0.1}}},
-    {{{}, {12, 0}, {CortexLaw::linear, 8, 0.8, 0}}},
-    {{{}, {12, 1}, {CortexLaw::neo_hookean, 8, 0.8, 0.1}}},
-    {{{}, {0, 1}, {CortexLaw::linear, 20, 2, 0}}, Interior::liquid},
-    {{{}, {0, 1}, {CortexLaw::thin_shell, 20, 2, 0.2}}, Interior::liquid},
-    {{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {0, 1}, {CortexLaw::neo_hookean, 20, 2, 0}}, Interior::liquid},
-    {{{}, {0, 1}, {CortexLaw::neo_hookean_reference, 20, 0, 0}}, Interior::liquid}};
+    {{{}, {BulkLaw::linear, 12}}},
+    {{{}, {BulkLaw::neo_hookean, 12}}},
+    {{{}, {BulkLaw::mooney_rivlin, 12, 0.4}}},
+    {{{LiquidLaw::newtonian, 1, 0, 0.5}, {BulkLaw::neo_hookean, 12}}},
+    {{{LiquidLaw::power_law, 0.6, 0.1, 0}, {BulkLaw::linear, 12}}},
+    {{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {BulkLaw::mooney_rivlin, 12, 0.4}}},
+    {{{}, {BulkLaw::neo_hookean, 12}, {CortexLaw::none, 0, 1, 0.1}}},
+    {{{}, {BulkLaw::linear, 12}, {CortexLaw::linear, 8, 0.8, 0}}},
+    {{{}, {BulkLaw::neo_hookean, 12}, {CortexLaw::neo_hookean, 8, 0.8, 0.1}}},
+    {{{}, {BulkLaw::neo_hookean, 0}, {CortexLaw::linear, 20, 2, 0}}, Interior::liquid},
+    {{{}, {BulkLaw::neo_hookean, 0}, {CortexLaw::thin_shell, 20, 2, 0.2}}, Interior::liquid},
+    {{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {BulkLaw::neo_hookean, 0}, {CortexLaw::neo_hookean, 20, 2, 0}},
+     Interior::liquid},
+    {{{}, {BulkLaw::neo_hookean, 0}, {CortexLaw::neo_hookean_reference, 20, 0, 0}}, Interior::liquid}};
 
 VectorXd residual(StationarySystem& system, const Media& law, const VectorXd& state) {
   double det = 0;
@@ -125,7 +126,7 @@ TEST(StationarySystem, NumbersThatAreNotFiniteAreNotFactorised) {
   double det = 0;
   bool factorised = true;
   const double nan = std::nan("");
-  channel.system.linearise({{}, {nan, 1}}, channel.system.sphere(), det, factorised);
+  channel.system.linearise({{}, {BulkLaw::neo_hookean, nan}}, channel.system.sphere(), det, factorised);
   EXPECT_FALSE(factorised);
   VectorXd x = channel.system.sphere();
   x(channel.space.outer_unknowns()) = nan;

@@ -20,7 +20,7 @@ struct Shell : SmallChannel {
 /// The residual that the surface alone makes at a state.
 VectorXd surface_residual(Shell& shell, const Cortex& cortex, const VectorXd& state) {
   double det = 0;
-  const Media with{{}, {0, 1}, cortex}, without{{}, {0, 1}, {}};
+  const Media with{{}, {BulkLaw::neo_hookean, 0}, cortex}, without{{}, {BulkLaw::neo_hookean, 0}, {}};
   return shell.system.residual(with, state, det) - shell.system.residual(without, state, det);
 }
 
@@ -52,7 +52,7 @@ TEST(SurfaceIntegrals, ASphereUnderTensionHasThePressureOfLaplaceAndDoesNotMove)
   pressed(shell.space.inner_pressure()) = 1;
   const double tension_work = inflation.dot(surface_residual(shell, cortex, sphere));
   double det = 0;
-  const Media no_cortex{{}, {0, 1}, {}};
+  const Media no_cortex{{}, {BulkLaw::neo_hookean, 0}, {}};
   const double pressure_work =
       inflation.dot(shell.system.residual(no_cortex, pressed, det) - shell.system.residual(no_cortex, sphere, det));
   const double pressure = 2 * gamma / radius - tension_work / pressure_work;

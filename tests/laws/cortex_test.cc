@@ -1,8 +1,7 @@
-#include "laws/cortex.h"
-
 #include <gtest/gtest.h>
 
 #include "derivative_error.h"
+#include "laws/surface_form.h"
 #include "random_states.h"
 
 namespace rheocyte {

@@ -16,7 +16,8 @@ constexpr double rounding = 1e-12;
 
 const std::array liquids = {Liquid{}, Liquid{LiquidLaw::newtonian, 1, 0, 0.8},
                             Liquid{LiquidLaw::power_law, 0.6, 0.1, 0}, Liquid{LiquidLaw::power_law, 0.6, 0.1, 0.8}};
-constexpr std::array bulks = {Bulk{12, 0}, Bulk{12, 1}, Bulk{12, 0.4}};
+constexpr std::array bulks = {Bulk{BulkLaw::linear, 12}, Bulk{BulkLaw::neo_hookean, 12},
+                              Bulk{BulkLaw::mooney_rivlin, 12, 0.4}};
 
 std::array<double, LiquidPoint::inputs> liquid_state(RandomStates& random) {
   const Place<double> place = random.place();
@@ -102,7 +103,7 @@ TEST(CellPoint, TheFluxIsTheDerivativeOfTheStrainEnergyOfAnIsochoricState) {
           CellPoint{bulk, X}(std::array<double, 6>{G(0, 0), G(0, 1), G(1, 0), G(1, 1), s * X.r, random.number(-1, 1)});
       const double work = flux[1] * G(0, 0) + flux[2] * G(0, 1) - 0.5 * (flux[3] * s * X.r) -
                           0.5 * (flux[4] * G(1, 0) + flux[5] * G(1, 1));
-      const double a = bulk.mooney_share, mu = bulk.shear_modulus;
+      const double a = neo_hookean_share(bulk), mu = bulk.shear_modulus;
       const double tension = mu * (a * (l * l - 1 / l) + (1 - a) * (l - 1 / (l * l)));
       EXPECT_NEAR(work, tension * X.volume(), 10 * rounding);
     }

@@ -15,21 +15,21 @@ inline Problem problem(const CellInChannel& cell, double accuracy = 1e-3) {
   constexpr double stress_Pa = 145.864;  // eta U / R, U = Q / (pi R^2)
   Problem problem;
   problem.radius_ratio = cell.radius_um / tube_radius_um;
-  problem.bulk = cell.mooney_share == 0   ? BulkLaw::linear
-                 : cell.mooney_share == 1 ? BulkLaw::neo_hookean
-                                          : BulkLaw::mooney_rivlin;
-  problem.mooney_share = cell.mooney_share;
-  problem.shear_modulus = 1e3 * cell.young_modulus_kPa / 3 / stress_Pa;
+  problem.bulk.law = cell.mooney_share == 0   ? BulkLaw::linear
+                     : cell.mooney_share == 1 ? BulkLaw::neo_hookean
+                                              : BulkLaw::mooney_rivlin;
+  problem.bulk.mooney_share = cell.mooney_share;
+  problem.bulk.shear_modulus = 1e3 * cell.young_modulus_kPa / 3 / stress_Pa;
   problem.accuracy = accuracy;
   return problem;
 }
 
 /// The same cell in a shear-thinning buffer with inertia.
 inline Problem in_power_law_liquid(Problem problem) {
-  problem.liquid = LiquidLaw::power_law;
-  problem.exponent = 0.6039;
-  problem.shear_rate_floor = 0.1;  // smooth enough for reference solutions of 1e-6
-  problem.reynolds = 0.2;
+  problem.liquid.law = LiquidLaw::power_law;
+  problem.liquid.exponent = 0.6039;
+  problem.liquid.shear_rate_floor = 0.1;  // smooth enough for reference solutions of 1e-6
+  problem.liquid.reynolds = 0.2;
   return problem;
 }
 

@@ -17,8 +17,8 @@ constexpr double unit_us = 102.835;  // R/U of cases.h, R that of the narrow tub
 /// A cell of 7 um that starts 4 R before a contraction from 2 R to R.
 Problem entering_cell(double mooney_share = 1) {
   Problem problem = test::problem({7, 4.58, mooney_share}, 1e-5);
-  problem.reynolds = problem.cell_reynolds = 0.0776;
-  problem.cell_viscosity = 1;
+  problem.liquid.reynolds = problem.bulk.reynolds = 0.0776;
+  problem.bulk.viscosity = 1;
   problem.wall = {{4, 8}, {2, 1}};
   return problem;
 }
@@ -103,7 +103,7 @@ TEST(ChannelEntry, AFailedRunKeepsItsLastGoodStateAndItsHistory) {
   // A soft cell is drawn out in the contraction until no step succeeds: a named status, a sentence, and finite numbers
   // of the last state with the walls where they were.
   Problem problem = entering_cell();
-  problem.shear_modulus /= 30;
+  problem.bulk.shear_modulus /= 30;
   int steps = 0;
   double position = 0;
   const auto count = [&](const TimePoint& point, const TimeState&) { ++steps, position = point.position; };

@@ -30,8 +30,8 @@ struct CoarseProblem {
 TEST(Continuation, TheComplianceDividesTheModulus) {
   // c = 1 is the wanted stiffness, c -> 0 the rigid cell.
   const Problem problem = test::problem({6, 2.29, 0});
-  EXPECT_DOUBLE_EQ(media_at(problem, 1).bulk.shear_modulus, problem.shear_modulus);
-  EXPECT_DOUBLE_EQ(media_at(problem, 0.1).bulk.shear_modulus, 10 * problem.shear_modulus);
+  EXPECT_DOUBLE_EQ(media_at(problem, 1).bulk.shear_modulus, problem.bulk.shear_modulus);
+  EXPECT_DOUBLE_EQ(media_at(problem, 0.1).bulk.shear_modulus, 10 * problem.bulk.shear_modulus);
 }
 
 /// || x(c + h) - x(c) - h x'(c) ||

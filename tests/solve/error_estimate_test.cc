@@ -11,7 +11,7 @@ namespace rheocyte {
 
 /// What GoogleTest prints of a case.
 void PrintTo(const Problem& problem, std::ostream* out) {
-  *out << "radius " << problem.radius_ratio << ", modulus " << problem.shear_modulus;
+  *out << "radius " << problem.radius_ratio << ", modulus " << problem.bulk.shear_modulus;
 }
 
 namespace {

@@ -12,9 +12,9 @@ namespace {
 TEST(Failure, ANumberThatIsNotFiniteIsNamed) {
   // NaN in the modulus or in the Reynolds number, infinity in the modulus.
   Problem bad_modulus = test::problem({}), bad_reynolds = bad_modulus, infinite = bad_modulus;
-  bad_modulus.shear_modulus = std::nan("");
-  bad_reynolds.reynolds = std::nan("");
-  infinite.shear_modulus = INFINITY;
+  bad_modulus.bulk.shear_modulus = std::nan("");
+  bad_reynolds.liquid.reynolds = std::nan("");
+  infinite.bulk.shear_modulus = INFINITY;
   for (const Problem& problem : {bad_modulus, bad_reynolds, infinite}) {
     const StationaryState state = solve_stationary(problem);
     EXPECT_EQ(state.outcome.status, Status::not_finite) << name(state.outcome.status);

@@ -44,7 +44,7 @@ TEST(Newton, AStepSquaresTheResidual) {
   std::vector<Problem> problems;
   for (const double share : {0.0, 1.0, 0.5}) problems.push_back(test::problem({6, 4.58, share}));
   problems.push_back(problems[1]);
-  problems.back().reynolds = 0.3;
+  problems.back().liquid.reynolds = 0.3;
   for (const Problem& problem : problems) {
     CoarseProblem coarse(problem);
     VectorXd x = coarse.discrete.system.sphere();

@@ -16,8 +16,8 @@ constexpr double unit_us = 102.835;  // R/U of cases.h
 
 Problem moving_cell() {
   Problem problem = test::problem({7.66, 3.437, 0}, 1e-4);
-  problem.reynolds = problem.cell_reynolds = 0.0776;
-  problem.cell_viscosity = 1;
+  problem.liquid.reynolds = problem.bulk.reynolds = 0.0776;
+  problem.bulk.viscosity = 1;
   return problem;
 }
 

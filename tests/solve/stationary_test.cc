@@ -61,7 +61,7 @@ TEST(Stationary, AGivenPressureDropIsThatOfTheFlowRateThatItDrives) {
   // At its own flow rate q the same cell needs the same pressure drop. In the units of q, moduli are smaller by q and
   // Re is larger by q. The inlets differ by the damped disturbance of the cell, 1e-7.
   Problem driven = test::problem({6, 4.58, 0}, 1e-5);
-  driven.reynolds = 0.08;
+  driven.liquid.reynolds = 0.08;
   driven.drive = Drive::pressure_drop;
   driven.channel_length = 12;
   const StationaryState one = solve_stationary(driven);
@@ -73,8 +73,8 @@ TEST(Stationary, AGivenPressureDropIsThatOfTheFlowRateThatItDrives) {
   EXPECT_NEAR(one.additional_pressure_drop / drop, 1 - q, 1e-8);
   Problem given = driven;
   given.drive = Drive::rate;
-  given.shear_modulus /= q;
-  given.reynolds *= q;
+  given.bulk.shear_modulus /= q;
+  given.liquid.reynolds *= q;
   const StationaryState other = solve_stationary(given);
   ASSERT_EQ(other.outcome.status, Status::converged);
   EXPECT_NEAR(q * other.pressure_drop / drop, 1, 1e-6);
@@ -96,8 +96,8 @@ TEST(Stationary, ANewtonianLiquidIsThePowerLawOfExponentOne) {
   // Two laws, one liquid.
   const Problem newtonian = test::problem({6, 4.58, 1});
   Problem power_law = newtonian;
-  power_law.liquid = LiquidLaw::power_law;
-  power_law.exponent = 1;
+  power_law.liquid.law = LiquidLaw::power_law;
+  power_law.liquid.exponent = 1;
   const StationaryState one = solve_stationary(newtonian), other = solve_stationary(power_law);
   // Newton's tolerance of 1e-10.
   EXPECT_NEAR(other.shape.deformation / one.shape.deformation, 1, 1e-8);

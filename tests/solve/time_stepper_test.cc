@@ -18,18 +18,18 @@ constexpr double stress_Pa = 145.864, unit_us = 102.835;  // S and R/U of cases.
 /// The paper's cell, viscous as the liquid, with inertia.
 Problem moving_cell(double mooney_share) {
   Problem problem = test::problem({7.66, 3.437, mooney_share}, 1e-4);
-  problem.reynolds = problem.cell_reynolds = 0.0776;
-  problem.cell_viscosity = 1;
+  problem.liquid.reynolds = problem.bulk.reynolds = 0.0776;
+  problem.bulk.viscosity = 1;
   return problem;
 }
 
 /// The paper's shell: E2D = 31.3 mN/m, tension 0.1 E2D.
 Problem moving_shell(CortexLaw law) {
   Problem problem = moving_cell(1);
-  problem.bulk = BulkLaw::none;
-  problem.cortex = law;
-  problem.cortex_modulus = 31.3e-3 / (stress_Pa * 10.94e-6);
-  problem.tension = 0.1 * problem.cortex_modulus;
+  problem.bulk.law = BulkLaw::none;
+  problem.cortex.law = law;
+  problem.cortex.modulus = 31.3e-3 / (stress_Pa * 10.94e-6);
+  problem.cortex.tension = 0.1 * problem.cortex.modulus;
   return problem;
 }
 
@@ -104,8 +104,8 @@ TEST(TimeStepper, TheStationaryStateDoesNotDependOnTheCellsViscosity) {
   double deformation = 0;
   for (const double ratio : {0.2, 20.0}) {
     Problem problem = moving_cell(1);
-    problem.cell_viscosity = ratio;
-    problem.cell_reynolds *= ratio;
+    problem.bulk.viscosity = ratio;
+    problem.bulk.reynolds *= ratio;
     TimeStepper stepper(problem, resolution(4), {.accuracy = 1e-4});
     ASSERT_EQ(stepper.start(), Status::converged);
     const double half_way = 30 * (1 + ratio) / unit_us;
@@ -180,7 +180,7 @@ double elongation(const TimeStepper& stepper) {
 /// Rate at which a small elongation disappears without inertia between two times, in a flow far too weak to matter.
 double relaxation_rate(Problem problem, double from, double to) {
   problem.radius_ratio = radius;  // the walls change the rate by about (r0/R)^3, the finite strain by 1e-3
-  problem.reynolds = problem.cell_reynolds = 0;
+  problem.liquid.reynolds = problem.bulk.reynolds = 0;
   TimeStepper stepper(problem, resolution(4), {.accuracy = 3e-9, .first_step = 1e-3 * from, .newton = {1e-8}});
   EXPECT_EQ(stepper.start(), Status::converged);
   TimeState state = stepper.state();
@@ -203,10 +203,10 @@ TEST(TimeStepper, ACapillaryDropRelaxesWithItsExactRate) {
   // docs/theory-time.md, eq:drop-rate, within 0.2 %: gamma / (eta0 r0) 40 (1 + m) / ((2 m + 3)(19 m + 16)).
   for (const double m : {0.5, 1.0, 5.0}) {
     Problem problem = moving_cell(1);
-    problem.shear_modulus = 0;
-    problem.tension = 1e3;
-    problem.cell_viscosity = m;
-    const double exact = problem.tension / radius * 40 * (1 + m) / ((2 * m + 3) * (19 * m + 16));
+    problem.bulk.shear_modulus = 0;
+    problem.cortex.tension = 1e3;
+    problem.bulk.viscosity = m;
+    const double exact = problem.cortex.tension / radius * 40 * (1 + m) / ((2 * m + 3) * (19 * m + 16));
     EXPECT_NEAR(relaxation_rate(problem, 1 / exact, 3 / exact) / exact, 1, 0.002) << "viscosity ratio " << m;
   }
 }
@@ -215,9 +215,9 @@ TEST(TimeStepper, AViscoelasticSphereRelaxesWithItsExactRate) {
   // docs/theory-time.md, eq:sphere-rate, within 0.2 %: mu / (eta1 + 3/2 eta0) once the faster mode is gone.
   for (const double m : {0.1, 0.5}) {
     Problem problem = moving_cell(1);
-    problem.shear_modulus = 1e4;
-    problem.cell_viscosity = m;
-    const double exact = problem.shear_modulus / (m + 1.5);
+    problem.bulk.shear_modulus = 1e4;
+    problem.bulk.viscosity = m;
+    const double exact = problem.bulk.shear_modulus / (m + 1.5);
     EXPECT_NEAR(relaxation_rate(problem, 4 / exact, 6 / exact) / exact, 1, 0.002) << "viscosity ratio " << m;
   }
 }
@@ -227,7 +227,7 @@ TEST(TimeStepper, AStepThatCannotBeSolvedIsANamedFailureAndKeepsTheState) {
   Problem problem = moving_cell(1);
   TimeStepper good(problem, resolution(3), {});
   ASSERT_EQ(good.start(), Status::converged);
-  problem.cell_viscosity = std::nan("");
+  problem.bulk.viscosity = std::nan("");
   TimeStepper bad(problem, resolution(3), {});
   bad.resume(good.state());
   EXPECT_NE(bad.step(1).status, Status::converged);

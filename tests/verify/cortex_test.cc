@@ -17,12 +17,11 @@ const double thermal_energy = 4.11643e-21 / (145.864 * std::pow(1e-6 * test::tub
 
 Problem shell(double radius_um, double modulus_mN_per_m, CortexLaw law, double accuracy) {
   Problem problem = test::in_newtonian_liquid({radius_um, 1}, test::Inertia::none, accuracy);
-  const double kPa = problem.shear_modulus * 3;  // 1 kPa in S
-  problem.bulk = BulkLaw::none;
-  problem.shear_modulus = 0;
-  problem.cortex = law;
-  problem.cortex_modulus = modulus_mN_per_m / test::tube_radius_um * kPa;  // 1 mN/m is 1 kPa um
-  problem.tension = tension_ratio * problem.cortex_modulus;
+  const double kPa = problem.bulk.shear_modulus * 3;  // 1 kPa in S
+  problem.bulk = {BulkLaw::none, 0};
+  problem.cortex.law = law;
+  problem.cortex.modulus = modulus_mN_per_m / test::tube_radius_um * kPa;  // 1 mN/m is 1 kPa um
+  problem.cortex.tension = tension_ratio * problem.cortex.modulus;
   return problem;
 }
 
@@ -43,11 +42,10 @@ double difference(const LinearResponse& response, double deformation, CortexLaw 
   const double capillary = std::sqrt(deformation / response.per_square);
   Problem problem;
   problem.radius_ratio = response.lambda;
-  problem.bulk = BulkLaw::none;
-  problem.shear_modulus = 0;
-  problem.cortex = law;
-  problem.cortex_modulus = std::numbers::pi / capillary;  // eta Q / R^2 = pi S R
-  problem.tension = tension_ratio * problem.cortex_modulus;
+  problem.bulk = {BulkLaw::none, 0};
+  problem.cortex.law = law;
+  problem.cortex.modulus = std::numbers::pi / capillary;  // eta Q / R^2 = pi S R
+  problem.cortex.tension = tension_ratio * problem.cortex.modulus;
   problem.accuracy = 1e-5;
   return solved(problem).shape.deformation / deformation - 1;
 }
@@ -118,8 +116,6 @@ Problem combined(double young_modulus_kPa, double cortex_modulus_mN_per_m) {
   const Problem solid =
       test::in_newtonian_liquid({7, young_modulus_kPa, BulkLaw::neo_hookean}, test::Inertia::none, 1e-5);
   problem.bulk = solid.bulk;
-  problem.shear_modulus = solid.shear_modulus;
-  problem.mooney_share = solid.mooney_share;
   return problem;
 }
 
@@ -141,7 +137,7 @@ TEST(CombinedCell, WrinklesWhereItsCortexIsCompressed) {
   EXPECT_GE(bare.stability_margin, 0);
   EXPECT_LT(bare.stability_margin, 0.1);
   EXPECT_LT(bare.least_tension, 0);
-  problem.bending_stiffness = 1e5 * thermal_energy;
+  problem.cortex.bending = 1e5 * thermal_energy;
   EXPECT_LT(solved(problem).least_tension, bare.least_tension);
 }
 
@@ -152,7 +148,7 @@ TEST(CombinedCell, IsStifferWithEachOfItsModuli) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       Problem problem = combined(E[i], E2D[j]);
-      problem.bending_stiffness = 1e5 * thermal_energy;
+      problem.cortex.bending = 1e5 * thermal_energy;
       d[i][j] = solved(problem).shape.deformation;
     }
   }
@@ -170,7 +166,7 @@ TEST(Regularisation, ALittleBendingHasNoEffectWhereTheBareSurfaceIsStable) {
   const double d = solved(bare).shape.deformation;
   for (const auto& [bending, bound] : {std::pair{1e3, 5e-4}, {1e4, 5e-3}}) {
     Problem held = bare;
-    held.bending_stiffness = bending * thermal_energy;
+    held.cortex.bending = bending * thermal_energy;
     const double change = solved(held).shape.deformation / d - 1;
     EXPECT_LT(change, 0) << "a stiffer surface";
     EXPECT_GT(change, -bound);

@@ -24,7 +24,7 @@ constexpr double greatest_speed = 2;
 StationaryState stiff_cell(double lambda) {
   Problem problem;
   problem.radius_ratio = lambda;
-  problem.shear_modulus = 1e5;
+  problem.bulk.shear_modulus = 1e5;
   problem.accuracy = 1e-4;
   return solve_stationary(problem);
 }

@@ -21,9 +21,8 @@ double difference(const LinearResponse& response, double deformation, double moo
   const double capillary = std::sqrt(deformation / response.per_square);
   Problem problem;
   problem.radius_ratio = response.lambda;
-  problem.mooney_share = mooney_share;
-  problem.bulk = mooney_share == 0 ? BulkLaw::linear : BulkLaw::neo_hookean;
-  problem.shear_modulus = std::numbers::pi / (3 * capillary);  // E = 3 mu, and eta Q / R^3 = pi S
+  problem.bulk.law = mooney_share == 0 ? BulkLaw::linear : BulkLaw::neo_hookean;
+  problem.bulk.shear_modulus = std::numbers::pi / (3 * capillary);  // E = 3 mu, and eta Q / R^3 = pi S
   problem.accuracy = 1e-5;
   const StationaryState state = solve_stationary(problem);
   EXPECT_EQ(state.outcome.status, Status::converged) << state.outcome.message;

@@ -1,4 +1,4 @@
-#include "solve/arclength.h"
+#include "arclength.h"
 
 #include <algorithm>
 #include <cmath>
