@@ -8,21 +8,13 @@ Writes OUT.png and OUT.svg.
 import sys
 from pathlib import Path
 
-import matplotlib
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
-
-from rheocyte import colours  # noqa: E402
-from rheocyte.files import InputError, number, read_table, run, save_figure  # noqa: E402
+from rheocyte import page
+from rheocyte.files import InputError, number, read_table, run, save_figure
 
 COLUMNS = ["series", "degree", "unknowns", "deformation", "error"]
 MARKS = [("#12406f", "o"), ("#c8501e", "s"), ("#3d7a4a", "^"), ("#7a4b8f", "D"), ("#8a6d1d", "v"), ("#4a5a66", "P")]
-STYLE = {"font.size": 7, "axes.linewidth": 0.6, "svg.hashsalt": "rheocyte", "axes.spines.top": False,
-         "axes.spines.right": False, "text.color": colours.INK, "axes.edgecolor": colours.INK,
-         "axes.labelcolor": colours.INK, "xtick.color": colours.INK, "ytick.color": colours.INK,
-         "xtick.major.width": 0.6, "ytick.major.width": 0.6}
 
 
 def read_series(path):
@@ -41,8 +33,8 @@ def read_series(path):
 
 def draw(series):
     """The figure, one journal column wide."""
-    plt.rcParams.update(STYLE)
-    figure, axes = plt.subplots(figsize=(3.504, 2.7), layout="constrained")
+    figure = page.new_figure(page.COLUMN_IN, 2.7, layout="constrained")
+    axes = figure.subplots()
     for index, (name, points) in enumerate(series.items()):
         colour, marker = MARKS[index % len(MARKS)]
         unknowns, errors, degrees = zip(*points)

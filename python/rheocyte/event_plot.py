@@ -9,21 +9,18 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
+import numpy as np
+from matplotlib.colors import PowerNorm
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Polygon
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-from matplotlib.colors import PowerNorm  # noqa: E402
-from matplotlib.lines import Line2D  # noqa: E402
-from matplotlib.patches import Patch, Polygon  # noqa: E402
-from matplotlib.patheffects import withStroke  # noqa: E402
-from matplotlib.ticker import MaxNLocator  # noqa: E402
-
-from rheocyte import colours  # noqa: E402
-from rheocyte.density import Density, levels_enclosing, thinned  # noqa: E402
-from rheocyte.files import InputError, reason, run, save_figure  # noqa: E402
-from rheocyte.figures.style import STYLE, thousands  # noqa: E402
+from rheocyte import colours, page
+from rheocyte.density import Density, levels_enclosing, thinned
+from rheocyte.files import InputError, reason, run, save_figure
+from rheocyte.figures.style import STYLE
+from rheocyte.page import thousands
 
 AXES_IN = np.array([2.6, 2.15])
 MARGINS_IN = (0.5, 0.4, 0.42, 0.56)  # of each panel: left, right, bottom, top
@@ -116,12 +113,11 @@ def ranges(panels):
 
 def draw(panels):
     """The figure."""
-    plt.rcParams.update(STYLE)
     columns = 2 if len(panels) == 4 else min(len(panels), 3)
     rows = -(-len(panels) // columns)
     left, right, bottom, top = MARGINS_IN
     size = np.array([columns * (left + AXES_IN[0] + right), rows * (bottom + AXES_IN[1] + top) + LEGEND_IN])
-    figure = plt.figure(figsize=tuple(size))
+    figure = page.new_figure(*size, STYLE)
     for k, (panel, rectangle) in enumerate(zip(panels, ranges(panels))):
         corner = np.array([left + k % columns * (left + AXES_IN[0] + right),
                            LEGEND_IN + bottom + (rows - 1 - k // columns) * (bottom + AXES_IN[1] + top)])

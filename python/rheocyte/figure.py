@@ -51,12 +51,8 @@ def chosen(text):
 
 
 def drawing(number):
-    """The module of a figure; it needs matplotlib, which is loaded only now."""
-    try:
-        name = f"figure{number}" if number.isdecimal() else f"figure_{number}"
-        return importlib.import_module(f"rheocyte.figures.{name}")
-    except ImportError as error:
-        raise InputError(f"the figures need Python with numpy and matplotlib ({error}).") from error
+    """The module of a figure."""
+    return importlib.import_module(f"rheocyte.figures.{f'figure{number}' if number.isdecimal() else f'figure_{number}'}")
 
 
 def make(number, folder, program):

@@ -6,9 +6,14 @@ import json
 import os
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from PIL import Image  # matplotlib needs it, too
+
+COMPRESSION = 3  # of PNG files, of 9: twice as fast as the usual 6 for a fifth more bytes
 
 
 class InputError(Exception):
@@ -72,47 +77,50 @@ def reason(error):
 
 
 def save_figure(figure, stem, dpi, palette=False, svg_dpi=300):
-    """Writes `stem`.png and `stem`.svg: first beside the target, then renamed, so that no reader sees half a file.
+    """Writes `stem`.png and `stem`.svg.
 
     A palette of 256 colours makes the PNG of a drawing some three times smaller; `svg_dpi` is that of images inside
-    the SVG.
+    the SVG. While the PNG is packed, which another thread does, the SVG is drawn.
     """
     stem = Path(stem)
-    for suffix, options in ((".png", {"dpi": dpi}), (".svg", {"dpi": svg_dpi, "metadata": {"Date": None}})):
-        temporary = None
-        try:
-            handle, temporary = tempfile.mkstemp(prefix=f".{stem.name}-", suffix=suffix, dir=stem.parent)
-            os.close(handle)
-            figure.savefig(temporary, format=suffix[1:], **options)
-            if palette and suffix == ".png":
-                reduce_colours(temporary)
-            os.chmod(temporary, 0o666 & ~current_umask())
-            os.replace(temporary, stem.with_name(stem.name + suffix))
-        except OSError as error:
-            raise InputError(f"{stem}{suffix} cannot be written: {reason(error)}.") from error
-        finally:
-            if temporary and os.path.exists(temporary):
-                os.unlink(temporary)
+    canvas = FigureCanvasAgg(figure)
+    figure.set_dpi(dpi)
+    canvas.draw()
+    image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+    with ThreadPoolExecutor(1) as other:
+        png = other.submit(packed, image, dpi, palette)
+        svg = io.BytesIO()
+        figure.savefig(svg, format="svg", dpi=svg_dpi, metadata={"Date": None})
+        write_file(stem.with_name(stem.name + ".png"), png.result())
+    write_file(stem.with_name(stem.name + ".svg"), svg.getvalue())
 
 
-def reduce_colours(path):
-    """Replaces a PNG file by one with a palette, without dithering."""
-    from PIL import Image  # matplotlib needs it, too
-
-    with Image.open(path) as image:
-        dpi, reduced = image.info.get("dpi"), image.convert("RGB").quantize(256, Image.Quantize.MEDIANCUT, dither=0)
-    reduced.save(path, format="PNG", optimize=True, dpi=dpi)
+def packed(image, dpi, palette):
+    """A PNG file of an image; with a palette without dithering."""
+    if palette:
+        image = image.quantize(256, Image.Quantize.MEDIANCUT, dither=0)
+    file = io.BytesIO()
+    image.save(file, format="PNG", optimize=palette, compress_level=COMPRESSION, dpi=(dpi, dpi))
+    return file.getvalue()
 
 
 def write_text(path, text):
-    """Writes a text file, first beside the target, then renamed; a file that holds this text already is left alone."""
+    """Writes a text file; one that holds this text already is left alone."""
+    try:
+        if Path(path).is_file() and Path(path).read_text(encoding="utf-8", errors="replace") == text:
+            return
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {reason(error)}.") from error
+    write_file(path, text.encode())
+
+
+def write_file(path, content):
+    """Writes a file: first beside the target, then renamed, so that no reader sees half of it."""
     path, temporary = Path(path), None
     try:
-        if path.is_file() and path.read_text(encoding="utf-8", errors="replace") == text:
-            return
         handle, temporary = tempfile.mkstemp(prefix=f".{path.name}-", dir=path.parent)
-        with open(handle, "w", encoding="utf-8") as file:
-            file.write(text)
+        with open(handle, "wb") as file:
+            file.write(content)
         os.chmod(temporary, 0o666 & ~current_umask())
         os.replace(temporary, path)
     except OSError as error:

@@ -1,6 +1,6 @@
 """python -m rheocyte.picture DIR: the cell in its channel, from result.json, contour.csv and fields.vtu in DIR.
 
-Writes DIR/picture.png and DIR/picture.svg. Exit code 2 and one sentence on stderr if a file is missing or damaged.
+Writes DIR/picture.png and DIR/picture.svg, and of a result in time also what time_picture.py draws. Exit code 2 and one sentence on stderr if a file is missing or damaged.
 """
 
 import sys
@@ -8,31 +8,27 @@ import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import Normalize
+from matplotlib.patches import PathPatch, Rectangle
+from matplotlib.path import Path as Outline
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-from matplotlib.collections import LineCollection  # noqa: E402
-from matplotlib.patches import PathPatch, Rectangle  # noqa: E402
-from matplotlib.path import Path as Outline  # noqa: E402
-from matplotlib.ticker import FuncFormatter, MaxNLocator  # noqa: E402
+from rheocyte import colours, page
+from rheocyte.contour import bridges, closed, convex_hull
+from rheocyte.files import InputError, read_column, read_contour, read_result, run, save_figure
+from rheocyte.page import COLUMN_IN
+from rheocyte.raster import PixelGrid, Raster, extended, mirrored, rasterise, stream_function
+from rheocyte.vtu import read_vtu
 
-from rheocyte import colours  # noqa: E402
-from rheocyte.contour import bridges, closed, convex_hull  # noqa: E402
-from rheocyte.files import InputError, read_column, read_contour, read_result, run, save_figure  # noqa: E402
-from rheocyte.raster import PixelGrid, extended, mirrored, rasterise, stream_function  # noqa: E402
-from rheocyte.vtu import read_vtu  # noqa: E402
-
-WIDTH_IN = 3.504  # 89 mm, a journal's column
 VIEW = 2.2  # half the length shown, in channel radii
 WALL = 0.17  # thickness of the drawn wall, in channel radii
 SIDE_IN = 0.06  # margin beside the channel
+HEAD_IN = 0.032  # length of an arrow head on a streamline
 FINE = 0.6  # line width of everything that is not the contour, in points
-STYLE = {"font.size": 6.5, "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "axes.linewidth": 0.5,
-         "xtick.major.width": 0.5, "xtick.major.size": 2, "hatch.linewidth": 0.35, "svg.hashsalt": "rheocyte",
-         "text.color": colours.INK, "axes.edgecolor": colours.INK, "axes.labelcolor": colours.INK,
-         "xtick.color": colours.INK, "mathtext.default": "regular"}
+STYLE = page.STYLE | {"font.size": 6.5, "axes.linewidth": 0.5, "xtick.major.width": 0.5, "xtick.major.size": 2}
 
 
 @dataclass
@@ -79,16 +75,15 @@ def pixels(fields, grid):
 
 def draw(story):
     """The figure."""
-    plt.rcParams.update(STYLE)
     height = 2 * (1 + WALL) * story.radius
     length = story.grid.x[-1] - story.grid.x[0]
-    channel_in = (WIDTH_IN - 2 * SIDE_IN) * height / length
+    channel_in = (COLUMN_IN - 2 * SIDE_IN) * height / length
     note = failure_note(story.result)
-    note_in = 0.106 * len(note) + 0.05 * bool(note)
+    note_in = 0.1 * len(note) + 0.1 * bool(note)
     legend_in = 1.0
     total = channel_in + legend_in + note_in + SIDE_IN
-    figure = plt.figure(figsize=(WIDTH_IN, total))
-    axes = figure.add_axes([SIDE_IN / WIDTH_IN, legend_in / total, 1 - 2 * SIDE_IN / WIDTH_IN, channel_in / total])
+    figure = page.new_figure(COLUMN_IN, total, STYLE)
+    axes = figure.add_axes([SIDE_IN / COLUMN_IN, legend_in / total, 1 - 2 * SIDE_IN / COLUMN_IN, channel_in / total])
     axes.set(xlim=story.grid.x[[0, -1]], ylim=(-height / 2, height / 2), aspect="equal")
     axes.axis("off")
     speed, stress = draw_fields(axes, story)
@@ -104,23 +99,27 @@ def draw(story):
         draw_colour_bar(figure, tension, place, "tension along the cortex (mN/m)")
     draw_numbers(figure, story.result, total)
     if note:
-        figure.text(0.5, 1 - 0.05 / total, "\n".join(note), color=colours.ALARM, ha="center", va="top", weight="bold",
+        band = (0, 1 - note_in / total)
+        figure.add_artist(Rectangle(band, 1, note_in / total, facecolor=colours.ALARM, linewidth=0))
+        figure.text(0.5, 1 - 0.05 / total, "\n".join(note), color="white", ha="center", va="top", weight="bold",
                     linespacing=1.15)
     return figure
 
 
 def draw_fields(axes, story):
-    """Liquid and cell as images that the exact contour clips; returns both images."""
+    """Liquid and cell as pixels that the exact contour clips; returns their scales."""
     dx, dr = story.grid.x[1] - story.grid.x[0], story.grid.r[1] - story.grid.r[0]
     extent = (story.grid.x[0] - dx / 2, story.grid.x[-1] + dx / 2, -story.radius - dr / 2, story.radius + dr / 2)
-    images = []
+    scales = []
     for field, colormap, layer in ((story.relative[2], colours.LIQUID, 1), (story.stress_kPa, colours.CELL, 2)):
         seen = field[np.isfinite(field)]
         greatest = np.percentile(seen, 99.8) if seen.size else 1
-        images.append(axes.imshow(mirrored(extended(field, 4)), origin="lower", extent=extent, cmap=colormap, vmin=0,
-                                  vmax=greatest or 1, interpolation="bilinear", zorder=layer, aspect="equal"))
-    images[1].set_clip_path(PathPatch(Outline(closed(story.contour)), transform=axes.transData))
-    return images
+        scale = ScalarMappable(Normalize(0, greatest or 1), colormap)
+        scale.set_array(seen)
+        pixels = axes.add_artist(Raster(mirrored(scale.to_rgba(extended(field, 4), bytes=True)), extent, layer))
+        scales.append(scale)
+    pixels.set_clip_path(PathPatch(Outline(closed(story.contour)), transform=axes.transData))
+    return scales
 
 
 def draw_streamlines(axes, story):
@@ -133,8 +132,8 @@ def draw_streamlines(axes, story):
     r = np.concatenate([-grid.r[:0:-1], grid.r])
     lines = axes.contour(grid.x, r, mirrored(psi), levels=levels, colors=colours.INK, linewidths=0.45, alpha=0.55,
                          linestyles="solid", zorder=1.5)
-    for segment in (s for level in lines.allsegs for s in level if len(s) > 40):
-        draw_arrow_heads(axes, segment, story)
+    heads = [head for level in lines.allsegs for line in level if len(line) > 40 for head in arrow_heads(line, story)]
+    axes.add_collection(PolyCollection(heads, facecolor=colours.INK, linewidth=0, zorder=1.6))
 
 
 def streamline_levels(psi, r):
@@ -150,8 +149,9 @@ def streamline_levels(psi, r):
     return np.unique(np.interp(starts, r, psi))
 
 
-def draw_arrow_heads(axes, line, story):
-    """One head where a line crosses the middle of the left and of the right half of the view."""
+def arrow_heads(line, story):
+    """Triangles (3, 2), one where a line crosses the middle of the left and of the right half of the view."""
+    size = HEAD_IN / (COLUMN_IN - 2 * SIDE_IN) * (story.grid.x[-1] - story.grid.x[0])
     for station in (-0.72, 0.72):
         place = station * story.grid.x[-1]
         for k in np.flatnonzero(np.diff(np.sign(line[:, 0] - place)) != 0):
@@ -161,9 +161,9 @@ def draw_arrow_heads(axes, line, story):
             axial = story.relative[0][int(np.clip(round(row), 0, story.grid.shape[0] - 1)), int(round(column))]
             step = line[k + 1] - line[k]
             step = step if step[0] * axial > 0 else -step
-            tip = line[k] + 0.02 * story.radius * step / np.linalg.norm(step)
-            axes.annotate("", xy=tip, xytext=line[k], zorder=1.6, annotation_clip=True, arrowprops={
-                "arrowstyle": "-|>,head_length=0.2,head_width=0.085", "color": colours.INK, "linewidth": 0.2, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 10})
+            along = size * step / np.linalg.norm(step)
+            across = 0.4 * along[::-1] * (-1, 1)
+            yield np.array([line[k] + along / 2, line[k] - along / 2 + across, line[k] - along / 2 - across])
 
 
 def draw_walls(axes, story):
@@ -243,7 +243,7 @@ def draw_scale_and_flow(axes, story):
 def draw_colour_bar(figure, image, place, label):
     """A thin horizontal bar with its label above."""
     axes = figure.add_axes(place)
-    beyond = np.nanmax(np.ma.filled(image.get_array().astype(float), np.nan)) > 1.001 * image.get_clim()[1]
+    beyond = np.max(np.asarray(image.get_array()), initial=0) > 1.001 * image.get_clim()[1]
     bar = figure.colorbar(image, cax=axes, orientation="horizontal", extend="max" if beyond else "neither")
     bar.outline.set_linewidth(0.4)
     bar.locator = MaxNLocator(4)
@@ -257,8 +257,8 @@ def draw_numbers(figure, result, total):
     """What came out, and what was asked."""
     found = [deformation_with_error(result), part("area {:.5g} µm²", result, "area_um2")]
     asked = made_of(result)
-    moved = [part("$r_0$ = {:.4g} µm", result, "case", "cell", "radius_um"),
-             part("$v_{{cell}}$ = {:.4g} m/s", result, "cell_velocity_m_per_s"),
+    moved = [part("r₀ = {:.4g} µm", result, "case", "cell", "radius_um"),
+             part("cell velocity {:.4g} m/s", result, "cell_velocity_m_per_s"),
              part("pressure drop {:.4g} Pa", result, "pressure_drop_Pa")]
     for height, parts, weight in ((0.34, found, "bold"), (0.205, asked, "normal"), (0.075, moved, "normal")):
         parts = list(filter(None, parts))
@@ -275,7 +275,7 @@ def made_of(result):
     parts = [] if bulk in (None, "none") else [f"{bulk} solid", modulus]
     if cortex != "none":
         parts += [f"{cortex} {'shell' if bulk == 'none' else 'cortex'}",
-                  part("$E_{{2D}}$ = {:.4g} mN/m", result, "cortex_modulus_reached_mN_per_m")]
+                  part("E2D = {:.4g} mN/m", result, "cortex_modulus_reached_mN_per_m")]
     if find(result, "tension_mN_per_m"):
         parts.append(part("γ = {:.3g} mN/m", result, "tension_mN_per_m"))
     return parts
@@ -310,11 +310,17 @@ def part(text, result, *keys):
 
 
 def failure_note(result):
-    """Lines that say why this is not the wanted state; empty if it is."""
+    """Lines that say why this is not the state that was asked for, and which one it is; empty if it is."""
     if result["status"] == "converged":
         return []
-    message = str(result.get("message") or "the state shown is the last one that converged")
-    return textwrap.wrap(f"{result['status']}: {message}", 64)
+    lines = [f"NOT THE STATE THAT WAS ASKED FOR: {result['status']}"]
+    for name, unit, reached, *asked in (
+            ("E", "kPa", "young_modulus_reached_kPa", "bulk", "young_modulus_kPa"),
+            ("E2D", "mN/m", "cortex_modulus_reached_mN_per_m", "cortex", "modulus_mN_per_m")):
+        drawn, wanted = find(result, reached), find(result, "case", "cell", *asked)
+        if drawn and wanted and abs(drawn / wanted - 1) > 1e-6:
+            lines.append(f"drawn is {name} = {drawn:.4g} {unit}, asked for was {wanted:.4g} {unit}")
+    return lines + textwrap.wrap(str(result.get("message") or ""), 64, max_lines=3, placeholder=" …")
 
 
 def main():
@@ -323,6 +329,10 @@ def main():
         raise InputError("give the folder of one result: python -m rheocyte.picture DIR.")
     folder = Path(sys.argv[1])
     save_figure(draw(read_story(folder)), folder / "picture", dpi=600)
+    if (folder / "history.csv").exists():
+        from rheocyte import time_picture  # which imports this module
+
+        time_picture.draw_folder(folder)
 
 
 if __name__ == "__main__":

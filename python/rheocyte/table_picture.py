@@ -9,18 +9,14 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
+import numpy as np
+from matplotlib.colors import LogNorm
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-from matplotlib.colors import LogNorm  # noqa: E402
-from matplotlib.lines import Line2D  # noqa: E402
-from matplotlib.patches import Patch  # noqa: E402
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter  # noqa: E402
-
-from rheocyte import colours  # noqa: E402
-from rheocyte.files import InputError, number, read_table, run, save_figure  # noqa: E402
+from rheocyte import colours, page
+from rheocyte.files import InputError, number, read_table, run, save_figure
 
 UNITS = {"young_modulus_kPa": "kPa", "cortex_modulus_mN_per_m": "mN/m"}
 NAMES = {"young_modulus_kPa": "Young's modulus", "cortex_modulus_mN_per_m": "modulus of the cortex"}
@@ -28,10 +24,6 @@ COLUMNS = ["radius_um", "area_um2", "deformation", "deformation_error", "stiffne
            "end_of_branch"]
 LINE_COUNT = 11
 LINE, REGULARISED = "#12406f", "#e5703a"
-STYLE = {"font.size": 7, "axes.linewidth": 0.6, "svg.hashsalt": "rheocyte", "axes.spines.top": False,
-         "axes.spines.right": False, "text.color": colours.INK, "axes.edgecolor": colours.INK,
-         "axes.labelcolor": colours.INK, "xtick.color": colours.INK, "ytick.color": colours.INK,
-         "xtick.major.width": 0.6, "ytick.major.width": 0.6, "mathtext.default": "regular", "hatch.linewidth": 0.4}
 
 
 @dataclass
@@ -128,8 +120,8 @@ def regularised_outline(table):
 
 def new_axes(table, logarithmic):
     """One journal column; area against deformation."""
-    plt.rcParams.update(STYLE)
-    figure, axes = plt.subplots(figsize=(3.504, 2.8), layout="constrained")
+    figure = page.new_figure(page.COLUMN_IN, 2.8, layout="constrained")
+    axes = figure.subplots()
     axes.set(xlabel="area in µm²", ylabel="deformation")
     top = table.column["deformation"].max()
     if logarithmic:

@@ -4,26 +4,22 @@ Writes DIR/time.png and DIR/time.svg, the deformation over time with some contou
 in its channel. Exit code 2 and one sentence on stderr if a file is missing or damaged.
 """
 
-import os
+import io
 import sys
-import tempfile
 from pathlib import Path
 
-import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from PIL import Image
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-from matplotlib.animation import FuncAnimation, PillowWriter  # noqa: E402
-
-from rheocyte import colours  # noqa: E402
-from rheocyte.contour import closed  # noqa: E402
-from rheocyte.files import (InputError, current_umask, number, read_result, read_table, reason, run,  # noqa: E402
-                            save_figure)
-from rheocyte.picture import STYLE, WIDTH_IN, find, made_of  # noqa: E402
+from rheocyte import page
+from rheocyte.contour import closed
+from rheocyte.files import InputError, number, read_result, read_table, run, save_figure, write_file
+from rheocyte.picture import STYLE, find, made_of
 
 SHOWN = 5  # contours above the curve
 GREATEST_FRAMES = 120  # of the animation
+FRAME_MS, FRAME_COLOURS = 80, 64
 FILL, EDGE = "#fbc873", "#9c1f3a"
 
 
@@ -47,15 +43,13 @@ def read_history(path):
 
 def draw(result, history, contours):
     """d(t), and above it the cell at equal steps of its deformation."""
-    plt.rcParams.update(STYLE)
     times, shapes = contours
     t, d = history
-    figure = plt.figure(figsize=(WIDTH_IN, 2.6))
+    figure = page.new_figure(page.COLUMN_IN, 2.6, STYLE)
     axes = figure.add_axes([0.16, 0.15, 0.8, 0.55])
     axes.plot(t, d, color=EDGE, linewidth=1)
     axes.set(xlim=(0, t[-1] or 1), xlabel="time (µs)", ylabel="deformation")
     axes.set_ylim(bottom=0)
-    axes.spines[["top", "right"]].set_visible(False)
     above = figure.add_axes([0.16, 0.72, 0.8, 0.2])
     above.axis("off")
     size = 1.15 * max(np.ptp(shape[:, 0]) for shape in shapes)
@@ -99,15 +93,14 @@ def wall_round_cell(wall, radius, time):
     return places, np.interp(places + here, x, radii)
 
 
-def animate(result, history, contours, wall, path):
-    """The cell between the walls, as a film."""
-    plt.rcParams.update(STYLE)
+def animation(result, history, contours, wall):
+    """The cell between the walls, as a film: the content of a GIF file."""
     times, shapes = contours
     steps = np.unique(np.linspace(0, len(times) - 1, min(len(times), GREATEST_FRAMES)).round().astype(int))
     radius = find(result, "tube_radius_um") or 1.2 * max(shape[:, 1].max() for shape in shapes)
     widest = radius if wall is None else max(wall_round_cell(wall, radius, t)[1].max() for t in times)
     height = 1.18 * widest
-    figure = plt.figure(figsize=(4.4, 4.4 * height / (2 * radius)), dpi=110)
+    figure = page.new_figure(4.4, 4.4 * height / (2 * radius), STYLE, dpi=110)
     axes = figure.add_axes([0, 0, 1, 1])
     axes.set(xlim=(-2 * radius, 2 * radius), ylim=(-height, height), aspect="equal")
     axes.axis("off")
@@ -122,31 +115,31 @@ def animate(result, history, contours, wall, path):
                                           side * np.concatenate([radii, np.full(len(x), 3 * widest)])]))
         cell.set_xy(closed(shapes[k]))
         label.set_text(f"{times[k]:.4g} µs\nd = {np.interp(times[k], *history):.4f}")
-        return cell, label, *walls
 
-    handle, temporary = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=".gif", dir=path.parent)
-    os.close(handle)
-    try:
-        FuncAnimation(figure, show, frames=steps).save(temporary, writer=PillowWriter(fps=12))
-        os.chmod(temporary, 0o666 & ~current_umask())
-        os.replace(temporary, path)
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {reason(error)}.") from error
-    finally:
-        if os.path.exists(temporary):
-            os.unlink(temporary)
-        plt.close(figure)
+    canvas, frames = FigureCanvasAgg(figure), []
+    for k in steps:
+        show(k)
+        canvas.draw()
+        image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+        frames.append(image.quantize(FRAME_COLOURS, Image.Quantize.FASTOCTREE, dither=0))
+    film = io.BytesIO()
+    frames[0].save(film, "GIF", save_all=True, append_images=frames[1:], duration=FRAME_MS, loop=0)
+    return film.getvalue()
+
+
+def draw_folder(folder):
+    """All pictures of a result in time."""
+    result = read_result(folder / "result.json")
+    history, contours = read_history(folder / "history.csv"), read_contours(folder / "contours.csv")
+    save_figure(draw(result, history, contours), folder / "time", dpi=400)
+    write_file(folder / "time.gif", animation(result, history, contours, read_wall(folder)))
 
 
 def main():
     """Command line."""
     if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
         raise InputError("give the folder of one result in time: python -m rheocyte.time_picture DIR.")
-    folder = Path(sys.argv[1])
-    result = read_result(folder / "result.json")
-    history, contours = read_history(folder / "history.csv"), read_contours(folder / "contours.csv")
-    save_figure(draw(result, history, contours), folder / "time", dpi=400)
-    animate(result, history, contours, read_wall(folder), folder / "time.gif")
+    draw_folder(Path(sys.argv[1]))
 
 
 if __name__ == "__main__":

@@ -1,18 +1,16 @@
-"""A small reader for the .vtu files that rheocyte writes: quadrilaterals of any degree with fields at their nodes."""
+"""A small reader for the .vtu files that rheocyte writes: Lagrange quadrilaterals of any degree, raw appended arrays."""
 
-import base64
-import binascii
 import xml.etree.ElementTree as ElementTree
-import zlib
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from rheocyte.files import InputError, reason
 
-VTK_QUAD, VTK_LAGRANGE_QUADRILATERAL = 9, 70
-TYPES = {"Float32": "f4", "Float64": "f8", "Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2",
-         "Int32": "i4", "UInt32": "u4", "Int64": "i8", "UInt64": "u8"}
+VTK_LAGRANGE_QUADRILATERAL = 70
+TYPES = {"Float32": "<f4", "Float64": "<f8", "UInt8": "u1", "Int32": "<i4", "Int64": "<i8"}
+LAYOUT = {"byte_order": "LittleEndian", "header_type": "UInt64", "compressor": None}
 
 
 @dataclass
@@ -23,91 +21,67 @@ class Fields:
     elements: np.ndarray  # (n, p + 1, p + 1): node numbers, second index along the element's first direction
     data: dict  # name -> (N,) or (N, 3)
 
-    @property
-    def degree(self):
-        return self.elements.shape[1] - 1
-
     def at_nodes(self, name, component=None):
         """Values of a field as an array (n, p + 1, p + 1)."""
         values = self.data[name]
         return (values if component is None else values[:, component])[self.elements]
 
 
-def read_vtu(path, wanted=()):
-    """Reads inline ascii, base64 and zlib-compressed base64 arrays; InputError names what is missing or damaged."""
+def read_vtu(path, wanted):
+    """The grid and the wanted fields at its nodes; InputError names what is missing or damaged."""
     try:
-        root = ElementTree.parse(path).getroot()
-        return read_grid(root, wanted)
+        return read_grid(Path(path).read_bytes(), wanted)
     except OSError as error:
         raise InputError(f"{path} cannot be read: {reason(error)}.") from error
-    except (ElementTree.ParseError, zlib.error, binascii.Error, ValueError, KeyError, IndexError) as error:
+    except (ElementTree.ParseError, ValueError, KeyError, AttributeError, TypeError) as error:
         raise InputError(f"{path} is damaged or not a VTU file of rheocyte: {error}.") from error
 
 
-def read_grid(root, wanted):
+def read_grid(content, wanted):
     """The only piece of the file; ValueError says what it lacks."""
-    pieces = root.findall("./UnstructuredGrid/Piece")
-    if len(pieces) != 1:
-        raise ValueError(f"it holds {len(pieces)} pieces instead of one unstructured grid")
-    arrays = {(parent.tag, array.get("Name") if parent.tag != "Points" else "points"): read_array(array, root.attrib)
-              for parent in pieces[0] for array in parent.iter("DataArray")}
-    points = arrays["Points", "points"]
-    data = {name: values for (parent, name), values in arrays.items() if parent == "PointData"}
-    missing = [name for name in wanted if name not in data]
-    if missing:
-        raise ValueError(f"the field \"{missing[0]}\" is missing")
+    appended = content.find(b"<AppendedData")
+    first = content.find(b"_", appended) + 1
+    if appended < 0 or first == 0 or not content.rstrip().endswith(b"</VTKFile>"):
+        raise ValueError("it holds no appended arrays or breaks off")
+    root = ElementTree.fromstring(content[:appended] + b"</VTKFile>")
+    if any(root.get(key) != value for key, value in LAYOUT.items()):
+        raise ValueError("its arrays are laid out in another way")
+    piece = root.find("./UnstructuredGrid/Piece")
+
+    def read(place):
+        return read_array(content, first, piece.find(place))
+
+    points = read("Points/DataArray")
+    data = {name: read(f"PointData/DataArray[@Name='{name}']") for name in wanted}
     if any(len(values) != len(points) for values in data.values()):
         raise ValueError("a field has another number of values than there are points")
-    elements = tensor_elements(*(arrays["Cells", name] for name in ("connectivity", "offsets", "types")))
+    elements = tensor_elements(*(read(f"Cells/DataArray[@Name='{name}']")
+                                 for name in ("connectivity", "offsets", "types")))
     if elements.min() < 0 or elements.max() >= len(points):
         raise ValueError("a cell refers to a point that does not exist")
     return Fields(points, elements, data)
 
 
-def read_array(array, attributes):
-    """One DataArray as numpy array, (N,) or (N, components)."""
-    order = "<" if attributes.get("byte_order", "LittleEndian") == "LittleEndian" else ">"
-    dtype = np.dtype(order + TYPES[array.get("type")])
-    text = array.text or ""
-    if array.get("format", "ascii") == "ascii":
-        values = np.array(text.split(), dtype=float).astype(dtype)
-    elif array.get("format") == "binary":
-        header = np.dtype(order + TYPES[attributes.get("header_type", "UInt32")])
-        values = np.frombuffer(decode("".join(text.split()), header, attributes.get("compressor")), dtype)
-    else:
-        raise ValueError(f"arrays of format \"{array.get('format')}\" are not read here")
+def read_array(content, first, array):
+    """A DataArray as numpy array, (N,) or (N, components): its length in bytes, then its values."""
+    if array is None:
+        raise ValueError("an array is missing")
+    place, dtype = first + int(array.get("offset")), np.dtype(TYPES[array.get("type")])
+    length = int(np.frombuffer(content, "<u8", 1, place)[0])
+    values = np.frombuffer(content, dtype, length // dtype.itemsize, place + 8)
     components = int(array.get("NumberOfComponents", 1))
     return values.reshape(-1, components) if components > 1 else values
 
 
-def decode(text, header, compressor):
-    """Bytes of a base64 array; the header (one length, or the lengths of the compressed blocks) is encoded apart."""
-    if compressor is None:
-        data = base64.b64decode(text)
-        length = int(np.frombuffer(data, header, 1)[0])
-        return data[header.itemsize:header.itemsize + length]
-    if compressor != "vtkZLibDataCompressor":
-        raise ValueError(f"the compressor \"{compressor}\" is not known here")
-    blocks = int(np.frombuffer(base64.b64decode(text[:16]), header, 1)[0])
-    if blocks == 0:
-        return b""
-    header_characters = -(-(3 + blocks) * header.itemsize // 3) * 4
-    sizes = np.frombuffer(base64.b64decode(text[:header_characters]), header, 3 + blocks)[3:]
-    data = base64.b64decode(text[header_characters:])
-    ends = np.cumsum(sizes, dtype=int)
-    return b"".join(zlib.decompress(data[end - size:end]) for end, size in zip(ends, sizes))
-
-
 def tensor_elements(connectivity, offsets, types):
     """Node numbers (n, p + 1, p + 1) from VTK's order: corners, edges (bottom, right, top, left), interior rows."""
-    if len(types) == 0 or not set(np.unique(types)) <= {VTK_QUAD, VTK_LAGRANGE_QUADRILATERAL}:
-        raise ValueError("its cells are not quadrilaterals")
-    sizes = np.diff(np.asarray(offsets, dtype=int), prepend=0)
+    if len(types) == 0 or (types != VTK_LAGRANGE_QUADRILATERAL).any():
+        raise ValueError("its cells are not Lagrange quadrilaterals")
+    sizes = np.diff(offsets, prepend=0)
     nodes = int(round(np.sqrt(sizes[0])))
     if (sizes != sizes[0]).any() or nodes * nodes != sizes[0] or nodes < 2:
         raise ValueError("its cells are not quadrilaterals of one degree")
-    listed = np.asarray(connectivity, dtype=int).reshape(-1, nodes * nodes)
-    return listed[:, vtk_position(nodes - 1)]
+    return connectivity.reshape(-1, nodes * nodes)[:, vtk_position(nodes - 1)]
 
 
 def vtk_position(degree):

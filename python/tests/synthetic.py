@@ -1,8 +1,6 @@
 """Invented result folders: a deformed cell in a channel with a flow that vanishes on it, written as rheocyte writes."""
 
-import base64
 import json
-import zlib
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +9,7 @@ from rheocyte.vtu import vtk_position
 
 CHANNEL_UM, CELL_UM, DEGREE = 10.94, 7.66, 4
 MEAN_SPEED, CELL_SPEED = 0.106, 0.125
+KINDS = {"<f8": "Float64", "<i8": "Int64", "|u1": "UInt8"}
 
 
 def surface(theta):
@@ -65,46 +64,28 @@ def fields(x, r, gap, region):
             "region": inside}
 
 
-def encode(values, encoding):
-    """Text of a DataArray: ascii, or zlib-compressed base64 as deal.II writes it (here in blocks of 1000 bytes)."""
-    if encoding == "ascii":
-        return " ".join(repr(float(v)) if values.dtype.kind == "f" else str(v) for v in values.ravel())
-    data = values.tobytes()
-    if encoding == "raw":
-        return base64.b64encode(np.uint32(len(data)).tobytes() + data).decode()
-    size = 1000
-    packed = [zlib.compress(data[i:i + size]) for i in range(0, len(data), size)]
-    header = np.array([len(packed), size, len(data) % size] + [len(p) for p in packed], dtype="<u4")
-    return base64.b64encode(header.tobytes()).decode() + base64.b64encode(b"".join(packed)).decode()
-
-
-def data_array(name, values, encoding):
-    """One DataArray element."""
-    kinds = {"f8": "Float64", "i4": "Int32", "u1": "UInt8"}
-    components = f' NumberOfComponents="{values.shape[1]}"' if values.ndim > 1 else ""
-    return (f'<DataArray type="{kinds[values.dtype.str[1:]]}" Name="{name}"{components} '
-            f'format="{"ascii" if encoding == "ascii" else "binary"}">\n{encode(values, encoding)}\n</DataArray>\n')
-
-
-def write_vtu(path, x, r, data, encoding="zlib"):
-    """Each element has its own points, as in deal.II's output."""
+def write_vtu(path, x, r, data):
+    """Each element has points of its own, as in the program's output."""
     n, nodes = len(x), x[0].size
-    points = np.zeros((n * nodes, 3))
-    connectivity = np.empty((n, nodes), dtype="<i4")
-    place = vtk_position(x.shape[1] - 1).ravel()
-    connectivity[:, place] = np.arange(n * nodes).reshape(n, nodes)
-    points[:, 0], points[:, 1] = x.ravel(), r.ravel()
-    cells = [("connectivity", connectivity.ravel()), ("offsets", np.arange(1, n + 1, dtype="<i4") * nodes),
-             ("types", np.full(n, 70, dtype="u1"))]
-    compressor = ' compressor="vtkZLibDataCompressor"' if encoding == "zlib" else ""
-    flat = {name: values.reshape(n * nodes, *values.shape[3:]) for name, values in data.items()}
-    Path(path).write_text(
-        f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1"{compressor} byte_order="LittleEndian">\n'
-        f'<UnstructuredGrid><Piece NumberOfPoints="{n * nodes}" NumberOfCells="{n}">\n'
-        f'<Points>{data_array("Points", points, encoding)}</Points>\n'
-        f'<Cells>{"".join(data_array(name, values, encoding) for name, values in cells)}</Cells>\n'
-        f'<PointData>{"".join(data_array(name, values, encoding) for name, values in flat.items())}</PointData>\n'
-        '</Piece></UnstructuredGrid></VTKFile>\n', encoding="utf-8")
+    points = np.stack([x, r, np.zeros_like(x)], -1).reshape(-1, 3)
+    connectivity = np.empty((n, nodes), dtype="<i8")
+    connectivity[:, vtk_position(x.shape[1] - 1).ravel()] = np.arange(n * nodes).reshape(n, nodes)
+    arrays = bytearray()
+
+    def array(name, values, components=1):
+        line = (f'<DataArray type="{KINDS[values.dtype.str]}" Name="{name}" NumberOfComponents="{components}" '
+                f'format="appended" offset="{len(arrays)}"/>\n')
+        arrays.extend(np.uint64(values.nbytes).tobytes() + values.tobytes())
+        return line
+
+    fields_at_points = "".join(array(name, values, 3 if values.ndim == 4 else 1) for name, values in data.items())
+    head = (f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="2.2" byte_order="LittleEndian" '
+            f'header_type="UInt64">\n<UnstructuredGrid><Piece NumberOfPoints="{n * nodes}" NumberOfCells="{n}">\n'
+            f'<Points>{array("Points", points, 3)}</Points>\n'
+            f'<Cells>{array("connectivity", connectivity)}{array("offsets", np.arange(1, n + 1) * nodes)}'
+            f'{array("types", np.full(n, 70, dtype="u1"))}</Cells>\n<PointData>{fields_at_points}</PointData>\n'
+            '</Piece></UnstructuredGrid>\n<AppendedData encoding="raw">\n_')
+    Path(path).write_bytes(head.encode() + arrays + b"\n</AppendedData>\n</VTKFile>\n")
 
 
 def write_result(folder, **changes):

@@ -1,4 +1,4 @@
-"""Reading of fields: every encoding gives back what was written, and damage is told in one sentence."""
+"""Reading of fields gives back what was written, and damage is told in one sentence."""
 
 import tempfile
 import unittest
@@ -20,14 +20,13 @@ class Vtu(unittest.TestCase):
         self.x, self.r, gap, region = blocks()
         self.data = fields(self.x, self.r, gap, region)
 
-    def test_every_encoding_gives_back_the_fields(self):
-        # ascii prints the shortest exact decimal, base64 copies bytes: equality to the last bit.
-        for encoding in ("ascii", "raw", "zlib"):
-            write_vtu(self.path, self.x, self.r, self.data, encoding)
-            read = read_vtu(self.path, ["velocity", "region"])
-            np.testing.assert_array_equal(read.points[read.elements, 0], self.x)
-            np.testing.assert_array_equal(read.at_nodes("velocity", 1), self.data["velocity"][..., 1])
-            np.testing.assert_array_equal(read.at_nodes("stress"), self.data["stress"])
+    def test_the_fields_come_back(self):
+        # Bytes are copied: equality to the last bit.
+        write_vtu(self.path, self.x, self.r, self.data)
+        read = read_vtu(self.path, ["velocity", "stress", "region"])
+        np.testing.assert_array_equal(read.points[read.elements, 0], self.x)
+        np.testing.assert_array_equal(read.at_nodes("velocity", 1), self.data["velocity"][..., 1])
+        np.testing.assert_array_equal(read.at_nodes("stress"), self.data["stress"])
 
     def test_the_order_of_a_quadratic_quadrilateral_is_that_of_vtk(self):
         # VTK's manual: corners 0 to 3 counter-clockwise, edges 4 bottom, 5 right, 6 top, 7 left, interior 8.
@@ -40,14 +39,17 @@ class Vtu(unittest.TestCase):
 
     def test_damage_is_named_in_one_sentence(self):
         write_vtu(self.path, self.x, self.r, self.data)
-        whole = self.path.read_text()
-        for damaged in ("", "no xml", whole[:5000], whole.replace("AAAA", "AAA!", 1), whole.replace('"UInt8"', '"Word"'),
-                        whole.replace('NumberOfComponents="3"', 'NumberOfComponents="7"'),
-                        whole.replace('Name="region"', 'Name="reg"'), whole.replace("zlibData", "LZ4Data").replace(
-                            "vtkZLibDataCompressor", "vtkLZ4DataCompressor")):
-            self.path.write_text(damaged)
+        whole = self.path.read_bytes()
+        for damaged in (b"", b"no xml", b"<VTKFile>", whole[:5000], whole[:-300], whole[:2000] + whole[-40:],
+                        whole.replace(b'"UInt8"', b'"Word"'), whole.replace(b'Name="region"', b'Name="reg"'),
+                        whole.replace(b'NumberOfComponents="3"', b'NumberOfComponents="7"'),
+                        whole.replace(b'header_type="UInt64"', b'header_type="UInt32"'),
+                        whole.replace(b'offset="0"', b'offset="-900"'), whole.replace(b'offset="0"', b'offset="x"'),
+                        whole.replace(b'type="UnstructuredGrid"', b'compressor="vtkZLibDataCompressor"'),
+                        whole.replace(b"<Piece", b"<Part").replace(b"</Piece", b"</Part")):
+            self.path.write_bytes(damaged)
             with self.assertRaisesRegex(InputError, "fields.vtu is damaged"):
-                read_vtu(self.path, ["region"])
+                read_vtu(self.path, ["velocity", "region"])
 
     def test_a_linear_field_is_exact_on_every_pixel_inside(self):
         # Linear fields survive the triangles; 1e-4 of a pixel is lost at edges that are met by rounding only.

@@ -1,13 +1,10 @@
 """Figure 2: the way to the stationary shape of the paper's four models, their volume, and the cell's viscosity."""
 
-import matplotlib
+import numpy as np
+from matplotlib import colormaps
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-
-from rheocyte.figures import paper, style  # noqa: E402
-from rheocyte.files import number, read_table  # noqa: E402
+from rheocyte.figures import paper, style
+from rheocyte.files import number, read_table
 
 RADIUS_UM, YOUNG_MODULUS_KPA, SHELL_MODULUS = 7.66, 3.437, 31.3
 END_US, SHOWN_US = 3000.0, 800.0
@@ -79,8 +76,8 @@ def rows(solved):
 
 def draw(solved):
     """Deformation, volume, and the influence of the cell's viscosity."""
-    plt.rcParams.update(style.STYLE)
-    figure, panels = plt.subplots(1, 3, figsize=(style.WIDTH_IN, 2.5), layout="constrained")
+    figure = style.new_figure(2.5, layout="constrained")
+    panels = figure.subplots(1, 3)
     for name, (label, colour, line) in MODELS.items():
         solution, stationary = solved[f"time-{name}"], solved[f"stationary-{name}"]
         if not solution.converged:
@@ -97,7 +94,7 @@ def draw(solved):
             style.note(panels[2], f"{eta:g} mPa s: {solution.trouble}")
             continue
         t, d, _ = history(solution)
-        panels[2].plot(t, d, color=plt.cm.viridis(k / len(VISCOSITIES)), linewidth=1,
+        panels[2].plot(t, d, color=colormaps["viridis"](k / len(VISCOSITIES)), linewidth=1,
                        label=rf"$\eta_1$ = {eta:g} mPa s")
     titles = ("a   four models, \u25c2 stationary", "b   volume of the cell", "c   viscosity of the cell")
     for axes, title in zip(panels, titles):

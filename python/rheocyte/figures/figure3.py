@@ -1,13 +1,9 @@
 """Figure 3: lines of equal stiffness of solids and shells, the analytical model against the linear law."""
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-
-from rheocyte import colours  # noqa: E402
-from rheocyte.figures import lines, plane, style  # noqa: E402
+from rheocyte import colours
+from rheocyte.figures import lines, plane, style
 
 HIGHEST, CLOSE_UP = 0.1, 0.02
 OFF = 0.1  # relative difference of the deformation at which the model is called wrong
@@ -27,8 +23,7 @@ def make(laboratory):
 
 def draw(families):
     """Solids on the left, shells on the right; below them the range of small deformations."""
-    plt.rcParams.update(style.STYLE)
-    figure = plt.figure(figsize=(style.WIDTH_IN, 5.6))
+    figure = style.new_figure(5.6)
     for column, (kind, numerical, analytical) in enumerate(families):
         left = plane.head(figure, column, kind)
         for bottom, highest in ((0.557, HIGHEST), (0.105, CLOSE_UP)):

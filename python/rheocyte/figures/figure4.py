@@ -1,13 +1,9 @@
 """Figure 4: lines of equal stiffness of solids and shells, the neo-Hookean law against the linear one."""
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-
-from rheocyte import colours  # noqa: E402
-from rheocyte.figures import lines, plane, style  # noqa: E402
+from rheocyte import colours
+from rheocyte.figures import lines, plane, style
 
 HIGHEST = 0.1
 LAWS = {"linear": style.LINEAR, "neo-hookean": style.NEO_HOOKEAN}
@@ -24,8 +20,7 @@ def make(laboratory):
 
 def draw(families):
     """Solids on the left, shells on the right; below them the difference between the laws."""
-    plt.rcParams.update(style.STYLE)
-    figure = plt.figure(figsize=(style.WIDTH_IN, 5.2))
+    figure = style.new_figure(5.2)
     for column, (kind, by_law) in enumerate(families):
         left = plane.head(figure, column, kind)
         upper = figure.add_axes([left, 0.515, plane.WIDTH, 0.415])

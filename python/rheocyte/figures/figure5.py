@@ -2,17 +2,13 @@
 
 from dataclasses import dataclass
 
-import matplotlib
+import numpy as np
+from matplotlib.patches import Rectangle
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-from matplotlib.patches import Rectangle  # noqa: E402
-
-from rheocyte import colours  # noqa: E402
-from rheocyte.contour import bridges, closed, convex_hull, resampled  # noqa: E402
-from rheocyte.figures import paper, style  # noqa: E402
-from rheocyte.figures.body import seen  # noqa: E402
+from rheocyte import colours
+from rheocyte.contour import bridges, closed, convex_hull, resampled
+from rheocyte.figures import paper, style
+from rheocyte.figures.body import seen
 
 SOLIDS = [(4.38, 9.16), (7.11, 9.16), (5.69, 2.29)]  # radius in um, Young's modulus in kPa
 SHELLS = [(5.47, 20.9), (7.11, 20.9), (8.37, 20.9)]  # radius in um, E2D in mN/m
@@ -65,11 +61,10 @@ def rows(name, shape):
 
 def draw(shapes):
     """Two rows of three cells, each in its piece of the channel; the dented one seen in space; the legend below."""
-    plt.rcParams.update(style.STYLE)
     height = PANEL_IN * (1 + WALL) * paper.CHANNEL_RADIUS_UM / HALF_LENGTH_UM
     row_height = HEAD_IN + height + LINES_IN
     total = FOOT_IN + VIEWS_IN + HEAD_IN + 2 * row_height
-    figure = plt.figure(figsize=(style.WIDTH_IN, total))
+    figure = style.new_figure(total)
     for index, shape in enumerate(shapes):
         row, column = divmod(index, 3)
         bottom = total - (row + 1) * row_height + LINES_IN

@@ -2,15 +2,12 @@
 
 from dataclasses import dataclass
 
-import matplotlib
+import numpy as np
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, MultipleLocator
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, MultipleLocator  # noqa: E402
-
-from rheocyte import colours  # noqa: E402
-from rheocyte.figures import paper, style  # noqa: E402
+from rheocyte import colours
+from rheocyte.figures import paper, style
+from rheocyte.page import thousands
 
 AREA_UM2 = 137.6  # of the deformed cell at rho = 1000 kg/m3 and without bending stiffness
 AREA_TOLERANCE = 2e-5
@@ -147,8 +144,7 @@ def outcome(series, index):
 
 def draw(radii, bending, inertia):
     """Bending on the left; on the right one axis for each modulus, with equal relative scales."""
-    plt.rcParams.update(style.STYLE)
-    figure = plt.figure(figsize=(style.WIDTH_IN, 3.1))
+    figure = style.new_figure(3.1)
     left = figure.add_axes([0.094, 0.142, 0.330, 0.765])
     draw_bending(left, radii, bending)
     upper, lower = (figure.add_axes([0.598, bottom, 0.330, 0.355]) for bottom in (0.552, 0.142))
@@ -187,7 +183,7 @@ def draw_bending(axes, radii, series):
         axes.plot([FLAT_KBT] * 2, [start * 0.978, start], color=colours.INK, linewidth=0.6, dashes=(3, 2), zorder=1)
         verdict = "flat below $10^4$ $k_BT$,\nthere" if abs(change) < FLAT else "$10^4$ $k_BT$:"
         axes.text(FLAT_KBT, start * 0.977, f"{verdict} {style.percent(change)}", ha="center", va="top", fontsize=6.5)
-    axes.annotate(f"{style.thousands(values[-1])} $k_BT$: {style.percent(deformations[-1] / start - 1)}",
+    axes.annotate(f"{thousands(values[-1])} $k_BT$: {style.percent(deformations[-1] / start - 1)}",
                   (values[-1], deformations[-1]), xytext=(-7, -1), textcoords="offset points", ha="right", va="center",
                   fontsize=6.5)
     axes.text(np.mean(MEMBRANE_KBT), start * 0.9315, "lipid bilayers", rotation=90, ha="center",

@@ -8,17 +8,13 @@ moduli are read off, by the paper's quadratic spline and by the table.
 import csv
 import hashlib
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-
-from rheocyte import colours  # noqa: E402
-from rheocyte.density import Density, thinned  # noqa: E402
-from rheocyte.figures import style  # noqa: E402
-from rheocyte.figures.cases import last_line, make_folder, toml  # noqa: E402
-from rheocyte.files import InputError, number, read_table, reason, write_text  # noqa: E402
+from rheocyte import colours
+from rheocyte.density import Density, thinned
+from rheocyte.figures import style
+from rheocyte.figures.cases import last_line, make_folder, toml
+from rheocyte.files import InputError, number, read_table, reason, write_text
 
 CONDITIONS = {"channel.width_um": 20.0, "flow.rate_ul_per_s": 0.08, "flow.viscosity_mPas": 7.9}
 LEVELS_KPA = [2.405, 3.607, 4.809, 6.011, 7.213, 9.618, 12.023]  # the paper's lines
@@ -173,8 +169,8 @@ def row(name, one):
 
 def draw(beads, lines, boxes):
     """Beads between the paper's lines on the left, boxes of the moduli on the right."""
-    plt.rcParams.update(style.STYLE)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(style.WIDTH_IN, 2.75), layout="constrained")
+    figure = style.new_figure(2.75, layout="constrained")
+    left, right = figure.subplots(1, 2)
     draw_beads(left, beads, lines)
     draw_boxes(right, boxes)
     return figure

@@ -1,12 +1,8 @@
 """Figure 8: lines of equal stiffness in the plane of area and the ratio of the moments of area, neo-Hookean law."""
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-
-from rheocyte.figures import lines, paper, plane, style  # noqa: E402
+from rheocyte.figures import lines, paper, plane, style
 
 LAW, MEASURE = "neo-hookean", "moment_ratio"
 LIMITS = {"solid": (0.6, 1.05), "shell": (0.8, 1.15)}  # of the paper's axes
@@ -21,8 +17,7 @@ def make(laboratory):
 
 def draw(families):
     """Solids on the left, shells on the right; where lines overlap is shaded."""
-    plt.rcParams.update(style.STYLE)
-    figure = plt.figure(figsize=(style.WIDTH_IN, 3.1))
+    figure = style.new_figure(3.1)
     for column, (kind, drawn) in enumerate(families):
         left = plane.head(figure, column, kind)
         axes = figure.add_axes([left, 0.130, plane.WIDTH, 0.765])

@@ -1,12 +1,11 @@
 """Figure 9: deformation against the ratio of the moments of area for cells with a bulk and a cortex."""
 
-import matplotlib
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-
-from rheocyte.figures import paper, style  # noqa: E402
+from rheocyte.figures import paper, style
 
 RADIUS_UM = 7.27
 YOUNG_MODULI_KPA = [0.763, 1.527, 2.291, 3.055]
@@ -52,17 +51,16 @@ def row(cell, state):
 
 def draw(states):
     """One line for each Young's modulus, the cortex by colour, the image cell on top."""
-    plt.rcParams.update(style.STYLE)
-    figure = plt.figure(figsize=(style.WIDTH_IN, 3.9))
+    figure = style.new_figure(3.9)
     axes = figure.add_axes([0.085, 0.115, 0.775, 0.800])
-    colours = plt.get_cmap("viridis").reversed()
-    scale = plt.Normalize(CORTEX_MODULI_MN_PER_M[0] - 0.5, CORTEX_MODULI_MN_PER_M[-1] + 0.5)
+    colours = colormaps["viridis"].reversed()
+    scale = Normalize(CORTEX_MODULI_MN_PER_M[0] - 0.5, CORTEX_MODULI_MN_PER_M[-1] + 0.5)
     for young in YOUNG_MODULI_KPA:
         draw_line(axes, young, states, lambda cortex: colours(scale(cortex)))
     draw_image_cell(axes, states[IMAGE_CELL])
     axes.set(xlabel="$\\Lambda_1/\\Lambda_2$", ylabel="deformation $d$")
     axes.margins(0.09, 0.08)
-    bar = figure.colorbar(plt.cm.ScalarMappable(scale, colours), cax=figure.add_axes([0.890, 0.115, 0.018, 0.800]))
+    bar = figure.colorbar(ScalarMappable(scale, colours), cax=figure.add_axes([0.890, 0.115, 0.018, 0.800]))
     bar.set_label("$E_{2D}$ (mN/m)")
     bar.outline.set_visible(False)
     figure.text(0.008, 0.955, f"neo-Hookean bulk and cortex, $r_0$ = {RADIUS_UM:g} µm, "

@@ -1,16 +1,13 @@
 """Figure entry: a cell enters a narrow channel, for several viscosities of the cell; not in the paper, its announced work."""
 
-import matplotlib
+import numpy as np
+from matplotlib import colormaps
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  the backend is chosen first
-import numpy as np  # noqa: E402
-
-from rheocyte import colours  # noqa: E402
-from rheocyte.contour import closed  # noqa: E402
-from rheocyte.figures import paper, style  # noqa: E402
-from rheocyte.files import number, read_table  # noqa: E402
-from rheocyte.time_picture import read_contours  # noqa: E402
+from rheocyte import colours
+from rheocyte.contour import closed
+from rheocyte.figures import paper, style
+from rheocyte.files import number, read_table
+from rheocyte.time_picture import read_contours
 
 RADIUS_UM, YOUNG_MODULUS_KPA = 7.0, 4.58
 WIDE_UM, NARROW_UM = 21.88, paper.CHANNEL_RADIUS_UM
@@ -78,8 +75,7 @@ def rows(solved):
 
 def draw(solved):
     """The cell in the channel above its deformation over place and time."""
-    plt.rcParams.update(style.STYLE)
-    figure = plt.figure(figsize=(style.WIDTH_IN, 3.6), layout="constrained")
+    figure = style.new_figure(3.6, layout="constrained")
     grid = figure.add_gridspec(2, 2, height_ratios=[1, 1.5])
     channel, left, right = (figure.add_subplot(part) for part in (grid[0, :], grid[1, 0], grid[1, 1]))
     draw_channel(channel, solved["entry-15mPas"])
@@ -90,7 +86,7 @@ def draw(solved):
             style.note(left, f"{eta:g} mPa s: {solution.trouble}")
             continue
         t, x, d = history(solution)
-        colour = plt.cm.viridis(k / len(VISCOSITIES))
+        colour = colormaps["viridis"](k / len(VISCOSITIES))
         left.plot(x, d, color=colour, linewidth=1, label=rf"$\eta_1$ = {eta:g} mPa s")
         right.plot(t - np.interp(CONTRACTION_UM[1], x, t), d, color=colour, linewidth=1)
     for axes in (left, right):

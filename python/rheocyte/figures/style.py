@@ -2,17 +2,17 @@
 
 import textwrap
 
-from rheocyte import colours
+from rheocyte import colours, page
 
-WIDTH_IN = 7.087  # 180 mm, a journal's full width
+WIDTH_IN = page.WIDTH_IN
 ANALYTICAL, LINEAR, NEO_HOOKEAN = "#2f6fa8", "#c22f1d", colours.INK
 SECOND = "#3d7a4a"
-STYLE = {"font.size": 7, "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "axes.linewidth": 0.6,
-         "axes.titlesize": 7.5, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.spines.top": False,
-         "axes.spines.right": False, "text.color": colours.INK, "axes.edgecolor": colours.INK,
-         "axes.labelcolor": colours.INK, "xtick.color": colours.INK, "ytick.color": colours.INK,
-         "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
-         "hatch.linewidth": 0.35, "svg.hashsalt": "rheocyte", "mathtext.default": "regular"}
+STYLE = page.STYLE | {"axes.titlesize": 7.5, "axes.titleweight": "bold", "axes.titlelocation": "left"}
+
+
+def new_figure(height, **options):
+    """An empty figure over the full width."""
+    return page.new_figure(WIDTH_IN, height, STYLE, **options)
 
 
 def note(axes, text, x=0.5, y=0.5, width=44):
@@ -25,8 +25,3 @@ def note(axes, text, x=0.5, y=0.5, width=44):
 def percent(change):
     """A relative change with its sign, to three significant digits at most."""
     return f"{100 * change:+.{2 if abs(change) < 0.01 else 1}f} %".replace("-", "\u2212")
-
-
-def thousands(value):
-    """A whole number with thin spaces."""
-    return f"{value:,.0f}".replace(",", "\u2009")

@@ -1,0 +1,43 @@
+"""How the program runs a module of this package: python3 -I -c CODE FOLDER MODULE [ARGUMENT...].
+
+CODE (src/app/python_package.cc) puts FOLDER, that of the package, in front of Python's own module path and calls
+main(). Without arguments the module is loaded at once and awaits them on standard input, each followed by NUL, until
+its end: the program starts it while there is nothing to draw yet. It draws nothing if none come.
+"""
+
+import importlib
+import os
+import signal
+import sys
+
+
+def main():
+    """Command line."""
+    signal.signal(signal.SIGUSR1, lambda *_: sys.exit(1))  # the program is gone; temporary files go, too
+    name, *arguments = sys.argv[1:]
+    try:
+        load_matplotlib()
+        module, run = importlib.import_module(f"rheocyte.{name}"), importlib.import_module("rheocyte.files").run
+    except ImportError as error:
+        print(f"rheocyte: the pictures need Python with numpy and matplotlib ({error}).", file=sys.stderr)
+        sys.exit(2)
+    if not arguments:
+        arguments = [os.fsdecode(text) for text in sys.stdin.buffer.read().split(b"\0")[:-1]]
+    if arguments:
+        sys.argv[:] = [name, *arguments]
+        run(module.main)
+
+
+def load_matplotlib():
+    """Loads matplotlib without any settings but its own: it would read a matplotlibrc of the current folder, too."""
+    os.environ.update(MATPLOTLIBRC=os.devnull, MPLBACKEND="Agg", OPENBLAS_NUM_THREADS="1")
+    here = os.open(".", os.O_PATH)
+    os.chdir("/")
+    try:
+        from matplotlib.artist import Artist
+    finally:
+        os.fchdir(here)
+        os.close(here)
+    # The help texts of its classes' properties are a quarter of the time that loading takes.
+    if hasattr(Artist, "_update_set_signature_and_docstring"):
+        Artist._update_set_signature_and_docstring = classmethod(lambda cls: None)
