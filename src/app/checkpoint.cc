@@ -7,13 +7,14 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <type_traits>
+#include <utility>
 
 #include "case/read_case.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "store/build_info.h"
+#include "store/bytes.h"
 
 namespace rheocyte {
 
@@ -30,104 +31,10 @@ std::uint64_t checksum(std::string_view bytes) {
   return hash;
 }
 
-class Writer {
- public:
-  template <class T>
-  void number(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  template <class Matrix>
-  void matrix(const Matrix& m) {
-    number(std::int64_t(m.rows()));
-    bytes_.append(reinterpret_cast<const char*>(m.data()), sizeof(double) * std::size_t(m.size()));
-  }
-  std::string& bytes() { return bytes_; }
-
- private:
-  std::string bytes_;
-};
-
-/// Reads nothing beyond the end: `failed` then stays true.
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-  template <class T>
-  T number() {
-    T value{};
-    take(&value, sizeof value);
-    return value;
-  }
-  template <class Matrix>
-  Matrix matrix() {
-    const auto rows = std::uint64_t(number<std::int64_t>());
-    constexpr std::size_t columns = Matrix::ColsAtCompileTime;
-    if (failed || rows > bytes_.size() / (sizeof(double) * columns)) return failed = true, Matrix();
-    Matrix m;
-    m.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
-    take(m.data(), sizeof(double) * columns * rows);
-    return m;
-  }
-  std::size_t count(std::size_t least_size) {
-    const auto n = number<std::uint64_t>();
-    if (n > bytes_.size() / least_size) failed = true;
-    return failed ? 0 : std::size_t(n);
-  }
-  bool at_end() const { return bytes_.empty() && !failed; }
-  bool failed = false;
-
- private:
-  void take(void* target, std::size_t size) {
-    if (failed || size > bytes_.size()) {
-      failed = true;
-      return;
-    }
-    if (size > 0) std::memcpy(target, bytes_.data(), size);
-    bytes_.remove_prefix(size);
-  }
-  std::string_view bytes_;
-};
-
 std::string padded(std::string_view text, std::size_t length) {
   std::string result(text.substr(0, length));
   result.resize(length);
   return result;
-}
-
-void write_state(Writer& writer, const TimeState& state) {
-  writer.number(state.order);
-  writer.number(state.steps_at_order);
-  writer.number(state.next_step);
-  writer.matrix(state.traction);
-  writer.number(state.inlet_pressure);
-  writer.number(std::uint64_t(state.levels.size()));
-  for (const TimeLevel& level : state.levels) {
-    writer.number(level.time);
-    writer.number(level.frame_acceleration);
-    writer.number(level.position);
-    writer.matrix(level.outward);
-    writer.matrix(level.unknowns);
-    writer.matrix(level.velocities);
-  }
-}
-
-TimeState read_state(Reader& reader) {
-  TimeState state;
-  state.order = reader.number<int>();
-  state.steps_at_order = reader.number<int>();
-  state.next_step = reader.number<double>();
-  state.traction = reader.matrix<Eigen::VectorXd>();
-  state.inlet_pressure = reader.number<double>();
-  state.levels.resize(reader.count(32));
-  for (TimeLevel& level : state.levels) {
-    level.time = reader.number<double>();
-    level.frame_acceleration = reader.number<double>();
-    level.position = reader.number<double>();
-    level.outward = reader.matrix<Eigen::VectorXd>();
-    level.unknowns = reader.matrix<Eigen::VectorXd>();
-    level.velocities = reader.matrix<Eigen::VectorXd>();
-  }
-  return state;
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
@@ -151,16 +58,7 @@ std::string time_case_hash(const Case& c) {
 std::string checkpoint_file(int slot) { return fmt::format("checkpoint-{}.bin", slot); }
 
 std::string encode_checkpoint(const Checkpoint& checkpoint, const Case& c) {
-  Writer writer;
-  write_state(writer, checkpoint.state);
-  writer.number(std::uint64_t(checkpoint.record.rows.size()));
-  for (const HistoryRow& row : checkpoint.record.rows) writer.number(row);
-  writer.number(std::uint64_t(checkpoint.record.frames.size()));
-  for (const ContourFrame& frame : checkpoint.record.frames) {
-    writer.number(frame.t_us);
-    writer.matrix(frame.point_um);
-  }
-  std::string content = std::string(magic) + padded(version, version_length) + time_case_hash(c) + writer.bytes();
+  std::string content = std::string(magic) + padded(version, version_length) + time_case_hash(c) + to_bytes(checkpoint);
   const std::uint64_t sum = checksum(content);
   return content.append(reinterpret_cast<const char*>(&sum), sizeof sum);
 }
@@ -178,19 +76,10 @@ Checkpoint decode_checkpoint(const std::string& content, const Case& c, const fs
     refuse(file, "is of another version of rheocyte; start anew without --continue.");
   if (body.substr(magic.size() + version_length, hash.size()) != hash)
     refuse(file, "is of another case; only time.end_us may differ from the case that it continues.");
-  Reader reader(body.substr(head));
-  Checkpoint checkpoint;
-  checkpoint.state = read_state(reader);
-  checkpoint.record.rows.resize(reader.count(sizeof(HistoryRow)));
-  for (HistoryRow& row : checkpoint.record.rows) row = reader.number<HistoryRow>();
-  checkpoint.record.frames.resize(reader.count(sizeof(double)));
-  for (ContourFrame& frame : checkpoint.record.frames) {
-    frame.t_us = reader.number<double>();
-    frame.point_um = reader.matrix<Eigen::MatrixX2d>();
-  }
-  if (!reader.at_end() || checkpoint.state.levels.empty() || checkpoint.record.rows.empty())
+  auto checkpoint = from_bytes<Checkpoint>(body.substr(head));
+  if (!checkpoint || checkpoint->state.levels.empty() || checkpoint->record.rows.empty())
     refuse(file, "is damaged, its content is incomplete; start anew without --continue.");
-  return checkpoint;
+  return std::move(*checkpoint);
 }
 
 Checkpoint read_checkpoint(const fs::path& folder, const Case& c) {

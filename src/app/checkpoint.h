@@ -12,6 +12,12 @@ namespace rheocyte {
 struct Checkpoint {
   TimeState state;
   TimeRecord record;
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& c) {
+    return std::tie(c.state, c.record);
+  }
 };
 
 /// Equal for cases that may continue each other: the end of the time does not count.

@@ -1,15 +1,11 @@
 #include "app/command_figure.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 
 #include "app/exit_codes.h"
 #include "store/child_process.h"
@@ -25,21 +21,13 @@ struct FigureOptions {
   std::filesystem::path folder = "figures";
 };
 
-// Returns only if the interpreter cannot be started. The terminal's signals then reach the Python program itself.
+// Returns only if the interpreter cannot be started.
 int become_python(const FigureOptions& options) {
   auto call = python_call("rheocyte.figure");
   call.insert(call.end(),
               {"--program", (program_folder() / "rheocyte").string(), "--", options.number, options.folder.string()});
-  std::vector<char*> arguments;
-  for (auto& text : call) arguments.push_back(text.data());
-  arguments.push_back(nullptr);
-  for (auto& entry : python_environment()) {
-    const auto equals = entry.find('=');
-    ::setenv(entry.substr(0, equals).c_str(), entry.substr(equals + 1).c_str(), 1);
-  }
-  ::execvp(arguments[0], arguments.data());
-  tell(fmt::format("rheocyte: cannot start {} ({}); the figures need Python with numpy and matplotlib.", call[0],
-                   std::generic_category().message(errno)));
+  const auto failure = become_program(call, python_environment());
+  tell(fmt::format("rheocyte: cannot start {}; the figures need Python with numpy and matplotlib.", failure));
   return exit_own_bug;
 }
 

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -17,10 +16,10 @@
 #include "extract/plot_panel.h"
 #include "store/child_process.h"
 #include "store/contained.h"
-#include "store/contained_sentence.h"
 #include "store/python_package.h"
 #include "store/standard_error.h"
 #include "store/stop_signal.h"
+#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -60,26 +59,24 @@ class Plot {
     json panels = json::array();
     for (const auto& recording : options_.inputs) {
       const auto name = fmt::format("events-{}", panels.size());
-      const ContainedEnd end = read(recording, folder_.path() / name);
-      if (end.kind == ContainedEnd::Kind::stopped) return exit_signal + signal_received();
-      if (end.kind != ContainedEnd::Kind::finished)
-        throw UserError(sentence_for(recording, end, options_.measuring.patience_s));
-      panels.push_back(described(recording, panel_from_json(end.text)));
+      const auto read = read_panel(recording, folder_.path() / name);
+      if (read.stopped()) return exit_stopped();
+      if (!read.finished()) throw UserError(sentence_for(recording, read.end, options_.measuring.patience_s));
+      panels.push_back(described(recording, read.result));
       panels.back()["events_file"] = name;
     }
-    std::ofstream file(folder_.path() / "plot.json");
-    file << json{{"panels", panels}}.dump(-1, ' ', false, json::error_handler_t::replace);
-    file.close();
-    if (!file) throw UserError("rheocyte: the disk for temporary files is full; TMPDIR names another folder.");
+    const auto text = json{{"panels", panels}}.dump(-1, ' ', false, json::error_handler_t::replace);
+    if (write_part(folder_.path() / "plot.json", text))
+      throw UserError("rheocyte: the disk for temporary files is full; TMPDIR names another folder.");
     return draw();
   }
 
  private:
-  ContainedEnd read(const fs::path& recording, const fs::path& events) const {
+  Contained<PlotPanel> read_panel(const fs::path& recording, const fs::path& events) const {
     Containment limits;
     limits.patience_s = options_.measuring.patience_s;
     const auto work = [&](const TellProgress& on_progress) {
-      return to_json(plot_panel(recording, events, options_, lines_.wanted(), on_progress));
+      return plot_panel(recording, events, options_, lines_.wanted(), on_progress);
     };
     return run_contained(work, limits, [](double) {});
   }
@@ -104,11 +101,11 @@ class Plot {
   }
 
   int draw() const {
-    if (stop_wanted()) return exit_signal + signal_received();
+    if (stop_wanted()) return exit_stopped();
     auto call = python_call("rheocyte.event_plot");
     call.insert(call.end(), {"--", folder_.path().string(), stem_.string()});
     const auto drawn = run_child(call, python_environment());
-    if (stop_wanted()) return exit_signal + signal_received();
+    if (stop_wanted()) return exit_stopped();
     if (drawn.exit_code == exit_user_error) throw UserError(drawn.last_line);
     if (drawn.exit_code != 0) {
       tell(fmt::format("rheocyte: the picture could not be drawn ({}).",

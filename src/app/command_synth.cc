@@ -3,21 +3,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <new>
 #include <sstream>
 #include <system_error>
 
 #include "app/exit_codes.h"
 #include "case/case_text.h"
 #include "case/user_error.h"
-#include "extract/extract_recording.h"
 #include "store/build_info.h"
 #include "store/contained.h"
 #include "store/standard_error.h"
 #include "store/stop_signal.h"
+#include "store/whole_file.h"
 #include "synth/synth_shapes.h"
 #include "synth/virtual_recording.h"
 
@@ -53,28 +52,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-std::string to_json(const VirtualRecording& r) {
-  return nlohmann::json{r.cells, r.events, r.missing, r.mean_area_error, r.mean_deformation_error}.dump();
-}
-
-VirtualRecording recording_from_json(const std::string& text) {
-  const auto j = nlohmann::json::parse(text);
-  return {j[0], j[1], j[2], j[3], j[4]};
-}
-
-// In the child.
-std::string write(const SynthSpec& spec, const CellShapes& shapes, const RecordingProvenance& provenance,
-                  const fs::path& output, const TellProgress& on_progress) {
-  const fs::path scratch = unfinished(output);
-  const auto result = write_virtual_recording(spec, shapes, provenance, scratch, on_progress);
-  std::error_code error;
-  fs::rename(scratch, output, error);
-  if (error)
-    throw UserError(
-        fmt::format("{}: cannot be put in its place ({}).", one_line(output.string(), 300), error.message()));
-  return to_json(result);
-}
-
 void report(const SynthOptions& options, const VirtualRecording& r) {
   fmt::print("{}: {} events; areas measured {:+.2f} %, deformations {:+.5f} from the true ones on average\n",
              options.output.string(), r.events, 100 * r.mean_area_error, r.mean_deformation_error);
@@ -83,34 +60,29 @@ void report(const SynthOptions& options, const VirtualRecording& r) {
       tell(fmt::format("{} of {} cells are left out: {}.", r.missing[k], r.cells, names_of_missing_shapes[k]));
 }
 
+[[noreturn]] void refuse(const ContainedEnd& end) {
+  if (end.kind == ContainedEnd::Kind::user_error) throw UserError(end.text);
+  if (end.kind == ContainedEnd::Kind::no_memory) throw std::bad_alloc();
+  throw std::runtime_error(end.kind == ContainedEnd::Kind::hung ? "writing the recording hung" : end.text);
+}
+
 int run(const SynthOptions& options) {
   check_output(options);
   const std::string text = read_case_text(options.spec);
   SynthSpec spec = parse_synth_spec(text, options.spec.string());
   if (!spec.table.empty()) spec.table = options.spec.parent_path() / spec.table;  // an absolute one stays
-  auto last = std::chrono::steady_clock::now();
-  const auto show = [&](double fraction) {
-    const auto now = std::chrono::steady_clock::now();
-    if (options.quiet || now - last < std::chrono::seconds(2)) return;
-    last = now;
-    tell(fmt::format("{:.0f} %", 100 * fraction));
-  };
   const auto shapes = shapes_of(spec);
   const RecordingProvenance provenance{fmt::format("rheocyte {}", version), lines_of(text)};
-  const auto work = [&](const TellProgress& on_progress) {
-    return write(spec, *shapes, provenance, options.output, on_progress);
+  WholeFile file(options.output);
+  const auto work = [&](const TellProgress& tell_progress) {
+    return write_virtual_recording(spec, *shapes, provenance, file.scratch(), tell_progress);
   };
-  const ContainedEnd end = run_contained(work, {}, show);
-  if (end.kind == ContainedEnd::Kind::finished) {
-    if (!options.quiet) report(options, recording_from_json(end.text));
-    return exit_converged;
-  }
-  std::error_code ignored;
-  fs::remove(unfinished(options.output), ignored);
-  if (end.kind == ContainedEnd::Kind::stopped) return exit_signal + signal_received();
-  if (end.kind == ContainedEnd::Kind::user_error) throw UserError(end.text);
-  if (end.kind == ContainedEnd::Kind::no_memory) throw std::bad_alloc();
-  throw std::runtime_error(end.kind == ContainedEnd::Kind::hung ? "writing the recording hung" : end.text);
+  const auto done = run_contained(work, {}, FileProgress(one_line(options.output.string(), 200), options.quiet));
+  if (done.stopped()) return exit_stopped();
+  if (!done.finished()) refuse(done.end);
+  file.publish();
+  if (!options.quiet) report(options, done.result);
+  return exit_converged;
 }
 
 }  // namespace

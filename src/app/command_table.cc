@@ -87,7 +87,7 @@ int make_table(const TableOptions& options) {
   if (!work_on_table(folder, jobs, options.quiet || rank.number > 0)) {
     tell(fmt::format("rheocyte: stopped after {} of {} branches; the same command goes on from here.", folder.done(),
                      folder.branches()));
-    return exit_signal + signal_received();
+    return exit_stopped();
   }
   if (rank.number > 0) return exit_converged;
   write_files(folder, options);

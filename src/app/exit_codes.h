@@ -1,5 +1,6 @@
 // What the shell learns from the program.
 #pragma once
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 
@@ -7,6 +8,9 @@ inline constexpr int exit_converged = 0;
 inline constexpr int exit_own_bug = 1;  ///< a failure that neither the user nor the physics explains
 inline constexpr int exit_user_error = 2;
 inline constexpr int exit_numerical = 3;  ///< the last converged state is written
-inline constexpr int exit_signal = 128;   ///< plus the number of the signal: 130 SIGINT, 143 SIGTERM
+
+/// After a wish to stop: 130 for SIGINT, 143 for SIGTERM.
+inline int exit_stopped() { return 128 + signal_received(); }
+inline bool was_stopped(int exit_code) { return exit_code > 128; }
 
 }  // namespace rheocyte

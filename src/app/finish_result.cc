@@ -48,7 +48,7 @@ void print_result(const Result& result, const SolveOptions& options, const std::
 }
 
 int exit_code_of(const Outcome& outcome) {
-  if (outcome.status == Status::stopped) return exit_signal + signal_received();
+  if (outcome.status == Status::stopped) return exit_stopped();
   return outcome.status == Status::converged ? exit_converged : exit_numerical;
 }
 

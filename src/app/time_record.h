@@ -1,6 +1,7 @@
 // What a computation in time leaves behind: a row for each step, a contour for each output.
 #pragma once
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "case/problem.h"
@@ -17,11 +18,23 @@ struct HistoryRow {
 struct ContourFrame {
   double t_us = 0;
   Eigen::MatrixX2d point_um;  ///< (x, r), front pole first
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& f) {
+    return std::tie(f.t_us, f.point_um);
+  }
 };
 
 struct TimeRecord {
   std::vector<HistoryRow> rows;
   std::vector<ContourFrame> frames;
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& r) {
+    return std::tie(r.rows, r.frames);
+  }
 };
 
 HistoryRow history_row(const TimePoint&, const Scales&);

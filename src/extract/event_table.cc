@@ -1,8 +1,5 @@
 #include "extract/event_table.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <charconv>
 #include <cmath>
 
@@ -28,25 +25,15 @@ char* put_number(char* at, double number) {
 }  // namespace
 
 EventTable::EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks, bool has_errors)
-    : path_(file), file_(std::fopen(file.c_str(), "wbe")), has_errors_(has_errors) {
-  if (!file_) refuse();
+    : file_(file), has_errors_(has_errors) {
   for (const auto& remark : remarks) text_ += "# " + one_line(remark, 1000) + "\n";
   text_ += "event\tarea_um2\tdeformation\tviscosity_mPas\tyoung_modulus_kPa\t";
   text_ += has_errors_ ? "standard_error_kPa\tstate\n" : "state\n";
   write_out();
 }
 
-EventTable::~EventTable() {
-  if (file_) std::fclose(file_);
-}
-
-void EventTable::refuse() const {
-  throw UserError(fmt::format("{}: cannot be written; is the disk full, or is writing there not allowed?",
-                              one_line(path_.string(), 300)));
-}
-
 void EventTable::write_out() {
-  if (std::fwrite(text_.data(), 1, text_.size(), file_) != text_.size()) refuse();
+  file_.append(text_);
   text_.clear();
 }
 
@@ -69,13 +56,6 @@ void EventTable::append(const EventBlock& block) {
     text_ += '\n';
   }
   write_out();
-}
-
-void EventTable::close() {
-  const bool good = std::fflush(file_) == 0 && ::fsync(::fileno(file_)) == 0;
-  const bool closed = std::fclose(file_) == 0;
-  file_ = nullptr;
-  if (!good || !closed) refuse();
 }
 
 }  // namespace rheocyte

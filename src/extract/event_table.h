@@ -1,12 +1,12 @@
 // The text table with one line per event.
 #pragma once
-#include <cstdio>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "infer/modulus_state.h"
+#include "store/file_writer.h"
 
 namespace rheocyte {
 
@@ -23,22 +23,17 @@ class EventTable {
   /// `remarks` go above the columns' names, each behind "# ". With a column for standard errors if they are known.
   /// UserError.
   EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks, bool has_errors);
-  ~EventTable();
-  EventTable(const EventTable&) = delete;
-  EventTable& operator=(const EventTable&) = delete;
 
   /// Appends events; the first one ever has number 1. UserError, e.g. if the disk is full.
   void append(const EventBlock& block);
 
-  /// Brings everything to the disk. UserError.
-  void close();
+  /// UserError if not everything could be written.
+  void close() { file_.close(); }
 
  private:
   void write_out();
-  [[noreturn]] void refuse() const;
 
-  std::filesystem::path path_;
-  std::FILE* file_ = nullptr;
+  FileWriter file_;
   std::string text_;
   bool has_errors_;
   std::size_t events_ = 0;

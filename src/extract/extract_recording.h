@@ -1,26 +1,43 @@
-// The moduli of one recording: read, compute, write the companion and the table of events.
+// The files with the moduli of one recording: the companion that the field's programs open, and the table of events.
 #pragma once
 #include <filesystem>
-#include <functional>
+#include <optional>
 
 #include "extract/extract_summary.h"
 #include "extract/modulus_tables.h"
 #include "extract/options.h"
+#include "store/progress.h"
+#include "store/whole_file.h"
 
 namespace rheocyte {
 
-/// Where the results of a recording go. While they are written, their names end in "~".
+/// Where the results of a recording go.
 struct ExtractOutput {
   std::filesystem::path companion, events;  ///< .rtdc, .tsv
 };
 
-/// Name under which a file is written before it is complete.
-std::filesystem::path unfinished(const std::filesystem::path& file);
+/// The files of one recording while they are written.
+class ExtractFiles {
+ public:
+  /// Makes them empty, under hidden names. UserError, also if a table of events stands there that is not ours.
+  ExtractFiles(const ExtractOutput& output, bool with_events);
 
-/// Works through a recording in blocks, so that memory does not grow with it but for 8 bytes per event. UserError for
-/// whatever is wrong with the recording or with writing. Calls `on_progress` after each block.
-ExtractSummary extract_recording(const std::filesystem::path& file, const ExtractOutput& output,
+  const std::filesystem::path& companion() const { return companion_.scratch(); }
+  /// Nothing if no table of events is wanted.
+  std::optional<std::filesystem::path> events() const;
+  /// Puts all in their places. UserError.
+  void publish();
+
+ private:
+  WholeFile companion_;
+  std::optional<WholeFile> events_;
+};
+
+/// Works through a recording in blocks, so that memory does not grow with it but for 12 bytes per event, and completes
+/// the files, which the caller publishes. UserError for whatever is wrong with the recording or with writing. Calls
+/// `on_progress` after each block.
+ExtractSummary extract_recording(const std::filesystem::path& recording, const ExtractFiles& files,
                                  const ExtractOptions& options, const ModulusTables& tables,
-                                 const std::function<void(double)>& on_progress);
+                                 const TellProgress& on_progress);
 
 }  // namespace rheocyte

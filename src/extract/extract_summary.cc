@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "case/user_error.h"
@@ -14,8 +13,6 @@
 namespace rheocyte {
 
 namespace {
-
-using nlohmann::json;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -25,9 +22,6 @@ double quantile(std::span<const double> sorted, double fraction) {
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
-
-// JSON knows no NaN; it comes back as null.
-double number_of(const json& value) { return value.is_number() ? value.get<double>() : nan; }
 
 std::string number_text(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
@@ -104,52 +98,6 @@ double median_of(std::span<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
-}
-
-json to_json(const Distribution& d) {
-  return {d.median, d.first_quartile, d.third_quartile, d.mean, d.standard_deviation};
-}
-
-Distribution distribution_from_json(const json& d) {
-  return {number_of(d.at(0)), number_of(d.at(1)), number_of(d.at(2)), number_of(d.at(3)), number_of(d.at(4))};
-}
-
-std::string to_json(const ExtractSummary& s) {
-  const auto& c = s.conditions;
-  return json{
-      {"events", s.events},
-      {"counts", s.counts},
-      {"modulus", to_json(s.modulus_kPa)},
-      {"viscosity", s.mean_viscosity_mPas},
-      {"texts",
-       {s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from, s.corrected, s.gates}},
-      {"standard_error", s.median_standard_error_kPa},
-      {"conditions", {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um}},
-      {"warnings", s.warnings}}
-      .dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
-ExtractSummary summary_from_json(const std::string& text) {
-  const json all = json::parse(text);
-  ExtractSummary s;
-  s.events = all.at("events");
-  s.counts = all.at("counts").get<decltype(s.counts)>();
-  s.modulus_kPa = distribution_from_json(all.at("modulus"));
-  s.mean_viscosity_mPas = number_of(all.at("viscosity"));
-  const auto texts = all.at("texts").get<std::vector<std::string>>();
-  s.table = texts.at(0);
-  s.medium = texts.at(1);
-  s.viscosity_model = texts.at(2);
-  s.temperature = texts.at(3);
-  s.area_from = texts.at(4);
-  s.deformation_from = texts.at(5);
-  s.corrected = texts.at(6);
-  s.gates = texts.at(7);
-  s.median_standard_error_kPa = number_of(all.at("standard_error"));
-  const auto& c = all.at("conditions");
-  s.conditions = {number_of(c.at(0)), number_of(c.at(1)), number_of(c.at(2))};
-  s.warnings = all.at("warnings").get<std::vector<std::string>>();
-  return s;
 }
 
 std::string summary_table(std::span<const SummaryLine> lines) {

@@ -2,9 +2,9 @@
 #pragma once
 #include <array>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "extract/extract_settings.h"
@@ -19,10 +19,6 @@ struct Distribution {
 
 /// Sorts the values. Quartiles between two values are interpolated linearly.
 Distribution distribution_of(std::span<double> values);
-
-/// Both ways; what is no number is null in between.
-nlohmann::json to_json(const Distribution&);
-Distribution distribution_from_json(const nlohmann::json&);
 
 /// The middle of the values, which it changes the order of; NaN if there are none.
 double median_of(std::span<float> values);
@@ -39,13 +35,17 @@ struct ExtractSummary {
   MeasuringConditions conditions;
   std::vector<std::string> warnings;
 
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.events, s.counts, s.modulus_kPa, s.median_standard_error_kPa, s.mean_viscosity_mPas, s.table,
+                    s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from, s.corrected, s.gates,
+                    s.conditions, s.warnings);
+  }
+
   /// Events with a modulus, those of regularised states included.
   std::size_t valid() const { return counts[0] + counts[static_cast<std::size_t>(ModulusState::regularised)]; }
 };
-
-/// Through the pipe from the process that read the recording.
-std::string to_json(const ExtractSummary&);
-ExtractSummary summary_from_json(const std::string& text);
 
 /// One recording of the summary table; `error` says why there is nothing else.
 struct SummaryLine {

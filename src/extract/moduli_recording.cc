@@ -17,6 +17,7 @@
 #include "measurement/event_features.h"
 #include "measurement/shape_source.h"
 #include "store/build_info.h"
+#include "store/file_writer.h"
 
 namespace rheocyte {
 
@@ -85,19 +86,19 @@ std::string line(std::size_t event, const ShapeVector& seen, double viscosity_mP
 /// One recording on its way through the blocks.
 class Fits {
  public:
-  Fits(const Recording& recording, const ModuliOptions& options, const CombinedInterpolation& table,
-       const FlowConditions& simulated)
+  Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table)
       : recording_(recording),
         settings_(extract_settings(options.measuring, PixelUse::fit, recording)),
         outlines_(recording, settings_.pixel_size_um),
         shapes_(recording, settings_.pixel_size_um),
         features_(recording, shapes_),
         gates_(options.measuring.gates),
-        pixels_(table, settings_.pixel_size_um * simulated.channel_width_um / settings_.conditions.channel_width_um),
-        simulated_exponent_(simulated.flow_exponent),
-        moduli_(table, simulated,
+        pixels_(table.between,
+                settings_.pixel_size_um * table.simulated.channel_width_um / settings_.conditions.channel_width_um),
+        simulated_exponent_(table.simulated.flow_exponent),
+        moduli_(table.between, table.simulated,
                 {options.only_figure ? features_of_figure() : features_of_contour(), options.fit_tension,
-                 table.tension_ratios().front()}) {
+                 table.between.tension_ratios().front()}) {
     gates_.check(features_, recording.file().string());
   }
 
@@ -180,19 +181,29 @@ class Fits {
 
 }  // namespace
 
-ModuliResult moduli_of_recording(const std::filesystem::path& file, const ModuliOptions& options,
-                                 const CombinedInterpolation& table, const FlowConditions& simulated,
-                                 const TellProgress& tell_progress) {
-  const Recording recording(file);
-  Fits fits(recording, options, table, simulated);
+ModuliTable::ModuliTable(const ModuliOptions& options)
+    : content(read_combined_table(options.table)), between(content), simulated(conditions_of(content.spec)) {
+  if (options.fit_tension && between.tension_ratios().size() < 2)
+    throw UserError(
+        fmt::format("rheocyte: --fit-tension needs a table with several tensions (table.tension_ratio); {} has one.",
+                    content.spec.identifier));
+}
+
+ModuliSummary moduli_of_recording(const std::filesystem::path& path, const std::filesystem::path& file,
+                                  const ModuliOptions& options, const ModuliTable& table,
+                                  const TellProgress& tell_progress) {
+  const Recording recording(path);
+  Fits fits(recording, options, table);
+  FileWriter writer(file);
+  writer.append(fits.header(options));
   const std::size_t events = recording.events();
-  std::string text = fits.header(options);
   for (std::size_t first = 0; first < events; first += block) {
     const std::size_t count = std::min(block, events - first);
-    text += fits.take(first, count);
+    writer.append(fits.take(first, count));
     tell_progress(double(first + count) / double(events));
   }
-  return {std::move(text), fits.summary()};
+  writer.close();
+  return fits.summary();
 }
 
 }  // namespace rheocyte

@@ -6,7 +6,7 @@
 #include "extract/moduli_summary.h"
 #include "extract/options.h"
 #include "infer/several_moduli.h"
-#include "store/contained.h"
+#include "store/progress.h"
 
 namespace rheocyte {
 
@@ -18,15 +18,22 @@ struct ModuliOptions {
   bool only_figure = false;     ///< by deformation and Lambda1 / Lambda2 in place of the whole contour
 };
 
-/// The text of a file with one line per event: E, E2D, tension, stiffness with standard errors, chi2, status.
-struct ModuliResult {
-  std::string text;
-  ModuliSummary summary;
+/// A combined table, ready for use.
+struct ModuliTable {
+  /// UserError, also if the tension is to be fitted with a table of a single one.
+  explicit ModuliTable(const ModuliOptions& options);
+  ModuliTable(const ModuliTable&) = delete;
+  ModuliTable& operator=(const ModuliTable&) = delete;
+
+  CombinedTable content;
+  CombinedInterpolation between;
+  FlowConditions simulated;
 };
 
-/// UserError for what is wrong with the recording; one that has neither contours nor masks is refused.
-ModuliResult moduli_of_recording(const std::filesystem::path& recording, const ModuliOptions& options,
-                                 const CombinedInterpolation& table, const FlowConditions& simulated,
-                                 const TellProgress& tell_progress);
+/// Writes a file with one line per event: E, E2D, tension, stiffness with standard errors, chi2, status. UserError for
+/// what is wrong with the recording, which must have contours or masks, or with writing.
+ModuliSummary moduli_of_recording(const std::filesystem::path& recording, const std::filesystem::path& file,
+                                  const ModuliOptions& options, const ModuliTable& table,
+                                  const TellProgress& tell_progress);
 
 }  // namespace rheocyte

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 namespace rheocyte {
@@ -33,28 +32,6 @@ ModuliSummary ModuliTally::summary() {
   summary_.cortex_mN_per_m = distribution_of(cortex_);
   summary_.stiffness_kPa = distribution_of(stiffness_);
   return summary_;
-}
-
-std::string to_json(const ModuliSummary& s) {
-  return nlohmann::json{{"counts", s.counts},
-                        {"young", to_json(s.young_kPa)},
-                        {"cortex", to_json(s.cortex_mN_per_m)},
-                        {"stiffness", to_json(s.stiffness_kPa)},
-                        {"gates", s.gates},
-                        {"warnings", s.warnings}}
-      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-ModuliSummary moduli_summary_from_json(const std::string& text) {
-  const auto all = nlohmann::json::parse(text);
-  ModuliSummary s;
-  s.counts = all.at("counts").get<decltype(s.counts)>();
-  s.young_kPa = distribution_from_json(all.at("young"));
-  s.cortex_mN_per_m = distribution_from_json(all.at("cortex"));
-  s.stiffness_kPa = distribution_from_json(all.at("stiffness"));
-  s.gates = all.at("gates");
-  s.warnings = all.at("warnings").get<std::vector<std::string>>();
-  return s;
 }
 
 std::string in_one_line(const ModuliSummary& s) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "extract/extract_summary.h"
@@ -16,6 +17,12 @@ struct ModuliSummary {
   Distribution stiffness_kPa;                             ///< E + E2D / r0, of all events that have it
   std::string gates;                                      ///< limits of the events that count; empty: all
   std::vector<std::string> warnings;
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.gates, s.warnings);
+  }
 
   std::size_t events() const;
   std::size_t resolved() const { return counts[std::size_t(ModuliStatus::resolved)]; }
@@ -34,10 +41,6 @@ class ModuliTally {
   ModuliSummary summary_;
   std::vector<double> young_, cortex_, stiffness_;
 };
-
-/// Through the pipe from the process that read the recording; one line.
-std::string to_json(const ModuliSummary&);
-ModuliSummary moduli_summary_from_json(const std::string& text);
 
 /// For the terminal: how many events are resolved, their moduli, and how many have another status.
 std::string in_one_line(const ModuliSummary&);

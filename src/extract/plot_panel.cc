@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <memory>
-#include <nlohmann/json.hpp>
 
 #include "case/user_error.h"
 #include "extract/extract_settings.h"
 #include "measurement/event_features.h"
 #include "measurement/shape_source.h"
+#include "store/file_writer.h"
 
 namespace rheocyte {
 
@@ -24,14 +22,7 @@ constexpr std::size_t block = 1 << 14;
 /// Pairs of 32-bit numbers in a file.
 class PairWriter {
  public:
-  explicit PairWriter(const fs::path& path) : path_(path), file_(std::fopen(path.c_str(), "wbe")) {
-    if (!file_) refuse();
-  }
-  ~PairWriter() {
-    if (file_) std::fclose(file_);
-  }
-  PairWriter(const PairWriter&) = delete;
-  PairWriter& operator=(const PairWriter&) = delete;
+  explicit PairWriter(const fs::path& path) : file_(path, "is the disk full? TMPDIR names another folder.") {}
 
   /// Returns how many pairs are finite; only those are written.
   std::size_t append(const std::vector<double>& x, const std::vector<double>& y) {
@@ -39,26 +30,17 @@ class PairWriter {
     for (std::size_t i = 0; i < x.size(); ++i)
       if (std::isfinite(x[i]) && std::isfinite(y[i]))
         pairs_.insert(pairs_.end(), {static_cast<float>(x[i]), static_cast<float>(y[i])});
-    if (!pairs_.empty() && std::fwrite(pairs_.data(), sizeof(float), pairs_.size(), file_) != pairs_.size()) refuse();
+    file_.append({reinterpret_cast<const char*>(pairs_.data()), sizeof(float) * pairs_.size()});
     return pairs_.size() / 2;
   }
-  void close() {
-    const bool good = std::fclose(file_) == 0;
-    file_ = nullptr;
-    if (!good) refuse();
-  }
+  void close() { file_.close(); }
 
  private:
-  [[noreturn]] void refuse() const {
-    throw UserError(fmt::format("{}: cannot be written; is the disk full? TMPDIR names another folder.",
-                                one_line(path_.string(), 300)));
-  }
-  fs::path path_;
-  std::FILE* file_;
+  FileWriter file_;
   std::vector<float> pairs_;
 };
 
-double median_temperature(const Recording& recording, const std::function<void(double)>& on_progress) {
+double median_temperature(const Recording& recording, const TellProgress& on_progress) {
   std::vector<double> celsius(recording.events());
   for (std::size_t first = 0; first < celsius.size(); first += block) {
     recording.read_scalar("temp", first, std::span(celsius).subspan(first, std::min(block, celsius.size() - first)));
@@ -77,8 +59,8 @@ bool is_of_the_reservoir(const Recording& recording) {
   return region != "channel";
 }
 
-void take_conditions(const Recording& recording, const PlotOptions& options,
-                     const std::function<void(double)>& on_progress, PlotPanel& panel) {
+void take_conditions(const Recording& recording, const PlotOptions& options, const TellProgress& on_progress,
+                     PlotPanel& panel) {
   ExtractSettings settings =
       extract_settings(options.measuring, options.no_pixelation ? PixelUse::ignore : PixelUse::correct, recording);
   panel.has_conditions = true;
@@ -141,7 +123,7 @@ class Axes {
 }  // namespace
 
 PlotPanel plot_panel(const fs::path& file, const fs::path& events_file, const PlotOptions& options, LinesWanted lines,
-                     const std::function<void(double)>& on_progress) {
+                     const TellProgress& on_progress) {
   const Recording recording(file);
   PlotPanel panel;
   panel.events = recording.events();
@@ -181,40 +163,6 @@ PlotPanel plot_panel(const fs::path& file, const fs::path& events_file, const Pl
     throw UserError(fmt::format("{}: no event {}has {} and {}, so there is nothing to draw.",
                                 one_line(file.string(), 300), panel.gated > 0 ? "inside the gates " : "", options.x,
                                 options.y));
-  return panel;
-}
-
-std::string to_json(const PlotPanel& panel) {
-  const auto& c = panel.conditions;
-  return nlohmann::json{{"events", panel.events},
-                        {"gated", panel.gated},
-                        {"drawable", panel.drawable},
-                        {"has_conditions", panel.has_conditions},
-                        {"conditions", {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um}},
-                        {"viscosity", panel.viscosity_mPas},
-                        {"flow_exponent", panel.flow_exponent},
-                        {"width", panel.width_um},
-                        {"sample", panel.sample},
-                        {"measured", panel.measured},
-                        {"warnings", panel.warnings}}
-      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-PlotPanel panel_from_json(const std::string& text) {
-  const auto j = nlohmann::json::parse(text);
-  PlotPanel panel;
-  panel.events = j["events"];
-  panel.gated = j["gated"];
-  panel.drawable = j["drawable"];
-  panel.has_conditions = j["has_conditions"];
-  const auto& c = j["conditions"];
-  panel.conditions = {c[0], c[1], c[2]};
-  panel.viscosity_mPas = j["viscosity"];
-  panel.flow_exponent = j["flow_exponent"];
-  panel.width_um = j["width"];
-  panel.sample = j["sample"];
-  panel.measured = j["measured"];
-  panel.warnings = j["warnings"];
   return panel;
 }
 

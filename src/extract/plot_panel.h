@@ -1,12 +1,13 @@
 // What one panel of the picture of events needs from a recording.
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "extract/plot_options.h"
 #include "infer/modulus_parity.h"
+#include "store/progress.h"
 
 namespace rheocyte {
 
@@ -21,6 +22,13 @@ struct PlotPanel {
   double width_um = 0;             ///< of the channel, 0 if unknown
   std::string sample, measured;    ///< the metadata's name of the sample; channel, flow, viscosity in one line
   std::vector<std::string> warnings;
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& p) {
+    return std::tie(p.events, p.gated, p.drawable, p.has_conditions, p.conditions, p.viscosity_mPas, p.flow_exponent,
+                    p.width_um, p.sample, p.measured, p.warnings);
+  }
 };
 
 /// Lines of equal modulus; if possible: with a warning where the recording does not say how it was measured.
@@ -29,10 +37,6 @@ enum class LinesWanted { no, if_possible, yes };
 /// Reads a recording and writes area (um^2) and deformation of each drawable event as pairs of 32-bit numbers to
 /// `events_file`. The conditions of the measurement are found, too, where lines are wanted. UserError.
 PlotPanel plot_panel(const std::filesystem::path& recording, const std::filesystem::path& events_file,
-                     const PlotOptions& options, LinesWanted lines, const std::function<void(double)>& on_progress);
-
-/// Through the pipe from the process that read the recording.
-std::string to_json(const PlotPanel&);
-PlotPanel panel_from_json(const std::string& text);
+                     const PlotOptions& options, LinesWanted lines, const TellProgress& on_progress);
 
 }  // namespace rheocyte

@@ -12,6 +12,7 @@
 #include "measurement/hdf5_handle.h"
 #include "measurement/hdf5_reading.h"
 #include "measurement/hdf5_writing.h"
+#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -72,7 +73,7 @@ struct CompanionFile::Content {
   void check(bool good, const std::string& what) const {
     if (good) return;
     throw UserError(fmt::format("{}: {} cannot be written; is the disk full, or is writing there not allowed?",
-                                one_line(path.string(), 300), what));
+                                one_line(place_of(path).string(), 300), what));
   }
 };
 

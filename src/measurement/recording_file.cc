@@ -8,6 +8,7 @@
 
 #include "case/user_error.h"
 #include "measurement/hdf5_writing.h"
+#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -62,7 +63,7 @@ struct RecordingFile::Content {
   void check(bool good, const std::string& what) const {
     if (good) return;
     throw UserError(fmt::format("{}: {} cannot be written; is the disk full, or is writing there not allowed?",
-                                one_line(path.string(), 300), what));
+                                one_line(place_of(path).string(), 300), what));
   }
 
   // `extent` of one chunk; the dataset is empty at first.

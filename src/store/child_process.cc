@@ -51,14 +51,14 @@ std::string last_line_from(int descriptor) {
                      end - (start == std::string::npos ? 0 : start + 1) + 1);
 }
 
+}  // namespace
+
 int wait_for(pid_t child) {
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
 }
-
-}  // namespace
 
 std::filesystem::path program_folder() {
   std::error_code error;
@@ -91,10 +91,17 @@ ChildResult run_child(const std::vector<std::string>& arguments, const std::vect
     result.last_line = arguments[0] + ": " + std::generic_category().message(failed);
   } else {
     result.last_line = last_line_from(ends[0]);
-    result.exit_code = wait_for(child);
+    const int status = wait_for(child);
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   ::close(ends[0]);
   return result;
+}
+
+std::string become_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
+  ::execvpe(arguments[0].c_str(), pointers_to(arguments).data(),
+            pointers_to(inherited_environment(environment)).data());
+  return arguments[0] + " (" + std::generic_category().message(errno) + ")";
 }
 
 }  // namespace rheocyte

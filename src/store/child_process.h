@@ -1,5 +1,7 @@
 // Where the program stands, and helpers that it starts.
 #pragma once
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,5 +23,12 @@ struct ChildResult {
 
 /// Runs a program and waits for it; its outputs never reach ours. `environment` holds additional "NAME=value".
 ChildResult run_child(const std::vector<std::string>& arguments, const std::vector<std::string>& environment);
+
+/// Becomes another program, which the terminal's signals then reach. Returns only if it cannot be started: its name and
+/// the reason.
+std::string become_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment);
+
+/// Waits for the end of a child, whatever signals come. The status is that of waitpid().
+int wait_for(pid_t child);
 
 }  // namespace rheocyte

@@ -1,6 +1,7 @@
 #include "store/contained.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -17,6 +18,7 @@
 #include <system_error>
 
 #include "case/user_error.h"
+#include "store/child_process.h"
 #include "store/stop_signal.h"
 
 namespace rheocyte {
@@ -144,13 +146,6 @@ ContainedEnd conclude(const Inbox& inbox, int status) {
   return {Kind::broke_down, "it ended without a result"};
 }
 
-int wait_for(pid_t child) {
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
-}
-
 ContainedEnd watch(pid_t child, int pipe, double patience_s, const TellProgress& on_progress) {
   Inbox inbox(on_progress);
   Clock::time_point last_word = Clock::now();
@@ -171,8 +166,8 @@ ContainedEnd watch(pid_t child, int pipe, double patience_s, const TellProgress&
 
 }  // namespace
 
-ContainedEnd run_contained(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
-                           const TellProgress& on_progress) {
+ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
+                                 const TellProgress& on_progress) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   std::fflush(nullptr);
@@ -190,6 +185,28 @@ ContainedEnd run_contained(const std::function<std::string(const TellProgress&)>
   ContainedEnd end = watch(child, ends[0], limits.patience_s, on_progress);
   ::close(ends[0]);
   return end;
+}
+
+std::string sentence_for(const std::filesystem::path& recording, const ContainedEnd& end, double patience_s) {
+  const std::string name = one_line(recording.string(), 300);
+  using Kind = ContainedEnd::Kind;
+  switch (end.kind) {
+    case Kind::user_error: return end.text;
+    case Kind::no_memory:
+      return fmt::format("{}: reading it needs more memory than any sound recording does; it is damaged.", name);
+    case Kind::hung:
+      return fmt::format(
+          "{}: nothing could be read for {} s; it is damaged, or its drive does not answer (--patience "
+          "waits longer).",
+          name, patience_s);
+    case Kind::broke_down:
+      return fmt::format(
+          "{}: the HDF5 library broke down while reading it ({}); it is damaged, copy it once more from "
+          "where it was recorded.",
+          name, one_line(end.text, 100));
+    default:
+      return fmt::format("{}: an error of the program itself, please report it: {}", name, one_line(end.text, 300));
+  }
 }
 
 }  // namespace rheocyte

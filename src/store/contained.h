@@ -1,7 +1,13 @@
 // Work that may break its process, done in a process of its own: HDF5 is known to crash on some damaged files.
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <type_traits>
+#include <utility>
+
+#include "store/bytes.h"
+#include "store/progress.h"
 
 namespace rheocyte {
 
@@ -13,7 +19,7 @@ struct Containment {
 
 struct ContainedEnd {
   enum class Kind {
-    finished,    ///< `text` is what the work returned
+    finished,
     user_error,  ///< `text` is the sentence
     own_error,   ///< another exception; `text` says which
     broke_down,  ///< a signal ended it; `text` names it
@@ -22,15 +28,39 @@ struct ContainedEnd {
     stopped      ///< killed, because the user wants to stop
   };
   Kind kind = Kind::broke_down;
-  std::string text;
+  std::string text = {};
 };
 
-/// Tells the parent that the work goes on; `fraction` is in [0, 1].
-using TellProgress = std::function<void(double fraction)>;
+template <class Result>
+struct Contained {
+  ContainedEnd end;
+  Result result{};  ///< of work that has finished
 
-/// Forks, runs `work` in the child and returns what became of it. The child prints nothing. `on_progress` is called in
-/// the parent. The process must have a single thread.
-ContainedEnd run_contained(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
-                           const TellProgress& on_progress);
+  bool finished() const { return end.kind == ContainedEnd::Kind::finished; }
+  bool stopped() const { return end.kind == ContainedEnd::Kind::stopped; }
+};
+
+/// As run_contained; `text` of work that has finished is what it returned.
+ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
+                                 const TellProgress& on_progress);
+
+/// Forks, runs `work` in the child, where it may tell its progress, and returns what became of it; the result comes
+/// back as bytes (store/bytes.h). The child prints nothing. `on_progress` is called in the parent. The process must
+/// have a single thread.
+template <class Work>
+auto run_contained(const Work& work, const Containment& limits, const TellProgress& on_progress) {
+  using Result = std::invoke_result_t<const Work&, const TellProgress&>;
+  const auto as_bytes = [&](const TellProgress& tell_progress) { return to_bytes(work(tell_progress)); };
+  Contained<Result> contained{run_contained_bytes(as_bytes, limits, on_progress)};
+  if (!contained.finished()) return contained;
+  if (auto result = from_bytes<Result>(contained.end.text))
+    contained.result = std::move(*result);
+  else
+    contained.end = {ContainedEnd::Kind::own_error, "its result came back incomplete"};
+  return contained;
+}
+
+/// What the user is told of a recording whose reading has not finished: one sentence.
+std::string sentence_for(const std::filesystem::path& recording, const ContainedEnd& end, double patience_s);
 
 }  // namespace rheocyte

@@ -1,7 +1,6 @@
 #include "store/own_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <string>
@@ -32,6 +31,8 @@ bool begins_with(const fs::path& path, std::string_view mark) {
   return file && start == mark;
 }
 
+}  // namespace
+
 void check_replaceable(const fs::path& path, std::string_view mark, Foreign foreign) {
   std::error_code error;
   const auto status = fs::status(path, error);
@@ -45,8 +46,6 @@ void check_replaceable(const fs::path& path, std::string_view mark, Foreign fore
                    : "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
 }
 
-}  // namespace
-
 void write_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, Foreign foreign) {
   std::error_code error;
   const fs::path path = fs::weakly_canonical(fs::absolute(wanted), error);  // a link stays a link
@@ -54,9 +53,7 @@ void write_own_file(const fs::path& wanted, std::string_view content, std::strin
   check_replaceable(path, mark, foreign);
   fs::create_directories(path.parent_path(), error);
   if (error) refuse(wanted, fmt::format("cannot make its folder ({}).", error.message()));
-  const fs::path scratch =
-      path.parent_path() / fmt::format(".{:.200}.rheocyte-{}", path.filename().string(), ::getpid());
-  if (const int failed = write_whole_file(scratch, path, content)) refuse_writing(wanted, failed);
+  if (const int failed = write_whole_file(path, content)) refuse_writing(wanted, failed);
 }
 
 }  // namespace rheocyte

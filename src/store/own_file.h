@@ -14,6 +14,10 @@ enum class Foreign {
 /// Of a command with --force.
 inline Foreign foreign(bool force) { return force ? Foreign::replace : Foreign::keep_unless_forced; }
 
+/// UserError if a file, a folder or something else stands in the wanted place that is not ours to replace: that does
+/// not begin with `mark`, or as `foreign` says.
+void check_replaceable(const std::filesystem::path&, std::string_view mark, Foreign foreign);
+
 /// Writes `content` beside the wanted place and renames it; makes the parent folders. An existing file is replaced if
 /// it begins with `mark`, the words with which all files of this kind from rheocyte begin, or as `foreign` says.
 /// UserError, and an older file is left as it was.

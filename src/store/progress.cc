@@ -13,7 +13,7 @@ namespace rheocyte {
 namespace {
 
 constexpr int width = 30;
-constexpr double seconds_between_lines = 10;
+constexpr double seconds_between_lines = 10, seconds_between_shares = 2;
 
 std::string duration(double seconds) {
   const int s = int(seconds + 0.5);
@@ -27,6 +27,12 @@ double seconds_since(std::chrono::steady_clock::time_point time) {
 }
 
 }  // namespace
+
+void FileProgress::operator()(double fraction) {
+  if (quiet_ || seconds_since(last_line_) < seconds_between_shares) return;
+  last_line_ = std::chrono::steady_clock::now();
+  tell(fmt::format("{}: {:.0f} %", name_, 100 * fraction));
+}
 
 Progress::Progress(std::string what, int total, int done, bool quiet)
     : what_(std::move(what)), total_(total), at_start_(done), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}

@@ -1,9 +1,27 @@
-// How far a long computation has come: a bar on a terminal, plain lines elsewhere.
+// How far a long computation has come.
 #pragma once
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace rheocyte {
+
+/// How work tells that it goes on; `fraction` is in [0, 1].
+using TellProgress = std::function<void(double fraction)>;
+
+/// Of one file: lines "NAME: 40 %" on standard error, at most one in two seconds.
+class FileProgress {
+ public:
+  FileProgress(std::string name, bool quiet) : name_(std::move(name)), quiet_(quiet) {}
+  void operator()(double fraction);
+
+ private:
+  std::string name_;
+  bool quiet_;
+  std::chrono::steady_clock::time_point last_line_ = std::chrono::steady_clock::now();
+};
+
+/// Of things that are counted: a bar on a terminal, plain lines elsewhere.
 
 class Progress {
  public:

@@ -3,18 +3,17 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <string_view>
 #include <system_error>
 
 #include "case/user_error.h"
+#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -78,20 +77,15 @@ fs::path make_scratch(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder.parent_path(), error);
   if (error) refuse(folder, fmt::format("cannot make its parent folder ({}).", error.message()));
-  std::string name =
-      (folder.parent_path() / fmt::format(".{:.200}.rheocyte-XXXXXX", folder.filename().string())).string();
-  if (!::mkdtemp(name.data())) refuse(folder, fmt::format("cannot write a result there ({}).", reason_of(errno)));
-  ::chmod(name.c_str(), fs::exists(folder) ? 0777 & static_cast<mode_t>(fs::status(folder).permissions()) : 0755);
-  return name;
+  const fs::path scratch = scratch_beside(folder);
+  if (::mkdir(scratch.c_str(), 0700) != 0)
+    refuse(folder, fmt::format("cannot write a result there ({}).", reason_of(errno)));
+  ::chmod(scratch.c_str(), fs::exists(folder) ? 0777 & static_cast<mode_t>(fs::status(folder).permissions()) : 0755);
+  return scratch;
 }
 
-void bring_to_disk(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) refuse(path, fmt::format("cannot be read back ({}).", reason_of(errno)));
-  const int failed = ::fsync(descriptor) == 0 ? 0 : errno;
-  ::close(descriptor);
-  // Some file systems know no fsync of a folder; that is no loss of data.
-  if (failed && failed != EINVAL) refuse(path, fmt::format("cannot be written ({}).", reason_of(failed)));
+void keep_on_disk(const fs::path& path) {
+  if (const int failed = bring_to_disk(path)) refuse(path, fmt::format("cannot be written ({}).", reason_of(failed)));
 }
 
 // Afterwards `folder` is the new result and `scratch` holds the old one, if there was one.
@@ -136,22 +130,18 @@ ResultFolder::~ResultFolder() {
 }
 
 void ResultFolder::write(const std::string& file_name, std::string_view content) const {
-  std::FILE* file = std::fopen((scratch_ / file_name).c_str(), "wbe");
-  int failed = file ? 0 : errno;
-  if (file && std::fwrite(content.data(), 1, content.size(), file) != content.size()) failed = errno;
-  if (file && std::fclose(file) != 0 && !failed) failed = errno;
-  if (failed)
+  if (const int failed = write_part(scratch_ / file_name, content))
     refuse(folder_,
            fmt::format("cannot write {} ({}); an older result is left as it was.", file_name, reason_of(failed)));
 }
 
 void ResultFolder::publish() {
   for (const auto& entry : fs::recursive_directory_iterator(scratch_))
-    if (entry.is_regular_file()) bring_to_disk(entry.path());
-  bring_to_disk(scratch_);
+    if (entry.is_regular_file()) keep_on_disk(entry.path());
+  keep_on_disk(scratch_);
   check_replaceable(folder_);  // the world may have changed during the computation
   swap_in(scratch_, folder_);
-  bring_to_disk(folder_.parent_path());
+  keep_on_disk(folder_.parent_path());
   // What cannot be moved stays in the old folder under its scratch name: better a left-over than a lost file.
   if (fs::exists(scratch_) && !keep_foreign_files(scratch_, folder_)) scratch_.clear();
 }

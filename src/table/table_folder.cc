@@ -37,13 +37,6 @@ std::string content_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// What an interrupted write leaves: name.PROCESS.tmp. Other files of that kind are not ours.
-bool is_unfinished(const fs::path& path) {
-  const std::string process = path.stem().extension().string();
-  return path.extension() == ".tmp" && process.size() > 1 &&
-         process.find_first_not_of("0123456789", 1) == std::string::npos;
-}
-
 // Nothing if another process holds it, unless the operation waits for that one.
 Claim claim_on(const fs::path& path, int operation) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -67,10 +60,7 @@ bool is_cell_of(const BranchPlace& place, const SampledBranch& branch) {
 }
 
 void write_whole(const fs::path& path, std::string_view content) {
-  const fs::path scratch = path.string() + fmt::format(".{}.tmp", ::getpid());
-  std::error_code ignored;
-  fs::remove(scratch, ignored);  // of an earlier process of this number
-  if (const int failed = write_whole_file(scratch, path, content))
+  if (const int failed = write_whole_file(path, content))
     refuse(path, fmt::format("cannot be written ({}); what is finished is kept, start again with the same command.",
                              reason_of(failed)));
 }
@@ -192,7 +182,8 @@ void TableFolder::tidy() const {
   std::error_code error;
   for (const auto& place : {folder_ / work, folder_})
     for (const auto& entry : fs::directory_iterator(place, error))
-      if (entry.path().extension() == ".claim" || is_unfinished(entry.path())) fs::remove(entry.path(), error);
+      if (entry.path().extension() == ".claim" || place_of(entry.path()) != entry.path())
+        fs::remove(entry.path(), error);
 }
 
 void TableFolder::publish(const std::string& name, std::string_view content) const {

@@ -233,6 +233,22 @@ TEST_F(Extract, AFullDiskLeavesNoTornFiles) {
     EXPECT_EQ(entry.path().filename(), "rheocyte_summary.tsv");
 }
 
+TEST_F(Extract, FilesOfOthersInThePlaceOfResultsAreKept) {
+  write_recording("a.rtdc");
+  for (const std::string name : {"a_rheocyte.tsv", "a_rheocyte.rtdc"}) {
+    test::write_file(folder_ / name, "my own notes");
+    const auto ended = extract({path("a.rtdc")});
+    EXPECT_EQ(ended.exit_code, 2) << ended.err;
+    EXPECT_NE(ended.err.find(name + ": is there and was not written by rheocyte"), std::string::npos) << ended.err;
+    EXPECT_EQ(test::content_of(folder_ / name), "my own notes");
+    fs::remove(folder_ / name);
+  }
+  for (int i = 0; i < 2; ++i) {  // our own are replaced
+    const auto again = extract({path("a.rtdc")});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+  }
+}
+
 TEST_F(Extract, StopsWhenTheUserWantsAndLeavesNothingUnfinished) {
   write_recording("a.rtdc");
   std::ofstream(folder_ / "0.rtdc") << "no recording";  // its sentence is the sign that the work has begun
@@ -245,7 +261,7 @@ TEST_F(Extract, StopsWhenTheUserWantsAndLeavesNothingUnfinished) {
   const auto ended = test::run({.arguments = arguments, .signal = SIGINT});
   EXPECT_EQ(ended.exit_code, 130) << ended.err;
   for (const auto& entry : fs::directory_iterator(folder_ / "out"))
-    EXPECT_FALSE(entry.path().string().ends_with("~")) << entry.path();
+    EXPECT_FALSE(entry.path().filename().string().starts_with('.')) << entry.path();
 }
 
 TEST_F(Extract, GivesTheModuliThatARealRecordingHolds) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "store/bytes.h"
+
 namespace rheocyte {
 namespace {
 
@@ -27,7 +29,7 @@ TEST(ExtractSummary, NoEventsHaveNoDistributionAndOneHasNoSpread) {
   EXPECT_TRUE(std::isnan(distribution_of(one).standard_deviation));
 }
 
-TEST(ExtractSummary, ComesBackFromItsText) {
+TEST(ExtractSummary, ComesBackFromItsBytes) {
   ExtractSummary s;
   s.events = 7;
   s.counts = {1, 2, 0, 3, 0, 1};
@@ -36,7 +38,7 @@ TEST(ExtractSummary, ComesBackFromItsText) {
   s.table = "name \"quoted\"";
   s.conditions = {20, 0.04, 0.34};
   s.warnings = {"first.", "second."};
-  const auto back = summary_from_json(to_json(s));
+  const auto back = from_bytes<ExtractSummary>(to_bytes(s)).value();
   EXPECT_EQ(back.events, 7U);
   EXPECT_EQ(back.counts, s.counts);
   EXPECT_EQ(back.modulus_kPa.third_quartile, 2);

@@ -18,14 +18,15 @@ namespace {
 using Kind = ContainedEnd::Kind;
 
 ContainedEnd end_of(const std::function<std::string(const TellProgress&)>& work, const Containment& limits = {}) {
-  return run_contained(work, limits, [](double) {});
+  return run_contained(work, limits, [](double) {}).end;
 }
 
 TEST(Contained, TheResultComesBackWhole) {
   const std::string text(300'000, 'x');  // more than a pipe holds
-  const auto end = end_of([&](const TellProgress&) { return text; });
-  EXPECT_EQ(end.kind, Kind::finished);
-  EXPECT_EQ(end.text, text);
+  const auto work = [&](const TellProgress&) { return std::vector<std::string>{text, "", "more"}; };
+  const auto done = run_contained(work, {}, [](double) {});
+  ASSERT_TRUE(done.finished());
+  EXPECT_EQ(done.result, work({}));
 }
 
 TEST(Contained, ProgressIsToldInOrder) {

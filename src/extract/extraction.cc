@@ -1,0 +1,145 @@
+#include "extract/extraction.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rheocyte {
+
+namespace {
+
+constexpr std::size_t block_of_scalars = 1 << 17;   // 1 MiB per column, a chunk of what is written
+constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible when every event takes microseconds
+
+PixelUse pixel_use(const ExtractOptions& options) {
+  if (options.no_pixelation) return PixelUse::ignore;
+  return options.no_area_correction ? PixelUse::correct_deformation : PixelUse::correct;
+}
+
+std::string corrected_for_pixels(const MeasuringConditions& conditions, const ModulusTable& table) {
+  if (conditions.pixel_size_um == 0) return "nothing";
+  return table.is_own() && conditions.correct_area ? "area and deformation" : "deformation";
+}
+
+}  // namespace
+
+Extraction::Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables)
+    : recording_(recording),
+      settings_(extract_settings(options.measuring, pixel_use(options), recording)),
+      tables_(tables.choose(settings_.flow_exponent)),
+      shapes_(recording, settings_.pixel_size_um),
+      gates_(options.measuring.gates),
+      features_(recording, shapes_) {
+  gates_.check(features_, recording.file().string());
+}
+
+void Extraction::Columns::resize(std::size_t count) {
+  for (auto* const column : {&area, &deformation, &viscosity, &modulus, &standard_error, &other_modulus})
+    column->resize(count);
+  states.resize(count);
+  other_states.resize(count);
+}
+
+std::size_t Extraction::block() const {
+  const auto stored = [](const std::string& source) { return source != "mask" && source != "contour"; };
+  return stored(shapes_.area_from()) && stored(shapes_.deformation_from()) ? block_of_scalars : block_of_outlines;
+}
+
+EventBlock Extraction::compute(std::size_t first, std::size_t count) {
+  Columns& c = columns_;
+  c.resize(count);
+  shapes_.read(first, c.area, c.deformation);
+  outside_temperature_ += settings_.viscosities(recording_, first, c.viscosity);
+  const MeasuredEvents events{c.area, c.deformation, c.viscosity};
+  if (tables_.other) {
+    // Its standard errors are overwritten by those that count.
+    tables_.other->estimate(settings_.conditions, events, {c.other_modulus, c.standard_error, c.other_states});
+  }
+  table().estimate(settings_.conditions, events, {c.modulus, c.standard_error, c.states});
+  if (!gates_.empty()) shut_out(first);
+  collect();
+  return {c.area, c.deformation, c.viscosity, c.modulus, c.standard_error, c.states};
+}
+
+ExtractSummary Extraction::summary() {
+  ExtractSummary s = summary_;
+  s.events = recording_.events();
+  s.modulus_kPa = distribution_of(moduli_);
+  s.mean_viscosity_mPas = viscosity_sum_ / static_cast<double>(viscosities_);
+  s.median_standard_error_kPa = median_of(standard_errors_);
+  s.table = table().identifier();
+  s.gates = gates_.description();
+  s.corrected = corrected_for_pixels(settings_.conditions, table());
+  s.medium = settings_.medium_text();
+  s.viscosity_model = settings_.model_text();
+  s.temperature = settings_.temperature_text();
+  s.area_from = shapes_.area_from();
+  s.deformation_from = shapes_.deformation_from();
+  s.conditions = settings_.conditions;
+  s.warnings = recording_.remarks();
+  s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
+  if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
+  if (tables_.other) s.warnings.push_back(comparison());
+  if (recording_.has_scalar("emodulus"))
+    s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
+  return s;
+}
+
+std::vector<std::string> Extraction::lines() const {
+  std::vector<std::string> lines{
+      fmt::format("table: {}", table().description()),
+      fmt::format("area from {}, deformation from {}", shapes_.area_from(), shapes_.deformation_from()),
+      fmt::format("corrected for pixels: {}", corrected_for_pixels(settings_.conditions, table()))};
+  const auto settings = settings_.lines();
+  lines.insert(lines.end(), settings.begin(), settings.end());
+  if (!gates_.empty()) lines.push_back("only events with " + gates_.description());
+  return lines;
+}
+
+// Where a table of the matching liquid and one of a Newtonian liquid are at hand, both are used.
+std::string Extraction::comparison() const {
+  const auto way = [](const ModulusTable& table) {
+    return table.flow_exponent() < 1
+               ? fmt::format("{} (its liquid has the exponent {:.3g})", table.identifier(), table.flow_exponent())
+               : fmt::format("{} with the effective viscosity", table.identifier());
+  };
+  const std::string text = fmt::format("the medium thins in shear (exponent {:.3g}); moduli are from {}",
+                                       settings_.flow_exponent, way(table()));
+  if (compared_ == 0) return text + ".";
+  const double percent = 100 * std::expm1(log_ratios_ / static_cast<double>(compared_));
+  return fmt::format("{}; those from {} are {:.1f} % {} (geometric mean of {} events).", text, way(*tables_.other),
+                     std::abs(percent), percent < 0 ? "smaller" : "greater", compared_);
+}
+
+void Extraction::collect() {
+  for (std::size_t i = 0; i < columns_.states.size(); ++i) {
+    ++summary_.counts[static_cast<std::size_t>(columns_.states[i])];
+    if (has_modulus(columns_.states[i])) take_modulus(i);
+    if (!std::isfinite(columns_.viscosity[i])) continue;
+    viscosity_sum_ += columns_.viscosity[i];
+    ++viscosities_;
+  }
+}
+
+void Extraction::shut_out(std::size_t first) {
+  Columns& c = columns_;
+  c.inside.resize(c.states.size());
+  gates_.apply(features_, first, c.inside);
+  for (std::size_t i = 0; i < c.inside.size(); ++i) {
+    if (c.inside[i]) continue;
+    c.modulus[i] = c.standard_error[i] = std::numeric_limits<double>::quiet_NaN();
+    c.states[i] = ModulusState::gated;
+  }
+}
+
+void Extraction::take_modulus(std::size_t i) {
+  moduli_.push_back(columns_.modulus[i]);
+  if (table().is_own()) standard_errors_.push_back(static_cast<float>(columns_.standard_error[i]));
+  if (!tables_.other || !has_modulus(columns_.other_states[i])) return;
+  log_ratios_ += std::log(columns_.other_modulus[i] / columns_.modulus[i]);
+  ++compared_;
+}
+
+}  // namespace rheocyte

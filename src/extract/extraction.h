@@ -1,0 +1,63 @@
+// The moduli of the events of one recording: settings in, events and their summary out. Nothing is written.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "extract/event_table.h"
+#include "extract/extract_settings.h"
+#include "extract/extract_summary.h"
+#include "extract/gates.h"
+#include "extract/modulus_tables.h"
+#include "extract/options.h"
+#include "measurement/event_features.h"
+#include "measurement/recording.h"
+#include "measurement/shape_source.h"
+
+namespace rheocyte {
+
+/// One recording on its way through the blocks; memory does not grow with it but for 12 bytes per event.
+class Extraction {
+ public:
+  /// The three must outlive the object. UserError naming what the recording lacks, and the option that gives it.
+  Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables);
+
+  const ModulusTable& table() const { return *tables_.used; }
+  /// The number of events that are best computed at once.
+  std::size_t block() const;
+  /// Of events [first, first + count), until the next call. All events in turn, so that the summary is that of all.
+  /// UserError if the data are damaged.
+  EventBlock compute(std::size_t first, std::size_t count);
+  /// Of the events computed so far.
+  ExtractSummary summary();
+  /// With what the moduli were computed, one line each.
+  std::vector<std::string> lines() const;
+
+ private:
+  struct Columns {
+    std::vector<double> area, deformation, viscosity, modulus, standard_error, other_modulus;
+    std::vector<ModulusState> states, other_states;
+    std::vector<char> inside;  ///< the gates
+    void resize(std::size_t count);
+  };
+
+  std::string comparison() const;
+  void collect();
+  void shut_out(std::size_t first);
+  void take_modulus(std::size_t i);
+
+  const Recording& recording_;
+  ExtractSettings settings_;
+  ModulusTables::Choice tables_;
+  ShapeSource shapes_;
+  Gates gates_;
+  EventFeatures features_;
+  Columns columns_;
+  ExtractSummary summary_;
+  std::vector<double> moduli_;
+  std::vector<float> standard_errors_;
+  double viscosity_sum_ = 0, log_ratios_ = 0;
+  std::size_t viscosities_ = 0, compared_ = 0, outside_temperature_ = 0;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,33 @@
+#include "store/file_writer.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "case/user_error.h"
+#include "store/whole_file.h"
+
+namespace rheocyte {
+
+FileWriter::FileWriter(const std::filesystem::path& file, std::string advice)
+    : path_(file), advice_(std::move(advice)), file_(std::fopen(file.c_str(), "wbe")) {
+  if (!file_) refuse();
+}
+
+FileWriter::~FileWriter() {
+  if (file_) std::fclose(file_);
+}
+
+void FileWriter::append(std::string_view content) {
+  if (std::fwrite(content.data(), 1, content.size(), file_) != content.size()) refuse();
+}
+
+void FileWriter::close() {
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) refuse();
+}
+
+void FileWriter::refuse() const {
+  throw UserError(fmt::format("{}: cannot be written; {}", one_line(place_of(path_).string(), 300), advice_));
+}
+
+}  // namespace rheocyte

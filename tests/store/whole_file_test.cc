@@ -1,0 +1,98 @@
+// A file is there whole or not at all, and what others have put there stays theirs.
+#include "store/whole_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "case/user_error.h"
+#include "store/own_file.h"
+
+namespace rheocyte {
+namespace {
+
+namespace fs = std::filesystem;
+
+class WholeFileTest : public testing::Test {
+ protected:
+  WholeFileTest() : folder_(scratch_beside(fs::temp_directory_path() / "whole-file-test")) {
+    fs::create_directory(folder_);
+  }
+  ~WholeFileTest() override { fs::remove_all(folder_); }
+
+  static std::string content(const fs::path& file) {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  std::set<std::string> names() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) names.insert(entry.path().filename());
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(WholeFileTest, ReplacesAnOlderFileAndLeavesNothingElse) {
+  for (const std::string text : {"first", "second"}) {
+    EXPECT_EQ(write_whole_file(folder_ / "a.txt", text), 0);
+    EXPECT_EQ(content(folder_ / "a.txt"), text);
+  }
+  EXPECT_EQ(names(), std::set<std::string>{"a.txt"});
+}
+
+TEST_F(WholeFileTest, WhatIsNotPublishedLeavesNoTrace) {
+  write_whole_file(folder_ / "a.txt", "old");
+  {
+    const WholeFile file(folder_ / "a.txt");
+    std::ofstream(file.scratch()) << "half of the n";
+    EXPECT_EQ(names().size(), 2U);
+  }
+  EXPECT_EQ(names(), std::set<std::string>{"a.txt"});
+  EXPECT_EQ(content(folder_ / "a.txt"), "old");
+}
+
+TEST_F(WholeFileTest, PublishedItStandsInItsPlace) {
+  WholeFile file(folder_ / "a.txt");
+  std::ofstream(file.scratch()) << "new";
+  EXPECT_FALSE(fs::exists(folder_ / "a.txt"));
+  file.publish();
+  EXPECT_EQ(content(folder_ / "a.txt"), "new");
+  EXPECT_EQ(names().size(), 1U);
+}
+
+TEST_F(WholeFileTest, HiddenNamesDifferAndTellTheirPlace) {
+  const fs::path place = folder_ / "a.b.txt";
+  const auto one = scratch_beside(place), other = scratch_beside(place);
+  EXPECT_NE(one, other);
+  EXPECT_EQ(place_of(one), place);
+  for (const char* name : {"a.txt", ".a.txt", ".a.rheocyte-", ".a.rheocyte-12345678901g", ".rheocyte-123456789012"})
+    EXPECT_EQ(place_of(folder_ / name), folder_ / name);
+}
+
+TEST_F(WholeFileTest, ALinkStaysALink) {
+  write_whole_file(folder_ / "a.txt", "# mine: old");
+  fs::create_symlink(folder_ / "a.txt", folder_ / "link.txt");
+  write_own_file(folder_ / "link.txt", "# mine: new", "# mine", Foreign::keep);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.txt"));
+  EXPECT_EQ(content(folder_ / "a.txt"), "# mine: new");
+}
+
+TEST_F(WholeFileTest, FilesOfOthersAreKept) {
+  write_whole_file(folder_ / "a.txt", "notes of somebody");
+  EXPECT_THROW(write_own_file(folder_ / "a.txt", "# mine", "# mine", Foreign::keep), UserError);
+  EXPECT_EQ(content(folder_ / "a.txt"), "notes of somebody");
+  write_own_file(folder_ / "a.txt", "# mine", "# mine", foreign(true));
+  EXPECT_EQ(content(folder_ / "a.txt"), "# mine");
+}
+
+TEST_F(WholeFileTest, AFolderThatIsMissingGivesASentence) {
+  EXPECT_THROW(WholeFile(folder_ / "missing/a.txt"), UserError);
+  EXPECT_EQ(write_whole_file(folder_ / "missing/a.txt", "x"), ENOENT);
+}
+
+}  // namespace
+}  // namespace rheocyte
