@@ -18,6 +18,22 @@
 
 namespace rheocyte {
 
+template <>
+struct FieldsOf<TimeLevel> {
+  template <class Self>
+  static auto fields(Self& l) {
+    return std::tie(l.time, l.frame_acceleration, l.position, l.outward, l.unknowns, l.velocities);
+  }
+};
+
+template <>
+struct FieldsOf<TimeState> {
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.order, s.steps_at_order, s.next_step, s.traction, s.inlet_pressure, s.levels);
+  }
+};
+
 namespace fs = std::filesystem;
 
 namespace {

@@ -16,6 +16,7 @@
 #include "extract/plot_panel.h"
 #include "store/child_process.h"
 #include "store/contained.h"
+#include "store/file_writer.h"
 #include "store/python_package.h"
 #include "store/standard_error.h"
 #include "store/stop_signal.h"
@@ -76,7 +77,13 @@ class Plot {
     Containment limits;
     limits.patience_s = options_.measuring.patience_s;
     const auto work = [&](const TellProgress& on_progress) {
-      return plot_panel(recording, events, options_, lines_.wanted(), on_progress);
+      FileWriter file(events, "is the disk full? TMPDIR names another folder.");
+      const auto write = [&](std::span<const float> pairs) {
+        file.append({reinterpret_cast<const char*>(pairs.data()), pairs.size_bytes()});
+      };
+      const PlotPanel panel = plot_panel(recording, options_, lines_.wanted(), write, on_progress);
+      file.close();
+      return panel;
     };
     return run_contained(work, limits, [](double) {});
   }

@@ -9,7 +9,6 @@
 #include "extract/extract_settings.h"
 #include "measurement/event_features.h"
 #include "measurement/shape_source.h"
-#include "store/file_writer.h"
 
 namespace rheocyte {
 
@@ -19,24 +18,18 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t block = 1 << 14;
 
-/// Pairs of 32-bit numbers in a file.
-class PairWriter {
+/// The pairs of a block that are finite.
+class Pairs {
  public:
-  explicit PairWriter(const fs::path& path) : file_(path, "is the disk full? TMPDIR names another folder.") {}
-
-  /// Returns how many pairs are finite; only those are written.
-  std::size_t append(const std::vector<double>& x, const std::vector<double>& y) {
+  std::span<const float> of(const std::vector<double>& x, const std::vector<double>& y) {
     pairs_.clear();
     for (std::size_t i = 0; i < x.size(); ++i)
       if (std::isfinite(x[i]) && std::isfinite(y[i]))
         pairs_.insert(pairs_.end(), {static_cast<float>(x[i]), static_cast<float>(y[i])});
-    file_.append({reinterpret_cast<const char*>(pairs_.data()), sizeof(float) * pairs_.size()});
-    return pairs_.size() / 2;
+    return pairs_;
   }
-  void close() { file_.close(); }
 
  private:
-  FileWriter file_;
   std::vector<float> pairs_;
 };
 
@@ -122,7 +115,7 @@ class Axes {
 
 }  // namespace
 
-PlotPanel plot_panel(const fs::path& file, const fs::path& events_file, const PlotOptions& options, LinesWanted lines,
+PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWanted lines, const TakePairs& take_pairs,
                      const TellProgress& on_progress) {
   const Recording recording(file);
   PlotPanel panel;
@@ -148,17 +141,18 @@ PlotPanel plot_panel(const fs::path& file, const fs::path& events_file, const Pl
       options.measuring.pixel_size_um.value_or(metadata.number("imaging:pixel size").value_or(0));
   ShapeSource shapes(recording, pixel_size_um);
   Axes axes(recording, shapes, options);
-  PairWriter writer(events_file);
+  Pairs pairs;
   std::vector<double> x, y;
   for (std::size_t first = 0; first < panel.events; first += block) {
     const std::size_t count = std::min(block, panel.events - first);
     x.resize(count);
     y.resize(count);
     panel.gated += axes.read(first, x, y);
-    panel.drawable += writer.append(x, y);
+    const auto drawable = pairs.of(x, y);
+    take_pairs(drawable);
+    panel.drawable += drawable.size() / 2;
     on_progress(static_cast<double>(first + count) / static_cast<double>(panel.events));
   }
-  writer.close();
   if (panel.drawable == 0)
     throw UserError(fmt::format("{}: no event {}has {} and {}, so there is nothing to draw.",
                                 one_line(file.string(), 300), panel.gated > 0 ? "inside the gates " : "", options.x,

@@ -1,6 +1,8 @@
 // What one panel of the picture of events needs from a recording.
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -34,9 +36,12 @@ struct PlotPanel {
 /// Lines of equal modulus; if possible: with a warning where the recording does not say how it was measured.
 enum class LinesWanted { no, if_possible, yes };
 
-/// Reads a recording and writes area (um^2) and deformation of each drawable event as pairs of 32-bit numbers to
-/// `events_file`. The conditions of the measurement are found, too, where lines are wanted. UserError.
-PlotPanel plot_panel(const std::filesystem::path& recording, const std::filesystem::path& events_file,
-                     const PlotOptions& options, LinesWanted lines, const TellProgress& on_progress);
+/// Takes the drawable events of a block: the two numbers of each in turn.
+using TakePairs = std::function<void(std::span<const float> pairs)>;
+
+/// Reads a recording block by block and hands on what stands on the two axes, usually area (um^2) and deformation, of
+/// each drawable event. The conditions of the measurement are found, too, where lines are wanted. UserError.
+PlotPanel plot_panel(const std::filesystem::path& recording, const PlotOptions& options, LinesWanted lines,
+                     const TakePairs& take_pairs, const TellProgress& on_progress);
 
 }  // namespace rheocyte

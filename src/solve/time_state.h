@@ -1,7 +1,6 @@
 // All that a computation in time needs to go on.
 #pragma once
 #include <Eigen/Core>
-#include <tuple>
 #include <vector>
 
 namespace rheocyte {
@@ -14,12 +13,6 @@ struct TimeLevel {
   double frame_acceleration = 0;  ///< d(v_cell)/dt, in U^2/R
   double position = 0;            ///< of the cell's barycentre along the channel, from its start, in R
   Eigen::VectorXd outward = {};   ///< where a wall that is not straight moves the mesh's nodes; empty: straight
-
-  /// For store/bytes.h.
-  template <class Self>
-  static auto fields(Self& l) {
-    return std::tie(l.time, l.frame_acceleration, l.position, l.outward, l.unknowns, l.velocities);
-  }
 };
 
 /// All that the next step depends on.
@@ -30,12 +23,6 @@ struct TimeState {
   double next_step = 0;
   Eigen::VectorXd traction;   ///< on the cell, of the splitting scheme only (fem/split_system.h)
   double inlet_pressure = 0;  ///< beyond that of the undisturbed flow; only where it is controlled
-
-  /// For store/bytes.h.
-  template <class Self>
-  static auto fields(Self& s) {
-    return std::tie(s.order, s.steps_at_order, s.next_step, s.traction, s.inlet_pressure, s.levels);
-  }
 };
 
 }  // namespace rheocyte

@@ -1,8 +1,9 @@
 // Values as bytes and back, for files and pipes that only this program reads.
 //
 // Numbers, and structs of numbers, are their memory; texts and lists are a count (64 bits) and their elements; matrices
-// of Eigen their rows (64 bits) and their numbers. Any other struct names its fields, in the order of the bytes:
+// of Eigen their rows (64 bits) and their numbers. Any other struct names its fields, in the order of the bytes, by
 //   template <class Self> static auto fields(Self& self) { return std::tie(self.first, self.second); }
+// in itself or in a specialisation of FieldsOf.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -16,8 +17,15 @@
 namespace rheocyte {
 
 template <class T>
+struct FieldsOf {
+  template <class Self>
+  requires requires(Self& self) { T::fields(self); }
+  static auto fields(Self& self) { return T::fields(self); }
+};
+
+template <class T>
 concept HasFields = requires(T& value) {
-  std::remove_const_t<T>::fields(value);
+  FieldsOf<T>::fields(value);
 };
 template <class T>
 concept IsMatrix = requires(T& value) {
@@ -35,8 +43,8 @@ class ByteWriter {
  public:
   template <class T>
   void put(const T& value) {
-    if constexpr (HasFields<const T>) {
-      std::apply([this](const auto&... field) { (put(field), ...); }, T::fields(value));
+    if constexpr (HasFields<T>) {
+      std::apply([this](const auto&... field) { (put(field), ...); }, FieldsOf<T>::fields(value));
     } else if constexpr (IsMatrix<T>) {
       put(std::int64_t(value.rows()));
       append(value.data(), sizeof(*value.data()) * std::size_t(value.size()));
@@ -66,7 +74,7 @@ class ByteReader {
   template <class T>
   void take(T& value) {
     if constexpr (HasFields<T>) {
-      std::apply([this](auto&... field) { (take(field), ...); }, T::fields(value));
+      std::apply([this](auto&... field) { (take(field), ...); }, FieldsOf<T>::fields(value));
     } else if constexpr (IsMatrix<T>) {
       constexpr std::size_t row = sizeof(*value.data()) * std::size_t(T::ColsAtCompileTime);
       const std::size_t rows = count(row);
