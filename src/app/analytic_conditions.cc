@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "case/parameters.h"
+#include "app/key_option.h"
+#include "case/case_keys.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 
@@ -18,33 +19,19 @@ constexpr double standard_width_um = 20, standard_rate_ul_per_s = 0.04, standard
 
 }  // namespace
 
-CLI::Option* add_parameter_option(CLI::App& command, const std::string& option, std::string_view key,
-                                  std::function<void(double)> take) {
-  const Parameter& parameter = *find_parameter(key);
-  const auto checked_take = [option, &parameter, take = std::move(take)](const double& value) {
-    if (!std::get<Number>(parameter.value).range.contains(value))
-      throw UserError(fmt::format("rheocyte: {} {:g} is outside its range {} ({}).", option, value,
-                                  allowed_values(parameter), parameter.sentence));
-    take(value);
-  };
-  const auto text = fmt::format("{} ({})", parameter.sentence, allowed_values(parameter));
-  return command.add_option_function<double>(option, checked_take, text)->type_name("NUMBER");
-}
-
 void declare_conditions(CLI::App& command, AnalyticConditions& conditions) {
   Channel& channel = conditions.input.channel;
   Flow& flow = conditions.input.flow;
   flow.rate_ul_per_s = standard_rate_ul_per_s;
   flow.viscosity_mPas = standard_viscosity_mPas;
-  add_parameter_option(command, "--channel-width-um", "channel.width_um", [&](double value) {
-    channel.width_um = value;
-  })->default_str(fmt::format("{:g}", standard_width_um));
-  add_parameter_option(command, "--flow-rate-ul-s", "flow.rate_ul_per_s", [&](double value) {
-    flow.rate_ul_per_s = value;
-  })->default_str(fmt::format("{:g}", standard_rate_ul_per_s));
-  add_parameter_option(command, "--viscosity-mPas", "flow.viscosity_mPas", [&](double value) {
-    flow.viscosity_mPas = value;
-  })->default_str(fmt::format("{:g}", standard_viscosity_mPas));
+  const auto add = [&](std::string_view key, std::optional<double>& target, double usual) {
+    add_key_option(command, case_key(key), [&target](double value) {
+      target = value;
+    })->default_str(fmt::format("{:g}", usual));
+  };
+  add("channel.width_um", channel.width_um, standard_width_um);
+  add("flow.rate_ul_per_s", flow.rate_ul_per_s, standard_rate_ul_per_s);
+  add("flow.viscosity_mPas", flow.viscosity_mPas, standard_viscosity_mPas);
   command.add_flag("--square-duct", conditions.square_duct,
                    "take the velocity on the axis of the square channel, as the published analytical tables do; "
                    "default: that of the tube, as the tables of simulations do");

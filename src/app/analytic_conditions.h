@@ -1,6 +1,5 @@
 // Channel and flow for the closed model, from the command line: where its physical units are.
 #pragma once
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -9,8 +8,7 @@
 
 namespace CLI {
 class App;
-class Option;
-}  // namespace CLI
+}
 
 namespace rheocyte {
 
@@ -21,11 +19,6 @@ struct AnalyticConditions {
 
   Duct duct() const { return square_duct ? Duct::square : Duct::tube; }
 };
-
-/// Adds an option for the number `key` of a case; its text of help and its range are those of the parameter.
-/// `take` gets the value. UserError during parsing if the value is outside the range.
-CLI::Option* add_parameter_option(CLI::App&, const std::string& option, std::string_view key,
-                                  std::function<void(double)> take);
 
 /// Adds the options of square channel and flow, with the standard conditions of RT-DC as defaults; `complete` finishes
 /// them.

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "analytic/isoelasticity.h"
-#include "case/parameters.h"
+#include "case/case_keys.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
@@ -88,9 +88,9 @@ void check_numbers(const AnalyticTableInput& input) {
   if (!deformations.contains(input.greatest_deformation))
     throw UserError(fmt::format("rheocyte: --greatest-deformation {:g} is outside its range {:g} .. {:g}.",
                                 input.greatest_deformation, deformations.least, deformations.greatest));
-  const Parameter& modulus = *find_parameter("cell.bulk.young_modulus_kPa");
+  const auto& modulus = case_key("cell.bulk.young_modulus_kPa");
   for (const double level : input.levels_kPa)
-    if (!std::get<Number>(modulus.value).range.contains(level))
+    if (!std::get<Number>(modulus.kind).range.contains(level))
       throw UserError(
           fmt::format("rheocyte: --moduli-kPa {:g} is outside its range {}.", level, allowed_values(modulus)));
 }

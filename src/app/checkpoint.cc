@@ -13,6 +13,7 @@
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
+#include "numeric/fingerprint.h"
 #include "store/build_info.h"
 #include "store/bytes.h"
 
@@ -40,12 +41,6 @@ namespace {
 
 constexpr std::string_view magic = "rheocyte checkpoint\n";
 constexpr std::size_t version_length = 32;
-
-std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char letter : bytes) hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
-  return hash;
-}
 
 std::string padded(std::string_view text, std::size_t length) {
   std::string result(text.substr(0, length));
@@ -75,7 +70,7 @@ std::string checkpoint_file(int slot) { return fmt::format("checkpoint-{}.bin", 
 
 std::string encode_checkpoint(const Checkpoint& checkpoint, const Case& c) {
   std::string content = std::string(magic) + padded(version, version_length) + time_case_hash(c) + to_bytes(checkpoint);
-  const std::uint64_t sum = checksum(content);
+  const std::uint64_t sum = fnv1a(content);
   return content.append(reinterpret_cast<const char*>(&sum), sizeof sum);
 }
 
@@ -87,7 +82,7 @@ Checkpoint decode_checkpoint(const std::string& content, const Case& c, const fs
     refuse(file, "is no checkpoint of rheocyte, or only its beginning.");
   const std::string_view body = std::string_view(content).substr(0, content.size() - sizeof sum);
   std::memcpy(&sum, content.data() + body.size(), sizeof sum);
-  if (sum != checksum(body)) refuse(file, "is damaged, its checksum does not fit; start anew without --continue.");
+  if (sum != fnv1a(body)) refuse(file, "is damaged, its checksum does not fit; start anew without --continue.");
   if (body.substr(magic.size(), version_length) != padded(version, version_length))
     refuse(file, "is of another version of rheocyte; start anew without --continue.");
   if (body.substr(magic.size() + version_length, hash.size()) != hash)

@@ -1,5 +1,6 @@
-#include "app/command_analytic.h"
-
+// `rheocyte analytic cell|table|lines`
+// The analytical model for small deformations. They print to standard output and write only the files that are asked
+// for.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,9 @@
 
 #include "app/analytic_cell.h"
 #include "app/analytic_table.h"
+#include "app/commands.h"
+#include "app/key_option.h"
+#include "case/case_keys.h"
 #include "case/user_error.h"
 #include "store/own_file.h"
 #include "table/table_metadata.h"
@@ -59,20 +63,16 @@ void add_cell_command(CLI::App& analytic) {
   auto* command = analytic.add_subcommand("cell", "shape, velocity and pressure drop of one cell");
   auto options = std::make_shared<CellOptions>();
   AnalyticCellInput& input = options->input;
-  add_parameter_option(*command, "--radius-um", "cell.radius_um", [&](double value) {
-    input.radius_um = value;
-  })->required();
-  add_parameter_option(*command, "--young-modulus-kPa", "cell.bulk.young_modulus_kPa",
-                       [&](double value) { input.young_modulus_kPa = value; });
-  add_parameter_option(*command, "--cortex-modulus-mN-m", "cell.cortex.modulus_mN_per_m",
-                       [&](double value) { input.cortex_modulus_mN_per_m = value; });
-  add_parameter_option(*command, "--tension-ratio", "cell.cortex.tension_ratio",
-                       [options = options.get()](double value) { options->tension_ratio = value; })
-      ->default_str(fmt::format("{:g}", default_tension_ratio));
+  const auto add = [&](std::string_view key, auto& target) {
+    return add_key_option(*command, case_key(key), [&target](double value) { target = value; });
+  };
+  add("cell.radius_um", input.radius_um)->required();
+  add("cell.bulk.young_modulus_kPa", input.young_modulus_kPa);
+  add("cell.cortex.modulus_mN_per_m", input.cortex_modulus_mN_per_m);
+  add("cell.cortex.tension_ratio", options->tension_ratio)->default_str(fmt::format("{:g}", default_tension_ratio));
   declare_conditions(*command, input.conditions);
-  add_parameter_option(*command, "--tube-radius-um", "channel.radius_um", [&](double value) {
-    input.conditions.input.channel.radius_um = value;
-  })->description("radius of the tube, instead of the channel's width");
+  add("channel.radius_um", input.conditions.input.channel.radius_um)
+      ->description("radius of the tube, instead of the channel's width");
   command->add_option("-o,--output", options->contour, "file for the contour, x_um,r_um from front to rear")
       ->type_name("FILE.csv");
   command->add_flag("--json", options->json, "print one JSON object");
@@ -91,12 +91,13 @@ void run_table(TableOptions& options, TextFile (*make)(const AnalyticTableInput&
 void declare_table_options(CLI::App& command, TableOptions& options) {
   AnalyticTableInput& input = options.input;
   declare_conditions(command, input.conditions);
-  add_parameter_option(command, "--least-radius-um", "cell.radius_um", [&](double value) {
-    input.least_radius_um = value;
-  })->description("radius of the smallest cell; default: 0.1 of the tube's, 0.0547 channel widths");
-  add_parameter_option(command, "--greatest-radius-um", "cell.radius_um", [&](double value) {
-    input.greatest_radius_um = value;
-  })->description("radius of the largest cell; default: 0.8 of the tube's, 0.4376 channel widths");
+  const auto& radius = case_key("cell.radius_um");
+  add_key_option(command, radius, "--least-radius-um",
+                 "radius of the smallest cell; default: 0.1 of the tube's, 0.0547 channel widths",
+                 [&](double value) { input.least_radius_um = value; });
+  add_key_option(command, radius, "--greatest-radius-um",
+                 "radius of the largest cell; default: 0.8 of the tube's, 0.4376 channel widths",
+                 [&](double value) { input.greatest_radius_um = value; });
   command.add_option("--radii", input.radii, "number of radii, by equal steps of their square")
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();
@@ -122,14 +123,14 @@ void add_table_command(CLI::App& analytic) {
   auto options = std::make_shared<TableOptions>();
   AnalyticTableInput& input = options->input;
   declare_table_options(*command, *options);
-  add_parameter_option(*command, "--least-modulus-kPa", "cell.bulk.young_modulus_kPa",
-                       [&](double value) { input.least_modulus_kPa = value; })
-      ->description(
-          "Young's modulus of the softest cell; default: 0.5 kPa under standard conditions, else in proportion "
-          "to viscosity x flow rate / width^3");
-  add_parameter_option(*command, "--greatest-modulus-kPa", "cell.bulk.young_modulus_kPa", [&](double value) {
-    input.greatest_modulus_kPa = value;
-  })->description("Young's modulus of the stiffest cell; default: 30 kPa under standard conditions");
+  const auto& modulus = case_key("cell.bulk.young_modulus_kPa");
+  add_key_option(*command, modulus, "--least-modulus-kPa",
+                 "Young's modulus of the softest cell; default: 0.5 kPa under standard conditions, else in proportion "
+                 "to viscosity x flow rate / width^3",
+                 [&](double value) { input.least_modulus_kPa = value; });
+  add_key_option(*command, modulus, "--greatest-modulus-kPa",
+                 "Young's modulus of the stiffest cell; default: 30 kPa under standard conditions",
+                 [&](double value) { input.greatest_modulus_kPa = value; });
   command->add_option("--moduli", input.moduli, "number of moduli, by equal steps of their inverse square root")
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();
@@ -151,7 +152,7 @@ void add_lines_command(CLI::App& analytic) {
 
 }  // namespace
 
-void add_analytic_command(CLI::App& app) {
+void add_analytic_command(CLI::App& app, int&) {
   auto* command = app.add_subcommand("analytic", "closed model of small deformations: one cell, table, lines");
   command->require_subcommand(1);
   command->footer("For example: rheocyte analytic cell --radius-um 6 --young-modulus-kPa 5");

@@ -1,10 +1,12 @@
-#include "app/command_extract.h"
-
+// `rheocyte extract FILES... [-o DIR]`
+// Each recording is read in a process of its own, so that a damaged one harms no other. `exit_code`: 0, 2 if a
+// recording could not be used, 3 if one has no event with a modulus, 128 + signal.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/extract_options.h"
 #include "app/recording_batch.h"
 #include "case/user_error.h"

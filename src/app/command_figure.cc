@@ -1,5 +1,5 @@
-#include "app/command_figure.h"
-
+// `rheocyte figure N`
+// The process becomes the Python program that solves and draws; `exit_code` is set only if that cannot be started.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "app/commands.h"
 #include "app/exit_codes.h"
 #include "store/child_process.h"
 #include "store/python_package.h"

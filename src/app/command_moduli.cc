@@ -1,10 +1,10 @@
-#include "app/command_moduli.h"
-
+// `rheocyte moduli`: E, E2D and tension of the cells in recordings.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/extract_options.h"
 #include "app/recording_batch.h"
 #include "case/user_error.h"

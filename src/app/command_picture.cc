@@ -1,11 +1,12 @@
-#include "app/command_picture.h"
-
+// `rheocyte picture DIR`
+// `exit_code` 1 if the picture cannot be drawn.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/picture.h"
 #include "case/user_error.h"

@@ -1,5 +1,6 @@
-#include "app/command_plot.h"
-
+// `rheocyte plot FILES... [--table TABLE]`
+// Each recording is read in a process of its own; the Python package draws. `exit_code`: 0, 1 if the drawing program
+// fails, 2 if a recording could not be used (no picture then), 128 + signal.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/plot_options.h"
 #include "case/user_error.h"

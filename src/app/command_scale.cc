@@ -1,5 +1,5 @@
-#include "app/command_scale.h"
-
+// `rheocyte scale TABLE`
+// A look-up table or isoelasticity lines for another channel, flow rate or viscosity.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,7 +10,9 @@
 #include <memory>
 #include <optional>
 
-#include "case/parameters.h"
+#include "app/commands.h"
+#include "app/key_option.h"
+#include "case/case_keys.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
 #include "store/own_file.h"
@@ -27,19 +29,6 @@ struct ScaleOptions {
   std::string identifier;
   bool force = false, inexact = false;
 };
-
-void add_number(CLI::App& command, const std::string& name, std::string_view key, std::optional<double>& target) {
-  const Parameter& parameter = *find_parameter(key);
-  command.add_option(name, target, fmt::format("{}; default: that of the table", parameter.sentence))
-      ->check(CLI::Validator(
-          [&parameter](const std::string& text) {
-            double value = 0;
-            const bool good =
-                CLI::detail::lexical_cast(text, value) && std::get<Number>(parameter.value).range.contains(value);
-            return good ? std::string() : fmt::format("{} is outside the range {}", text, allowed_values(parameter));
-          },
-          "NUMBER"));
-}
 
 ChannelConditions wanted_conditions(const ScaleOptions& options, const TableText& table) {
   if (!options.channel_width_um && !options.flow_rate_ul_s && !options.viscosity_mPas)
@@ -81,13 +70,14 @@ std::string check_identifier(const std::string& name) {
 
 }  // namespace
 
-void add_scale_command(CLI::App& app) {
+void add_scale_command(CLI::App& app, int&) {
   auto* command = app.add_subcommand("scale", "look-up table for another channel, flow rate or viscosity");
   auto options = std::make_shared<ScaleOptions>();
   command->add_option("TABLE", options->table, "look-up table or isoelasticity lines in dclab's format")->required();
-  add_number(*command, "--channel-width-um", "channel.width_um", options->channel_width_um);
-  add_number(*command, "--flow-rate-ul-s", "flow.rate_ul_per_s", options->flow_rate_ul_s);
-  add_number(*command, "--viscosity-mPas", "flow.viscosity_mPas", options->viscosity_mPas);
+  const std::string otherwise = "that of the table";
+  add_key_option(*command, case_key("channel.width_um"), options->channel_width_um, otherwise);
+  add_key_option(*command, case_key("flow.rate_ul_per_s"), options->flow_rate_ul_s, otherwise);
+  add_key_option(*command, case_key("flow.viscosity_mPas"), options->viscosity_mPas, otherwise);
   command->add_option("--identifier", options->identifier, "name of the new table; default: from the old one")
       ->check(CLI::Validator(check_identifier, "NAME"));
   command->add_option("-o,--output", options->output, "file for the new table")->type_name("FILE.txt")->required();

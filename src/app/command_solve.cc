@@ -1,8 +1,8 @@
-#include "app/command_solve.h"
-
+// `rheocyte solve CASE -o DIR`
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/solve_case.h"
 #include "case/user_error.h"
 

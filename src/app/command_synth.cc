@@ -1,5 +1,5 @@
-#include "app/command_synth.h"
-
+// `rheocyte synth SPEC.toml -o FILE.rtdc`
+// The file appears whole or not at all. `exit_code`: 0, 2 for the user's errors, 128 + signal.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,14 +9,17 @@
 #include <sstream>
 #include <system_error>
 
+#include "app/commands.h"
 #include "app/exit_codes.h"
 #include "case/case_text.h"
+#include "case/key_reading.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
 #include "store/contained.h"
 #include "store/standard_error.h"
 #include "store/stop_signal.h"
 #include "store/whole_file.h"
+#include "synth/synth_keys.h"
 #include "synth/synth_shapes.h"
 #include "synth/virtual_recording.h"
 
@@ -28,6 +31,7 @@ namespace fs = std::filesystem;
 
 struct SynthOptions {
   fs::path spec, output;
+  std::vector<std::string> settings;  ///< "key=value"
   bool force = false, quiet = false;
 };
 
@@ -69,7 +73,10 @@ void report(const SynthOptions& options, const VirtualRecording& r) {
 int run(const SynthOptions& options) {
   check_output(options);
   const std::string text = read_case_text(options.spec);
-  SynthSpec spec = parse_synth_spec(text, options.spec.string());
+  for (const auto& remark :
+       remarks_on_names(key_list(synth_keys()), given_keys(text, options.spec.string(), options.settings)))
+    tell(remark);
+  SynthSpec spec = parse_synth_spec(text, options.spec.string(), options.settings);
   if (!spec.table.empty()) spec.table = options.spec.parent_path() / spec.table;  // an absolute one stays
   const auto shapes = shapes_of(spec);
   const RecordingProvenance provenance{fmt::format("rheocyte {}", version), lines_of(text)};
@@ -90,9 +97,14 @@ int run(const SynthOptions& options) {
 void add_synth_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("synth", "a virtual recording (.rtdc) of a population of cells");
   auto options = std::make_shared<SynthOptions>();
-  command->add_option("SPEC", options->spec, "population, channel, camera and noise (TOML), see docs/plot-and-synth.md")
+  command
+      ->add_option("SPEC", options->spec,
+                   "population, channel, camera and noise, a TOML file (see `rheocyte help synth`)")
       ->required();
   command->add_option("-o,--output", options->output, "the recording")->type_name("FILE.rtdc")->required();
+  command->add_option("--set", options->settings, "replace a key of the spec; may be repeated")
+      ->type_name("key=value")
+      ->allow_extra_args(false);
   command->add_flag("--force", options->force, "replace a file that is there");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
   command->callback([options, &exit_code] {

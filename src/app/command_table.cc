@@ -1,5 +1,4 @@
-#include "app/command_table.h"
-
+// `rheocyte table`: a whole look-up table from a spec.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/picture.h"
 #include "case/user_error.h"
@@ -100,9 +100,14 @@ int make_table(const TableOptions& options) {
 void add_table_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("table", "compute a whole look-up table; goes on where it was interrupted");
   auto options = std::make_shared<TableOptions>();
-  command->add_option("SPEC", options->spec, "spec of the table (TOML), see examples/tables")->required();
+  command
+      ->add_option("SPEC", options->spec,
+                   "spec of the table, a TOML file (see `rheocyte help table` and examples/tables)")
+      ->required();
   command->add_option("-o,--output", options->folder, "folder of the table")->required();
-  command->add_option("--set", options->settings, "key=value in place of the spec's")->allow_extra_args(false);
+  command->add_option("--set", options->settings, "replace a key of the spec; may be repeated")
+      ->type_name("key=value")
+      ->allow_extra_args(false);
   command->add_option("--levels", options->levels, "stiffnesses of the lines, comma-separated; default: 11 that fit")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);

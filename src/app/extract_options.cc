@@ -3,6 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
+#include "app/key_option.h"
+#include "case/case_keys.h"
+#include "synth/synth_keys.h"
+
 namespace rheocyte {
 
 namespace {
@@ -29,11 +33,12 @@ void declare_batch_options(CLI::App& command, BatchOptions& options) {
 }
 
 void declare_measuring_options(CLI::App& command, MeasuringOptions& options) {
-  command.add_option("--channel-width", options.channel_width_um, "um; default: from the recording");
-  command.add_option("--flow-rate", options.flow_rate_ul_s, "ul/s, sample and sheath; default: from the recording");
-  command.add_option("--pixel-size", options.pixel_size_um, "um; default: from the recording");
+  const std::string otherwise = "from the recording";
+  add_key_option(command, case_key("channel.width_um"), options.channel_width_um, otherwise);
+  add_key_option(command, case_key("flow.rate_ul_per_s"), options.flow_rate_ul_s, otherwise);
+  add_key_option(command, *find_key(synth_keys(), "recording.pixel_size_um"), options.pixel_size_um, otherwise);
+  add_key_option(command, case_key("flow.viscosity_mPas"), options.viscosity_mPas, "that of the medium by its model");
   command.add_option("--medium", options.medium, "e.g. CellCarrier, 0.59% MC-PBS, water; default: from the recording");
-  command.add_option("--viscosity", options.viscosity_mPas, "mPa s, in place of a medium and its model");
   command.add_option("--viscosity-model", options.viscosity_model, "buyukurganci-2022 (default) or herold-2017");
   command
       .add_option("--temperature", options.temperature,

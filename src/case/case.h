@@ -1,4 +1,4 @@
-// One case as the user states it, in physical units. Keys, ranges and meanings stand in parameters.cc only.
+// One case as the user states it, in physical units. Keys, ranges and meanings stand in case_keys.cc only.
 #pragma once
 #include <optional>
 #include <vector>

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "case/user_error.h"
+#include "case/utf8.h"
 
 namespace rheocyte {
 
@@ -19,29 +20,6 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 long line_of(std::string_view text, std::size_t position) {
   return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n');
 }
-
-// Length of the UTF-8 sequence that its first byte announces; 0: no first byte.
-std::size_t sequence_length(unsigned char first) {
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first < 0xE0) return 2;
-  if (first >= 0xE0 && first < 0xF0) return 3;
-  if (first >= 0xF0 && first < 0xF5) return 4;
-  return 0;
-}
-
-// The first byte that is no UTF-8, or npos.
-std::size_t first_bad_byte(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = sequence_length(static_cast<unsigned char>(text[i]));
-    if (length == 0 || i + length > text.size()) return i;
-    for (std::size_t k = 1; k < length; ++k)
-      if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return i;
-    i += length;
-  }
-  return std::string_view::npos;
-}
-
-bool is_beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
 // Walks over the text as TOML's lexer would: follows the nesting outside of comments and strings, and looks for
 // characters beyond ASCII outside of comments. Where the text is no valid TOML the walk may go astray, but only behind
@@ -63,11 +41,7 @@ class LexicalScan {
   }
 
   // Of the first byte of the character at which run() stopped.
-  std::size_t position() const {
-    std::size_t first = std::min(at_, text_.size() - 1);
-    while (first > 0 && (static_cast<unsigned char>(text_[first]) & 0xC0) == 0x80) --first;
-    return first;
-  }
+  std::size_t position() const { return start_of_character(text_, std::min(at_, text_.size() - 1)); }
 
  private:
   void step() {
@@ -151,8 +125,7 @@ void check_case_text(std::string_view text, const std::string& name) {
     refuse(place, fmt::format("nested deeper than {} levels; a case needs three.", greatest_nesting));
   if (finding == LexicalScan::Finding::not_ascii)
     refuse(place, fmt::format("the character {} can only stand in a comment.",
-                              text.substr(scan.position(),
-                                          sequence_length(static_cast<unsigned char>(text[scan.position()])))));
+                              text.substr(scan.position(), sequence_length(text[scan.position()]))));
 }
 
 }  // namespace rheocyte

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <optional>
 
+#include "case/case_text.h"
 #include "case/toml_parser.h"
 #include "case/user_error.h"
 
@@ -121,6 +122,14 @@ GivenKey key_in_setting(std::string_view setting) {
   if (const auto number = as_number(text)) given.value = *number;
   if (const auto list = as_list(text)) given.value = *list;
   return given;
+}
+
+std::vector<GivenKey> given_keys(std::string_view text, const std::string& name,
+                                 std::span<const std::string> settings) {
+  check_case_text(text, name);
+  auto keys = keys_in_toml(text, name);
+  for (const auto& setting : settings) keys.push_back(key_in_setting(setting));
+  return keys;
 }
 
 std::string value_text(const GivenKey& given) {

@@ -1,5 +1,6 @@
 // The keys that the user gave, flat, before anything is known about their meaning.
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -18,6 +19,11 @@ struct GivenKey {
   std::variant<double, std::string, std::vector<double>, Unusable> value;
   bool from_set = false;
 };
+
+/// All keys of a TOML text in the order of the file, and those of `--set` behind them. UserError if the text is no TOML
+/// or harmful (case/case_text.h).
+std::vector<GivenKey> given_keys(std::string_view text, const std::string& name,
+                                 std::span<const std::string> settings = {});
 
 /// All keys of a TOML text in the order of the file. UserError with the line if the text is no TOML.
 /// The text must have passed check_case_text.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "case/case.h"
-#include "case/given_keys.h"
+#include "case/key_reading.h"
 
 namespace rheocyte {
 
@@ -19,9 +19,8 @@ Case read_case(const std::filesystem::path& file, std::span<const std::string> s
 /// The same from text; `name` stands for the file in messages.
 Case parse_case(std::string_view text, const std::string& name, std::span<const std::string> settings = {});
 
-/// The two steps of parse_case, for files that hold more than a case: the keys of the text with those of the settings
-/// behind them, and the case that they state. Numbers that are left open stay unset and are not asked for.
-std::vector<GivenKey> given_keys(std::string_view text, const std::string& name, std::span<const std::string> settings);
-Case case_of_keys(std::vector<GivenKey> keys, const std::string& name, std::span<const std::string_view> left_open);
+/// The case that keys state, which may be those of more than a case. Numbers that are left open stay unset and are not
+/// asked for.
+Case complete_case(KeyReading& keys, std::vector<std::string_view> left_open = {});
 
 }  // namespace rheocyte

@@ -1,21 +1,18 @@
 #include "case/user_error.h"
 
+#include "case/utf8.h"
+
 namespace rheocyte {
 
 namespace {
 
 constexpr std::size_t longest_sentence = 800;
 
-bool is_continuation_byte(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
-
 }  // namespace
 
 std::string one_line(std::string_view text, std::size_t longest) {
   std::size_t end = text.size();
-  if (end > longest) {
-    end = longest;
-    while (end > 0 && is_continuation_byte(text[end])) --end;  // never cut a character in two
-  }
+  if (end > longest) end = start_of_character(text, longest);  // never cut a character in two
   std::string line(text.substr(0, end));
   for (char& c : line)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';

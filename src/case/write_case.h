@@ -1,9 +1,7 @@
 // A case as text: for result.json, for a copy that can be read again, and as the fingerprint of a result.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "case/case.h"
 
@@ -12,11 +10,8 @@ namespace rheocyte {
 /// All keys that have an effect in this case, nested as in the file: {"channel": {"width_um": 20.0}, ...}.
 nlohmann::ordered_json to_json(const Case&);
 
-/// The same as a TOML file that read_case reads back to the same bits; without the keys that are to be left out.
-std::string to_toml(const Case&, std::span<const std::string_view> left_out = {});
-
-/// 16 hexadecimal digits (FNV-1a) of any bytes. A change of a single byte always changes them.
-std::string fingerprint(std::string_view bytes);
+/// The same as a TOML file that read_case reads back to the same bits.
+std::string to_toml(const Case&);
 
 /// The fingerprint of the resolved case; equal cases have equal hashes, whatever their files look like.
 std::string case_hash(const Case&);

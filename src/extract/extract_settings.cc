@@ -48,7 +48,7 @@ Medium chosen_medium(const MeasuringOptions& options, const Recording& recording
   const auto medium = name ? medium_of_name(*name) : std::nullopt;
   if (medium) return *medium;
   const std::string way_out =
-      "give the viscosity with --viscosity (mPa s), or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, water with "
+      "give the viscosity with --viscosity-mPas, or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, water with "
       "--medium";
   if (!name) refuse(recording, fmt::format("setup:medium is missing; {}.", way_out));
   const std::string sentence =
@@ -80,7 +80,7 @@ void choose_temperature(const MeasuringOptions& options, const Recording& record
   if (!stored || !std::isfinite(*stored))
     refuse(recording,
            "holds no temperature, on which the viscosity depends; give --temperature in degrees Celsius, or the "
-           "viscosity with --viscosity (mPa s).");
+           "viscosity with --viscosity-mPas.");
   settings.temperature_from = TemperatureSource::metadata;
   settings.temperature_C = *stored;
 }
@@ -153,12 +153,12 @@ ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixel
   ExtractSettings settings;
   auto& conditions = settings.conditions;
   conditions.channel_width_um =
-      quantity(recording, options.channel_width_um, "setup:channel width", "--channel-width (um)");
-  conditions.flow_rate_ul_s = quantity(recording, options.flow_rate_ul_s, "setup:flow rate", "--flow-rate (ul/s)");
+      quantity(recording, options.channel_width_um, "setup:channel width", "--channel-width-um");
+  conditions.flow_rate_ul_s = quantity(recording, options.flow_rate_ul_s, "setup:flow rate", "--flow-rate-ul-s");
   if (pixels != PixelUse::ignore)
     settings.pixel_size_um = conditions.pixel_size_um =
         quantity(recording, options.pixel_size_um, "imaging:pixel size",
-                 pixels == PixelUse::fit ? "--pixel-size (um)" : "--pixel-size (um), or give --no-pixelation");
+                 pixels == PixelUse::fit ? "--pixel-size-um" : "--pixel-size-um, or give --no-pixelation");
   else
     settings.pixel_size_um =
         options.pixel_size_um.value_or(recording.metadata().number("imaging:pixel size").value_or(0));

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "case/json_guard.h"
+
 namespace rheocyte {
 
 namespace {
@@ -36,7 +38,7 @@ std::string identifier_of(const Metadata& metadata) {
 }  // namespace
 
 std::optional<BasinDefinition> read_basin_definition(const std::string& json_text) {
-  const json definition = json::parse(json_text, nullptr, false);
+  const json definition = is_sound_json(json_text) ? json::parse(json_text) : json();
   if (!definition.is_object()) return std::nullopt;
   BasinDefinition basin;
   const std::string type = text_at(definition, "type"), format = text_at(definition, "format");
@@ -56,7 +58,7 @@ std::optional<BasinDefinition> read_basin_definition(const std::string& json_tex
 }
 
 std::optional<std::string> name_of_remote_basin(const std::string& json_text) {
-  const json definition = json::parse(json_text, nullptr, false);
+  const json definition = is_sound_json(json_text) ? json::parse(json_text) : json();
   if (!definition.is_object() || text_at(definition, "type") != "remote") return std::nullopt;
   return fmt::format("{} ({})", text_at(definition, "name"), text_at(definition, "format"));
 }

@@ -1,127 +1,182 @@
 #include "synth/synth_keys.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <algorithm>
+#include <iterator>
 
-#include <array>
+#include "case/case_keys.h"
 
 namespace rheocyte {
 
 namespace {
 
-template <double SynthSpec::*field>
-SynthNumber number(Range range, std::optional<double> fallback, bool is_whole = false) {
-  return {range, fallback, [](SynthSpec& spec, double value) { spec.*field = value; }, is_whole, !fallback};
-}
-
-template <std::string SynthSpec::*field>
-SynthWord text(std::string_view fallback, std::vector<std::string_view> options = {}) {
-  return {std::move(options), fallback, [](SynthSpec& spec, const std::string& value) { spec.*field = value; }};
-}
-
 template <auto field>
-SynthSpread spread(Range range, std::optional<double> fallback = {}) {
-  return {range, fallback, [](SynthSpec& spec, const Spread& value) { spec.*field = value; }};
+Key<SynthSpec> key(KeyDescription description) {
+  return key_of<SynthSpec, field>(std::move(description));
 }
 
-void set_kind(SynthSpec& spec, const std::string& word) {
-  spec.kind = word == "solid" ? CellKind::solid : word == "shell" ? CellKind::shell : CellKind::combined;
+// A quantity that a case has as well: the same name, unit, range and option.
+template <auto field>
+Key<SynthSpec> shared(std::string_view name, std::string_view sentence, std::optional<Condition> only_for = {},
+                      std::string_view alternative = {}) {
+  KeyDescription description = case_key(name);
+  description.sentence = sentence;
+  description.only_for = only_for;
+  description.alternative = alternative;
+  return key<field>(std::move(description));
 }
 
-void set_cortex_modulus(SynthSpec& spec, const Spread& value) {
-  (spec.kind == CellKind::combined ? spec.cortex_modulus : spec.stiffness) = value;
+// The same, spread over the population.
+template <auto field>
+Key<SynthSpec> spread(std::string_view name, std::string_view sentence, Fallback fallback, std::string_view former_name,
+                      std::optional<Condition> only_for = {}, std::string_view alternative = {}) {
+  auto description = shared<field>(name, sentence, only_for, alternative);
+  description.kind = Scatter{std::get<Number>(description.kind).range};
+  description.fallback = std::move(fallback);
+  description.former_name = former_name;
+  return description;
 }
+
+using Spec = SynthSpec;
+using Keys = std::vector<Key<SynthSpec>>;
+constexpr Condition no_shell{"cell.kind", "shell", true}, no_solid{"cell.kind", "solid", true},
+    is_combined{"cell.kind", "combined"}, by_medium{"flow.viscosity_mPas", "", true},
+    by_model{"shapes.table", "", true};
+constexpr std::string_view ratio = "cell.cortex.tension_ratio", tension = "cell.cortex.tension_mN_per_m";
 
 // The ranges are wide; they catch wrong units.
-const std::array table{
-    SynthKey{"recording.cells", "", "how many cells are drawn from the population",
-             number<&SynthSpec::cells>({1, 1e7}, 500, true)},
-    SynthKey{"recording.seed", "", "of the random numbers; equal seeds give equal files",
-             number<&SynthSpec::seed>({0, 9e15}, 1, true)},
-    SynthKey{"recording.pixel_size_um", "um", "size of a pixel", number<&SynthSpec::pixel_size_um>({0.01, 10}, 0.34)},
-    SynthKey{"recording.pictures", "", "what is stored besides the features",
-             SynthWord{{"none", "masks", "images"},
-                       "masks",
-                       [](SynthSpec& spec, const std::string& word) {
-                         spec.pictures = word == "none"    ? Pictures::none
-                                         : word == "masks" ? Pictures::masks
-                                                           : Pictures::images;
-                       }}},
-    SynthKey{"recording.width_px", "pixels", "width of the pictures, along the channel",
-             number<&SynthSpec::width_px>({16, 2000}, 250, true)},
-    SynthKey{"recording.height_px", "pixels", "height of the pictures; 0: that of the channel and its walls",
-             number<&SynthSpec::height_px>({0, 2000}, 0, true)},
-    SynthKey{"recording.frame_rate_Hz", "Hz", "pictures per second", number<&SynthSpec::frame_rate_Hz>({1, 1e6}, 3000)},
-    SynthKey{"recording.cells_per_s", "1/s", "mean rate at which cells arrive",
-             number<&SynthSpec::cells_per_s>({1e-3, 1e5}, 100)},
-    SynthKey{"recording.sample", "", "name of the sample", text<&SynthSpec::sample>("virtual cells")},
-    SynthKey{"recording.date", "", "YYYY-MM-DD", text<&SynthSpec::date>("2026-01-01")},
-    SynthKey{"recording.time", "", "HH:MM:SS", text<&SynthSpec::time>("12:00:00")},
+Keys recording_keys() {
+  return {
+      key<&Spec::cells>(
+          {"recording.cells", "", "how many cells are drawn from the population", Number{{1, 1e7}, true}, 500.0}),
+      key<&Spec::seed>(
+          {"recording.seed", "", "of the random numbers; equal seeds give equal files", Number{{0, 9e15}, true}, 1.0}),
+      key<&Spec::pixel_size_um>({"recording.pixel_size_um",
+                                 "um",
+                                 "size of a pixel",
+                                 Number{{0.01, 10}},
+                                 0.34,
+                                 {},
+                                 {},
+                                 "--pixel-size-um",
+                                 "--pixel-size"}),
+      key<&Spec::pictures>({"recording.pictures", "",
+                            "what is stored besides the features; images: masks and pictures in shades of grey",
+                            Choice{{"none", "masks", "images"}}, 1}),
+      key<&Spec::width_px>({"recording.width_px", "pixels", "width of the pictures, along the channel",
+                            Number{{16, 2000}, true}, 250.0}),
+      key<&Spec::height_px>({"recording.height_px", "pixels",
+                             "height of the pictures; 0: that of the channel and 3 um of wall on each side",
+                             Number{{0, 2000}, true}, 0.0}),
+      key<&Spec::frame_rate_Hz>({"recording.frame_rate_Hz", "Hz", "pictures per second", Number{{1, 1e6}}, 3000.0}),
+      key<&Spec::cells_per_s>(
+          {"recording.cells_per_s", "1/s", "mean rate at which cells arrive", Number{{1e-3, 1e5}}, 100.0}),
+      key<&Spec::sample>({"recording.sample", "", "name of the sample", Word{}, "virtual cells"}),
+      key<&Spec::date>({"recording.date", "", "YYYY-MM-DD", Word{}, "2026-01-01"}),
+      key<&Spec::time>({"recording.time", "", "HH:MM:SS", Word{}, "12:00:00"}),
+  };
+}
 
-    SynthKey{"channel.width_um", "um", "width of the square channel",
-             number<&SynthSpec::channel_width_um>({1, 1000}, {})},
-    SynthKey{"flow.rate_ul_per_s", "ul/s", "flow rate, sheath and sample together",
-             number<&SynthSpec::flow_rate_ul_s>({1e-6, 1e3}, {})},
-    SynthKey{"flow.viscosity_mPas", "mPa s", "viscosity of the liquid, in place of a medium",
-             SynthNumber{{1e-3, 1e5}, {}, [](SynthSpec& spec, double value) { spec.viscosity_mPas = value; }}},
-    SynthKey{"flow.medium", "", "liquid with a known viscosity, e.g. CellCarrier", text<&SynthSpec::medium>("")},
-    SynthKey{
-        "flow.viscosity_model", "", "how the viscosity of the medium follows",
-        text<&SynthSpec::viscosity_model>("buyukurganci-2022", {"buyukurganci-2022", "herold-2017", "kestin-1978"})},
-    SynthKey{"flow.temperature_C", "degC", "temperature of the medium at each cell",
-             spread<&SynthSpec::temperature_C>({0, 60}, 23)},
+Keys flow_keys() {
+  return {
+      shared<&Spec::channel_width_um>("channel.width_um", "width of the square channel"),
+      shared<&Spec::flow_rate_ul_s>("flow.rate_ul_per_s", "flow rate, sheath and sample together"),
+      shared<&Spec::viscosity_mPas>("flow.viscosity_mPas", "viscosity of the liquid", {}, "flow.medium"),
+      key<&Spec::medium>({"flow.medium",
+                          "",
+                          "liquid of known viscosity: CellCarrier, CellCarrierB, 0.83% MC-PBS, water, ...",
+                          Word{},
+                          required,
+                          {},
+                          "flow.viscosity_mPas"}),
+      key<&Spec::viscosity_model>({"flow.viscosity_model", "", "how the viscosity of the medium follows",
+                                   Choice{{"buyukurganci-2022", "herold-2017", "kestin-1978"}}, 0, by_medium}),
+      key<&Spec::temperature_C>({"flow.temperature_C", "degC", "temperature of the medium at each cell",
+                                 Scatter{{0, 60}}, Spread{.mean = 23}, by_medium}),
+  };
+}
 
-    SynthKey{"cell.kind", "", "solid, shell round a liquid, or combined: a solid in a shell",
-             SynthWord{{"solid", "shell", "combined"}, "solid", set_kind}},
-    SynthKey{"cell.radius_um", "um", "radius of the spheres at rest", spread<&SynthSpec::radius_um>({0.1, 500})},
-    SynthKey{"cell.young_modulus_kPa", "kPa", "Young's modulus of solids and combined cells",
-             spread<&SynthSpec::stiffness>({1e-6, 1e6})},
-    SynthKey{"cell.cortex_modulus_mN_per_m", "mN/m", "modulus E2D of shells and combined cells",
-             SynthSpread{{1e-6, 1e6}, {}, set_cortex_modulus}},
-    SynthKey{"cell.tension_ratio", "", "tension of shells and combined cells over E2D",
-             spread<&SynthSpec::tension_ratio>({0, 100})},
-    SynthKey{"cell.tension_mN_per_m", "mN/m", "tension of combined cells, in place of the ratio",
-             spread<&SynthSpec::tension_mN_per_m>({0, 1e6})},
+Keys cell_keys() {
+  return {
+      key<&Spec::kind>({"cell.kind", "", "solid, shell round a liquid, or combined: a solid in a shell",
+                        Choice{{"solid", "shell", "combined"}}, 0}),
+      spread<&Spec::radius_um>("cell.radius_um", "radius of the spheres at rest", required, ""),
+      spread<&Spec::young_modulus_kPa>("cell.bulk.young_modulus_kPa", "Young's modulus of solids and combined cells",
+                                       required, "cell.young_modulus_kPa", no_shell),
+      spread<&Spec::cortex_modulus_mN_per_m>("cell.cortex.modulus_mN_per_m",
+                                             "modulus E2D of the cortex of shells and combined cells", required,
+                                             "cell.cortex_modulus_mN_per_m", no_solid),
+      spread<&Spec::tension_ratio>(ratio, "tension over E2D; one number for all shells", absent, "cell.tension_ratio",
+                                   no_solid, tension),
+      spread<&Spec::tension_mN_per_m>(tension, "tension of combined cells, in place of the ratio", absent,
+                                      "cell.tension_mN_per_m", is_combined, ratio),
+  };
+}
 
-    SynthKey{"shapes.table", "",
-             "folder of a table by `rheocyte table`, seen from the spec; without it the closed model",
-             SynthWord{{}, "", [](SynthSpec& spec, const std::string& word) { spec.table = word; }}},
-    SynthKey{"shapes.greatest_deformation", "",
-             "cells that the model would deform more are left out; 0: the range in which "
-             "the model holds",
-             number<&SynthSpec::greatest_deformation>({0, 0.1}, 0)},
-    SynthKey{"shapes.duct", "",
-             "whose velocity on the axis drives the cells: that of the equivalent tube, or of the square "
-             "channel as in the published analytical tables",
-             SynthWord{{"tube", "square"},
-                       "tube",
-                       [](SynthSpec& spec, const std::string& word) { spec.square_duct = word == "square"; }}},
+Keys shape_keys() {
+  return {
+      key<&Spec::table>({"shapes.table", "",
+                         "folder of a table by `rheocyte table`, seen from the spec; without it the analytical model",
+                         Word{}, absent}),
+      key<&Spec::greatest_deformation>({"shapes.greatest_deformation", "",
+                                        "cells that the model would deform more are left out; 0: where it holds, 0.02 "
+                                        "for solids, 0.001 for shells",
+                                        Number{{0, 0.1}}, 0.0, by_model}),
+      key<&Spec::square_duct>({"shapes.duct", "",
+                               "whose velocity on the axis drives the cells: that of the equivalent tube, or of the "
+                               "square channel as in the published analytical tables",
+                               Choice{{"tube", "square"}}, 0, by_model}),
+  };
+}
 
-    SynthKey{"noise.lateral_um", "um", "standard deviation of the distance from the channel's axis in the picture",
-             number<&SynthSpec::lateral_um>({0, 100}, 0.2)},
-    SynthKey{"noise.contour_um", "um", "standard deviation of the error of the outline along its normal",
-             number<&SynthSpec::contour_um>({0, 10}, 0)},
-    SynthKey{"noise.contour_correlation_um", "um", "length along the outline over which that error is smooth",
-             number<&SynthSpec::contour_correlation_um>({0.01, 100}, 0.7)},
-    SynthKey{"noise.thermometer_C", "degC", "standard deviation of the error of the stored temperature",
-             number<&SynthSpec::thermometer_C>({0, 20}, 0)},
-};
+Keys noise_keys() {
+  return {
+      key<&Spec::lateral_um>({"noise.lateral_um", "um",
+                              "standard deviation of the distance from the channel's axis, in the picture only",
+                              Number{{0, 100}}, 0.2}),
+      key<&Spec::contour_um>({"noise.contour_um", "um",
+                              "standard deviation of the error of the outline along its normal", Number{{0, 10}}, 0.0}),
+      key<&Spec::contour_correlation_um>(
+          {"noise.contour_correlation_um", "um",
+           "standard deviation of the Gaussian that smooths this error along the outline", Number{{0.01, 100}}, 0.7}),
+      key<&Spec::thermometer_C>({"noise.thermometer_C", "degC",
+                                 "standard deviation of the error of the stored temperature", Number{{0, 20}}, 0.0}),
+  };
+}
 
-std::string range_text(const Range& range, std::string_view unit) {
-  return fmt::format("{:g} .. {:g}{}{}", range.least, range.greatest, unit.empty() ? "" : " ", unit);
+Keys all_keys() {
+  Keys all;
+  for (const auto section : {recording_keys, flow_keys, cell_keys, shape_keys, noise_keys})
+    std::ranges::move(section(), std::back_inserter(all));
+  return all;
 }
 
 }  // namespace
 
-std::span<const SynthKey> synth_keys() { return table; }
+std::span<const Key<SynthSpec>> synth_keys() {
+  static const Keys all = all_keys();
+  return all;
+}
 
-std::string allowed_values(const SynthKey& key) {
-  if (const auto* number = std::get_if<SynthNumber>(&key.value)) return range_text(number->range, key.unit);
-  if (const auto* spread = std::get_if<SynthSpread>(&key.value))
-    return fmt::format("a number in {}, or {{mean = ..., sd = ..., distribution = \"normal\" or \"lognormal\"}}",
-                       range_text(spread->range, key.unit));
-  const auto& options = std::get<SynthWord>(key.value).options;
-  return options.empty() ? "a short text" : fmt::format("\"{}\"", fmt::join(options, "\" or \""));
+Reference synth_reference() {
+  return {.title = "Synth reference",
+          .topic = "synth",
+          .declaration = "src/synth/synth_keys.cc",
+          .opening = "The spec of a virtual recording is a text file in TOML. The shortest one:",
+          .example = R"([channel]
+width_um = 20
+[flow]
+rate_ul_per_s = 0.04
+viscosity_mPas = 15
+[cell]
+radius_um = {mean = 6.2, sd = 0.5}
+[cell.bulk]
+young_modulus_kPa = {mean = 2.5, sd = 0.5, distribution = "lognormal"}
+)",
+          .rules =
+              "What is spread over the population is a number, for all cells alike, or has a mean and a standard\n"
+              "deviation sd; both are those of the property itself, also for the lognormal law. `--set key=value`\n"
+              "replaces a key of the file. The options of the command: `rheocyte synth --help`.\n",
+          .keys = key_list(synth_keys())};
 }
 
 }  // namespace rheocyte

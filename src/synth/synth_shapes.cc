@@ -43,14 +43,16 @@ void check_tensions(SynthSpec& spec, const std::vector<double>& ratios) {
   const bool is_given = spec.tension_ratio || spec.tension_mN_per_m;
   if (ratios.size() > 1) {
     if (!is_given)
-      refuse(spec, fmt::format("has the tensions {} in E2D; give cell.tension_ratio or cell.tension_mN_per_m.",
-                               fmt::join(ratios, ", ")));
+      refuse(spec,
+             fmt::format("has the tensions {} in E2D; give cell.cortex.tension_ratio or cell.cortex.tension_mN_per_m.",
+                         fmt::join(ratios, ", ")));
     return;
   }
   if (is_given)
     refuse(spec, fmt::format("all its cells have the tension {:g} E2D; remove {}, or take a table with several numbers "
                              "in table.tension_ratio.",
-                             ratios.front(), spec.tension_ratio ? "cell.tension_ratio" : "cell.tension_mN_per_m"));
+                             ratios.front(),
+                             spec.tension_ratio ? "cell.cortex.tension_ratio" : "cell.cortex.tension_mN_per_m"));
   spec.tension_ratio = Spread{Spread::Law::normal, ratios.front(), 0};
 }
 

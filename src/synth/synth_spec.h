@@ -2,22 +2,15 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "case/spread.h"
 #include "measurement/pixel_contour.h"
+#include "measurement/viscosity.h"
 
 namespace rheocyte {
-
-/// How a property is spread over the population.
-struct Spread {
-  enum class Law { normal, lognormal };
-  Law law = Law::normal;
-  double mean = 0, deviation = 0;  ///< of the property itself, also for the lognormal law
-
-  /// The value that belongs to a standard normal number.
-  double at(double normal) const;
-};
 
 enum class CellKind { solid, shell, combined };
 enum class Pictures { none, masks, images };  ///< images: masks and pictures in shades of grey
@@ -31,26 +24,29 @@ struct SynthSpec {
   // [channel], [flow]
   double channel_width_um = 0, flow_rate_ul_s = 0;
   std::optional<double> viscosity_mPas;
-  std::string medium, viscosity_model;  ///< empty medium: the viscosity is given
+  std::string medium;  ///< empty: the viscosity is given
+  ViscosityModel viscosity_model = ViscosityModel::buyukurganci_2022;
   Spread temperature_C;
   // [cell]
   CellKind kind = CellKind::solid;
   Spread radius_um;
-  Spread stiffness;       ///< Young's modulus (kPa) of solids and combined cells, modulus E2D (mN/m) of shells
-  Spread cortex_modulus;  ///< E2D (mN/m) of combined cells
+  std::optional<Spread> young_modulus_kPa;                ///< of solids and combined cells
+  std::optional<Spread> cortex_modulus_mN_per_m;          ///< E2D of shells and combined cells
   std::optional<Spread> tension_ratio, tension_mN_per_m;  ///< at most one; of shells the same ratio for all
   // [shapes]
-  std::filesystem::path table;  ///< folder of a table of `rheocyte table`; empty: the closed model
+  std::filesystem::path table;  ///< folder of a table of `rheocyte table`; empty: the analytical model
   double greatest_deformation = 0;
   bool square_duct = false;
   // [noise]
   double lateral_um = 0, contour_um = 0, contour_correlation_um = 0, thermometer_C = 0;
 
+  /// Young's modulus (kPa) of solids and combined cells, modulus E2D (mN/m) of shells.
+  const Spread& stiffness() const { return (young_modulus_kPa ? young_modulus_kPa : cortex_modulus_mN_per_m).value(); }
   ImageSize image_size() const;
 };
 
 /// Reads and checks a spec; `name` stands for its file in messages. UserError: one sentence with file, line, key,
 /// value, range and the nearest known key.
-SynthSpec parse_synth_spec(std::string_view text, const std::string& name);
+SynthSpec parse_synth_spec(std::string_view text, const std::string& name, std::span<const std::string> settings = {});
 
 }  // namespace rheocyte

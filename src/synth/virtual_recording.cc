@@ -60,8 +60,7 @@ class Camera {
  public:
   Camera(const SynthSpec& spec, const CellShapes& shapes, VirtualRecording& result)
       : spec_(spec), shapes_(shapes), size_(spec.image_size()), result_(result), mask_(size_.pixels()) {
-    if (!spec.viscosity_mPas)
-      buffer_.emplace(*medium_of_name(spec.medium), *viscosity_model_of_name(spec.viscosity_model));
+    if (!spec.viscosity_mPas) buffer_.emplace(*medium_of_name(spec.medium), spec.viscosity_model);
   }
 
   /// Adds the cell of this number to the block, if it can be seen.
@@ -70,9 +69,9 @@ class Camera {
     auto random = CellRandom(seed(), number, Purpose::population);
     VirtualCell cell;
     cell.radius_um = spec_.radius_um.at(random.normal());
-    cell.stiffness = spec_.stiffness.at(random.normal());
+    cell.stiffness = spec_.stiffness().at(random.normal());
     if (is_combined()) {
-      cell.cortex_modulus_mN_per_m = spec_.cortex_modulus.at(random.normal());
+      cell.cortex_modulus_mN_per_m = spec_.cortex_modulus_mN_per_m->at(random.normal());
       const double normal = random.normal();
       cell.tension_mN_per_m = spec_.tension_mN_per_m
                                   ? spec_.tension_mN_per_m->at(normal)

@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <cstring>
 
+#include "case/json_guard.h"
 #include "case/user_error.h"
-#include "case/write_case.h"
+#include "numeric/fingerprint.h"
 
 namespace rheocyte {
 
@@ -25,6 +26,11 @@ std::string envelope(const RecordKind& kind, const std::vector<std::uint8_t>& re
                                     {"spec", spec_hash},
                                     {"checksum", fingerprint(as_text(record) + spec_hash)},
                                     {"record", json::binary(record)}}));
+}
+
+json json_of(std::string_view bytes) {
+  if (!is_sound_json(bytes, json::input_format_t::cbor)) throw DamagedRecord{"it is cut or damaged"};
+  return json::from_cbor(bytes.begin(), bytes.end());
 }
 
 }  // namespace
@@ -48,7 +54,7 @@ std::string sealed_record(const RecordKind& kind, const std::string& spec_hash, 
 }
 
 OpenedRecord opened_record(const RecordKind& kind, std::string_view bytes) {
-  const json outer = json::from_cbor(bytes.begin(), bytes.end());
+  const json outer = json_of(bytes);
   if (outer.at("kind") != kind.kind) throw DamagedRecord{fmt::format("it is no {}", kind.kind)};
   if (outer.at("format") != kind.format)
     throw DamagedRecord{fmt::format("it was written by another build, in format {} and not {}",
@@ -56,7 +62,7 @@ OpenedRecord opened_record(const RecordKind& kind, std::string_view bytes) {
   const std::vector<std::uint8_t> record = outer.at("record").get_binary();
   const std::string spec = outer.at("spec");
   if (envelope(kind, record, spec) != bytes) throw DamagedRecord{"its checksum is wrong"};
-  return {spec, json::from_cbor(record)};
+  return {spec, json_of(as_text(record))};
 }
 
 void refuse_record(const RecordKind& kind, const std::string& name, const std::string& reason) {

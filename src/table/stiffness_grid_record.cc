@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "case/write_case.h"
+#include "numeric/fingerprint.h"
 #include "table/checked_record.h"
 #include "table/stiffness_grid.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "case/parameters.h"
+#include "case/case_keys.h"
 #include "case/scales.h"
 #include "table/table_spec.h"
 
@@ -11,13 +11,8 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::string_view radius_key = "cell.radius_um";
 // Deformed cells of a table have up to a tenth more area than the sphere.
 constexpr double least_share_of_sphere = 0.9;
-
-void set_number(Case& c, std::string_view key, double value) {
-  std::get<Number>(find_parameter(key)->value).set(c, value);
-}
 
 // A share of 0 or 1 leaves nothing of the other one: not even a modulus of zero.
 void set_moduli(Case& c, const BranchPlace& place, double stiffness) {
@@ -72,11 +67,11 @@ std::vector<BranchPlace> sweep_places(const TableSpec& spec) {
 
 Case case_at(const TableSpec& spec, const BranchPlace& place, double stiffness) {
   Case c = spec.base;
-  set_number(c, radius_key, place.radius_um);
+  c.cell.radius_um = place.radius_um;
   if (spec.is_combined())
     set_moduli(c, place, stiffness);
   else
-    set_number(c, spec.stiffness_key, stiffness);
+    case_key(spec.stiffness_key).set(c, stiffness);
   if (spec.bending_ratio > 0) c.cell.cortex.bending_kBT = bending_kBT(spec.bending_ratio, place.radius_um, stiffness);
   c.numerics.accuracy = spec.accuracy;
   return c;

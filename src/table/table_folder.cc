@@ -13,6 +13,7 @@
 
 #include "case/user_error.h"
 #include "case/write_case.h"
+#include "numeric/fingerprint.h"
 #include "store/build_info.h"
 #include "store/whole_file.h"
 

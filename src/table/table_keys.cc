@@ -1,60 +1,80 @@
 #include "table/table_keys.h"
 
-#include <algorithm>
 #include <array>
-#include <type_traits>
 
 namespace rheocyte {
 
 namespace {
 
 template <auto field>
-TableNumber number(Range range) {
-  using Value = std::remove_reference_t<decltype(std::declval<TableSpec&>().*field)>;
-  return {range, std::is_integral_v<Value>, [](const TableSpec& spec) { return double(spec.*field); },
-          [](TableSpec& spec, double value) { spec.*field = Value(value); }};
+Key<TableSpec> key(KeyDescription description) {
+  return key_of<TableSpec, field>(std::move(description));
 }
 
-const std::array table{
-    TableKey{"table.identifier", "", "name of the table: letters, digits and hyphens",
-             TableWord{&TableSpec::identifier}},
-    TableKey{"table.stiffness", "", "the swept parameter, the modulus of the bulk or of the cortex, or \"combined\"",
-             TableWord{&TableSpec::stiffness_key}},
-    TableKey{"table.least_area_um2", "um2", "area of the smallest cells, deformed",
-             number<&TableSpec::least_area_um2>({1e-3, 1e8})},
-    TableKey{"table.greatest_area_um2", "um2", "area of the largest cells, deformed",
-             number<&TableSpec::greatest_area_um2>({1e-3, 1e8})},
-    TableKey{"table.least_deformation", "", "deformation of the stiffest cells",
-             number<&TableSpec::least_deformation>({1e-7, 0.9})},
-    TableKey{"table.greatest_deformation", "", "deformation of the softest cells",
-             number<&TableSpec::greatest_deformation>({1e-7, 0.9})},
-    TableKey{"table.radii", "", "number of branches, equally spaced in the radius of the sphere",
-             number<&TableSpec::radii>({2, 10000})},
-    TableKey{"table.rows_per_radius", "", "rows of a full branch, at deformations of equal ratio",
-             number<&TableSpec::rows_per_radius>({2, 10000})},
-    TableKey{"table.accuracy", "", "wanted relative accuracy of the deformation",
-             number<&TableSpec::accuracy>({1e-7, 1e-1})},
-    TableKey{"table.bending_beyond_kBT", "kBT",
-             "bending stiffness with which branches go on where the bare surface is unstable, 0 = they end there",
-             number<&TableSpec::bending_beyond_kBT>({0, 1e12})},
-    TableKey{"table.cortex_share", "", "shares of the cortex in the stiffness of combined cells, one sheet for each",
-             TableList{{0, 1}, &TableSpec::cortex_shares}},
-    TableKey{"table.tension_ratio", "", "tensions of combined cells as shares of the modulus of the cortex",
-             TableList{{0, 1e3}, &TableSpec::tension_ratios}},
-    TableKey{"table.bending_ratio", "", "bending stiffness of combined cells over S r0^3, 0 = cell.cortex.bending_kBT",
-             number<&TableSpec::bending_ratio>({0, 1})},
-    TableKey{"table.greatest_deformation_raw", "",
-             "deformation of the contour itself, with the dent that the hull hides, at which combined branches end",
-             number<&TableSpec::greatest_deformation_raw>({1e-7, 1})},
+using Spec = TableSpec;
+constexpr Condition combined{"table.cortex_share", ""};
+
+const std::array table = {
+    key<&Spec::identifier>({"table.identifier", "", "name of the table: letters, digits and hyphens", Word{}}),
+    key<&Spec::stiffness_key>({"table.stiffness", "",
+                               "the swept modulus, cell.bulk.young_modulus_kPa or cell.cortex.modulus_mN_per_m, or "
+                               "\"combined\"; by itself that of the bulk if it has a law",
+                               Word{}, absent}),
+    key<&Spec::least_area_um2>(
+        {"table.least_area_um2", "um2", "area of the smallest cells, deformed", Number{{1e-3, 1e8}}, 30.0}),
+    key<&Spec::greatest_area_um2>(
+        {"table.greatest_area_um2", "um2", "area of the largest cells, deformed", Number{{1e-3, 1e8}}, 290.0}),
+    key<&Spec::least_deformation>(
+        {"table.least_deformation", "", "deformation of the stiffest cells", Number{{1e-7, 0.9}}, 5e-5}),
+    key<&Spec::greatest_deformation>(
+        {"table.greatest_deformation", "", "deformation of the softest cells", Number{{1e-7, 0.9}}, 0.19}),
+    key<&Spec::radii>({"table.radii", "", "number of branches, equally spaced in the radius of the sphere",
+                       Number{{2, 10000}, true}, 100.0}),
+    key<&Spec::rows_per_radius>({"table.rows_per_radius", "", "rows of a full branch, at deformations of equal ratio",
+                                 Number{{2, 10000}, true}, 120.0}),
+    key<&Spec::accuracy>(
+        {"table.accuracy", "", "wanted relative accuracy of the deformation", Number{{1e-7, 1e-1}}, 2e-4}),
+    key<&Spec::bending_beyond_kBT>({"table.bending_beyond_kBT", "kBT",
+                                    "bending stiffness with which branches go on where the bare surface is unstable, "
+                                    "0 = they end there",
+                                    Number{{0, 1e12}}, 0.0}),
+    key<&Spec::cortex_shares>({"table.cortex_share", "",
+                               "shares of the cortex in the stiffness of combined cells, one sheet for each",
+                               List{{0, 1}, true}, absent}),
+    key<&Spec::tension_ratios>({"table.tension_ratio", "",
+                                "tensions of combined cells as shares of the modulus of the cortex",
+                                List{{0, 1e3}, true}, absent, combined}),
+    key<&Spec::bending_ratio>({"table.bending_ratio", "",
+                               "bending stiffness of combined cells over S r0^3, 0 = cell.cortex.bending_kBT",
+                               Number{{0, 1}}, 0.0, combined}),
+    key<&Spec::greatest_deformation_raw>({"table.greatest_deformation_raw", "",
+                                          "deformation of the contour itself, with the dent that the hull hides, at "
+                                          "which combined branches end",
+                                          Number{{1e-7, 1}}, 1.0, combined}),
 };
 
 }  // namespace
 
-std::span<const TableKey> table_keys() { return table; }
+std::span<const Key<TableSpec>> table_keys() { return table; }
 
-const TableKey* find_table_key(std::string_view key) {
-  const auto found = std::ranges::find(table, key, &TableKey::key);
-  return found == table.end() ? nullptr : &*found;
+Reference table_reference() {
+  return {.title = "Table reference",
+          .topic = "table",
+          .declaration = "src/table/table_keys.cc",
+          .opening = "The spec of a look-up table is a text file in TOML. The shortest one:",
+          .example = R"([channel]
+width_um = 20.0
+[flow]
+rate_ul_per_s = 0.04
+viscosity_mPas = 15.0
+[table]
+identifier = "my-first-table"
+)",
+          .rules =
+              "It has all keys of a case (`rheocyte help case`) but cell.radius_um, the modulus that is swept,\n"
+              "flow.drive, and numerics.accuracy; and those of the section [table]. `--set key=value` replaces a key\n"
+              "of the file. The options of the command: `rheocyte table --help`.\n",
+          .keys = key_list(table_keys())};
 }
 
 }  // namespace rheocyte

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "case/parameters.h"
+#include "case/case_keys.h"
 #include "case/scales.h"
 #include "case/write_case.h"
 #include "table/table_text.h"

@@ -26,11 +26,11 @@ struct TableSpec {
   Case base;                  ///< radius and stiffness hold the values of the sweep's middle and mean nothing
   std::string stiffness_key;  ///< the swept parameter, "cell.bulk.young_modulus_kPa", "cell.cortex.modulus_mN_per_m" or
                               ///< combined_stiffness
-  double least_area_um2 = 30, greatest_area_um2 = 290;  ///< of the deformed cell
-  double least_deformation = 5e-5, greatest_deformation = 0.19;
-  int radii = 100;  ///< branches, equally spaced in the radius of the sphere
-  int rows_per_radius = 120;
-  double accuracy = 2e-4;  ///< relative, of the deformation
+  double least_area_um2 = 0, greatest_area_um2 = 0;  ///< of the deformed cell
+  double least_deformation = 0, greatest_deformation = 0;
+  int radii = 0;  ///< branches, equally spaced in the radius of the sphere
+  int rows_per_radius = 0;
+  double accuracy = 0;  ///< relative, of the deformation
   /// Bending stiffness of the branches that go on where the bare surface has lost its stability; 0: none.
   double bending_beyond_kBT = 0;
   std::vector<double> cortex_shares, tension_ratios;  ///< of combined cells, ascending; else empty

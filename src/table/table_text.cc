@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "case/json_guard.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -81,7 +82,7 @@ class Reader {
   }
 
   void parse_metadata() {
-    table_.metadata = nlohmann::ordered_json::parse(json_, nullptr, false);
+    if (is_sound_json(json_)) table_.metadata = nlohmann::ordered_json::parse(json_);
     if (!table_.metadata.is_object()) refuse(place(), "the metadata above are not valid JSON.");
     for (const auto& [key, unit] :
          {std::pair("channel_width", "um"), std::pair("flow_rate", "uL/s"), std::pair("fluid_viscosity", "mPa s")}) {

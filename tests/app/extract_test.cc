@@ -57,7 +57,7 @@ class Extract : public testing::Test {
 TEST_F(Extract, GivesEachEventItsModulusOrItsReason) {
   write_recording("a.rtdc");
   const auto before = test::content_of(folder_ / "a.rtdc");
-  const auto ended = extract({path("a.rtdc"), "--viscosity", "15", "--no-pixelation"});
+  const auto ended = extract({path("a.rtdc"), "--viscosity-mPas", "15", "--no-pixelation"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(test::content_of(folder_ / "a.rtdc"), before) << "the input is never changed";
   EXPECT_NE(ended.out.find("1 of 6 events"), std::string::npos) << ended.out;
@@ -72,7 +72,7 @@ TEST_F(Extract, GivesEachEventItsModulusOrItsReason) {
 TEST_F(Extract, WritesATableOfEventsAndOneOfRecordings) {
   write_recording("a.rtdc");
   write_recording("b.rtdc");
-  const auto ended = extract({path("a.rtdc"), path("b.rtdc"), "-o", path("out"), "--viscosity", "15"});
+  const auto ended = extract({path("a.rtdc"), path("b.rtdc"), "-o", path("out"), "--viscosity-mPas", "15"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   std::istringstream events(test::content_of(folder_ / "out/b_rheocyte.tsv"));
   int lines = 0;
@@ -166,10 +166,10 @@ TEST_F(Extract, WhatIsMissingIsNamedWithTheOptionThatGivesIt) {
     }
     expect_refusal({path("a.rtdc")}, words);
   };
-  without("setup:channel width", "--channel-width");
-  without("setup:flow rate", "--flow-rate");
-  without("imaging:pixel size", "--pixel-size");
-  without("setup:medium", "--viscosity");
+  without("setup:channel width", "--channel-width-um");
+  without("setup:flow rate", "--flow-rate-ul-s");
+  without("imaging:pixel size", "--pixel-size-um");
+  without("setup:medium", "--viscosity-mPas");
   without("setup:temperature", "--temperature");
 }
 
@@ -188,10 +188,12 @@ TEST_F(Extract, RecordingsOfTheReservoirAreRefused) {
 TEST_F(Extract, ContradictingAndWrongOptionsAreRefused) {
   write_recording("a.rtdc");
   const std::string file = path("a.rtdc");
-  expect_refusal({file, "--viscosity", "5", "--medium", "water"}, "--viscosity and --medium contradict");
-  expect_refusal({file, "--viscosity", "5", "--temperature", "23"}, "--viscosity and --temperature contradict");
-  expect_refusal({file, "--viscosity", "-5"}, "--viscosity must be a positive number");
-  expect_refusal({file, "--channel-width", "0"}, "--channel-width must be a positive number");
+  expect_refusal({file, "--viscosity-mPas", "5", "--medium", "water"}, "--viscosity-mPas and --medium contradict");
+  expect_refusal({file, "--viscosity-mPas", "5", "--temperature", "23"},
+                 "--viscosity-mPas and --temperature contradict");
+  expect_refusal({file, "--viscosity-mPas", "-5"},
+                 "--viscosity-mPas -5 is outside its range 0.001 .. 1e7 mPa s (viscosity of the liquid)");
+  expect_refusal({file, "--channel-width-um", "0"}, "--channel-width-um 0 is outside its range 1 .. 10000 um");
   expect_refusal({file, "--temperature", "warm"}, "degrees Celsius, feature or metadata");
   expect_refusal({file, "--temperature", "feature"}, "no temperature of each event");
   expect_refusal({file, "--medium", "soup"}, "the medium \"soup\" has no known viscosity");

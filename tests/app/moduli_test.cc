@@ -105,7 +105,7 @@ TEST_F(ModuliCommand, TheCellsOfARecordingHaveTheirModuli) {
   // The same cells with a tension, at twice the table's viscosity, by a table of three tensions: means within 10 % of
   // twice the moduli (single ones have about 10 and 20 %).
   write_recording(recording(), invented_outline({7, 0.5, 0.15}, 1.2));
-  const Ended ended = moduli({table_folder().string(), "--viscosity", "30", "--fit-tension"});
+  const Ended ended = moduli({table_folder().string(), "--viscosity-mPas", "30", "--fit-tension"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   const auto rows = rows_of(table());
   ASSERT_EQ(rows.size(), std::size_t(events));
@@ -120,7 +120,7 @@ TEST_F(ModuliCommand, TheCellsOfARecordingHaveTheirModuli) {
 
 TEST_F(ModuliCommand, EventsOutsideTheGatesAreNotFitted) {
   const auto status_of_events = [&](const std::vector<std::string>& gates) {
-    std::vector<std::string> options{table_folder().string(), "--viscosity", "15"};
+    std::vector<std::string> options{table_folder().string(), "--viscosity-mPas", "15"};
     options.insert(options.end(), gates.begin(), gates.end());
     const Ended ended = moduli(options);
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -163,7 +163,7 @@ TEST_F(ModuliCommand, EachEventHasTheViscosityOfItsTemperature) {
 }
 
 TEST_F(ModuliCommand, TheSettingsStandAboveTheEvents) {
-  ASSERT_EQ(moduli({table_folder().string(), "--viscosity", "15", "--max", "index=1"}).exit_code, 0);
+  ASSERT_EQ(moduli({table_folder().string(), "--viscosity-mPas", "15", "--max", "index=1"}).exit_code, 0);
   const std::string text = table();
   for (const std::string line : {"channel width: 20 um", "flow rate: 0.04 ul/s", "pixel size: 0.34 um",
                                  "viscosity: 15 mPa s", "only events with index <= 1"})
@@ -175,10 +175,10 @@ TEST_F(ModuliCommand, TheSettingsStandAboveTheEvents) {
 }
 
 TEST_F(ModuliCommand, SaysInOneLineWhatARecordingHolds) {
-  const Ended ended = moduli({table_folder().string(), "--viscosity", "15", "--quiet"});
+  const Ended ended = moduli({table_folder().string(), "--viscosity-mPas", "15", "--quiet"});
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_EQ(ended.out + ended.err, "");
-  const Ended all = moduli({table_folder().string(), "--viscosity", "15"});
+  const Ended all = moduli({table_folder().string(), "--viscosity-mPas", "15"});
   EXPECT_TRUE(is_one_line(all.out)) << all.out;
   for (const std::string words : {" of 40 events resolved, E median 0.", "E2D median ", "E + E2D/r0 median 1."})
     EXPECT_NE(all.out.find(words), std::string::npos) << words << "\n" << all.out;
@@ -188,7 +188,7 @@ TEST_F(ModuliCommand, ARecordingWithoutMadeOutModuliIsSaidAndHasItsExitCode) {
   // 3 where no event has the shape of a cell of the table; 0 where bulk and cortex are not told apart, for their sum is
   // a result; as `rheocyte extract`, 2 comes before 3.
   const auto expect = [&](const std::vector<std::string>& more, int exit_code, const std::string& words) {
-    std::vector<std::string> options{table_folder().string(), "--viscosity", "15"};
+    std::vector<std::string> options{table_folder().string(), "--viscosity-mPas", "15"};
     options.insert(options.end(), more.begin(), more.end());
     const Ended ended = moduli(options);
     EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
@@ -198,7 +198,7 @@ TEST_F(ModuliCommand, ARecordingWithoutMadeOutModuliIsSaidAndHasItsExitCode) {
   };
   expect({"--min", "index=100"}, 3, "no event inside the gates has the shape of a cell of the table XC-2D-26");
   // Pixels twice as large, and so the cells.
-  expect({"--pixel-size", "0.68"}, 3,
+  expect({"--pixel-size-um", "0.68"}, 3,
          "no event has the shape of a cell of the table XC-2D-26: 0 of 40 events resolved; ");
   write_recording(recording(), invented_outline({6, 0.02, 0}, 3));
   expect({}, 0, "no event tells bulk and cortex apart");
@@ -210,7 +210,7 @@ TEST_F(ModuliCommand, ARecordingWithoutMadeOutModuliIsSaidAndHasItsExitCode) {
     writer.scalar("deform", {0.02, 0.03});
   }
   const Ended both = moduli(
-      {table_folder().string(), "--viscosity", "15", "--min", "index=100", (folder_.path() / "M2.rtdc").string()});
+      {table_folder().string(), "--viscosity-mPas", "15", "--min", "index=100", (folder_.path() / "M2.rtdc").string()});
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_NE(both.err.find("M2.rtdc: has neither contours nor masks"), std::string::npos) << both.err;
 }
@@ -220,8 +220,8 @@ TEST_F(ModuliCommand, WhatCannotBeUsedIsRefused) {
   // user's in the place of the result.
   const std::string folder = table_folder().string();
   expect_refusal({(folder_.path() / "none").string()}, "there is no table");
-  expect_refusal({folder, "--viscosity", "-1"}, "--viscosity must be a positive number");
-  expect_refusal({folder, "--pixel-size", "0"}, "--pixel-size must be a positive number");
+  expect_refusal({folder, "--viscosity-mPas", "-1"}, "--viscosity-mPas -1 is outside its range");
+  expect_refusal({folder, "--pixel-size-um", "0"}, "--pixel-size-um 0 is outside its range");
   for (const std::string option : {"--no-pixelation", "--no-area-correction", "--no-tsv"})
     expect_refusal({folder, option}, option);
   write_file(folder_.path() / "M1_moduli.tsv", "my own notes");

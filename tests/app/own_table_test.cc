@@ -88,7 +88,9 @@ TEST_F(OwnTable, AgreesWithThePublishedTableOfTheSameModel) {
     writer.scalar("deform", {0.03});
   }
   ASSERT_EQ(
-      run({"extract", path("a.rtdc"), "--no-pixelation", "--viscosity", "5.3563", "--flow-rate", "0.06"}).exit_code, 0);
+      run({"extract", path("a.rtdc"), "--no-pixelation", "--viscosity-mPas", "5.3563", "--flow-rate-ul-s", "0.06"})
+          .exit_code,
+      0);
   // By LE-2D-FEM-19, whose moduli ours meet to 0.4 %.
   EXPECT_NEAR(column(folder_ / "a_rheocyte.rtdc", "emodulus")[0], 1.0486, 0.004 * 1.0486);
 }
@@ -181,7 +183,7 @@ TEST_F(OwnTable, AShearThinningMediumGetsTheTableOfItsLiquid) {
       << ended.err;
   EXPECT_NE(test::content_of(folder_ / "rheocyte_summary.tsv").find("9.1 % smaller"), std::string::npos);
   EXPECT_NE(extract({"--table", "NEWTON"}).err.find("those from THINNING"), std::string::npos) << "as the user wants";
-  EXPECT_EQ(extract({"--viscosity", "5"}).err, "") << "of a viscosity alone nothing is known";
+  EXPECT_EQ(extract({"--viscosity-mPas", "5"}).err, "") << "of a viscosity alone nothing is known";
 }
 
 TEST_F(OwnTable, EachMediumGetsItsOwnAtEveryTemperature) {
@@ -209,11 +211,11 @@ TEST_F(OwnTable, ModuliComeBackAndIntervalsHoldWhatTheyPromise) {
         folder_ / "spec.toml",
         "[recording]\ncells = 500\npictures = \"none\"\n[channel]\nwidth_um = 20\n[flow]\n"
         "rate_ul_per_s = 0.04\nviscosity_mPas = 15\n[shapes]\ntable = \"table\"\n[cell]\nradius_um = {mean = " +
-            std::to_string(radius) + ", sd = 0.3}\nyoung_modulus_kPa = {mean = " + std::to_string(modulus) +
+            std::to_string(radius) + ", sd = 0.3}\nbulk.young_modulus_kPa = {mean = " + std::to_string(modulus) +
             ", sd = " + std::to_string(deviation) + "}\n");
     fs::remove(folder_ / "v.rtdc");
     ASSERT_EQ(run({"synth", path("spec.toml"), "-o", path("v.rtdc")}).exit_code, 0);
-    const auto ended = run({"extract", path("v.rtdc"), "--table", path("table"), "--viscosity", "15"});
+    const auto ended = run({"extract", path("v.rtdc"), "--table", path("table"), "--viscosity-mPas", "15"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const auto found = column(folder_ / "v_rheocyte.rtdc", "emodulus"),
                error = column(folder_ / "v_rheocyte.rtdc", "userdef1"), truth = column(folder_ / "v.rtdc", "userdef2");

@@ -92,7 +92,7 @@ TEST_F(Plot, WithoutATableTheLinesAreThoseOfTheProgramsOwn) {
   const auto bare = plot({path("bare.rtdc")});
   EXPECT_EQ(bare.exit_code, 0) << bare.err;
   EXPECT_NE(bare.err.find("drawn without lines of equal modulus"), std::string::npos) << bare.err;
-  EXPECT_NE(bare.err.find("--channel-width"), std::string::npos) << bare.err;
+  EXPECT_NE(bare.err.find("--channel-width-um"), std::string::npos) << bare.err;
 }
 
 TEST_F(Plot, OtherFeaturesAndGates) {
@@ -125,7 +125,7 @@ TEST_F(Plot, WhatCannotBeDrawnIsSaid) {
   expect_refusal({a, "--levels", "1,2", "--lines", table}, "--levels and --lines contradict");
   expect_refusal({a, "--no-lines", "--table", table}, "--no-lines and --table contradict");
   expect_refusal({a, "--table", table, "--levels", "1,-2"}, "positive moduli");
-  expect_refusal({a, "--table", table, "--viscosity", "5", "--medium", "water"}, "contradict each other");
+  expect_refusal({a, "--table", table, "--viscosity-mPas", "5", "--medium", "water"}, "contradict each other");
   expect_refusal({a, "-o", path(".")}, "is a folder; give a name");
   expect_refusal({a, "-o", path("nowhere/out")}, "there is no such folder");
   {
@@ -134,7 +134,7 @@ TEST_F(Plot, WhatCannotBeDrawnIsSaid) {
     writer.scalar("deform", {0.1, NAN});
   }
   expect_refusal({path("empty.rtdc")}, "nothing to draw");
-  expect_refusal({path("empty.rtdc"), "--table", table}, "--channel-width");
+  expect_refusal({path("empty.rtdc"), "--table", table}, "--channel-width-um");
   EXPECT_FALSE(fs::exists(folder_ / "a_rheocyte.png"));
 }
 

@@ -22,7 +22,7 @@ class Synth : public testing::Test {
     test::write_file(folder_ / "spec.toml",
                      "[recording]\ncells = 400\npictures = \"none\"\n[channel]\nwidth_um = 20\n[flow]\n"
                      "rate_ul_per_s = 0.04\nviscosity_mPas = 15\n[cell]\nradius_um = {mean = 6, sd = 0.4}\n"
-                     "young_modulus_kPa = 4\n");
+                     "bulk.young_modulus_kPa = 4\n");
   }
   test::Ended run(const std::vector<std::string>& arguments) const {
     std::vector<std::string> all{RHEOCYTE};
@@ -46,7 +46,7 @@ TEST_F(Synth, ModuliOfAVirtualRecordingAreThoseOfItsCells) {
   ASSERT_EQ(run({"synth", path("spec.toml"), "-o", path("v.rtdc")}).exit_code, 0);
   ASSERT_EQ(run({"analytic", "table", "-o", path("table")}).exit_code, 0);
   const auto table = fs::directory_iterator(folder_ / "table")->path().string();
-  const auto ended = run({"extract", path("v.rtdc"), "--table", table, "--viscosity", "15"});
+  const auto ended = run({"extract", path("v.rtdc"), "--table", table, "--viscosity-mPas", "15"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   auto moduli = column("v_rheocyte.rtdc", "emodulus");
   std::erase_if(moduli, [](double value) { return std::isnan(value); });
@@ -60,7 +60,7 @@ TEST_F(Synth, SaysWhatItMadeAndWhatItLeftOut) {
   test::write_file(folder_ / "soft.toml",
                    "[recording]\ncells = 100\n[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\n"
                    "viscosity_mPas = 15\n[cell]\nradius_um = {mean = 6, sd = 0.4}\n"
-                   "young_modulus_kPa = {mean = 5, sd = 1}\n[shapes]\ngreatest_deformation = 0.01\n");
+                   "bulk.young_modulus_kPa = {mean = 5, sd = 1}\n[shapes]\ngreatest_deformation = 0.01\n");
   const auto ended = run({"synth", path("soft.toml"), "-o", path("v.rtdc")});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_NE(ended.out.find(" events; areas measured -"), std::string::npos) << ended.out;
@@ -70,7 +70,7 @@ TEST_F(Synth, SaysWhatItMadeAndWhatItLeftOut) {
 TEST_F(Synth, ATableInPlaceOfTheClosedModelIsLookedForBesideTheSpec) {
   const std::string flow =
       "[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\nviscosity_mPas = 15\n[cell]\nradius_um = 6\n"
-      "young_modulus_kPa = 4\n[shapes]\ntable = \"table\"\n";
+      "bulk.young_modulus_kPa = 4\n[shapes]\ntable = \"table\"\n";
   test::write_file(folder_ / "spec.toml", flow);
   expect_refusal({"synth", path("spec.toml"), "-o", path("v.rtdc")}, path("table") + ": there is no table");
   const std::string of_shells =
@@ -115,8 +115,8 @@ void write_combined_table(const fs::path& path, const std::string& spec_text) {
 const std::string combined_cells =
     "[recording]\ncells = 60\npixel_size_um = 0.1\nwidth_px = 260\n[channel]\nwidth_um = 20\n[flow]\n"
     "rate_ul_per_s = 0.04\nviscosity_mPas = 30\n[shapes]\ntable = \"table\"\n[cell]\nkind = \"combined\"\n"
-    "radius_um = {mean = 6.8, sd = 0.3}\nyoung_modulus_kPa = {mean = 2, sd = 0.3}\n"
-    "cortex_modulus_mN_per_m = {mean = 12, sd = 2, distribution = \"lognormal\"}\n";
+    "radius_um = {mean = 6.8, sd = 0.3}\nbulk.young_modulus_kPa = {mean = 2, sd = 0.3}\n"
+    "cortex.modulus_mN_per_m = {mean = 12, sd = 2, distribution = \"lognormal\"}\n";
 
 std::string without_tension() {
   std::string text = test::combined_spec;
@@ -135,7 +135,7 @@ TEST_F(Synth, ModuliOfCombinedCellsAreThoseOfTheirTruth) {
   EXPECT_EQ(column("v.rtdc", "userdef8"), std::vector<double>(young.size(), 0));
   const Recording recording(folder_ / "v.rtdc");
   EXPECT_EQ(recording.metadata().text("user:rheocyte userdef7"), "true cortex modulus E2D (mN/m)");
-  const auto ended = run({"moduli", path("v.rtdc"), "--table", path("table"), "--viscosity", "30"});
+  const auto ended = run({"moduli", path("v.rtdc"), "--table", path("table"), "--viscosity-mPas", "30"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   std::istringstream lines(test::content_of(folder_ / "v_moduli.tsv"));
   std::size_t event = 0;
@@ -157,14 +157,14 @@ TEST_F(Synth, ModuliOfCombinedCellsAreThoseOfTheirTruth) {
 
 TEST_F(Synth, TensionsOfCombinedCellsHaveASpreadOfTheirOwn) {
   write_combined_table(folder_ / "table", test::combined_spec);
-  test::write_file(folder_ / "combined.toml", combined_cells + "tension_mN_per_m = {mean = 1.8, sd = 0.3}\n");
+  test::write_file(folder_ / "combined.toml", combined_cells + "cortex.tension_mN_per_m = {mean = 1.8, sd = 0.3}\n");
   const auto made = run({"synth", path("combined.toml"), "-o", path("v.rtdc")});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const auto tension = column("v.rtdc", "userdef8");
   const auto [least, greatest] = std::ranges::minmax(tension);
   EXPECT_LT(least, 1.5);
   EXPECT_GT(greatest, 2.1);
-  test::write_file(folder_ / "tense.toml", combined_cells + "tension_ratio = 0.5\n");
+  test::write_file(folder_ / "tense.toml", combined_cells + "cortex.tension_ratio = 0.5\n");
   expect_refusal({"synth", path("tense.toml"), "-o", path("w.rtdc")}, "60 of a cortex or tension outside the table");
 }
 
@@ -176,12 +176,13 @@ TEST_F(Synth, CellsAndTheirTableMustGoTogether) {
     test::write_file(folder_ / "bad.toml", text);
     expect_refusal({"synth", path("bad.toml"), "-o", path("v.rtdc")}, words);
   };
-  expect(combined_cells, "has the tensions 0, 0.15, 0.3 in E2D; give cell.tension_ratio or cell.tension_mN_per_m");
+  expect(combined_cells,
+         "has the tensions 0, 0.15, 0.3 in E2D; give cell.cortex.tension_ratio or cell.cortex.tension_mN_per_m");
   const auto replaced = [](std::string text, const std::string& old, const std::string& by) {
     return text.replace(text.find(old), old.size(), by);
   };
   expect(replaced(combined_cells, "\"table\"", "\"one-tension\"") + "tension_ratio = 0.1\n",
-         "all its cells have the tension 0 E2D; remove cell.tension_ratio");
+         "all its cells have the tension 0 E2D; remove cell.cortex.tension_ratio");
   const std::string solids = test::content_of(folder_ / "spec.toml") + "[shapes]\ntable = \"table\"\n";
   expect(solids, "cell.kind must be \"combined\"");
 }
@@ -201,7 +202,7 @@ TEST_F(Synth, WhatIsWrongIsSaidAndLeavesNothing) {
   test::write_file(
       folder_ / "soft.toml",
       "[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\nviscosity_mPas = 15\n[cell]\nradius_um = 6\n"
-      "young_modulus_kPa = 0.1\n");
+      "bulk.young_modulus_kPa = 0.1\n");
   expect_refusal({"synth", path("soft.toml"), "-o", path("v.rtdc")}, "500 too soft");
   for (const auto& entry : fs::directory_iterator(folder_ / "."))
     EXPECT_FALSE(entry.path().filename().string().starts_with('.') || entry.path().filename() == "v.rtdc")

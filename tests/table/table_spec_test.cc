@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+
 #include "../refusal.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "invented_branch.h"
+#include "table/table_keys.h"
 
 namespace rheocyte {
 namespace {
@@ -34,7 +38,7 @@ TEST(TableSpec, GivenValuesAreKeptAndTheOthersHaveTheirDefaults) {
   EXPECT_EQ(spec.stiffness_key, "cell.bulk.young_modulus_kPa");
   EXPECT_EQ(spec.radii, 40);
   EXPECT_EQ(spec.accuracy, 1e-3);
-  EXPECT_EQ(spec.rows_per_radius, TableSpec{}.rows_per_radius);
+  EXPECT_EQ(spec.rows_per_radius, 120);
   EXPECT_EQ(spec.base.cell.bulk.law, BulkLaw::linear);
   EXPECT_EQ(spec.base.flow.density_kg_per_m3, 1000);
 }
@@ -96,7 +100,7 @@ TEST(TableSpec, BendingOfCombinedCellsGoesWithTheirStiffness) {
   EXPECT_EQ(spec_hash(again), spec_hash(spec));
   EXPECT_EQ(again.greatest_deformation_raw, 0.16);
   EXPECT_EQ(to_toml(read(short_spec)).find("bending_ratio"), std::string::npos) << "tables without it stay the same";
-  expect_refusal("table.bending_ratio=1e-3", "table.bending_ratio needs table.cortex_share");
+  expect_refusal("table.bending_ratio=1e-3", "has no effect without table.cortex_share");
   auto both = combined;
   both.emplace_back("cell.cortex.bending_kBT=1e4");
   EXPECT_NE(refusal(short_spec, both).find("exclude each other"), std::string::npos);
@@ -113,7 +117,7 @@ TEST(TableSpec, SweptKeysMustNotBeGiven) {
 TEST(TableSpec, UnknownKeysAreNamedWithTheNearestOne) {
   expect_refusal("table.radi=5", "unknown key table.radi = 5, did you mean table.radii?");
   expect_refusal("tabel.radii=5", "did you mean table.radii?");
-  expect_refusal("table.xyzxyzxyzxyz=5", "docs/tables.md lists the keys");
+  expect_refusal("table.xyzxyzxyzxyz=5", "`rheocyte help table` lists all keys");
   expect_refusal("flow.viscosity=5", "did you mean flow.viscosity_mPas?");
 }
 
@@ -121,7 +125,7 @@ TEST(TableSpec, ValuesOutsideTheirRangesAreNamed) {
   expect_refusal("table.radii=1", "table.radii = 1 is outside its range 2 .. 10000");
   expect_refusal("table.radii=2.5", "not a whole number");
   expect_refusal("table.radii=many", "is not a number");
-  expect_refusal("table.radii=nan", "outside its range");
+  expect_refusal("table.radii=nan", "is not finite");
   expect_refusal("table.identifier=7", "must be a word");
   expect_refusal("table.least_area_um2=290", "is not below table.greatest_area_um2 = 290; the table would be empty");
   expect_refusal("table.greatest_deformation=1e-5", "the table would be empty");
@@ -151,6 +155,13 @@ TEST(TableSpec, MistakesOfTheCaseAreThoseOfACaseFile) {
   EXPECT_NE(refusal("").find("is empty"), std::string::npos);
   EXPECT_NE(refusal("[table]\nidentifier = \"a\"\n").find("channel.width_um"), std::string::npos);
   EXPECT_NE(refusal(short_spec + "radii = 3\nradii = 4\n").find("not valid TOML"), std::string::npos);
+}
+
+TEST(TableSpec, TheReferenceInDocsIsUpToDate) {
+  std::ostringstream text;
+  text << std::ifstream(TABLE_REFERENCE).rdbuf();
+  EXPECT_EQ(text.str(), reference_markdown(table_reference()))
+      << "run `build/rheocyte help table --markdown > docs/table-reference.md`";
 }
 
 TEST(TableSpec, EveryReadySpecIsAGoodOne) {

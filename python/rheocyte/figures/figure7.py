@@ -35,7 +35,7 @@ def make(laboratory):
     states = read_states(table / f"table_{TABLE['table.identifier']}.csv")
     spec = {"recording.cells": BEADS, "recording.pictures": "none", "recording.sample": "virtual beads", **CONDITIONS,
             "cell.radius_um.mean": RADIUS_UM, "cell.radius_um.sd": RADIUS_DEVIATION_UM,
-            "cell.young_modulus_kPa.mean": MEAN_KPA, "cell.young_modulus_kPa.sd": DEVIATION_KPA,
+            "cell.bulk.young_modulus_kPa.mean": MEAN_KPA, "cell.bulk.young_modulus_kPa.sd": DEVIATION_KPA,
             "shapes.table": str(table.resolve())}
     beads, moduli = measured_beads(laboratory, spec, table)
     lines = [line(states, level) for level in LEVELS_KPA]
@@ -79,7 +79,7 @@ def measured_beads(laboratory, spec, table):
     finish(laboratory, "synth", file, "-o", recording, "--force")
     moduli = {}
     for name, source, options in (("plain", lut, ["--no-pixelation"]), ("deformation", lut, []), ("own", table, [])):
-        finish(laboratory, "extract", recording, "--table", source, "--viscosity", CONDITIONS["flow.viscosity_mPas"], "-o",
+        finish(laboratory, "extract", recording, "--table", source, "--viscosity-mPas", CONDITIONS["flow.viscosity_mPas"], "-o",
                laboratory.folder / f"beads-{name}", *options)
         events = read_events(laboratory.folder / f"beads-{name}" / "beads_rheocyte.tsv")
         moduli[name] = events[:, 2]

@@ -1,0 +1,120 @@
+#include "case/case_keys.h"
+
+#include <array>
+
+namespace rheocyte {
+
+namespace {
+
+constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "power-law"},
+    mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
+    has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
+    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
+    has_rate{"flow.drive", "pressure-drop", true}, has_pressure_drop{"flow.drive", "pressure-drop"};
+
+// The member of a case is the name of its key; behind it stand the other parts of its KeyDescription in their order.
+#define FIELD(member) \
+  [](auto& c) -> auto& { return c.member; }
+#define KEY(member, ...) key_of<Case, FIELD(member)>({#member, __VA_ARGS__})
+
+// The options of a choice stand in the order of its enumeration (case/problem.h, laws/).
+// The ranges are wide; they catch wrong units and keep every dimensionless group finite.
+const std::array table = {
+    KEY(channel.width_um, "um", "width of the square channel, mapped to a tube of radius 0.547 x width",
+        Number{{1, 10000}}, required, {}, "channel.radius_um", "--channel-width-um", "--channel-width"),
+    KEY(channel.radius_um, "um", "radius of the tube", Number{{0.5, 5000}}, required, {}, "channel.width_um",
+        "--tube-radius-um"),
+    KEY(channel.length_um, "um", "length of the channel over which the given pressure drops", Number{{1, 1e6}},
+        required, has_pressure_drop),
+    KEY(channel.profile.x_um, "um",
+        "places along a channel that is not straight, in place of its width or radius; the cell starts at 0",
+        List{{-1e6, 1e6}}, absent, monolithic),
+    KEY(channel.profile.R_um, "um",
+        "radii of the wall at these places, smooth and monotonic in between, constant beyond the ends",
+        List{{0.5, 5000}}, absent, monolithic),
+
+    KEY(flow.drive, "",
+        "what is given: the flow rate; the pressure drop, with the flow rate as a result; the flow rate, reached "
+        "through a pressure drop that is adapted in each step as in Mokbel et al. 2017",
+        Choice{{"rate", "pressure-drop", "controlled-pressure"},
+               Implied{"pressure-drop", "flow.pressure_drop_Pa", "flow.rate_ul_per_s"}},
+        0),
+    KEY(flow.rate_ul_per_s, "ul/s", "flow rate through the channel, sheath and sample together", Number{{1e-9, 1e3}},
+        required, has_rate, {}, "--flow-rate-ul-s", "--flow-rate"),
+    KEY(flow.pressure_drop_Pa, "Pa", "pressure drop over channel.length_um, with the cell in it", Number{{1e-6, 1e12}},
+        required, has_pressure_drop),
+    KEY(flow.law, "", "law of the liquid, power-law: viscosity = consistency x shear rate^(exponent - 1)",
+        Choice{{"newtonian", "power-law"}}, 0),
+    KEY(flow.viscosity_mPas, "mPa s", "viscosity of the liquid", Number{{1e-3, 1e7}}, required, newtonian, {},
+        "--viscosity-mPas", "--viscosity"),
+    KEY(flow.consistency_Pa_sn, "Pa s^n", "consistency of the shear-thinning liquid", Number{{1e-6, 1e4}}, required,
+        power_law),
+    KEY(flow.exponent, "", "exponent n of the shear-thinning liquid, 1 = Newtonian", Number{{0.1, 2}}, required,
+        power_law),
+    KEY(flow.shear_rate_floor, "",
+        "shear rate, relative to mean speed / tube radius, below which the viscosity levels off", Number{{1e-6, 1}},
+        0.01, power_law),
+    KEY(flow.density_kg_per_m3, "kg/m3", "density of the liquid, 0 = no inertia (Stokes flow)", Number{{0, 1e6}},
+        1000.0),
+
+    KEY(cell.radius_um, "um", "radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius",
+        Number{{0.01, 5000}}, required, {}, {}, "--radius-um"),
+    KEY(cell.viscosity_mPas, "mPa s", "viscosity of the cell's interior; a stationary shape does not depend on it",
+        Number{{1e-3, 1e9}}, required, in_time),
+    KEY(cell.density_kg_per_m3, "kg/m3", "density of the cell", Number{{0, 1e6}}, 1000.0, in_time),
+    KEY(cell.bulk.law, "", "elastic law of the cell's interior, none: a liquid, which makes the cell a shell",
+        Choice{{"linear", "neo-hookean", "mooney-rivlin", "none"}}, 1),
+    KEY(cell.bulk.young_modulus_kPa, "kPa", "Young's modulus of the cell's interior, which is incompressible",
+        Number{{1e-6, 1e9}}, required, has_bulk, {}, "--young-modulus-kPa"),
+    KEY(cell.bulk.mooney_share, "", "share of the neo-hookean law in the mooney-rivlin one, the rest is linear",
+        Number{{0, 1}}, 0.5, mooney_rivlin),
+
+    KEY(cell.cortex.law, "", "elastic law of the cell's surface, the cortex",
+        Choice{{"none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference"}}, 0),
+    KEY(cell.cortex.modulus_mN_per_m, "mN/m", "elastic modulus E2D of the cortex, Young's modulus x thickness",
+        Number{{1e-6, 1e9}}, required, has_shell, {}, "--cortex-modulus-mN-m"),
+    KEY(cell.cortex.tension_mN_per_m, "mN/m", "surface tension of the cell", Number{{0, 1e9}}, 0.0, {},
+        "cell.cortex.tension_ratio"),
+    KEY(cell.cortex.tension_ratio, "", "surface tension as a share of the modulus of the cortex", Number{{0, 1e3}},
+        required, has_shell, "cell.cortex.tension_mN_per_m", "--tension-ratio"),
+    KEY(cell.cortex.bending_kBT, "kBT",
+        "bending stiffness c_b of the cell's surface in units of k_B T at 25 degrees C (4.116e-21 J)",
+        Number{{0, 1e12}}, 0.0),
+
+    KEY(time.scheme, "",
+        "stationary: the final shape at once; monolithic: the way to it, in implicit steps of controlled size; "
+        "partitioned: in the splitting of Mokbel et al. 2017",
+        Choice{{"stationary", "monolithic", "partitioned"}, Implied{"monolithic", "time."}}, 0),
+    KEY(time.end_us, "us", "time to follow the cell, which starts as a sphere", Number{{1e-6, 1e12}}, required,
+        in_time),
+    KEY(time.output_every_us, "us", "time between contours, fields and frames of the animation", Number{{1e-6, 1e12}},
+        10.0, in_time),
+    KEY(time.accuracy, "", "wanted accuracy of the surface's positions in each step, relative to the radius",
+        Number{{1e-9, 1e-2}}, 1e-5, monolithic),
+    KEY(time.step_us, "us", "step of the splitting, which is explicit in the elasticity", Number{{1e-6, 1e6}}, 0.2,
+        partitioned),
+    KEY(time.grid_um, "um",
+        "size of the elements along the cell's surface, 0.2 in Mokbel et al. 2017; 0: the mesh of the implicit steps",
+        Number{{0, 1000}}, 0.0, partitioned),
+    KEY(time.degree, "", "polynomial degree of the spaces", Number{{2, 10}, true}, 6.0, in_time),
+
+    KEY(numerics.accuracy, "", "wanted relative accuracy of the deformation, mesh and degree are chosen for it",
+        Number{{1e-7, 1e-1}}, 1e-4),
+
+};
+
+#undef KEY
+#undef FIELD
+
+}  // namespace
+
+std::span<const Key<Case>> case_keys() { return table; }
+
+const Key<Case>& case_key(std::string_view name) { return *find_key(case_keys(), name); }
+
+std::string_view chosen_option(const Case& c, std::string_view name) {
+  const auto& key = case_key(name);
+  return option_of(key, *key.get(c));
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,36 @@
+#include "case/json_guard.h"
+
+namespace rheocyte {
+
+namespace {
+
+using nlohmann::json;
+
+class NestingGuard : public nlohmann::json_sax<json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(json::number_integer_t) override { return true; }
+  bool number_unsigned(json::number_unsigned_t) override { return true; }
+  bool number_float(json::number_float_t, const json::string_t&) override { return true; }
+  bool string(json::string_t&) override { return true; }
+  bool binary(json::binary_t&) override { return true; }
+  bool key(json::string_t&) override { return true; }
+  bool start_object(std::size_t) override { return ++depth_ <= greatest_json_nesting; }
+  bool end_object() override { return --depth_ >= 0; }
+  bool start_array(std::size_t) override { return ++depth_ <= greatest_json_nesting; }
+  bool end_array() override { return --depth_ >= 0; }
+  bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
+
+ private:
+  int depth_ = 0;
+};
+
+}  // namespace
+
+bool is_sound_json(std::string_view bytes, json::input_format_t format) {
+  NestingGuard guard;
+  return json::sax_parse(bytes.begin(), bytes.end(), &guard, format);
+}
+
+}  // namespace rheocyte
