@@ -115,6 +115,23 @@ CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnk
 
 CoupledSystem::~CoupledSystem() = default;
 
+void CoupledSystem::follow_space(std::vector<ElementUnknowns> elements) {
+  elements_ = std::move(elements);
+  surface_ = SurfaceIntegrals(space_);
+  inlet_load_ = inlet_load(space_);
+}
+
+std::size_t CoupledSystem::memory_bytes() const {
+  std::size_t numbers = matrix_->value.size() + std::size_t(1.5 * lu_->entries());  // with the places of the entries
+  for (const Condensed& c : condensed_)
+    numbers += c.lu.matrixLU().size() + c.inner_outer.size() + c.outer_inner.size() + c.schur.size();
+  for (const ElementUnknowns& element : elements_) {
+    for (const ShapeTable& table : element.position)
+      numbers += 2 * (table.value.size() + table.d1.size() + table.d2.size());  // here and in the space
+  }
+  return numbers * sizeof(double);
+}
+
 VectorXd CoupledSystem::sphere() const {
   VectorXd unknowns = VectorXd::Zero(space_.unknowns());
   unknowns(space_.cell_velocity()) = 1;

@@ -42,6 +42,8 @@ class CoupledSystem {
   VectorXd apply_tangent(const Media&, const VectorXd& unknowns, const VectorXd& direction);
 
   const WorkMeter& work() const { return work_; }
+  /// Of the factors and tables that it holds, about.
+  std::size_t memory_bytes() const;
 
  protected:
   /// Pressure at an open inlet that depends on the acceleration of the frame: fixed + slope * v_cell.
@@ -52,6 +54,9 @@ class CoupledSystem {
   /// The discretisation must outlive this object. Which unknowns a column refers to stays as it is given here; factors
   /// and constants of the columns may change.
   CoupledSystem(const Discretisation&, std::vector<ElementUnknowns>);
+  /// Reads the geometry anew after the discretisation was moved; which unknowns couple must be as before. The factors
+  /// stay those of the old geometry.
+  void follow_space(std::vector<ElementUnknowns>);
   /// Residual and, if wanted, tangent of one element that is not empty.
   virtual void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const = 0;
   /// Only for an open inlet.

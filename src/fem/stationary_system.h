@@ -8,6 +8,8 @@ class StationarySystem final : public CoupledSystem {
  public:
   /// The discretisation must outlive this object.
   explicit StationarySystem(const Discretisation& space) : CoupledSystem(space, space.elements()) {}
+  /// After the discretisation has changed its geometry alone.
+  void follow_space() { CoupledSystem::follow_space(space().elements()); }
 
  private:
   void integrate(int element, const Media& media, const VectorXd& unknowns, Want want,

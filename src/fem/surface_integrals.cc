@@ -45,7 +45,7 @@ void append_nodes(const Discretisation& space, const BoundaryEdge& edge, Surface
 
 }  // namespace
 
-SurfaceIntegrals::SurfaceIntegrals(const Discretisation& space) : space_(space) {
+SurfaceIntegrals::SurfaceIntegrals(const Discretisation& space) : space_(&space) {
   const auto& edges = space.surface();
   for (const BoundaryEdge& edge : edges) {
     SurfacePatch& patch = patches_.emplace_back();
@@ -71,7 +71,7 @@ SurfaceIntegrals::SurfaceIntegrals(const Discretisation& space) : space_(space) 
 }
 
 void SurfaceIntegrals::tabulate() {
-  const ReferenceElement& reference = space_.reference();
+  const ReferenceElement& reference = space_->reference();
   const int n = reference.degree() + 1;
   const EdgeTable at_points(reference, reference.points_1d);
   for (int q = 0; q < reference.points_1d.size(); ++q) {
@@ -106,11 +106,11 @@ void SurfaceIntegrals::integrate(int index, const Cortex& cortex, const VectorXd
   const SurfacePatch& patch = patches_[index];
   VectorXd local = patch.rest;
   for (int i = 0; i < local.size(); ++i) {
-    if (patch.unknowns[i] >= 0 && patch.unknowns[i] != space_.cell_velocity()) local(i) += unknowns(patch.unknowns[i]);
+    if (patch.unknowns[i] >= 0 && patch.unknowns[i] != space_->cell_velocity()) local(i) += unknowns(patch.unknowns[i]);
   }
   system.residual.setZero(local.size());
   if (want == Want::residual_and_tangent) system.tangent.setZero(local.size(), local.size());
-  if (index < int(space_.surface().size())) {
+  if (index < int(space_->surface().size())) {
     integrate_edge(index, cortex, local, want, system);
   } else {
     integrate_kink(cortex, local, want, system);
@@ -118,16 +118,16 @@ void SurfaceIntegrals::integrate(int index, const Cortex& cortex, const VectorXd
 }
 
 int SurfaceIntegrals::active(const Cortex& cortex) const {
-  return int(cortex.bending != 0 ? patches_.size() : space_.surface().size());
+  return int(cortex.bending != 0 ? patches_.size() : space_->surface().size());
 }
 
 void SurfaceIntegrals::integrate_edge(int edge, const Cortex& cortex, const VectorXd& local, Want want,
                                       ElementSystem& system) const {
   constexpr int inputs = SurfacePoint::inputs, outputs = SurfacePoint::outputs;
-  const double rest_pressure = 2 * cortex.tension / space_.mesh().geometry().radius();
+  const double rest_pressure = 2 * cortex.tension / space_->mesh().geometry().radius();
   for (std::size_t q = 0; q < edge_.size(); ++q) {
     const SurfacePoint form{cortex, rest_pressure, references_[edge][q]};
-    const double weight = space_.reference().weights_1d(int(q));
+    const double weight = space_->reference().weights_1d(int(q));
     const Eigen::Matrix<double, inputs, 1> f = edge_[q].inputs * local;
     Eigen::Matrix<double, outputs, 1> flux;
     if (want == Want::residual) {
@@ -149,7 +149,7 @@ void SurfaceIntegrals::integrate_edge(int edge, const Cortex& cortex, const Vect
 void SurfaceIntegrals::integrate_kink(const Cortex& cortex, const VectorXd& local, Want want,
                                       ElementSystem& system) const {
   constexpr int inputs = SurfaceKink::inputs;
-  const int degree = space_.reference().degree();
+  const int degree = space_->reference().degree();
   const SurfaceKink energy{cortex, penalty_factor * degree * degree};
   const Eigen::Matrix<double, inputs, 1> f = kink_ * local;
   Eigen::Matrix<double, inputs, 1> slope;

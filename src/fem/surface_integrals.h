@@ -32,7 +32,7 @@ class SurfaceIntegrals {
   void integrate_edge(int edge, const Cortex&, const VectorXd& local, Want, ElementSystem&) const;
   void integrate_kink(const Cortex&, const VectorXd& local, Want, ElementSystem&) const;
 
-  const Discretisation& space_;
+  const Discretisation* space_;
   std::vector<SurfacePatch> patches_;
   std::vector<std::vector<SurfaceReference>> references_;  ///< edge by edge, at its quadrature points
   std::vector<Table> edge_;                                ///< at the quadrature points, the same for all edges

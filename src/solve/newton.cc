@@ -1,6 +1,7 @@
 #include "solve/newton.h"
 
 #include <cmath>
+#include <utility>
 
 #include "fem/observe.h"
 
@@ -45,12 +46,16 @@ double residual_scale(CoupledSystem& system, const Media& media) {
 NewtonReport newton(CoupledSystem& system, const Media& media, const NewtonOptions& options, VectorXd& x) {
   NewtonReport report;
   const double scale = options.residual_scale > 0 ? options.residual_scale : residual_scale(system, media);
-  bool fresh = false;  // whether the factorisation belongs to the present state
+  bool keep = options.keep_factors;  // whether the next step is a chord step
   double det = 0;
   VectorXd residual;
+  if (keep) {
+    residual = system.residual(media, x, det);
+    report.residual_history.push_back(residual.norm() / scale);
+  }
   for (int factorisations = 0;;) {
     if (options.stop && *options.stop) return report.status = Status::stopped, report;
-    if (!fresh) {
+    if (!keep) {
       if (factorisations++ == options.iteration_limit) return report.status = Status::iteration_limit, report;
       bool factorised = false;
       residual = system.linearise(media, x, det, factorised);
@@ -65,7 +70,10 @@ NewtonReport newton(CoupledSystem& system, const Media& media, const NewtonOptio
     if (!correction.allFinite()) return report.status = Status::not_finite, report;
     const double displacement = largest_displacement(system.space(), correction);
     if (report.iterations++ == 0) report.first_correction = displacement;
-    if (!step(system, media, correction, det, x, residual)) return report.status = Status::mesh_folded, report;
+    if (!step(system, media, correction, det, x, residual)) {
+      if (!std::exchange(keep, false)) return report.status = Status::mesh_folded, report;
+      continue;
+    }
 
     const double before = report.residual_history.back();
     report.residual = residual.norm() / scale;
@@ -74,7 +82,7 @@ NewtonReport newton(CoupledSystem& system, const Media& media, const NewtonOptio
     if (report.residual > hopeless_residual) return report.status = Status::iteration_limit, report;
     const bool at_round_off = displacement < round_off_displacement && report.residual < round_off_residual;
     if (report.residual < options.tolerance || at_round_off) return report.status = Status::converged, report;
-    fresh = options.chord_steps && report.residual < chord_reduction * before;
+    keep = options.chord_steps && report.residual < chord_reduction * before;
   }
 }
 

@@ -8,6 +8,12 @@ Discrete::Discrete(const Problem& problem, const Resolution& resolution)
       space(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive),
       system(space) {}
 
+void Discrete::move_to(const Problem& problem, const Resolution& resolution) {
+  mesh = ChannelMesh(ChannelGeometry(problem.radius_ratio, problem.channel_length), resolution.subdivision);
+  space = Discretisation(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive);
+  system.follow_space();
+}
+
 double Path::unit(double parameter) const { return std::isfinite(origin) ? parameter - origin : 1; }
 
 Path stiffness_path(StationarySystem& system, const Problem& problem) {

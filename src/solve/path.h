@@ -22,6 +22,9 @@ struct Resolution {
 /// Mesh, spaces and system of one resolution; they refer to each other and stay together.
 struct Discrete {
   Discrete(const Problem&, const Resolution&);
+  /// Becomes that of another problem, which may differ in the radius and in numbers of the laws: unknowns keep their
+  /// order and meaning. The factors of the system stay.
+  void move_to(const Problem&, const Resolution&);
   ChannelMesh mesh;
   Discretisation space;
   StationarySystem system;

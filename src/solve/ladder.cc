@@ -1,0 +1,95 @@
+#include "solve/ladder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "shape/measures.h"
+
+namespace rheocyte {
+namespace {
+
+/// Finest degree on each mesh of the ladder, coarse to fine.
+struct Rung {
+  Subdivision subdivision;
+  int first_degree, last_degree;
+};
+constexpr std::array<Rung, 3> meshes = {{{{2, 4, 1, 2}, 4, 9}, {{3, 6, 1, 2}, 7, 10}, {{4, 8, 2, 2}, 7, 10}}};
+/// Of the deformation, absolute: what area and perimeter leave of it after their digits cancel.
+constexpr double round_off = 1e-12, tiny_deformation = 1e-5;
+
+/// No first change is trusted below this: neighbouring degrees may agree by chance.
+constexpr double least_first_estimate = 2e-5;
+
+/// Error of the last of some values of the deformation on ever finer resolutions, relative to it
+/// (docs/theory.md, eq:error): the last change times the rest of a geometric series, and half of the last two changes
+/// at least.
+double estimate_error(const std::vector<double>& values) {
+  const std::size_t n = values.size();
+  if (n < 2) return std::numeric_limits<double>::infinity();
+  const double change = values[n - 1] - values[n - 2], size = std::max(std::abs(values[n - 1]), 1e-300);
+  if (n == 2) return std::max(2 * std::abs(change) / size, least_first_estimate);
+  const double before = values[n - 2] - values[n - 3];
+  const double ratio = before == 0 ? 0 : std::min(change / before, 0.9);
+  const double share = ratio < 0 ? 1 : std::max(0.5, ratio / (1 - ratio));  // below 0: changes of alternating sign
+  return std::max(share * std::abs(change), 0.5 * std::abs(before)) / size;
+}
+
+/// Whether the surface is so near its limit that no mesh can hold the state.
+bool is_nearly_unstable(const Problem& problem, const ResolvedState& state) {
+  return state.branch.unknowns.size() > 0 &&
+         stability_margin(problem, state.discrete->space, state.branch.unknowns) < small_margin;
+}
+
+}  // namespace
+
+double deformation_of(const ResolvedState& state) {
+  return measure(contour(state.discrete->space, state.branch.unknowns)).deformation;
+}
+
+void Ladder::add(ResolvedState state) {
+  deformations.push_back(deformation_of(state));
+  rungs.push_back(std::move(state));
+  estimated_error = estimate_error(deformations);
+}
+
+bool is_accurate(const Ladder& ladder, double accuracy) {
+  if (ladder.rungs.size() < 2) return false;
+  const double size = std::abs(ladder.deformations.back()), error = ladder.estimated_error;
+  return error <= accuracy || (size < tiny_deformation && error * size <= round_off);
+}
+
+Status climb(const Problem& problem, const NewtonOptions& newton, ResolvedState state, Ladder& ladder,
+             const RungObserver& observe) {
+  Status reason = Status::accuracy_not_reached;
+  for (const Rung& rung : meshes) {
+    const auto elements = state.resolution.subdivision.top;
+    if (rung.subdivision.top < elements) continue;
+    const bool same_mesh = rung.subdivision.top == elements;
+    const bool goes_on = same_mesh && !ladder.rungs.empty();
+    Ladder fresh;  // a new mesh at a lower degree need not be better at once
+    if (!goes_on) std::swap(ladder, fresh);
+    int degree = rung.first_degree;
+    if (same_mesh) degree = std::max(degree, state.resolution.degree + (goes_on ? 1 : 0));
+    for (; degree <= rung.last_degree; ++degree) {
+      ResolvedState next = at_resolution(problem, newton, state, {rung.subdivision, degree});
+      if (next.status == Status::stopped) {
+        observe(next, nullptr);
+        return Status::stopped;
+      }
+      if (next.status != Status::converged || is_wrinkled(problem, next.discrete->space, next.branch.unknowns)) {
+        if (is_nearly_unstable(problem, next)) reason = Status::surface_unstable;
+        observe(next, nullptr);
+        break;  // this mesh cannot hold the state: the next one
+      }
+      state = next;
+      ladder.add(std::move(next));
+      observe(ladder.rungs.back(), &ladder);
+      if (is_accurate(ladder, problem.accuracy)) return Status::converged;
+    }
+    if (ladder.rungs.empty() && !fresh.rungs.empty()) std::swap(ladder, fresh);
+  }
+  return reason;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,32 @@
+// A state at ever finer resolutions, until its estimated error is small (docs/theory.md, eq:error).
+#pragma once
+#include <limits>
+#include <vector>
+
+#include "solve/resolved_branch.h"
+
+namespace rheocyte {
+
+/// The deformation of a state's contour.
+double deformation_of(const ResolvedState&);
+
+/// A state at the resolutions of one mesh, coarse to fine.
+struct Ladder {
+  std::vector<ResolvedState> rungs;
+  std::vector<double> deformations;                                  ///< rung by rung
+  double estimated_error = std::numeric_limits<double>::infinity();  ///< relative, of the last deformation
+
+  void add(ResolvedState);
+};
+
+/// Whether the estimated error is below the wanted one, or below what can be resolved of a tiny deformation.
+bool is_accurate(const Ladder&, double accuracy);
+
+/// Sees each state that is tried, and whether it became a rung.
+using RungObserver = std::function<void(const ResolvedState&, const Ladder*)>;
+
+/// Raises degree and mesh from a state, or from the ladder's last rung, until the error is small: status `converged`,
+/// or why not. The ladder is the last one that was climbed.
+Status climb(const Problem&, const NewtonOptions&, ResolvedState from, Ladder&, const RungObserver&);
+
+}  // namespace rheocyte

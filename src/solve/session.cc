@@ -1,0 +1,183 @@
+#include "solve/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "fem/write_fields.h"
+#include "solve/describe.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr double final_tolerance = 1e-10;
+/// Greatest relative change of any number of the problem that a kept state is carried over, and greatest change of the
+/// surface's stretch by it: farther on the state may belong to another branch.
+constexpr double greatest_change = 0.2, greatest_stretch_change = 0.06;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void add_work(const WorkMeter& work, SolveStatistics& statistics) {
+  statistics.factorisations += work.factorisations;
+  statistics.assembly_s += work.assembly_s;
+  statistics.factorisation_s += work.condensation_s + work.sparse_s;
+  statistics.substitution_s += work.solve_s;
+}
+
+void add_work(const ResolvedState& state, SolveStatistics& statistics) {
+  statistics.newton_iterations += state.newton_iterations;
+  statistics.continuation_steps += state.steps;
+  add_work(state.work, statistics);
+}
+
+double relative_change(double a, double b) { return a == b ? 0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b)); }
+
+/// Whether the unknowns of both problems mean the same at any resolution.
+bool is_alike(const Problem& a, const Problem& b, const Subdivision& subdivision) {
+  return interior_of(a) == interior_of(b) && a.bulk.law == b.bulk.law && a.cortex.law == b.cortex.law &&
+         a.liquid.law == b.liquid.law && a.drive == b.drive && a.channel_length == b.channel_length &&
+         layers_for(ChannelGeometry(a.radius_ratio), subdivision) ==
+             layers_for(ChannelGeometry(b.radius_ratio), subdivision);
+}
+
+/// Greatest relative change of any number.
+double distance(const Problem& a, const Problem& b) {
+  return std::max(
+      {relative_change(a.radius_ratio, b.radius_ratio), relative_change(a.bulk.shear_modulus, b.bulk.shear_modulus),
+       std::abs(a.bulk.mooney_share - b.bulk.mooney_share), relative_change(a.cortex.modulus, b.cortex.modulus),
+       relative_change(a.cortex.tension, b.cortex.tension), relative_change(a.cortex.bending, b.cortex.bending),
+       relative_change(a.liquid.exponent, b.liquid.exponent),
+       relative_change(a.liquid.shear_rate_floor, b.liquid.shear_rate_floor),
+       std::abs(a.liquid.reynolds - b.liquid.reynolds)});
+}
+
+/// Carries a rung over; false if Newton fails or leads too far away.
+bool move_rung(const Problem& from, const Problem& to, NewtonOptions options, ResolvedState& rung,
+               SolveStatistics& statistics) {
+  Discrete& discrete = *rung.discrete;
+  if (from.radius_ratio != to.radius_ratio || from.liquid.exponent != to.liquid.exponent) {
+    discrete.move_to(to, rung.resolution);
+    scale_displacement(discrete.space, to.radius_ratio / from.radius_ratio, rung.branch.unknowns);
+  }
+  const VectorXd before = rung.branch.unknowns;
+  const WorkMeter work = discrete.system.work();
+  options.keep_factors = true;
+  const NewtonReport report = newton(discrete.system, to, options, rung.branch.unknowns);
+  rung.residual = report.residual;
+  statistics.newton_iterations += report.iterations;
+  add_work(discrete.system.work() - work, statistics);
+  return report.status == Status::converged &&
+         stretch_change(discrete.space, before, rung.branch.unknowns) < greatest_stretch_change &&
+         !is_wrinkled(to, discrete.space, rung.branch.unknowns);
+}
+
+void describe(const Problem& problem, const ResolvedState& state, StationaryState& r) {
+  const Media media = media_at(problem, state.branch.parameter);
+  describe_state(problem, {state.discrete, media, state.branch.unknowns}, r);
+  // A writer with a mesh of its own: the session moves on.
+  r.write_fields = [problem, media, resolution = state.resolution, unknowns = state.branch.unknowns](
+                       const std::string& path, const Scales& scales) {
+    const ChannelMesh mesh(ChannelGeometry(problem.radius_ratio, problem.channel_length), resolution.subdivision);
+    const Discretisation space(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive);
+    return write_fields(space, media, unknowns, scales, path);
+  };
+  r.residual = state.residual;
+  r.outcome.reached = state.branch.parameter;
+  if (state.branch.parameter < 1) r.estimated_error = no_value;
+  r.statistics.degree = state.resolution.degree;
+}
+
+/// Settles the reason and says it in a sentence.
+void explain(const Problem& problem, const ResolvedState& state, StationaryState& r) {
+  Outcome& outcome = r.outcome;
+  const bool failed_on_the_way = outcome.status != Status::converged && outcome.status != Status::stopped &&
+                                 outcome.status != Status::accuracy_not_reached;
+  if (failed_on_the_way && state.discrete && r.stability_margin < small_margin) {
+    outcome.status = Status::surface_unstable;
+  } else if (outcome.status == Status::iteration_limit && state.branch.parameter > 0) {
+    outcome.status = Status::branch_ended;
+  }
+  outcome.message = explanation(outcome, {r.shape.deformation, r.estimated_error, surface_kind(problem)});
+}
+
+}  // namespace
+
+bool Session::answer_nearby(const Problem& problem, const NewtonOptions& newton, SolveStatistics& statistics,
+                            Kept& answer) {
+  const auto near = [&](const Kept& kept) {
+    return is_alike(kept.problem, problem, kept.ladder.rungs.back().resolution.subdivision) &&
+           distance(kept.problem, problem) < greatest_change;
+  };
+  const auto found = std::find_if(kept_.begin(), kept_.end(), near);
+  if (found == kept_.end()) return false;
+  Kept kept = std::move(*found);
+  kept_.erase(found);
+  answer.problem = problem;
+  for (ResolvedState& rung : kept.ladder.rungs) {
+    if (!move_rung(kept.problem, problem, newton, rung, statistics)) return false;
+    answer.ladder.add(std::move(rung));
+    if (is_accurate(answer.ladder, problem.accuracy)) break;
+  }
+  return true;
+}
+
+StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress,
+                               const std::atomic<bool>* stop) {
+  const auto start = std::chrono::steady_clock::now();
+  StationaryState result;
+  result.shape = measure(Contour{});  // not a number until there is a shape
+  const NewtonOptions newton{.tolerance = final_tolerance, .stop = stop};
+  const auto report = [&](const BranchStep& point) {
+    result.branch.push_back(point);
+    if (progress) progress(point);
+  };
+  const RungObserver on_rung = [&](const ResolvedState& state, const Ladder* ladder) {
+    add_work(state, result.statistics);
+    if (ladder)
+      report({state.branch.parameter, ladder->deformations.back(), state.newton_iterations, state.resolution.degree});
+  };
+
+  Kept answer{problem, {}};
+  ResolvedState state;
+  if (answer_nearby(problem, newton, result.statistics, answer)) {
+    ++warm_starts_;
+    state = answer.ladder.rungs.back();
+    report({1, answer.ladder.deformations.back(), result.statistics.newton_iterations, state.resolution.degree});
+  } else {
+    answer.ladder = {};
+    state = follow_branch(problem, newton, [&](const Discretisation& space, const BranchState& b) {
+      report({b.parameter, measure(contour(space, b.unknowns)).deformation, b.newton_iterations,
+              space.reference().degree()});
+    });
+    add_work(state, result.statistics);
+  }
+  result.outcome.status = state.status;
+  if (state.status == Status::converged && !is_accurate(answer.ladder, problem.accuracy))
+    result.outcome.status = climb(problem, newton, state, answer.ladder, on_rung);
+  if (!answer.ladder.rungs.empty()) {
+    state = answer.ladder.rungs.back();
+    result.estimated_error = answer.ladder.estimated_error;
+  }
+  if (state.discrete && state.branch.parameter > 0) describe(problem, state, result);
+  explain(problem, state, result);
+  if (result.outcome.status == Status::converged) keep(std::move(answer));
+  result.statistics.total_s = seconds_since(start);
+  return result;
+}
+
+std::size_t Session::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const Kept& kept : kept_) {
+    for (const ResolvedState& rung : kept.ladder.rungs) bytes += rung.discrete->system.memory_bytes();
+  }
+  return bytes;
+}
+
+void Session::keep(Kept answer) {
+  kept_.push_front(std::move(answer));
+  while (!kept_.empty() && memory_bytes() > memory_limit_) kept_.pop_back();
+}
+
+}  // namespace rheocyte

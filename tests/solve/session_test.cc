@@ -1,0 +1,133 @@
+#include "solve/session.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "cases.h"
+
+namespace rheocyte {
+namespace {
+
+double deformation(const Problem& problem) { return solve_stationary(problem).shape.deformation; }
+
+TEST(Session, ANearCaseIsAnsweredFromTheLastOne) {
+  // Steps in modulus, radius, tension and flow, one after the other: as from the sphere, within the tolerance of
+  // Newton's method (1e-10 of the driving forces, some hundred times that in a small deformation).
+  Problem problem = test::problem({6, 4.58, 0}, 1e-3);
+  problem.cortex.tension = 0.5;
+  Session session;
+  session.solve(problem);
+  for (int i = 0; i < 8; ++i) {
+    if (i % 4 == 0) problem.bulk.shear_modulus *= 1.05;
+    if (i % 4 == 1) problem.radius_ratio *= 0.98;
+    if (i % 4 == 2) problem.cortex.tension *= 1.1;
+    if (i % 4 == 3) problem.liquid.reynolds += 0.02;
+    const StationaryState state = session.solve(problem);
+    EXPECT_EQ(state.outcome.status, Status::converged);
+    EXPECT_LE(state.estimated_error, 1e-3);
+    EXPECT_NEAR(state.shape.deformation / deformation(problem), 1, 1e-6) << i;
+  }
+  EXPECT_EQ(session.warm_starts(), 8);
+}
+
+TEST(Session, ACaseFarAwayStartsFromTheSphere) {
+  // Half the modulus, and another law.
+  Session session;
+  Problem problem = test::problem({6, 4.58, 0}, 1e-3);
+  session.solve(problem);
+  problem.bulk.shear_modulus /= 2;
+  EXPECT_EQ(session.solve(problem).shape.deformation, deformation(problem));
+  problem = test::problem({6, 4.58, 1}, 1e-3);
+  EXPECT_EQ(session.solve(problem).shape.deformation, deformation(problem));
+  EXPECT_EQ(session.warm_starts(), 0);
+}
+
+TEST(Session, AHigherAccuracyGoesOnFromTheKeptStates) {
+  // The ladder of degrees is climbed on from where it ended.
+  Session session;
+  Problem problem = test::problem({6, 4.58, 0}, 1e-3);
+  const int coarse = session.solve(problem).statistics.degree;
+  problem.accuracy = 1e-5;
+  const StationaryState fine = session.solve(problem);
+  EXPECT_GT(fine.statistics.degree, coarse);
+  EXPECT_LE(fine.estimated_error, 1e-5);
+  EXPECT_NEAR(fine.shape.deformation / deformation(problem), 1, 1e-5);
+}
+
+TEST(Session, ItKeepsNoMoreThanItsLimit) {
+  // Cases too far from each other for a warm start: those before the limit are forgotten, the answers stay right.
+  constexpr std::size_t limit = 40 << 20;
+  Session bounded(limit);
+  for (const double radius : {4.0, 5.0, 6.0, 7.0}) {
+    bounded.solve(test::problem({radius, 8, 0}, 1e-3));
+    EXPECT_LE(bounded.memory_bytes(), limit);
+    EXPECT_GT(bounded.memory_bytes(), 0u);
+  }
+  Session none(0);
+  none.solve(test::problem({6, 8, 0}, 1e-3));
+  EXPECT_EQ(none.memory_bytes(), 0u);
+}
+
+TEST(Session, ACancelledSolveLeavesTheSessionUsable) {
+  // Stopped before the first iteration, with a state nearby and without.
+  Session session;
+  const std::atomic<bool> stop = true;
+  Problem problem = test::problem({6, 4.58, 0}, 1e-3);
+  EXPECT_EQ(session.solve(problem, {}, &stop).outcome.status, Status::stopped);
+  session.solve(problem);
+  problem.bulk.shear_modulus *= 1.02;
+  EXPECT_EQ(session.solve(problem, {}, &stop).outcome.status, Status::stopped);
+  EXPECT_EQ(session.solve(problem).outcome.status, Status::converged);
+}
+
+TEST(Session, TwoThreadsWithASessionEachFindTheSame) {
+  // Bit by bit.
+  const auto deformations = [](std::vector<double>& found) {
+    Session session;
+    Problem problem = test::problem({6, 4.58, 0}, 1e-3);
+    for (int i = 0; i < 4; ++i, problem.bulk.shear_modulus *= 0.97)
+      found.push_back(session.solve(problem).shape.deformation);
+  };
+  std::vector<double> one, other;
+  {
+    const std::jthread first([&] { deformations(one); }), second([&] { deformations(other); });
+  }
+  EXPECT_EQ(one, other);
+}
+
+TEST(Session, TheFieldsOfAnAnswerOutliveTheSessionsWay) {
+  // The writer of an earlier answer still writes that answer.
+  Session session;
+  Problem problem = test::problem({6, 4.58, 0}, 1e-3);
+  const StationaryState first = session.solve(problem);
+  const auto file = testing::TempDir() + "session-fields.vtu";
+  const auto written = [&] {
+    EXPECT_TRUE(first.write_fields(file, {}));
+    std::stringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+  };
+  const std::string before = written();
+  problem.radius_ratio *= 0.97;
+  session.solve(problem);
+  EXPECT_EQ(session.warm_starts(), 1);
+  EXPECT_EQ(written(), before);
+  std::filesystem::remove(file);
+}
+
+TEST(Session, ACellFarTooSoftIsRefusedWithTheStateAtTheEndOfItsBranch) {
+  // A hundredth of a modulus that exists: the outcome says so, and the state is one of the branch.
+  Session session;
+  const StationaryState state = session.solve(test::problem({7, 0.03, 1}));
+  EXPECT_NE(state.outcome.status, Status::converged);
+  EXPECT_GT(state.outcome.reached, 0);
+  EXPECT_LT(state.outcome.reached, 0.1);
+  EXPECT_GT(state.shape.deformation, 0.08);
+}
+
+}  // namespace
+}  // namespace rheocyte
