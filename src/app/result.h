@@ -1,8 +1,9 @@
 // A stationary state in physical units.
 #pragma once
-#include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 
+#include "app/field.h"
 #include "case/case.h"
 #include "solve/stationary.h"
 
@@ -17,14 +18,32 @@ struct Result {
 };
 
 /// Solver's results are not trusted blindly: a converged state with a number that is not finite becomes `not_finite`.
-void refuse_unfinite_numbers(StationaryState&);
+void refuse_unfinite_numbers(Result&);
 
 /// The content of result.json. Numbers that are not finite are null; the status then is not "converged".
 nlohmann::ordered_json to_json(const Result&);
 
+/// One step of its branch.
+struct StepOfResult {
+  const Result& result;
+  const BranchStep& step;
+};
+
+/// The keys of result.json beside the measures of the state, and those of its objects.
+std::span<const Field<Result, nlohmann::ordered_json>> outcome_fields(), computation_fields(), thread_fields();
+std::span<const Field<StepOfResult, nlohmann::ordered_json>> branch_fields();
+std::span<const Field<SolveStatistics, nlohmann::ordered_json>> statistics_fields();
+
+/// A point of the surface.
+struct SurfacePoint {
+  const SurfaceProfile& surface;
+  Eigen::Index row;
+};
+
 /// contour.csv: the meridian from the front pole to the rear one, densely sampled, in um, with stretches, tensions and
 /// curvatures of the surface.
 std::string contour_csv(const Result&);
+std::span<const Field<SurfacePoint>> contour_fields();  ///< its columns; the values are dimensionless
 
 /// The lines that `rheocyte solve` prints at its end.
 std::string summary(const Result&, const std::string& folder);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -12,8 +13,8 @@ namespace rheocyte {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double um_per_m = 1e6;
+using Key = Field<Result, Json>;
+using BranchKey = Field<StepOfResult, Json>;
 
 #ifdef __clang__
 constexpr const char* compiler = "Clang " __clang_version__;
@@ -21,113 +22,119 @@ constexpr const char* compiler = "Clang " __clang_version__;
 constexpr const char* compiler = "GCC " __VERSION__;
 #endif
 
-// What decides about the last bits of a result.
-Json build_and_threads() {
-  return {{"compiler", compiler}, {"threads", {{"processors", std::thread::hardware_concurrency()}}}};
-}
-
-Json statistics(const SolveStatistics& s) {
-  return {{"degree", s.degree},
-          {"elements", s.elements},
-          {"factorisations", s.factorisations},
-          {"continuation_steps", s.continuation_steps},
-          {"assembly_s", s.assembly_s},
-          {"factorisation_s", s.factorisation_s},
-          {"substitution_s", s.substitution_s},
-          {"total_s", s.total_s}};
-}
-
 // A modulus on the way to the wanted one; null if there is none or the cell is rigid.
 Json over(const std::optional<double>& modulus, double compliance) {
   return modulus && compliance > 0 ? Json(*modulus / compliance) : Json(nullptr);
 }
 
 Json branch(const Result& result) {
-  Json points = Json::array();
-  for (const auto& point : result.state.branch)
-    points.push_back({{"compliance", point.compliance},  // relative to the wanted one; 0 = rigid: modulus null
-                      {"young_modulus_kPa", over(result.input.cell.bulk.young_modulus_kPa, point.compliance)},
-                      {"cortex_modulus_mN_per_m", over(result.input.cell.cortex.modulus_mN_per_m, point.compliance)},
-                      {"deformation", point.deformation},
-                      {"newton_iterations", point.newton_iterations},
-                      {"degree", point.degree}});
-  return points;
+  Json steps = Json::array();
+  for (const auto& step : result.state.branch) steps.push_back(object_of(branch_fields(), StepOfResult{result, step}));
+  return steps;
 }
 
-void add_shape(Json& json, const Result& result) {
-  const auto& shape = result.state.shape;
-  const double R = result.scales.length_m * um_per_m;
-  json["deformation"] = shape.deformation;
-  json["deformation_raw"] = shape.deformation_raw;
-  json["area_um2"] = shape.area * R * R;
-  json["area_raw_um2"] = shape.area_raw * R * R;
-  json["perimeter_um"] = shape.perimeter * R;
-  json["perimeter_raw_um"] = shape.perimeter_raw * R;
-  json["volume_um3"] = shape.volume * R * R * R;
-  json["relative_volume_change"] = result.state.relative_volume_change;
-  json["moment_ratio"] = shape.moment_ratio;
-  json["moment_ratio_raw"] = shape.moment_ratio_raw;
-  json["inertia_ratio"] = shape.inertia_ratio;
-  json["least_meridional_stretch"] = result.state.least_meridional_stretch;
-  json["biot_ratio"] = result.state.biot_ratio;
-  json["stability_margin"] = result.state.stability_margin;
-  json["least_tension_mN_per_m"] = result.state.least_tension * result.scales.stress_Pa * result.scales.length_m * 1e3;
+bool is_sound(const StateMeasure& measure, const StateNumbers& numbers) {
+  const double value = measure.value(numbers);
+  return std::isfinite(value) || (std::isnan(value) && !measure.null_where.empty());
 }
 
-void add_flow(Json& json, const Result& result) {
+bool all_sound(const Result& result) {
   const auto& state = result.state;
-  const auto& scales = result.scales;
-  json["cell_velocity_m_per_s"] = state.cell_velocity * scales.velocity_m_per_s;
-  json["mean_velocity_m_per_s"] = scales.velocity_m_per_s * state.flow_rate;
-  json["flow_rate_ul_per_s"] = unit_rate_ul_per_s(scales) * state.flow_rate;
-  json["pressure_drop_Pa"] = state.pressure_drop * scales.stress_Pa;
-  json["additional_pressure_drop_Pa"] = state.additional_pressure_drop * scales.stress_Pa;
-  json["inner_pressure_Pa"] = state.inner_pressure * scales.stress_Pa;  // null: the interior is elastic
-  json["simulated_length_um"] = state.channel_length * scales.length_m * um_per_m;
-  json["tube_radius_um"] = tube_radius_um(result.input);
-  // rho v_cell R / eta, with the viscosity of the liquid at the shear rate U/R
-  json["reynolds"] = result.problem.liquid.reynolds * state.cell_velocity;
+  const bool by_error = result.input.time.scheme == TimeScheme::stationary;
+  return std::ranges::all_of(state_measures, [&](const StateMeasure& m) { return is_sound(m, state); }) &&
+         (!by_error || (std::isfinite(state.residual) && std::isfinite(state.estimated_error)));
 }
 
 }  // namespace
 
-void refuse_unfinite_numbers(StationaryState& state) {
-  if (state.outcome.status != Status::converged) return;
-  const auto& s = state.shape;
-  for (const double number :
-       {s.deformation, s.deformation_raw, s.area, s.area_raw, s.perimeter, s.perimeter_raw, s.volume, s.moment_ratio,
-        s.inertia_ratio, state.cell_velocity, state.pressure_drop, state.additional_pressure_drop,
-        state.relative_volume_change, state.least_meridional_stretch, state.residual, state.estimated_error})
-    if (!std::isfinite(number)) {
-      state.outcome.status = Status::not_finite;
-      state.outcome.message = "The computation ended with a number that is not finite; please report the case.";
-    }
+std::span<const Field<Result, Json>> outcome_fields() {
+  static constexpr Key fields[] = {
+      {"program", "always rheocyte", [](const Result&) -> Json { return "rheocyte"; }},
+      {"version", "of the program", [](const Result&) -> Json { return version; }},
+      {"status", "\"converged\", or the name of the reason why not",
+       [](const Result& r) -> Json { return name(r.state.outcome.status); }},
+      {"message", "the same in a sentence: what, where, what to try",
+       [](const Result& r) -> Json { return r.state.outcome.message; }},
+      {"reached", "wanted moduli over those of the state; 1 if it converged, below 1 the last state on the way to it",
+       [](const Result& r) -> Json { return r.state.outcome.reached; }},
+      {"young_modulus_reached_kPa", "Young's modulus of the state; null without an elastic interior",
+       [](const Result& r) { return over(r.input.cell.bulk.young_modulus_kPa, r.state.outcome.reached); }},
+      {"cortex_modulus_reached_mN_per_m", "modulus of its cortex; null without an elastic cortex",
+       [](const Result& r) { return over(r.input.cell.cortex.modulus_mN_per_m, r.state.outcome.reached); }},
+      {"tension_mN_per_m", "wanted surface tension of the cell, given or a share of the cortex modulus",
+       [](const Result& r) -> Json { return tension_mN_per_m(r.input); }}};
+  return fields;
+}
+
+std::span<const Field<Result, Json>> computation_fields() {
+  static constexpr Key fields[] = {
+      {"unknowns", "of the finest system", [](const Result& r) -> Json { return r.state.statistics.unknowns; }},
+      {"newton_iterations", "over all steps and meshes",
+       [](const Result& r) -> Json { return r.state.statistics.newton_iterations; }},
+      {"residual", "of the last Newton iteration, relative to the driving forces",
+       [](const Result& r) -> Json { return r.state.residual; }},
+      {"estimated_error", "of the deformation, relative; null for a state on the way and in time",
+       [](const Result& r) -> Json { return r.state.estimated_error; }},
+      {"wall_time_s", "time that the solver took", [](const Result& r) -> Json { return r.state.statistics.total_s; }},
+      {"case", "the complete case with its defaults; its keys are those of the case reference",
+       [](const Result& r) { return to_json(r.input); }},
+      {"case_hash", "equal for equal cases", [](const Result& r) -> Json { return case_hash(r.input); }},
+      {"branch", "steps from the rigid cell to the state, a list; empty in time", branch},
+      {"statistics", "sizes and times of the solver",
+       [](const Result& r) { return object_of(statistics_fields(), r.state.statistics); }},
+      {"compiler", "that built the program", [](const Result&) -> Json { return compiler; }},
+      {"threads", "of the machine", [](const Result& r) { return object_of(thread_fields(), r); }}};
+  return fields;
+}
+
+std::span<const Field<StepOfResult, Json>> branch_fields() {
+  static constexpr BranchKey fields[] = {
+      {"compliance", "wanted modulus over that of the step: 0 is rigid, 1 the wanted state",
+       [](const StepOfResult& s) -> Json { return s.step.compliance; }},
+      {"young_modulus_kPa", "Young's modulus of the step; null: rigid, or there is none",
+       [](const StepOfResult& s) { return over(s.result.input.cell.bulk.young_modulus_kPa, s.step.compliance); }},
+      {"cortex_modulus_mN_per_m", "modulus of its cortex, likewise",
+       [](const StepOfResult& s) { return over(s.result.input.cell.cortex.modulus_mN_per_m, s.step.compliance); }},
+      {"deformation", "as above", [](const StepOfResult& s) -> Json { return s.step.deformation; }},
+      {"newton_iterations", "of the step", [](const StepOfResult& s) -> Json { return s.step.newton_iterations; }},
+      {"degree", "polynomial degree at which the state was found",
+       [](const StepOfResult& s) -> Json { return s.step.degree; }}};
+  return fields;
+}
+
+std::span<const Field<SolveStatistics, Json>> statistics_fields() {
+  using S = SolveStatistics;
+  static constexpr Field<S, Json> fields[] = {
+      {"degree", "polynomial degree of the finest system", [](const S& s) -> Json { return s.degree; }},
+      {"elements", "of the finest mesh", [](const S& s) -> Json { return s.elements; }},
+      {"factorisations", "of Newton's matrix", [](const S& s) -> Json { return s.factorisations; }},
+      {"continuation_steps", "steps in stiffness, or in time", [](const S& s) -> Json { return s.continuation_steps; }},
+      {"assembly_s", "time for integrals over elements", [](const S& s) -> Json { return s.assembly_s; }},
+      {"factorisation_s", "time for factorisations, those inside of elements included",
+       [](const S& s) -> Json { return s.factorisation_s; }},
+      {"substitution_s", "time for solutions with the factors", [](const S& s) -> Json { return s.substitution_s; }},
+      {"total_s", "as wall_time_s", [](const S& s) -> Json { return s.total_s; }}};
+  return fields;
+}
+
+std::span<const Field<Result, Json>> thread_fields() {
+  static constexpr Key fields[] = {
+      {"processors", "of the machine", [](const Result&) -> Json { return std::thread::hardware_concurrency(); }}};
+  return fields;
+}
+
+void refuse_unfinite_numbers(Result& result) {
+  Outcome& outcome = result.state.outcome;
+  if (outcome.status != Status::converged || all_sound(result)) return;
+  outcome.status = Status::not_finite;
+  outcome.message = "The computation ended with a number that is not finite; please report the case.";
 }
 
 // nlohmann::json writes null for a number that is not finite.
 Json to_json(const Result& result) {
-  const auto& state = result.state;
-  Json json;
-  json["program"] = "rheocyte";
-  json["version"] = version;
-  json["status"] = name(state.outcome.status);
-  json["message"] = state.outcome.message;
-  json["reached"] = state.outcome.reached;
-  json["young_modulus_reached_kPa"] = over(result.input.cell.bulk.young_modulus_kPa, state.outcome.reached);
-  json["cortex_modulus_reached_mN_per_m"] = over(result.input.cell.cortex.modulus_mN_per_m, state.outcome.reached);
-  json["tension_mN_per_m"] = tension_mN_per_m(result.input);
-  add_shape(json, result);
-  add_flow(json, result);
-  json["unknowns"] = state.statistics.unknowns;
-  json["newton_iterations"] = state.statistics.newton_iterations;
-  json["residual"] = state.residual;
-  json["estimated_error"] = state.estimated_error;
-  json["wall_time_s"] = state.statistics.total_s;
-  json["case"] = to_json(result.input);
-  json["case_hash"] = case_hash(result.input);
-  json["branch"] = branch(result);
-  json["statistics"] = statistics(state.statistics);
-  json.update(build_and_threads());
+  Json json = object_of(outcome_fields(), result);
+  for (const auto& measure : state_measures) json[measure.name] = measure.physical(result.state, result.scales);
+  json.update(object_of(computation_fields(), result));
   return json;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
+#include <string_view>
 
 #include "app/result.h"
 #include "store/build_info.h"
@@ -13,7 +13,6 @@ namespace rheocyte {
 namespace {
 
 constexpr double um_per_m = 1e6;
-constexpr double mN_per_N = 1e3;
 
 std::string line(std::string_view name, const std::string& value, const std::string& remark) {
   return fmt::format("  {:<18} {:<16} {}\n", name, value, remark);
@@ -21,21 +20,44 @@ std::string line(std::string_view name, const std::string& value, const std::str
 
 }  // namespace
 
+std::span<const Field<SurfacePoint>> contour_fields() {
+  using P = SurfacePoint;
+  static constexpr Field<P> fields[] = {
+      {"x_um", "along the channel, 0 at the cell's barycentre", [](const P& p) { return p.surface.point(p.row, 0); }},
+      {"r_um", "distance from the axis", [](const P& p) { return std::max(p.surface.point(p.row, 1), 0.0); }},
+      {"rest_angle_degree", "where the point was on the sphere at rest, from the flow direction",
+       [](const P& p) { return p.surface.rest_angle(p.row); }},
+      {"stretch_meridional", "stretch of the surface along the meridian",
+       [](const P& p) { return p.surface.stretch(p.row, 0); }},
+      {"stretch_hoop", "stretch round the axis", [](const P& p) { return p.surface.stretch(p.row, 1); }},
+      {"tension_meridional_mN_per_m", "Cauchy tension of the surface, surface tension included",
+       [](const P& p) { return p.surface.tension(p.row, 0); }},
+      {"tension_hoop_mN_per_m", "likewise, round the axis", [](const P& p) { return p.surface.tension(p.row, 1); }},
+      {"curvature_meridional_per_um", "positive where the contour is convex",
+       [](const P& p) { return p.surface.curvature(p.row, 0); }},
+      {"curvature_hoop_per_um", "round the axis", [](const P& p) { return p.surface.curvature(p.row, 1); }}};
+  return fields;
+}
+
 std::string contour_csv(const Result& result) {
   const SurfaceProfile& surface = result.state.surface;
-  const double um = result.scales.length_m * um_per_m;
-  const double mN_per_m = result.scales.stress_Pa * result.scales.length_m * mN_per_N;
-  const double degree = 180 / std::numbers::pi;
-  std::string text =
-      "x_um,r_um,rest_angle_degree,stretch_meridional,stretch_hoop,tension_meridional_mN_per_m,"
-      "tension_hoop_mN_per_m,curvature_meridional_per_um,curvature_hoop_per_um\n";
+  std::string text;
+  const auto out = std::back_inserter(text);
+  const auto add_row = [&](const auto& text_of) {
+    std::string_view separator;
+    for (const auto& field : contour_fields()) {
+      fmt::format_to(out, "{}{}", separator, text_of(field));
+      separator = ",";
+    }
+    text += "\n";
+  };
+  add_row([](const auto& field) { return std::string(field.name); });
   for (Eigen::Index i = 0; i < surface.point.rows(); ++i) {
     // The first point of a piece is the last one of the piece before.
     if (i > 0 && i % SurfaceProfile::points_per_piece == 0) continue;
-    fmt::format_to(std::back_inserter(text), "{:.10g},{:.10g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g}\n",
-                   um * surface.point(i, 0), std::max(um * surface.point(i, 1), 0.0), degree * surface.rest_angle(i),
-                   surface.stretch(i, 0), surface.stretch(i, 1), mN_per_m * surface.tension(i, 0),
-                   mN_per_m * surface.tension(i, 1), surface.curvature(i, 0) / um, surface.curvature(i, 1) / um);
+    add_row([&](const auto& field) {
+      return fmt::format("{:.10g}", field.value({surface, i}) * dimensionless_one(unit_of(field.name), result.scales));
+    });
   }
   return text;
 }

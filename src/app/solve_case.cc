@@ -62,7 +62,7 @@ int solve_case(const SolveOptions& options) {
   Result result{c, scales_of(c), problem_of(c), {}};
   const auto progress = options.quiet ? ProgressCallback{} : progress_lines(c);
   result.state = solve_stationary(result.problem, progress, &stop_wanted());
-  refuse_unfinite_numbers(result.state);
+  refuse_unfinite_numbers(result);
 
   ResultFolder folder(options.folder);
   return finish_result(result, folder, options, to_json(result));

@@ -91,7 +91,7 @@ class Recorder {
     const HistoryRow& row = record_.rows.back();
     if (!options_.quiet)
       tell(fmt::format("t {:>10.4f} us  step {:<9.3g} order {}  deformation {:.6f}  {} Newton iterations", row.t_us,
-                       row.step_us, row.order, row.deformation, row.newton_iterations));
+                       row.step_us, row.order, row.measure("deformation"), row.newton_iterations));
   }
 
   void write_checkpoint_if_due() {
@@ -118,17 +118,6 @@ class Recorder {
   std::chrono::steady_clock::time_point last_checkpoint_ = std::chrono::steady_clock::now();
 };
 
-nlohmann::ordered_json time_numbers(const TimeRecord& record) {
-  if (record.rows.empty()) return nullptr;
-  double greatest_volume_change = 0;
-  for (const HistoryRow& row : record.rows)
-    greatest_volume_change = std::max(greatest_volume_change, std::abs(row.relative_volume_change));
-  return {{"t_us", record.rows.back().t_us},
-          {"steps", record.rows.size() - 1},
-          {"frames", record.frames.size()},
-          {"greatest_relative_volume_change", greatest_volume_change}};
-}
-
 }  // namespace
 
 int solve_in_time(const Case& c, const SolveOptions& options) {
@@ -143,8 +132,10 @@ int solve_in_time(const Case& c, const SolveOptions& options) {
   result.state = follow_in_time(result.problem, run_of(c, result.scales), recorder.observer(),
                                 start ? &*start : nullptr, &stop_wanted());
   recorder.write_all();
+  refuse_unfinite_numbers(result);
   auto numbers = to_json(result);
-  numbers["time"] = time_numbers(recorder.record());
+  numbers["time"] =
+      recorder.record().rows.empty() ? nlohmann::ordered_json() : object_of(time_fields(), recorder.record());
   return finish_result(result, folder, options, numbers);
 }
 

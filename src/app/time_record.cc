@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "case/scales.h"
@@ -10,29 +11,58 @@
 
 namespace rheocyte {
 
+using Json = nlohmann::ordered_json;
+
 namespace {
 
 constexpr double um_per_m = 1e6, us_per_s = 1e6;
 
 }  // namespace
 
+std::span<const Field<HistoryRow>> history_fields() {
+  static constexpr Field<HistoryRow> fields[] = {
+      {"step_us", "step in time that led here", [](const HistoryRow& r) { return r.step_us; }},
+      {"order", "order of that step", [](const HistoryRow& r) { return r.order; }},
+      {"newton_iterations", "Newton iterations of that step", [](const HistoryRow& r) { return r.newton_iterations; }},
+      {"refused_steps", "larger steps that were tried before it", [](const HistoryRow& r) { return r.refused_steps; }},
+      {"position_um", "of the cell along the channel, from its start",
+       [](const HistoryRow& r) { return r.position_um; }},
+      {"velocity_m_per_s", "older name of cell_velocity_m_per_s; ends with the next version",
+       [](const HistoryRow& r) { return r.measure("cell_velocity_m_per_s"); }}};
+  return fields;
+}
+
+std::span<const Field<TimeRecord, Json>> time_fields() {
+  static constexpr Field<TimeRecord, Json> fields[] = {
+      {"t_us", "time that was reached", [](const TimeRecord& r) -> Json { return r.rows.back().t_us; }},
+      {"steps", "steps in time", [](const TimeRecord& r) -> Json { return r.rows.size() - 1; }},
+      {"frames", "contours and files of fields", [](const TimeRecord& r) -> Json { return r.frames.size(); }},
+      {"greatest_relative_volume_change", "greatest magnitude on the way", [](const TimeRecord& r) -> Json {
+         double greatest = 0;
+         for (const HistoryRow& row : r.rows)
+           greatest = std::max(greatest, std::abs(row.measure("relative_volume_change")));
+         return greatest;
+       }}};
+  return fields;
+}
+
+double HistoryRow::measure(std::string_view name) const {
+  const auto place = std::ranges::find(history_measures, name, &StateMeasure::name) - history_measures.begin();
+  return measures.at(std::size_t(place));
+}
+
 HistoryRow history_row(const TimePoint& point, const Scales& scales) {
   const double um = scales.length_m * um_per_m, us = scales.time_s() * us_per_s;
-  const ShapeMeasures& shape = point.shape;
-  return {us * point.time,
-          shape.deformation,
-          shape.deformation_raw,
-          um * um * shape.area,
-          um * um * um * shape.volume,
-          point.relative_volume_change,
-          scales.velocity_m_per_s * point.cell_velocity,
-          unit_rate_ul_per_s(scales) * point.flow_rate,
-          scales.stress_Pa * point.pressure_drop,
-          us * point.step,
-          double(point.order),
-          double(point.newton_iterations),
-          double(point.refused_steps),
-          um * point.position};
+  HistoryRow row{us * point.time,
+                 us * point.step,
+                 double(point.order),
+                 double(point.newton_iterations),
+                 double(point.refused_steps),
+                 um * point.position,
+                 {}};
+  std::ranges::transform(history_measures, row.measures.begin(),
+                         [&](const StateMeasure& measure) { return measure.physical(point.state, scales); });
+  return row;
 }
 
 ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
@@ -48,16 +78,16 @@ ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
 }
 
 std::string history_csv(const TimeRecord& record) {
-  std::string text =
-      "t_us,deformation,deformation_raw,area_um2,volume_um3,relative_volume_change,velocity_m_per_s,"
-      "flow_rate_ul_per_s,pressure_drop_Pa,step_us,order,newton_iterations,refused_steps,position_um\n";
-  for (const HistoryRow& r : record.rows)
-    fmt::format_to(std::back_inserter(text),
-                   "{:.12g},{:.10g},{:.10g},{:.10g},{:.12g},{:.3e},{:.8g},{:.10g},{:.8g},{:.6g},{},{},{},{:.10g}\n",
-                   r.t_us, r.deformation, r.deformation_raw, r.area_um2, r.volume_um3, r.relative_volume_change,
-                   r.velocity_m_per_s, r.flow_rate_ul_per_s, r.pressure_drop_Pa, r.step_us, r.order,
-                   r.newton_iterations, r.refused_steps, r.position_um);
-  return text;
+  std::string text = "t_us";
+  const auto out = std::back_inserter(text);
+  for (const auto& measure : history_measures) fmt::format_to(out, ",{}", measure.name);
+  for (const auto& field : history_fields()) fmt::format_to(out, ",{}", field.name);
+  for (const HistoryRow& row : record.rows) {
+    fmt::format_to(out, "\n{:.12g}", row.t_us);
+    for (const double value : row.measures) fmt::format_to(out, ",{:.12g}", value);
+    for (const auto& field : history_fields()) fmt::format_to(out, ",{:.10g}", field.value(row));
+  }
+  return text + "\n";
 }
 
 std::string contours_csv(const TimeRecord& record) {

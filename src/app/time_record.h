@@ -1,18 +1,25 @@
 // What a computation in time leaves behind: a row for each step, a contour for each output.
 #pragma once
+#include <array>
+#include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
+#include "app/field.h"
 #include "case/problem.h"
 #include "solve/follow_in_time.h"
 
 namespace rheocyte {
 
-/// Columns of history.csv; physical units.
+/// A row of history.csv; physical units.
 struct HistoryRow {
-  double t_us, deformation, deformation_raw, area_um2, volume_um3, relative_volume_change, velocity_m_per_s,
-      flow_rate_ul_per_s, pressure_drop_Pa, step_us, order, newton_iterations, refused_steps, position_um;
+  double t_us, step_us, order, newton_iterations, refused_steps, position_um;
+  std::array<double, history_measures.size()> measures;  ///< in the order of history_measures
+  /// By its name, which must be one of history_measures.
+  double measure(std::string_view name) const;
 };
 
 struct ContourFrame {
@@ -40,7 +47,13 @@ struct TimeRecord {
 HistoryRow history_row(const TimePoint&, const Scales&);
 ContourFrame contour_frame(const TimeFrame&, const Scales&);
 
+/// Time, measures of the state, and these columns.
 std::string history_csv(const TimeRecord&);
+std::span<const Field<HistoryRow>> history_fields();
+
+/// What result.json tells of the way, under "time"; there must be a row.
+std::span<const Field<TimeRecord, nlohmann::ordered_json>> time_fields();
+
 /// contours.csv: t_us, x_um, r_um; the frames one after another.
 std::string contours_csv(const TimeRecord&);
 

@@ -1,6 +1,7 @@
 // From physical units to the dimensionless problem (docs/theory.md, eq:scales).
 #pragma once
 #include "case/case.h"
+#include "case/unit.h"
 
 namespace rheocyte {
 
@@ -9,9 +10,6 @@ inline constexpr double tube_radius_per_channel_width = 0.547;
 
 /// The cell's radius must lie between these shares of the tube's.
 inline constexpr double least_radius_ratio = 0.05, greatest_radius_ratio = 0.95;
-
-/// k_B T at 25 degrees C, the unit of bending stiffness.
-inline constexpr double thermal_energy_J = 1.380649e-23 * 298.15;
 
 /// Surface tension of the cell, given or a share of the modulus of its cortex.
 double tension_mN_per_m(const Case&);

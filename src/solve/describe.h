@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 
+#include "fem/observe.h"
 #include "solve/path.h"
 #include "solve/stationary.h"
 
@@ -14,7 +15,18 @@ struct DiscreteState {
   VectorXd unknowns;
 };
 
-/// Fills in shape, surface, flow, sizes and the writer of fields; the outcome, errors and counts of work are left
+/// What numbers are read off: the unknowns under a problem's laws.
+struct StateView {
+  const Problem& problem;
+  const Media& media;
+  const Discretisation& space;
+  const VectorXd& unknowns;
+};
+
+/// All numbers of a state, with its contour and its surface as finely as wanted.
+StateNumbers numbers_of(const StateView&, const Contour&, const SurfaceState&);
+
+/// Fills in contour, surface, numbers, sizes and the writer of fields; the outcome, errors and counts of work are left
 /// alone.
 void describe_state(const Problem&, const DiscreteState&, StationaryState&);
 

@@ -57,7 +57,7 @@ class TimeFollower {
     advance(result);
     stepper_->move_walls(stepper_->now().time);  // a step that failed has moved them
     describe_state(stepper_->problem(), state_of(stepper_->now().unknowns), result);
-    result.pressure_drop = describe(TimeStepReport{}).pressure_drop;
+    result.pressure_drop = describe(TimeStepReport{}).state.pressure_drop;
     outcome.reached = 1;
     outcome.message = explanation(outcome.status);
     result.statistics.degree = run_.degree;
@@ -111,10 +111,8 @@ class TimeFollower {
     // In the accelerated frame the solver's pressure contains that of the inertial force (eq:frame-pressure); the
     // splitting scheme solves in the laboratory.
     const double inertia = run_.scheme == TimeScheme::monolithic ? stepper_->media().liquid.reynolds : 0;
-    const double drop = state.pressure_drop + inertia * now.frame_acceleration * state.channel_length;
-    return {now.time,    report.step,  report.order,        report.newton_iterations,     report.refused,
-            state.shape, now.position, state.cell_velocity, state.relative_volume_change, state.flow_rate,
-            drop};
+    state.pressure_drop += inertia * now.frame_acceleration * state.channel_length;
+    return {now.time, report.step, report.order, report.newton_iterations, report.refused, now.position, state};
   }
 
   void show_frame(double time, const VectorXd& unknowns) const {

@@ -20,9 +20,8 @@ struct TimeRun {
 struct TimePoint {
   double time = 0, step = 0;
   int order = 0, newton_iterations = 0, refused_steps = 0;
-  ShapeMeasures shape;
   double position = 0;  ///< of the cell along the channel, from its start
-  double cell_velocity = 0, relative_volume_change = 0, flow_rate = 1, pressure_drop = 0;
+  StateNumbers state;
 };
 
 /// What is recorded at the times of output; interpolated between steps.

@@ -2,15 +2,14 @@
 #pragma once
 #include <atomic>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "case/problem.h"
 #include "shape/contour.h"
-#include "shape/measures.h"
 #include "solve/outcome.h"
+#include "solve/state_measures.h"
 
 namespace rheocyte {
 
@@ -47,28 +46,13 @@ struct SurfaceProfile {
   Eigen::MatrixX2d curvature;  ///< in 1/R; both 1/a for a sphere of radius a
 };
 
-/// What is not known must not look like a number.
-inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
-
 /// Everything that is known of a stationary state; dimensionless, in the units of case/problem.h.
-struct StationaryState {
+struct StationaryState : StateNumbers {
   Outcome outcome;
-  ShapeMeasures shape;  ///< of the contour; lengths in R
-  Contour contour;      ///< barycentre at x = 0
+  Contour contour;  ///< barycentre at x = 0
   SurfaceProfile surface;
-  double cell_velocity = no_value;             ///< in U
-  double flow_rate = no_value;                 ///< in pi R^2 U
-  double pressure_drop = no_value;             ///< over the simulated channel, in S
-  double additional_pressure_drop = no_value;  ///< the part that is due to the cell
-  double channel_length = no_value;            ///< simulated, in R
-  double relative_volume_change = no_value;
-  double least_meridional_stretch = no_value;  ///< over the surface
-  double biot_ratio = no_value;        ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
-  double stability_margin = no_value;  ///< of the surface against short wrinkles: 0 = limit (solve/surface_stability.h)
-  double least_tension = no_value;     ///< meridional, over the surface, in S R; a shell wrinkles where it is negative
-  double inner_pressure = no_value;    ///< of a liquid interior, in S, the undisturbed pressure at the cell being 0
-  double residual = no_value;          ///< of the last Newton iteration, relative to the driving forces
-  double estimated_error = no_value;   ///< relative, of the deformation
+  double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
+  double estimated_error = no_value;  ///< relative, of the deformation
   SolveStatistics statistics;
   std::vector<BranchStep> branch;
   /// Writes fields.vtu (velocity, pressure, stress, displacement on the deformed mesh, high-order cells) in

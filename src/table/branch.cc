@@ -7,20 +7,6 @@
 
 namespace rheocyte {
 
-const std::array<std::string_view, measure_count> measure_names{"deformation",
-                                                                "deformation_raw",
-                                                                "area_um2",
-                                                                "area_raw_um2",
-                                                                "perimeter_um",
-                                                                "volume_um3",
-                                                                "moment_ratio",
-                                                                "moment_ratio_raw",
-                                                                "inertia_ratio",
-                                                                "cell_velocity_m_per_s",
-                                                                "additional_pressure_drop_Pa",
-                                                                "least_meridional_stretch",
-                                                                "stability_margin"};
-
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -55,7 +41,7 @@ HermiteWeights hermite(double t) {
 class Piece {
  public:
   Piece(const SampledBranch& branch, int sample, double width, Measure measure) {
-    const auto column = Eigen::Index(measure);
+    const auto column = Eigen::Index(int(measure));
     for (const int end : {0, 1}) {
       value_[end] = branch.value(sample + end, column);
       slope_[end] = branch.slope(sample + end, column) * width;

@@ -1,33 +1,43 @@
 // One branch of stationary states at one radius: samples with slopes, and dense output between them.
 #pragma once
 #include <Eigen/Core>
-#include <array>
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "solve/state_measures.h"
+
 namespace rheocyte {
 
-/// What is known of each state, in physical units.
-enum class Measure {
-  deformation,
-  deformation_raw,
-  area_um2,
-  area_raw_um2,
-  perimeter_um,
-  volume_um3,
-  moment_ratio,      ///< Lambda1 / Lambda2 of the hull
-  moment_ratio_raw,  ///< of the contour
-  inertia_ratio,     ///< sqrt(Lambda2 / Lambda1) of the hull
-  cell_velocity_m_per_s,
-  additional_pressure_drop_Pa,
-  least_meridional_stretch,
-  stability_margin,
-  count
+inline constexpr int measure_count = int(table_measures.size());
+
+/// A column of the tables: one of the measures of a state that they hold, in physical units.
+class Measure {
+ public:
+  constexpr explicit Measure(int column) : column_(column) {}
+  constexpr explicit operator int() const { return column_; }
+  constexpr bool operator==(const Measure&) const = default;
+
+  /// Those that the program asks for itself.
+  static const Measure deformation, deformation_raw, area_um2, volume_um3, moment_ratio, least_meridional_stretch,
+      stability_margin;
+
+  /// By its name, which must be that of a column: no other compiles.
+  static consteval Measure named(std::string_view name) {
+    const auto place = std::ranges::find(table_measures, name, &StateMeasure::name);
+    return Measure(place == table_measures.end() ? throw name : int(place - table_measures.begin()));
+  }
+
+ private:
+  int column_;
 };
-inline constexpr int measure_count = int(Measure::count);
-/// Column names, in the order of the enumeration.
-extern const std::array<std::string_view, measure_count> measure_names;
+
+inline constexpr Measure Measure::deformation = named("deformation"),
+                         Measure::deformation_raw = named("deformation_raw"), Measure::area_um2 = named("area_um2"),
+                         Measure::volume_um3 = named("volume_um3"), Measure::moment_ratio = named("moment_ratio"),
+                         Measure::least_meridional_stretch = named("least_meridional_stretch"),
+                         Measure::stability_margin = named("stability_margin");
 
 /// How a branch ended at its soft side.
 struct BranchEnd {

@@ -11,6 +11,12 @@ namespace {
 
 using nlohmann::json;
 
+std::vector<std::string> measure_names() {
+  std::vector<std::string> names;
+  for (const auto& measure : table_measures) names.emplace_back(measure.name);
+  return names;
+}
+
 constexpr RecordKind kind{"rheocyte branch", "1", "record of a branch", "delete it, and it is computed again"};
 
 json blob_of_all(const std::vector<Eigen::MatrixX2d>& contours) {
@@ -44,7 +50,7 @@ json record_of(const SampledBranch& branch) {
           {"tension_ratio", branch.tension_ratio},
           {"bending_kBT", branch.bending_kBT},
           {"samples", branch.samples()},
-          {"measures", measure_names},
+          {"measures", measure_names()},
           {"contour_points", branch.contour.empty() ? 0 : branch.contour.front().rows()},
           {"stiffness", blob_of(branch.stiffness)},
           {"value", blob_of_matrix(branch.value)},
@@ -62,7 +68,7 @@ json record_of(const SampledBranch& branch) {
 }
 
 SampledBranch branch_of(const json& record) {
-  if (record.at("measures") != json(measure_names)) throw DamagedRecord{"it holds other measures"};
+  if (record.at("measures") != json(measure_names())) throw DamagedRecord{"it holds other measures"};
   const auto samples = record.at("samples").get<std::size_t>();
   if (samples > 1000000) throw DamagedRecord{"samples is out of range"};
   SampledBranch branch;
@@ -94,7 +100,7 @@ SampledBranch checked_branch(std::string_view bytes, const std::string& spec_has
 }  // namespace
 
 std::string branch_record_format() {
-  return fmt::format("{} {}: {}", kind.kind, kind.format, fmt::join(measure_names, ", "));
+  return fmt::format("{} {}: {}", kind.kind, kind.format, fmt::join(measure_names(), ", "));
 }
 
 std::string to_bytes(const SampledBranch& branch, const std::string& spec_hash) {

@@ -28,7 +28,7 @@ void add_rows(LookupTable& table, const RadiusBranches& radius, const std::vecto
     const auto state = radius.at_deformation(level);
     if (!state || (state->regularised && table.spec.bending_beyond_kBT == 0)) continue;
     rows.push_back(row_at(radius, *state));
-    rows.back().value(Eigen::Index(Measure::deformation)) = level;
+    rows.back().value(int(Measure::deformation)) = level;
   }
   if (ends_early(radius)) {
     const auto is_same = [end = end_row(radius).at(Measure::deformation)](const TableRow& row) {
@@ -167,7 +167,7 @@ std::string lut_text(const LookupTable& table, Abscissa abscissa) {
 std::string full_table_csv(const LookupTable& table) {
   std::string text = fmt::format("radius_um,{}", stiffness_column(table.spec));
   auto out = std::back_inserter(text);
-  for (const auto name : measure_names) fmt::format_to(out, ",{}", name);
+  for (const auto& measure : table_measures) fmt::format_to(out, ",{}", measure.name);
   text += ",deformation_error,stiffness_error,bending_kBT,regularised,end_of_branch\n";
   for (const auto& row : table.rows) {
     fmt::format_to(out, "{},{}", row.radius_um, row.state.stiffness);

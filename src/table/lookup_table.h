@@ -19,7 +19,7 @@ struct TableRow {
   Eigen::VectorXd value;   ///< all measures
   double stiffness_error;  ///< relative, at this area and deformation; from the estimated error of the deformation
   bool is_end = false;     ///< the last state of a bare surface
-  double at(Measure m) const { return value(Eigen::Index(m)); }
+  double at(Measure m) const { return value(int(m)); }
 };
 
 /// Rows by radius and, at each radius, by deformation, ascending.

@@ -7,7 +7,7 @@ namespace rheocyte {
 
 /// One state of a sweep in physical units.
 struct MeasuredState {
-  Eigen::VectorXd value;     ///< in the order of Measure
+  Eigen::VectorXd value;     ///< in the order of table_measures
   Eigen::MatrixX2d contour;  ///< um, at fixed points of the unstressed sphere
 };
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "case/scales.h"
+#include "case/unit.h"
 #include "table/table_metadata.h"
 
 namespace rheocyte {
@@ -28,14 +29,10 @@ double number_at(const ordered_json& metadata, const char* pointer) {
   return value.is_number() ? value.get<double>() : 0;
 }
 
-void multiply(ordered_json& metadata, const char* pointer, double factor) {
-  const ordered_json::json_pointer place(pointer);
-  if (!metadata.contains(place)) return;
-  auto& value = metadata.at(place);
+void multiply(ordered_json& value, double factor) {
   if (value.is_number()) value = value.get<double>() * factor;
   if (value.is_array())
-    for (auto& entry : value)
-      if (entry.is_number()) entry = entry.get<double>() * factor;
+    for (auto& entry : value) multiply(entry, factor);
 }
 
 void replace(ordered_json& metadata, const char* pointer, double value) {
@@ -77,22 +74,35 @@ double consistency_factor(const ordered_json& metadata, const ChannelConditions&
   return to.viscosity_mPas / from.viscosity_mPas * std::pow(shear, 1 - exponent_of(metadata));
 }
 
+// A length by W' / W, a velocity by Q' / Q (W / W')^2, a stress by the factor of moduli.
+double factor_of(const Dimension& dimension, const ChannelConditions& from, const ChannelConditions& to) {
+  const double width = to.channel_width_um / from.channel_width_um, rate = to.flow_rate_ul_s / from.flow_rate_ul_s;
+  return std::pow(width, dimension.length - 2 * dimension.velocity) * std::pow(rate, dimension.velocity) *
+         std::pow(scale_factors(from, to).modulus, dimension.stress);
+}
+
+// What a case keeps in another channel; doubts_of_scaling tells the consequence.
+bool is_kept(std::string_view key) { return key == "density_kg_per_m3" || key.ends_with("_kBT"); }
+
+// All numbers whose names end with a unit.
+void scale_numbers(ordered_json& object, const ChannelConditions& from, const ChannelConditions& to) {
+  for (auto& [key, value] : object.items())
+    if (value.is_object())
+      scale_numbers(value, from, to);
+    else if (!is_kept(key))
+      multiply(value, factor_of(unit_of(key).dimension, from, to));
+}
+
 void scale_metadata(ordered_json& metadata, const ChannelConditions& from, const ChannelConditions& to) {
-  const auto factor = scale_factors(from, to);
-  const double consistency = consistency_factor(metadata, from, to);
+  scale_numbers(metadata, from, to);
   metadata["channel_width"] = to.channel_width_um;
   metadata["flow_rate"] = to.flow_rate_ul_s;
   metadata["fluid_viscosity"] = to.viscosity_mPas;
-  multiply(metadata, "/fluid_consistency_coefficient", consistency);
-  multiply(metadata, "/regularised_beyond_area_um2", factor.area);
-  multiply(metadata, "/case/channel/width_um", to.channel_width_um / from.channel_width_um);
-  multiply(metadata, "/case/channel/radius_um", to.channel_width_um / from.channel_width_um);
   replace(metadata, "/case/flow/rate_ul_per_s", to.flow_rate_ul_s);
   replace(metadata, "/case/flow/viscosity_mPas", to.viscosity_mPas);
-  multiply(metadata, "/case/flow/consistency_Pa_sn", consistency);
-  multiply(metadata, "/case/cell/bulk/young_modulus_kPa", factor.modulus);
-  multiply(metadata, "/case/cell/cortex/modulus_mN_per_m", factor.cortex_modulus);
-  multiply(metadata, "/case/cell/cortex/tension_mN_per_m", factor.cortex_modulus);
+  for (const char* consistency : {"/fluid_consistency_coefficient", "/case/flow/consistency_Pa_sn"})
+    if (const ordered_json::json_pointer place(consistency); metadata.contains(place))
+      multiply(metadata.at(place), consistency_factor(metadata, from, to));
   metadata["scaled_from"] = {{"channel_width", from.channel_width_um},
                              {"flow_rate", from.flow_rate_ul_s},
                              {"fluid_viscosity", from.viscosity_mPas}};

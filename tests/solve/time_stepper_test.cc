@@ -143,8 +143,8 @@ TEST(TimeStepper, AGivenPressureDropStaysWhatItIs) {
   double greatest_acceleration = 0, rate = 0;
   const auto observe = [&](const TimePoint& point, const TimeState& state) {
     greatest_acceleration = std::max(greatest_acceleration, std::abs(state.levels[0].frame_acceleration));
-    EXPECT_NEAR(point.pressure_drop / (8 * 2 * least_half_length(problem.radius_ratio)), 1, 1e-6);
-    rate = point.flow_rate;
+    EXPECT_NEAR(point.state.pressure_drop / (8 * 2 * least_half_length(problem.radius_ratio)), 1, 1e-6);
+    rate = point.state.flow_rate;
   };
   const StationaryState end = follow_in_time(problem, run, {{}, observe});
   ASSERT_EQ(end.outcome.status, Status::converged);

@@ -41,21 +41,21 @@ inline Eigen::MatrixX2d invented_state(double radius, double stiffness, double b
   const double slope = d * (-2 + 0.5 / stiffness / (1 + 0.5 / stiffness));
   Eigen::MatrixX2d state = Eigen::MatrixX2d::Zero(measure_count, 2);
   const auto set = [&](Measure m, double value, double by_deformation) {
-    state.row(Eigen::Index(m)) << value, by_deformation * slope;
+    state.row(int(m)) << value, by_deformation * slope;
   };
   const double area = invented_area(radius, d), area_by_d = std::numbers::pi * radius * radius * 0.5;
   const double root = std::sqrt(std::numbers::pi * area), perimeter = 2 * root / (1 - d);
   set(Measure::deformation, d, 1);
   set(Measure::deformation_raw, 1.01 * d, 1.01);
   set(Measure::area_um2, area, area_by_d);
-  set(Measure::area_raw_um2, 0.999 * area, 0.999 * area_by_d);
-  set(Measure::perimeter_um, perimeter, perimeter * (area_by_d / (2 * area) + 1 / (1 - d)));
+  set(Measure::named("area_raw_um2"), 0.999 * area, 0.999 * area_by_d);
+  set(Measure::named("perimeter_um"), perimeter, perimeter * (area_by_d / (2 * area) + 1 / (1 - d)));
   set(Measure::volume_um3, 4.0 / 3 * std::numbers::pi * std::pow(radius, 3), 0);
   set(Measure::moment_ratio, 1 - 3 * d, -3);
-  set(Measure::moment_ratio_raw, 1 - 3.1 * d, -3.1);
-  set(Measure::inertia_ratio, 1 + 1.5 * d, 1.5);
-  set(Measure::cell_velocity_m_per_s, 0.18 + 0.1 * d, 0.1);
-  set(Measure::additional_pressure_drop_Pa, 300 - 100 * d, -100);
+  set(Measure::named("moment_ratio_raw"), 1 - 3.1 * d, -3.1);
+  set(Measure::named("inertia_ratio"), 1 + 1.5 * d, 1.5);
+  set(Measure::named("cell_velocity_m_per_s"), 0.18 + 0.1 * d, 0.1);
+  set(Measure::named("additional_pressure_drop_Pa"), 300 - 100 * d, -100);
   set(Measure::least_meridional_stretch, 1 - 3 * d, -3);
   set(Measure::stability_margin, 1 - 5 * d, -5);
   return state;

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "case/case_keys.h"
 #include "case/scales.h"
+#include "case/write_case.h"
 
 namespace rheocyte {
 namespace {
@@ -60,8 +64,56 @@ TEST(Scale, KeepsTheDimensionlessGroups) {
   *c.cell.cortex.modulus_mN_per_m *= factor.cortex_modulus;
   const auto after = problem_of(c);
   EXPECT_NEAR(after.radius_ratio / before.radius_ratio, 1, 1e-14);  // rounding
-  EXPECT_NEAR(after.shear_modulus / before.shear_modulus, 1, 1e-14);
-  EXPECT_NEAR(after.cortex_modulus / before.cortex_modulus, 1, 1e-14);
+  EXPECT_NEAR(after.bulk.shear_modulus / before.bulk.shear_modulus, 1, 1e-14);
+  EXPECT_NEAR(after.cortex.modulus / before.cortex.modulus, 1, 1e-14);
+}
+
+// A case with every number that a case in time can have.
+Case full_case() {
+  Case c;
+  c.channel.radius_um = 11;
+  c.channel.profile = {{-50, 60}, {20, 11}};
+  c.flow.rate_ul_per_s = 0.04;
+  c.flow.viscosity_mPas = 15;
+  c.flow.density_kg_per_m3 = 0;
+  c.cell.radius_um = 7;
+  c.cell.bulk.law = BulkLaw::neo_hookean;
+  c.cell.bulk.young_modulus_kPa = 2;
+  c.cell.cortex.law = CortexLaw::linear;
+  c.cell.cortex.modulus_mN_per_m = 31;
+  c.cell.cortex.tension_mN_per_m = 0.3;
+  c.cell.viscosity_mPas = 4;
+  c.cell.density_kg_per_m3 = 0;
+  c.time.scheme = TimeScheme::monolithic;
+  c.time.end_us = 300;
+  return c;
+}
+
+TEST(Scale, EveryNumberOfACaseScalesWithItsUnit) {
+  // The scaled case is the same dimensionless problem, in other units; 1e-14 is rounding.
+  const Case before = full_case();
+  const auto out =
+      scaled(table_with({{"case", to_json(before)}, {"regularised_beyond_area_um2", {100, 50}}}), {33, 0.11, 4}, "0");
+  Case after = before;
+  for (const auto& key : case_keys()) {
+    std::string path = "/case/" + std::string(key.name);
+    std::ranges::replace(path, '.', '/');
+    const nlohmann::ordered_json::json_pointer place(path);
+    if (!out.metadata.contains(place) || out.metadata.at(place).is_string()) continue;
+    EXPECT_EQ(unit_of(key.name).symbol, key.unit) << key.name;
+    const auto& value = out.metadata.at(place);
+    key.set(after, value.is_array() ? Value(value.get<std::vector<double>>()) : Value(value.get<double>()));
+  }
+  const Problem a = problem_of(before), b = problem_of(after);
+  EXPECT_NEAR(b.radius_ratio / a.radius_ratio, 1, 1e-14);
+  EXPECT_NEAR(b.bulk.shear_modulus / a.bulk.shear_modulus, 1, 1e-14);
+  EXPECT_NEAR(b.cortex.modulus / a.cortex.modulus, 1, 1e-14);
+  EXPECT_NEAR(b.cortex.tension / a.cortex.tension, 1, 1e-14);
+  EXPECT_NEAR(b.bulk.viscosity / a.bulk.viscosity, 1, 1e-14);
+  EXPECT_NEAR(b.wall.x[0] / a.wall.x[0], 1, 1e-14);
+  EXPECT_NEAR(b.wall.radius[0] / a.wall.radius[0], 1, 1e-14);
+  EXPECT_NEAR(*after.time.end_us / scales_of(after).time_s() / (300 / scales_of(before).time_s()), 1, 1e-14);
+  EXPECT_NEAR(out.metadata["regularised_beyond_area_um2"][1].get<double>() / (50 * 33 * 33 / 400.0), 1, 1e-14);
 }
 
 TEST(Scale, ShearThinningLiquidsOfOneExponentScaleWithTheViscosityAtTheWall) {

@@ -1,0 +1,121 @@
+// What is measured on a state of cell and liquid: the one list from which result.json, the tables' columns,
+// history.csv, the check of all numbers and the reference of results are made.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <string_view>
+#include <variant>
+
+#include "case/unit.h"
+#include "shape/measures.h"
+
+namespace rheocyte {
+
+/// What is not known must not look like a number.
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+/// The numbers of a state; dimensionless, in the units of case/problem.h.
+struct StateNumbers {
+  ShapeMeasures shape;  ///< of the contour; lengths in R
+  double relative_volume_change = no_value;
+  double cell_velocity = no_value;             ///< in U
+  double flow_rate = no_value;                 ///< in pi R^2 U
+  double pressure_drop = no_value;             ///< over the simulated channel, in S
+  double additional_pressure_drop = no_value;  ///< the part that is due to the cell
+  double inner_pressure = no_value;            ///< in S, the undisturbed pressure at the cell being 0
+  double channel_length = no_value;            ///< simulated, in R
+  double tube_radius = 1;                      ///< in R
+  double reynolds = no_value;                  ///< rho v_cell U / S
+  double least_meridional_stretch = no_value;  ///< over the surface
+  double biot_ratio = no_value;        ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
+  double stability_margin = no_value;  ///< of the surface against short wrinkles: 0 = limit (solve/surface_stability.h)
+  double least_tension = no_value;     ///< meridional, over the surface, in S R; a shell wrinkles where it is negative
+};
+
+/// The files beside result.json in which a measure is a column.
+enum class AlsoIn { none, tables, history, both };
+
+/// A number of result.json.
+struct StateMeasure {
+  std::string_view name;  ///< ends with its unit
+  std::string_view sentence;
+  std::variant<double StateNumbers::*, double ShapeMeasures::*> member;
+  AlsoIn columns = AlsoIn::none;     ///< a column of tables must be smooth along a branch
+  std::string_view null_where = {};  ///< where there is no such number; elsewhere it is finite
+  double factor = 1;                 ///< of the unit of the number in powers of R, U and S
+
+  constexpr bool in_tables() const { return columns == AlsoIn::tables || columns == AlsoIn::both; }
+  constexpr bool in_history() const { return columns == AlsoIn::history || columns == AlsoIn::both; }
+  constexpr double value(const StateNumbers& numbers) const {
+    if (const auto* of_shape = std::get_if<double ShapeMeasures::*>(&member)) return numbers.shape.**of_shape;
+    return numbers.*std::get<double StateNumbers::*>(member);
+  }
+  constexpr double physical(const StateNumbers& numbers, const Scales& scales) const {
+    return value(numbers) * factor * dimensionless_one(unit_of(name), scales);
+  }
+};
+
+/// In the order in which they are written and documented.
+inline constexpr StateMeasure state_measures[] = {
+    {"deformation", "1 - 2 sqrt(pi A) / P of the contour's convex hull, which is what a camera sees",
+     &ShapeMeasures::deformation, AlsoIn::both},
+    {"deformation_raw", "the same of the contour itself", &ShapeMeasures::deformation_raw, AlsoIn::both},
+    {"area_um2", "area of the contour's convex hull", &ShapeMeasures::area, AlsoIn::both},
+    {"area_raw_um2", "area within the contour", &ShapeMeasures::area_raw, AlsoIn::tables},
+    {"perimeter_um", "perimeter of the convex hull", &ShapeMeasures::perimeter, AlsoIn::tables},
+    {"perimeter_raw_um", "perimeter of the contour", &ShapeMeasures::perimeter_raw},
+    {"volume_um3", "volume of the cell, the body of revolution of the contour", &ShapeMeasures::volume, AlsoIn::both},
+    {"relative_volume_change", "change of the volume since the sphere at rest; the cell is incompressible",
+     &StateNumbers::relative_volume_change, AlsoIn::history},
+    {"moment_ratio",
+     "ratio of the second moments of area of the convex hull, across the flow over along it; below 1: elongated along "
+     "the flow",
+     &ShapeMeasures::moment_ratio, AlsoIn::tables},
+    {"moment_ratio_raw", "the same of the contour", &ShapeMeasures::moment_ratio_raw, AlsoIn::tables},
+    {"inertia_ratio", "1 / sqrt(moment_ratio), as RT-DC programs have it", &ShapeMeasures::inertia_ratio,
+     AlsoIn::tables},
+    {"cell_velocity_m_per_s", "velocity of the cell along the channel", &StateNumbers::cell_velocity, AlsoIn::both},
+    {"mean_velocity_m_per_s", "flow rate over the area of the tube", &StateNumbers::flow_rate},
+    {.name = "flow_rate_ul_per_s",
+     .sentence = "flow rate through the channel; the given one unless the pressure drop is given",
+     .member = &StateNumbers::flow_rate,
+     .columns = AlsoIn::history,
+     .factor = std::numbers::pi},
+    {"pressure_drop_Pa", "pressure drop over the simulated length of the channel", &StateNumbers::pressure_drop,
+     AlsoIn::history},
+    {"additional_pressure_drop_Pa", "the part of it that is due to the cell", &StateNumbers::additional_pressure_drop,
+     AlsoIn::tables, "in a channel that is not straight"},
+    {"inner_pressure_Pa", "pressure in a pure shell, that of the undisturbed flow at the cell being 0",
+     &StateNumbers::inner_pressure, AlsoIn::none, "where the interior is elastic"},
+    {"simulated_length_um", "length of the simulated channel", &StateNumbers::channel_length},
+    {"tube_radius_um", "radius of the tube that stands for the channel, the least one if it varies",
+     &StateNumbers::tube_radius},
+    {"reynolds",
+     "density x cell velocity x tube radius / viscosity, which is the liquid's at the shear rate mean velocity / tube "
+     "radius",
+     &StateNumbers::reynolds},
+    {"least_meridional_stretch", "least stretch of the surface along the meridian",
+     &StateNumbers::least_meridional_stretch, AlsoIn::tables},
+    {"biot_ratio", "least ratio of meridional to normal stretch of the surface; a bare surface wrinkles below 0.2956",
+     &StateNumbers::biot_ratio},
+    {"stability_margin",
+     "distance of the surface from short wrinkles: 1 for the sphere or where bending stiffness or tension hold the "
+     "surface, 0 at the limit",
+     &StateNumbers::stability_margin, AlsoIn::tables},
+    {"least_tension_mN_per_m", "least meridional tension of the surface; a shell wrinkles where it is negative",
+     &StateNumbers::least_tension}};
+
+/// Those that are columns of a file, in their order.
+template <bool (StateMeasure::*is_column)() const>
+constexpr auto measures_in() {
+  std::array<StateMeasure, std::ranges::count(state_measures, true, is_column)> chosen{};
+  std::ranges::copy_if(state_measures, chosen.begin(), std::identity(), is_column);
+  return chosen;
+}
+inline constexpr auto table_measures = measures_in<&StateMeasure::in_tables>();
+inline constexpr auto history_measures = measures_in<&StateMeasure::in_history>();
+
+}  // namespace rheocyte
