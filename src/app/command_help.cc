@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/result_reference.h"
 #include "case/key_reference.h"
 #include "synth/synth_keys.h"
 #include "table/table_keys.h"
@@ -31,6 +32,7 @@ struct HelpOptions {
 const std::map<std::string, std::function<std::string(bool markdown)>> references{
     {"case", [](bool markdown) { return reference(case_reference(), markdown); }},
     {"table", [](bool markdown) { return reference(table_reference(), markdown); }},
+    {"result", result_reference},
     {"synth", [](bool markdown) { return reference(synth_reference(), markdown); }},
 };
 
@@ -46,16 +48,19 @@ void print_help(const CLI::App& app, const HelpOptions& options) {
 }  // namespace
 
 void add_help_command(CLI::App& app, int&) {
-  auto* command = app.add_subcommand("help", "explain the keys of a case or a spec, or a command");
+  auto* command =
+      app.add_subcommand("help", "explain the keys of a case or a spec, the files of a result, or a command");
   auto options = std::make_shared<HelpOptions>();
-  auto* topic = command->add_option("TOPIC", options->topic,
-                                    "case, table or synth: all keys with unit, default and range; or another command");
+  auto* topic =
+      command->add_option("TOPIC", options->topic,
+                          "case, table or synth: all keys with unit, default and range; result: all numbers with "
+                          "unit and meaning; or another command");
   std::vector<std::string> topics;
   for (const auto& [name, text] : references) topics.push_back(name);
   for (const auto* known : app.get_subcommands([](const CLI::App*) { return true; }))
     topics.push_back(known->get_name());
   topic->check(CLI::IsMember(topics));
-  command->add_flag("--markdown", options->markdown, "the keys as a Markdown document");
+  command->add_flag("--markdown", options->markdown, "the reference as a Markdown document");
   command->callback([&app, options] { print_help(app, *options); });
 }
 
