@@ -1,5 +1,7 @@
 #include "solve/describe.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +25,55 @@ void read_flow(const StateView& state, StateNumbers& r) {
     r.inner_pressure = state.unknowns(p) + 2 * state.media.cortex.tension / state.problem.radius_ratio;
 }
 
+/// 2 D:D in U/R squared at the quadrature points of an element of the liquid, the first coordinate along the columns.
+MatrixXd squared_shear_rates(const MatrixXd& fields, Eigen::Index points_1d) {
+  MatrixXd squares(points_1d, points_1d);
+  for (Eigen::Index q = 0; q < fields.rows(); ++q) {
+    const auto f = fields.row(q);
+    Plane<double> G, w_xi;
+    G << f(0), f(1), f(2), f(3);
+    w_xi << f(7), f(8), f(9), f(10);
+    const Tensor<double> L = gradient(Place<double>(G, f(4)), PlaneVector<double>(f(5), f(6)), w_xi);
+    squares(q % points_1d, q / points_1d) = 0.5 * (L + L.transpose()).squaredNorm();
+  }
+  return squares;
+}
+
+/// Axial coordinates of the element's nodes, arranged alike.
+MatrixXd axial_coordinates(const StateView& state, int e) {
+  const ElementUnknowns& element = state.space.elements()[e];
+  const auto& nodes = state.space.nodes().of_element[e];
+  VectorXd x(nodes.size());
+  for (int k = 0; k < x.size(); ++k) x(k) = state.space.node_points()[nodes[k]](0);
+  if (const int columns = element.position_columns; columns > 0)
+    x += element.position_at_nodes[0] * local_values(element, state.unknowns).head(columns);
+  const Eigen::Index n = state.space.reference().nodes_1d.size();
+  return x.reshaped(n, n);
+}
+
+/// The greatest shear rate between the planes through the cell's poles. Quadrature points lie neither on the cell nor
+/// at the wall, where it is the greatest: the polynomials that fit 2 D:D best there are looked at up to the edges.
+double greatest_shear_rate(const StateView& state, const Contour& contour) {
+  const ReferenceElement& reference = state.space.reference();
+  const VectorXd grid = VectorXd::LinSpaced(4 * reference.degree() + 1, 0, 1);
+  const MatrixXd nodes_to_grid = reference.lagrange(grid), at_points = reference.lagrange(reference.points_1d);
+  const MatrixXd tested = at_points.transpose() * reference.weights_1d.asDiagonal();
+  const MatrixXd points_to_grid = nodes_to_grid * (tested * at_points).ldlt().solve(tested);
+  const double front = contour.pieces.front()(0, 0), rear = contour.pieces.back()(contour.pieces.back().rows() - 1, 0);
+  double greatest = 0;
+  for (int e = 0; e < int(state.space.elements().size()); ++e) {
+    if (!state.space.elements()[e].liquid) continue;
+    const MatrixXd nodes = axial_coordinates(state, e);
+    if (nodes.minCoeff() > front || nodes.maxCoeff() < rear) continue;
+    const MatrixXd squares =
+        squared_shear_rates(fields_at_points(state.space, e, state.unknowns), reference.points_1d.size());
+    const Eigen::ArrayXXd x = nodes_to_grid * nodes * nodes_to_grid.transpose(),
+                          rate = points_to_grid * squares * points_to_grid.transpose();
+    greatest = std::max(greatest, (x >= rear && x <= front).select(rate, 0).maxCoeff());
+  }
+  return std::sqrt(greatest);
+}
+
 }  // namespace
 
 StateNumbers numbers_of(const StateView& state, const Contour& contour, const SurfaceState& surface) {
@@ -31,6 +82,7 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   r.relative_volume_change =
       r.shape.volume / (4.0 / 3 * std::numbers::pi * std::pow(state.problem.radius_ratio, 3)) - 1;
   read_flow(state, r);
+  r.shear_rate_max = greatest_shear_rate(state, contour);
   r.least_meridional_stretch = surface.stretch.col(0).minCoeff();
   r.least_tension = surface_tensions(state.media.cortex, surface).col(0).minCoeff();
   r.biot_ratio = least_biot_ratio(surface);

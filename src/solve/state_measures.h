@@ -28,6 +28,7 @@ struct StateNumbers {
   double inner_pressure = no_value;            ///< in S, the undisturbed pressure at the cell being 0
   double channel_length = no_value;            ///< simulated, in R
   double tube_radius = 1;                      ///< in R
+  double shear_rate_max = no_value;            ///< of the liquid beside the cell, in U/R
   double reynolds = no_value;                  ///< rho v_cell U / S
   double least_meridional_stretch = no_value;  ///< over the surface
   double biot_ratio = no_value;        ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
@@ -97,6 +98,10 @@ inline constexpr StateMeasure state_measures[] = {
      "density x cell velocity x tube radius / viscosity, which is the liquid's at the shear rate mean velocity / tube "
      "radius",
      &StateNumbers::reynolds},
+    {"shear_rate_max_per_s",
+     "greatest shear rate sqrt(2 D:D) of the liquid beside the cell, between the planes across the channel through its "
+     "poles, cell and wall included",
+     &StateNumbers::shear_rate_max},
     {"least_meridional_stretch", "least stretch of the surface along the meridian",
      &StateNumbers::least_meridional_stretch, AlsoIn::tables},
     {"biot_ratio", "least ratio of meridional to normal stretch of the surface; a bare surface wrinkles below 0.2956",

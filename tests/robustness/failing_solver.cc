@@ -85,7 +85,7 @@ StationaryState solve_stationary(const Problem& problem, const ProgressCallback&
   state.shape = measure(state.contour);
   state.cell_velocity = 1.5;
   state.flow_rate = 1;
-  state.reynolds = state.stability_margin = state.least_tension = 0;
+  state.reynolds = state.stability_margin = state.least_tension = state.shear_rate_max = 0;
   state.pressure_drop = 30;
   state.additional_pressure_drop = 1;
   state.channel_length = 3.5;
