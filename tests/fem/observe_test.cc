@@ -111,7 +111,7 @@ TEST(Transfer, TheShapeDoesNotChangeOnOtherMeshes) {
   // The deformation of a smooth state is the same after a transfer, up to the circle's interpolation (1e-9 at degree
   // 8).
   SmallChannel channel(0.6, 8), other(0.6, 8, {}, {3, 6, 1, 3});
-  const VectorXd state = test::deformed_state(channel.system, {{}, {12, 1}});
+  const VectorXd state = test::deformed_state(channel.system, {{}, {BulkLaw::neo_hookean, 12}});
   const VectorXd moved = transfer(channel.space, state, other.space);
   const double before = measure(contour(channel.space, state)).deformation;
   EXPECT_NEAR(measure(contour(other.space, moved)).deformation / before, 1, 1e-4);

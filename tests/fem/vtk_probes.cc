@@ -59,7 +59,7 @@ VectorXd fields_at(const SmallChannel& channel, const VectorXd& state, int e, co
 
 void write_channel(const std::string& folder, int degree) {
   SmallChannel channel(0.6, degree);
-  const Media media{{}, {12, 1}};
+  const Media media{{}, {BulkLaw::neo_hookean, 12}};
   const VectorXd state = deformed_state(channel.system, media);
   const std::string name = fmt::format("{}/channel-{}", folder, degree);
   if (!write_fields(channel.space, media, state, Scales{1e-6, 1, 1}, name + ".vtu")) std::abort();

@@ -15,7 +15,7 @@ using test::SmallChannel;
 
 std::string written(const SmallChannel& channel, const VectorXd& state) {
   const auto path = std::filesystem::path(testing::TempDir()) / "rheocyte_write_fields_test.vtu";
-  EXPECT_TRUE(write_fields(channel.space, {{}, {12, 1}}, state, {}, path.string()));
+  EXPECT_TRUE(write_fields(channel.space, {{}, {BulkLaw::neo_hookean, 12}}, state, {}, path.string()));
   std::stringstream text;
   text << std::ifstream(path).rdbuf();
   std::filesystem::remove(path);
@@ -25,7 +25,7 @@ std::string written(const SmallChannel& channel, const VectorXd& state) {
 TEST(WriteFields, TheFileHoldsEveryNamedArrayAndEveryElement) {
   // ParaView and the picture look for these names; one high-order cell per element.
   SmallChannel channel(0.6);
-  const std::string text = written(channel, test::deformed_state(channel.system, {{}, {12, 1}}));
+  const std::string text = written(channel, test::deformed_state(channel.system, {{}, {BulkLaw::neo_hookean, 12}}));
   EXPECT_NE(text.find("type=\"UnstructuredGrid\""), std::string::npos);
   for (const char* name :
        {"velocity", "velocity_relative", "pressure", "stress", "shear_stress", "displacement", "region"}) {
@@ -42,7 +42,7 @@ TEST(WriteFields, AFileThatCannotBeWrittenIsReported) {
   const VectorXd state = VectorXd::Zero(channel.space.unknowns());
   for (const char* path : {"/no/such/folder/fields.vtu", "/", "/dev/full"}) {
     bool success = true;
-    EXPECT_NO_THROW(success = write_fields(channel.space, {{}, {12, 1}}, state, {}, path)) << path;
+    EXPECT_NO_THROW(success = write_fields(channel.space, {{}, {BulkLaw::neo_hookean, 12}}, state, {}, path)) << path;
     EXPECT_FALSE(success) << path;
   }
 }
