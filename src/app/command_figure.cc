@@ -24,10 +24,10 @@ struct FigureOptions {
 
 // Returns only if the interpreter cannot be started.
 int become_python(const FigureOptions& options) {
-  auto call = python_call("rheocyte.figure");
+  auto call = python_call("figure");
   call.insert(call.end(),
               {"--program", (program_folder() / "rheocyte").string(), "--", options.number, options.folder.string()});
-  const auto failure = become_program(call, python_environment());
+  const auto failure = become_program(call);
   tell(fmt::format("rheocyte: cannot start {}; the figures need Python with numpy and matplotlib.", failure));
   return exit_own_bug;
 }

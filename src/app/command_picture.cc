@@ -8,8 +8,8 @@
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
-#include "app/picture.h"
 #include "case/user_error.h"
+#include "store/python_package.h"
 #include "store/standard_error.h"
 
 namespace rheocyte {
@@ -21,7 +21,7 @@ int redraw(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / "result.json", error))
     throw UserError(
         fmt::format("{}: there is no result.json; give a folder that `rheocyte solve` has written.", folder.string()));
-  const auto failure = draw_picture(folder);
+  const auto failure = Drawing("picture").finish(folder);
   if (failure.empty()) return exit_converged;
   tell(fmt::format("rheocyte: the picture could not be drawn ({}).", one_line(failure, 300)));
   return exit_own_bug;

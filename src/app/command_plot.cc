@@ -16,7 +16,6 @@
 #include "case/user_error.h"
 #include "extract/plot_lines.h"
 #include "extract/plot_panel.h"
-#include "store/child_process.h"
 #include "store/contained.h"
 #include "store/file_writer.h"
 #include "store/python_package.h"
@@ -109,11 +108,9 @@ class Plot {
     return j;
   }
 
-  int draw() const {
+  int draw() {
     if (stop_wanted()) return exit_stopped();
-    auto call = python_call("rheocyte.event_plot");
-    call.insert(call.end(), {"--", folder_.path().string(), stem_.string()});
-    const auto drawn = run_child(call, python_environment());
+    const auto drawn = drawing_.finish({folder_.path().string(), stem_.string()});
     if (stop_wanted()) return exit_stopped();
     if (drawn.exit_code == exit_user_error) throw UserError(drawn.last_line);
     if (drawn.exit_code != 0) {
@@ -129,6 +126,7 @@ class Plot {
   fs::path stem_;
   PlotLines lines_;
   HandOver folder_;
+  Drawing drawing_{"event_plot"};  // loads while the recordings are read
 };
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
-#include "app/picture.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
+#include "store/python_package.h"
 #include "store/standard_error.h"
 #include "store/stop_signal.h"
 #include "table/combined_table.h"
@@ -53,7 +53,7 @@ void write_files(const TableFolder& folder, const TableOptions& options) {
         "table.");
   folder.tidy();
   if (options.no_picture) return;
-  if (const auto failure = draw_table_pictures(folder.path()); !failure.empty())
+  if (const auto failure = Drawing("table_picture").finish(folder.path()); !failure.empty())
     tell(fmt::format("rheocyte: warning: no pictures ({}); the tables are complete.", one_line(failure, 300)));
 }
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/exit_codes.h"
-#include "app/picture.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "store/standard_error.h"
@@ -29,14 +28,15 @@ bool is_complete_vtu(const fs::path& file) {
   return end.find("</VTKFile>") != std::string::npos;
 }
 
-void write_result(const Result& result, ResultFolder& folder, const SolveOptions& options, const std::string& json) {
+void write_result(const Result& result, ResultFolder& folder, const SolveOptions& options, const std::string& json,
+                  std::optional<Drawing>& drawing) {
   folder.write("case.toml", to_toml(result.input));
   folder.write("contour.csv", contour_csv(result));
   if (result.state.write_fields)  // else stopped or failed before there was any state
     write_field_file(result.state.write_fields, result.scales, folder.scratch() / "fields.vtu", options.folder);
   folder.write("result.json", json);
-  if (!options.no_picture)
-    if (const auto failure = draw_picture(folder.scratch()); !failure.empty())
+  if (drawing)
+    if (const auto failure = drawing->finish(folder.scratch()); !failure.empty())
       tell(fmt::format("rheocyte: warning: no picture ({}); the numbers are complete.", one_line(failure, 300)));
   folder.publish();
 }
@@ -68,9 +68,9 @@ void write_field_file(const FieldWriter& write, const Scales& scales, const fs::
 }
 
 int finish_result(const Result& result, ResultFolder& folder, const SolveOptions& options,
-                  const nlohmann::ordered_json& numbers) {
+                  const nlohmann::ordered_json& numbers, std::optional<Drawing>& drawing) {
   const auto json = numbers.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  write_result(result, folder, options, json);
+  write_result(result, folder, options, json, drawing);
   print_result(result, options, json);
   const auto& outcome = result.state.outcome;
   if (outcome.status != Status::converged)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/exit_codes.h"
 #include "app/finish_result.h"
@@ -52,7 +53,9 @@ int solve_case(const SolveOptions& options) {
   }
   check_result_folder(options.folder);
   watch_signals();
-  if (c.time.scheme != TimeScheme::stationary) return solve_in_time(c, options);
+  std::optional<Drawing> drawing;  // loads while the solver runs
+  if (!options.no_picture) drawing.emplace("picture");
+  if (c.time.scheme != TimeScheme::stationary) return solve_in_time(c, options, drawing);
   if (!options.start_from.empty())
     throw UserError("rheocyte: --start is for a case with a [time] section; a stationary one starts by itself.");
   if (!options.continue_from.empty())
@@ -65,7 +68,7 @@ int solve_case(const SolveOptions& options) {
   refuse_unfinite_numbers(result);
 
   ResultFolder folder(options.folder);
-  return finish_result(result, folder, options, to_json(result));
+  return finish_result(result, folder, options, to_json(result), drawing);
 }
 
 }  // namespace rheocyte

@@ -120,7 +120,7 @@ class Recorder {
 
 }  // namespace
 
-int solve_in_time(const Case& c, const SolveOptions& options) {
+int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Drawing>& drawing) {
   Result result{c, scales_of(c), problem_of(c), {}};
   std::optional<Checkpoint> from;
   std::optional<TimeStart> start;
@@ -136,7 +136,7 @@ int solve_in_time(const Case& c, const SolveOptions& options) {
   auto numbers = to_json(result);
   numbers["time"] =
       recorder.record().rows.empty() ? nlohmann::ordered_json() : object_of(time_fields(), recorder.record());
-  return finish_result(result, folder, options, numbers);
+  return finish_result(result, folder, options, numbers, drawing);
 }
 
 }  // namespace rheocyte

@@ -1,36 +1,57 @@
 #include "store/child_process.h"
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
-#include <string_view>
+#include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace rheocyte {
 
 namespace {
 
-std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
-  for (const auto& text : texts) pointers.push_back(const_cast<char*>(text.c_str()));  // C interface, never written to
+  for (auto& text : texts) pointers.push_back(text.data());
   pointers.push_back(nullptr);
   return pointers;
 }
 
-std::vector<std::string> inherited_environment(const std::vector<std::string>& additional) {
-  std::vector<std::string> all = additional;
-  for (char** entry = environ; *entry; ++entry) {
-    const std::string_view text(*entry);
-    const auto name = text.substr(0, text.find('=') + 1);
-    bool replaced = false;
-    for (const auto& other : additional) replaced = replaced || other.starts_with(name);
-    if (!replaced) all.emplace_back(text);
+// What becomes of the new process between fork and exec: only calls that are safe there.
+[[noreturn]] void become(char* const* arguments, int input, int output, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGUSR1);
+  if (::getppid() != parent) ::_exit(1);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
+  // Away from 0, 1 and 2 first: they are ours if we were started without standard input or output.
+  input = ::fcntl(input, F_DUPFD_CLOEXEC, 3);
+  output = ::fcntl(output, F_DUPFD_CLOEXEC, 3);
+  ::dup2(input, STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(output, STDERR_FILENO);
+  ::execvp(arguments[0], arguments);
+  ::dprintf(STDERR_FILENO, "%s: %s\n", arguments[0], ::strerrordesc_np(errno));
+  ::_exit(127);
+}
+
+void close(int& descriptor) {
+  if (descriptor >= 0) ::close(std::exchange(descriptor, -1));
+}
+
+// A program that has ended already does not read: that is told by its end, not by a signal here.
+void send(int socket, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
+    if (count < 0 && errno != EINTR) return;
+    if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
   }
-  return all;
 }
 
 std::string last_line_from(int descriptor) {
@@ -73,34 +94,42 @@ std::filesystem::path supplied_folder(const char* variable, const std::filesyste
   return std::filesystem::exists(place, error) ? place : source;
 }
 
-ChildResult run_child(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) return {};
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  const auto all = inherited_environment(environment);
-  pid_t child = 0;
-  const int failed = ::posix_spawnp(&child, arguments[0].c_str(), &actions, nullptr, pointers_to(arguments).data(),
-                                    pointers_to(all).data());
-  ::posix_spawn_file_actions_destroy(&actions);
-  ::close(ends[1]);
-  ChildResult result;
-  if (failed) {
-    result.last_line = arguments[0] + ": " + std::generic_category().message(failed);
-  } else {
-    result.last_line = last_line_from(ends[0]);
-    const int status = wait_for(child);
-    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+ChildProcess::ChildProcess(std::vector<std::string> arguments) {
+  const auto pointers = pointers_to(arguments);
+  int inputs[2], outputs[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, inputs) != 0) return;
+  if (::pipe2(outputs, O_CLOEXEC) == 0) {
+    const pid_t parent = ::getpid();
+    child_ = ::fork();
+    if (child_ == 0) become(pointers.data(), inputs[0], outputs[1], parent);
+    output_ = outputs[0];
+    ::close(outputs[1]);
   }
-  ::close(ends[0]);
+  input_ = inputs[1];
+  ::close(inputs[0]);
+}
+
+ChildProcess::~ChildProcess() {
+  close(input_);
+  close(output_);
+  if (child_ <= 0) return;
+  ::kill(child_, SIGKILL);
+  wait_for(child_);
+}
+
+ChildResult ChildProcess::finish(std::string_view input) {
+  if (child_ <= 0) return {-1, "it cannot be started"};
+  send(input_, input);
+  ::shutdown(input_, SHUT_WR);
+  ChildResult result;
+  result.last_line = last_line_from(output_);
+  const int status = wait_for(std::exchange(child_, -1));
+  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   return result;
 }
 
-std::string become_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
-  ::execvpe(arguments[0].c_str(), pointers_to(arguments).data(),
-            pointers_to(inherited_environment(environment)).data());
+std::string become_program(std::vector<std::string> arguments) {
+  ::execvp(arguments[0].c_str(), pointers_to(arguments).data());
   return arguments[0] + " (" + std::generic_category().message(errno) + ")";
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rheocyte {
@@ -21,12 +22,28 @@ struct ChildResult {
   std::string last_line;  ///< of what it printed on both outputs
 };
 
-/// Runs a program and waits for it; its outputs never reach ours. `environment` holds additional "NAME=value".
-ChildResult run_child(const std::vector<std::string>& arguments, const std::vector<std::string>& environment);
+/// A program that runs beside ours. It has no terminal: its input comes from finish(), its outputs never reach ours.
+/// Signals that ask us to stop (SIGINT, SIGTERM) are not meant for it; it gets SIGUSR1 when the thread that started
+/// it ends.
+class ChildProcess {
+ public:
+  explicit ChildProcess(std::vector<std::string> arguments);
+  /// Kills it if it still runs.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// Gives it all of its standard input and waits for its end. To be called once.
+  ChildResult finish(std::string_view input);
+
+ private:
+  int child_ = -1;
+  int input_ = -1, output_ = -1;  ///< our ends
+};
 
 /// Becomes another program, which the terminal's signals then reach. Returns only if it cannot be started: its name and
 /// the reason.
-std::string become_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment);
+std::string become_program(std::vector<std::string> arguments);
 
 /// Waits for the end of a child, whatever signals come. The status is that of waitpid().
 int wait_for(pid_t child);
