@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace rheocyte {
 
@@ -14,13 +13,6 @@ const std::array<Resolution, 4> ways = {{{{2, 4, 1, 2}, 4}, {{2, 4, 1, 2}, 6}, {
 
 /// Least step (relative) where a finer resolution can go on, and where none can.
 constexpr double least_step_before_refining = 0.03, least_step_at_last = 2e-3;
-/// Whether a state at compliance 1 does not exist, by the ends of the branch at two resolutions: finer ones move the
-/// end by no more than some times what the second one did, and cost ten times as much.
-bool is_out_of_reach(double end_before, double end) {
-  const double moved = std::abs(end - end_before) / end;
-  return end_before > 0 && end * (1.2 + 6 * moved) < 1;
-}
-
 /// Intermediate states serve as starting points only.
 constexpr double tolerance_on_the_way = 1e-7;
 
@@ -117,7 +109,6 @@ ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton,
     if (branch.parameter > seen && observe) observe(space, branch);
     seen = std::max(seen, branch.parameter);
   };
-  double end_before = 0;  // of the branch at the resolution before
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const ContinuationOptions options = options_on_the_way(problem, newton, i + 1 == ways.size(), observe_new);
     ResolvedState next = enter(problem, options, state, ways[i]);
@@ -134,8 +125,6 @@ ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton,
       state.work = next.work;
     }
     if (state.status == Status::converged || state.status == Status::stopped) break;
-    if (is_out_of_reach(end_before, state.branch.parameter)) break;
-    end_before = state.branch.parameter;
   }
   return state;
 }

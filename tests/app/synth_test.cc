@@ -181,7 +181,7 @@ TEST_F(Synth, CellsAndTheirTableMustGoTogether) {
   const auto replaced = [](std::string text, const std::string& old, const std::string& by) {
     return text.replace(text.find(old), old.size(), by);
   };
-  expect(replaced(combined_cells, "\"table\"", "\"one-tension\"") + "tension_ratio = 0.1\n",
+  expect(replaced(combined_cells, "\"table\"", "\"one-tension\"") + "cortex.tension_ratio = 0.1\n",
          "all its cells have the tension 0 E2D; remove cell.cortex.tension_ratio");
   const std::string solids = test::content_of(folder_ / "spec.toml") + "[shapes]\ntable = \"table\"\n";
   expect(solids, "cell.kind must be \"combined\"");

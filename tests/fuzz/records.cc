@@ -2,6 +2,7 @@
 // stand, and as the content of a record that has been sealed properly.
 #include <array>
 
+#include "case/json_guard.h"
 #include "refused_or_read.h"
 #include "table/branch.h"
 #include "table/checked_record.h"
@@ -22,8 +23,9 @@ void read_all(const std::uint8_t* data, std::size_t size) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   read_all(data, size);
-  const auto content = nlohmann::json::from_cbor(data, data + size, true, false);
-  if (content.is_discarded()) return 0;
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  if (!rheocyte::is_sound_json(bytes, nlohmann::json::input_format_t::cbor)) return 0;
+  const auto content = nlohmann::json::from_cbor(bytes.begin(), bytes.end());
   for (const std::string_view kind : {"rheocyte branch", "rheocyte grid"}) {
     const auto sealed = rheocyte::sealed_record({kind, "1", "", ""}, std::string(spec), content);
     read_all(reinterpret_cast<const std::uint8_t*>(sealed.data()), sealed.size());

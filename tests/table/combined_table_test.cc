@@ -157,10 +157,10 @@ TEST(CombinedSpec, WhatDoesNotGoTogetherIsRefused) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
     }
   };
-  refuse({"table.cortex_share=[0, 2]"}, "2 in table.cortex_share is outside its range");
-  refuse({"table.cortex_share=[0.5, 0]"}, "do not rise");
+  refuse({"table.cortex_share=[0, 2]"}, "table.cortex_share contains 2, which is outside its range");
+  refuse({"table.cortex_share=[0.5, 0]"}, "must ascend");
   refuse({"table.cortex_share=[0.5]"}, "at least two shares");
-  refuse({"table.cortex_share=0.5"}, "is not a list of numbers");
+  refuse({"table.cortex_share=0.5"}, "is no list of numbers");
   refuse({"table.stiffness=cell.bulk.young_modulus_kPa"}, "does not go with table.cortex_share");
   refuse({"cell.bulk.law=none"}, "needs a law of the bulk and one of the cortex");
   refuse({"cell.bulk.young_modulus_kPa=3"}, "because a table sweeps it");
