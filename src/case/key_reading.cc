@@ -201,7 +201,10 @@ void KeyReading::set_fallback(const KeyDescription& key) {
   }
   if (!is_required(key, keys_)) return;
   const auto instead = key.alternative.empty() ? "" : fmt::format(" (or {})", key.alternative);
-  const auto reason = key.only_for ? " " + condition_text(*key.only_for) : "";
+  const auto reason = !key.only_for ? ""
+                      : key.only_for->option.empty()
+                          ? " " + condition_text(*key.only_for)
+                          : fmt::format(" for {} = \"{}\"", key.only_for->key, chosen(key.only_for->key));
   throw UserError(fmt::format("{}: the key {}{} is missing{}; it can be {} ({}).", file_, key.name, instead, reason,
                               allowed_values(key), key.sentence));
 }

@@ -1,7 +1,7 @@
 // The problem in dimensionless groups: what every floor above `case` computes with.
 //
 // Lengths are measured in the tube radius R, velocities in the mean speed U = Q / (pi R^2), and stresses in
-// S = eta U / R for a Newtonian liquid and S = K (U/R)^n for a power-law liquid (docs/theory.md, eq:scales).
+// S = eta U / R, where eta is the viscosity at the shear rate U / R (docs/theory.md, eq:scales).
 #pragma once
 #include "laws/media.h"
 #include "laws/wall_profile.h"
@@ -26,7 +26,7 @@ inline double least_half_length(double radius_ratio) { return disturbed_half_len
 struct Scales {
   double length_m = 1;          ///< tube radius R
   double velocity_m_per_s = 1;  ///< mean speed U = Q / (pi R^2), undisturbed if the pressure drop is given
-  double stress_Pa = 1;         ///< S = eta U / R, or K (U/R)^n
+  double stress_Pa = 1;         ///< S = eta(U/R) U / R
 
   double time_s() const { return length_m / velocity_m_per_s; }
 };

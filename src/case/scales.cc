@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "laws/developed_flow.h"
+
 namespace rheocyte {
 
 namespace {
@@ -29,16 +31,13 @@ double tension_mN_per_m(const Case& c) {
 }
 
 Scales scales_of(const Case& c) {
-  const bool newtonian = c.flow.law == LiquidLaw::newtonian;
-  const double R = tube_radius_um(c) * m_per_um, n = newtonian ? 1 : c.flow.exponent.value();
-  const double K = newtonian ? c.flow.viscosity_mPas.value() * Pas_per_mPas : c.flow.consistency_Pa_sn.value();
-  if (c.flow.drive == Drive::pressure_drop) {
-    const double S =
-        *c.flow.pressure_drop_Pa * R / (*c.channel.length_um * m_per_um) / undisturbed_pressure_gradient(n);
-    return {R, R * std::pow(S / K, 1 / n), S};
-  }
-  const double U = *c.flow.rate_ul_per_s * m3_per_ul / (std::numbers::pi * R * R);
-  return {R, U, newtonian ? K * U / R : K * std::pow(U / R, n)};
+  const Liquid liquid = liquid_of(c.flow);
+  const double R = tube_radius_um(c) * m_per_um;
+  const double rate =
+      c.flow.drive == Drive::pressure_drop
+          ? undisturbed_mean_speed(liquid, *c.flow.pressure_drop_Pa * R / (*c.channel.length_um * m_per_um))
+          : *c.flow.rate_ul_per_s * m3_per_ul / (std::numbers::pi * R * R * R);
+  return {R, rate * R, stress_at_rate(liquid, rate)};
 }
 
 double unit_rate_ul_per_s(const Scales& scales) {
@@ -51,12 +50,8 @@ Problem problem_of(const Case& c) {
   const double E = c.cell.bulk.young_modulus_kPa.value_or(0) * Pa_per_kPa, R = scales.length_m;
 
   Problem problem;
-  problem.liquid.law = c.flow.law;
+  problem.liquid = in_units_of_rate(liquid_of(c.flow), U / R);
   problem.liquid.reynolds = c.flow.density_kg_per_m3 * U * U / S;
-  if (c.flow.law == LiquidLaw::power_law) {
-    problem.liquid.exponent = c.flow.exponent.value();
-    problem.liquid.shear_rate_floor = c.flow.shear_rate_floor.value();
-  }
   problem.bulk = {.law = c.cell.bulk.law,
                   .shear_modulus = E / (3 * S),
                   .mooney_share = c.cell.bulk.mooney_share.value_or(1),

@@ -81,7 +81,11 @@ CoupledSystem::Condensed::Condensed(const ElementUnknowns& element, int outer_un
 }
 
 CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnknowns> elements)
-    : space_(space), elements_(std::move(elements)), surface_(space), inlet_load_(inlet_load(space)) {
+    : space_(space),
+      elements_(std::move(elements)),
+      surface_(space),
+      inlet_load_(inlet_load(space)),
+      outlet_load_(outlet_load(space)) {
   std::vector<std::pair<int, int>> entries;
   for (const ElementUnknowns& element : elements_) {
     const Condensed& c = condensed_.emplace_back(element, space.outer_unknowns());
@@ -126,8 +130,8 @@ std::size_t CoupledSystem::memory_bytes() const {
   for (const Condensed& c : condensed_)
     numbers += c.lu.matrixLU().size() + c.inner_outer.size() + c.outer_inner.size() + c.schur.size();
   for (const ElementUnknowns& element : elements_) {
-    for (const ShapeTable& table : element.position)
-      numbers += 2 * (table.value.size() + table.d1.size() + table.d2.size());  // here and in the space
+    for (const auto& table : element.position)
+      numbers += 2 * (table.value.size() + table.slope[0].size() + table.slope[1].size());  // here and in the space
   }
   return numbers * sizeof(double);
 }
@@ -182,12 +186,18 @@ VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, 
   return total;
 }
 
+double CoupledSystem::undisturbed_pressure(const Liquid& liquid) const {
+  if (!(undisturbed_ && undisturbed_->first == liquid))
+    undisturbed_ = {liquid, undisturbed_inlet_pressure(space_, liquid)};
+  return undisturbed_->second;
+}
+
 CoupledSystem::InletPressure CoupledSystem::inlet_pressure(const Media& media) const {
-  return {undisturbed_inlet_pressure(space_, media.liquid), 0};
+  return {undisturbed_pressure(media.liquid), 0};
 }
 
 void CoupledSystem::add_ends(const Media& media, const VectorXd& unknowns, Want want, VectorXd& residual) {
-  residual += outlet_load(space_, media.liquid);
+  residual -= undisturbed_pressure(media.liquid) * outlet_load_;
   if (!space_.has_open_inlet()) return;
   const InletPressure pressure = inlet_pressure(media);
   residual += (pressure.fixed + pressure.slope * unknowns(space_.cell_velocity())) * inlet_load_;

@@ -2,6 +2,8 @@
 // elements condensed (docs/theory.md, eq:condensation). What an element contributes, the derived systems say.
 #pragma once
 #include <Eigen/LU>
+#include <optional>
+#include <utility>
 
 #include "fem/element_integrals.h"
 #include "fem/sparse_lu.h"
@@ -69,6 +71,8 @@ class CoupledSystem {
   struct Condensed;
   /// Cortex, volume of a pure shell, and barycentre.
   void add_surface(const Cortex&, const VectorXd& unknowns, Want, VectorXd& residual);
+  /// Of the last liquid that was asked for: most have to integrate for it.
+  double undisturbed_pressure(const Liquid&) const;
   /// Tractions of the open ends.
   void add_ends(const Media&, const VectorXd& unknowns, Want, VectorXd& residual);
   void condense(const ElementUnknowns&, Condensed&, const MatrixXd& tangent);
@@ -78,9 +82,10 @@ class CoupledSystem {
   SurfaceIntegrals surface_;
   std::vector<Condensed> condensed_;
   std::vector<std::vector<int>> surface_position_;  ///< in the sparse matrix, patch by patch: unknowns x unknowns
-  VectorXd inlet_load_;                             ///< per pressure, of an open inlet
-  std::vector<int> inlet_equation_;                 ///< where it is not zero
-  std::vector<int> inlet_position_;                 ///< of these equations' entries for v_cell in the sparse matrix
+  VectorXd inlet_load_, outlet_load_;               ///< per pressure; zero where the inlet is not open
+  mutable std::optional<std::pair<Liquid, double>> undisturbed_;
+  std::vector<int> inlet_equation_;  ///< where it is not zero
+  std::vector<int> inlet_position_;  ///< of these equations' entries for v_cell in the sparse matrix
   std::unique_ptr<SparseMatrix> matrix_;
   std::unique_ptr<SparseLU> lu_;
   ElementSystem element_;

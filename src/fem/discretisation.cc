@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "laws/developed_flow.h"
+
 namespace rheocyte {
 namespace {
 
@@ -117,11 +119,12 @@ void Discretisation::set_inflow() {
   for (const BoundaryEdge& edge : inlet_) {
     for (const int node : edge.nodes) radius = std::max(radius, points_[node](1));
   }
+  const Liquid liquid = in_units_of_rate(liquid_, 1 / (radius * radius * radius));
   for (const BoundaryEdge& edge : inlet_) {
     for (const int node : edge.nodes) {
       const double r = points_[node](1);
       if (open_inlet_ || r == radius) continue;
-      velocity_[2 * node].constant = undisturbed_velocity(liquid_, r / radius) / (radius * radius);
+      velocity_[2 * node].constant = undisturbed_velocity(liquid, r / radius) / (radius * radius);
     }
   }
 }
@@ -157,7 +160,7 @@ void Discretisation::move_nodes(const VectorXd& outward) {
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     ElementUnknowns& element = elements_[e];
     if (!element.liquid) continue;
-    element.reference = reference_places(int(e));
+    element.undeformed = undeformed_maps(int(e));
     for (int k = 0; k < reference_.nodes(); ++k) {
       Slot& slot = element.columns[2 * element.position_columns + k];
       if (slot.unknown == cell_velocity_) slot = velocity(nodes_.of_element[e][k], 0);
@@ -186,18 +189,20 @@ void Discretisation::find_edges() {
   outlet_ = collect(Block::downstream, 1, false);
 }
 
-std::vector<Place<double>> Discretisation::reference_places(int element) const {
+std::vector<PointMap<double, 2>> Discretisation::undeformed_maps(int element) const {
   const int n = reference_.nodes();
   Eigen::MatrixX2d X(n, 2);
   for (int k = 0; k < n; ++k) X.row(k) = points_[nodes_.of_element[element][k]].transpose();
-  const Eigen::MatrixX2d x = reference_.shape.value * X, x1 = reference_.shape.d1 * X, x2 = reference_.shape.d2 * X;
-  std::vector<Place<double>> places;
+  const VectorXd r = reference_.shape.value * X.col(1);
+  const Eigen::MatrixX2d x1 = reference_.shape.slope[0] * X, x2 = reference_.shape.slope[1] * X;
+  std::vector<PointMap<double, 2>> maps;
   for (int q = 0; q < reference_.points(); ++q) {
-    Plane<double> G;
-    G << x1(q, 0), x2(q, 0), x1(q, 1), x2(q, 1);
-    places.emplace_back(G, x(q, 1));
+    MapFields<double, 2> map;
+    map.G << x1(q, 0), x2(q, 0), x1(q, 1), x2(q, 1);
+    map.r = r(q);
+    maps.emplace_back(map);
   }
-  return places;
+  return maps;
 }
 
 ElementUnknowns Discretisation::cell_element(int element) const {
@@ -207,7 +212,7 @@ ElementUnknowns Discretisation::cell_element(int element) const {
   unknowns.position_columns = reference_.nodes();
   unknowns.position.fill(reference_.shape);
   unknowns.position_at_nodes.fill(MatrixXd::Identity(reference_.nodes(), reference_.nodes()));
-  unknowns.reference = reference_places(element);
+  unknowns.undeformed = undeformed_maps(element);
   for (int c = 0; c < 2; ++c) {
     for (const int node : nodes) unknowns.columns.push_back({displacement(node, c)});
   }
@@ -220,7 +225,7 @@ ElementUnknowns Discretisation::liquid_element(int element) const {
   const auto& nodes = nodes_.of_element[element];
   ElementUnknowns unknowns;
   unknowns.liquid = true;
-  unknowns.reference = reference_places(element);
+  unknowns.undeformed = undeformed_maps(element);
   if (has_spokes(mesh_->elements()[element].block)) add_spokes(element, unknowns);
   for (int c = 0; c < 2; ++c) {
     for (const int node : nodes) {
@@ -258,11 +263,13 @@ void Discretisation::add_spokes(int element, ElementUnknowns& unknowns) const {
     extension[0](k, self.outward_first ? j : i) = 1 - outward * (1 - slide);
     extension[1](k, self.outward_first ? j : i) = 1 - outward;
   }
-  const ShapeTable& shape = reference_.shape;
+  const ShapeTable<2>& shape = reference_.shape;
   unknowns.position_columns = p + 1;
   unknowns.position_at_nodes = extension;
-  for (int c = 0; c < 2; ++c)
-    unknowns.position[c] = {shape.value * extension[c], shape.d1 * extension[c], shape.d2 * extension[c]};
+  for (int c = 0; c < 2; ++c) {
+    unknowns.position[c].value = shape.value * extension[c];
+    for (int k = 0; k < 2; ++k) unknowns.position[c].slope[k] = shape.slope[k] * extension[c];
+  }
   for (int c = 0; c < 2; ++c) {
     for (const int node : surface) unknowns.columns.push_back({displacement(node, c)});
   }

@@ -33,9 +33,9 @@ enum class Interior { elastic, liquid };
 struct ElementUnknowns {
   bool liquid = false;
   int position_columns = 0;
-  std::array<ShapeTable, 2> position;         ///< what the x and r columns do at the quadrature points
-  std::array<MatrixXd, 2> position_at_nodes;  ///< and at the nodes: nodes x columns
-  std::vector<Place<double>> reference;       ///< undeformed map at the quadrature points
+  std::array<ShapeTable<2>, 2> position;        ///< what the x and r columns do at the quadrature points
+  std::array<MatrixXd, 2> position_at_nodes;    ///< and at the nodes: nodes x columns
+  std::vector<PointMap<double, 2>> undeformed;  ///< map at the quadrature points
   std::vector<Slot> columns;
   std::vector<int> rows;  ///< unknown whose equation the row belongs to, or -1
 
@@ -54,7 +54,7 @@ class Discretisation {
   Discretisation(const ChannelMesh&, int degree, const Liquid&, Interior = Interior::elastic, Drive = Drive::rate);
 
   const ChannelMesh& mesh() const { return *mesh_; }
-  const ReferenceElement& reference() const { return reference_; }
+  const ReferenceElement<2>& reference() const { return reference_; }
   /// Whether the inlet has a given pressure, as the outlet, rather than given velocities.
   bool has_open_inlet() const { return open_inlet_; }
   const std::vector<ElementUnknowns>& elements() const { return elements_; }
@@ -95,13 +95,13 @@ class Discretisation {
   ElementUnknowns cell_element(int element) const;
   ElementUnknowns liquid_element(int element) const;
   void add_spokes(int element, ElementUnknowns&) const;
-  std::vector<Place<double>> reference_places(int element) const;
+  std::vector<PointMap<double, 2>> undeformed_maps(int element) const;
 
   const ChannelMesh* mesh_;
   Liquid liquid_;
   Interior interior_;
   bool open_inlet_;
-  ReferenceElement reference_;
+  ReferenceElement<2> reference_;
   NodeNumbers nodes_;
   std::vector<Point> points_, straight_points_;
   std::vector<int> displacement_, pressure_;

@@ -4,21 +4,14 @@
 
 namespace rheocyte {
 
-std::vector<ColumnGroup> column_groups(const ElementUnknowns& element, const ReferenceElement& reference) {
-  const int n = reference.nodes(), m = element.position_columns;
-  std::vector<ColumnGroup> groups;
-  if (m > 0) {
-    groups.push_back({&element.position[0], 0, m, {{0, Part::d1}, {1, Part::d2}}});
-    groups.push_back({&element.position[1], m, m, {{2, Part::d1}, {3, Part::d2}, {4, Part::value}}});
-  }
-  if (element.liquid) {
-    const ShapeTable* shape = &reference.shape;
-    groups.push_back({shape, 2 * m, n, {{5, Part::value}, {7, Part::d1}, {8, Part::d2}}});
-    groups.push_back({shape, 2 * m + n, n, {{6, Part::value}, {9, Part::d1}, {10, Part::d2}}});
-  }
-  const int pressure_input = (element.liquid ? LiquidPoint::inputs : CellPoint::inputs) - 1;
-  const int pressures = element.liquid ? 2 * (m + n) : 2 * m, modes = reference.pressures();
-  groups.push_back({&reference.pressure, pressures, modes, {{pressure_input, Part::value}}});
+std::vector<ColumnGroup<2>> column_groups(const ElementUnknowns& element, const ReferenceElement<2>& reference) {
+  const int n = reference.nodes(), m = element.position_columns, first_velocity = 2 * m;
+  std::vector<ColumnGroup<2>> groups;
+  for (int c = 0; c < 2 && m > 0; ++c) groups.push_back({&element.position[c], c * m, m, Source::position, c});
+  for (int c = 0; c < 2 && element.liquid; ++c)
+    groups.push_back({&reference.shape, first_velocity + c * n, n, Source::velocity, c});
+  const int first_pressure = first_velocity + (element.liquid ? 2 * n : 0);
+  groups.push_back({&reference.pressure, first_pressure, reference.pressures(), Source::pressure});
   return groups;
 }
 
@@ -28,24 +21,40 @@ VectorXd local_values(const ElementUnknowns& element, const VectorXd& unknowns) 
   return local;
 }
 
-MatrixXd fields_at_points(const Discretisation& space, int e, const VectorXd& unknowns) {
+namespace {
+
+ElementQuadrature<2> quadrature_of(const Discretisation& space, int e) {
   const ElementUnknowns& element = space.elements()[e];
-  const ElementQuadrature quadrature{space.reference(), element, column_groups(element, space.reference())};
-  return gather_fields(quadrature, element.liquid ? LiquidPoint::inputs : CellPoint::inputs,
-                       local_values(element, unknowns));
+  return {space.reference(), element.undeformed, column_groups(element, space.reference())};
 }
+
+}  // namespace
+
+template <class Fields>
+std::vector<Fields> fields_at_points(const Discretisation& space, int e, const VectorXd& unknowns) {
+  const MatrixXd numbers = gather_fields<Fields>(quadrature_of(space, e), local_values(space.elements()[e], unknowns));
+  std::vector<Fields> fields;
+  for (int q = 0; q < numbers.rows(); ++q) fields.push_back(fields_at<Fields>(numbers, q));
+  return fields;
+}
+
+template std::vector<MapFields<double, 2>> fields_at_points(const Discretisation&, int, const VectorXd&);
+template std::vector<CellFields<double, 2>> fields_at_points(const Discretisation&, int, const VectorXd&);
+template std::vector<LiquidFields<double, 2>> fields_at_points(const Discretisation&, int, const VectorXd&);
 
 void integrate_element(const Discretisation& space, int e, const Media& media, const VectorXd& unknowns, Want want,
                        ElementSystem& system) {
   const ElementUnknowns& element = space.elements()[e];
-  const ElementQuadrature quadrature{space.reference(), element, column_groups(element, space.reference())};
-  const MatrixXd fields = fields_at_points(space, e, unknowns);
+  const ElementQuadrature<2> quadrature = quadrature_of(space, e);
+  const VectorXd local = local_values(element, unknowns);
   if (element.liquid) {
-    const auto form_at = [&](int) { return LiquidPoint{media.liquid}; };
-    integrate_form<LiquidPoint>(quadrature, fields, form_at, want, system);
+    const MatrixXd numbers = gather_fields<LiquidFields<double, 2>>(quadrature, local);
+    const auto form_at = [&](int) { return LiquidPoint<2>{media.liquid}; };
+    integrate_form<LiquidPoint<2>>(quadrature, numbers, form_at, want, system);
   } else {
-    const auto form_at = [&](int q) { return CellPoint{media.bulk, element.reference[q]}; };
-    integrate_form<CellPoint>(quadrature, fields, form_at, want, system);
+    const MatrixXd numbers = gather_fields<CellFields<double, 2>>(quadrature, local);
+    const auto form_at = [&](int q) { return CellPoint<2>{media.bulk, element.undeformed[q]}; };
+    integrate_form<CellPoint<2>>(quadrature, numbers, form_at, want, system);
   }
 }
 

@@ -21,8 +21,10 @@ enum class Want { residual, residual_and_tangent };
 /// Local values of the element's column slots.
 VectorXd local_values(const ElementUnknowns&, const VectorXd& unknowns);
 
-/// Inputs of the element's weak form (LiquidPoint or CellPoint) at its quadrature points: points x inputs.
-MatrixXd fields_at_points(const Discretisation&, int e, const VectorXd& unknowns);
+/// Fields of a state at the quadrature points of an element: LiquidFields or CellFields as the element is, or the
+/// MapFields that both begin with.
+template <class Fields>
+std::vector<Fields> fields_at_points(const Discretisation&, int e, const VectorXd& unknowns);
 
 /// Integrates element `e` at the local values gathered from `unknowns`.
 void integrate_element(const Discretisation&, int e, const Media&, const VectorXd& unknowns, Want, ElementSystem&);

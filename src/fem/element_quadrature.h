@@ -1,107 +1,139 @@
-// How a weak form at points becomes residual and tangent of an element; included by this floor's sources only.
+// How a weak form at points becomes residual and tangent of an element of any dimension; included by this floor's
+// sources only.
 //
-// Columns of an element come in groups with common shape functions. Each group feeds some inputs of the weak form; the
-// outputs of the form, its fluxes, are tested with the nodes' functions and with the pressure modes.
+// Columns of an element come in groups with common shape functions. Each group feeds some fields of the weak form; the
+// fluxes of the form are tested with the nodes' functions and with the pressure modes.
 #pragma once
 #include <algorithm>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "fem/element_integrals.h"
 
 namespace rheocyte {
 
-/// Which table of a column group feeds an input of the weak form: value or one of the derivatives.
-enum class Part { value, d1, d2 };
-struct Feed {
-  int input;
-  Part part;
-};
-
-inline const MatrixXd& table(const ShapeTable& shape, Part part) {
-  return part == Part::value ? shape.value : part == Part::d1 ? shape.d1 : shape.d2;
-}
-
-/// A group of columns with common shape functions, and the inputs that it feeds.
+/// A group of columns with common shape functions: one component of what `source` names.
+template <int dim>
 struct ColumnGroup {
-  const ShapeTable* shape;
+  const ShapeTable<dim>* shape;
   int first, count;
-  std::vector<Feed> feeds;
+  Source source;
+  int component = 0;
 };
 
-/// The columns of an element of the stationary problem: positions, velocities, pressures. The pressure is the last
-/// input of the form.
-std::vector<ColumnGroup> column_groups(const ElementUnknowns&, const ReferenceElement&);
-
-/// An element, and which of its columns feed which inputs of its weak form.
-struct ElementQuadrature {
-  const ReferenceElement& reference;
-  const ElementUnknowns& element;
-  std::vector<ColumnGroup> groups;
+/// A number among the fields of a weak form that a group feeds, and the part of the group's table that does so.
+struct Feed {
+  int input, part;
 };
 
-/// Fields at the quadrature points that the columns make, on top of the undeformed place.
-inline MatrixXd gather_fields(const ElementQuadrature& quadrature, int inputs, const VectorXd& local) {
-  const auto& [reference, element, groups] = quadrature;
-  MatrixXd fields = MatrixXd::Zero(reference.points(), inputs);
-  for (int q = 0; q < reference.points(); ++q) {
-    const Place<double>& X = element.reference[q];
-    fields.row(q).head<5>() << X.G(0, 0), X.G(0, 1), X.G(1, 0), X.G(1, 1), X.r;
+template <class Fields, int dim>
+std::vector<Feed> feeds(const ColumnGroup<dim>& group) {
+  static const std::vector<Input> inputs = inputs_of<Fields>();
+  std::vector<Feed> result;
+  for (int i = 0; i < int(inputs.size()); ++i) {
+    if (inputs[i].source == group.source && inputs[i].component == group.component)
+      result.push_back({i, inputs[i].part});
   }
-  for (const ColumnGroup& group : groups) {
-    const auto coefficients = local.segment(group.first, group.count);
-    for (const Feed& feed : group.feeds) fields.col(feed.input) += table(*group.shape, feed.part) * coefficients;
-  }
-  return fields;
+  return result;
 }
+
+/// The columns of an element of the stationary problem: positions, velocities, pressures.
+std::vector<ColumnGroup<2>> column_groups(const ElementUnknowns&, const ReferenceElement<2>&);
+
+/// An element, and which of its columns feed which fields.
+template <int dim>
+struct ElementQuadrature {
+  const ReferenceElement<dim>& reference;
+  const std::vector<PointMap<double, dim>>& undeformed;  ///< at the quadrature points
+  std::vector<ColumnGroup<dim>> groups;
+};
+
+/// Fields at the quadrature points that the columns make, on top of the undeformed map: points x numbers.
+template <class Fields, int dim>
+MatrixXd gather_fields(const ElementQuadrature<dim>& quadrature, const VectorXd& local) {
+  const int points = quadrature.reference.points();
+  MatrixXd numbers = MatrixXd::Zero(points, Fields::count);
+  if constexpr (requires(Fields f) { f.map; } || std::is_same_v<Fields, MapFields<double, dim>>) {
+    for (int q = 0; q < points; ++q) {
+      MapFields<double, dim> X = quadrature.undeformed[q];
+      int i = 0;
+      X.visit([&](const Input&, double number) { numbers(q, i++) = number; });
+    }
+  }
+  for (const ColumnGroup<dim>& group : quadrature.groups) {
+    const auto coefficients = local.segment(group.first, group.count);
+    for (const auto& [input, part] : feeds<Fields>(group)) numbers.col(input) += group.shape->part(part) * coefficients;
+  }
+  return numbers;
+}
+
+/// Fields at one point from gathered numbers; the structure may have less of them, the first ones.
+template <class Fields>
+Fields fields_at(const MatrixXd& numbers, int q) {
+  return read_fields<Fields>([&](int i) { return numbers(q, i); });
+}
+
+/// One component of a field of (x, r) node by node, at the nodes of an element.
+inline VectorXd component_at_nodes(const VectorXd& field, const std::vector<int>& nodes, int c) {
+  VectorXd values(nodes.size());
+  for (int k = 0; k < values.size(); ++k) values(k) = field(2 * nodes[k] + c);
+  return values;
+}
+
+/// Numbers of the fields and of the fluxes of a weak form.
+template <class Form>
+constexpr int inputs = Form::template Fields<double>::count;
+template <class Form>
+constexpr int outputs = decltype(std::declval<Form>()(std::declval<typename Form::template Fields<double>>()))::count;
 
 /// Fluxes (points x outputs) and, if wanted, their derivatives (points x outputs*inputs), times the weights.
 template <class Form, class MakeForm>
-void evaluate_points(const MatrixXd& inputs, const VectorXd& weights, const MakeForm& form_at, Want want,
+void evaluate_points(const MatrixXd& numbers, const VectorXd& weights, const MakeForm& form_at, Want want,
                      ElementSystem& system) {
-  using Dual = ceres::Jet<double, Form::inputs>;
-  const int points = int(inputs.rows());
-  system.fluxes.resize(points, Form::outputs);
-  system.flux_slopes.resize(points, Form::outputs * Form::inputs);
+  constexpr int n = inputs<Form>;
+  using Dual = ceres::Jet<double, n>;
+  const int points = int(numbers.rows());
+  system.fluxes.resize(points, outputs<Form>);
+  system.flux_slopes.resize(points, outputs<Form> * n);
   for (int q = 0; q < points; ++q) {
     const Form form = form_at(q);
+    int k = 0;
     if (want == Want::residual) {
-      std::array<double, Form::inputs> f;
-      for (int i = 0; i < Form::inputs; ++i) f[i] = inputs(q, i);
-      const auto flux = form(f);
-      for (int k = 0; k < Form::outputs; ++k) system.fluxes(q, k) = flux[k] * weights(q);
+      const auto fields = fields_at<typename Form::template Fields<double>>(numbers, q);
+      form(fields).visit([&](double flux) { system.fluxes(q, k++) = flux * weights(q); });
       continue;
     }
-    std::array<Dual, Form::inputs> f;
-    for (int i = 0; i < Form::inputs; ++i) f[i] = Dual(inputs(q, i), i);
-    const auto flux = form(f);
-    for (int k = 0; k < Form::outputs; ++k) {
-      system.fluxes(q, k) = flux[k].a * weights(q);
-      for (int i = 0; i < Form::inputs; ++i) {
-        system.flux_slopes(q, k * Form::inputs + i) = flux[k].v(i) * weights(q);
-      }
-    }
+    const auto fields =
+        read_fields<typename Form::template Fields<Dual>>([&](int i) { return Dual(numbers(q, i), i); });
+    form(fields).visit([&](const Dual& flux) {
+      system.fluxes(q, k) = flux.a * weights(q);
+      for (int i = 0; i < n; ++i) system.flux_slopes(q, k * n + i) = flux.v(i) * weights(q);
+      ++k;
+    });
   }
 }
 
-inline void test_residual(const ReferenceElement& reference, ElementSystem& system) {
-  const int n = reference.nodes(), m = reference.pressures();
-  system.residual.resize(2 * n + m);
-  for (int c = 0; c < 2; ++c) {
-    auto rows = system.residual.segment(c * n, n);
-    rows.noalias() = reference.shape.value.transpose() * system.fluxes.col(3 * c);
-    rows.noalias() += reference.shape.d1.transpose() * system.fluxes.col(3 * c + 1);
-    rows.noalias() += reference.shape.d2.transpose() * system.fluxes.col(3 * c + 2);
+template <int dim>
+void test_residual(const ReferenceElement<dim>& reference, ElementSystem& system) {
+  const int n = reference.nodes(), m = reference.pressures(), points = reference.points();
+  system.residual.resize(dim * n + m);
+  for (int c = 0; c < dim; ++c) {
+    const Eigen::Map<const VectorXd> stack(system.fluxes.col((1 + dim) * c).data(), (1 + dim) * points);
+    system.residual.segment(c * n, n).noalias() = reference.shape_stack.transpose() * stack;
   }
-  system.residual.tail(m).noalias() = reference.pressure.value.transpose() * system.fluxes.col(6);
+  system.residual.tail(m).noalias() = reference.pressure.value.transpose() * system.fluxes.col((1 + dim) * dim);
 }
 
-/// weighted(:, columns of the group) = d(flux k)/d(columns) at all points.
-template <class Form>
-void differentiate_flux(const ColumnGroup& group, int k, const ElementSystem& system, Eigen::Ref<MatrixXd> weighted) {
+/// weighted(:, columns of the group) = d(flux)/d(columns) at all points, for the flux whose slopes begin at a column.
+template <int dim>
+void differentiate_flux(const ColumnGroup<dim>& group, const std::vector<Feed>& feeds, int first_slope,
+                        const ElementSystem& system, Eigen::Ref<MatrixXd> weighted) {
   bool first = true;
-  for (const Feed& feed : group.feeds) {
-    const auto slope = system.flux_slopes.col(k * Form::inputs + feed.input);
-    const auto product = slope.asDiagonal() * table(*group.shape, feed.part);
+  if (feeds.empty()) weighted.setZero();
+  for (const auto& [input, part] : feeds) {
+    const auto slope = system.flux_slopes.col(first_slope + input);
+    const auto product = slope.asDiagonal() * group.shape->part(part);
     if (first) {
       weighted = product;
     } else {
@@ -112,43 +144,53 @@ void differentiate_flux(const ColumnGroup& group, int k, const ElementSystem& sy
 }
 
 /// Group by group, so that the derivatives of the fluxes stay in the cache until they are tested.
-template <class Form>
-void test_tangent(const ReferenceElement& reference, const std::vector<ColumnGroup>& groups, int columns,
+template <class Form, int dim>
+void test_tangent(const ReferenceElement<dim>& reference, const std::vector<ColumnGroup<dim>>& groups,
                   ElementSystem& system) {
   const int n = reference.nodes(), m = reference.pressures(), points = reference.points();
-  system.tangent.resize(2 * n + m, columns);
-  for (const ColumnGroup& group : groups) {
-    system.weighted.resize(3 * points, group.count);
-    for (int c = 0; c < 2; ++c) {
-      for (int k = 0; k < 3; ++k) {
-        differentiate_flux<Form>(group, 3 * c + k, system, system.weighted.middleRows(k * points, points));
+  int columns = 0;
+  for (const ColumnGroup<dim>& group : groups) columns = std::max(columns, group.first + group.count);
+  system.tangent.resize(dim * n + m, columns);
+  for (const ColumnGroup<dim>& group : groups) {
+    const std::vector<Feed> fed = feeds<typename Form::template Fields<double>>(group);
+    system.weighted.resize((1 + dim) * points, group.count);
+    for (int c = 0; c < dim; ++c) {
+      for (int k = 0; k <= dim; ++k) {
+        differentiate_flux(group, fed, ((1 + dim) * c + k) * inputs<Form>, system,
+                           system.weighted.middleRows(k * points, points));
       }
       system.tangent.block(c * n, group.first, n, group.count).noalias() =
           reference.shape_stack.transpose() * system.weighted;
     }
     auto weighted = system.weighted.topRows(points);
-    differentiate_flux<Form>(group, 6, system, weighted);
-    system.tangent.block(2 * n, group.first, m, group.count).noalias() =
+    differentiate_flux(group, fed, (1 + dim) * dim * inputs<Form>, system, weighted);
+    system.tangent.block(dim * n, group.first, m, group.count).noalias() =
         reference.pressure.value.transpose() * weighted;
   }
 }
 
+/// Least det of the map at the points relative to the undeformed one.
+template <int dim>
+double least_relative_det(const std::vector<PointMap<double, dim>>& undeformed, const MatrixXd& numbers) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int q = 0; q < int(undeformed.size()); ++q) {
+    const PointMap<double, dim> map(fields_at<MapFields<double, dim>>(numbers, q));
+    least = std::min(least, map.det / undeformed[q].det);
+  }
+  return least;
+}
+
 /// Residual and, if wanted, tangent of an element from the fields at its quadrature points; `form_at(q)` makes the weak
 /// form at point q.
-template <class Form, class MakeForm>
-void integrate_form(const ElementQuadrature& quadrature, const MatrixXd& inputs, const MakeForm& form_at, Want want,
-                    ElementSystem& system) {
-  const auto& [reference, element, groups] = quadrature;
-  system.least_det = std::numeric_limits<double>::infinity();
-  for (int q = 0; q < reference.points(); ++q) {
-    const double det = inputs(q, 0) * inputs(q, 3) - inputs(q, 1) * inputs(q, 2);
-    system.least_det = std::min(system.least_det, det / element.reference[q].det);
-  }
-  evaluate_points<Form>(inputs, reference.weights, form_at, want, system);
+template <class Form, int dim, class MakeForm>
+void integrate_form(const ElementQuadrature<dim>& quadrature, const MatrixXd& numbers, const MakeForm& form_at,
+                    Want want, ElementSystem& system) {
+  const auto& [reference, undeformed, groups] = quadrature;
+  using Fields = typename Form::template Fields<double>;
+  if constexpr (requires(Fields f) { f.map; }) system.least_det = least_relative_det(undeformed, numbers);
+  evaluate_points<Form>(numbers, reference.weights, form_at, want, system);
   test_residual(reference, system);
-  if (want == Want::residual_and_tangent) {
-    test_tangent<Form>(reference, groups, int(element.columns.size()), system);
-  }
+  if (want == Want::residual_and_tangent) test_tangent<Form>(reference, groups, system);
 }
 
 }  // namespace rheocyte

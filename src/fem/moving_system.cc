@@ -27,32 +27,25 @@ std::vector<ElementUnknowns> moving_elements(const Discretisation& space) {
   return elements;
 }
 
-/// The groups of the stationary problem, and what feeds the inputs that come after its own.
-std::vector<ColumnGroup> moving_groups(const ElementUnknowns& element, const ReferenceElement& reference,
-                                       const ShapeTable& ones) {
-  std::vector<ColumnGroup> groups = column_groups(element, reference);
-  const int first = element.liquid ? LiquidPoint::inputs : CellPoint::inputs;
-  if (element.position_columns > 0) groups.front().feeds.push_back({first, Part::value});
-  if (!element.liquid) groups.push_back({&ones, int(element.columns.size()) - 1, 1, {{first + 1, Part::value}}});
-  return groups;
-}
-
 }  // namespace
 
-MovingSystem::MovingSystem(const Discretisation& space) : CoupledSystem(space, moving_elements(space)) {
+MovingSystem::MovingSystem(const Discretisation& space)
+    : CoupledSystem(space, moving_elements(space)),
+      liquid_history_(space.elements().size()),
+      cell_history_(space.elements().size()) {
   ones_.value.setOnes(space.reference().points(), 1);
   set_motion({0, VectorXd::Zero(space.unknowns()), VectorXd::Zero(2 * space.nodes().count)});
 }
 
 void MovingSystem::set_motion(const Motion& motion) {
   motion_ = motion;
-  history_.resize(elements().size());
   for (int e = 0; e < int(elements().size()); ++e) {
     if (elements()[e].liquid) {
       if (motion_.outward.size() > 0) follow_nodes(e);
-      tell_liquid(e);
+      move_surface_columns(e);
+      set_liquid_history(e);
     } else {
-      tell_cell(e);
+      set_cell_history(e);
     }
   }
 }
@@ -60,99 +53,90 @@ void MovingSystem::set_motion(const Motion& motion) {
 void MovingSystem::follow_nodes(int e) {
   const ElementUnknowns& moved = space().elements()[e];
   ElementUnknowns& element = elements()[e];
-  element.reference = moved.reference;
+  element.undeformed = moved.undeformed;
   for (std::size_t i = 0; i < element.columns.size(); ++i) {
     if (element.columns[i].unknown == space().cell_velocity()) element.columns[i] = moved.columns[i];
   }
 }
 
-void MovingSystem::tell_liquid(int e) {
+/// The liquid's velocity on the surface is the rate of the displacement.
+void MovingSystem::move_surface_columns(int e) {
   ElementUnknowns& element = elements()[e];
-  const ReferenceElement& reference = space().reference();
   const auto& nodes = space().nodes().of_element[e];
-  const int n = reference.nodes(), m = element.position_columns;
-  MatrixXd& history = history_[e];
-  history.setZero(reference.points(), 4);
-  VectorXd local(2 * m), velocity(n);
-  for (int i = 0; i < 2 * m; ++i) {
-    const int unknown = element.columns[i].unknown;
-    local(i) = unknown < 0 ? 0 : motion_.unknowns(unknown);
+  const int n = space().reference().nodes();
+  for (int k = 0; k < 2 * n; ++k) {
+    Slot& slot = element.columns[2 * element.position_columns + k];
+    if (space().displacement(nodes[k % n], 0) < 0 || slot.unknown < 0) continue;
+    slot.factor = motion_.rate;
+    slot.constant = motion_.unknowns(slot.unknown);
   }
-  for (int c = 0; c < 2; ++c) {
-    if (m > 0) history.col(c) = element.position[c].value * local.segment(c * m, m);
-    for (int k = 0; k < n; ++k) {
-      velocity(k) = motion_.velocities(2 * nodes[k] + c);
-      Slot& slot = element.columns[2 * m + c * n + k];
-      if (space().displacement(nodes[k], 0) < 0 || slot.unknown < 0) continue;
-      slot.factor = motion_.rate;
-      slot.constant = motion_.unknowns(slot.unknown);
-    }
-    history.col(2 + c) = reference.shape.value * velocity;
-  }
-  if (motion_.outward.size() > 0) {
-    for (int k = 0; k < n; ++k) velocity(k) = motion_.outward(nodes[k]);
-    history.col(1) += reference.shape.value * velocity;
-  }
-  // The form knows r, not the radial displacement.
-  for (int q = 0; q < reference.points(); ++q) history(q, 1) -= motion_.rate * element.reference[q].r;
 }
 
-void MovingSystem::tell_cell(int e) {
+void MovingSystem::set_liquid_history(int e) {
   const ElementUnknowns& element = elements()[e];
-  const ReferenceElement& reference = space().reference();
+  const ReferenceElement<2>& reference = space().reference();
   const auto& nodes = space().nodes().of_element[e];
-  MatrixXd& history = history_[e];
-  history.setZero(reference.points(), 8);
-  VectorXd displacement(nodes.size()), velocity(nodes.size());
+  const int m = element.position_columns;
+  Eigen::MatrixX2d mesh = Eigen::MatrixX2d::Zero(reference.points(), 2), velocity(reference.points(), 2);
   for (int c = 0; c < 2; ++c) {
-    for (int k = 0; k < int(nodes.size()); ++k) {
+    VectorXd local(m);
+    for (int i = 0; i < m; ++i) {
+      const int unknown = element.columns[c * m + i].unknown;
+      local(i) = unknown < 0 ? 0 : motion_.unknowns(unknown);
+    }
+    if (m > 0) mesh.col(c) = element.position[c].value * local;
+    velocity.col(c) = reference.shape.value * component_at_nodes(motion_.velocities, nodes, c);
+  }
+  if (motion_.outward.size() > 0) mesh.col(1) += reference.shape.value * VectorXd(motion_.outward(nodes));
+  // The form knows r, not the radial displacement.
+  for (int q = 0; q < reference.points(); ++q) mesh(q, 1) -= motion_.rate * element.undeformed[q].r;
+  liquid_history_[e].clear();
+  for (int q = 0; q < reference.points(); ++q) liquid_history_[e].push_back({mesh.row(q), velocity.row(q)});
+}
+
+void MovingSystem::set_cell_history(int e) {
+  const ReferenceElement<2>& reference = space().reference();
+  const auto& nodes = space().nodes().of_element[e];
+  cell_history_[e].assign(reference.points(), {});
+  for (int c = 0; c < 2; ++c) {
+    VectorXd displacement(nodes.size());
+    for (int k = 0; k < displacement.size(); ++k) {
       const int unknown = space().displacement(nodes[k], c);
       displacement(k) = unknown < 0 ? 0 : motion_.unknowns(unknown);
-      velocity(k) = motion_.velocities(2 * nodes[k] + c);
     }
-    history.col(c) = reference.shape.value * displacement;
-    history.col(2 + 2 * c) = reference.shape.d1 * displacement;
-    history.col(3 + 2 * c) = reference.shape.d2 * displacement;
-    history.col(6 + c) = reference.shape.value * velocity;
+    const VectorXd stack = reference.shape_stack * displacement;
+    const VectorXd velocity = reference.shape.value * component_at_nodes(motion_.velocities, nodes, c);
+    for (int q = 0, points = reference.points(); q < points; ++q) {
+      // The form knows the place, not the displacement.
+      const PointMap<double, 2>& X = elements()[e].undeformed[q];
+      CellHistory& history = cell_history_[e][q];
+      history.velocity(c) = stack(q) - (c == 1 ? motion_.rate * X.r : 0);
+      for (int k = 0; k < 2; ++k) history.velocity_slope(c, k) = stack((1 + k) * points + q) - motion_.rate * X.G(c, k);
+      history.acceleration(c) = velocity(q);
+    }
   }
-  // The form knows the place, not the displacement.
-  for (int q = 0; q < reference.points(); ++q) {
-    const Place<double>& X = element.reference[q];
-    history(q, 1) -= motion_.rate * X.r;
-    for (int i = 0; i < 4; ++i) history(q, 2 + i) -= motion_.rate * X.G(i / 2, i % 2);
-  }
-}
-
-CellHistory MovingSystem::cell_history(int e, int q) const {
-  const auto row = history_[e].row(q);
-  CellHistory history;
-  history.velocity << row(0), row(1);
-  history.velocity_slope << row(2), row(3), row(4), row(5);
-  history.acceleration << row(6), row(7);
-  history.frame_acceleration = motion_.unknowns(space().cell_velocity());
-  return history;
 }
 
 void MovingSystem::integrate(int e, const Media& media, const VectorXd& unknowns, Want want,
                              ElementSystem& system) const {
   const ElementUnknowns& element = elements()[e];
-  const ReferenceElement& reference = space().reference();
-  const ElementQuadrature quadrature{reference, element, moving_groups(element, reference, ones_)};
+  const ReferenceElement<2>& reference = space().reference();
+  ElementQuadrature<2> quadrature{reference, element.undeformed, column_groups(element, reference)};
   const VectorXd local = local_values(element, unknowns);
   if (element.liquid) {
-    const MatrixXd fields = gather_fields(quadrature, MovingLiquidPoint::inputs, local);
-    const auto form_at = [&](int q) {
-      const auto row = history_[e].row(q);
-      return MovingLiquidPoint{media.liquid, motion_.rate, {row(0), row(1)}, {row(2), row(3)}};
-    };
-    integrate_form<MovingLiquidPoint>(quadrature, fields, form_at, want, system);
+    const MatrixXd numbers = gather_fields<MovingLiquidFields<double>>(quadrature, local);
+    const auto form_at = [&](int q) { return MovingLiquidPoint{media.liquid, motion_.rate, liquid_history_[e][q]}; };
+    integrate_form<MovingLiquidPoint>(quadrature, numbers, form_at, want, system);
   } else {
-    const MatrixXd fields = gather_fields(quadrature, MovingCellPoint::inputs, local);
+    quadrature.groups.push_back({&ones_, int(element.columns.size()) - 1, 1, Source::frame});
+    const MatrixXd numbers = gather_fields<MovingCellFields<double>>(quadrature, local);
     const double excess = media.bulk.reynolds - media.liquid.reynolds;
+    const double frame_history = motion_.unknowns(space().cell_velocity());
     const auto form_at = [&](int q) {
-      return MovingCellPoint{media.bulk, element.reference[q], excess, motion_.rate, cell_history(e, q)};
+      return MovingCellPoint{media.bulk,   element.undeformed[q], excess,
+                             motion_.rate, cell_history_[e][q],   frame_history};
     };
-    integrate_form<MovingCellPoint>(quadrature, fields, form_at, want, system);
+    integrate_form<MovingCellPoint>(quadrature, numbers, form_at, want, system);
   }
 }
 

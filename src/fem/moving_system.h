@@ -32,15 +32,14 @@ class MovingSystem final : public CoupledSystem {
   void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const override;
   InletPressure inlet_pressure(const Media&) const override;
   void follow_nodes(int element);
-  void tell_liquid(int element);
-  void tell_cell(int element);
-  CellHistory cell_history(int element, int point) const;
+  void move_surface_columns(int element);
+  void set_liquid_history(int element);
+  void set_cell_history(int element);
 
   Motion motion_;
-  ShapeTable ones_;  ///< of a column that is constant in space
-  /// Element by element, points x fields. Liquid: mesh velocity, acceleration. Cell: velocity, its slopes row by row,
-  /// acceleration.
-  std::vector<MatrixXd> history_;
+  ShapeTable<2> ones_;                                      ///< of a column that is constant in space
+  std::vector<std::vector<LiquidHistory>> liquid_history_;  ///< by elements and points; empty in the cell
+  std::vector<std::vector<CellHistory>> cell_history_;      ///< likewise; empty in the liquid
 };
 
 }  // namespace rheocyte

@@ -87,7 +87,7 @@ Contour contour(const Discretisation& space, const VectorXd& unknowns) {
 }
 
 SurfaceState surface_state(const Discretisation& space, const VectorXd& unknowns, int per_edge) {
-  const ReferenceElement& reference = space.reference();
+  const ReferenceElement<2>& reference = space.reference();
   const VectorXd at = VectorXd::LinSpaced(per_edge, 0, 1);
   const MatrixXd value = reference.lagrange(at), slope = reference.lagrange_derivative(at);
   const MatrixXd second = slope * reference.lagrange_derivative(reference.nodes_1d);
@@ -137,15 +137,14 @@ double stretch_change(const Discretisation& space, const VectorXd& from, const V
 }
 
 double inlet_pressure(const Discretisation& space, const VectorXd& unknowns) {
-  const ReferenceElement& reference = space.reference();
+  const ReferenceElement<2>& reference = space.reference();
   double force = 0, area = 0;
   for (const BoundaryEdge& edge : space.inlet()) {
     const MeshElement& element = space.mesh().elements()[edge.element];
     const double width = element.along[1] - element.along[0];
     for (int q = 0; q < reference.points_1d.size(); ++q) {
       const double along = reference.points_1d(q);
-      const VectorXd modes =
-          element.outward_first ? reference.pressure_modes(1, along) : reference.pressure_modes(along, 1);
+      const VectorXd modes = reference.pressure_modes(element.outward_first ? Point(1, along) : Point(along, 1));
       double p = 0;
       for (int k = 0; k < modes.size(); ++k) p += modes(k) * unknowns(space.pressure(edge.element, k));
       const double weight = reference.weights_1d(q) * width * (element.along[0] + along * width);
@@ -158,7 +157,7 @@ double inlet_pressure(const Discretisation& space, const VectorXd& unknowns) {
 
 double flow_rate(const Discretisation& space, const VectorXd& unknowns) {
   if (!space.has_open_inlet()) return 1;
-  const ReferenceElement& reference = space.reference();
+  const ReferenceElement<2>& reference = space.reference();
   const MatrixXd value = reference.lagrange(reference.points_1d);
   double rate = unknowns(space.cell_velocity());
   for (const BoundaryEdge& edge : space.inlet()) {
@@ -192,7 +191,7 @@ void scale_displacement(const Discretisation& space, double factor, VectorXd& un
 VectorXd transfer(const Discretisation& from, const VectorXd& unknowns, const Discretisation& to) {
   std::vector<ElementFields> source;
   for (int f = 0; f < int(from.elements().size()); ++f) source.push_back(element_fields(from, unknowns, f));
-  const ReferenceElement& reference = to.reference();
+  const ReferenceElement<2>& reference = to.reference();
   const int n = int(reference.nodes_1d.size()), m = int(reference.points_1d.size());
   VectorXd target = VectorXd::Zero(to.unknowns());
   target(to.cell_velocity()) = unknowns(from.cell_velocity());
@@ -205,13 +204,13 @@ VectorXd transfer(const Discretisation& from, const VectorXd& unknowns, const Di
       for (int c = 0; c < 2; ++c) {
         const int unknown = to.elements()[e].liquid ? to.velocity(node, c).unknown : to.displacement(node, c);
         if (unknown < 0 || unknown == to.cell_velocity()) continue;
-        target(unknown) = from.reference().interpolate(source[f].vector.col(c), xi1, xi2);
+        target(unknown) = from.reference().interpolate(source[f].vector.col(c), Point(xi1, xi2));
       }
     });
     if (to.elements()[e].is_empty()) continue;
     VectorXd pressure(m * m);
     locate(from.mesh(), self, reference.points_1d, [&](int i, int j, double xi1, double xi2, int f) {
-      pressure(j * m + i) = from.reference().pressure_modes(xi1, xi2).dot(source[f].pressure);
+      pressure(j * m + i) = from.reference().pressure_modes(Point(xi1, xi2)).dot(source[f].pressure);
     });
     // The modes are orthonormal: projection is a product.
     const VectorXd modes =

@@ -18,6 +18,14 @@ MatrixXd tensor(const MatrixXd& first, const MatrixXd& second) {
   return product;
 }
 
+/// Tensor product of `other` in direction `direction` and `common` in the other ones.
+template <int dim>
+MatrixXd tensor(const MatrixXd& common, const MatrixXd& other, int direction) {
+  MatrixXd product = direction == 0 ? other : common;
+  for (int k = 1; k < dim; ++k) product = tensor(product, k == direction ? other : common);
+  return product;
+}
+
 /// Legendre polynomials of degree < count, orthonormal on [0, 1].
 VectorXd orthonormal_legendre(int count, double x) {
   VectorXd values(count);
@@ -25,46 +33,84 @@ VectorXd orthonormal_legendre(int count, double x) {
   return values;
 }
 
+/// Appends the products of polynomials (rows: directions) of total degree `total`, the degree in the last of the first
+/// `directions` ones rising slowest.
+void append_products(const MatrixXd& polynomials, int directions, int total, double factor, VectorXd& modes, int& k) {
+  if (directions == 1) {
+    modes(k++) = factor * polynomials(0, total);
+    return;
+  }
+  for (int j = 0; j <= total; ++j)
+    append_products(polynomials, directions - 1, total - j, factor * polynomials(directions - 1, j), modes, k);
+}
+
 }  // namespace
 
-ReferenceElement::ReferenceElement(int degree) : degree_(degree) {
+template <int dim>
+ReferenceElement<dim>::ReferenceElement(int degree) : degree_(degree) {
   nodes_1d = lobatto_nodes(degree);
   const Quadrature gauss = gauss_legendre(degree + 2);
   points_1d = gauss.points;
   weights_1d = gauss.weights;
-  weights = tensor(weights_1d, weights_1d);
+  weights = tensor<dim>(weights_1d, weights_1d, 0);
 
   const MatrixXd value = lagrange(points_1d), slope = lagrange_derivative(points_1d);
-  shape = {tensor(value, value), tensor(slope, value), tensor(value, slope)};
-  shape_stack.resize(3 * points(), nodes());
-  shape_stack << shape.value, shape.d1, shape.d2;
+  shape.value = tensor<dim>(value, value, 0);
+  for (int k = 0; k < dim; ++k) shape.slope[k] = tensor<dim>(value, slope, k);
+  shape_stack.resize((1 + dim) * points(), nodes());
+  for (int k = 0; k <= dim; ++k) shape_stack.middleRows(k * points(), points()) = shape.part(k);
   const int n = int(points_1d.size());
-  pressure.value.resize(n * n, pressures());
-  for (int q = 0; q < n * n; ++q) pressure.value.row(q) = pressure_modes(points_1d(q % n), points_1d(q / n));
-}
-
-bool ReferenceElement::is_interior(int node) const {
-  const int i = node % (degree_ + 1), j = node / (degree_ + 1);
-  return i > 0 && i < degree_ && j > 0 && j < degree_;
-}
-
-MatrixXd ReferenceElement::lagrange(const VectorXd& at) const { return lagrange_basis(degree_, at); }
-MatrixXd ReferenceElement::lagrange_derivative(const VectorXd& at) const { return lagrange_slopes(degree_, at); }
-
-double ReferenceElement::interpolate(const VectorXd& nodal, double xi1, double xi2) const {
-  const Eigen::Map<const MatrixXd> grid(nodal.data(), degree_ + 1, degree_ + 1);
-  const MatrixXd basis = lagrange(Eigen::Vector2d(xi1, xi2));
-  return basis.row(0) * grid * basis.row(1).transpose();
-}
-
-VectorXd ReferenceElement::pressure_modes(double xi1, double xi2) const {
-  const VectorXd first = orthonormal_legendre(degree_, xi1), second = orthonormal_legendre(degree_, xi2);
-  VectorXd modes(pressures());
-  int k = 0;
-  for (int total = 0; total < degree_; ++total) {
-    for (int j = 0; j <= total; ++j) modes(k++) = first(total - j) * second(j);
+  for (int q = 0; q < points(); ++q) {
+    Coordinates xi;
+    for (int k = 0, rest = q; k < dim; ++k, rest /= n) xi(k) = points_1d(rest % n);
+    const VectorXd modes = pressure_modes(xi);
+    if (q == 0) pressure.value.resize(points(), modes.size());
+    pressure.value.row(q) = modes;
   }
+}
+
+template <int dim>
+bool ReferenceElement<dim>::is_interior(int node) const {
+  for (int k = 0; k < dim; ++k, node /= degree_ + 1) {
+    const int i = node % (degree_ + 1);
+    if (i == 0 || i == degree_) return false;
+  }
+  return true;
+}
+
+template <int dim>
+MatrixXd ReferenceElement<dim>::lagrange(const VectorXd& at) const {
+  return lagrange_basis(degree_, at);
+}
+
+template <int dim>
+MatrixXd ReferenceElement<dim>::lagrange_derivative(const VectorXd& at) const {
+  return lagrange_slopes(degree_, at);
+}
+
+template <int dim>
+double ReferenceElement<dim>::interpolate(const VectorXd& nodal, const Coordinates& xi) const {
+  const MatrixXd basis = lagrange(xi);
+  MatrixXd values = basis.row(0);
+  for (int k = 1; k < dim; ++k) values = tensor(values, basis.row(k));
+  return values.row(0).dot(nodal);
+}
+
+template <int dim>
+VectorXd ReferenceElement<dim>::pressure_modes(const Coordinates& xi) const {
+  MatrixXd polynomials(dim, degree_);
+  int count = 1;  // (p + dim - 1)! / ((p - 1)! dim!)
+  for (int k = 0; k < dim; ++k) {
+    polynomials.row(k) = orthonormal_legendre(degree_, xi(k));
+    count = count * (degree_ + k) / (k + 1);
+  }
+  VectorXd modes(count);
+  int k = 0;
+  for (int total = 0; total < degree_; ++total) append_products(polynomials, dim, total, 1, modes, k);
   return modes;
 }
+
+template class ReferenceElement<2>;
+template class ReferenceElement<3>;
 
 }  // namespace rheocyte

@@ -1,43 +1,52 @@
-// Shape functions of the reference element [0,1]^2, tabulated at the points of a quadrature rule.
+// Shape functions of the reference element [0,1]^dim, tabulated at the points of a quadrature rule.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 
 namespace rheocyte {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Values and both derivatives of some functions: `points` x `functions` each.
+/// Values of some functions and their derivatives with respect to each coordinate: `points` x `functions` each.
+template <int dim>
 struct ShapeTable {
-  MatrixXd value, d1, d2;
+  MatrixXd value;
+  std::array<MatrixXd, dim> slope;
+
+  /// The values (0) or the derivatives with respect to xi_part.
+  const MatrixXd& part(int part) const { return part == 0 ? value : slope[part - 1]; }
 };
 
 /// Q_p on Gauss-Lobatto nodes and P_{p-1} (orthonormal Legendre modes of total degree < p, the constant first) at the
-/// (p+2)^2 Gauss points; first coordinate fastest throughout.
+/// (p+2)^dim Gauss points; first coordinate fastest throughout. For two and three dimensions.
+template <int dim>
 class ReferenceElement {
  public:
+  using Coordinates = Eigen::Matrix<double, dim, 1>;
+
   explicit ReferenceElement(int degree);
 
   int degree() const { return degree_; }
-  int nodes() const { return (degree_ + 1) * (degree_ + 1); }
-  int pressures() const { return degree_ * (degree_ + 1) / 2; }
+  int nodes() const { return int(shape.value.cols()); }
+  int pressures() const { return int(pressure.value.cols()); }
   int points() const { return int(weights.size()); }
   bool is_interior(int node) const;
 
   VectorXd nodes_1d, points_1d, weights_1d;  ///< on [0,1]
   VectorXd weights;
-  ShapeTable shape;
-  MatrixXd shape_stack;  ///< value, d1, d2 of `shape` below each other
-  ShapeTable pressure;   ///< values only
+  ShapeTable<dim> shape;
+  MatrixXd shape_stack;      ///< the parts of `shape` below each other
+  ShapeTable<dim> pressure;  ///< values only
 
   /// Values of the 1D Lagrange functions of the nodes at given points in [0,1]: points x (p+1).
   MatrixXd lagrange(const VectorXd& at) const;
   /// Their derivatives.
   MatrixXd lagrange_derivative(const VectorXd& at) const;
   /// Value at a point of the Q_p function with the given nodal values.
-  double interpolate(const VectorXd& nodal, double xi1, double xi2) const;
+  double interpolate(const VectorXd& nodal, const Coordinates& xi) const;
   /// Values of the pressure modes at one point.
-  VectorXd pressure_modes(double xi1, double xi2) const;
+  VectorXd pressure_modes(const Coordinates& xi) const;
 
  private:
   int degree_;

@@ -22,12 +22,6 @@ std::vector<bool> members(const Discretisation& space, bool cell) {
   return wanted;
 }
 
-VectorXd values_at_nodes(const VectorXd& field, const std::vector<int>& nodes, int c) {
-  VectorXd values(nodes.size());
-  for (int k = 0; k < values.size(); ++k) values(k) = field(2 * nodes[k] + c);
-  return values;
-}
-
 void add_residual(const ElementUnknowns& element, const VectorXd& residual, VectorXd& total) {
   for (int i = 0; i < residual.size(); ++i) {
     if (element.rows[i] >= 0) total(element.rows[i]) += residual(i);
@@ -43,7 +37,7 @@ SplitSystem::SplitSystem(const Discretisation& space)
       liquid_(elements_, members(space, false)),
       cell_(elements_, members(space, true)) {}
 
-void SplitSystem::tell_surface_velocity(const SplitState& state) {
+void SplitSystem::set_surface_velocity(const SplitState& state) {
   const int n = space_.reference().nodes();
   const double v_cell = state.unknowns(space_.cell_velocity());
   surface_velocity_.setZero(space_.unknowns());
@@ -63,16 +57,14 @@ void SplitSystem::tell_surface_velocity(const SplitState& state) {
 void SplitSystem::integrate_liquid(int e, const Media& media, double step, const SplitState& before,
                                    const VectorXd& unknowns, Want want) {
   const ElementUnknowns& element = elements_[e];
-  const ReferenceElement& reference = space_.reference();
+  const ReferenceElement<2>& reference = space_.reference();
   const auto& nodes = space_.nodes().of_element[e];
   const int m = element.position_columns;
-  const double v_cell = unknowns(space_.cell_velocity());
-  std::vector<ColumnGroup> groups = column_groups(element, reference);
-  const VectorXd local = local_values(element, unknowns);
-  MatrixXd fields = MatrixXd::Zero(reference.points(), MovingLiquidPoint::inputs);
-  fields.leftCols(LiquidPoint::inputs) = gather_fields({reference, element, groups}, LiquidPoint::inputs, local);
+  const double v_cell = unknowns(space_.cell_velocity()), rate = 1 / step;
+  ElementQuadrature<2> quadrature{reference, element.undeformed, column_groups(element, reference)};
+  const MatrixXd numbers = gather_fields<MovingLiquidFields<double>>(quadrature, local_values(element, unknowns));
   // The mesh follows the surface: along spokes its velocity is linear in the surface's.
-  MatrixXd mesh = MatrixXd::Zero(reference.points(), 2), history(reference.points(), 2);
+  Eigen::MatrixX2d mesh = Eigen::MatrixX2d::Zero(reference.points(), 2), velocity(reference.points(), 2);
   for (int c = 0; c < 2; ++c) {
     VectorXd foot(m);
     for (int k = 0; k < m; ++k) {
@@ -80,49 +72,45 @@ void SplitSystem::integrate_liquid(int e, const Media& media, double step, const
       foot(k) = displacement < 0 ? 0 : surface_velocity_(displacement);
     }
     if (m > 0) mesh.col(c) = element.position[c].value * foot;
-    VectorXd old = values_at_nodes(before.velocities, nodes, c);
+    VectorXd old = component_at_nodes(before.velocities, nodes, c);
     if (c == 0) old.array() -= v_cell;
-    history.col(c) = reference.shape.value * old / -step;
+    velocity.col(c) = reference.shape.value * old * -rate;
   }
-  if (m > 0) groups.erase(groups.begin(), groups.begin() + 2);  // positions are known
-  const double rate = 1 / step;
+  std::erase_if(quadrature.groups, [](const auto& group) { return group.source == Source::position; });  // known
   const auto form_at = [&](int q) {
-    const PlaneVector<double> velocity(mesh(q, 0) - rate * fields(q, 12), mesh(q, 1) - rate * fields(q, 4));
-    return MovingLiquidPoint{media.liquid, rate, velocity, {history(q, 0), history(q, 1)}};
+    const auto f = fields_at<MovingLiquidFields<double>>(numbers, q);
+    const Components<double, 2> mesh_history(mesh(q, 0) - rate * f.u_x, mesh(q, 1) - rate * f.map.r);
+    return MovingLiquidPoint{media.liquid, rate, {mesh_history, velocity.row(q)}};
   };
-  integrate_form<MovingLiquidPoint>({reference, element, groups}, fields, form_at, want, element_);
+  integrate_form<MovingLiquidPoint>(quadrature, numbers, form_at, want, element_);
 }
 
 void SplitSystem::integrate_cell(int e, const Media& media, double step, const SplitState& state) {
   const ElementUnknowns& element = elements_[e];
-  const ReferenceElement& reference = space_.reference();
-  const auto& nodes = space_.nodes().of_element[e];
+  const ReferenceElement<2>& reference = space_.reference();
   const int n = reference.nodes(), modes = reference.pressures();
-  const MatrixXd here = fields_at_points(space_, e, state.unknowns);
-  const std::vector<ColumnGroup> groups = {{&reference.shape, 0, n, {{0, Part::value}, {2, Part::d1}, {3, Part::d2}}},
-                                           {&reference.shape, n, n, {{1, Part::value}, {4, Part::d1}, {5, Part::d2}}},
-                                           {&reference.pressure, 2 * n, modes, {{6, Part::value}}}};
-  MatrixXd fields = MatrixXd::Zero(reference.points(), SplitCellPoint::inputs);
-  for (int c = 0; c < 2; ++c) {
-    const VectorXd v = values_at_nodes(state.velocities, nodes, c);
-    for (const Feed& feed : groups[c].feeds) fields.col(feed.input) = table(reference.shape, feed.part) * v;
-  }
-  fields.col(6) = here.col(5);
+  // Velocities take the places of the displacements.
+  const ElementQuadrature<2> quadrature{reference,
+                                        element.undeformed,
+                                        {{&reference.shape, 0, n, Source::velocity, 0},
+                                         {&reference.shape, n, n, Source::velocity, 1},
+                                         {&reference.pressure, 2 * n, modes, Source::pressure}}};
+  VectorXd local = local_values(element, state.unknowns);
+  for (int c = 0; c < 2; ++c)
+    local.segment(c * n, n) = component_at_nodes(state.velocities, space_.nodes().of_element[e], c);
+  const MatrixXd numbers = gather_fields<SplitCellFields<double>>(quadrature, local);
+  const auto here = fields_at_points<MapFields<double, 2>>(space_, e, state.unknowns);
   const auto form_at = [&](int q) {
-    Plane<double> G;
-    G << here(q, 0), here(q, 1), here(q, 2), here(q, 3);
-    return SplitCellPoint{
-        media.bulk, element.reference[q], Place<double>(G, here(q, 4)), 1 / step, {fields(q, 0), fields(q, 1)}};
+    const auto before = fields_at<SplitCellFields<double>>(numbers, q);
+    return SplitCellPoint{media.bulk, element.undeformed[q], PointMap<double, 2>(here[q]), 1 / step, before.v};
   };
-  evaluate_points<SplitCellPoint>(fields, reference.weights, form_at, Want::residual_and_tangent, element_);
-  test_residual(reference, element_);
-  test_tangent<SplitCellPoint>(reference, groups, int(element.columns.size()), element_);
+  integrate_form<SplitCellPoint>(quadrature, numbers, form_at, Want::residual_and_tangent, element_);
 }
 
 bool SplitSystem::step_liquid(const Media& media, double step, SplitState& state, VectorXd& load) {
-  tell_surface_velocity(state);
-  const double inlet_pressure = undisturbed_inlet_pressure(space_, media.liquid) + state.inlet_pressure;
-  VectorXd residual = outlet_load(space_, media.liquid) + inlet_pressure * inlet_load(space_);
+  set_surface_velocity(state);
+  const double undisturbed = undisturbed_inlet_pressure(space_, media.liquid);
+  VectorXd residual = (undisturbed + state.inlet_pressure) * inlet_load(space_) - undisturbed * outlet_load(space_);
   liquid_.clear();
   for (int e = 0; e < int(elements_.size()); ++e) {
     if (!elements_[e].liquid) continue;
@@ -181,16 +169,17 @@ bool SplitSystem::step_cell(const Media& media, double step, SplitState& state) 
 }
 
 double SplitSystem::mean_velocity(const SplitState& state) const {
-  const ReferenceElement& reference = space_.reference();
+  const ReferenceElement<2>& reference = space_.reference();
   double momentum = 0, volume = 0;
   for (int e = 0; e < int(elements_.size()); ++e) {
     if (elements_[e].liquid) continue;
-    const MatrixXd here = fields_at_points(space_, e, state.unknowns);
-    const VectorXd v = reference.shape.value * values_at_nodes(state.velocities, space_.nodes().of_element[e], 0);
-    const Eigen::ArrayXd det = here.col(0).array() * here.col(3).array() - here.col(1).array() * here.col(2).array();
-    const Eigen::ArrayXd weight = reference.weights.array() * det * here.col(4).array();
-    momentum += (weight * v.array()).sum();
-    volume += weight.sum();
+    const VectorXd v = reference.shape.value * component_at_nodes(state.velocities, space_.nodes().of_element[e], 0);
+    int q = 0;
+    for (const auto& fields : fields_at_points<MapFields<double, 2>>(space_, e, state.unknowns)) {
+      const double weight = reference.weights(q) * PointMap<double, 2>(fields).volume();
+      momentum += weight * v(q++);
+      volume += weight;
+    }
   }
   return momentum / volume;
 }

@@ -35,7 +35,7 @@ class SplitSystem {
   void integrate_liquid(int element, const Media&, double step, const SplitState& before, const VectorXd& unknowns,
                         Want);
   void integrate_cell(int element, const Media&, double step, const SplitState&);
-  void tell_surface_velocity(const SplitState&);
+  void set_surface_velocity(const SplitState&);
 
   const Discretisation& space_;
   std::vector<ElementUnknowns> elements_;  ///< with the velocity of the surface as a known value

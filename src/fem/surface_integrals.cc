@@ -1,6 +1,8 @@
 #include "fem/surface_integrals.h"
 
+#include <array>
 #include <cmath>
+#include <type_traits>
 
 namespace rheocyte {
 namespace {
@@ -9,26 +11,21 @@ namespace {
 constexpr double penalty_factor = 4;
 
 /// Values, slopes and second slopes of the nodes' functions at points in [0, 1].
-struct EdgeTable {
-  MatrixXd value, slope, second;
-  EdgeTable(const ReferenceElement& reference, const VectorXd& at)
-      : value(reference.lagrange(at)),
-        slope(reference.lagrange_derivative(at)),
-        second(slope * reference.lagrange_derivative(reference.nodes_1d)) {}
-};
-
-/// Dual numbers of local inputs.
-template <int N>
-std::array<ceres::Jet<double, N>, N> dual(const Eigen::Matrix<double, N, 1>& f) {
-  std::array<ceres::Jet<double, N>, N> result;
-  for (int i = 0; i < N; ++i) result[i] = ceres::Jet<double, N>(f(i), i);
-  return result;
+std::array<MatrixXd, 3> edge_tables(const ReferenceElement<2>& reference, const VectorXd& at) {
+  const MatrixXd slope = reference.lagrange_derivative(at);
+  return {reference.lagrange(at), slope, slope * reference.lagrange_derivative(reference.nodes_1d)};
 }
 
-template <int N>
-std::array<double, N> plain(const Eigen::Matrix<double, N, 1>& f) {
-  std::array<double, N> result;
-  for (int i = 0; i < N; ++i) result[i] = f(i);
+template <class T, int N>
+std::array<T, N> numbers(const Eigen::Matrix<double, N, 1>& f) {
+  std::array<T, N> result;
+  for (int i = 0; i < N; ++i) {
+    if constexpr (std::is_same_v<T, double>) {
+      result[i] = f(i);
+    } else {
+      result[i] = T(f(i), i);
+    }
+  }
   return result;
 }
 
@@ -64,41 +61,38 @@ SurfaceIntegrals::SurfaceIntegrals(const Discretisation& space) : space_(&space)
   for (std::size_t e = 0; e < edges.size(); ++e) {
     auto& reference = references_.emplace_back();
     for (const Table& table : edge_) {
-      const VectorXd f = table.inputs * patches_[e].rest;
-      reference.push_back({std::hypot(f(2), f(3)), f(1), -0.5 * f(1) * f(1) * f(2)});
+      const VectorXd rest = table.inputs * patches_[e].rest;
+      const Meridian<double> X = read_fields<SurfaceFields<double>>([&](int i) { return rest(i); }).meridian();
+      reference.push_back({X.speed(), X.r, -0.5 * X.r * X.r * X.x_t});
     }
   }
 }
 
 void SurfaceIntegrals::tabulate() {
-  const ReferenceElement& reference = space_->reference();
+  const ReferenceElement<2>& reference = space_->reference();
   const int n = reference.degree() + 1;
-  const EdgeTable at_points(reference, reference.points_1d);
+  const auto at_points = edge_tables(reference, reference.points_1d);
   for (int q = 0; q < reference.points_1d.size(); ++q) {
-    const auto value = at_points.value.row(q), slope = at_points.slope.row(q), second = at_points.second.row(q);
-    Table& table = edge_.emplace_back();
-    table.inputs.setZero(SurfacePoint::inputs, 2 * n + 2);
-    table.tests.setZero(SurfacePoint::outputs, 2 * n + 2);
-    for (int c = 0; c < 2; ++c) {
-      table.inputs.row(c).segment(c * n, n) = value;
-      table.inputs.row(2 + c).segment(c * n, n) = slope;
-      table.inputs.row(4 + c).segment(c * n, n) = second;
-      table.tests.row(3 * c).segment(c * n, n) = value;
-      table.tests.row(3 * c + 1).segment(c * n, n) = slope;
-      table.tests.row(3 * c + 2).segment(c * n, n) = second;
-    }
-    table.inputs(6, 2 * n) = table.tests(6, 2 * n) = 1;
-    table.tests(7, 2 * n + 1) = 1;
+    const auto rows = [&](const std::vector<Input>& list) {
+      MatrixXd table = MatrixXd::Zero(list.size(), 2 * n + 2);
+      for (int i = 0; i < int(list.size()); ++i) {
+        const auto& [source, component, part] = list[i];
+        if (source == Source::position) table.row(i).segment(component * n, n) = at_points[part].row(q);
+        if (source == Source::pressure) table(i, 2 * n) = 1;
+        if (source == Source::frame) table(i, 2 * n + 1) = 1;
+      }
+      return table;
+    };
+    edge_.push_back({rows(inputs_of<SurfaceFields<double>>()), rows(inputs_of<SurfaceFlux<double>>())});
   }
-  const EdgeTable at_ends(reference, Eigen::Vector2d(0, 1));
-  kink_.setZero(SurfaceKink::inputs, 4 * n);
-  for (int side = 0; side < 2; ++side) {
-    for (int c = 0; c < 2; ++c) {
-      kink_.row(4 * side + c).segment((2 * side + c) * n, n) = at_ends.slope.row(1 - side);
-      kink_.row(4 * side + 2 + c).segment((2 * side + c) * n, n) = at_ends.second.row(1 - side);
-    }
+  const auto at_ends = edge_tables(reference, Eigen::Vector2d(0, 1));
+  const std::vector<Input> list = inputs_of<KinkFields<double>>();
+  kink_.setZero(list.size(), 4 * n);
+  for (int i = 0; i < int(list.size()); ++i) {
+    const auto& [source, component, part] = list[i];
+    const int end = component < 2 ? 1 : 0;  // of the piece before, start of the piece after
+    kink_.row(i).segment(component * n, n) = at_ends[part].row(end);
   }
-  kink_.row(8).segment(3 * n, n) = at_ends.value.row(0);
 }
 
 void SurfaceIntegrals::integrate(int index, const Cortex& cortex, const VectorXd& unknowns, Want want,
@@ -123,23 +117,27 @@ int SurfaceIntegrals::active(const Cortex& cortex) const {
 
 void SurfaceIntegrals::integrate_edge(int edge, const Cortex& cortex, const VectorXd& local, Want want,
                                       ElementSystem& system) const {
-  constexpr int inputs = SurfacePoint::inputs, outputs = SurfacePoint::outputs;
+  constexpr int inputs = SurfaceFields<double>::count, outputs = SurfaceFlux<double>::count;
+  using Dual = ceres::Jet<double, inputs>;
   const double rest_pressure = 2 * cortex.tension / space_->mesh().geometry().radius();
   for (std::size_t q = 0; q < edge_.size(); ++q) {
     const SurfacePoint form{cortex, rest_pressure, references_[edge][q]};
     const double weight = space_->reference().weights_1d(int(q));
     const Eigen::Matrix<double, inputs, 1> f = edge_[q].inputs * local;
     Eigen::Matrix<double, outputs, 1> flux;
+    int k = 0;
     if (want == Want::residual) {
-      const auto value = form(plain<inputs>(f));
-      for (int k = 0; k < outputs; ++k) flux(k) = weight * value[k];
+      form(read_fields<SurfaceFields<double>>([&](int i) { return f(i); })).visit([&](const Input&, double value) {
+        flux(k++) = weight * value;
+      });
     } else {
-      const auto value = form(dual<inputs>(f));
       Eigen::Matrix<double, outputs, inputs> slope;
-      for (int k = 0; k < outputs; ++k) {
-        flux(k) = weight * value[k].a;
-        slope.row(k) = weight * value[k].v.transpose();
-      }
+      form(read_fields<SurfaceFields<Dual>>([&](int i) {
+        return Dual(f(i), i);
+      })).visit([&](const Input&, const Dual& value) {
+        flux(k) = weight * value.a;
+        slope.row(k++) = weight * value.v.transpose();
+      });
       system.tangent.noalias() += edge_[q].tests.transpose() * (slope * edge_[q].inputs);
     }
     system.residual.noalias() += edge_[q].tests.transpose() * flux;
@@ -148,16 +146,17 @@ void SurfaceIntegrals::integrate_edge(int edge, const Cortex& cortex, const Vect
 
 void SurfaceIntegrals::integrate_kink(const Cortex& cortex, const VectorXd& local, Want want,
                                       ElementSystem& system) const {
-  constexpr int inputs = SurfaceKink::inputs;
+  constexpr int inputs = KinkFields<double>::count;
   const int degree = space_->reference().degree();
   const SurfaceKink energy{cortex, penalty_factor * degree * degree};
   const Eigen::Matrix<double, inputs, 1> f = kink_ * local;
   Eigen::Matrix<double, inputs, 1> slope;
   if (want == Want::residual) {
-    const auto [value, slopes] = value_and_slopes<inputs, double>(energy, plain<inputs>(f));
+    const auto [value, slopes] = value_and_slopes<inputs, double>(energy, numbers<double>(f));
     for (int i = 0; i < inputs; ++i) slope(i) = slopes[i];
   } else {
-    const auto [value, slopes] = value_and_slopes<inputs, ceres::Jet<double, inputs>>(energy, dual<inputs>(f));
+    const auto [value, slopes] =
+        value_and_slopes<inputs, ceres::Jet<double, inputs>>(energy, numbers<ceres::Jet<double, inputs>>(f));
     Eigen::Matrix<double, inputs, inputs> curvature;
     for (int i = 0; i < inputs; ++i) {
       slope(i) = slopes[i].a;

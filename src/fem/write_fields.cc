@@ -19,21 +19,20 @@ double von_mises(Tensor<double> sigma) {
   return std::sqrt(1.5) * sigma.norm();
 }
 
-/// Norm of the liquid's viscous stress, or of the cell's elastic stress, at the quadrature points.
-VectorXd stress_at_points(const ElementUnknowns& element, const MatrixXd& fields, const Media& media) {
-  VectorXd norm(fields.rows());
-  for (int q = 0; q < norm.size(); ++q) {
-    const auto f = fields.row(q);
-    Plane<double> G;
-    G << f(0), f(1), f(2), f(3);
-    const Place<double> place(G, f(4));
-    if (element.liquid) {
-      Plane<double> w_xi;
-      w_xi << f(7), f(8), f(9), f(10);
-      const Tensor<double> L = gradient(place, PlaneVector<double>(f(5), f(6)), w_xi);
-      norm(q) = viscous_stress(media.liquid, L).norm() / std::sqrt(2.0);
-    } else {
-      norm(q) = von_mises(elastic_stress(media.bulk, deformation_gradient(place, element.reference[q])));
+/// Norm of the liquid's viscous stress, or of the cell's elastic stress, at the quadrature points of an element.
+VectorXd stress_at_points(const Discretisation& space, int e, const Media& media, const VectorXd& unknowns) {
+  const ElementUnknowns& element = space.elements()[e];
+  VectorXd norm(space.reference().points());
+  int q = 0;
+  if (element.liquid) {
+    for (const auto& f : fields_at_points<LiquidFields<double, 2>>(space, e, unknowns)) {
+      const Tensor<double> L = gradient(PointMap<double, 2>(f.map), f.w, f.w_xi);
+      norm(q++) = viscous_stress(media.liquid, L).norm() / std::sqrt(2.0);
+    }
+  } else {
+    for (const auto& f : fields_at_points<MapFields<double, 2>>(space, e, unknowns)) {
+      const Tensor<double> F = deformation_gradient(PointMap<double, 2>(f), element.undeformed[q]);
+      norm(q++) = von_mises(elastic_stress(media.bulk, F));
     }
   }
   return norm;
@@ -42,7 +41,7 @@ VectorXd stress_at_points(const ElementUnknowns& element, const MatrixXd& fields
 /// Carries values at the quadrature points to the nodes: the Q_p function that fits them best.
 class ToNodes {
  public:
-  explicit ToNodes(const ReferenceElement& reference)
+  explicit ToNodes(const ReferenceElement<2>& reference)
       : shape_(reference.shape.value),
         weights_(reference.weights),
         mass_(shape_.transpose() * weights_.asDiagonal() * shape_) {}
@@ -113,7 +112,7 @@ MatrixXd nodal_fields(const Discretisation& space, int e, const Media& media, co
   const VectorXd p = space.reference().pressure.value * local.tail(space.reference().pressures());
   fields.col(pressure) = scales.stress_Pa * (to_nodes(p).array() + (element.liquid ? 0 : rest_pressure));
   fields.col(element.liquid ? shear_stress : stress) =
-      scales.stress_Pa * to_nodes(stress_at_points(element, fields_at_points(space, e, unknowns), media));
+      scales.stress_Pa * to_nodes(stress_at_points(space, e, media, unknowns));
   return fields;
 }
 
@@ -121,7 +120,7 @@ MatrixXd nodal_fields(const Discretisation& space, int e, const Media& media, co
 
 bool write_fields(const Discretisation& space, const Media& media, const VectorXd& unknowns, const Scales& scales,
                   const std::string& path) {
-  const ReferenceElement& reference = space.reference();
+  const ReferenceElement<2>& reference = space.reference();
   const int p = reference.degree(), n = reference.nodes();
   const MatrixXd basis = reference.lagrange(VectorXd::LinSpaced(p + 1, 0, 1));
   MatrixXd equidistant(n, n);  // from Gauss-Lobatto nodes to those of VTK

@@ -8,74 +8,95 @@
 
 namespace rheocyte {
 
-/// Field values as in LiquidPoint, then the axial displacement of the mesh.
+template <class T>
+struct MovingLiquidFields : LiquidFields<T, 2> {
+  T u_x;  ///< axial displacement of the mesh
+
+  static constexpr int count = LiquidFields<T, 2>::count + 1;
+  template <class Visitor>
+  void visit(const Visitor& on) {
+    LiquidFields<T, 2>::visit(on);
+    on(Input{Source::position, 0}, u_x);
+  }
+};
+
+template <class T>
+struct MovingCellFields : CellFields<T, 2> {
+  T u_x;     ///< axial displacement
+  T v_cell;  ///< of the frame
+
+  static constexpr int count = CellFields<T, 2>::count + 2;
+  template <class Visitor>
+  void visit(const Visitor& on) {
+    CellFields<T, 2>::visit(on);
+    on(Input{Source::position, 0}, u_x);
+    on(Input{Source::frame}, v_cell);
+  }
+};
+
+/// What earlier time steps decide in the liquid.
+struct LiquidHistory {
+  Components<double, 2> mesh = Components<double, 2>::Zero();      ///< of the mesh's velocity, from (u_x, r)
+  Components<double, 2> velocity = Components<double, 2>::Zero();  ///< of dw/dt
+};
+
 struct MovingLiquidPoint {
-  static constexpr int inputs = LiquidPoint::inputs + 1;
-  static constexpr int outputs = LiquidPoint::outputs;
+  template <class T>
+  using Fields = MovingLiquidFields<T>;
 
   Liquid law;
   double rate = 0;
-  PlaneVector<double> mesh_history = PlaneVector<double>::Zero();  ///< of the mesh's velocity, from (u_x, r)
-  PlaneVector<double> velocity_history = PlaneVector<double>::Zero();
+  LiquidHistory history = {};
 
   /// Adds Re (dw/dt - (grad w) m), with the derivative at a fixed point of the mesh, whose velocity is m.
   template <class T>
-  std::array<T, outputs> operator()(const std::array<T, inputs>& f) const {
-    std::array<T, LiquidPoint::inputs> steady;
-    for (int i = 0; i < LiquidPoint::inputs; ++i) steady[i] = f[i];
-    std::array<T, outputs> flux = LiquidPoint{law}(steady);
+  Flux<T, 2> operator()(const MovingLiquidFields<T>& f) const {
+    Flux<T, 2> flux = LiquidPoint<2>{law}(f);
     if (law.reynolds == 0) return flux;
-    Plane<T> G, w_xi;
-    G << f[0], f[1], f[2], f[3];
-    w_xi << f[7], f[8], f[9], f[10];
-    const Place<T> place(G, f[4]);
-    const T mass = place.volume() * T(law.reynolds);
-    const PlaneVector<T> m(T(rate) * f[12] + T(mesh_history(0)), T(rate) * f[4] + T(mesh_history(1)));
-    const PlaneVector<T> carried = w_xi * (place.inverse * m);
-    for (int c = 0; c < 2; ++c) flux[3 * c] += mass * (T(rate) * f[5 + c] + T(velocity_history(c)) - carried(c));
+    const PointMap<T, 2> map(f.map);
+    const T mass = map.volume() * T(law.reynolds);
+    const Components<T, 2> m(T(rate) * f.u_x + T(history.mesh(0)), T(rate) * f.map.r + T(history.mesh(1)));
+    const Components<T, 2> carried = f.w_xi * (map.inverse * m);
+    for (int c = 0; c < 2; ++c) flux.value(c) += mass * (T(rate) * f.w(c) + T(history.velocity(c)) - carried(c));
     return flux;
   }
 };
 
 /// Parts of the cell's velocity, its slope and its acceleration that earlier time steps decide.
 struct CellHistory {
-  PlaneVector<double> velocity = PlaneVector<double>::Zero();  ///< from (u_x, r)
-  Plane<double> velocity_slope = Plane<double>::Zero();        ///< from G
-  PlaneVector<double> acceleration = PlaneVector<double>::Zero();
-  double frame_acceleration = 0;  ///< from v_cell
+  Components<double, 2> velocity = Components<double, 2>::Zero();  ///< from (u_x, r)
+  Slopes<double, 2> velocity_slope = Slopes<double, 2>::Zero();    ///< from G
+  Components<double, 2> acceleration = Components<double, 2>::Zero();
 };
 
-/// Field values as in CellPoint, then the axial displacement and v_cell.
 struct MovingCellPoint {
-  static constexpr int inputs = CellPoint::inputs + 2;
-  static constexpr int outputs = CellPoint::outputs;
+  template <class T>
+  using Fields = MovingCellFields<T>;
 
   Bulk law;
-  Place<double> reference;
+  PointMap<double, 2> undeformed;
   double excess_reynolds = 0;  ///< of the cell's density over the liquid's: feels the acceleration of the frame
   double rate = 0;
-  CellHistory history;
+  CellHistory history = {};
+  double frame_history = 0;  ///< of the acceleration of the frame, from v_cell
 
   /// Adds the viscous stress 2 eta1 D and the inertia of the cell; its mass stays with its points.
   template <class T>
-  std::array<T, outputs> operator()(const std::array<T, inputs>& f) const {
-    std::array<T, CellPoint::inputs> steady;
-    for (int i = 0; i < CellPoint::inputs; ++i) steady[i] = f[i];
-    std::array<T, outputs> flux = CellPoint{law, reference}(steady);
-    Plane<T> G, v_xi;
-    G << f[0], f[1], f[2], f[3];
-    const Place<T> place(G, f[4]);
-    for (int i = 0; i < 4; ++i) v_xi(i / 2, i % 2) = T(rate) * f[i] + T(history.velocity_slope(i / 2, i % 2));
-    const PlaneVector<T> v(T(rate) * f[6] + T(history.velocity(0)), T(rate) * f[4] + T(history.velocity(1)));
-    const Tensor<T> L = gradient(place, v, v_xi);
-    const Flux<T> viscous = pull_back(place, Tensor<T>((L + L.transpose()) * T(law.viscosity)));
-    const double mass = reference.volume();
-    const PlaneVector<T> frame((T(rate) * f[7] + T(history.frame_acceleration)) * T(excess_reynolds * mass), T(0));
+  Flux<T, 2> operator()(const MovingCellFields<T>& f) const {
+    Flux<T, 2> flux = CellPoint<2>{law, undeformed}(f);
+    const PointMap<T, 2> map(f.map);
+    Slopes<T, 2> v_xi;
+    for (int i = 0; i < 4; ++i)
+      v_xi(i / 2, i % 2) = T(rate) * map.G(i / 2, i % 2) + T(history.velocity_slope(i / 2, i % 2));
+    const Components<T, 2> v(T(rate) * f.u_x + T(history.velocity(0)), T(rate) * map.r + T(history.velocity(1)));
+    const Tensor<T> L = gradient(map, v, v_xi);
+    const Flux<T, 2> viscous = pull_back(map, Tensor<T>((L + L.transpose()) * T(law.viscosity)));
+    const double mass = undeformed.volume();
+    flux.value(0) += (T(rate) * f.v_cell + T(frame_history)) * T(excess_reynolds * mass);
     for (int c = 0; c < 2; ++c) {
       const T acceleration = T(rate) * v(c) + T(history.acceleration(c));
-      flux[3 * c] += viscous.value(c) + acceleration * T(law.reynolds * mass) + frame(c);
-      flux[3 * c + 1] += viscous.slope(c, 0);
-      flux[3 * c + 2] += viscous.slope(c, 1);
+      flux.value(c) += viscous.value(c) + acceleration * T(law.reynolds * mass);
+      for (int k = 0; k < 2; ++k) flux.slope(c, k) += viscous.slope(c, k);
     }
     return flux;
   }

@@ -5,40 +5,44 @@
 
 namespace rheocyte {
 
-/// Inputs in this order: v_x, v_r, d(v)/d(xi) row by row, p; v is the velocity in the laboratory. Linear in them.
+/// v is the velocity in the laboratory.
+template <class T>
+struct SplitCellFields {
+  Components<T, 2> v;
+  Slopes<T, 2> v_xi;
+  T p;
+
+  static constexpr int count = 7;
+  template <class Visitor>
+  void visit(const Visitor& on) {
+    visit_vector(on, Source::velocity, v);
+    visit_slopes(on, Source::velocity, v_xi);
+    on(Input{Source::pressure}, p);
+  }
+};
+
+/// Linear in its fields.
 struct SplitCellPoint {
-  static constexpr int inputs = 7;
-  static constexpr int outputs = CellPoint::outputs;
+  template <class T>
+  using Fields = SplitCellFields<T>;
 
   Bulk law;
-  Place<double> reference, place;
+  PointMap<double, 2> undeformed, map;
   double rate = 0;  ///< 1 / step
-  PlaneVector<double> velocity_before = PlaneVector<double>::Zero();
+  Components<double, 2> velocity_before = Components<double, 2>::Zero();
 
   template <class T>
-  std::array<T, outputs> operator()(const std::array<T, inputs>& f) const {
-    Plane<T> G, v_xi;
-    G << T(place.G(0, 0)), T(place.G(0, 1)), T(place.G(1, 0)), T(place.G(1, 1));
-    v_xi << f[2], f[3], f[4], f[5];
-    const Place<T> here(G, T(place.r));
-    const PlaneVector<T> v(f[0], f[1]);
-    const Tensor<T> L = gradient(here, v, v_xi);
-    const Tensor<double> elastic = elastic_stress(law, deformation_gradient(place, reference));
-    Tensor<T> sigma = (L + L.transpose()) * T(law.viscosity);
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) sigma(i, j) += T(elastic(i, j));
-      sigma(i, i) -= f[6];
-    }
-    const Flux<T> flux = pull_back(here, sigma);
-    const double mass = law.reynolds * place.volume() * rate;
-    const T divergence = (L(0, 0) + L(1, 1) + L(2, 2)) * T(place.volume());
-    return {flux.value(0) + (f[0] - T(velocity_before(0))) * T(mass),
-            flux.slope(0, 0),
-            flux.slope(0, 1),
-            flux.value(1) + (f[1] - T(velocity_before(1))) * T(mass),
-            flux.slope(1, 0),
-            flux.slope(1, 1),
-            -divergence};
+  Flux<T, 2> operator()(const SplitCellFields<T>& f) const {
+    const PointMap<T, 2> here(MapFields<T, 2>{map.G.template cast<T>(), T(map.r)});
+    const Tensor<T> L = gradient(here, f.v, f.v_xi);
+    const Tensor<double> elastic = elastic_stress(law, deformation_gradient(map, undeformed));
+    Tensor<T> sigma = (L + L.transpose()) * T(law.viscosity) + elastic.template cast<T>();
+    for (int i = 0; i < 3; ++i) sigma(i, i) -= f.p;
+    Flux<T, 2> flux = pull_back(here, sigma);
+    const double mass = law.reynolds * map.volume() * rate;
+    for (int c = 0; c < 2; ++c) flux.value(c) += (f.v(c) - T(velocity_before(c))) * T(mass);
+    flux.pressure = -(L(0, 0) + L(1, 1) + L(2, 2)) * T(map.volume());
+    return flux;
   }
 };
 

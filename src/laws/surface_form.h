@@ -9,6 +9,7 @@
 
 #include "laws/cortex.h"
 #include "laws/derivative.h"
+#include "laws/fields.h"
 
 namespace rheocyte {
 
@@ -42,78 +43,125 @@ struct SurfaceReference {
   double volume = 0;        ///< -r^2/2 dx/dt: volume of the cell
 };
 
-/// Inputs in this order: x, r, x_t, r_t, x_tt, r_tt, excess of the inner pressure over `rest_pressure`.
-struct SurfacePoint {
-  static constexpr int inputs = 7;
-  /// (value, slope, second slope) of the x-test and of the r-test, pressure test, axial moment of the volume.
-  static constexpr int outputs = 8;
+/// Fields on the surface; a source's part k is its k-th derivative with respect to t.
+template <class T>
+struct SurfaceFields {
+  Components<T, 2> x, x_t, x_tt;  ///< (x, r) and its derivatives
+  T p;                            ///< excess of the inner pressure over the rest pressure
 
+  static constexpr int count = 7;
+  template <class Visitor>
+  void visit(const Visitor& on) {
+    visit_vector(on, Source::position, x);
+    visit_vector(on, Source::position, x_t, 1);
+    visit_vector(on, Source::position, x_tt, 2);
+    on(Input{Source::pressure}, p);
+  }
+  Meridian<T> meridian() const { return {x_t(0), x_t(1), x_tt(0), x_tt(1), x(1)}; }
+};
+
+/// What the surface does on the test functions of position (and their derivatives), pressure and frame.
+template <class T>
+struct SurfaceFlux {
+  Components<T, 2> value, slope, second;
+  T volume;  ///< change of the cell's
+  T moment;  ///< axial one of the volume
+
+  static constexpr int count = 8;
+  template <class Visitor>
+  void visit(const Visitor& on) {
+    visit_vector(on, Source::position, value);
+    visit_vector(on, Source::position, slope, 1);
+    visit_vector(on, Source::position, second, 2);
+    on(Input{Source::pressure}, volume);
+    on(Input{Source::frame}, moment);
+  }
+};
+
+struct SurfacePoint {
   Cortex law;
   double rest_pressure = 0;  ///< Laplace's pressure 2 gamma / r0 of the sphere at rest
   SurfaceReference reference;
 
   template <class T>
-  std::array<T, outputs> operator()(const std::array<T, inputs>& f) const {
-    const T &x = f[0], &r = f[1], &x_t = f[2], &r_t = f[3];
-    const Meridian<T> here{x_t, r_t, f[4], f[5], r};
-    const T speed = here.speed();
+  SurfaceFlux<T> operator()(const SurfaceFields<T>& f) const {
+    const Meridian<T> here = f.meridian();
+    const T &x = f.x(0), &r = here.r, speed = here.speed();
     // Virtual work of the tensions: T1 r delta(speed) + T2 speed delta(r).
     const auto [T1, T2] =
         principal_tensions(law, T(speed / constant<T>(reference.speed)), T(r / constant<T>(reference.r)));
     const T pull = T1 * r / speed;
     // Work -p delta(volume) of the inner pressure, volume = -r^2/2 x_t.
-    const T p = f[6] + constant<T>(rest_pressure), half_r2 = r * r * constant<T>(0.5);
-    std::array<T, outputs> flux = {constant<T>(0),
-                                   pull * x_t + p * half_r2,
-                                   constant<T>(0),
-                                   T2 * speed + p * r * x_t,
-                                   pull * r_t,
-                                   constant<T>(0),
-                                   half_r2 * x_t + constant<T>(reference.volume),
-                                   x * x * r * r_t * constant<T>(0.5)};
+    const T p = f.p + constant<T>(rest_pressure), half_r2 = r * r * constant<T>(0.5);
+    SurfaceFlux<T> flux;
+    flux.value << constant<T>(0), T2 * speed + p * r * here.x_t;
+    flux.slope << pull * here.x_t + p * half_r2, pull * here.r_t;
+    flux.second << constant<T>(0), constant<T>(0);
+    flux.volume = half_r2 * here.x_t + constant<T>(reference.volume);
+    flux.moment = x * x * r * here.r_t * constant<T>(0.5);
     if (law.bending != 0) add_bending(here, flux);
     return flux;
   }
 
  private:
   template <class T>
-  void add_bending(const Meridian<T>& here, std::array<T, outputs>& flux) const {
+  void add_bending(const Meridian<T>& here, SurfaceFlux<T>& flux) const {
     const auto energy = [this](const auto& m) {
       using Dual = typename std::decay_t<decltype(m)>::value_type;
       const Meridian<Dual> meridian{m[0], m[1], m[2], m[3], m[4]};
       const auto curvature = meridian.curvatures();
       return bending_energy(law, Dual(curvature[0] + curvature[1])) * meridian.r * meridian.speed();
     };
-    const auto [density, slope] = value_and_slopes<5, T>(energy, {here.x_t, here.r_t, here.x_tt, here.r_tt, here.r});
-    flux[1] += slope[0];
-    flux[2] += slope[2];
-    flux[3] += slope[4];
-    flux[4] += slope[1];
-    flux[5] += slope[3];
+    const auto [density, work] = value_and_slopes<5, T>(energy, {here.x_t, here.r_t, here.x_tt, here.r_tt, here.r});
+    flux.slope(0) += work[0];
+    flux.slope(1) += work[1];
+    flux.second(0) += work[2];
+    flux.second(1) += work[3];
+    flux.value(1) += work[4];
   }
+};
+
+/// Fields at a vertex, of the piece before and of the piece after; component 2 side + c is c of that side's piece.
+template <class T>
+struct KinkFields {
+  std::array<Components<T, 2>, 2> x_t, x_tt;
+  T r;
+
+  static constexpr int count = 9;
+  template <class Visitor>
+  void visit(const Visitor& on) {
+    for (int side = 0; side < 2; ++side) {
+      for (int c = 0; c < 2; ++c) on(Input{Source::position, 2 * side + c, 1}, x_t[side](c));
+      for (int c = 0; c < 2; ++c) on(Input{Source::position, 2 * side + c, 2}, x_tt[side](c));
+    }
+    on(Input{Source::position, 3}, r);
+  }
+  Meridian<T> meridian(int side) const { return {x_t[side](0), x_t[side](1), x_tt[side](0), x_tt[side](1), r}; }
 };
 
 /// Bending at a vertex where two pieces meet at an angle alpha: alpha is curvature concentrated in a point. Its work
 /// against the mean moment, and a penalty that makes it vanish with refinement (symmetric interior penalty).
-/// Inputs: x_t, r_t, x_tt, r_tt at the end of the piece before, the same at the start of the piece after, r.
 struct SurfaceKink {
-  static constexpr int inputs = 9;
-
   Cortex law;
   double penalty = 0;  ///< some multiple of degree^2
 
   /// Energy per radian.
   template <class T>
-  T operator()(const std::array<T, inputs>& f) const {
+  T operator()(const KinkFields<T>& f) const {
     using std::atan2;
-    const Meridian<T> before{f[0], f[1], f[2], f[3], f[8]}, after{f[4], f[5], f[6], f[7], f[8]};
+    const Meridian<T> before = f.meridian(0), after = f.meridian(1);
     const T alpha =
         atan2(T(before.x_t * after.r_t - before.r_t * after.x_t), T(before.x_t * after.x_t + before.r_t * after.r_t));
     const auto k = before.curvatures(), l = after.curvatures();
     const T mean_curvature = (k[0] + k[1] + l[0] + l[1]) * constant<T>(0.5);
     const T inverse_length = (constant<T>(1) / before.speed() + constant<T>(1) / after.speed()) * constant<T>(0.5);
-    return constant<T>(law.bending / 4) * f[8] * alpha *
+    return constant<T>(law.bending / 4) * f.r * alpha *
            (mean_curvature + alpha * inverse_length * constant<T>(0.5 * penalty));
+  }
+  /// The same of the numbers of the fields.
+  template <class T>
+  T operator()(const std::array<T, KinkFields<T>::count>& numbers) const {
+    return (*this)(read_fields<KinkFields<T>>([&](int i) { return numbers[i]; }));
   }
 };
 

@@ -11,6 +11,12 @@ using Tensor = Eigen::Matrix<T, 3, 3>;
 template <class T>
 using Vector = Eigen::Matrix<T, 3, 1>;
 
+/// Components of a vector in the dimensions of a mesh, and their derivatives with respect to its coordinates.
+template <class T, int dim>
+using Components = Eigen::Matrix<T, dim, 1>;
+template <class T, int dim>
+using Slopes = Eigen::Matrix<T, dim, dim>;
+
 template <class T>
 T determinant(const Tensor<T>& A) {
   return A(0, 0) * (A(1, 1) * A(2, 2) - A(1, 2) * A(2, 1)) - A(0, 1) * (A(1, 0) * A(2, 2) - A(1, 2) * A(2, 0)) +

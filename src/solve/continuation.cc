@@ -17,34 +17,31 @@ VectorXd predict(const BranchState& now, const BranchState* before, double h) {
   return guess;
 }
 
-/// The problem in a liquid of another exponent; 1 is the Newtonian one.
-Problem with_exponent(Problem problem, double exponent) {
-  problem.liquid.exponent = exponent;
-  if (exponent == 1) problem.liquid.law = LiquidLaw::newtonian;
-  return problem;
-}
+/// Changes of the liquid's thinning in one step, and the least one.
+constexpr double thinning_step = 0.2, least_thinning_step = 0.01;
 
 /// Newton at one compliance from a guess in the Newtonian liquid. A power law is singular where nothing flows yet, so
-/// its exponent is approached from 1 in steps that halve where Newton fails.
+/// the liquid is approached from the Newtonian one in steps that halve where Newton fails.
 NewtonReport enter_branch(StationarySystem& system, const Problem& problem, const ContinuationOptions& options,
                           double compliance, VectorXd& unknowns) {
   NewtonReport report;
+  Media media = media_at(problem, compliance);
+  const double way = thinning(problem.liquid);
+  double reached = 0, step = way > 0 ? std::min(1.0, thinning_step / way) : 1;
   int iterations = 0;
-  const double wanted = problem.liquid.exponent;
-  double reached = 1, step = std::clamp(wanted - 1, -0.2, 0.2);
-  for (bool first = true; first || reached != wanted;) {
-    double exponent = first ? 1 : reached + step;
-    if (std::abs(exponent - wanted) < 1e-9 || (exponent - wanted) * (1 - wanted) < 0) exponent = wanted;
+  for (bool first = true; first || (way > 0 && reached < 1);) {
+    const double share = first ? 0 : 1 - reached - step < 1e-9 ? 1 : reached + step;
+    media.liquid = at_thinning(problem.liquid, share);
     VectorXd trial = unknowns;
-    report = newton(system, media_at(with_exponent(problem, exponent), compliance), options.newton, trial);
+    report = newton(system, media, options.newton, trial);
     report.iterations = iterations += report.iterations;
     if (report.status == Status::converged) {
       unknowns = trial;
-      reached = exponent;
+      reached = share;
       first = false;
     } else {
       step /= 2;
-      if (first || report.status == Status::stopped || std::abs(step) < 0.01) break;
+      if (first || report.status == Status::stopped || step * way < least_thinning_step) break;
     }
   }
   return report;
@@ -71,7 +68,8 @@ VectorXd branch_tangent(const Path& path, const BranchState& state) {
 
 ContinuationReport start_branch(StationarySystem& system, const Problem& problem, const ContinuationOptions& options) {
   ContinuationReport report;
-  const Media wanted = media_at(with_exponent(problem, 1), 1);
+  Media wanted = problem;
+  wanted.liquid = at_thinning(problem.liquid, 0);
   double det = 0;
   bool factorised = false;
   const VectorXd sphere = system.sphere();

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fem/write_fields.h"
+#include "laws/developed_flow.h"
 #include "solve/surface_stability.h"
 
 namespace rheocyte {
@@ -19,22 +20,20 @@ void read_flow(const StateView& state, StateNumbers& r) {
   r.channel_length = 2 * half;
   r.pressure_drop = inlet_pressure(state.space, state.unknowns) + gradient * half;
   r.flow_rate = flow_rate(state.space, state.unknowns);
-  const double undisturbed = gradient * std::pow(r.flow_rate, state.media.liquid.exponent) * r.channel_length;
+  const double undisturbed = undisturbed_pressure_gradient(state.media.liquid, r.flow_rate) * r.channel_length;
   if (state.problem.wall.is_straight()) r.additional_pressure_drop = r.pressure_drop - undisturbed;
   if (const int p = state.space.inner_pressure(); p >= 0)
     r.inner_pressure = state.unknowns(p) + 2 * state.media.cortex.tension / state.problem.radius_ratio;
 }
 
 /// 2 D:D in U/R squared at the quadrature points of an element of the liquid, the first coordinate along the columns.
-MatrixXd squared_shear_rates(const MatrixXd& fields, Eigen::Index points_1d) {
+MatrixXd squared_shear_rates(const std::vector<LiquidFields<double, 2>>& fields, Eigen::Index points_1d) {
   MatrixXd squares(points_1d, points_1d);
-  for (Eigen::Index q = 0; q < fields.rows(); ++q) {
-    const auto f = fields.row(q);
-    Plane<double> G, w_xi;
-    G << f(0), f(1), f(2), f(3);
-    w_xi << f(7), f(8), f(9), f(10);
-    const Tensor<double> L = gradient(Place<double>(G, f(4)), PlaneVector<double>(f(5), f(6)), w_xi);
+  Eigen::Index q = 0;
+  for (const auto& f : fields) {
+    const Tensor<double> L = gradient(PointMap<double, 2>(f.map), f.w, f.w_xi);
     squares(q % points_1d, q / points_1d) = 0.5 * (L + L.transpose()).squaredNorm();
+    ++q;
   }
   return squares;
 }
@@ -54,7 +53,7 @@ MatrixXd axial_coordinates(const StateView& state, int e) {
 /// The greatest shear rate between the planes through the cell's poles. Quadrature points lie neither on the cell nor
 /// at the wall, where it is the greatest: the polynomials that fit 2 D:D best there are looked at up to the edges.
 double greatest_shear_rate(const StateView& state, const Contour& contour) {
-  const ReferenceElement& reference = state.space.reference();
+  const ReferenceElement<2>& reference = state.space.reference();
   const VectorXd grid = VectorXd::LinSpaced(4 * reference.degree() + 1, 0, 1);
   const MatrixXd nodes_to_grid = reference.lagrange(grid), at_points = reference.lagrange(reference.points_1d);
   const MatrixXd tested = at_points.transpose() * reference.weights_1d.asDiagonal();
@@ -65,8 +64,8 @@ double greatest_shear_rate(const StateView& state, const Contour& contour) {
     if (!state.space.elements()[e].liquid) continue;
     const MatrixXd nodes = axial_coordinates(state, e);
     if (nodes.minCoeff() > front || nodes.maxCoeff() < rear) continue;
-    const MatrixXd squares =
-        squared_shear_rates(fields_at_points(state.space, e, state.unknowns), reference.points_1d.size());
+    const auto fields = fields_at_points<LiquidFields<double, 2>>(state.space, e, state.unknowns);
+    const MatrixXd squares = squared_shear_rates(fields, reference.points_1d.size());
     const Eigen::ArrayXXd x = nodes_to_grid * nodes * nodes_to_grid.transpose(),
                           rate = points_to_grid * squares * points_to_grid.transpose();
     greatest = std::max(greatest, (x >= rear && x <= front).select(rate, 0).maxCoeff());

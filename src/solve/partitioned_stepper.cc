@@ -19,11 +19,9 @@ constexpr double folded = 1e-3;  ///< least volume of an element, in that at res
 bool is_sound(const Discretisation& space, const VectorXd& unknowns) {
   if (!unknowns.allFinite()) return false;
   for (int e = 0; e < int(space.elements().size()); ++e) {
-    const MatrixXd f = fields_at_points(space, e, unknowns);
-    for (int q = 0; q < f.rows(); ++q) {
-      const double det = f(q, 0) * f(q, 3) - f(q, 1) * f(q, 2);
-      if (!(det > folded * space.elements()[e].reference[q].det)) return false;
-    }
+    auto undeformed = space.elements()[e].undeformed.begin();
+    for (const auto& fields : fields_at_points<MapFields<double, 2>>(space, e, unknowns))
+      if (!(PointMap<double, 2>(fields).det > folded * (undeformed++)->det)) return false;
   }
   return true;
 }

@@ -1,6 +1,7 @@
 #include "solve/rigid_start.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fem/observe.h"
 
@@ -9,7 +10,7 @@ namespace {
 
 /// So much stiffer than the flow that the displacement does not matter.
 constexpr double rigid_modulus = 1e7;
-constexpr double exponent_step = 0.1;
+constexpr double rigid_thinning_step = 0.1;
 
 }  // namespace
 
@@ -26,14 +27,13 @@ Status flow_round_sphere(MovingSystem& system, const Media& media, const NewtonO
   Media rigid = media;
   rigid.bulk = {.shear_modulus = rigid_modulus};
   rigid.cortex = {};
-  double exponent = 1;
-  do {  // a power law is singular where nothing flows yet: from the Newtonian flow in steps of its exponent
-    const double wanted = media.liquid.exponent;
-    exponent += std::clamp(wanted - exponent, -exponent_step, exponent_step);
-    rigid.liquid.exponent = exponent;
+  // A power law is singular where nothing flows yet: from the Newtonian flow in steps.
+  const int steps = std::max(1, int(std::ceil(thinning(media.liquid) / rigid_thinning_step - 1e-9)));
+  for (int k = 1; k <= steps; ++k) {
+    rigid.liquid = at_thinning(media.liquid, double(k) / steps);
     const NewtonReport report = newton(system, rigid, options, unknowns);
     if (report.status != Status::converged) return report.status;
-  } while (exponent != media.liquid.exponent);
+  }
   scale_displacement(system.space(), 0, unknowns);
   return Status::converged;
 }

@@ -37,7 +37,8 @@ double relative_change(double a, double b) { return a == b ? 0 : std::abs(a - b)
 /// Whether the unknowns of both problems mean the same at any resolution.
 bool is_alike(const Problem& a, const Problem& b, const Subdivision& subdivision) {
   return interior_of(a) == interior_of(b) && a.bulk.law == b.bulk.law && a.cortex.law == b.cortex.law &&
-         a.liquid.law == b.liquid.law && a.drive == b.drive && a.channel_length == b.channel_length &&
+         a.liquid.law == b.liquid.law && (is_power_law(a.liquid.law) || a.liquid == b.liquid) && a.drive == b.drive &&
+         a.channel_length == b.channel_length &&
          layers_for(ChannelGeometry(a.radius_ratio), subdivision) ==
              layers_for(ChannelGeometry(b.radius_ratio), subdivision);
 }

@@ -165,6 +165,13 @@ void check_bending(const TableSpec& spec, const KeyReading& keys) {
                          spec.bending_beyond_kBT, bending_key, own));
 }
 
+void check_liquid(const Case& c, const KeyReading& keys) {
+  if (is_power_law(c.flow.law)) return;
+  keys.refuse("flow.law",
+              "a table needs a liquid whose flows scale between flow rates; choose \"newtonian\" or "
+              "\"power-law\".");
+}
+
 // Any cell of the sweep, so that the base is a complete case.
 BranchPlace middle_of(const TableSpec& spec) {
   BranchPlace place{tube_radius_um(spec.base) / 2};
@@ -181,6 +188,7 @@ TableSpec parse_table_spec(std::string_view text, const std::string& name, std::
   choose_stiffness(spec, keys);
   refuse_swept_keys(spec, keys);
   spec.base = complete_case(keys, swept_keys(spec));
+  check_liquid(spec.base, keys);
   keys.fill(spec, table_keys());
   check_identifier(spec.identifier, keys);
   check_order(spec, keys);

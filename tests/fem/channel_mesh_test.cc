@@ -41,7 +41,7 @@ TEST(ChannelMesh, TheInterpolatedElementsAreRightHandedToo) {
       const ChannelMesh mesh(ChannelGeometry(ratio), subdivisions[0]);
       const Discretisation space(mesh, degree, {});
       for (const ElementUnknowns& element : space.elements()) {
-        for (const Place<double>& place : element.reference) EXPECT_GT(place.det, 0) << ratio;
+        for (const PointMap<double, 2>& map : element.undeformed) EXPECT_GT(map.det, 0) << ratio;
       }
     }
   }
@@ -55,10 +55,10 @@ TEST(ChannelMesh, TheElementsFillCellAndChannel) {
   double area = 0, volume = 0, cell_volume = 0;
   for (const ElementUnknowns& element : space.elements()) {
     for (int q = 0; q < space.reference().points(); ++q) {
-      const Place<double>& place = element.reference[q];
-      area += space.reference().weights(q) * place.det;
-      volume += space.reference().weights(q) * place.volume();
-      if (!element.liquid) cell_volume += space.reference().weights(q) * place.volume();
+      const PointMap<double, 2>& map = element.undeformed[q];
+      area += space.reference().weights(q) * map.det;
+      volume += space.reference().weights(q) * map.volume();
+      if (!element.liquid) cell_volume += space.reference().weights(q) * map.volume();
     }
   }
   const double length = 2 * mesh.geometry().half_length();

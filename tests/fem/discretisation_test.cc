@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "laws/developed_flow.h"
 #include "small_channel.h"
 
 namespace rheocyte {

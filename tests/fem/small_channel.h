@@ -38,7 +38,7 @@ inline VectorXd deformed_state(StationarySystem& system, const Media& media, dou
 /// Sets the pressure modes of one element to the projection of a function of (x, r).
 template <class Function>
 void set_pressure(const Discretisation& space, int e, const Function& p, VectorXd& state) {
-  const ReferenceElement& reference = space.reference();
+  const ReferenceElement<2>& reference = space.reference();
   const auto& nodes = space.nodes().of_element[e];
   VectorXd values = VectorXd::Zero(reference.points());
   for (int q = 0; q < reference.points(); ++q) {

@@ -26,6 +26,7 @@ const std::vector<Cell> cells = {
     {{{LiquidLaw::newtonian, 1, 0, 0.5}, {BulkLaw::neo_hookean, 12}}},
     {{{LiquidLaw::power_law, 0.6, 0.1, 0}, {BulkLaw::linear, 12}}},
     {{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {BulkLaw::mooney_rivlin, 12, 0.4}}},
+    {{{LiquidLaw::carreau, 0.5, 0, 0.5, 1.6, 0.1, 1, 2}, {BulkLaw::linear, 12}}},
     {{{}, {BulkLaw::neo_hookean, 12}, {CortexLaw::none, 0, 1, 0.1}}},
     {{{}, {BulkLaw::linear, 12}, {CortexLaw::linear, 8, 0.8, 0}}},
     {{{}, {BulkLaw::neo_hookean, 12}, {CortexLaw::neo_hookean, 8, 0.8, 0.1}}},

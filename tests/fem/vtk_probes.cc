@@ -37,7 +37,7 @@ class Probes {
 /// Place, velocity, pressure and displacement of a state, straight from its unknowns.
 VectorXd fields_at(const SmallChannel& channel, const VectorXd& state, int e, const VectorXd& xi) {
   const Discretisation& space = channel.space;
-  const ReferenceElement& reference = space.reference();
+  const ReferenceElement<2>& reference = space.reference();
   const ElementUnknowns& element = space.elements()[e];
   const auto& nodes = space.nodes().of_element[e];
   const VectorXd local = local_values(element, state);
@@ -52,8 +52,8 @@ VectorXd fields_at(const SmallChannel& channel, const VectorXd& state, int e, co
     at_nodes(k, 2) += state(space.cell_velocity());
   }
   VectorXd values(7);
-  for (int c = 0; c < 6; ++c) values(c) = reference.interpolate(at_nodes.col(c), xi(0), xi(1));
-  values(6) = reference.pressure_modes(xi(0), xi(1)).dot(local.tail(reference.pressures()));
+  for (int c = 0; c < 6; ++c) values(c) = reference.interpolate(at_nodes.col(c), Point(xi(0), xi(1)));
+  values(6) = reference.pressure_modes(Point(xi(0), xi(1))).dot(local.tail(reference.pressures()));
   return values;
 }
 

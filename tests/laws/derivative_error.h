@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "laws/fields.h"
+
 namespace rheocyte::test {
 
 /// Step of the central differences: their error is h^2/6 times third derivatives of order 10 plus rounding 1e-16/h,
@@ -33,6 +35,28 @@ double derivative_error(const Law& law, const std::array<double, N>& at) {
     }
   }
   return error / largest;
+}
+
+template <class T>
+const T& last(const T& number) {
+  return number;
+}
+template <class T>
+const T& last(const Input&, const T& number) {
+  return number;
+}
+
+/// A form from fields to fluxes as a function of arrays of their numbers; `Fields<T>` are those of the form.
+template <template <class> class Fields, class Form>
+auto numberwise(const Form& form) {
+  return [form](const auto& numbers) {
+    using T = std::decay_t<decltype(numbers[0])>;
+    auto flux = form(read_fields<Fields<T>>([&](int i) { return numbers[i]; }));
+    std::array<T, decltype(flux)::count> result;
+    int k = 0;
+    flux.visit([&](const auto&... number) { result[k++] = last(number...); });
+    return result;
+  };
 }
 
 /// A law from tensor to tensor as a function of arrays of its nine entries.

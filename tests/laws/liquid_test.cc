@@ -1,8 +1,7 @@
-#include "laws/liquid.h"
-
 #include <gtest/gtest.h>
 
 #include "derivative_error.h"
+#include "laws/developed_flow.h"
 #include "random_states.h"
 
 namespace rheocyte {
@@ -19,10 +18,21 @@ constexpr std::array exponents = {0.4, 0.6039, 1.0, 1.5};
 Liquid newtonian() { return {}; }
 Liquid power_law(double n) { return {LiquidLaw::power_law, n, 0, 0}; }
 
+/// With plateaus of 3 and 0.2 and thinning from the rate 0.5 on, in units of the rate 1.
+Liquid carreau(double n, double a) {
+  Liquid liquid{LiquidLaw::carreau, n};
+  liquid.viscosity = 3;
+  liquid.infinite_viscosity = 0.2;
+  liquid.relaxation_time = 2;
+  liquid.yasuda_exponent = a;
+  return in_units_of_rate(liquid, 1);
+}
+
 std::vector<Liquid> all_liquids() {
   std::vector<Liquid> liquids = {newtonian()};
   for (const double n : exponents) liquids.push_back(power_law(n));
   liquids.push_back({LiquidLaw::power_law, 0.6, 0.1, 0});
+  for (const double a : {0.8, 2.0, 4.0}) liquids.push_back(carreau(0.4, a));
   return liquids;
 }
 
@@ -104,8 +114,8 @@ TEST(Liquid, InertiaIsTheConvectiveAcceleration) {
   }
 }
 
-double flow_rate(const Liquid& liquid) {
-  constexpr int intervals = 2000;  // Simpson's rule
+/// By Simpson's rule.
+double flow_rate(const Liquid& liquid, int intervals = 2000) {
   double sum = 0;
   for (int i = 0; i <= intervals; ++i) {
     const double r = double(i) / intervals, weight = i == 0 || i == intervals ? 1 : i % 2 ? 4 : 2;
@@ -138,6 +148,75 @@ TEST(Liquid, TheUndisturbedPressureBalancesTheShearStressAtEveryRadius) {
       EXPECT_NEAR(viscous_stress(liquid, L)(0, 1) / expected, 1, 1e-8) << n << ' ' << r;
     }
   }
+}
+
+TEST(Liquid, PressureGradientAndMeanSpeedAreInverse) {
+  // In any units, for each exponent; Newtonian: 8 eta u.
+  for (const double n : exponents) {
+    Liquid liquid = power_law(n);
+    liquid.viscosity = 0.4;
+    for (const double speed : {1e-3, 1.0, 250.0})
+      EXPECT_NEAR(undisturbed_mean_speed(liquid, undisturbed_pressure_gradient(liquid, speed)) / speed, 1, rounding);
+  }
+  EXPECT_DOUBLE_EQ(undisturbed_pressure_gradient(newtonian(), 3), 24);
+}
+
+TEST(Liquid, TheWayFromTheNewtonianLiquidHasItsEndsThere) {
+  // At share 0 the viscosity is 1 everywhere, at share 1 it is the liquid itself.
+  const Liquid liquid{LiquidLaw::power_law, 0.6, 0.1, 0.3};
+  for (const double rate : {0.0, 0.7, 20.0}) EXPECT_EQ(viscosity(at_thinning(liquid, 0), rate * rate), 1);
+  EXPECT_EQ(at_thinning(liquid, 1), liquid);
+  EXPECT_DOUBLE_EQ(thinning(at_thinning(liquid, 0.25)), 0.25 * thinning(liquid));
+}
+
+TEST(Liquid, CarreauIsNewtonianWithoutThinningAndAPowerLawFarBeyondIt) {
+  // n = 1 or lambda = 0: the viscosity is 1 at every rate; lambda gdot = 1e6: (gdot)^(n-1), and its flow.
+  Liquid level = carreau(1, 2), slow = carreau(0.6, 2), thin = carreau(0.6, 2);
+  slow.relaxation_time = thin.infinite_viscosity = 0;
+  thin.relaxation_time = 1e6;
+  slow = in_units_of_rate(slow, 1);
+  thin = in_units_of_rate(thin, 1);
+  for (const double rate : {0.1, 1.0, 30.0}) {
+    EXPECT_NEAR(viscosity(level, rate * rate), 1, rounding);
+    EXPECT_NEAR(viscosity(slow, rate * rate), 1, rounding);
+    EXPECT_NEAR(viscosity(thin, rate * rate) / std::pow(rate, 0.6 - 1), 1, 1e-9);  // (lambda gdot)^-2 at 0.1
+  }
+  EXPECT_NEAR(undisturbed_pressure_gradient(level), 8, 8 * rounding);
+  EXPECT_NEAR(undisturbed_pressure_gradient(slow), 8, 8 * rounding);
+  const double power = undisturbed_pressure_gradient(power_law(0.6));
+  EXPECT_NEAR(undisturbed_pressure_gradient(thin) / power, 1, 1e-9);
+  EXPECT_NEAR(undisturbed_velocity(thin, 0.7), undisturbed_velocity(power_law(0.6), 0.7), 1e-9);
+}
+
+TEST(Liquid, TheFlowOfALawWithoutClosedFormIsThatOfItsStress) {
+  // The shear stress is linear in r, the velocity's slope gives it back, and the mean speed is 1.
+  constexpr double h = 1e-4;
+  for (const double a : {0.8, 2.0, 4.0}) {
+    for (const double n : {0.1, 0.4, 0.8, 1.3}) {
+      const Liquid liquid = carreau(n, a);
+      EXPECT_NEAR(flow_rate(liquid, 400), 1, 1e-8) << n << ' ' << a;  // near the axis
+      EXPECT_EQ(undisturbed_velocity(liquid, 1), 0);
+      const double gradient = undisturbed_pressure_gradient(liquid);
+      EXPECT_NEAR(undisturbed_mean_speed(liquid, gradient), 1, 10 * rounding);
+      for (const double r : {0.2, 0.5, 0.9}) {
+        const auto u = [&](double at) { return undisturbed_velocity(liquid, at); };
+        const double rate = (8 * (u(r - h) - u(r + h)) - (u(r - 2 * h) - u(r + 2 * h))) / (12 * h);
+        EXPECT_NEAR(viscosity(liquid, rate * rate) * rate / (gradient * r / 2), 1, 1e-9) << n << ' ' << a << ' ' << r;
+      }
+    }
+  }
+}
+
+TEST(Liquid, UnitsOfTheRateDoNotChangeTheLiquid) {
+  // Stress at a rate and pressure gradient, in the units of another rate.
+  const Liquid liquid = carreau(0.4, 2);
+  constexpr double unit = 7.3;
+  const Liquid other = in_units_of_rate(liquid, unit);
+  const double stress = stress_at_rate(liquid, unit);
+  EXPECT_NEAR(stress_at_rate(other, 1), 1, rounding);
+  EXPECT_NEAR(stress_at_rate(other, 2) * stress / stress_at_rate(liquid, 2 * unit), 1, rounding);
+  const double gradient = undisturbed_pressure_gradient(liquid, unit);
+  EXPECT_NEAR(undisturbed_pressure_gradient(other) * stress / gradient, 1, 10 * rounding);
 }
 
 }  // namespace

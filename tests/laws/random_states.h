@@ -47,15 +47,15 @@ class RandomStates {
   }
 
   /// d(x, r)/d(xi) of an element that is not folded.
-  Plane<double> element_map() {
-    Plane<double> G;
+  Slopes<double, 2> element_map() {
+    Slopes<double, 2> G;
     G << number(0.5, 1.5), number(-0.3, 0.3), number(-0.3, 0.3), number(0.5, 1.5);
     return G;
   }
 
-  Place<double> place() {
-    const Plane<double> G = element_map();
-    return {G, number(0.2, 1)};
+  PointMap<double, 2> map() {
+    const Slopes<double, 2> G = element_map();
+    return PointMap<double, 2>({G, number(0.2, 1)});
   }
 
  private:

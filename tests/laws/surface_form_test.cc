@@ -22,7 +22,7 @@ double over_sphere(double radius, double x0, const Function& f) {
   double sum = 0;
   for (int i = 1; i < intervals; ++i) {  // everything vanishes at the poles
     const double t = M_PI * i / intervals, c = radius * std::cos(t), s = radius * std::sin(t);
-    sum += (i % 2 ? 4 : 2) * f(std::array{x0 + c, s, -s, c, -c, -s, 0.0}, t);
+    sum += (i % 2 ? 4 : 2) * f(SurfaceFields<double>{{x0 + c, s}, {-s, c}, {-c, -s}, 0}, t);
   }
   return sum * M_PI / (3 * intervals);
 }
@@ -31,8 +31,9 @@ TEST(SurfacePoint, ASphereHasItsVolumeAndTheFirstMomentOfItsCentre) {
   // Volume / (2 pi) = 2/3 a^3, int x dV / (2 pi) = x0 of that.
   constexpr double a = 0.8, x0 = 0.3;
   const SurfacePoint form{{}, 0, {}};
-  EXPECT_NEAR(over_sphere(a, x0, [&](const auto& f, double) { return form(f)[6]; }), -2.0 / 3 * a * a * a, 1e-11);
-  EXPECT_NEAR(over_sphere(a, x0, [&](const auto& f, double) { return form(f)[7]; }), 2.0 / 3 * a * a * a * x0, 1e-11);
+  EXPECT_NEAR(over_sphere(a, x0, [&](const auto& f, double) { return form(f).volume; }), -2.0 / 3 * a * a * a, 1e-11);
+  EXPECT_NEAR(over_sphere(a, x0, [&](const auto& f, double) { return form(f).moment; }), 2.0 / 3 * a * a * a * x0,
+              1e-11);
 }
 
 TEST(SurfacePoint, ASphereUnderTensionIsHeldByThePressureOfLaplace) {
@@ -41,9 +42,10 @@ TEST(SurfacePoint, ASphereUnderTensionIsHeldByThePressureOfLaplace) {
   for (const double p : {0.0, excess}) {
     const SurfacePoint form{{CortexLaw::none, 0, gamma, 0}, 2 * gamma / a, {a, 1, 0}};
     const auto work = [&](auto f, double t) {  // test field: the unit normal, phi = (cos t, sin t)
-      f[6] = p;
+      f.p = p;
       const auto flux = form(f);
-      return flux[0] * std::cos(t) - flux[1] * std::sin(t) + flux[3] * std::sin(t) + flux[4] * std::cos(t);
+      const Components<double, 2> normal(std::cos(t), std::sin(t)), turned(-std::sin(t), std::cos(t));
+      return flux.value.dot(normal) + flux.slope.dot(turned);
     };
     EXPECT_NEAR(over_sphere(a, 0, work), -p * 2 * a * a, 1e-11);  // - p dV, dV / (2 pi) = 2 a^2
   }
@@ -54,13 +56,13 @@ TEST(SurfacePoint, BendingNeitherMovesNorSwellsASphere) {
   const SurfacePoint form{{CortexLaw::none, 0, 0, 4}, 0, {0.8, 1, 0}};
   const auto inflate = [&](const auto& f, double t) {
     const auto flux = form(f);
-    return -flux[1] * std::sin(t) - flux[2] * std::cos(t) + flux[3] * std::sin(t) + flux[4] * std::cos(t) -
-           flux[5] * std::sin(t);
+    const Components<double, 2> normal(std::cos(t), std::sin(t)), turned(-std::sin(t), std::cos(t));
+    return flux.value.dot(normal) + flux.slope.dot(turned) - flux.second.dot(normal);
   };
   EXPECT_NEAR(over_sphere(0.8, 0, inflate), 0, 1e-11);
   for (const double radius : {0.5, 2.0}) {
     const double energy = over_sphere(radius, 0, [&](const auto& f, double) {
-      const Meridian<double> m{f[2], f[3], f[4], f[5], f[1]};
+      const Meridian<double> m = f.meridian();
       return bending_energy({CortexLaw::none, 0, 0, 4}, m.curvatures()[0] + m.curvatures()[1]) * m.r * m.speed();
     });
     EXPECT_NEAR(2 * M_PI * energy, 2 * M_PI * 4, 1e-10);
@@ -76,7 +78,7 @@ TEST(SurfacePoint, ItsDerivativesAreExact) {
                                      random.number(-0.5, 0.5), random.number(-1, 1),  random.number(-1, 1),
                                      random.number(-1, 1)};
     // Second derivatives of the curvature: larger higher ones than elsewhere.
-    EXPECT_LT(derivative_error(form, f), 10 * test::derivative_tolerance);
+    EXPECT_LT(derivative_error(test::numberwise<SurfaceFields>(form), f), 10 * test::derivative_tolerance);
   }
 }
 

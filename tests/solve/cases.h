@@ -33,4 +33,13 @@ inline Problem in_power_law_liquid(Problem problem) {
   return problem;
 }
 
+/// The same cell in a liquid of Carreau and Yasuda that thins tenfold round the mean shear rate.
+inline Problem in_carreau_liquid(Problem problem, double exponent = 0.5) {
+  Liquid liquid{LiquidLaw::carreau, exponent};
+  liquid.infinite_viscosity = 0.1;
+  liquid.relaxation_time = 1;
+  problem.liquid = in_units_of_rate(liquid, 1);
+  return problem;
+}
+
 }  // namespace rheocyte::test

@@ -30,7 +30,7 @@ ShapeMeasures shape(const TimeStepper& stepper) { return measure(contour(stepper
 /// Flow rate in the laboratory through the outlet, in pi R^2 U.
 double outflow(const TimeStepper& stepper) {
   const Discretisation& space = stepper.space();
-  const ReferenceElement& reference = space.reference();
+  const ReferenceElement<2>& reference = space.reference();
   const MatrixXd value = reference.lagrange(reference.points_1d);
   const VectorXd& x = stepper.now().unknowns;
   double rate = 0;

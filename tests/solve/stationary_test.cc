@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "cases.h"
+#include "fem/observe.h"
+#include "solve/continuation.h"
 
 namespace rheocyte {
 namespace {
@@ -66,7 +68,7 @@ TEST(Stationary, AGivenPressureDropIsThatOfTheFlowRateThatItDrives) {
   driven.channel_length = 12;
   const StationaryState one = solve_stationary(driven);
   ASSERT_EQ(one.outcome.status, Status::converged);
-  const double q = one.flow_rate, drop = undisturbed_pressure_gradient(1) * driven.channel_length;
+  const double q = one.flow_rate, drop = 8 * driven.channel_length;
   EXPECT_LT(q, 0.995);
   EXPECT_GT(q, 0.9);
   EXPECT_NEAR(one.pressure_drop / drop, 1, 1e-8);
@@ -102,6 +104,34 @@ TEST(Stationary, ANewtonianLiquidIsThePowerLawOfExponentOne) {
   // Newton's tolerance of 1e-10.
   EXPECT_NEAR(other.shape.deformation / one.shape.deformation, 1, 1e-8);
   EXPECT_NEAR(other.cell_velocity, one.cell_velocity, 1e-9);
+}
+
+TEST(Stationary, ACarreauLiquidWithoutThinningIsNewtonian) {
+  // n = 1, whatever the other numbers.
+  const Problem newtonian = test::problem({6, 4.58, 1});
+  const StationaryState one = solve_stationary(newtonian);
+  const StationaryState other = solve_stationary(test::in_carreau_liquid(newtonian, 1));
+  EXPECT_NEAR(other.shape.deformation / one.shape.deformation, 1, 1e-8);  // Newton's tolerance of 1e-10
+  EXPECT_NEAR(other.cell_velocity, one.cell_velocity, 1e-9);
+}
+
+TEST(Stationary, InACarreauLiquidTheDeformationConvergesWithTheDegree) {
+  // On one mesh; the law is smooth, so that every two degrees give more than a decimal.
+  const Problem problem = test::in_carreau_liquid(test::problem({6, 4.58, 0}));
+  const auto deformation = [&](int degree) {
+    Discrete discrete(problem, {{2, 4, 1, 2}, degree});
+    const ContinuationReport first = start_branch(discrete.system, problem, {});
+    const auto report = continue_branch(stiffness_path(discrete.system, problem), {}, first.last);
+    EXPECT_EQ(report.status, Status::converged);
+    return measure(contour(discrete.space, report.last.unknowns)).deformation;
+  };
+  const double exact = deformation(10);
+  double before = std::abs(deformation(4) / exact - 1);
+  for (const int degree : {6, 8}) {
+    const double error = std::abs(deformation(degree) / exact - 1);
+    EXPECT_LT(error, std::max(0.1 * before, 1e-8)) << degree;
+    before = error;
+  }
 }
 
 TEST(Stationary, ProgressSeesEveryPointOfTheBranch) {
