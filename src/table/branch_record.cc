@@ -17,7 +17,7 @@ std::vector<std::string> measure_names() {
   return names;
 }
 
-constexpr RecordKind kind{"rheocyte branch", "1", "record of a branch", "delete it, and it is computed again"};
+constexpr RecordKind kind{"rheocyte branch", "2", "record of a branch", "delete it, and it is computed again"};
 
 json blob_of_all(const std::vector<Eigen::MatrixX2d>& contours) {
   std::vector<double> all;

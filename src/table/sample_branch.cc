@@ -374,10 +374,13 @@ SampledBranch sample_branch(const TableSpec& spec, const BranchPlace& place, con
   return BranchSampler(spec, place, stop).from_sphere();
 }
 
+bool can_be_held(const TableSpec& spec, const SampledBranch& own) {
+  return spec.bending_beyond_kBT > 0 && !own.empty() && own.end.status == name(Status::surface_unstable);
+}
+
 SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own, const std::atomic<bool>* stop) {
   constexpr double overlap = 1.25;  // of the stiffness
-  const bool ended_by_surface = own.end.status == name(Status::surface_unstable);
-  if (spec.bending_beyond_kBT <= 0 || own.empty() || !ended_by_surface) return {};
+  if (!can_be_held(spec, own)) return {};
   TableSpec held = spec;
   held.base.cell.cortex.bending_kBT = spec.bending_beyond_kBT;
   const double stiffness = std::min(overlap * own.stiffness.back(), own.stiffness.front());

@@ -5,6 +5,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <cmath>
 #include <fstream>
@@ -73,7 +75,14 @@ Claim::~Claim() {
 }
 
 TableFolder::TableFolder(const fs::path& folder, const TableSpec& spec)
-    : folder_(folder), spec_(spec), hash_(spec_hash(spec)), places_(sweep_places(spec)) {
+    : folder_(folder),
+      spec_(spec),
+      hash_(spec_hash(spec)),
+      places_(sweep_places(spec)),
+      plan_(spec, [this](const BranchTask& task) -> RadiusPlan::Branch {
+        if (!has(task.place, task.held)) return nullptr;
+        return std::make_shared<SampledBranch>(read(task.place, task.held));
+      }) {
   mark_ = fmt::format("rheocyte {} table, spec {}, branches {}\n", version, hash_, fingerprint(layout()));
   begin();
 }
@@ -141,22 +150,28 @@ bool TableFolder::has(int i, bool held) const {
   return fs::exists(record(i, held), error);
 }
 
-bool TableFolder::is_done(int i) const { return has(i, false) && (!wants_held() || has(i, true)); }
+bool TableFolder::update_plan() const {
+  const auto is_there = [this](const BranchTask& task) { return has(task.place, task.held); };
+  const auto& missing = plan_.missing();
+  return missing.empty() || std::ranges::any_of(missing, is_there) ? plan_.update() : false;
+}
 
 int TableFolder::done() const {
+  const std::lock_guard lock(plan_mutex_);
+  if (update_plan()) return branches();
   int count = 0;
-  for (int i = 0; i < branches(); ++i) count += is_done(i);
-  return count;
+  for (int i = 0; i < branches(); ++i) count += plan_.branch({i, false}) && (!wants_held() || plan_.branch({i, true}));
+  return std::min(count, branches() - 1);
+}
+
+std::vector<BranchTask> TableFolder::missing() const {
+  const std::lock_guard lock(plan_mutex_);
+  update_plan();
+  return plan_.missing();
 }
 
 Claim TableFolder::claim(int i) const {
   return claim_on(folder_ / work / fmt::format("branch-{:04}.claim", i), LOCK_EX | LOCK_NB);
-}
-
-std::optional<int> TableFolder::first_free() const {
-  for (int i = 0; i < branches(); ++i)
-    if (!is_done(i) && claim(i) && !is_done(i)) return i;
-  return {};
 }
 
 void TableFolder::keep(int i, const SampledBranch& branch, bool held) const {
@@ -170,11 +185,20 @@ SampledBranch TableFolder::read(int i, bool held) const {
   return branch;
 }
 
+SampledBranch TableFolder::branch(int i, bool held) const {
+  const std::lock_guard lock(plan_mutex_);
+  const auto branch = plan_.branch({i, held});
+  assert(branch);
+  return *branch;
+}
+
 std::vector<SampledBranch> TableFolder::read_all() const {
+  if (const auto lacking = missing(); !lacking.empty())
+    return read(lacking.front().place, lacking.front().held), std::vector<SampledBranch>();
   std::vector<SampledBranch> all;
   for (int i = 0; i < branches(); ++i) {
-    all.push_back(read(i, false));
-    if (wants_held()) all.push_back(read(i, true));
+    all.push_back(branch(i, false));
+    if (wants_held()) all.push_back(branch(i, true));
   }
   return all;
 }

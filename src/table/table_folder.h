@@ -2,11 +2,11 @@
 // that takes part, on this machine or another, must want the same records; the folder's mark says which ones.
 #pragma once
 #include <filesystem>
-#include <optional>
+#include <mutex>
 #include <string>
 #include <vector>
 
-#include "table/branch.h"
+#include "table/radius_plan.h"
 #include "table/table_spec.h"
 
 namespace rheocyte {
@@ -35,6 +35,7 @@ class TableFolder {
   const TableSpec& spec() const { return spec_; }
   const std::filesystem::path& path() const { return folder_; }
 
+  /// Of the table; not all of them are computed (radius_plan.h).
   int branches() const { return int(places_.size()); }
   const BranchPlace& place(int i) const { return places_[i]; }
   /// Whether the branches beyond the ends of the bare ones are wanted, too.
@@ -44,20 +45,21 @@ class TableFolder {
   /// many there are; otherwise programs that want other records are refused from now on.
   void take_over() const;
 
-  bool is_done(int i) const;
+  /// Branches that are computed, or lie between computed ones.
   int done() const;
+  /// Branches that are to be computed and have no record, as far as that is known; none once the table is complete.
+  std::vector<BranchTask> missing() const;
   /// Nothing while another process holds it. UserError if the file system knows no locks.
   Claim claim(int i) const;
-  /// The first branch that is missing while no process holds it.
-  std::optional<int> first_free() const;
-  /// The file that branch i still lacks.
-  std::filesystem::path missing_record(int i) const { return record(i, has(i, false)); }
   /// Writes the record whole or not at all.
   void keep(int i, const SampledBranch&, bool held) const;
   bool has(int i, bool held) const;
   /// UserError naming the file if it is damaged or holds another cell than that of the place.
   SampledBranch read(int i, bool held) const;
-  /// All records, in the order of the places. UserError naming the file if one is damaged.
+  /// Computed or interpolated; only once that is known (asserted).
+  SampledBranch branch(int i, bool held) const;
+  /// All branches of a complete table, in the order of the places. UserError naming the file if a record is damaged or
+  /// missing.
   std::vector<SampledBranch> read_all() const;
   /// Removes what claims and interrupted writes have left.
   void tidy() const;
@@ -69,12 +71,15 @@ class TableFolder {
   std::string layout() const;
   bool is_begun() const;
   void begin() const;
+  bool update_plan() const;
 
   std::filesystem::path folder_;
   TableSpec spec_;
   std::string hash_;
   std::vector<BranchPlace> places_;
   std::string mark_;  ///< what the mark says of a folder that this program has begun
+  mutable std::mutex plan_mutex_;
+  mutable RadiusPlan plan_;
 };
 
 }  // namespace rheocyte

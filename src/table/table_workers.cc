@@ -82,27 +82,22 @@ class Workers {
 
   /// False if all that are missing are somebody else's.
   bool take_a_branch() {
-    for (int i = 0; i < folder_.branches() && !stop_; ++i) {
-      if (folder_.is_done(i)) continue;
-      const Claim claim = folder_.claim(i);
-      if (!claim || folder_.is_done(i)) continue;  // somebody else works on it, or has just finished it
-      sample_place(i);
+    for (const BranchTask& task : folder_.missing()) {
+      if (stop_) break;
+      const Claim claim = folder_.claim(task.place);
+      if (!claim || folder_.has(task.place, task.held)) continue;  // somebody else works on it, or has just finished it
+      sample(task);
       changed_.notify_all();
       return true;
     }
     return false;
   }
 
-  void sample_place(int i) {
-    if (!folder_.has(i, false)) {
-      const SampledBranch own = sample_branch(folder_.spec(), folder_.place(i), &stop_);
-      if (is_stopped(own)) return;
-      folder_.keep(i, own, false);
-    }
-    if (!folder_.wants_held() || folder_.has(i, true)) return;
-    // Read back: an interrupted table goes on from the record, and its bytes must not depend on that.
-    const SampledBranch held = sample_held_branch(folder_.spec(), folder_.read(i, false), &stop_);
-    if (!is_stopped(held)) folder_.keep(i, held, true);
+  void sample(const BranchTask& task) {
+    const TableSpec& spec = folder_.spec();
+    const SampledBranch branch = task.held ? sample_held_branch(spec, folder_.branch(task.place, false), &stop_)
+                                           : sample_branch(spec, folder_.place(task.place), &stop_);
+    if (!is_stopped(branch)) folder_.keep(task.place, branch, task.held);
   }
 
   void idle() {

@@ -15,7 +15,7 @@ class TableOfSeveralBuilds : public TableCommand {
   void make_foreign(const fs::path& record) const {
     std::string bytes = content_of(record);
     const auto format = bytes.find("format") + 7;  // behind the name and the length of the text
-    ASSERT_EQ(bytes.at(format), '1');
+    ASSERT_EQ(bytes.at(format), '2');
     bytes[format] = '0';
     write_file(record, bytes);
   }
@@ -35,7 +35,7 @@ TEST_F(TableOfSeveralBuilds, RecordsOfAnotherFormatAreNamedBeforeAnythingIsCompu
   const Ended ended = make(table("t"));
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-  for (const std::string words : {"radius-0001.cbor", "in format \"0\" and not 1", "There are 2 of that kind"})
+  for (const std::string words : {"radius-0001.cbor", "in format \"0\" and not 2", "There are 2 of that kind"})
     EXPECT_NE(ended.err.find(words), std::string::npos) << ended.err;
   EXPECT_FALSE(fs::exists(records / "radius-0000.cbor"));
   fs::remove(records / "radius-0001.cbor");

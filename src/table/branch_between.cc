@@ -1,0 +1,203 @@
+#include "table/branch_between.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+
+#include "table/radius_branches.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Eigen::VectorXd;
+using Branches = std::span<const SampledBranch* const>;
+
+constexpr double small_height = 1e-4;  // step of differences along a branch
+
+bool is_logarithmic(int measure) {
+  return measure == int(Measure::deformation) || measure == int(Measure::deformation_raw);
+}
+
+double first_of(const SampledBranch& branch, Measure m) { return branch.at(0, m); }
+double last_of(const SampledBranch& branch, Measure m) { return branch.at(branch.samples() - 1, m); }
+
+/// Weights of the values at some places for the value of their polynomial at another.
+std::vector<double> lagrange_weights(const std::vector<double>& places, double at) {
+  std::vector<double> weights(places.size(), 1);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (k != i) weights[i] *= (at - places[k]) / (places[i] - places[k]);
+  return weights;
+}
+
+/// Weights of the polynomial of two degrees less, on the branches in the middle; zero for the others.
+std::vector<double> inner_weights(const std::vector<double>& places, double at) {
+  if (places.size() < 4) return std::vector<double>(places.size(), 1.0 / double(places.size()));
+  auto weights = lagrange_weights({places.begin() + 1, places.end() - 1}, at);
+  weights.insert(weights.begin(), 0);
+  weights.push_back(0);
+  return weights;
+}
+
+/// ln(deformation) from which and up to which a branch takes part.
+struct Heights {
+  double first, last;
+  double at(double share) const { return (1 - share) * first + share * last; }
+  double share(double height) const { return (height - first) / (last - first); }
+};
+
+std::vector<Heights> heights_of(const TableSpec& spec, Branches near) {
+  const std::string family = family_of(spec, *near.front());
+  double first = -HUGE_VAL, last = HUGE_VAL, area = HUGE_VAL;
+  for (const auto* branch : near) {
+    first = std::max(first, first_of(*branch, Measure::deformation));
+    last = std::min(last, last_of(*branch, Measure::deformation));
+    area = std::min(area, last_of(*branch, Measure::area_um2));
+  }
+  std::vector<Heights> heights;
+  for (const auto* branch : near) {
+    const bool is_own = branch->bending_kBT == 0;
+    const auto end = [&] {
+      if (family == "deformation") return last;
+      if (family != "area") return last_of(*branch, Measure::deformation);
+      return interpolate(*branch, Measure::deformation, stiffness_at(*branch, Measure::area_um2, area));
+    };
+    heights.push_back({std::log(is_own ? first : first_of(*branch, Measure::deformation)), std::log(end())});
+  }
+  return heights;
+}
+
+/// Everything that is interpolated, of the state of a branch at a height: ln(stiffness), measures, contour.
+VectorXd state_at(const SampledBranch& branch, double height) {
+  const double d = std::clamp(std::exp(height), first_of(branch, Measure::deformation),
+                              std::max(last_of(branch, Measure::deformation), first_of(branch, Measure::deformation)));
+  const double stiffness = stiffness_at(branch, Measure::deformation, d);
+  if (!std::isfinite(stiffness)) return {};
+  const Eigen::MatrixX2d contour = interpolate_contour(branch, stiffness);
+  VectorXd state(1 + measure_count + contour.size());
+  state << std::log(stiffness), interpolate(branch, stiffness), contour.reshaped();
+  for (int m = 0; m < measure_count; ++m)
+    if (is_logarithmic(m)) state(1 + m) = std::log(state(1 + m));
+  return state;
+}
+
+/// The shares of the samples of a branch, and those in their middles.
+std::vector<double> shares_of(const SampledBranch& branch, const Heights& heights) {
+  std::vector<double> samples{0}, shares;
+  for (int i = 0; i < branch.samples(); ++i) {
+    const double share = heights.share(std::log(branch.at(i, Measure::deformation)));
+    if (share > samples.back() + 1e-3 && share < 1 - 1e-3) samples.push_back(share);
+  }
+  samples.push_back(1);
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    shares.push_back(samples[i]);
+    shares.push_back((samples[i] + samples[i + 1]) / 2);
+  }
+  shares.push_back(1);
+  return shares;
+}
+
+/// Branches on their way to the one between them.
+class Between {
+ public:
+  Between(const TableSpec& spec, Branches near, double radius_um) : near_(near), heights_(heights_of(spec, near)) {
+    std::vector<double> places;
+    for (const auto* branch : near) places.push_back(std::log(branch->radius_um));
+    weights_ = lagrange_weights(places, std::log(radius_um));
+    inner_weights_ = inner_weights(places, std::log(radius_um));
+    branch_.radius_um = radius_um;
+    branch_.bending_kBT = near.front()->bending_kBT;
+  }
+
+  SampledBranch branch() && {
+    const auto by_distance = [&](const SampledBranch* b) { return std::abs(b->radius_um - branch_.radius_um); };
+    const auto nearest = std::ranges::min_element(near_, {}, by_distance) - near_.begin();
+    const auto shares = shares_of(*near_[std::size_t(nearest)], heights_[std::size_t(nearest)]);
+    const int n = int(shares.size());
+    branch_.value.resize(n, measure_count);
+    branch_.slope.resize(n, measure_count);
+    for (int i = 0; i < n; ++i)
+      if (!add(i, shares[std::size_t(i)])) return {};
+    branch_.end = near_[std::size_t(nearest)]->end;
+    return std::move(branch_);
+  }
+
+ private:
+  /// By polynomials across the branches; empty if one of them has no such state.
+  VectorXd state(double share, const std::vector<double>& weights) const {
+    VectorXd sum;
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      const VectorXd one = state_at(*near_[k], heights_[k].at(share));
+      if (one.size() == 0) return {};
+      if (k == 0) sum.setZero(one.size());
+      sum += weights[k] * one;
+    }
+    return sum;
+  }
+
+  bool add(int i, double share) {
+    const double low = std::max(share - small_height, 0.0), high = std::min(share + small_height, 1.0);
+    const VectorXd here = state(share, weights_), below = state(low, weights_), above = state(high, weights_),
+                   inner = state(share, inner_weights_);
+    if (here.size() == 0 || below.size() == 0 || above.size() == 0) return false;
+    const VectorXd slope = (above - below) / (above(0) - below(0));  // d/d ln(stiffness)
+    if (!slope.allFinite()) return false;
+    if (i > 0 && !(std::exp(here(0)) < branch_.stiffness.back())) return false;
+    branch_.stiffness.push_back(std::exp(here(0)));
+    for (int m = 0; m < measure_count; ++m) {
+      const double value = is_logarithmic(m) ? std::exp(here(1 + m)) : here(1 + m);
+      branch_.value(i, m) = value;
+      branch_.slope(i, m) = is_logarithmic(m) ? value * slope(1 + m) : slope(1 + m);
+    }
+    const Eigen::Index points = (here.size() - 1 - measure_count) / 2;
+    branch_.contour.push_back(here.tail(2 * points).reshaped(points, 2));
+    branch_.contour_slope.push_back(slope.tail(2 * points).reshaped(points, 2));
+    branch_.error.push_back(error_at(share) + std::abs((here(0) - inner(0)) * slope(1 + int(Measure::deformation))));
+    return true;
+  }
+
+  /// Of the states that are interpolated.
+  double error_at(double share) const {
+    double error = 0;
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      if (weights_[k] < 0.5 / double(near_.size())) continue;  // the nearest ones
+      const VectorXd one = state_at(*near_[k], heights_[k].at(share));
+      error = std::max(error, point_at(*near_[k], std::exp(one(0))).error);
+    }
+    return error;
+  }
+
+  Branches near_;
+  std::vector<Heights> heights_;
+  std::vector<double> weights_, inner_weights_;
+  SampledBranch branch_;
+};
+
+}  // namespace
+
+std::string family_of(const TableSpec& spec, const SampledBranch& branch) {
+  if (branch.empty()) return "empty";
+  if (branch.end.status != "covered") return branch.end.status;
+  return last_of(branch, Measure::deformation) > spec.greatest_deformation ? "deformation" : "area";
+}
+
+SampledBranch branch_between(const TableSpec& spec, Branches near, double radius_um) {
+  assert(near.size() >= 2);
+  return Between(spec, near, radius_um).branch();
+}
+
+BranchDifference difference(const SampledBranch& predicted, const SampledBranch& computed) {
+  BranchDifference off;
+  if (predicted.empty() || computed.empty()) return {HUGE_VAL, HUGE_VAL};
+  for (int i = 0; i < computed.samples(); ++i) {
+    const double stiffness = stiffness_at(predicted, Measure::deformation, computed.at(i, Measure::deformation));
+    if (std::isfinite(stiffness))
+      off.stiffness = std::max(off.stiffness, std::abs(stiffness / computed.stiffness[std::size_t(i)] - 1));
+  }
+  off.end = std::abs(last_of(predicted, Measure::deformation) / last_of(computed, Measure::deformation) - 1);
+  return off;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,100 @@
+#include "table/radius_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "table/sample_branch.h"
+
+namespace rheocyte {
+
+namespace {
+
+/// Between equal distances and those of Chebyshev's polynomials: at both ends there are neighbours on one side only.
+std::vector<int> first_places(int count) {
+  constexpr int intervals = 16;
+  std::set<int> places;
+  for (int k = 0; k <= intervals; ++k) {
+    const double even = static_cast<double>(k) / intervals, dense = (1 - std::cos(std::numbers::pi * even)) / 2;
+    places.insert(static_cast<int>(std::lround((count - 1) * (even + dense) / 2)));
+  }
+  return {places.begin(), places.end()};
+}
+
+}  // namespace
+
+RadiusPlan::RadiusPlan(const TableSpec& spec, Records records)
+    : spec_(spec), places_(sweep_places(spec)), records_(std::move(records)) {}
+
+RadiusPlan::Branch RadiusPlan::branch(const BranchTask& task) const {
+  const auto found = known_.find(task);
+  return found == known_.end() ? nullptr : found->second;
+}
+
+bool RadiusPlan::update() {
+  if (complete_) return true;
+  missing_.clear();
+  const bool own = settle(false), held = spec_.bending_beyond_kBT <= 0 || settle(true);
+  return complete_ = own && held;
+}
+
+bool RadiusPlan::settle(bool held) {
+  Nodes nodes;
+  for (auto places = places_at_first(); !places.empty(); places = next_places(nodes, held))
+    if (!find(places, held, nodes)) return false;
+  return true;
+}
+
+std::vector<int> RadiusPlan::places_at_first() const {
+  const int count = static_cast<int>(places_.size());
+  if (!spec_.is_combined()) return first_places(count);
+  std::vector<int> all(places_.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+bool RadiusPlan::find(const std::vector<int>& places, bool held, Nodes& nodes) {
+  bool has_all = true;
+  for (const int place : places) {
+    const BranchTask task{place, held};
+    const Branch own = held ? branch({place, false}) : nullptr;
+    Branch found = branch(task);
+    if (!found && own && !can_be_held(spec_, *own)) found = std::make_shared<SampledBranch>();
+    if (!found) found = records_(task);
+    if (found)
+      nodes[place] = known_[task] = found;
+    else if (has_all = false; own || !held)
+      missing_.push_back(task);
+  }
+  return has_all;
+}
+
+std::vector<int> RadiusPlan::next_places(const Nodes& nodes, bool held) {
+  std::vector<int> places;
+  std::map<BranchTask, Branch> between;
+  const BranchLine line(spec_, nodes);
+  for (std::size_t gap = 0; gap < line.gaps(); ++gap) {
+    const int first = line.place(gap) + 1, last = line.place(gap + 1) - 1;
+    if (first > last) continue;
+    if (!line.is_smooth(gap)) {
+      places.push_back((first + last) / 2);
+      continue;
+    }
+    for (int place = first; place <= last; ++place) {
+      const BranchTask task{place, held};
+      Branch branch = records_(task);
+      if (!branch) branch = line.between(gap, places_[static_cast<std::size_t>(place)].radius_um);
+      if (branch)
+        between[task] = branch;
+      else
+        places.push_back(place);
+    }
+  }
+  if (places.empty()) known_.merge(between);
+  return places;
+}
+
+}  // namespace rheocyte
