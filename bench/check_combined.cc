@@ -193,12 +193,11 @@ int rheocyte::measure(int argc, char** argv) {
   const std::filesystem::path name = argv[1];
   const TableFolder folder(name, read_table_spec(name / "spec.toml"));
   const CombinedInterpolation between(read_combined_table(name));
-  const FlowConditions conditions = conditions_of(folder.spec());
+  const ChannelFlow flow = channel_flow_of(folder.spec().base);
   if (argc == 2) return print_errors_of_pixels(between, RenderedErrors(between, pixel_um)), 0;
-  const double width = conditions.channel_width_um, rate = conditions.flow_rate_ul_s;
-  const CombinedShapes shapes(folder.spec(), folder.read_all(), {width, rate, conditions.viscosity_mPas, width, rate});
-  const SeveralModuli by_figure(between, conditions, {features_of_figure()}),
-      by_contour(between, conditions, {features_of_contour()});
+  const CombinedShapes shapes(folder.spec(), folder.read_all(), {flow, flow});
+  const SeveralModuli by_figure(between, flow, {features_of_figure()}),
+      by_contour(between, flow, {features_of_contour()});
   ShapeErrors fine;
   fine.covariance.diagonal().setConstant(1e-8);
   Tally exact_figure, exact_contour;
@@ -206,10 +205,10 @@ int rheocyte::measure(int argc, char** argv) {
   for (int i = 2; i < argc; ++i) {
     const SolvedCell cell = read_cell(argv[i]);
     if (!between.at(Comparison::place_of(cell, between)).inside) continue;
-    comparison.take(cell, between, shapes, conditions.viscosity_mPas);
+    comparison.take(cell, between, shapes, flow.viscosity_mPas);
     const ShapeVector shape = shape_vector(outline_shape(cell.outline));
-    exact_figure.take(by_figure.fit({shape, fine}, conditions), cell);
-    exact_contour.take(by_contour.fit({shape, fine}, conditions), cell);
+    exact_figure.take(by_figure.fit({shape, fine}, flow), cell);
+    exact_contour.take(by_contour.fit({shape, fine}, flow), cell);
   }
   fmt::print("{} cells inside the table, {} without an outline\ninterpolation: ln S {}; modes {}\n",
              comparison.stiffness.size(), comparison.missing, Tally::spread(comparison.stiffness),

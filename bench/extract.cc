@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "case/user_error.h"
-#include "infer/grid_modulus.h"
-#include "infer/modulus_parity.h"
+#include "infer/grid_map.h"
+#include "infer/published_map.h"
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/viscosity.h"
@@ -24,8 +24,9 @@ namespace rheocyte {
 namespace {
 
 constexpr std::size_t events = 1'000'000;
-std::unique_ptr<ParityModulus> table;
-std::unique_ptr<GridModulus> grid;
+PublishedTable published;
+std::unique_ptr<PublishedMap> table;
+std::unique_ptr<GridMap> grid;
 
 struct Events {
   std::vector<double> area, deformation, temperature;
@@ -36,7 +37,7 @@ Events uniform_in_hull() {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0, 1), degrees(22, 25);
   Events all;
-  const MeasuringConditions conditions{20, 0.06, 0};
+  const MeasuringConditions conditions{{20, 0.06}, 0};
   while (all.area.size() < events) {
     const double area = 340 * unit(random), deformation = 0.2 * unit(random), viscosity = 5;
     double modulus = NAN;
@@ -74,7 +75,7 @@ void moduli(benchmark::State& state, const Events& all) {
       const auto part = [&](const std::vector<double>& column) { return std::span(column).subspan(first, count); };
       const std::span<double> eta(viscosity.data(), count), result(modulus.data(), count);
       buffer.viscosity({20, 0.06}, part(all.temperature), eta);
-      table->moduli({20, 0.06, 0.34}, {part(all.area), part(all.deformation), eta}, result);
+      table->moduli({{20, 0.06}, 0.34}, {part(all.area), part(all.deformation), eta}, result);
       benchmark::DoNotOptimize(modulus.data());
     }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
@@ -102,7 +103,7 @@ void own_moduli(benchmark::State& state, const Events& all) {
       const auto part = [&](const std::vector<double>& column) { return std::span(column).subspan(first, count); };
       const std::span<double> eta(viscosity.data(), count);
       buffer.viscosity({20, 0.06}, part(all.temperature), eta);
-      grid->estimate({20, 0.06, 0.34}, {part(all.area), part(all.deformation), eta},
+      grid->estimate({{20, 0.06}, 0.34}, {part(all.area), part(all.deformation), eta},
                      {{modulus.data(), count}, {error.data(), count}, {states.data(), count}});
       benchmark::DoNotOptimize(modulus.data());
     }
@@ -129,7 +130,7 @@ void viscosities(benchmark::State& state) {
 
 void table_and_triangulation(benchmark::State& state) {
   for (auto _ : state) {
-    const ParityModulus again(table->table());
+    const PublishedMap again(published);
     benchmark::DoNotOptimize(&again);
   }
 }
@@ -178,10 +179,11 @@ BENCHMARK(features_from_masks)->Unit(benchmark::kMillisecond);
 int rheocyte::measure(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (argc != 3) throw UserError("usage: bench_extract TABLE GRID [options of Google Benchmark]");
-  table = std::make_unique<ParityModulus>(read_published_table(argv[1]));
+  published = read_published_table(argv[1]);
+  table = std::make_unique<PublishedMap>(published);
   std::ifstream file(argv[2], std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  grid = std::make_unique<GridModulus>(grid_from_bytes(bytes, argv[2]));
+  grid = std::make_unique<GridMap>(grid_from_bytes(bytes, argv[2]));
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -14,12 +14,11 @@
 
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
+#include "measurement/mask_from_outline.h"
 #include "program.h"
 #include "synth/branch_shapes.h"
 #include "synth/outline.h"
-#include "synth/pixel_picture.h"
 #include "table/table_folder.h"
-#include "table/table_metadata.h"
 
 namespace {
 
@@ -125,7 +124,7 @@ std::vector<Seen> look_at_shapes(const CellShapes& shapes, const TableSpec& spec
   while (static_cast<int>(all.size()) < count) {
     const auto radii = sweep_radii_um(spec);
     const double radius = radii.front() + unit(random) * (radii.back() - radii.front());
-    const auto shape = shapes.shape({radius, log_uniform(0.5, 100), effective_viscosity_mPas(spec.base)});
+    const auto shape = shapes.shape({radius, log_uniform(0.5, 100), channel_flow_of(spec.base).viscosity_mPas});
     const auto* const found = std::get_if<CellShape>(&shape);
     if (!found || found->deformation < least_deformation) continue;
     all.push_back(camera.look(*found, log_uniform(least_area_px, greatest_area_px), places));
@@ -154,11 +153,10 @@ Eigen::RowVector2d deviations(const Eigen::MatrixX2d& left) {
 int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("pixel_errors DIR [SHAPES [PLACES]]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
-  const double width = channel_width_um(spec.base), rate = spec.base.flow.rate_ul_per_s.value(),
-               viscosity = effective_viscosity_mPas(spec.base);
+  const ChannelFlow flow = channel_flow_of(spec.base);
   auto branches = TableFolder(argv[1], spec).read_all();
   std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
-  const BranchShapes shapes(std::move(branches), {width, rate, viscosity, width, rate, false});
+  const BranchShapes shapes(std::move(branches), {flow, flow, false});
   const int count = argc > 2 ? std::atoi(argv[2]) : 1500, places = argc > 3 ? std::atoi(argv[3]) : 300;
   const auto all = look_at_shapes(shapes, spec, count, places);
   const Law area(all, true, [](const Seen& s) { return std::expm1(s.log_ratio); });

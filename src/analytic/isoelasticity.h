@@ -1,4 +1,4 @@
-// Lines of equal stiffness in the plane of area and deformation, from the closed model for solid cells.
+// Isoelasticity lines over area and deformation, from the analytical model for solid cells.
 #pragma once
 #include <vector>
 
@@ -20,11 +20,8 @@ struct IsoelasticityPoint {
   double deformation = 0;  ///< of the convexified contour
 };
 
-/// Points of one line by growing radius.
-using IsoelasticityLine = std::vector<IsoelasticityPoint>;
-
-/// One line for each capillary number. A line that leaves the allowed deformations between two radii ends with a point
-/// at the greatest allowed one; a line whose first point is not allowed is empty.
-std::vector<IsoelasticityLine> isoelasticity_lines(const IsoelasticityGrid&);
+/// One line for each capillary number, its points by growing radius. A line that leaves the allowed deformations
+/// between two radii ends with a point at the greatest allowed one; a line whose first point is not allowed is empty.
+std::vector<std::vector<IsoelasticityPoint>> isoelasticity_lines(const IsoelasticityGrid&);
 
 }  // namespace rheocyte

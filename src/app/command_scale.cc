@@ -30,26 +30,26 @@ struct ScaleOptions {
   bool force = false, inexact = false;
 };
 
-ChannelConditions wanted_conditions(const ScaleOptions& options, const TableText& table) {
+ChannelFlow wanted_flow(const ScaleOptions& options, const TableText& table) {
   if (!options.channel_width_um && !options.flow_rate_ul_s && !options.viscosity_mPas)
     throw UserError("rheocyte: give at least one of --channel-width-um, --flow-rate-ul-s and --viscosity-mPas.");
-  const auto own = conditions_of(table);
-  return {options.channel_width_um.value_or(own.channel_width_um), options.flow_rate_ul_s.value_or(own.flow_rate_ul_s),
+  const auto own = channel_flow_of(table);
+  return {options.channel_width_um.value_or(own.width_um), options.flow_rate_ul_s.value_or(own.rate_ul_s),
           options.viscosity_mPas.value_or(own.viscosity_mPas)};
 }
 
 // Programs know a table by its name: a scaled one needs another.
-void rename(TableText& table, const ChannelConditions& to, const std::string& wanted) {
+void rename(TableText& table, const ChannelFlow& to, const std::string& wanted) {
   const char* key = table.metadata.contains(table_identifier_key) ? table_identifier_key : lines_identifier_key;
   const std::string own = table.metadata.at(key);
-  table.metadata[key] = !wanted.empty() ? wanted
-                                        : fmt::format("{}-{:g}um-{:g}uls-{:g}mPas", own, to.channel_width_um,
-                                                      to.flow_rate_ul_s, to.viscosity_mPas);
+  table.metadata[key] =
+      !wanted.empty() ? wanted
+                      : fmt::format("{}-{:g}um-{:g}uls-{:g}mPas", own, to.width_um, to.rate_ul_s, to.viscosity_mPas);
 }
 
 void run(const ScaleOptions& options) {
   const TableText table = read_table_text(options.table);
-  const auto to = wanted_conditions(options, table);
+  const auto to = wanted_flow(options, table);
   std::error_code error;
   if (std::filesystem::equivalent(options.table, options.output, error))
     throw UserError(fmt::format("{}: is the table itself; give another name with -o.", options.output.string()));

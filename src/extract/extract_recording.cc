@@ -56,7 +56,7 @@ void describe(CompanionFile& companion, const fs::path& folder, const Recording&
   companion.add_user_metadata("rheocyte userdef0", meaning_of_states());
   if (extraction.table().is_own())
     companion.add_user_metadata("rheocyte userdef1", "standard error of emodulus (kPa), of pixels and of the table");
-  companion.add_user_metadata("rheocyte table", extraction.table().identifier());
+  companion.add_user_metadata("rheocyte table", extraction.table().origin().identifier);
   std::vector<std::string> log{program() + " extract", "time: " + now_utc(),
                                "recording: " + recording.file().filename().string()};
   const auto settings = extraction.lines();

@@ -121,12 +121,12 @@ std::string ExtractSettings::temperature_text() const {
 
 std::size_t ExtractSettings::viscosities(const Recording& recording, std::size_t first, std::span<double> mPas) const {
   if (!viscosity_varies()) {
-    std::ranges::fill(mPas, viscosity_mPas);
+    std::ranges::fill(mPas, conditions.flow.viscosity_mPas);
     return 0;
   }
   std::vector<double> temperatures(mPas.size());
   recording.read_scalar("temp", first, temperatures);
-  buffer->viscosity({conditions.channel_width_um, conditions.flow_rate_ul_s}, temperatures, mPas);
+  buffer->viscosity(conditions.flow, temperatures, mPas);
   const auto is_outside = [range = buffer->measured()](double celsius) {
     return std::isfinite(celsius) && !range.contains(celsius);
   };
@@ -138,13 +138,13 @@ std::string ExtractSettings::outside_temperature_text(std::size_t events) const 
 }
 
 std::vector<std::string> ExtractSettings::lines() const {
-  std::vector<std::string> lines{fmt::format("channel width: {} um", conditions.channel_width_um),
-                                 fmt::format("flow rate: {} ul/s", conditions.flow_rate_ul_s)};
+  std::vector<std::string> lines{fmt::format("channel width: {} um", conditions.flow.width_um),
+                                 fmt::format("flow rate: {} ul/s", conditions.flow.rate_ul_s)};
   if (conditions.pixel_size_um > 0) lines.push_back(fmt::format("pixel size: {} um", conditions.pixel_size_um));
   if (buffer)
     lines.push_back(
         fmt::format("viscosity: {} by {}, temperature {}", medium_text(), model_text(), temperature_text()));
-  if (!viscosity_varies()) lines.push_back(fmt::format("viscosity: {} mPa s", viscosity_mPas));
+  if (!viscosity_varies()) lines.push_back(fmt::format("viscosity: {} mPa s", conditions.flow.viscosity_mPas));
   return lines;
 }
 
@@ -152,9 +152,9 @@ ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixel
   check_region(recording);
   ExtractSettings settings;
   auto& conditions = settings.conditions;
-  conditions.channel_width_um =
-      quantity(recording, options.channel_width_um, "setup:channel width", "--channel-width-um");
-  conditions.flow_rate_ul_s = quantity(recording, options.flow_rate_ul_s, "setup:flow rate", "--flow-rate-ul-s");
+  ChannelFlow& flow = conditions.flow;
+  flow.width_um = quantity(recording, options.channel_width_um, "setup:channel width", "--channel-width-um");
+  flow.rate_ul_s = quantity(recording, options.flow_rate_ul_s, "setup:flow rate", "--flow-rate-ul-s");
   if (pixels != PixelUse::ignore)
     settings.pixel_size_um = conditions.pixel_size_um =
         quantity(recording, options.pixel_size_um, "imaging:pixel size",
@@ -164,16 +164,14 @@ ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixel
         options.pixel_size_um.value_or(recording.metadata().number("imaging:pixel size").value_or(0));
   conditions.correct_area = pixels == PixelUse::correct;
   if (options.viscosity_mPas) {
-    settings.viscosity_mPas = *options.viscosity_mPas;
+    flow.viscosity_mPas = *options.viscosity_mPas;
     return settings;
   }
   settings.buffer.emplace(chosen_medium(options, recording), chosen_model(options));
   choose_temperature(options, recording, settings);
   warn_about_temperature(settings);
-  settings.flow_exponent = settings.buffer->flow_exponent(usual_temperature_C(settings, recording));
-  if (!settings.viscosity_varies())
-    settings.viscosity_mPas =
-        settings.buffer->viscosity({conditions.channel_width_um, conditions.flow_rate_ul_s}, settings.temperature_C);
+  flow.exponent = settings.buffer->flow_exponent(usual_temperature_C(settings, recording));
+  if (!settings.viscosity_varies()) flow.viscosity_mPas = settings.buffer->viscosity(flow, settings.temperature_C);
   return settings;
 }
 

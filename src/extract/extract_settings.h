@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "extract/options.h"
-#include "infer/modulus_parity.h"
+#include "infer/modulus_map.h"
 #include "measurement/recording.h"
 #include "measurement/viscosity.h"
 
@@ -24,13 +24,13 @@ enum class PixelUse {
 };
 
 struct ExtractSettings {
-  MeasuringConditions conditions;  ///< pixel size 0: no correction
-  double pixel_size_um = 0;        ///< 0 if unknown
-  std::optional<Buffer> buffer;    ///< nothing: the viscosity was given
-  double viscosity_mPas = 0;       ///< if it is the same for all events
+  /// Pixel size 0: no correction. The viscosity is 0 if it varies from event to event; the exponent is that of the
+  /// medium at the recording's temperature, 1: Newtonian or unknown.
+  MeasuringConditions conditions;
+  double pixel_size_um = 0;      ///< 0 if unknown
+  std::optional<Buffer> buffer;  ///< nothing: the viscosity was given
   TemperatureSource temperature_from = TemperatureSource::none;
   double temperature_C = 0;           ///< if it is the same for all events
-  double flow_exponent = 1;           ///< n of the medium at the recording's temperature, 1: Newtonian or unknown
   std::vector<std::string> warnings;  ///< sentences without the file's name
 
   bool viscosity_varies() const { return temperature_from == TemperatureSource::feature; }

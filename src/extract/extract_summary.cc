@@ -9,19 +9,13 @@
 #include <numeric>
 
 #include "case/user_error.h"
+#include "numeric/quantile.h"
 
 namespace rheocyte {
 
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double quantile(std::span<const double> sorted, double fraction) {
-  const double place = fraction * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
 
 std::string number_text(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
@@ -69,8 +63,7 @@ void append_numbers(std::string& text, const ExtractSummary& s) {
   append_cell(text, number_text(s.mean_viscosity_mPas));
   append_cell(text, s.temperature);
   const auto& c = s.conditions;
-  for (const double value : {c.channel_width_um, c.flow_rate_ul_s, c.pixel_size_um})
-    append_cell(text, number_text(value));
+  for (const double value : {c.flow.width_um, c.flow.rate_ul_s, c.pixel_size_um}) append_cell(text, number_text(value));
   append_cell(text, s.corrected);
   append_cell(text, s.gates);
   append_cell(text, s.area_from);
@@ -91,13 +84,6 @@ Distribution distribution_of(std::span<double> values) {
   for (const double value : values) squares += (value - mean) * (value - mean);
   return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75), mean,
           values.size() > 1 ? std::sqrt(squares / (count - 1)) : nan};
-}
-
-double median_of(std::span<float> values) {
-  if (values.empty()) return nan;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 std::string summary_table(std::span<const SummaryLine> lines) {

@@ -20,9 +20,6 @@ struct Distribution {
 /// Sorts the values. Quartiles between two values are interpolated linearly.
 Distribution distribution_of(std::span<double> values);
 
-/// The middle of the values, which it changes the order of; NaN if there are none.
-double median_of(std::span<float> values);
-
 struct ExtractSummary {
   std::size_t events = 0;
   std::array<std::size_t, names_of_modulus_states.size()> counts{};  ///< by ModulusState

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/quantile.h"
+
 namespace rheocyte {
 
 namespace {
@@ -18,7 +20,7 @@ PixelUse pixel_use(const ExtractOptions& options) {
   return options.no_area_correction ? PixelUse::correct_deformation : PixelUse::correct;
 }
 
-std::string corrected_for_pixels(const MeasuringConditions& conditions, const ModulusTable& table) {
+std::string corrected_for_pixels(const MeasuringConditions& conditions, const ModulusMap& table) {
   if (conditions.pixel_size_um == 0) return "nothing";
   return table.is_own() && conditions.correct_area ? "area and deformation" : "deformation";
 }
@@ -28,7 +30,8 @@ std::string corrected_for_pixels(const MeasuringConditions& conditions, const Mo
 Extraction::Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables)
     : recording_(recording),
       settings_(extract_settings(options.measuring, pixel_use(options), recording)),
-      tables_(tables.choose(settings_.flow_exponent)),
+      table_(tables.used(settings_.conditions.flow.exponent)),
+      other_table_(tables.other(settings_.conditions.flow.exponent)),
       shapes_(recording, settings_.pixel_size_um),
       gates_(options.measuring.gates),
       features_(recording, shapes_) {
@@ -53,9 +56,9 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   shapes_.read(first, c.area, c.deformation);
   outside_temperature_ += settings_.viscosities(recording_, first, c.viscosity);
   const MeasuredEvents events{c.area, c.deformation, c.viscosity};
-  if (tables_.other) {
+  if (other_table_) {
     // Its standard errors are overwritten by those that count.
-    tables_.other->estimate(settings_.conditions, events, {c.other_modulus, c.standard_error, c.other_states});
+    other_table_->estimate(settings_.conditions, events, {c.other_modulus, c.standard_error, c.other_states});
   }
   table().estimate(settings_.conditions, events, {c.modulus, c.standard_error, c.states});
   if (!gates_.empty()) shut_out(first);
@@ -69,7 +72,7 @@ ExtractSummary Extraction::summary() {
   s.modulus_kPa = distribution_of(moduli_);
   s.mean_viscosity_mPas = viscosity_sum_ / static_cast<double>(viscosities_);
   s.median_standard_error_kPa = median_of(standard_errors_);
-  s.table = table().identifier();
+  s.table = table().origin().identifier;
   s.gates = gates_.description();
   s.corrected = corrected_for_pixels(settings_.conditions, table());
   s.medium = settings_.medium_text();
@@ -81,7 +84,7 @@ ExtractSummary Extraction::summary() {
   s.warnings = recording_.remarks();
   s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
   if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
-  if (tables_.other) s.warnings.push_back(comparison());
+  if (other_table_) s.warnings.push_back(comparison());
   if (recording_.has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
   return s;
@@ -89,7 +92,7 @@ ExtractSummary Extraction::summary() {
 
 std::vector<std::string> Extraction::lines() const {
   std::vector<std::string> lines{
-      fmt::format("table: {}", table().description()),
+      fmt::format("table: {}", table().origin().description()),
       fmt::format("area from {}, deformation from {}", shapes_.area_from(), shapes_.deformation_from()),
       fmt::format("corrected for pixels: {}", corrected_for_pixels(settings_.conditions, table()))};
   const auto settings = settings_.lines();
@@ -100,16 +103,17 @@ std::vector<std::string> Extraction::lines() const {
 
 // Where a table of the matching liquid and one of a Newtonian liquid are at hand, both are used.
 std::string Extraction::comparison() const {
-  const auto way = [](const ModulusTable& table) {
-    return table.flow_exponent() < 1
-               ? fmt::format("{} (its liquid has the exponent {:.3g})", table.identifier(), table.flow_exponent())
-               : fmt::format("{} with the effective viscosity", table.identifier());
+  const auto way = [](const ModulusMap& table) {
+    const std::string& name = table.origin().identifier;
+    const double exponent = table.origin().flow.exponent;
+    return exponent < 1 ? fmt::format("{} (its liquid has the exponent {:.3g})", name, exponent)
+                        : fmt::format("{} with the effective viscosity", name);
   };
   const std::string text = fmt::format("the medium thins in shear (exponent {:.3g}); moduli are from {}",
-                                       settings_.flow_exponent, way(table()));
+                                       settings_.conditions.flow.exponent, way(table()));
   if (compared_ == 0) return text + ".";
   const double percent = 100 * std::expm1(log_ratios_ / static_cast<double>(compared_));
-  return fmt::format("{}; those from {} are {:.1f} % {} (geometric mean of {} events).", text, way(*tables_.other),
+  return fmt::format("{}; those from {} are {:.1f} % {} (geometric mean of {} events).", text, way(*other_table_),
                      std::abs(percent), percent < 0 ? "smaller" : "greater", compared_);
 }
 
@@ -137,7 +141,7 @@ void Extraction::shut_out(std::size_t first) {
 void Extraction::take_modulus(std::size_t i) {
   moduli_.push_back(columns_.modulus[i]);
   if (table().is_own()) standard_errors_.push_back(static_cast<float>(columns_.standard_error[i]));
-  if (!tables_.other || !has_modulus(columns_.other_states[i])) return;
+  if (!other_table_ || !has_modulus(columns_.other_states[i])) return;
   log_ratios_ += std::log(columns_.other_modulus[i] / columns_.modulus[i]);
   ++compared_;
 }

@@ -22,7 +22,7 @@ class Extraction {
   /// The three must outlive the object. UserError naming what the recording lacks, and the option that gives it.
   Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables);
 
-  const ModulusTable& table() const { return *tables_.used; }
+  const ModulusMap& table() const { return table_; }
   /// The number of events that are best computed at once.
   std::size_t block() const;
   /// Of events [first, first + count), until the next call. All events in turn, so that the summary is that of all.
@@ -48,7 +48,8 @@ class Extraction {
 
   const Recording& recording_;
   ExtractSettings settings_;
-  ModulusTables::Choice tables_;
+  const ModulusMap& table_;
+  const ModulusMap* other_table_;  ///< to compare with
   ShapeSource shapes_;
   Gates gates_;
   EventFeatures features_;

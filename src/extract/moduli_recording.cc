@@ -15,6 +15,7 @@
 #include "infer/rendered_errors.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/event_features.h"
+#include "measurement/shape_in_pixels.h"
 #include "measurement/shape_source.h"
 #include "store/build_info.h"
 #include "store/file_writer.h"
@@ -41,12 +42,7 @@ class Outlines {
   ShapeVector features(std::size_t event) {
     const PixelContour contour = outline(event);
     if (contour.size() < fewest_points) return ShapeVector::Constant(std::numeric_limits<double>::quiet_NaN());
-    Eigen::MatrixX2d polygon(Eigen::Index(contour.size()), 2);
-    for (Eigen::Index i = 0; i < polygon.rows(); ++i) {
-      const PixelPoint& point = contour[std::size_t(i)];
-      polygon.row(i) << pixel_um_ * point.x, pixel_um_ * point.y;
-    }
-    return shape_vector(outline_shape(polygon));
+    return shape_of_contour(contour, pixel_um_);
   }
 
  private:
@@ -93,9 +89,8 @@ class Fits {
         shapes_(recording, settings_.pixel_size_um),
         features_(recording, shapes_),
         gates_(options.measuring.gates),
-        pixels_(table.between,
-                settings_.pixel_size_um * table.simulated.channel_width_um / settings_.conditions.channel_width_um),
-        simulated_exponent_(table.simulated.flow_exponent),
+        pixels_(table.between, settings_.pixel_size_um * table.simulated.width_um / settings_.conditions.flow.width_um),
+        simulated_exponent_(table.simulated.exponent),
         moduli_(table.between, table.simulated,
                 {options.only_figure ? features_of_figure() : features_of_contour(), options.fit_tension,
                  table.between.tension_ratios().front()}) {
@@ -141,11 +136,11 @@ class Fits {
     s.warnings = recording_.remarks();
     s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
     if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
-    if (std::abs(settings_.flow_exponent - simulated_exponent_) > flow_exponent_tolerance)
+    if (std::abs(settings_.conditions.flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
       s.warnings.push_back(fmt::format(
           "the medium thins in shear with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at the "
           "wall stands for both, and moduli are off by up to 5 %, those of large cells most.",
-          settings_.flow_exponent, simulated_exponent_));
+          settings_.conditions.flow.exponent, simulated_exponent_));
     if (s.resolved() == 0 && s.with_stiffness() > 0)
       s.warnings.emplace_back(
           "no event tells bulk and cortex apart; what is known is E + E2D/r0, of some events perhaps single moduli.");
@@ -154,8 +149,9 @@ class Fits {
 
  private:
   ModuliEstimate fit(const ShapeVector& seen, double viscosity_mPas) const {
-    const auto& c = settings_.conditions;
-    return fit_pixels(moduli_, pixels_, seen, {c.channel_width_um, c.flow_rate_ul_s, viscosity_mPas});
+    ChannelFlow flow = settings_.conditions.flow;
+    flow.viscosity_mPas = viscosity_mPas;
+    return fit_pixels(moduli_, pixels_, seen, flow);
   }
 
   static ModuliEstimate gated() {
@@ -182,7 +178,7 @@ class Fits {
 }  // namespace
 
 ModuliTable::ModuliTable(const ModuliOptions& options)
-    : content(read_combined_table(options.table)), between(content), simulated(conditions_of(content.spec)) {
+    : content(read_combined_table(options.table)), between(content), simulated(channel_flow_of(content.spec.base)) {
   if (options.fit_tension && between.tension_ratios().size() < 2)
     throw UserError(
         fmt::format("rheocyte: --fit-tension needs a table with several tensions (table.tension_ratio); {} has one.",

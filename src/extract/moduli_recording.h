@@ -27,7 +27,7 @@ struct ModuliTable {
 
   CombinedTable content;
   CombinedInterpolation between;
-  FlowConditions simulated;
+  ChannelFlow simulated;
 };
 
 /// Writes a file with one line per event: E, E2D, tension, stiffness with standard errors, chi2, status. UserError for

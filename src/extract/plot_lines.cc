@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "extract/find_table.h"
 #include "extract/shipped_tables.h"
 
 namespace rheocyte {
@@ -31,47 +30,39 @@ double rounded(double value) { return std::stod(fmt::format("{:.2g}", value)); }
 
 PlotLines::PlotLines(const PlotOptions& options) : options_(options) {
   const bool has_table = !options.table.empty(), has_file = !options.lines.empty();
-  if (has_table) given_table_.emplace(find_table(options.table));
-  if (has_file) given_lines_ = read_level_lines(options.lines);
-  if (has_table || has_file) {
+  const bool has_own = !has_file && !options.no_lines && has_usual_axes(options) && !shipped_tables().empty();
+  if (has_file) given_lines_ = read_isoelasticity_lines(options.lines);
+  if (has_table || has_own) tables_.emplace(options.table);
+  if (has_table || has_file)
     wanted_ = LinesWanted::yes;
-  } else if (!options.no_lines && has_usual_axes(options) && !shipped_tables().empty()) {
-    own_tables_.emplace(std::string{});
+  else if (has_own)
     wanted_ = options.levels_kPa.empty() ? LinesWanted::if_possible : LinesWanted::yes;
-  }
-}
-
-const LineSource* PlotLines::source_for(double flow_exponent) {
-  if (given_table_) return &*given_table_;
-  if (!own_tables_) return nullptr;
-  const auto& file = own_tables_->choose(flow_exponent).used->file();
-  return &own_sources_.try_emplace(file, file).first->second;
 }
 
 // Of the levels that spread over the picture, those next to two digits in the recording's own channel.
-LevelLines PlotLines::lines_from(const LineSource& source, const PlotPanel& panel) const {
-  const double factor = modulus_factor(source.lines({}), panel.conditions, panel.viscosity_mPas);
+IsoelasticityLines PlotLines::lines_of(const ModulusMap& map, const PlotPanel& panel) const {
+  const double factor = scale_factors(map.origin().flow, panel.conditions.flow).modulus;
   std::vector<double> levels = options_.levels_kPa;
   if (levels.empty())
-    for (const double level : source.even_levels(number_of_lines)) levels.push_back(rounded(level * factor));
+    for (const double level : even_levels(map, number_of_lines)) levels.push_back(rounded(level * factor));
   for (double& level : levels) level /= factor;
-  return source.lines(levels);
+  return isoelasticity_lines(map, levels);
 }
 
 json PlotLines::for_panel(const PlotPanel& panel) {
-  const LineSource* const source = source_for(panel.flow_exponent);
-  const LevelLines lines = given_lines_ ? *given_lines_ : lines_from(*source, panel);
+  const auto& conditions = panel.conditions;
+  const ModulusMap* const map = tables_ ? &tables_->used(conditions.flow.exponent) : nullptr;
+  const IsoelasticityLines lines = given_lines_ ? *given_lines_ : lines_of(*map, panel);
   const auto seen = [&](std::span<const PlanePoint> points) {
-    const auto pixels = source ? source->pixel_correction() : PixelCorrection::field;
-    return as_json(as_measured(points, lines.channel_width_um, panel.conditions, pixels));
+    return as_json(as_measured(points, lines.flow, conditions, map));
   };
-  json j{{"lines", json::array()}, {"table", lines.identifier}, {"pixels", panel.conditions.pixel_size_um}};
-  const double factor = modulus_factor(lines, panel.conditions, panel.viscosity_mPas);
+  json j{{"lines", json::array()}, {"table", lines.identifier}, {"pixels", conditions.pixel_size_um}};
+  const double factor = scale_factors(lines.flow, conditions.flow).modulus;
   for (const auto& line : lines.lines) {
     j["lines"].push_back(seen(line.points));
     j["lines"].back()["young_modulus_kPa"] = line.modulus_kPa * factor;
   }
-  if (source) j["support"] = seen(source->support());
+  if (map) j["support"] = seen(support(*map));
   return j;
 }
 

@@ -1,13 +1,11 @@
-// Lines of equal modulus and the region where a table has moduli, for the panels of one picture.
+// Isoelasticity lines and the region where a table has moduli, for the panels of one picture.
 #pragma once
-#include <filesystem>
-#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
-#include "extract/line_source.h"
 #include "extract/modulus_tables.h"
 #include "extract/plot_panel.h"
+#include "infer/isoelasticity_lines.h"
 
 namespace rheocyte {
 
@@ -23,16 +21,12 @@ class PlotLines {
   nlohmann::json for_panel(const PlotPanel& panel);
 
  private:
-  /// Nothing if the lines come from a file.
-  const LineSource* source_for(double flow_exponent);
-  LevelLines lines_from(const LineSource& source, const PlotPanel& panel) const;
+  IsoelasticityLines lines_of(const ModulusMap& map, const PlotPanel& panel) const;
 
   const PlotOptions& options_;
   LinesWanted wanted_ = LinesWanted::no;
-  std::optional<LevelLines> given_lines_;
-  std::optional<LineSource> given_table_;
-  std::optional<ModulusTables> own_tables_;
-  std::map<std::filesystem::path, LineSource> own_sources_;  ///< of the own tables, once one is needed
+  std::optional<IsoelasticityLines> given_lines_;
+  std::optional<ModulusTables> tables_;  ///< nothing if lines come from a file
 };
 
 }  // namespace rheocyte

@@ -9,6 +9,7 @@
 #include "extract/extract_settings.h"
 #include "measurement/event_features.h"
 #include "measurement/shape_source.h"
+#include "numeric/quantile.h"
 
 namespace rheocyte {
 
@@ -40,10 +41,7 @@ double median_temperature(const Recording& recording, const TellProgress& on_pro
     on_progress(0);
   }
   std::erase_if(celsius, [](double value) { return !std::isfinite(value); });
-  if (celsius.empty()) return NAN;
-  const auto middle = celsius.begin() + static_cast<std::ptrdiff_t>(celsius.size() / 2);
-  std::nth_element(celsius.begin(), middle, celsius.end());
-  return *middle;
+  return median_of(celsius);
 }
 
 bool is_of_the_reservoir(const Recording& recording) {
@@ -58,20 +56,18 @@ void take_conditions(const Recording& recording, const PlotOptions& options, con
       extract_settings(options.measuring, options.no_pixelation ? PixelUse::ignore : PixelUse::correct, recording);
   panel.has_conditions = true;
   panel.conditions = settings.conditions;
-  panel.viscosity_mPas = settings.viscosity_mPas;
-  panel.flow_exponent = settings.flow_exponent;
+  ChannelFlow& flow = panel.conditions.flow;
   std::string temperature = fmt::format("{:.3g} °C", settings.temperature_C);
   if (settings.viscosity_varies()) {
     const double celsius = median_temperature(recording, on_progress);
     if (!std::isfinite(celsius))
       throw UserError(fmt::format("{}: its temperatures are no numbers; give --temperature in degrees Celsius.",
                                   one_line(recording.file().string(), 300)));
-    panel.viscosity_mPas =
-        settings.buffer->viscosity({panel.conditions.channel_width_um, panel.conditions.flow_rate_ul_s}, celsius);
+    flow.viscosity_mPas = settings.buffer->viscosity(flow, celsius);
     temperature = fmt::format("{:.1f} °C", celsius);
   }
-  panel.measured = fmt::format("{:g} µm · {:g} µl/s · {:.2f} mPa s", panel.conditions.channel_width_um,
-                               panel.conditions.flow_rate_ul_s, panel.viscosity_mPas);
+  panel.measured =
+      fmt::format("{:g} µm · {:g} µl/s · {:.2f} mPa s", flow.width_um, flow.rate_ul_s, flow.viscosity_mPas);
   if (settings.buffer) panel.measured += fmt::format(" ({}, {})", settings.medium_text(), temperature);
   panel.warnings = settings.warnings;
 }

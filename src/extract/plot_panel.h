@@ -8,28 +8,27 @@
 #include <vector>
 
 #include "extract/plot_options.h"
-#include "infer/modulus_parity.h"
+#include "infer/modulus_map.h"
 #include "store/progress.h"
 
 namespace rheocyte {
 
 struct PlotPanel {
-  std::size_t events = 0;          ///< rows of the recording
-  std::size_t gated = 0;           ///< of these, outside the gates
-  std::size_t drawable = 0;        ///< of the others, with numbers on both axes
-  bool has_conditions = false;     ///< false if no lines are wanted, or for a recording of the reservoir
-  MeasuringConditions conditions;  ///< pixel size 0: nothing is added to the lines
-  double viscosity_mPas = 0;       ///< at the median temperature
-  double flow_exponent = 1;        ///< n of eta ~ (shear rate)^(n - 1)
-  double width_um = 0;             ///< of the channel, 0 if unknown
-  std::string sample, measured;    ///< the metadata's name of the sample; channel, flow, viscosity in one line
+  std::size_t events = 0;       ///< rows of the recording
+  std::size_t gated = 0;        ///< of these, outside the gates
+  std::size_t drawable = 0;     ///< of the others, with numbers on both axes
+  bool has_conditions = false;  ///< false if no lines are wanted, or for a recording of the reservoir
+  /// Pixel size 0: nothing is added to the lines. The viscosity is that at the median temperature.
+  MeasuringConditions conditions;
+  double width_um = 0;           ///< of the channel, 0 if unknown
+  std::string sample, measured;  ///< the metadata's name of the sample; channel, flow, viscosity in one line
   std::vector<std::string> warnings;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& p) {
-    return std::tie(p.events, p.gated, p.drawable, p.has_conditions, p.conditions, p.viscosity_mPas, p.flow_exponent,
-                    p.width_um, p.sample, p.measured, p.warnings);
+    return std::tie(p.events, p.gated, p.drawable, p.has_conditions, p.conditions, p.width_um, p.sample, p.measured,
+                    p.warnings);
   }
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "synth/shape_in_pixels.h"
+#include "measurement/shape_in_pixels.h"
 
 namespace rheocyte {
 
@@ -70,12 +70,12 @@ ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
 }
 
 ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
-                          const FlowConditions& conditions) {
+                          const ChannelFlow& flow) {
   constexpr int rounds = 3;  // the bias hardly depends on the cell: the third one changes nothing that matters
   CellCoordinates cell = errors.middle();
   ModuliEstimate estimate;
   for (int round = 0; round < rounds; ++round) {
-    estimate = moduli.fit({measured, errors.at(cell)}, conditions);
+    estimate = moduli.fit({measured, errors.at(cell)}, flow);
     if (estimate.status == ModuliStatus::no_data) break;
     cell = estimate.cell;
   }

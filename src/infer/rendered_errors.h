@@ -33,6 +33,6 @@ class RenderedErrors {
 
 /// The moduli of a cell in pixels: the errors are those at the cell that is found.
 ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
-                          const FlowConditions& conditions);
+                          const ChannelFlow& flow);
 
 }  // namespace rheocyte

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
-
-#include "table/table_metadata.h"
+#include <utility>
 
 namespace rheocyte {
 
@@ -157,11 +156,6 @@ struct SeveralModuli::Candidate {
   double chi_squared;
 };
 
-FlowConditions conditions_of(const TableSpec& spec) {
-  return {channel_width_um(spec.base), spec.base.flow.rate_ul_per_s.value(), effective_viscosity_mPas(spec.base),
-          flow_exponent(spec.base)};
-}
-
 std::string_view name_of(ModuliStatus status) {
   switch (status) {
     case ModuliStatus::no_data: return "no-data";
@@ -212,7 +206,7 @@ std::vector<int> features_of_contour(int last) {
   return features;
 }
 
-SeveralModuli::SeveralModuli(const CombinedInterpolation& table, const FlowConditions& simulated, FitOptions options)
+SeveralModuli::SeveralModuli(const CombinedInterpolation& table, const ChannelFlow& simulated, FitOptions options)
     : table_(table), simulated_(simulated), options_(std::move(options)) {
   options_.free_tension = options_.free_tension && table.tension_ratios().size() > 1;
   if (table.tension_ratios().size() == 1) options_.tension_ratio = table.tension_ratios().front();
@@ -244,13 +238,12 @@ SeveralModuli::Candidate SeveralModuli::minimum_from(const MeasuredShape& shape,
   }
 }
 
-ModuliEstimate SeveralModuli::fit(const MeasuredShape& measured, const FlowConditions& conditions) const {
+ModuliEstimate SeveralModuli::fit(const MeasuredShape& measured, const ChannelFlow& flow) const {
   MeasuredShape shape = measured;
-  const double width = simulated_.channel_width_um / conditions.channel_width_um;
-  const double load =
-      conditions.flow_rate_ul_s * conditions.viscosity_mPas / (simulated_.flow_rate_ul_s * simulated_.viscosity_mPas);
-  shape.features(0) += (shape.size_is_volume ? 3 : 2) * std::log(width);
-  if (!std::isfinite(load) || !shape.features.allFinite() || !Misfit(table_, shape, options_.features).is_usable())
+  const ScaleFactors scale = scale_factors(simulated_, flow);
+  shape.features(0) -= std::log(shape.size_is_volume ? scale.volume : scale.area);
+  if (!std::isfinite(scale.load) || !shape.features.allFinite() ||
+      !Misfit(table_, shape, options_.features).is_usable())
     return {};
   const CellBox& box = table_.box();
   CellCoordinates start = start_for(shape);
@@ -261,12 +254,11 @@ ModuliEstimate SeveralModuli::fit(const MeasuredShape& measured, const FlowCondi
   }
   const Candidate best = *std::ranges::min_element(minima, {}, &Candidate::chi_squared);
   ModuliEstimate estimate = estimate_of(shape, best, profile(shape, best));
-  const double bulk = load * width * width * width, surface = load * width * width;
-  const Eigen::Vector3d scale(bulk, surface, surface);
-  estimate.modulus = estimate.modulus.cwiseProduct(scale);
-  estimate.covariance = scale.asDiagonal() * estimate.covariance * scale.asDiagonal();
-  estimate.stiffness_kPa *= bulk;
-  estimate.stiffness_error_kPa *= bulk;
+  const Eigen::Vector3d factor(scale.modulus, scale.cortex_modulus, scale.cortex_modulus);
+  estimate.modulus = estimate.modulus.cwiseProduct(factor);
+  estimate.covariance = factor.asDiagonal() * estimate.covariance * factor.asDiagonal();
+  estimate.stiffness_kPa *= scale.modulus;
+  estimate.stiffness_error_kPa *= scale.modulus;
   return estimate;
 }
 

@@ -8,19 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include "case/channel_flow.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte {
 
 enum class Modulus { young, cortex, tension, count };
 inline constexpr int modulus_count = int(Modulus::count);
-
-/// A channel; states without inertia scale exactly between Newtonian ones (eq:scaling).
-struct FlowConditions {
-  double channel_width_um = 0, flow_rate_ul_s = 0, viscosity_mPas = 0;
-  double flow_exponent = 1;  ///< n of eta ~ (shear rate)^(n - 1); the viscosity is that at the wall
-};
-FlowConditions conditions_of(const TableSpec& spec);
 
 enum class ModuliStatus {
   no_data,         ///< a feature, its error or a condition of the flow is not a number
@@ -74,9 +68,9 @@ std::vector<int> features_of_contour(int last = 6);
 /// The table's interpolation must outlive it.
 class SeveralModuli {
  public:
-  SeveralModuli(const CombinedInterpolation& table, const FlowConditions& simulated, FitOptions options);
+  SeveralModuli(const CombinedInterpolation& table, const ChannelFlow& simulated, FitOptions options);
 
-  ModuliEstimate fit(const MeasuredShape& shape, const FlowConditions& conditions) const;
+  ModuliEstimate fit(const MeasuredShape& shape, const ChannelFlow& flow) const;
 
  private:
   struct Candidate;
@@ -88,7 +82,7 @@ class SeveralModuli {
                              std::span<const Candidate> others) const;
 
   const CombinedInterpolation& table_;
-  FlowConditions simulated_;
+  ChannelFlow simulated_;
   FitOptions options_;
 };
 

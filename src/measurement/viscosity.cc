@@ -63,8 +63,8 @@ PowerLawOfTemperature buyukurganci(Medium medium) {
 
 void buyukurganci_viscosity(Medium medium, const ChannelFlow& flow, const Source& celsius, Target& viscosity) {
   const auto [factor, offset] = buyukurganci(medium);
-  const double width_mm = 1e-3 * flow.channel_width_um;
-  const double shear_scale = 8 * flow.flow_rate_ul_s / (width_mm * width_mm * width_mm);
+  const double width_mm = 1e-3 * flow.width_um;
+  const double shear_scale = 8 * flow.rate_ul_s / (width_mm * width_mm * width_mm);
   const Array kelvin = celsius + kelvin_at_0_celsius;
   const Array n = exponent_per_kelvin * kelvin + offset;
   // One exponential for the consistency and the power of the shear rate together.
@@ -78,8 +78,8 @@ void herold_viscosity(Medium medium, const ChannelFlow& flow, const Source& cels
   const double consistency = is_049 ? 0.179 : 0.360;
   const double n = herold_exponent(medium);
   const double reference = is_049 ? 23.2 : 23.6;
-  const double width_m = 1e-6 * flow.channel_width_um;
-  const double shear = 1.1856 * 6 * (1e-9 * flow.flow_rate_ul_s) / (width_m * width_m * width_m) * 2 / 3;
+  const double width_m = 1e-6 * flow.width_um;
+  const double shear = 1.1856 * 6 * (1e-9 * flow.rate_ul_s) / (width_m * width_m * width_m) * 2 / 3;
   // 0.6771 as the field's programs have it, although the shear rate of the other model has 0.6671.
   const double profile = 0.6771 / 0.5928 + 0.2121 / (0.5928 * n);
   const double at_reference = 1000 * consistency * std::pow(shear * profile, n - 1);
@@ -154,7 +154,7 @@ void Buffer::viscosity(const ChannelFlow& flow, std::span<const double> celsius,
   Target target(viscosity_mPas.data(), size);
   if (medium_ == Medium::water)
     water_viscosity(source, target);
-  else if (!(flow.flow_rate_ul_s > 0) || !(flow.channel_width_um > 0))
+  else if (!(flow.rate_ul_s > 0) || !(flow.width_um > 0))
     target.setConstant(nan);
   else if (model_ == ViscosityModel::herold_2017)
     herold_viscosity(medium_, flow, source, target);

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "case/channel_flow.h"
+
 namespace rheocyte {
 
 /// Liquids with a known viscosity: methyl cellulose in phosphate-buffered saline, and water.
@@ -27,12 +29,6 @@ enum class ViscosityModel {
 std::optional<ViscosityModel> viscosity_model_of_name(std::string_view name);
 std::string_view name_of(ViscosityModel model);
 
-/// What the wall shear rate in a square channel depends on.
-struct ChannelFlow {
-  double channel_width_um = 0;
-  double flow_rate_ul_s = 0;  ///< sample and sheath together
-};
-
 /// Temperatures (degC) for which a model was measured; outside it extrapolates.
 struct TemperatureRange {
   double lowest, highest;
@@ -49,8 +45,9 @@ class Buffer {
   ViscosityModel model() const { return model_; }
   TemperatureRange measured() const;
 
-  /// Effective viscosity at the channel's wall (mPa s), one value per temperature (degC). A flow rate of zero gives NaN
-  /// for shear-thinning media, a temperature that is not finite gives NaN. The spans are equally long (asserted).
+  /// Effective viscosity at the wall (mPa s) of a channel of this width and rate, one value per temperature (degC). A
+  /// flow rate of zero gives NaN for shear-thinning media, a temperature that is not finite gives NaN. The spans are
+  /// equally long (asserted).
   void viscosity(const ChannelFlow& flow, std::span<const double> celsius, std::span<double> viscosity_mPas) const;
 
   /// The same at one temperature.

@@ -1,12 +1,14 @@
-// Virtual cells by the closed model of small deformations.
+// Virtual cells by the analytical model of small deformations.
 #pragma once
 #include "analytic/small_deformation.h"
+#include "case/channel_flow.h"
 #include "synth/cell_shapes.h"
 
 namespace rheocyte {
 
-struct AnalyticConditionsOfCells {
-  double channel_width_um = 0, flow_rate_ul_s = 0;
+/// Which cells flow where.
+struct AnalyticPopulation {
+  ChannelFlow flow;  ///< but for the viscosity, which the cells bring
   bool is_shell = false;
   double tension_ratio = 0;  ///< gamma / E2D of a shell
   Duct duct = Duct::tube;
@@ -18,12 +20,12 @@ struct AnalyticConditionsOfCells {
 /// beyond, the shapes are those of the linear model all the same.
 class AnalyticShapes : public CellShapes {
  public:
-  explicit AnalyticShapes(const AnalyticConditionsOfCells& conditions) : conditions_(conditions) {}
+  explicit AnalyticShapes(const AnalyticPopulation& population) : population_(population) {}
   std::variant<CellShape, NoShape> shape(const VirtualCell& cell) const override;
   std::string description() const override;
 
  private:
-  AnalyticConditionsOfCells conditions_;
+  AnalyticPopulation population_;
 };
 
 }  // namespace rheocyte

@@ -9,6 +9,8 @@
 #include <span>
 #include <utility>
 
+#include "numeric/lagrange.h"
+
 namespace rheocyte {
 
 namespace {
@@ -29,20 +31,10 @@ std::optional<ScaledState> scaled_state(const RadiusBranches& radius, double sti
                      point->measure(Measure::volume_um3) / (r * r * r)};
 }
 
-// Lagrange's weights of the states at a radius.
-std::vector<double> weights_at(double radius_um, std::span<const ScaledState> states) {
-  std::vector<double> weights;
-  for (const auto& own : states) {
-    double weight = 1;
-    for (const auto& other : states)
-      if (&other != &own) weight *= (radius_um - other.radius_um) / (own.radius_um - other.radius_um);
-    weights.push_back(weight);
-  }
-  return weights;
-}
-
 CellShape blended(double radius_um, std::span<const ScaledState> states) {
-  const auto weights = weights_at(radius_um, states);
+  std::vector<double> radii;
+  for (const auto& state : states) radii.push_back(state.radius_um);
+  const auto weights = lagrange_weights(radii, radius_um).value;
   ScaledState sum{radius_um, Eigen::MatrixX2d::Zero(states[0].meridian.rows(), 2)};
   for (std::size_t i = 0; i < states.size(); ++i) {
     sum.meridian += weights[i] * states[i].meridian;
@@ -56,25 +48,24 @@ CellShape blended(double radius_um, std::span<const ScaledState> states) {
 
 }  // namespace
 
-std::variant<CellShape, NoShape> BranchConditions::in_channel(std::variant<CellShape, NoShape> found) const {
-  const double width = width_ratio();
+std::variant<CellShape, NoShape> scaled(std::variant<CellShape, NoShape> found, const ScaleFactors& scale) {
   if (auto* const shape = std::get_if<CellShape>(&found)) {
-    shape->meridian /= width;
-    shape->area_um2 /= width * width;
-    shape->volume_um3 /= width * width * width;
+    shape->meridian *= scale.length;
+    shape->area_um2 *= scale.area;
+    shape->volume_um3 *= scale.volume;
   }
   return found;
 }
 
-BranchShapes::BranchShapes(std::vector<SampledBranch> branches, const BranchConditions& conditions)
-    : branches_(std::move(branches)), radii_(by_radius(branches_)), conditions_(conditions) {
+BranchShapes::BranchShapes(std::vector<SampledBranch> branches, const SimulatedCells& cells)
+    : branches_(std::move(branches)), radii_(by_radius(branches_)), cells_(cells) {
   assert(radii_.size() > 1);
 }
 
 std::variant<CellShape, NoShape> BranchShapes::shape(const VirtualCell& cell) const {
-  const double width = conditions_.width_ratio(), load = conditions_.load(cell.viscosity_mPas);
-  const double stiffness = cell.stiffness / load / (conditions_.is_shell ? width * width : width * width * width);
-  return conditions_.in_channel(at(cell.radius_um * width, stiffness));
+  const ScaleFactors scale = cells_.scale_for(cell);
+  const double stiffness = cell.stiffness / (cells_.is_shell ? scale.cortex_modulus : scale.modulus);
+  return scaled(at(cell.radius_um / scale.length, stiffness), scale);
 }
 
 std::variant<CellShape, NoShape> BranchShapes::at(double radius_um, double stiffness) const {
@@ -98,7 +89,7 @@ std::variant<CellShape, NoShape> BranchShapes::at(double radius_um, double stiff
 }
 
 std::string BranchShapes::description() const {
-  const double width = conditions_.channel_width_um / conditions_.simulated_width_um;
+  const double width = cells_.flow.width_um / cells_.simulated.width_um;
   return fmt::format("simulated branches, {} radii from {:.4g} to {:.4g} um", radii_.size(),
                      radii_.front().radius_um() * width, radii_.back().radius_um() * width);
 }

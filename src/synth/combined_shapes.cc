@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "numeric/roots.h"
+
 namespace rheocyte {
 
 namespace {
@@ -20,23 +22,20 @@ std::vector<SampledBranch> without_empty(std::vector<SampledBranch> branches) {
 
 }  // namespace
 
-CombinedShapes::CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches,
-                               const BranchConditions& conditions)
-    : branches_(without_empty(std::move(branches))),
-      between_(make_combined_table(spec, branches_)),
-      conditions_(conditions) {}
+CombinedShapes::CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches, const SimulatedCells& cells)
+    : branches_(without_empty(std::move(branches))), between_(make_combined_table(spec, branches_)), cells_(cells) {}
 
 std::variant<CellShape, NoShape> CombinedShapes::shape(const VirtualCell& cell) const {
-  const double width = conditions_.width_ratio(), load = conditions_.load(cell.viscosity_mPas);
-  const double radius = cell.radius_um * width, young = cell.stiffness / (load * width * width * width);
-  const double cortex = cell.cortex_modulus_mN_per_m / (load * width * width), S = young + cortex / radius;
+  const ScaleFactors scale = cells_.scale_for(cell);
+  const double radius = cell.radius_um / scale.length, young = cell.stiffness / scale.modulus;
+  const double cortex = cell.cortex_modulus_mN_per_m / scale.cortex_modulus, S = young + cortex / radius;
   if (!(radius > 0)) return NoShape::too_small;
   if (!(S > 0)) return NoShape::too_soft;
   // One tension is that of all cells; without a cortex there is none, and all sheets are the same.
   const auto& ratios = tension_ratios();
   const double ratio =
       ratios.size() == 1 || !(cortex > 0) ? ratios.front() : cell.tension_mN_per_m / cell.cortex_modulus_mN_per_m;
-  return conditions_.in_channel(at({std::log(radius), cortex / radius / S, 0, ratio}, std::log(S)));
+  return scaled(at({std::log(radius), cortex / radius / S, 0, ratio}, std::log(S)), scale);
 }
 
 // Where the table has this stiffness: it falls with the deformation.
@@ -46,23 +45,16 @@ std::variant<CellShape, NoShape> CombinedShapes::at(CellCoordinates cell, double
   if (cell(x_radius) > box.greatest(x_radius)) return NoShape::too_large;
   for (const int x : {x_share, x_ratio})
     if (!(cell(x) >= box.least(x) && cell(x) <= box.greatest(x))) return NoShape::outside_sheets;
-  double low = box.least(x_deformation), high = box.greatest(x_deformation);
-  const auto excess = [&](double log_d, double& slope) {
+  const double low = box.least(x_deformation), high = box.greatest(x_deformation);
+  const auto excess = [&](double log_d) {
     cell(x_deformation) = log_d;
     const CombinedState state = between_.at(cell);
-    slope = state.gradient(log_stiffness_row, x_deformation);
-    return state.value(log_stiffness_row) - log_stiffness;
+    return ValueAndSlope{state.value(log_stiffness_row) - log_stiffness,
+                         state.gradient(log_stiffness_row, x_deformation)};
   };
-  double slope = 0;
-  if (excess(low, slope) < 0) return NoShape::too_stiff;
-  if (excess(high, slope) > 0) return NoShape::too_soft;
-  double log_d = (low + high) / 2;
-  for (int step = 0; step < 60; ++step) {  // Newton's steps, bisection where they leave the bracket
-    const double miss = excess(log_d, slope);
-    (miss > 0 ? low : high) = log_d;
-    const double newton = log_d - miss / slope, next = newton > low && newton < high ? newton : (low + high) / 2;
-    if (std::abs(std::exchange(log_d, next) - next) < 1e-12) break;
-  }
+  if (excess(low).value < 0) return NoShape::too_stiff;
+  if (excess(high).value > 0) return NoShape::too_soft;
+  const double log_d = bracketed_newton(excess, low, high, (low + high) / 2, false, 1e-12);
   cell(x_deformation) = log_d;
   if (!between_.at(cell).inside) return NoShape::too_soft;  // all branches begin alike but end one by one
   return blended(cell);
@@ -86,7 +78,7 @@ CellShape CombinedShapes::blended(const CellCoordinates& cell) const {
 }
 
 std::string CombinedShapes::description() const {
-  const double width = conditions_.channel_width_um / conditions_.simulated_width_um;
+  const double width = cells_.flow.width_um / cells_.simulated.width_um;
   const auto& radii = between_.radii_um();
   const CellBox& box = between_.box();
   return fmt::format(

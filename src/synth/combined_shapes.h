@@ -15,7 +15,7 @@ namespace rheocyte {
 class CombinedShapes : public CellShapes {
  public:
   /// All contours with the same points (asserted). UserError: fewer than two radii or shares.
-  CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches, const BranchConditions& conditions);
+  CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches, const SimulatedCells& cells);
 
   std::variant<CellShape, NoShape> shape(const VirtualCell& cell) const override;
   std::string description() const override;
@@ -28,7 +28,7 @@ class CombinedShapes : public CellShapes {
 
   std::vector<SampledBranch> branches_;  ///< in the order of the table's
   CombinedInterpolation between_;
-  BranchConditions conditions_;
+  SimulatedCells cells_;
 };
 
 }  // namespace rheocyte

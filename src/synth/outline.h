@@ -2,7 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "synth/cell_random.h"
+#include "numeric/cell_random.h"
 
 namespace rheocyte {
 

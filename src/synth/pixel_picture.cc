@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "measurement/mask_from_outline.h"
+
 namespace rheocyte {
 
 namespace {
@@ -53,29 +55,6 @@ double shade_of_cell(double distance_um, bool inside) {
 }
 
 }  // namespace
-
-bool fill_mask(const Eigen::MatrixX2d& outline, ImageSize size, std::span<std::uint8_t> mask) {
-  std::ranges::fill(mask, std::uint8_t{0});
-  const Eigen::RowVector2d low = outline.colwise().minCoeff(), high = outline.colwise().maxCoeff();
-  if (!(low.minCoeff() >= 0) || !(high.x() <= static_cast<double>(size.width - 1)) ||
-      !(high.y() <= static_cast<double>(size.height - 1)))
-    return false;
-  std::vector<double> crossings;
-  for (auto y = static_cast<std::size_t>(std::ceil(low.y())); static_cast<double>(y) <= high.y(); ++y) {
-    const auto row = static_cast<double>(y);
-    crossings.clear();
-    for (Eigen::Index i = 0; i < outline.rows(); ++i) {
-      const auto a = outline.row(i), b = outline.row((i + 1) % outline.rows());
-      if ((a.y() <= row) == (b.y() <= row)) continue;  // a point on the row counts once
-      crossings.push_back(a.x() + (row - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
-    }
-    std::ranges::sort(crossings);
-    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
-      for (double x = std::ceil(crossings[k]); x <= crossings[k + 1]; ++x)
-        mask[y * size.width + static_cast<std::size_t>(x)] = 1;
-  }
-  return true;
-}
 
 void draw_grey(const Eigen::MatrixX2d& outline, const Scene& scene, ImageSize size, CellRandom& random,
                std::span<std::uint8_t> image) {

@@ -11,7 +11,6 @@
 #include "synth/branch_shapes.h"
 #include "synth/combined_shapes.h"
 #include "table/table_folder.h"
-#include "table/table_metadata.h"
 
 namespace rheocyte {
 
@@ -33,10 +32,10 @@ std::vector<SampledBranch> finished_branches(const TableFolder& folder) {
   return branches;
 }
 
-BranchConditions conditions_of(const SynthSpec& spec, const Case& base) {
-  return {
-      channel_width_um(base), base.flow.rate_ul_per_s.value(), effective_viscosity_mPas(base), spec.channel_width_um,
-      spec.flow_rate_ul_s,    spec.kind == CellKind::shell};
+SimulatedCells cells_of(const SynthSpec& spec, const Case& base) {
+  return {.simulated = channel_flow_of(base),
+          .flow = {spec.channel_width_um, spec.flow_rate_ul_s},
+          .is_shell = spec.kind == CellKind::shell};
 }
 
 void check_tensions(SynthSpec& spec, const std::vector<double>& ratios) {
@@ -61,7 +60,7 @@ std::unique_ptr<CellShapes> shapes_of_combined_table(SynthSpec& spec, const Tabl
     refuse(spec, "its cells have a bulk and a cortex, so cell.kind must be \"combined\".");
   auto branches = finished_branches(folder);
   check_tensions(spec, folder.spec().tension_ratios);
-  return std::make_unique<CombinedShapes>(folder.spec(), std::move(branches), conditions_of(spec, folder.spec().base));
+  return std::make_unique<CombinedShapes>(folder.spec(), std::move(branches), cells_of(spec, folder.spec().base));
 }
 
 std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
@@ -79,7 +78,7 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   std::set<double> radii;
   for (const auto& branch : branches) radii.insert(branch.radius_um);
   if (radii.size() < 2) refuse(spec, "has fewer than two finished branches; let `rheocyte table` go on.");
-  return std::make_unique<BranchShapes>(std::move(branches), conditions_of(spec, folder.spec().base));
+  return std::make_unique<BranchShapes>(std::move(branches), cells_of(spec, folder.spec().base));
 }
 
 }  // namespace
@@ -87,12 +86,11 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
 std::unique_ptr<CellShapes> shapes_of(SynthSpec& spec) {
   if (!spec.table.empty()) return shapes_of_table(spec);
   return std::make_unique<AnalyticShapes>(
-      AnalyticConditionsOfCells{.channel_width_um = spec.channel_width_um,
-                                .flow_rate_ul_s = spec.flow_rate_ul_s,
-                                .is_shell = spec.kind == CellKind::shell,
-                                .tension_ratio = spec.tension_ratio.value_or(Spread{}).mean,
-                                .duct = spec.square_duct ? Duct::square : Duct::tube,
-                                .greatest_deformation = spec.greatest_deformation});
+      AnalyticPopulation{.flow = {spec.channel_width_um, spec.flow_rate_ul_s},
+                         .is_shell = spec.kind == CellKind::shell,
+                         .tension_ratio = spec.tension_ratio.value_or(Spread{}).mean,
+                         .duct = spec.square_duct ? Duct::square : Duct::tube,
+                         .greatest_deformation = spec.greatest_deformation});
 }
 
 }  // namespace rheocyte

@@ -10,9 +10,10 @@
 #include "case/user_error.h"
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
+#include "measurement/mask_from_outline.h"
 #include "measurement/recording_file.h"
 #include "measurement/viscosity.h"
-#include "synth/cell_random.h"
+#include "numeric/cell_random.h"
 #include "synth/outline.h"
 #include "synth/pixel_picture.h"
 

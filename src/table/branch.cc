@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/hermite.h"
+#include "numeric/roots.h"
+
 namespace rheocyte {
 
 namespace {
@@ -27,16 +30,6 @@ Place place_of(const SampledBranch& branch, double stiffness) {
   return {sample, std::log(stiffness / stiff) / width, width};
 }
 
-// Weights of the values and of (slope x width) at both ends.
-struct HermiteWeights {
-  double first, last, first_slope, last_slope;
-};
-
-HermiteWeights hermite(double t) {
-  const double s = 1 - t;
-  return {s * s * (1 + 2 * t), t * t * (3 - 2 * t), s * s * t, -s * t * t};
-}
-
 // One measure between two samples; deformations by their logarithm, because d ~ stiffness^-2 over many decades.
 class Piece {
  public:
@@ -57,28 +50,16 @@ class Piece {
 
   double inner(double value) const { return logarithmic_ ? std::log(value) : value; }
   double at(double t) const { return logarithmic_ ? std::exp(inner_at(t)) : inner_at(t); }
-  double inner_at(double t) const {
-    const auto w = hermite(t);
-    return w.first * value_[0] + w.last * value_[1] + w.first_slope * slope_[0] + w.last_slope * slope_[1];
-  }
-  double inner_slope(double t) const {
-    return 6 * t * (1 - t) * (value_[1] - value_[0]) + (1 - t) * (1 - 3 * t) * slope_[0] + t * (3 * t - 2) * slope_[1];
-  }
+  double inner_at(double t) const { return hermite(t)(value_[0], value_[1], slope_[0], slope_[1]); }
 
-  // The place between 0 and 1 where the measure has a value that lies between those of the ends: Newton's steps,
-  // bisection where they leave the bracket.
+  // The place between 0 and 1 where the measure has a value that lies between those of the ends.
   double place_of(double wanted) const {
     const double target = inner(wanted), rise = value_[1] - value_[0];
-    double low = 0, high = 1, t = rise == 0 ? 0 : std::clamp((target - value_[0]) / rise, 0.0, 1.0);
-    for (int step = 0; step < 100; ++step) {
-      const double miss = inner_at(t) - target;
-      (miss * rise > 0 ? high : low) = t;
-      const double newton = t - miss / inner_slope(t);
-      const double next = newton > low && newton < high ? newton : (low + high) / 2;
-      if (std::abs(next - t) <= 1e-15 || miss == 0) break;
-      t = next;
-    }
-    return t;
+    const double start = rise == 0 ? 0 : std::clamp((target - value_[0]) / rise, 0.0, 1.0);
+    const auto miss = [&](double t) {
+      return ValueAndSlope{inner_at(t) - target, hermite_slope(t)(value_[0], value_[1], slope_[0], slope_[1])};
+    };
+    return bracketed_newton(miss, 0, 1, start, rise > 0, 1e-15);
   }
 
  private:

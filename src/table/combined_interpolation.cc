@@ -10,6 +10,8 @@
 #include <span>
 
 #include "case/user_error.h"
+#include "numeric/hermite.h"
+#include "numeric/lagrange.h"
 
 namespace rheocyte {
 
@@ -17,23 +19,6 @@ namespace {
 
 /// Where a dent appears, the hull's features bend at another deformation in each branch: higher degrees do worse.
 constexpr int greatest_stencil = 4;
-
-/// Lagrange's weights at a place, and their derivatives.
-struct Weights {
-  std::vector<double> value, slope;
-};
-
-Weights lagrange(std::span<const double> nodes, double x) {
-  Weights weights{std::vector<double>(nodes.size(), 1), std::vector<double>(nodes.size(), 0)};
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (k == i) continue;
-      const double factor = 1 / (nodes[i] - nodes[k]);
-      weights.slope[i] = weights.slope[i] * (x - nodes[k]) * factor + weights.value[i] * factor;
-      weights.value[i] *= (x - nodes[k]) * factor;
-    }
-  return weights;
-}
 
 /// The interval of ascending nodes that holds x, or the nearest one.
 int interval_of(std::span<const double> nodes, double x) {
@@ -149,8 +134,8 @@ bool CombinedInterpolation::reaches(int ratio, int share, double log_radius, dou
 CombinedInterpolation::Sum CombinedInterpolation::over_radii(int ratio, int share, const CellCoordinates& cell) const {
   const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
   const auto window = window_of(log_radii_, x, [&](int i) { return curve(ratio, share, i).reaches(log_d); });
-  const auto weights =
-      lagrange(std::span(log_radii_).subspan(std::size_t(window.first), std::size_t(window.end - window.first)), x);
+  const auto weights = lagrange_weights(
+      std::span(log_radii_).subspan(std::size_t(window.first), std::size_t(window.end - window.first)), x);
   Sum sum;
   for (int i = window.first; i < window.end; ++i) {
     const Curve& branch = curve(ratio, share, i);
@@ -163,12 +148,11 @@ CombinedInterpolation::Sum CombinedInterpolation::over_radii(int ratio, int shar
       term.gradient.col(int(CellCoordinate::log_deformation)) = branch.slope[end];
     } else {
       const auto k = std::size_t(interval_of(branch.log_d, log_d));
-      const double h = branch.log_d[k + 1] - branch.log_d[k], t = (log_d - branch.log_d[k]) / h, s = 1 - t;
-      const Row rise = branch.value[k + 1] - branch.value[k];
-      term.value = branch.value[k] + t * t * (3 - 2 * t) * rise +
-                   h * (s * s * t * branch.slope[k] - s * t * t * branch.slope[k + 1]);
-      term.gradient.col(int(CellCoordinate::log_deformation)) =
-          6 * t * s / h * rise + s * (1 - 3 * t) * branch.slope[k] + t * (3 * t - 2) * branch.slope[k + 1];
+      const double h = branch.log_d[k + 1] - branch.log_d[k], t = (log_d - branch.log_d[k]) / h;
+      const Row &a = branch.value[k], &b = branch.value[k + 1];
+      const Row slope_a = h * branch.slope[k], slope_b = h * branch.slope[k + 1];
+      term.value = hermite(t)(a, b, slope_a, slope_b);
+      term.gradient.col(int(CellCoordinate::log_deformation)) = hermite_slope(t)(a, b, slope_a, slope_b) / h;
     }
     const auto w = std::size_t(i - window.first);
     sum.add(term, weights.value[w], weights.slope[w], CellCoordinate::log_radius);
@@ -180,8 +164,8 @@ CombinedInterpolation::Sum CombinedInterpolation::over_shares(int ratio, const C
   const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
   const double share = cell(int(CellCoordinate::cortex_share));
   const auto window = window_of(shares_, share, [&](int j) { return reaches(ratio, j, x, log_d); });
-  const auto weights =
-      lagrange(std::span(shares_).subspan(std::size_t(window.first), std::size_t(window.end - window.first)), share);
+  const auto weights = lagrange_weights(
+      std::span(shares_).subspan(std::size_t(window.first), std::size_t(window.end - window.first)), share);
   Sum sum;
   for (int j = window.first; j < window.end; ++j) {
     const auto w = std::size_t(j - window.first);
@@ -203,17 +187,17 @@ std::vector<BranchWeight> CombinedInterpolation::weights(const CellCoordinates& 
   if (!is_inside(cell)) return {};
   const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
   const double share = cell(int(CellCoordinate::cortex_share));
-  const auto of_ratios = lagrange(ratios_, cell(int(CellCoordinate::tension_ratio)));
+  const auto of_ratios = lagrange_weights(ratios_, cell(int(CellCoordinate::tension_ratio)));
   const auto part = [](const std::vector<double>& nodes, const Window& window) {
     return std::span(nodes).subspan(std::size_t(window.first), std::size_t(window.end - window.first));
   };
   std::vector<BranchWeight> all;
   for (int i = 0; i < int(ratios_.size()); ++i) {
     const auto sheets = window_of(shares_, share, [&](int j) { return reaches(i, j, x, log_d); });
-    const auto of_shares = lagrange(part(shares_, sheets), share);
+    const auto of_shares = lagrange_weights(part(shares_, sheets), share);
     for (int j = sheets.first; j < sheets.end; ++j) {
       const auto radii = window_of(log_radii_, x, [&](int k) { return curve(i, j, k).reaches(log_d); });
-      const auto of_radii = lagrange(part(log_radii_, radii), x);
+      const auto of_radii = lagrange_weights(part(log_radii_, radii), x);
       for (int k = radii.first; k < radii.end; ++k)
         all.push_back(
             {curve(i, j, k).branch, of_ratios.value[std::size_t(i)] * of_shares.value[std::size_t(j - sheets.first)] *
@@ -225,7 +209,7 @@ std::vector<BranchWeight> CombinedInterpolation::weights(const CellCoordinates& 
 
 CombinedState CombinedInterpolation::at(const CellCoordinates& cell) const {
   const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
-  const auto weights = lagrange(ratios_, cell(int(CellCoordinate::tension_ratio)));
+  const auto weights = lagrange_weights(ratios_, cell(int(CellCoordinate::tension_ratio)));
   Sum sum;
   for (int i = 0; i < int(ratios_.size()); ++i) {
     const auto w = std::size_t(i);

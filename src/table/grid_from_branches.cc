@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numeric/lagrange.h"
 #include "table/branch_border.h"
-#include "table/lagrange.h"
 #include "table/table_metadata.h"
 
 namespace rheocyte {
@@ -40,17 +40,13 @@ std::optional<NodeValue> value_at(std::span<const Crossing> line, double log_are
   const auto count = std::min<std::ptrdiff_t>(greatest_stencil, size);
   const auto first = std::clamp<std::ptrdiff_t>(below - count / 2 + 1, 0, size - count);
   const auto nodes = line.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
-  const auto at_column = [&](std::span<const Crossing> some, double Crossing::*member) {
-    return lagrange_value(some, log_area, &Crossing::log_area, member);
+  const auto at_column = [&](double Crossing::*member) {
+    return lagrange_estimate(nodes, log_area, &Crossing::log_area, member);
   };
-  const double value = at_column(nodes, &Crossing::log_stiffness),
-               height = at_column(nodes, &Crossing::log_deformation);
-  // As in the interpolation between the branches: the polynomial of two degrees less tells the error. A deformation
-  // that is off counts half, because d ~ E^-2.
-  const auto inner = count > 3 ? nodes.subspan(1, nodes.size() - 2) : nodes.first(2);
-  const double value_change = value - at_column(inner, &Crossing::log_stiffness);
-  const double height_change = height - at_column(inner, &Crossing::log_deformation);
-  return NodeValue{height, value, std::max(a.error, b.error) + std::abs(value_change + 0.5 * height_change)};
+  const auto value = at_column(&Crossing::log_stiffness), height = at_column(&Crossing::log_deformation);
+  // A deformation that is off counts half, because d ~ E^-2.
+  return NodeValue{height.value, value.value,
+                   std::max(a.error, b.error) + std::abs(value.change + 0.5 * height.change)};
 }
 
 // The value of a column at a height. A line of equal height bends with the border, more than the branches resolve; its
@@ -190,17 +186,10 @@ class PatchMaker {
   Columns columns_;
 };
 
-GridOrigin origin_of(const TableSpec& spec, std::string_view version) {
+TableOrigin origin_of(const TableSpec& spec, std::string_view version) {
   const Case& c = spec.base;
-  return {spec.identifier,
-          model_text(c),
-          fmt::format("rheocyte {}", version),
-          to_toml(spec),
-          channel_width_um(c),
-          c.flow.rate_ul_per_s.value(),
-          effective_viscosity_mPas(c),
-          flow_exponent(c),
-          stiffness_unit(spec) != "kPa"};
+  return {spec.identifier, model_text(c),      fmt::format("rheocyte {}", version),
+          to_toml(spec),   channel_flow_of(c), stiffness_unit(spec) != "kPa"};
 }
 
 // Bending makes cells stiffer: moduli drop by some percent where it takes over, and nobody knows the bending of a cell.

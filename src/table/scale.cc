@@ -53,39 +53,39 @@ bool is_shear_thinning(const ordered_json& metadata) {
 }
 
 // With the mean speed and the radius of the tube.
-double reynolds(double density_kg_per_m3, const ChannelConditions& at) {
-  const double R = tube_radius_per_channel_width * at.channel_width_um * 1e-6, Q = at.flow_rate_ul_s * 1e-9;
+double reynolds(double density_kg_per_m3, const ChannelFlow& at) {
+  const double R = tube_radius_per_channel_width * at.width_um * 1e-6, Q = at.rate_ul_s * 1e-9;
   return density_kg_per_m3 * Q / (std::numbers::pi * R * at.viscosity_mPas * 1e-3);
 }
 
-double inertia_effect(const TableText& table, const ChannelConditions& to) {
+double inertia_effect(const TableText& table, const ChannelFlow& to) {
   const double density = number_at(table.metadata, "/fluid_density");
-  return deformation_per_reynolds * std::abs(reynolds(density, to) - reynolds(density, conditions_of(table)));
+  return deformation_per_reynolds * std::abs(reynolds(density, to) - reynolds(density, channel_flow_of(table)));
 }
 
-std::string text_of(const ChannelConditions& at) {
-  return fmt::format("{:g} um, {:g} uL/s, {:g} mPa s", at.channel_width_um, at.flow_rate_ul_s, at.viscosity_mPas);
+std::string text_of(const ChannelFlow& at) {
+  return fmt::format("{:g} um, {:g} uL/s, {:g} mPa s", at.width_um, at.rate_ul_s, at.viscosity_mPas);
 }
 
 // The consistency that gives the wanted effective viscosity at the wall; shear rates go as Q / W^3.
-double consistency_factor(const ordered_json& metadata, const ChannelConditions& from, const ChannelConditions& to) {
-  const double shear =
-      to.flow_rate_ul_s / from.flow_rate_ul_s * std::pow(from.channel_width_um / to.channel_width_um, 3);
-  return to.viscosity_mPas / from.viscosity_mPas * std::pow(shear, 1 - exponent_of(metadata));
+double consistency_factor(double exponent, const ChannelFlow& from, const ChannelFlow& to) {
+  const double shear = to.rate_ul_s / from.rate_ul_s / scale_factors(from, to).volume;
+  return to.viscosity_mPas / from.viscosity_mPas * std::pow(shear, 1 - exponent);
 }
 
 // A length by W' / W, a velocity by Q' / Q (W / W')^2, a stress by the factor of moduli.
-double factor_of(const Dimension& dimension, const ChannelConditions& from, const ChannelConditions& to) {
-  const double width = to.channel_width_um / from.channel_width_um, rate = to.flow_rate_ul_s / from.flow_rate_ul_s;
-  return std::pow(width, dimension.length - 2 * dimension.velocity) * std::pow(rate, dimension.velocity) *
-         std::pow(scale_factors(from, to).modulus, dimension.stress);
+double factor_of(const Dimension& dimension, const ChannelFlow& from, const ChannelFlow& to) {
+  const ScaleFactors factor = scale_factors(from, to);
+  const double rate = to.rate_ul_s / from.rate_ul_s;
+  return std::pow(factor.length, dimension.length - 2 * dimension.velocity) * std::pow(rate, dimension.velocity) *
+         std::pow(factor.modulus, dimension.stress);
 }
 
 // What a case keeps in another channel; doubts_of_scaling tells the consequence.
 bool is_kept(std::string_view key) { return key == "density_kg_per_m3" || key.ends_with("_kBT"); }
 
 // All numbers whose names end with a unit.
-void scale_numbers(ordered_json& object, const ChannelConditions& from, const ChannelConditions& to) {
+void scale_numbers(ordered_json& object, const ChannelFlow& from, const ChannelFlow& to) {
   for (auto& [key, value] : object.items())
     if (value.is_object())
       scale_numbers(value, from, to);
@@ -93,19 +93,18 @@ void scale_numbers(ordered_json& object, const ChannelConditions& from, const Ch
       multiply(value, factor_of(unit_of(key).dimension, from, to));
 }
 
-void scale_metadata(ordered_json& metadata, const ChannelConditions& from, const ChannelConditions& to) {
+void scale_metadata(ordered_json& metadata, const ChannelFlow& from, const ChannelFlow& to) {
   scale_numbers(metadata, from, to);
-  metadata["channel_width"] = to.channel_width_um;
-  metadata["flow_rate"] = to.flow_rate_ul_s;
+  metadata["channel_width"] = to.width_um;
+  metadata["flow_rate"] = to.rate_ul_s;
   metadata["fluid_viscosity"] = to.viscosity_mPas;
-  replace(metadata, "/case/flow/rate_ul_per_s", to.flow_rate_ul_s);
+  replace(metadata, "/case/flow/rate_ul_per_s", to.rate_ul_s);
   replace(metadata, "/case/flow/viscosity_mPas", to.viscosity_mPas);
   for (const char* consistency : {"/fluid_consistency_coefficient", "/case/flow/consistency_Pa_sn"})
     if (const ordered_json::json_pointer place(consistency); metadata.contains(place))
-      multiply(metadata.at(place), consistency_factor(metadata, from, to));
-  metadata["scaled_from"] = {{"channel_width", from.channel_width_um},
-                             {"flow_rate", from.flow_rate_ul_s},
-                             {"fluid_viscosity", from.viscosity_mPas}};
+      multiply(metadata.at(place), consistency_factor(exponent_of(metadata), from, to));
+  metadata["scaled_from"] = {
+      {"channel_width", from.width_um}, {"flow_rate", from.rate_ul_s}, {"fluid_viscosity", from.viscosity_mPas}};
 }
 
 bool is_of_cortex(const ordered_json& metadata) {
@@ -115,23 +114,18 @@ bool is_of_cortex(const ordered_json& metadata) {
 
 }  // namespace
 
-ChannelConditions conditions_of(const TableText& table) {
-  const auto value = [&](const char* key) { return table.metadata.at(key).get<double>(); };
-  return {value("channel_width"), value("flow_rate"), value("fluid_viscosity")};
+ChannelFlow channel_flow_of(const TableText& table) {
+  return {.width_um = table.metadata.at("channel_width"),
+          .rate_ul_s = table.metadata.at("flow_rate"),
+          .viscosity_mPas = table.metadata.at("fluid_viscosity"),
+          .exponent = exponent_of(table.metadata)};
 }
 
-ScaleFactors scale_factors(const ChannelConditions& from, const ChannelConditions& to) {
-  const double width = to.channel_width_um / from.channel_width_um;
-  const double force =
-      to.flow_rate_ul_s * to.viscosity_mPas / (from.flow_rate_ul_s * from.viscosity_mPas);  // eta Q, in pN m/s
-  return {force / (width * width * width), force / (width * width), width * width, width * width * width};
-}
-
-std::vector<std::string> doubts_of_scaling(const TableText& table, const ChannelConditions& to) {
-  const auto from = conditions_of(table);
-  const bool same_force = !differ(from.flow_rate_ul_s * from.viscosity_mPas, to.flow_rate_ul_s * to.viscosity_mPas);
-  const bool same = same_force && !differ(from.channel_width_um, to.channel_width_um) &&
-                    !differ(from.flow_rate_ul_s, to.flow_rate_ul_s);
+std::vector<std::string> doubts_of_scaling(const TableText& table, const ChannelFlow& to) {
+  const auto from = channel_flow_of(table);
+  const double load = scale_factors(from, to).load;
+  const bool same_force = !differ(load, 1);
+  const bool same = same_force && !differ(from.width_um, to.width_um) && !differ(from.rate_ul_s, to.rate_ul_s);
   std::vector<std::string> doubts;
   if (same) return doubts;
   if (is_shear_thinning(table.metadata))
@@ -143,13 +137,13 @@ std::vector<std::string> doubts_of_scaling(const TableText& table, const Channel
   const bool bending = number_at(table.metadata, "/case/cell/cortex/bending_kBT") > 0 ||
                        number_at(table.metadata, "/regularised_rows") > 0;
   if (bending && !same_force)
-    doubts.push_back(fmt::format("its bending stiffness becomes that of cells {:.3g} times as stiff against bending",
-                                 to.flow_rate_ul_s * to.viscosity_mPas / (from.flow_rate_ul_s * from.viscosity_mPas)));
+    doubts.push_back(
+        fmt::format("its bending stiffness becomes that of cells {:.3g} times as stiff against bending", load));
   return doubts;
 }
 
-TableText scaled(const TableText& table, const ChannelConditions& to, std::string_view version) {
-  const auto from = conditions_of(table);
+TableText scaled(const TableText& table, const ChannelFlow& to, std::string_view version) {
+  const auto from = channel_flow_of(table);
   const auto factor = scale_factors(from, to);
   TableText result = table;
   std::vector<std::string> comments{

@@ -5,6 +5,10 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
+
+#include "numeric/hermite.h"
+#include "numeric/lagrange.h"
 
 namespace rheocyte {
 
@@ -13,28 +17,18 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int slope_points = 5;
 
-// The derivative at `i` of the polynomial through the five (or all) nodes around it, in units of the node distance.
-double slope_at(std::span<const double> values, int i) {
-  const int n = static_cast<int>(values.size()), m = std::min(slope_points, n), first = std::clamp(i - m / 2, 0, n - m);
-  double sum = 0;
-  for (int k = first; k < first + m; ++k) {
-    double weight = 0;  // derivative of Lagrange's polynomial of node k at node i
-    if (k == i) {
-      for (int j = first; j < first + m; ++j)
-        if (j != i) weight += 1.0 / (i - j);
-    } else {
-      weight = 1.0 / (k - i);
-      for (int j = first; j < first + m; ++j)
-        if (j != k && j != i) weight *= static_cast<double>(i - j) / (k - j);
-    }
-    sum += weight * values[static_cast<std::size_t>(k)];
-  }
-  return sum;
-}
-
+// Derivatives of the polynomials through the five (or all) nodes around each, in units of the node distance.
 std::vector<double> slopes(std::span<const double> values) {
-  std::vector<double> all;
-  for (int i = 0; i < static_cast<int>(values.size()); ++i) all.push_back(slope_at(values, i));
+  const int n = static_cast<int>(values.size()), m = std::min(slope_points, n);
+  std::vector<double> nodes(static_cast<std::size_t>(m)), all;
+  std::iota(nodes.begin(), nodes.end(), 0);
+  std::vector<std::vector<double>> weights;  // by the place among the nodes
+  for (const double place : nodes) weights.push_back(lagrange_weights(nodes, place).slope);
+  for (int i = 0; i < n; ++i) {
+    const int first = std::clamp(i - m / 2, 0, n - m);
+    const auto& own = weights[static_cast<std::size_t>(i - first)];
+    all.push_back(std::inner_product(own.begin(), own.end(), values.begin() + first, 0.0));
+  }
   return all;
 }
 
@@ -60,25 +54,6 @@ std::vector<double> slopes_by_column(std::span<const double> values, std::size_t
 }
 
 }  // namespace
-
-/// Weights of two values and two slopes at a place between 0 and 1, and those of the derivative there.
-struct StiffnessGrid::Hermite {
-  double first, last, first_slope, last_slope;
-
-  explicit Hermite(double t)
-      : first((1 - t) * (1 - t) * (1 + 2 * t)),
-        last(t * t * (3 - 2 * t)),
-        first_slope((1 - t) * (1 - t) * t),
-        last_slope(-t * t * (1 - t)) {}
-  Hermite(double by_first, double by_last, double by_first_slope, double by_last_slope)
-      : first(by_first), last(by_last), first_slope(by_first_slope), last_slope(by_last_slope) {}
-  static Hermite derivative(double t) {
-    return {-6 * t * (1 - t), 6 * t * (1 - t), (1 - t) * (1 - 3 * t), t * (3 * t - 2)};
-  }
-  double operator()(double a, double b, double a_slope, double b_slope) const {
-    return first * a + last * b + first_slope * a_slope + last_slope * b_slope;
-  }
-};
 
 StiffnessGrid::Patch StiffnessGrid::ready(const GridPatch& patch) {
   Patch made{patch.regularised, patch.first_column, patch.columns, patch.rows, {}, {}, {}, {}, {}};
@@ -112,10 +87,10 @@ StiffnessGrid::StiffnessGrid(GridContent content) : content_(std::move(content))
 /// A place between two columns of a patch.
 struct StiffnessGrid::Place {
   std::size_t column;
-  Hermite weight, change;
+  HermiteWeights weight, change;
   double lower, upper;
 
-  double edge(const std::vector<Edge>& e, const Hermite& w) const {
+  double edge(const std::vector<Edge>& e, const HermiteWeights& w) const {
     return w(e[column].value, e[column + 1].value, e[column].by_column, e[column + 1].by_column);
   }
 };
@@ -124,13 +99,13 @@ GridAnswer StiffnessGrid::between(const Patch& patch, const Place& place, double
   const double rows_per_height = (patch.rows - 1) / (place.upper - place.lower);
   const double height = (log_deformation - place.lower) * rows_per_height;
   const int row = std::min(static_cast<int>(height), patch.rows - 2);
-  const Hermite up(height - row), up_change = Hermite::derivative(height - row);
+  const HermiteWeights up = hermite(height - row), up_change = hermite_slope(height - row);
   const std::size_t first = place.column * static_cast<std::size_t>(patch.rows) + static_cast<std::size_t>(row);
   const Node *const a = &patch.nodes[first], *const b = a + patch.rows;
-  const auto along = [](const Hermite& w, const Node* n) {
+  const auto along = [](const HermiteWeights& w, const Node* n) {
     return w(n[0].value, n[1].value, n[0].by_row, n[1].by_row);
   };
-  const auto across = [](const Hermite& w, const Node* n) {
+  const auto across = [](const HermiteWeights& w, const Node* n) {
     return w(n[0].by_column, n[1].by_column, n[0].by_both, n[1].by_both);
   };
   const double value_a = along(up, a), value_b = along(up, b), slope_a = across(up, a), slope_b = across(up, b);
@@ -157,7 +132,7 @@ GridAnswer StiffnessGrid::answer_at(double log_area, double log_deformation) con
   if (place > content_.columns - 1) return none(NoAnswer::too_large);
   const int column = std::min(static_cast<int>(place), content_.columns - 2);
   const double share = place - column;
-  Place here{0, Hermite(share), Hermite::derivative(share), 0, 0};
+  Place here{0, hermite(share), hermite_slope(share), 0, 0};
   NoAnswer reason = NoAnswer::too_stiff;
   for (const Patch& patch : patches_) {
     const int in_patch = column - patch.first_column;
@@ -187,7 +162,7 @@ std::optional<StiffnessGrid::Range> StiffnessGrid::smooth_range(double area_um2)
   if (!(place >= 0 && place <= content_.columns - 1)) return {};
   const int column = std::min(static_cast<int>(place), content_.columns - 2);
   const Patch& bare = patches_.front();
-  const Place here{static_cast<std::size_t>(column), Hermite(place - column), Hermite::derivative(0), 0, 0};
+  const Place here{static_cast<std::size_t>(column), hermite(place - column), {}, 0, 0};
   return Range{here.edge(bare.lower, here.weight), here.edge(bare.upper, here.weight)};
 }
 

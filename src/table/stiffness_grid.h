@@ -6,20 +6,22 @@
 #include <string_view>
 #include <vector>
 
+#include "case/channel_flow.h"
 #include "table/table_interpolation.h"
 
 namespace rheocyte {
 
-/// For what a grid was computed.
-struct GridOrigin {
-  std::string identifier;  ///< of the table
+/// For what a table was computed, and by what; of published tables only identifier and flow are known.
+struct TableOrigin {
+  std::string identifier;  ///< e.g. "LE-2D-26"
   std::string model;       ///< e.g. "linear solid / newtonian fluid"
   std::string program;     ///< name and version
   std::string spec;        ///< the complete spec of the table
-  double channel_width_um = 0, flow_rate_ul_s = 0;
-  double viscosity_mPas = 0;  ///< of a shear-thinning liquid the effective one at the wall of the square channel
-  double flow_exponent = 1;   ///< n of the liquid, 1: Newtonian
-  bool is_shell = false;      ///< the stiffness is the modulus of a cortex (mN/m), not Young's modulus (kPa)
+  ChannelFlow flow;
+  bool is_shell = false;  ///< the stiffness is the modulus of a cortex (mN/m), not Young's modulus (kPa)
+
+  /// In one line.
+  std::string description() const;
 };
 
 /// Between two curves in the plane of ln(area) and ln(deformation), rows at equal distances in each column. Vectors
@@ -35,7 +37,7 @@ struct GridPatch {
 
 /// All that a file of a grid holds.
 struct GridContent {
-  GridOrigin origin;
+  TableOrigin origin;
   double least_log_area = 0, column_step = 0;  ///< ln(um^2)
   int columns = 0;
   std::vector<GridPatch> patches;  ///< the bare surface's first; each lies on top of the one before
@@ -56,7 +58,7 @@ class StiffnessGrid {
   explicit StiffnessGrid(GridContent content);
 
   const GridContent& content() const { return content_; }
-  const GridOrigin& origin() const { return content_.origin; }
+  const TableOrigin& origin() const { return content_.origin; }
 
   /// Logarithms of area (um^2) and deformation; -infinity is a deformation of zero, NaN no number. Equally long
   /// (asserted).
@@ -85,7 +87,6 @@ class StiffnessGrid {
     std::vector<double> cell_error;
     std::vector<NoAnswer> beyond;
   };
-  struct Hermite;
   struct Place;
   static Patch ready(const GridPatch& patch);
   GridAnswer between(const Patch& patch, const Place& place, double log_deformation) const;
@@ -99,6 +100,10 @@ class StiffnessGrid {
 std::string to_bytes(const GridContent&);
 /// UserError naming `name` if the bytes are damaged or no grid.
 GridContent grid_from_bytes(std::string_view bytes, const std::string& name);
+/// The exponent of the liquid from the beginning of a grid's file, of which grid_head_bytes are enough; nothing if
+/// that is none.
+std::optional<double> grid_flow_exponent(std::string_view head);
+inline constexpr std::size_t grid_head_bytes = 4096;
 
 /// Name of the file beside the other files of a table: grid_<identifier>.cbor.
 std::string grid_file_name(const std::string& identifier);

@@ -31,17 +31,17 @@ json record_of(const GridPatch& patch) {
 }
 
 json record_of(const GridContent& grid) {
-  const GridOrigin& o = grid.origin;
+  const TableOrigin& o = grid.origin;
   json patches = json::array();
   for (const auto& patch : grid.patches) patches.push_back(record_of(patch));
   return {{"identifier", o.identifier},
           {"model", o.model},
           {"program", o.program},
           {"spec", o.spec},
-          {"channel_width_um", o.channel_width_um},
-          {"flow_rate_ul_per_s", o.flow_rate_ul_s},
-          {"viscosity_mPas", o.viscosity_mPas},
-          {"flow_exponent", o.flow_exponent},
+          {"channel_width_um", o.flow.width_um},
+          {"flow_rate_ul_per_s", o.flow.rate_ul_s},
+          {"viscosity_mPas", o.flow.viscosity_mPas},
+          {"flow_exponent", o.flow.exponent},
           {"is_shell", o.is_shell},
           {"least_log_area", grid.least_log_area},
           {"column_step", grid.column_step},
@@ -86,15 +86,15 @@ GridPatch patch_of(const json& record, int columns) {
 
 GridContent content_of(const json& record) {
   GridContent grid;
-  GridOrigin& o = grid.origin;
+  TableOrigin& o = grid.origin;
   o.identifier = record.at("identifier");
   o.model = record.at("model");
   o.program = record.at("program");
   o.spec = record.at("spec");
-  o.channel_width_um = positive(record, "channel_width_um");
-  o.flow_rate_ul_s = positive(record, "flow_rate_ul_per_s");
-  o.viscosity_mPas = positive(record, "viscosity_mPas");
-  o.flow_exponent = positive(record, "flow_exponent");
+  o.flow.width_um = positive(record, "channel_width_um");
+  o.flow.rate_ul_s = positive(record, "flow_rate_ul_per_s");
+  o.flow.viscosity_mPas = positive(record, "viscosity_mPas");
+  o.flow.exponent = positive(record, "flow_exponent");
   o.is_shell = record.at("is_shell");
   grid.least_log_area = record.at("least_log_area");
   grid.column_step = positive(record, "column_step");
@@ -106,8 +106,25 @@ GridContent content_of(const json& record) {
 
 }  // namespace
 
+std::string TableOrigin::description() const {
+  const auto conditions =
+      fmt::format("{} um, {} ul/s, {:.6g} mPa s", flow.width_um, flow.rate_ul_s, flow.viscosity_mPas);
+  return model.empty() ? fmt::format("{} ({})", identifier, conditions)
+                       : fmt::format("{} ({}, {}, by {})", identifier, model, conditions, program);
+}
+
 std::string to_bytes(const GridContent& grid) {
   return sealed_record(kind, fingerprint(grid.origin.spec), record_of(grid));
+}
+
+// Keys of a record stand in the order of their letters, so the numbers come behind it.
+std::optional<double> grid_flow_exponent(std::string_view head) {
+  constexpr std::string_view key = "flow_exponent";
+  const auto place = head.substr(0, grid_head_bytes).find(key);
+  if (place == std::string_view::npos) return {};
+  const auto value = head.substr(place + key.size());
+  const json number = json::from_cbor(value.begin(), value.end(), false, false);
+  return number.is_number() ? std::optional(number.get<double>()) : std::nullopt;
 }
 
 GridContent grid_from_bytes(std::string_view bytes, const std::string& name) {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "table/lagrange.h"
+#include "numeric/lagrange.h"
 
 namespace rheocyte {
 
@@ -121,18 +121,13 @@ class TableInterpolation::Query {
     return nodes;
   }
 
-  // At the wanted size.
-  static double polynomial(std::span<const Node> nodes) { return lagrange_value(nodes, 0, &Node::x, &Node::y); }
-
   StiffnessAnswer between(int below, const Node& first, const Node& second) const {
     const auto nodes = stencil(below, first, second);
-    const double best = polynomial(nodes);
-    // The polynomial of two degrees less, on the nodes in the middle, tells how far it can be trusted.
-    const auto inner = nodes.size() > 3 ? std::span(nodes).subspan(1, nodes.size() - 2) : std::span(nodes).first(2);
+    const auto best = lagrange_estimate(std::span<const Node>(nodes), 0, &Node::x, &Node::y);  // at the wanted size
     const auto [low, high] = std::minmax(first.y, second.y);
-    const double value = std::clamp(best, low, high);
+    const double value = std::clamp(best.value, low, high);
     const double states = std::max(stiffness_error(first.state), stiffness_error(second.state));
-    return {std::exp(value), states + std::abs(value - polynomial(inner)),
+    return {std::exp(value), states + std::abs(value - best.value + best.change),
             first.state.regularised || second.state.regularised, NoAnswer::none};
   }
 

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "case/case_keys.h"
-#include "case/scales.h"
+#include "case/channel_flow.h"
 #include "case/write_case.h"
 #include "table/table_text.h"
 
@@ -37,19 +35,6 @@ ordered_json case_without_swept(const TableSpec& spec) {
 
 }  // namespace
 
-double channel_width_um(const Case& c) {
-  return c.channel.width_um ? *c.channel.width_um : tube_radius_um(c) / tube_radius_per_channel_width;
-}
-
-double flow_exponent(const Case& c) { return c.flow.law == LiquidLaw::power_law ? c.flow.exponent.value() : 1; }
-
-double effective_viscosity_mPas(const Case& c) {
-  if (c.flow.law == LiquidLaw::newtonian) return c.flow.viscosity_mPas.value();
-  const double n = c.flow.exponent.value(), width_mm = 1e-3 * channel_width_um(c);
-  const double shear_rate = 8 * c.flow.rate_ul_per_s.value() / (width_mm * width_mm * width_mm) * (0.6671 + 0.2121 / n);
-  return 1e3 * c.flow.consistency_Pa_sn.value() * std::pow(shear_rate, n - 1);
-}
-
 std::string model_text(const Case& c) {
   std::string solid;
   if (c.cell.bulk.law != BulkLaw::none) solid = fmt::format("{} solid", chosen_option(c, "cell.bulk.law"));
@@ -60,15 +45,16 @@ std::string model_text(const Case& c) {
 
 ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
   const Case& c = spec.base;
+  const ChannelFlow flow = channel_flow_of(c);
   ordered_json metadata{{"authors", "rheocyte"},
-                        {"channel_width", channel_width_um(c)},
+                        {"channel_width", flow.width_um},
                         {"channel_width_unit", "um"},
                         {"dimensionality", "2Daxis"},
-                        {"flow_rate", c.flow.rate_ul_per_s.value()},
+                        {"flow_rate", flow.rate_ul_s},
                         {"flow_rate_unit", "uL/s"},
                         {"fluid_density", c.flow.density_kg_per_m3},
                         {"fluid_density_unit", "kg m^-3"},
-                        {"fluid_viscosity", effective_viscosity_mPas(c)},
+                        {"fluid_viscosity", flow.viscosity_mPas},
                         {"fluid_viscosity_unit", "mPa s"}};
   add_power_law(metadata, c);
   metadata[table_identifier_key] = spec.identifier;

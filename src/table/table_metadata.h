@@ -11,16 +11,6 @@ namespace rheocyte {
 /// Files in the text formats of rheocyte's tables begin so.
 inline constexpr std::string_view table_mark = "# rheocyte ";
 
-/// Width of the square channel, given or mapped from the tube's radius.
-double channel_width_um(const Case&);
-
-/// Viscosity of a Newtonian liquid; of a power-law liquid the effective one at the wall of the square channel,
-/// eta = K g^(n-1) with g = 8 Q / L^3 (0.6671 + 0.2121 / n), by which RT-DC programs compare buffers and tables.
-double effective_viscosity_mPas(const Case&);
-
-/// n of eta ~ (shear rate)^(n - 1); 1 for a Newtonian liquid.
-double flow_exponent(const Case&);
-
 /// For example "neo-hookean solid / newtonian fluid".
 std::string model_text(const Case&);
 

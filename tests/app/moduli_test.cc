@@ -8,8 +8,8 @@
 
 #include "../robustness/run_program.h"
 #include "../table/invented_combined.h"
+#include "measurement/mask_from_outline.h"
 #include "measurement/recording_writer.h"
-#include "synth/pixel_picture.h"
 
 namespace rheocyte::test {
 namespace {

@@ -161,7 +161,7 @@ TEST_F(OwnTable, AShearThinningMediumGetsTheTableOfItsLiquid) {
   const auto ship = [&](const std::string& identifier, double exponent, double factor) {
     auto other = grid;
     other.origin.identifier = identifier;
-    other.origin.flow_exponent = exponent;
+    other.origin.flow.exponent = exponent;
     for (double& value : other.patches[0].log_stiffness) value += std::log(factor);
     test::write_file(folder_ / ("shipped/" + grid_file_name(identifier)), to_bytes(other));
   };

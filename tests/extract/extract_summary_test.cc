@@ -36,7 +36,7 @@ TEST(ExtractSummary, ComesBackFromItsBytes) {
   s.modulus_kPa = {1, 0.5, 2, 1.25, std::numeric_limits<double>::quiet_NaN()};
   s.mean_viscosity_mPas = 5.5;
   s.table = "name \"quoted\"";
-  s.conditions = {20, 0.04, 0.34};
+  s.conditions = {{20, 0.04}, 0.34};
   s.warnings = {"first.", "second."};
   const auto back = from_bytes<ExtractSummary>(to_bytes(s)).value();
   EXPECT_EQ(back.events, 7U);

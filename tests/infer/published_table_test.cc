@@ -1,10 +1,9 @@
 // A published table is read as it stands, and what is wrong with it is named (damage of the format itself:
 // tests/table/table_text_test.cc).
-#include "infer/published_table.h"
-
 #include <fstream>
 
 #include "case/user_error.h"
+#include "infer/published_map.h"
 #include "measurement/reference_files.h"
 
 namespace rheocyte {
@@ -48,9 +47,9 @@ TEST(PublishedTable, EveryNumberIsRead) {
   const auto table = read_published_table(file);
   std::filesystem::remove(file);
   EXPECT_EQ(table.identifier, "XX-1");
-  EXPECT_EQ(table.channel_width_um, 20);
-  EXPECT_EQ(table.flow_rate_ul_s, 0.04);
-  EXPECT_EQ(table.viscosity_mPas, 15);
+  EXPECT_EQ(table.flow.width_um, 20);
+  EXPECT_EQ(table.flow.rate_ul_s, 0.04);
+  EXPECT_EQ(table.flow.viscosity_mPas, 15);
   EXPECT_EQ(table.abscissa, Abscissa::area);
   EXPECT_EQ(table.size, (std::vector<double>{10, 20, 10}));
   EXPECT_EQ(table.deformation, (std::vector<double>{0.1, 0.1, 0.2}));
@@ -82,10 +81,10 @@ TEST(PublishedTable, ThePublishedOnesHaveTheirNumbersOfRows) {
   RHEOCYTE_NEED_REFERENCE("lut_LE-2D-FEM-19.txt");
   const auto linear = read_published_table(test::reference_folder() / "lut_LE-2D-FEM-19.txt");
   EXPECT_EQ(linear.size.size(), 13038U);
-  EXPECT_EQ(linear.viscosity_mPas, 15);
+  EXPECT_EQ(linear.flow.viscosity_mPas, 15);
   const auto hyperelastic = read_published_table(test::reference_folder() / "lut_HE-2D-FEM-22.txt");
   EXPECT_EQ(hyperelastic.size.size(), 16394U);
-  EXPECT_EQ(hyperelastic.viscosity_mPas, 6);
+  EXPECT_EQ(hyperelastic.flow.viscosity_mPas, 6);
   EXPECT_EQ(hyperelastic.identifier, "HE-2D-FEM-22");
 }
 

@@ -7,7 +7,7 @@
 
 #include "../table/invented_combined.h"
 #include "infer/rendered_errors.h"
-#include "synth/shape_in_pixels.h"
+#include "measurement/shape_in_pixels.h"
 
 namespace rheocyte {
 namespace {
@@ -32,7 +32,7 @@ struct Cell {
 
 class SeveralModuliOf : public testing::Test {
  protected:
-  SeveralModuliOf() : between_(whole_combined_table()), simulated_(conditions_of(whole_combined_table().spec)) {}
+  SeveralModuliOf() : between_(whole_combined_table()), simulated_(channel_flow_of(whole_combined_table().spec.base)) {}
 
   SeveralModuli estimator(std::vector<int> features, bool free_tension = false, double ratio = 0.15) const {
     return {between_, simulated_, {std::move(features), free_tension, ratio}};
@@ -48,7 +48,7 @@ class SeveralModuliOf : public testing::Test {
   }
 
   CombinedInterpolation between_;
-  FlowConditions simulated_;
+  ChannelFlow simulated_;
   std::mt19937 engine_{1};
 };
 
@@ -95,8 +95,7 @@ TEST_F(SeveralModuliOf, AnotherChannelScalesExactly) {
   const auto all = estimator(features_of_figure());
   const auto narrow = all.fit(shape, simulated_);
   shape.features(0) += 2 * std::log(2.0);
-  const auto wide =
-      all.fit(shape, {2 * simulated_.channel_width_um, 3 * simulated_.flow_rate_ul_s, simulated_.viscosity_mPas / 2});
+  const auto wide = all.fit(shape, {2 * simulated_.width_um, 3 * simulated_.rate_ul_s, simulated_.viscosity_mPas / 2});
   EXPECT_NEAR(wide.value(Modulus::young) / narrow.value(Modulus::young), 1.5 / 8, 1e-9);
   EXPECT_NEAR(wide.error(Modulus::cortex) / narrow.error(Modulus::cortex), 1.5 / 4, 1e-7);
   EXPECT_NEAR(wide.value(Modulus::tension) / narrow.value(Modulus::tension), 1.5 / 4, 1e-9);
@@ -146,7 +145,7 @@ TEST_F(SeveralModuliOf, ShapesThatNoCellHasAreSaid) {
   };
   EXPECT_EQ(status(0, std::log(2000)), ModuliStatus::outside_table);
   EXPECT_EQ(status(0, std::nan("")), ModuliStatus::no_data);
-  FlowConditions unknown = simulated_;
+  ChannelFlow unknown = simulated_;
   unknown.viscosity_mPas = std::nan("");
   const auto without_viscosity = all.fit(good, unknown);
   EXPECT_EQ(without_viscosity.status, ModuliStatus::no_data);

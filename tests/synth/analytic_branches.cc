@@ -8,7 +8,7 @@ namespace rheocyte::test {
 
 SampledBranch analytic_branch(double radius_um) {
   constexpr double viscosity = 15;
-  const AnalyticShapes model({.channel_width_um = 20, .flow_rate_ul_s = 0.04, .greatest_deformation = 0.1});
+  const AnalyticShapes model({.flow = {20, 0.04}, .greatest_deformation = 0.1});
   const auto state = [&](double radius, double stiffness) {
     return std::get<CellShape>(model.shape({radius, stiffness, viscosity}));
   };

@@ -10,7 +10,7 @@
 namespace rheocyte {
 namespace {
 
-constexpr AnalyticConditionsOfCells solids{.channel_width_um = 20, .flow_rate_ul_s = 0.04};
+constexpr AnalyticPopulation solids{.flow = {20, 0.04}};
 
 CellShape shape_of(const AnalyticShapes& shapes, const VirtualCell& cell) {
   auto found = shapes.shape(cell);
@@ -40,11 +40,11 @@ TEST(AnalyticShapes, ASolidIsThatOfTheDimensionlessModel) {
 }
 
 TEST(AnalyticShapes, AShellIsThatOfTheDimensionlessModel) {
-  auto conditions = solids;
-  conditions.is_shell = true;
-  conditions.tension_ratio = 0.1;
-  conditions.greatest_deformation = 0.01;
-  const auto shape = shape_of(AnalyticShapes(conditions), {6, 30, 15});
+  auto shells = solids;
+  shells.is_shell = true;
+  shells.tension_ratio = 0.1;
+  shells.greatest_deformation = 0.01;
+  const auto shape = shape_of(AnalyticShapes(shells), {6, 30, 15});
   const double R = 0.547 * 20;
   const double capillary = 6e-13 / (R * R * 1e-12) / 30e-3;
   const auto expected = small_deformation(shell_in_tube(6 / R, 0.1), shell_strain(capillary, 6 / R));
@@ -63,8 +63,8 @@ TEST(AnalyticShapes, SaysWhyThereIsNoShape) {
 
 TEST(AnalyticShapes, ScalesWithTheChannel) {
   auto wide = solids;
-  wide.channel_width_um = 30;
-  wide.flow_rate_ul_s = 0.16;
+  wide.flow.width_um = 30;
+  wide.flow.rate_ul_s = 0.16;
   const auto in_20 = shape_of(AnalyticShapes(solids), {6, 3, 15});
   const double same_load = 0.04 / 0.16 * 27. / 8;
   const auto in_30 = shape_of(AnalyticShapes(wide), {9, 3, 15 * same_load});

@@ -19,12 +19,12 @@ std::vector<SampledBranch> analytic_branches() {
   return branches;
 }
 
-constexpr BranchConditions same{20, 0.04, viscosity, 20, 0.04, false};
+constexpr SimulatedCells same{{20, 0.04, viscosity}, {20, 0.04}, false};
 
 TEST(BranchShapes, LieBetweenTheBranches) {
   const auto branches = analytic_branches();
   const BranchShapes shapes(branches, same);
-  const AnalyticShapes model({.channel_width_um = 20, .flow_rate_ul_s = 0.04, .greatest_deformation = 0.1});
+  const AnalyticShapes model({.flow = {20, 0.04}, .greatest_deformation = 0.1});
   for (const double radius : {4.0, 4.1, 5.6, 6.37, 7.9})
     for (const double stiffness : {4.1, 7.3, 19.0}) {
       const auto found = shapes.shape({radius, stiffness, viscosity});
@@ -41,9 +41,9 @@ TEST(BranchShapes, LieBetweenTheBranches) {
 
 TEST(BranchShapes, ScaleToOtherChannelsFlowsAndLiquids) {
   const auto branches = analytic_branches();
-  BranchConditions wide = same;
-  wide.channel_width_um = 30;
-  wide.flow_rate_ul_s = 0.16;
+  SimulatedCells wide = same;
+  wide.flow.width_um = 30;
+  wide.flow.rate_ul_s = 0.16;
   const auto in_20 = std::get<CellShape>(BranchShapes(branches, same).shape({6, 8, viscosity}));
   const double stiffness = 8 * (0.16 / 0.04) * (5 / viscosity) * (8. / 27);
   const auto in_30 = std::get<CellShape>(BranchShapes(branches, wide).shape({9, stiffness, 5}));

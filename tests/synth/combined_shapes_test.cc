@@ -11,13 +11,13 @@
 namespace rheocyte {
 namespace {
 
-constexpr BranchConditions same{20, 0.04, 15, 20, 0.04};
+constexpr SimulatedCells same{{20, 0.04, 15}, {20, 0.04}};
 
-CombinedShapes invented_shapes(const BranchConditions& conditions) {
+CombinedShapes invented_shapes(const SimulatedCells& cells) {
   const TableSpec spec = parse_table_spec(test::combined_spec, "spec.toml");
   std::vector<SampledBranch> branches;
   for (const auto& place : sweep_places(spec)) branches.push_back(test::invented_combined_samples(place));
-  return {spec, std::move(branches), conditions};
+  return {spec, std::move(branches), cells};
 }
 
 VirtualCell cell_of(const BranchPlace& place, double S) {
@@ -53,9 +53,9 @@ TEST_F(Combined, ShapesLieBetweenTheBranches) {
 
 TEST_F(Combined, ScaleToOtherChannelsFlowsAndLiquids) {
   // Moduli of the bulk with the cube of the width, those of the surface with its square; to rounding.
-  BranchConditions wide = same;
-  wide.channel_width_um = 30;
-  wide.flow_rate_ul_s = 0.16;
+  SimulatedCells wide = same;
+  wide.flow.width_um = 30;
+  wide.flow.rate_ul_s = 0.16;
   const VirtualCell cell = cell_of({6.3, 0.4, 0.15}, 2);
   const double load = 0.16 / 0.04 * 5 / 15, width = 1.5;
   const VirtualCell scaled{cell.radius_um * width, cell.stiffness * load / (width * width * width), 5,

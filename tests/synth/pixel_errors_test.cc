@@ -7,10 +7,10 @@
 
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
+#include "measurement/mask_from_outline.h"
+#include "numeric/cell_random.h"
 #include "synth/analytic_shapes.h"
-#include "synth/cell_random.h"
 #include "synth/outline.h"
-#include "synth/pixel_picture.h"
 
 namespace rheocyte {
 namespace {
@@ -50,7 +50,7 @@ Left left_of(const CellShape& shape, double area_px, int places) {
 }
 
 TEST(PixelErrors, DescribeMasksOfOtherShapes) {
-  const AnalyticShapes model({.channel_width_um = 20, .flow_rate_ul_s = 0.04, .greatest_deformation = 0.1});
+  const AnalyticShapes model({.flow = {20, 0.04}, .greatest_deformation = 0.1});
   double ratio_of_area = 0, ratio_of_deformation = 0;
   int count = 0;
   for (const double radius : {4.5, 6.0, 7.0})

@@ -41,9 +41,8 @@ class Virtual : public testing::Test {
  protected:
   VirtualRecording write(const std::string& more, const std::string& name = "v.rtdc") const {
     const auto spec = parse_synth_spec(base + more, "spec.toml");
-    const AnalyticShapes shapes({.channel_width_um = spec.channel_width_um,
-                                 .flow_rate_ul_s = spec.flow_rate_ul_s,
-                                 .greatest_deformation = spec.greatest_deformation});
+    const AnalyticShapes shapes(
+        {.flow = {spec.channel_width_um, spec.flow_rate_ul_s}, .greatest_deformation = spec.greatest_deformation});
     return write_virtual_recording(spec, shapes, {"rheocyte test", {"line"}}, folder_ / name, [](double) {});
   }
   std::vector<double> column(const std::string& feature, const std::string& name = "v.rtdc") const {

@@ -39,7 +39,7 @@ TEST(Scale, ThereAndBackIsTheSameTable) {
       auto table =
           table_with({{"stiffness", stiffness}, {"case", {{"cell", {{"cortex", {{"tension_mN_per_m", 0.3}}}}}}}});
       table.abscissa = abscissa;
-      const auto back = scaled(scaled(table, {31, 0.07, 4}, "0"), conditions_of(table), "0");
+      const auto back = scaled(scaled(table, {31, 0.07, 4}, "0"), channel_flow_of(table), "0");
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back.rows[i][k] / table.rows[i][k], 1, 1e-14);  // rounding
       EXPECT_NEAR(back.metadata["case"]["cell"]["cortex"]["tension_mN_per_m"].get<double>(), 0.3, 1e-15);
@@ -122,13 +122,13 @@ TEST(Scale, ShearThinningLiquidsOfOneExponentScaleWithTheViscosityAtTheWall) {
                            {"fluid_flow_behaviour_index", 0.6039},
                            {"fluid_consistency_coefficient", 0.4057},
                            {"case", {{"flow", {{"law", "power-law"}, {"consistency_Pa_sn", 0.4057}}}}}});
-  const ChannelConditions to{30, 0.16, 9};
+  const ChannelFlow to{30, 0.16, 9};
   const auto out = scaled(table, to, "0");
   const double K = out.metadata.at("fluid_consistency_coefficient"), n = 0.6039;
-  const auto stress = [n](double k, const ChannelConditions& at) {
-    return k * std::pow(at.flow_rate_ul_s / std::pow(at.channel_width_um, 3), n);
+  const auto stress = [n](double k, const ChannelFlow& at) {
+    return k * std::pow(at.rate_ul_s / std::pow(at.width_um, 3), n);
   };
-  EXPECT_NEAR(out.rows[0][2] / table.rows[0][2], stress(K, to) / stress(0.4057, conditions_of(table)), 1e-13);
+  EXPECT_NEAR(out.rows[0][2] / table.rows[0][2], stress(K, to) / stress(0.4057, channel_flow_of(table)), 1e-13);
   EXPECT_EQ(out.metadata["case"]["flow"]["consistency_Pa_sn"], K);
   ASSERT_EQ(doubts_of_scaling(table, to).size(), 1u);
   EXPECT_NE(doubts_of_scaling(table, to)[0].find("shear-thinning"), std::string::npos);

@@ -165,7 +165,7 @@ TEST(StiffnessGrid, IsTheSameFromItsFile) {
   EXPECT_EQ(back.origin.identifier, "XX-2D-26");
   EXPECT_EQ(back.origin.model, "linear solid / newtonian fluid");
   EXPECT_EQ(back.origin.program, "rheocyte 1.0");
-  EXPECT_EQ(back.origin.flow_exponent, 1);
+  EXPECT_EQ(back.origin.flow.exponent, 1);
   EXPECT_FALSE(back.origin.is_shell);
   EXPECT_EQ(to_toml(parse_table_spec(back.origin.spec, "grid")), to_toml(spec)) << "the spec is complete";
   const StiffnessGrid one(content), other(back);

@@ -1,4 +1,4 @@
-#include "synth/shape_in_pixels.h"
+#include "measurement/shape_in_pixels.h"
 
 #include <cassert>
 #include <cmath>
@@ -6,9 +6,18 @@
 #include <vector>
 
 #include "measurement/contour_from_mask.h"
-#include "synth/pixel_picture.h"
+#include "measurement/mask_from_outline.h"
 
 namespace rheocyte {
+
+ShapeVector shape_of_contour(const PixelContour& contour, double pixel_size_um) {
+  Eigen::MatrixX2d polygon(Eigen::Index(contour.size()), 2);
+  for (Eigen::Index i = 0; i < polygon.rows(); ++i) {
+    const PixelPoint& point = contour[std::size_t(i)];
+    polygon.row(i) << pixel_size_um * point.x, pixel_size_um * point.y;
+  }
+  return shape_vector(outline_shape(polygon));
+}
 
 ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um,
                                const Eigen::RowVector2d& place_px) {
@@ -25,13 +34,7 @@ ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_
   assert(is_whole);
   static_cast<void>(is_whole);
   ContourFinder finder;
-  const PixelContour& contour = finder.contour_of({size, mask});
-  Eigen::MatrixX2d polygon(Eigen::Index(contour.size()), 2);
-  for (Eigen::Index i = 0; i < polygon.rows(); ++i) {
-    const PixelPoint& point = contour[std::size_t(i)];
-    polygon.row(i) << pixel_size_um * point.x, pixel_size_um * point.y;
-  }
-  return shape_vector(outline_shape(polygon));
+  return shape_of_contour(finder.contour_of({size, mask}), pixel_size_um);
 }
 
 ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random) {

@@ -1,4 +1,4 @@
-#include "extract/any_table.h"
+#include "infer/read_modulus_map.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "case/user_error.h"
+#include "infer/grid_map.h"
+#include "infer/published_map.h"
 
 namespace rheocyte {
 
@@ -47,11 +49,22 @@ std::string content_of(const fs::path& path) {
 
 }  // namespace
 
-AnyTable read_any_table(const fs::path& path) {
+std::unique_ptr<const ModulusMap> read_modulus_map(const fs::path& path) {
   std::error_code error;
   const fs::path file = fs::is_directory(path, error) ? grid_in(path) : path;
-  if (file.extension() == ".cbor") return grid_from_bytes(content_of(file), one_line(file.string(), 300));
-  return read_published_table(file);
+  if (file.extension() == ".cbor")
+    return std::make_unique<GridMap>(grid_from_bytes(content_of(file), one_line(file.string(), 300)));
+  PublishedTable table = read_published_table(file);
+  refuse_volumes(table);
+  return std::make_unique<PublishedMap>(std::move(table));
+}
+
+std::optional<double> read_flow_exponent(const fs::path& grid_file) {
+  std::string head(grid_head_bytes, '\0');
+  std::ifstream file(grid_file, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return grid_flow_exponent(head);
 }
 
 }  // namespace rheocyte

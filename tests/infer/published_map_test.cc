@@ -1,5 +1,5 @@
 // Young's moduli from a published table are those of dclab, event by event, and missing where dclab has none.
-#include "infer/modulus_parity.h"
+#include "infer/published_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +17,13 @@ namespace {
 // itself computes viscosities in float32 where the file's temperatures are (3e-7).
 constexpr double parity = 1e-6;
 
-const ParityModulus& published(const std::string& name) {
-  static std::map<std::string, ParityModulus> tables;
+const PublishedMap& published(const std::string& name) {
+  static std::map<std::string, PublishedMap> tables;
   const auto file = test::reference_folder() / ("lut_" + name + ".txt");
   return tables.try_emplace(name, read_published_table(file)).first->second;
 }
 
-double modulus(const ParityModulus& table, const MeasuringConditions& conditions, double area, double deformation,
+double modulus(const PublishedMap& table, const MeasuringConditions& conditions, double area, double deformation,
                double viscosity) {
   double value = 0;
   table.moduli(conditions, {{&area, 1}, {&deformation, 1}, {&viscosity, 1}}, {&value, 1});
@@ -50,24 +50,24 @@ struct Comparison {
 /// A table of one triangle, in which everything can be followed by hand.
 PublishedTable triangle() {
   PublishedTable table;
-  table.channel_width_um = 20;
-  table.flow_rate_ul_s = 0.04;
-  table.viscosity_mPas = 15;
+  table.flow.width_um = 20;
+  table.flow.rate_ul_s = 0.04;
+  table.flow.viscosity_mPas = 15;
   table.size = {50, 100, 100};
   table.deformation = {0.05, 0.0, 0.1};
   table.modulus_kPa = {1, 2, 3};
   return table;
 }
 
-TEST(ModulusParity, ScalesWithFlowViscosityAndWidth) {
-  const ParityModulus table(triangle());
-  EXPECT_NEAR(modulus(table, {20, 0.04, 0}, 75, 0.05, 15), 1.75, 1e-14);
-  EXPECT_NEAR(modulus(table, {20, 0.08, 0}, 75, 0.05, 5), 1.75 * 2 / 3, 1e-14);
-  EXPECT_NEAR(modulus(table, {40, 0.04, 0}, 300, 0.05, 15), 1.75 / 8, 1e-14);
+TEST(PublishedMap, ScalesWithFlowViscosityAndWidth) {
+  const PublishedMap table(triangle());
+  EXPECT_NEAR(modulus(table, {{20, 0.04}, 0}, 75, 0.05, 15), 1.75, 1e-14);
+  EXPECT_NEAR(modulus(table, {{20, 0.08}, 0}, 75, 0.05, 5), 1.75 * 2 / 3, 1e-14);
+  EXPECT_NEAR(modulus(table, {{40, 0.04}, 0}, 300, 0.05, 15), 1.75 / 8, 1e-14);
 }
 
-TEST(ModulusParity, ManyEventsGetWhatEachGetsAlone) {
-  const ParityModulus table(triangle());
+TEST(PublishedMap, ManyEventsGetWhatEachGetsAlone) {
+  const PublishedMap table(triangle());
   std::vector<double> areas, deformations, viscosities;
   for (int i = 0; i < 1300; ++i) {
     areas.push_back(40 + 0.05 * i);
@@ -75,7 +75,7 @@ TEST(ModulusParity, ManyEventsGetWhatEachGetsAlone) {
     viscosities.push_back(4 + 0.001 * i);
   }
   std::vector<double> moduli(areas.size());
-  const MeasuringConditions conditions{20, 0.06, 0.34};
+  const MeasuringConditions conditions{{20, 0.06}, 0.34};
   table.moduli(conditions, {areas, deformations, viscosities}, moduli);
   for (std::size_t i = 0; i < areas.size(); ++i) {
     const double alone = modulus(table, conditions, areas[i], deformations[i], viscosities[i]);
@@ -84,9 +84,9 @@ TEST(ModulusParity, ManyEventsGetWhatEachGetsAlone) {
   }
 }
 
-TEST(ModulusParity, EachEventOutsideIsToldWhy) {
-  const ParityModulus table(triangle());
-  const MeasuringConditions conditions{20, 0.04, 0};
+TEST(PublishedMap, EachEventOutsideIsToldWhy) {
+  const PublishedMap table(triangle());
+  const MeasuringConditions conditions{{20, 0.04}, 0};
   const auto state = [&](double area, double deformation) {
     return table.state(conditions, area, deformation, modulus(table, conditions, area, deformation, 15));
   };
@@ -100,7 +100,7 @@ TEST(ModulusParity, EachEventOutsideIsToldWhy) {
   EXPECT_EQ(table.state(conditions, 75, 0.05, modulus(table, conditions, 75, 0.05, NAN)), ModulusState::no_data);
 }
 
-TEST(ModulusParity, MeetsTheValuesInTheTestsOfDclab) {
+TEST(PublishedMap, MeetsTheValuesInTheTestsOfDclab) {
   RHEOCYTE_NEED_REFERENCE("lut_HE-2D-FEM-22.txt");
   struct Row {
     int y, x;
@@ -114,14 +114,14 @@ TEST(ModulusParity, MeetsTheValuesInTheTestsOfDclab) {
   const double viscosity = Buffer(Medium::methyl_cellulose_049, ViscosityModel::herold_2017).viscosity({30, 0.16}, 23);
   for (const auto& row : rows) {
     const double area = 250.0 * row.x / 99, deformation = 0.1 * row.y / 99;
-    const double linear = modulus(published("LE-2D-FEM-19"), {30, 0.16, 0}, area, deformation, viscosity);
-    const double hyperelastic = modulus(published("HE-2D-FEM-22"), {30, 0.16, 0}, area, deformation, viscosity);
+    const double linear = modulus(published("LE-2D-FEM-19"), {{30, 0.16}, 0}, area, deformation, viscosity);
+    const double hyperelastic = modulus(published("HE-2D-FEM-22"), {{30, 0.16}, 0}, area, deformation, viscosity);
     EXPECT_NEAR(linear, row.linear, 1e-12 * row.linear);
     EXPECT_NEAR(hyperelastic, row.hyperelastic, 1e-12 * row.hyperelastic);
   }
 }
 
-TEST(ModulusParity, MeetsEverySyntheticGoldenRow) {
+TEST(PublishedMap, MeetsEverySyntheticGoldenRow) {
   RHEOCYTE_NEED_REFERENCE("golden/emodulus_synthetic.csv");
   const auto golden = test::read_csv(test::reference_folder() / "golden/emodulus_synthetic.csv");
   ASSERT_EQ(golden.rows(), 300U);
@@ -129,10 +129,9 @@ TEST(ModulusParity, MeetsEverySyntheticGoldenRow) {
   for (std::size_t i = 0; i < golden.rows(); ++i) {
     const Buffer buffer(medium_of_name(golden.text("medium", i)).value(),
                         viscosity_model_of_name(golden.text("visc_model", i)).value());
-    const MeasuringConditions conditions{golden.number("channel_width_um", i), golden.number("flow_rate_uL_s", i),
+    const MeasuringConditions conditions{{golden.number("channel_width_um", i), golden.number("flow_rate_uL_s", i)},
                                          golden.number("px_um", i)};
-    const double viscosity =
-        buffer.viscosity({conditions.channel_width_um, conditions.flow_rate_ul_s}, golden.number("temperature_C", i));
+    const double viscosity = buffer.viscosity(conditions.flow, golden.number("temperature_C", i));
     comparison.add(modulus(published(golden.text("lut", i)), conditions, golden.number("area_um", i),
                            golden.number("deform", i), viscosity),
                    golden.number("emodulus_kPa", i));
@@ -140,7 +139,7 @@ TEST(ModulusParity, MeetsEverySyntheticGoldenRow) {
   comparison.expect_parity("synthetic events");
 }
 
-TEST(ModulusParity, MeetsEveryGoldenRowOfRealFilesFromTheFilesThemselves) {
+TEST(PublishedMap, MeetsEveryGoldenRowOfRealFilesFromTheFilesThemselves) {
   RHEOCYTE_NEED_REFERENCE("golden/emodulus_real_files.csv");
   const auto golden = test::read_csv(test::reference_folder() / "golden/emodulus_real_files.csv");
   ASSERT_EQ(golden.rows(), 216U);
@@ -148,12 +147,12 @@ TEST(ModulusParity, MeetsEveryGoldenRowOfRealFilesFromTheFilesThemselves) {
   Comparison linear, hyperelastic;
   for (std::size_t i = 0; i < golden.rows(); ++i) {
     const auto& file = golden.text("file", i);
-    const MeasuringConditions conditions{golden.number("channel_width_um", i), golden.number("flow_rate_uL_s", i),
+    const MeasuringConditions conditions{{golden.number("channel_width_um", i), golden.number("flow_rate_uL_s", i)},
                                          golden.number("px_um", i)};
     auto& [areas, deformations] = shapes[file];
     if (areas.empty()) {
       const Recording recording(test::reference_folder() / "rtdc" / file);
-      EXPECT_EQ(recording.metadata().number("setup:channel width"), conditions.channel_width_um);
+      EXPECT_EQ(recording.metadata().number("setup:channel width"), conditions.flow.width_um);
       EXPECT_EQ(recording.metadata().number("imaging:pixel size"), conditions.pixel_size_um);
       areas.resize(recording.events());
       deformations.resize(recording.events());
@@ -163,8 +162,7 @@ TEST(ModulusParity, MeetsEveryGoldenRowOfRealFilesFromTheFilesThemselves) {
     std::string medium = golden.text("medium", i);
     medium = medium.substr(0, medium.find('('));
     const Buffer buffer(medium_of_name(medium).value(), viscosity_model_of_name(golden.text("visc_model", i)).value());
-    const double viscosity =
-        buffer.viscosity({conditions.channel_width_um, conditions.flow_rate_ul_s}, golden.number("temperature_C", i));
+    const double viscosity = buffer.viscosity(conditions.flow, golden.number("temperature_C", i));
     const auto compare = [&](const char* name, const char* column, Comparison& comparison) {
       comparison.add(modulus(published(name), conditions, areas.at(event), deformations.at(event), viscosity),
                      golden.number(column, i));
@@ -176,7 +174,7 @@ TEST(ModulusParity, MeetsEveryGoldenRowOfRealFilesFromTheFilesThemselves) {
   hyperelastic.expect_parity("real files, HE-2D-FEM-22");
 }
 
-TEST(ModulusParity, ReproducesTheModuliThatARecordingHolds) {
+TEST(PublishedMap, ReproducesTheModuliThatARecordingHolds) {
   RHEOCYTE_NEED_REFERENCE("rtdc/wide_channel_issue_212.rtdc");
   // LE-2D-FEM-19, Herold 2017, temperature of each event; stored by dclab 0.48 and quoted here.
   const double expected[] = {1.59169857, 2.38133343, 1.74618026, 1.7782649,  1.41646647,
@@ -189,15 +187,14 @@ TEST(ModulusParity, ReproducesTheModuliThatARecordingHolds) {
   const Metadata& metadata = recording.metadata();
   const ChannelFlow flow{metadata.number("setup:channel width").value(), metadata.number("setup:flow rate").value()};
   Buffer(Medium::methyl_cellulose_059, ViscosityModel::herold_2017).viscosity(flow, temperatures, viscosities);
-  published("LE-2D-FEM-19")
-      .moduli({flow.channel_width_um, flow.flow_rate_ul_s, 0.339}, {areas, deformations, viscosities}, moduli);
+  published("LE-2D-FEM-19").moduli({flow, 0.339}, {areas, deformations, viscosities}, moduli);
   for (int i = 0; i < 10; ++i) {
     EXPECT_NEAR(moduli[i], expected[i], parity * expected[i]);
     EXPECT_NEAR(moduli[i], stored[i], parity * stored[i]);
   }
 }
 
-TEST(ModulusParity, OfAWholePopulationCountsAndMedianAreThoseOfDclab) {
+TEST(PublishedMap, OfAWholePopulationCountsAndMedianAreThoseOfDclab) {
   RHEOCYTE_NEED_REFERENCE("rtdc/example.rtdc");
   const Recording recording(test::reference_folder() / "rtdc/example.rtdc");
   std::vector<double> areas(recording.events()), deformations(areas.size()), moduli(areas.size());
@@ -205,7 +202,7 @@ TEST(ModulusParity, OfAWholePopulationCountsAndMedianAreThoseOfDclab) {
   const double viscosity =
       Buffer(Medium::methyl_cellulose_049, ViscosityModel::buyukurganci_2022).viscosity({20, 0.06}, 23);
   const auto expect = [&](const char* name, std::size_t events, double median) {
-    published(name).moduli({20, 0.06, 0.34}, {areas, deformations, {&viscosity, 1}}, moduli);
+    published(name).moduli({{20, 0.06}, 0.34}, {areas, deformations, {&viscosity, 1}}, moduli);
     std::vector<double> valid;
     for (const double value : moduli)
       if (std::isfinite(value)) valid.push_back(value);

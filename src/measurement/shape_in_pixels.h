@@ -1,9 +1,13 @@
 // What pixels do to the features of a shape: mean and covariance over all positions of the cell on the camera.
 #pragma once
+#include "measurement/pixel_contour.h"
+#include "numeric/cell_random.h"
 #include "shape/outline_shape.h"
-#include "synth/cell_random.h"
 
 namespace rheocyte {
+
+/// Features of the polygon through the centres of a contour's pixels.
+ShapeVector shape_of_contour(const PixelContour& contour, double pixel_size_um);
 
 /// Renders the outline (um, x along the flow) at `draws` random positions, as fill_mask does, and measures each mask's
 /// contour. Sizes are spread over one pixel of the height, because a cell that is a whole number of pixels high counts

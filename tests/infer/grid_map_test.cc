@@ -1,5 +1,5 @@
 // Moduli from a grid: those of the table, scaled, with what pixels do taken away, and with errors that follow from it.
-#include "infer/grid_modulus.h"
+#include "infer/grid_map.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ struct Estimate {
   ModulusState state = ModulusState::valid;
 };
 
-class GridModulusTest : public testing::Test {
+class GridMapOf : public testing::Test {
  protected:
   Estimate at(const MeasuringConditions& conditions, double area, double deformation, double viscosity = 15) const {
     Estimate e;
@@ -27,17 +27,17 @@ class GridModulusTest : public testing::Test {
     return e;
   }
   TableSpec spec_ = parse_table_spec(test::short_spec, "spec.toml", std::vector<std::string>{"table.radii=40"});
-  GridModulus modulus_{make_stiffness_grid(spec_, test::invented_branches(spec_), "test").value()};
+  GridMap modulus_{make_stiffness_grid(spec_, test::invented_branches(spec_), "test").value()};
 };
 
-TEST_F(GridModulusTest, ScalesLikeTheEquations) {
+TEST_F(GridMapOf, ScalesLikeTheEquations) {
   const double expected = test::invented_modulus(100, 0.03);
-  EXPECT_NEAR(at({20, 0.04, 0}, 100, 0.03).modulus, expected, 1e-5 * expected);
+  EXPECT_NEAR(at({{20, 0.04}, 0}, 100, 0.03).modulus, expected, 1e-5 * expected);
   const double scaled = expected * (0.16 / 0.04) * (5.5 / 15) * std::pow(20. / 30, 3);
-  EXPECT_NEAR(at({30, 0.16, 0}, 100 * 2.25, 0.03, 5.5).modulus, scaled, 1e-5 * scaled);
+  EXPECT_NEAR(at({{30, 0.16}, 0}, 100 * 2.25, 0.03, 5.5).modulus, scaled, 1e-5 * scaled);
 }
 
-TEST_F(GridModulusTest, ManyEventsAreEachLikeOne) {
+TEST_F(GridMapOf, ManyEventsAreEachLikeOne) {
   std::vector<double> area, deformation, viscosity, modulus(1300), error(1300);
   std::vector<ModulusState> state(1300);
   for (int i = 0; i < 1300; ++i) {
@@ -45,9 +45,9 @@ TEST_F(GridModulusTest, ManyEventsAreEachLikeOne) {
     deformation.push_back(i % 7 == 0 ? NAN : -0.005 + 0.00017 * i);
     viscosity.push_back(i % 11 == 0 ? NAN : 5 + 0.001 * i);
   }
-  modulus_.estimate({20, 0.06, 0.34}, {area, deformation, viscosity}, {modulus, error, state});
+  modulus_.estimate({{20, 0.06}, 0.34}, {area, deformation, viscosity}, {modulus, error, state});
   for (std::size_t i = 0; i < area.size(); ++i) {
-    const auto one = at({20, 0.06, 0.34}, area[i], deformation[i], viscosity[i]);
+    const auto one = at({{20, 0.06}, 0.34}, area[i], deformation[i], viscosity[i]);
     EXPECT_EQ(state[i], one.state) << i;
     EXPECT_EQ(std::isnan(modulus[i]), std::isnan(one.modulus)) << i;
     EXPECT_EQ(std::isfinite(modulus[i]), has_modulus(state[i])) << i;
@@ -58,21 +58,21 @@ TEST_F(GridModulusTest, ManyEventsAreEachLikeOne) {
   }
 }
 
-TEST_F(GridModulusTest, TakesAwayWhatPixelsDo) {
+TEST_F(GridMapOf, TakesAwayWhatPixelsDo) {
   const double pixel = 0.34, area = 100, deformation = 0.03;
   const auto pixels = pixel_errors(std::log(area / (pixel * pixel)), deformation);
   const double smooth = deformation - pixels.deformation_excess;
   const double both = test::invented_modulus(area * pixels.area_factor, smooth),
                one = test::invented_modulus(area, smooth);
-  EXPECT_NEAR(at({20, 0.04, pixel}, area, deformation).modulus, both, 1e-5 * both);
-  EXPECT_NEAR(at({20, 0.04, pixel, false}, area, deformation).modulus, one, 1e-5 * one);
+  EXPECT_NEAR(at({{20, 0.04}, pixel}, area, deformation).modulus, both, 1e-5 * both);
+  EXPECT_NEAR(at({{20, 0.04}, pixel, false}, area, deformation).modulus, one, 1e-5 * one);
   EXPECT_GT(both, 1.01 * one) << "areas are measured too small";
 }
 
-TEST_F(GridModulusTest, ErrorsFollowFromScatterAndTable) {
+TEST_F(GridMapOf, ErrorsFollowFromScatterAndTable) {
   const double pixel = 0.34, area = 100, deformation = 0.02;
   const auto pixels = pixel_errors(std::log(area / (pixel * pixel)), deformation);
-  const auto here = at({20, 0.04, pixel}, area, deformation);
+  const auto here = at({{20, 0.04}, pixel}, area, deformation);
   const double smooth_area = area * pixels.area_factor, smooth = deformation - pixels.deformation_excess, step = 1e-4;
   const auto log_modulus = [](double a, double d) { return std::log(test::invented_modulus(a, d)); };
   const double by_area = (log_modulus(smooth_area * (1 + step), smooth) - log_modulus(smooth_area, smooth)) / step;
@@ -82,12 +82,12 @@ TEST_F(GridModulusTest, ErrorsFollowFromScatterAndTable) {
   const double expected = std::sqrt(a * a + d * d + 2 * pixels.correlation * a * d);
   EXPECT_NEAR(here.error / here.modulus, expected, 1e-3 * expected);
   // Without pixels the table's own error remains: half of 1e-4, because d ~ E^-2.
-  const auto bare = at({20, 0.04, 0}, area, deformation);
+  const auto bare = at({{20, 0.04}, 0}, area, deformation);
   EXPECT_NEAR(bare.error / bare.modulus, 7e-5, 4e-5);
 }
 
-TEST_F(GridModulusTest, EventsWithoutAModulusHaveAReason) {
-  const MeasuringConditions conditions{20, 0.04, 0.34};
+TEST_F(GridMapOf, EventsWithoutAModulusHaveAReason) {
+  const MeasuringConditions conditions{{20, 0.04}, 0.34};
   EXPECT_EQ(at(conditions, NAN, 0.03).state, ModulusState::no_data);
   EXPECT_EQ(at(conditions, 100, NAN).state, ModulusState::no_data);
   EXPECT_EQ(at(conditions, 100, 0.03, NAN).state, ModulusState::no_data);
@@ -103,10 +103,10 @@ TEST_F(GridModulusTest, EventsWithoutAModulusHaveAReason) {
   }
 }
 
-TEST_F(GridModulusTest, AGridOfShellsIsRefused) {
-  auto content = modulus_.grid().content();
+TEST_F(GridMapOf, AGridOfShellsIsRefused) {
+  auto content = make_stiffness_grid(spec_, test::invented_branches(spec_), "test").value();
   content.origin.is_shell = true;
-  EXPECT_THROW(GridModulus{content}, UserError);
+  EXPECT_THROW(GridMap{content}, UserError);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The numbers of a cell are its own, the same everywhere, and distributed as they say.
-#include "synth/cell_random.h"
+#include "numeric/cell_random.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "infer/grid_modulus.h"
+#include "infer/grid_map.h"
 
 #include <fmt/format.h>
 
@@ -45,19 +45,14 @@ double variance_by_pixels(const GridAnswer& answer, const PixelErrors& pixels, d
 
 }  // namespace
 
-/// Some events, at most block_size.
-struct GridModulus::Block {
-  std::span<const double> area, deformation, viscosity;
-};
-
-GridModulus::GridModulus(GridContent grid) : grid_(std::move(grid)) {
+GridMap::GridMap(GridContent grid) : ModulusMap(grid.origin), grid_(std::move(grid)) {
   if (origin().is_shell)
     throw UserError(fmt::format("The table {} holds moduli of a cortex (mN/m); Young's moduli need a table of solids.",
                                 origin().identifier));
 }
 
-void GridModulus::estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
-                           const EstimatedModuli& estimates) const {
+void GridMap::estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
+                       const EstimatedModuli& estimates) const {
   const std::size_t all = estimates.modulus_kPa.size();
   assert(events.size.size() == all && events.deformation.size() == all && events.viscosity_mPas.size() == all);
   assert(estimates.standard_error_kPa.size() == all && estimates.state.size() == all);
@@ -71,15 +66,14 @@ void GridModulus::estimate(const MeasuringConditions& conditions, const Measured
   }
 }
 
-void GridModulus::estimate_block(const MeasuringConditions& conditions, const Block& block,
-                                 const EstimatedModuli& estimates) const {
-  const std::size_t count = block.area.size();
+void GridMap::estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
+                             const EstimatedModuli& estimates) const {
+  const std::size_t count = block.size.size();
   const auto rows = static_cast<Eigen::Index>(count);
   Column log_area, deformation, log_deformation, modulus;
   std::array<PixelErrors, block_size> pixels;
   std::array<GridAnswer, block_size> answers;
-  const double width_ratio = origin().channel_width_um / conditions.channel_width_um;
-  log_area.head(rows) = Eigen::Map<const Eigen::ArrayXd>(block.area.data(), rows).log();
+  log_area.head(rows) = Eigen::Map<const Eigen::ArrayXd>(block.size.data(), rows).log();
   std::ranges::copy(block.deformation, deformation.data());
   if (conditions.pixel_size_um > 0) {
     const double log_pixel_area = 2 * std::log(conditions.pixel_size_um);
@@ -92,25 +86,51 @@ void GridModulus::estimate_block(const MeasuringConditions& conditions, const Bl
     }
     if (conditions.correct_area) log_area.head(rows) += factor.head(rows).log();
   }
-  log_area.head(rows) += 2 * std::log(width_ratio);
+  log_area.head(rows) += std::log(scale_factors(conditions.flow, origin().flow).area);
   // A deformation below zero is one that is too small, not one that is missing.
   for (Eigen::Index k = 0; k < rows; ++k) log_deformation[k] = deformation[k] < 0 ? 0 : deformation[k];
   log_deformation.head(rows) = log_deformation.head(rows).log();
   grid_.answer({log_area.data(), count}, {log_deformation.data(), count}, {answers.data(), count});
-  const double factor = conditions.flow_rate_ul_s / origin().flow_rate_ul_s / origin().viscosity_mPas * width_ratio *
-                        width_ratio * width_ratio;
+  const double factor = factor_per_mPas(conditions);
   for (std::size_t i = 0; i < count; ++i) modulus[static_cast<Eigen::Index>(i)] = answers[i].log_stiffness;
   modulus.head(rows) = modulus.head(rows).exp();
   for (std::size_t i = 0; i < count; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const bool has = answers[i].reason == NoAnswer::none && std::isfinite(block.viscosity[i]);
-    const double value = has ? modulus[k] * factor * block.viscosity[i] : nan;
+    const bool has = answers[i].reason == NoAnswer::none && std::isfinite(block.viscosity_mPas[i]);
+    const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : nan;
     const double variance =
         answers[i].error * answers[i].error + variance_by_pixels(answers[i], pixels[i], deformation[k]);
     estimates.modulus_kPa[i] = value;
     estimates.standard_error_kPa[i] = value * std::sqrt(variance);
     estimates.state[i] = answers[i].reason == NoAnswer::none && !has ? ModulusState::no_data : state_of(answers[i]);
   }
+}
+
+// Without the very rim, where rounding decides whether there is a modulus.
+ModulusMap::Interval GridMap::areas() const {
+  constexpr double rim = 1.0 / 800;  // of the width
+  const GridContent& grid = grid_.content();
+  const double least = std::exp(grid.least_log_area),
+               greatest = std::exp(grid.least_log_area + grid.column_step * (grid.columns - 1));
+  return {least + rim * (greatest - least), greatest - rim * (greatest - least)};
+}
+
+ModulusMap::Interval GridMap::deformations(double area_um2) const {
+  constexpr double rim = 1e-9;
+  const auto range = grid_.smooth_range(area_um2);
+  if (!range) return {};
+  return {std::exp(range->lower + rim), std::exp(range->upper - rim)};
+}
+
+double GridMap::modulus_kPa(double area_um2, double deformation) const {
+  const GridAnswer answer = grid_.answer(area_um2, deformation);
+  return answer.reason == NoAnswer::none && !answer.regularised ? std::exp(answer.log_stiffness) : nan;
+}
+
+PlanePoint GridMap::seen_through_pixels(const PlanePoint& cell, double pixel_size_um) const {
+  const double pixel_area = pixel_size_um * pixel_size_um;
+  const auto seen = rheocyte::seen_through_pixels({cell.x / pixel_area, cell.y});
+  return {seen.area_px * pixel_area, seen.deformation};
 }
 
 }  // namespace rheocyte

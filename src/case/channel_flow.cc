@@ -1,0 +1,39 @@
+#include "case/channel_flow.h"
+
+#include <cmath>
+
+#include "case/scales.h"
+
+namespace rheocyte {
+
+namespace {
+
+double effective_viscosity_mPas(const Flow& flow, double channel_width_um) {
+  if (flow.law == LiquidLaw::newtonian) return flow.viscosity_mPas.value();
+  const double n = flow.exponent.value(), width_mm = 1e-3 * channel_width_um;
+  const double shear_rate = 8 * flow.rate_ul_per_s.value() / (width_mm * width_mm * width_mm) * (0.6671 + 0.2121 / n);
+  return 1e3 * flow.consistency_Pa_sn.value() * std::pow(shear_rate, n - 1);
+}
+
+}  // namespace
+
+ChannelFlow channel_flow_of(const Case& c) {
+  const double width = c.channel.width_um ? *c.channel.width_um : tube_radius_um(c) / tube_radius_per_channel_width;
+  return {.width_um = width,
+          .rate_ul_s = c.flow.rate_ul_per_s.value(),
+          .viscosity_mPas = effective_viscosity_mPas(c.flow, width),
+          .exponent = c.flow.law == LiquidLaw::power_law ? c.flow.exponent.value() : 1};
+}
+
+ScaleFactors scale_factors(const ChannelFlow& from, const ChannelFlow& to) {
+  const double length = to.width_um / from.width_um, area = length * length, volume = area * length;
+  const double load = to.rate_ul_s * to.viscosity_mPas / (from.rate_ul_s * from.viscosity_mPas);
+  return {.length = length,
+          .area = area,
+          .volume = volume,
+          .modulus = load / volume,
+          .cortex_modulus = load / area,
+          .load = load};
+}
+
+}  // namespace rheocyte

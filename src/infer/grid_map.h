@@ -1,0 +1,32 @@
+// Young's modulus of each event with its standard error, from a grid of rheocyte's own tables (docs/theory-extract.md,
+// sec. "own tables").
+#pragma once
+#include "infer/modulus_map.h"
+#include "table/stiffness_grid.h"
+
+namespace rheocyte {
+
+class GridMap : public ModulusMap {
+ public:
+  /// UserError if the grid's stiffness is not Young's modulus.
+  explicit GridMap(GridContent grid);
+
+  bool is_own() const override { return true; }
+  /// The standard error comes from the scatter by pixels and the table's error (eq:standard-error).
+  void estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
+                const EstimatedModuli& moduli) const override;
+
+  /// Where the bare surface is smooth.
+  Interval areas() const override;
+  Interval deformations(double area_um2) const override;
+  double modulus_kPa(double area_um2, double deformation) const override;
+  PlanePoint seen_through_pixels(const PlanePoint& cell, double pixel_size_um) const override;
+
+ private:
+  void estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
+                      const EstimatedModuli& moduli) const;
+
+  StiffnessGrid grid_;
+};
+
+}  // namespace rheocyte
