@@ -139,14 +139,16 @@ void ExtractFiles::publish() {
 ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files, const ExtractOptions& options,
                                  const ModulusTables& tables, const TellProgress& on_progress) {
   check_companion(place_of(files.companion()));
-  const Recording recording(file);
+  Recording recording(file);
+  double done = 0;
+  recording.on_piece(now_and_then([&] { on_progress(done); }));
   Extraction extraction(recording, options, tables);
   Writers writers(files, recording, extraction);
   const std::size_t events = recording.events(), block = extraction.block();
   for (std::size_t first = 0; first < events; first += block) {
     const std::size_t count = std::min(block, events - first);
     writers.write(first, extraction.compute(first, count));
-    on_progress(static_cast<double>(first + count) / static_cast<double>(events));
+    on_progress(done = static_cast<double>(first + count) / static_cast<double>(events));
   }
   writers.close();
   return extraction.summary();

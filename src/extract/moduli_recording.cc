@@ -188,7 +188,9 @@ ModuliTable::ModuliTable(const ModuliOptions& options)
 ModuliSummary moduli_of_recording(const std::filesystem::path& path, const std::filesystem::path& file,
                                   const ModuliOptions& options, const ModuliTable& table,
                                   const TellProgress& tell_progress) {
-  const Recording recording(path);
+  Recording recording(path);
+  double done = 0;
+  recording.on_piece(now_and_then([&] { tell_progress(done); }));
   Fits fits(recording, options, table);
   FileWriter writer(file);
   writer.append(fits.header(options));
@@ -196,7 +198,7 @@ ModuliSummary moduli_of_recording(const std::filesystem::path& path, const std::
   for (std::size_t first = 0; first < events; first += block) {
     const std::size_t count = std::min(block, events - first);
     writer.append(fits.take(first, count));
-    tell_progress(double(first + count) / double(events));
+    tell_progress(done = double(first + count) / double(events));
   }
   writer.close();
   return fits.summary();

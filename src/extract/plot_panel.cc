@@ -34,12 +34,9 @@ class Pairs {
   std::vector<float> pairs_;
 };
 
-double median_temperature(const Recording& recording, const TellProgress& on_progress) {
+double median_temperature(const Recording& recording) {
   std::vector<double> celsius(recording.events());
-  for (std::size_t first = 0; first < celsius.size(); first += block) {
-    recording.read_scalar("temp", first, std::span(celsius).subspan(first, std::min(block, celsius.size() - first)));
-    on_progress(0);
-  }
+  recording.read_scalar("temp", 0, celsius);
   std::erase_if(celsius, [](double value) { return !std::isfinite(value); });
   return median_of(celsius);
 }
@@ -50,8 +47,7 @@ bool is_of_the_reservoir(const Recording& recording) {
   return region != "channel";
 }
 
-void take_conditions(const Recording& recording, const PlotOptions& options, const TellProgress& on_progress,
-                     PlotPanel& panel) {
+void take_conditions(const Recording& recording, const PlotOptions& options, PlotPanel& panel) {
   ExtractSettings settings =
       extract_settings(options.measuring, options.no_pixelation ? PixelUse::ignore : PixelUse::correct, recording);
   panel.has_conditions = true;
@@ -59,7 +55,7 @@ void take_conditions(const Recording& recording, const PlotOptions& options, con
   ChannelFlow& flow = panel.conditions.flow;
   std::string temperature = fmt::format("{:.3g} °C", settings.temperature_C);
   if (settings.viscosity_varies()) {
-    const double celsius = median_temperature(recording, on_progress);
+    const double celsius = median_temperature(recording);
     if (!std::isfinite(celsius))
       throw UserError(fmt::format("{}: its temperatures are no numbers; give --temperature in degrees Celsius.",
                                   one_line(recording.file().string(), 300)));
@@ -113,7 +109,9 @@ class Axes {
 
 PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWanted lines, const TakePairs& take_pairs,
                      const TellProgress& on_progress) {
-  const Recording recording(file);
+  Recording recording(file);
+  double done = 0;
+  recording.on_piece(now_and_then([&] { on_progress(done); }));
   PlotPanel panel;
   panel.events = recording.events();
   panel.sample = one_line(recording.metadata().text("experiment:sample").value_or(""), 60);
@@ -124,10 +122,10 @@ PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWant
     if (lines == LinesWanted::yes)
       panel.warnings.emplace_back("was recorded in the reservoir, where no lines of equal modulus exist.");
   } else if (lines == LinesWanted::yes) {
-    take_conditions(recording, options, on_progress, panel);
+    take_conditions(recording, options, panel);
   } else if (lines == LinesWanted::if_possible) {
     try {
-      take_conditions(recording, options, on_progress, panel);
+      take_conditions(recording, options, panel);
     } catch (const UserError& missing) {
       panel.warnings.push_back(fmt::format("drawn without lines of equal modulus. {}", missing.what()));
     }
@@ -147,7 +145,7 @@ PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWant
     const auto drawable = pairs.of(x, y);
     take_pairs(drawable);
     panel.drawable += drawable.size() / 2;
-    on_progress(static_cast<double>(first + count) / static_cast<double>(panel.events));
+    on_progress(done = static_cast<double>(first + count) / static_cast<double>(panel.events));
   }
   if (panel.drawable == 0)
     throw UserError(fmt::format("{}: no event {}has {} and {}, so there is nothing to draw.",

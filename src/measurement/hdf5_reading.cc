@@ -1,10 +1,9 @@
 #include "measurement/hdf5_reading.h"
 
-#include <algorithm>
 #include <cstring>
 #include <functional>
-#include <numeric>
 
+#include "measurement/hdf5_numbers.h"
 #include "measurement/zstd_filter.h"
 
 namespace rheocyte {
@@ -13,9 +12,21 @@ namespace {
 
 bool is_kind(hid_t object, H5I_type_t kind) { return ::H5Iget_type(object) == kind; }
 
+herr_t refuse_link(const char*, const char*, const char*, const char*, unsigned*, hid_t, void*) { return -1; }
+
+// A link to another file would let a recording read any of them, and wait at a pipe that never answers.
+hid_t within_the_file() {
+  static const Hdf5Handle access = [] {
+    Hdf5Handle links(::H5Pcreate(H5P_LINK_ACCESS));
+    ::H5Pset_elink_cb(links.get(), refuse_link, nullptr);
+    return links;
+  }();
+  return access.get();
+}
+
 Hdf5Handle open_object(hid_t parent, const std::string& name, H5I_type_t kind) {
-  if (::H5Lexists(parent, name.c_str(), H5P_DEFAULT) <= 0) return {};
-  Hdf5Handle object(::H5Oopen(parent, name.c_str(), H5P_DEFAULT));
+  if (::H5Lexists(parent, name.c_str(), within_the_file()) <= 0) return {};
+  Hdf5Handle object(::H5Oopen(parent, name.c_str(), within_the_file()));
   if (!object || !is_kind(object.get(), kind)) return {};
   return object;
 }
@@ -33,134 +44,6 @@ herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* data) {
   }
   if (std::strlen(name) <= reading_limits.name_length) collected.names.emplace_back(name);
   return 0;
-}
-
-// Sign, exponent and mantissa as IEEE 754 has them for 16, 32 and 64 bits; longer ones are as the machine has them.
-bool is_common_float(hid_t type, std::size_t size) {
-  std::size_t sign = 0, exponent = 0, exponent_bits = 0, mantissa = 0, mantissa_bits = 0;
-  if (::H5Tget_fields(type, &sign, &exponent, &exponent_bits, &mantissa, &mantissa_bits) < 0) return false;
-  if (size > 8) return ::H5Tequal(type, H5T_NATIVE_LDOUBLE) > 0;
-  const std::size_t bits = 8 * size, usual = size == 2 ? 5 : size == 4 ? 8 : 11;
-  return size != 1 && sign == bits - 1 && exponent_bits == usual && exponent == bits - 1 - usual && mantissa == 0 &&
-         mantissa_bits == exponent && ::H5Tget_ebias(type) == (std::size_t{1} << (usual - 1)) - 1;
-}
-
-// Numbers that fill all of their bits. HDF5 could convert others, but a damaged description of a type is more likely.
-bool is_number(hid_t type) {
-  const std::size_t size = ::H5Tget_size(type);
-  switch (::H5Tget_class(type)) {
-    case H5T_ENUM: return size <= 8;
-    case H5T_INTEGER: return size <= 8 && ::H5Tget_precision(type) == 8 * size && ::H5Tget_offset(type) == 0;
-    case H5T_FLOAT: return size <= 16 && is_common_float(type, size);
-    default: return false;
-  }
-}
-
-// External and virtual storage would let a recording read any other file.
-bool lies_in_the_file(hid_t properties) {
-  const auto layout = ::H5Pget_layout(properties);
-  return layout == H5D_CHUNKED || layout == H5D_COMPACT ||
-         (layout == H5D_CONTIGUOUS && ::H5Pget_external_count(properties) == 0);
-}
-
-// Truth values are an enumeration, which HDF5 does not convert to numbers; its memory is that of its base type.
-Hdf5Handle type_in_memory(hid_t file_type, hid_t wanted) {
-  if (::H5Tget_class(file_type) != H5T_ENUM) return Hdf5Handle(::H5Tcopy(wanted));
-  return Hdf5Handle(::H5Tget_native_type(file_type, H5T_DIR_ASCEND));
-}
-
-template <class Number>
-hid_t native_type() {
-  if constexpr (std::is_same_v<Number, double>) return H5T_NATIVE_DOUBLE;
-  if constexpr (std::is_same_v<Number, std::uint8_t>) return H5T_NATIVE_UINT8;
-  return H5T_NATIVE_INT64;
-}
-
-Hdf5Handle select_rows(hid_t space, std::size_t first, std::size_t rows) {
-  const int dimensions = ::H5Sget_simple_extent_ndims(space);
-  if (dimensions < 1) return {};
-  std::vector<hsize_t> extent(dimensions), start(dimensions, 0);
-  ::H5Sget_simple_extent_dims(space, extent.data(), nullptr);
-  if (first > extent[0] || rows > extent[0] - first) return {};
-  start[0] = first;
-  extent[0] = rows;
-  if (::H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) < 0) return {};
-  return Hdf5Handle(::H5Screate_simple(dimensions, extent.data(), nullptr));
-}
-
-// The bit that says of a piece of data that it has no checksum, although the dataset has them; 0 without checksums.
-unsigned missing_checksum_bit(hid_t properties) {
-  const int count = ::H5Pget_nfilters(properties);
-  for (int i = 0; i < count && i < 32; ++i) {
-    unsigned flags = 0;
-    std::size_t values = 0;
-    if (::H5Pget_filter2(properties, unsigned(i), &flags, &values, nullptr, 0, nullptr, nullptr) ==
-        H5Z_FILTER_FLETCHER32)
-      return 1U << unsigned(i);
-  }
-  return 0;
-}
-
-// Whether every piece of data that the rows need is there and under its checksum. HDF5 itself would take zeros for
-// what is missing.
-bool chunks_are_sound(hid_t dataset, hid_t file_space, std::size_t first, std::size_t rows) {
-  const Hdf5Handle properties(::H5Dget_create_plist(dataset));
-  if (!properties) return false;
-  if (::H5Pget_layout(properties.get()) != H5D_CHUNKED) return true;
-  const int dimensions = ::H5Sget_simple_extent_ndims(file_space);
-  std::vector<hsize_t> extent(dimensions), chunk(dimensions);
-  ::H5Sget_simple_extent_dims(file_space, extent.data(), nullptr);
-  if (::H5Pget_chunk(properties.get(), dimensions, chunk.data()) != dimensions) return false;
-  const unsigned no_checksum = missing_checksum_bit(properties.get());
-  const hsize_t start = first / chunk[0] * chunk[0];
-  std::vector<hsize_t> at(dimensions, 0);
-  at[0] = start;
-  extent[0] = first + rows;
-  for (int axis = 0; axis >= 0;) {
-    unsigned mask = 0;
-    haddr_t address = HADDR_UNDEF;
-    hsize_t size = 0;
-    if (::H5Dget_chunk_info_by_coord(dataset, at.data(), &mask, &address, &size) < 0 || address == HADDR_UNDEF ||
-        (mask & no_checksum) != 0)
-      return false;
-    for (axis = dimensions - 1; axis >= 0; --axis) {  // the next place, last axis first
-      at[axis] += chunk[axis];
-      if (at[axis] < extent[axis]) break;
-      at[axis] = axis == 0 ? start : 0;
-    }
-  }
-  return true;
-}
-
-// The values of an enumeration, widened.
-template <class Number>
-bool read_enumeration(hid_t dataset, hid_t memory_type, hid_t memory_space, hid_t file_space,
-                      std::span<Number> values) {
-  const std::size_t size = ::H5Tget_size(memory_type);
-  if (size > sizeof(std::int64_t)) return false;
-  std::vector<unsigned char> raw(size * values.size());
-  if (::H5Dread(dataset, memory_type, memory_space, file_space, H5P_DEFAULT, raw.data()) < 0) return false;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::int64_t value = 0;
-    std::memcpy(&value, raw.data() + i * size, size);
-    values[i] = static_cast<Number>(value);
-  }
-  return true;
-}
-
-template <class Number>
-bool read_rows_as(hid_t dataset, std::size_t first, std::size_t rows, std::span<Number> values) {
-  if (rows == 0) return true;
-  const Hdf5Handle space(::H5Dget_space(dataset)), type(::H5Dget_type(dataset));
-  if (!space || !type) return false;
-  const Hdf5Handle memory = select_rows(space.get(), first, rows);
-  if (!chunks_are_sound(dataset, space.get(), first, rows)) return false;
-  if (!memory || ::H5Sget_simple_extent_npoints(memory.get()) != static_cast<hssize_t>(values.size())) return false;
-  const Hdf5Handle memory_type = type_in_memory(type.get(), native_type<Number>());
-  if (!memory_type) return false;
-  if (::H5Tget_class(memory_type.get()) == H5T_ENUM)
-    return read_enumeration(dataset, memory_type.get(), memory.get(), space.get(), values);
-  return ::H5Dread(dataset, memory_type.get(), memory.get(), space.get(), H5P_DEFAULT, values.data()) >= 0;
 }
 
 std::string text_of(const char* data, std::size_t longest) { return {data, ::strnlen(data, longest)}; }
@@ -191,25 +74,10 @@ std::optional<std::vector<std::string>> texts(hid_t type, hid_t space, const Rea
   return lines;
 }
 
-std::optional<double> number_in(hid_t attribute, hid_t type) {
-  const Hdf5Handle memory_type = type_in_memory(type, H5T_NATIVE_DOUBLE);
-  if (!memory_type) return std::nullopt;
-  if (::H5Tget_class(memory_type.get()) == H5T_ENUM) {
-    std::int64_t value = 0;
-    if (::H5Tget_size(memory_type.get()) > sizeof value) return std::nullopt;
-    return ::H5Aread(attribute, memory_type.get(), &value) < 0 ? std::nullopt : std::optional<double>(value);
-  }
-  double value = 0;
-  return ::H5Aread(attribute, memory_type.get(), &value) < 0 ? std::nullopt : std::optional<double>(value);
-}
-
 std::optional<Metadata::Value> value_of(hid_t attribute) {
   const Hdf5Handle type(::H5Aget_type(attribute)), space(::H5Aget_space(attribute));
   if (!type || !space || ::H5Sget_simple_extent_npoints(space.get()) != 1) return std::nullopt;
-  if (is_number(type.get())) {
-    const auto number = number_in(attribute, type.get());
-    return number ? std::optional<Metadata::Value>(*number) : std::nullopt;
-  }
+  if (const auto number = number_in(attribute)) return *number;
   if (::H5Tget_class(type.get()) != H5T_STRING) return std::nullopt;
   const auto lines = texts(type.get(), space.get(), [&](hid_t memory_type, void* buffer) {
     return ::H5Aread(attribute, memory_type, buffer) >= 0;
@@ -250,53 +118,23 @@ std::optional<std::vector<std::string>> member_names(hid_t group) {
   return std::move(collected.names);
 }
 
-std::optional<DatasetShape> numeric_shape(hid_t dataset, std::uintmax_t file_bytes) {
-  const Hdf5Handle space(::H5Dget_space(dataset)), type(::H5Dget_type(dataset));
-  const Hdf5Handle properties(::H5Dget_create_plist(dataset));
-  if (!space || !type || !properties || !is_number(type.get()) || !lies_in_the_file(properties.get()))
-    return std::nullopt;
-  const int dimensions = ::H5Sget_simple_extent_ndims(space.get());
-  if (dimensions < 1 || dimensions > 4) return std::nullopt;
-  std::vector<hsize_t> extent(dimensions), chunk(dimensions);
-  ::H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
-  const auto size = static_cast<double>(::H5Tget_size(type.get()));
-  const auto bytes = [&](const std::vector<hsize_t>& sides) {
-    return std::accumulate(sides.begin(), sides.end(), size, [](double a, hsize_t b) { return a * double(b); });
-  };
-  if (bytes(extent) > reading_limits.greatest_compression * static_cast<double>(file_bytes)) return std::nullopt;
-  const bool single_precision = ::H5Tget_class(type.get()) == H5T_FLOAT && ::H5Tget_size(type.get()) == 4;
-  DatasetShape shape{{extent.begin(), extent.end()}, 0, single_precision};
-  if (::H5Pget_layout(properties.get()) != H5D_CHUNKED) return shape;
-  if (::H5Pget_chunk(properties.get(), dimensions, chunk.data()) != dimensions ||
-      bytes(chunk) > static_cast<double>(reading_limits.chunk_bytes))
-    return std::nullopt;
-  shape.rows_per_chunk = chunk[0];
-  return shape;
-}
-
-bool read_rows(hid_t dataset, std::size_t first, std::size_t rows, std::span<double> values) {
-  return read_rows_as(dataset, first, rows, values);
-}
-
-bool read_rows(hid_t dataset, std::size_t first, std::size_t rows, std::span<std::uint8_t> values) {
-  return read_rows_as(dataset, first, rows, values);
-}
-
-bool read_rows(hid_t dataset, std::size_t first, std::size_t rows, std::span<std::int64_t> values) {
-  return read_rows_as(dataset, first, rows, values);
-}
-
 std::optional<std::vector<std::string>> read_lines(hid_t dataset, std::uintmax_t file_bytes) {
-  const Hdf5Handle space(::H5Dget_space(dataset)), type(::H5Dget_type(dataset));
   const Hdf5Handle properties(::H5Dget_create_plist(dataset));
-  if (!space || !type || !properties || ::H5Tget_class(type.get()) != H5T_STRING || !lies_in_the_file(properties.get()))
-    return std::nullopt;
+  if (!properties || !lies_in_the_file(properties.get())) return std::nullopt;
+  const Hdf5Handle space(::H5Dget_space(dataset)), type(::H5Dget_type(dataset));
+  if (!space || !type || ::H5Tget_class(type.get()) != H5T_STRING) return std::nullopt;
   const double bytes =
       static_cast<double>(::H5Sget_simple_extent_npoints(space.get())) * static_cast<double>(::H5Tget_size(type.get()));
   if (bytes > reading_limits.greatest_compression * static_cast<double>(file_bytes)) return std::nullopt;
   return texts(type.get(), space.get(), [&](hid_t memory_type, void* buffer) {
     return ::H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer) >= 0;
   });
+}
+
+bool leads_to_another_file(hid_t parent, const std::string& name) {
+  H5L_info_t link{};
+  return ::H5Lexists(parent, name.c_str(), H5P_DEFAULT) > 0 &&
+         ::H5Lget_info(parent, name.c_str(), &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_EXTERNAL;
 }
 
 Metadata read_attributes(hid_t object) {

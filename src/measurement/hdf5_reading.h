@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -22,16 +21,9 @@ struct ReadingLimits {
   std::size_t image_side = 1 << 14;      ///< pixels
   std::size_t contour_points = 1 << 20;  ///< of one event
   double greatest_compression = 5e4;     ///< bytes of data per byte of file
+  double events_per_byte = 10;           ///< of the file and its basins; true ones have less than 1
 };
 inline constexpr ReadingLimits reading_limits;
-
-/// Numbers along the dimensions of a dataset, e.g. (events, height, width).
-struct DatasetShape {
-  std::vector<std::size_t> extent;
-  std::size_t rows_per_chunk = 0;  ///< 0 if the data lie in one piece
-  bool single_precision = false;   ///< stored as 32-bit floating point
-  std::size_t rows() const { return extent.empty() ? 0 : extent[0]; }
-};
 
 /// Opens an object below `parent`; a handle that tests as false if it is absent, broken or of another kind.
 Hdf5Handle open_group(hid_t parent, const std::string& name);
@@ -41,18 +33,11 @@ Hdf5Handle open_dataset(hid_t parent, const std::string& name);
 /// group is damaged or has too many.
 std::optional<std::vector<std::string>> member_names(hid_t group);
 
-/// The shape of a dataset of numbers (integers, floats, truth values); nothing if it holds something else, keeps its
-/// data outside the file, or claims more data than a file of `file_bytes` can hold.
-std::optional<DatasetShape> numeric_shape(hid_t dataset, std::uintmax_t file_bytes);
-
-/// Rows [first, first + rows) of a dataset of any number of dimensions, converted; false if they cannot be read.
-/// The span holds rows times the product of the other extents.
-bool read_rows(hid_t dataset, std::size_t first, std::size_t rows, std::span<double> values);
-bool read_rows(hid_t dataset, std::size_t first, std::size_t rows, std::span<std::uint8_t> values);
-bool read_rows(hid_t dataset, std::size_t first, std::size_t rows, std::span<std::int64_t> values);
-
 /// The lines of a dataset of texts; nothing if it is not one or too large.
 std::optional<std::vector<std::string>> read_lines(hid_t dataset, std::uintmax_t file_bytes);
+
+/// Whether the name below `parent` is a link to another file; such links are never followed.
+bool leads_to_another_file(hid_t parent, const std::string& name);
 
 /// Every attribute of an object that is one number or text.
 Metadata read_attributes(hid_t object);

@@ -80,15 +80,6 @@ std::size_t usual_length(const Datasets& features) {
   return best;
 }
 
-void read_feature(const OpenDataset& feature, const fs::path& file, const std::string& name, std::size_t first,
-                  std::span<double> values) {
-  const std::size_t rows = feature.shape.rows();
-  const std::size_t there = first < rows ? std::min(values.size(), rows - first) : 0;
-  if (!read_rows(feature.dataset.get(), first, there, values.first(there)))
-    refuse_data(file, name, feature.dataset.get());
-  std::ranges::fill(values.subspan(there), nan);
-}
-
 }  // namespace
 
 Recording::~Recording() = default;
@@ -105,32 +96,25 @@ Recording::Recording(const fs::path& file, std::set<fs::path>& opened) : content
   c.path = file;
   c.file = open_file(file);
   std::error_code error;
-  c.bytes = fs::file_size(file, error);
+  c.bytes = c.bytes_with_basins = fs::file_size(file, error);
   opened.insert(fs::weakly_canonical(file, error));
   c.metadata = read_attributes(c.file.get());
   c.events_group = open_group(c.file.get(), "events");
+  if (leads_to_another_file(c.file.get(), "events"))
+    refuse(file, "keeps its events in another file, to which a link leads; such links are not followed.");
   if (!c.events_group) refuse(file, "has no group \"events\"; is it a recording of RT-DC?");
   const auto names = member_names(c.events_group.get());
   if (!names) refuse(file, "is damaged: the list of its features cannot be read.");
-  for (const auto& name : *names) {
-    if (name == "contour") continue;
-    Hdf5Handle dataset = open_dataset(c.events_group.get(), name);
-    auto shape = dataset ? numeric_shape(dataset.get(), c.bytes) : std::nullopt;
-    if (!shape) {
-      if (!open_group(c.events_group.get(), name))
-        c.remarks.push_back(fmt::format("{} holds no usable numbers and was left out.", one_line(name, 60)));
-      continue;
-    }
-    if (shape->extent.size() == 1)
-      c.scalars.emplace(name, OpenDataset{std::move(dataset), *shape});
-    else if (shape->extent.size() == 3 && is_picture(*shape))
-      c.images.emplace(name, OpenDataset{std::move(dataset), *shape});
-  }
+  for (const auto& name : *names)
+    if (name != "contour") open_feature(name);
   c.contours = open_group(c.events_group.get(), "contour");
   c.events = usual_length(c.scalars);
   if (c.events == 0) c.events = usual_length(c.images);
   open_basins(opened);
   if (c.events == 0) refuse(file, "holds no events.");
+  if (double(c.events) > reading_limits.events_per_byte * double(c.bytes_with_basins))
+    refuse(file, fmt::format("is damaged: it claims {} events, more than its {} bytes can hold.", c.events,
+                             c.bytes_with_basins));
   const auto said = c.metadata.number("experiment:event count");
   if (said && *said != static_cast<double>(c.events))
     c.remarks.push_back(fmt::format("experiment:event count is {}, but the data have {} events.", *said, c.events));
@@ -139,6 +123,29 @@ Recording::Recording(const fs::path& file, std::set<fs::path>& opened) : content
       if (feature.shape.rows() != c.events)
         c.remarks.push_back(
             fmt::format("{} has {} rows for {} events.", one_line(name, 60), feature.shape.rows(), c.events));
+}
+
+void Recording::open_feature(const std::string& name) {
+  Content& c = *content_;
+  auto data = open_numbers(c.events_group.get(), name, c.bytes);
+  if (!data) {
+    if (leads_to_another_file(c.events_group.get(), name))
+      c.remarks.push_back(
+          fmt::format("{} is a link to another file, which is not followed, and was left out.", one_line(name, 60)));
+    else if (!open_group(c.events_group.get(), name))
+      c.remarks.push_back(fmt::format("{} holds no usable numbers and was left out.", one_line(name, 60)));
+    return;
+  }
+  if (data->shape.extent.size() == 1)
+    c.scalars.emplace(name, std::move(*data));
+  else if (data->shape.extent.size() == 3 && is_picture(data->shape))
+    c.images.emplace(name, std::move(*data));
+}
+
+void Recording::on_piece(const std::function<void()>& told) {
+  content_->on_piece = told;
+  for (const auto& basin : content_->basins)
+    if (basin.recording) basin.recording->on_piece(told);
 }
 
 const fs::path& Recording::file() const { return content_->path; }
@@ -159,12 +166,17 @@ bool Recording::is_single_precision(const std::string& feature) const {
 }
 
 void Recording::read_scalar(const std::string& feature, std::size_t first, std::span<double> values) const {
-  if (const auto found = content_->scalars.find(feature); found != content_->scalars.end())
-    read_feature(found->second, content_->path, feature, first, values);
-  else if (const auto* basin = basin_with(feature))
+  if (const auto found = content_->scalars.find(feature); found != content_->scalars.end()) {
+    const OpenDataset& data = found->second;
+    const std::size_t rows = data.shape.rows(), there = first < rows ? std::min(values.size(), rows - first) : 0;
+    if (!read_rows(data, first, values.first(there), content_->on_piece))
+      refuse_data(content_->path, feature, data.dataset.get());
+    std::ranges::fill(values.subspan(there), nan);
+  } else if (const auto* basin = basin_with(feature)) {
     read_through(*basin, feature, first, values);
-  else
+  } else {
     std::ranges::fill(values, nan);
+  }
 }
 
 std::optional<ImageSize> Recording::image_size(const std::string& feature) const {
@@ -187,7 +199,7 @@ void Recording::read_images(const std::string& feature, std::size_t first, std::
     const OpenDataset& images = found->second;
     const std::size_t rows = images.shape.rows(), there = first < rows ? std::min(count, rows - first) : 0;
     const std::size_t filled = there * images.shape.extent[1] * images.shape.extent[2];
-    if (filled > pixels.size() || !read_rows(images.dataset.get(), first, there, pixels.first(filled)))
+    if (filled > pixels.size() || !read_rows(images, first, pixels.first(filled), content_->on_piece))
       refuse_data(content_->path, feature, images.dataset.get());
     std::ranges::fill(pixels.subspan(filled), 0);
     return;
@@ -213,15 +225,16 @@ PixelContour Recording::read_contour(std::size_t event) const {
                ? basin->recording->read_contour(static_cast<std::size_t>((*basin->mapping)[event]))
                : PixelContour{};
   }
-  const Hdf5Handle dataset = open_dataset(content_->contours.get(), std::to_string(event));
-  const auto shape = dataset ? numeric_shape(dataset.get(), content_->bytes) : std::nullopt;
-  if (!shape || shape->extent.size() != 2 || shape->extent[1] != 2 || shape->rows() > reading_limits.contour_points)
+  const auto data = open_numbers(content_->contours.get(), std::to_string(event), content_->bytes);
+  if (!data || data->shape.extent.size() != 2 || data->shape.extent[1] != 2 ||
+      data->shape.rows() > reading_limits.contour_points)
     return {};
-  std::vector<std::int64_t> numbers(2 * shape->rows());
-  if (!read_rows(dataset.get(), 0, shape->rows(), std::span(numbers))) return {};
+  const std::size_t points = data->shape.rows();
+  std::vector<std::int64_t> numbers(2 * points);
+  if (!read_rows(*data, 0, std::span(numbers), content_->on_piece)) return {};
   const auto side = static_cast<std::int64_t>(reading_limits.image_side);
   PixelContour contour;
-  for (std::size_t i = 0; i < shape->rows(); ++i) {
+  for (std::size_t i = 0; i < points; ++i) {
     const std::int64_t x = numbers[2 * i], y = numbers[2 * i + 1];
     if (std::min(x, y) < -side || std::max(x, y) > side) return {};
     contour.push_back({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)});

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -34,6 +35,9 @@ class Recording {
   /// Sentences about what is odd in the file and was left out, without its name.
   const std::vector<std::string>& remarks() const;
 
+  /// Called from now on after each piece of at most a chunk, or about 1 MiB, that was read here or in a basin.
+  void on_piece(const std::function<void()>& told);
+
   /// Whether there is one number per event of this name, e.g. "area_um".
   bool has_scalar(const std::string& feature) const;
 
@@ -64,6 +68,7 @@ class Recording {
   struct Content;
   struct Basin;
   explicit Recording(const std::filesystem::path& file, std::set<std::filesystem::path>& opened);
+  void open_feature(const std::string& name);
   void open_basins(std::set<std::filesystem::path>& opened);
   void add_basin(const std::string& json, std::set<std::filesystem::path>& opened);
   const Basin* basin_with(const std::string& feature) const;

@@ -61,7 +61,7 @@ void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
   if (!definition->mapping.empty()) {
     const auto found = c.scalars.find(definition->mapping);
     basin.mapping.emplace(found == c.scalars.end() ? 0 : found->second.shape.rows());
-    if (basin.mapping->empty() || !read_rows(found->second.dataset.get(), 0, basin.mapping->size(), *basin.mapping)) {
+    if (basin.mapping->empty() || !read_rows(found->second, 0, *basin.mapping)) {
       c.remarks.push_back(fmt::format("the basin \"{}\" is not used: its map of events is missing.", name));
       return;
     }
@@ -70,9 +70,8 @@ void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
     const Hdf5Handle group = open_group(c.file.get(), internal_group);
     const auto names = group ? member_names(group.get()) : std::nullopt;
     for (const auto& feature : names.value_or(std::vector<std::string>())) {
-      Hdf5Handle dataset = open_dataset(group.get(), feature);
-      const auto shape = dataset ? numeric_shape(dataset.get(), c.bytes) : std::nullopt;
-      if (shape && shape->extent.size() == 1) basin.internal.emplace(feature, OpenDataset{std::move(dataset), *shape});
+      auto data = open_numbers(group.get(), feature, c.bytes);
+      if (data && data->shape.extent.size() == 1) basin.internal.emplace(feature, std::move(*data));
     }
     c.basins.push_back(std::move(basin));
     return;
@@ -94,6 +93,7 @@ void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
     c.remarks.push_back(fmt::format("the basin \"{}\" is not used: it belongs to another measurement.", name));
     return;
   }
+  c.bytes_with_basins += basin.recording->content_->bytes_with_basins;
   // A file may consist of basins alone.
   if (c.events == 0) c.events = basin.mapping ? basin.mapping->size() : basin.recording->events();
   c.basins.push_back(std::move(basin));
@@ -121,7 +121,7 @@ void Recording::read_through(const Basin& basin, const std::string& feature, std
     if (basin.recording) return basin.recording->read_scalar(feature, from, target);
     const auto& dataset = basin.internal.at(feature);
     const std::size_t rows = dataset.shape.rows(), there = from < rows ? std::min(target.size(), rows - from) : 0;
-    const bool good = read_rows(dataset.dataset.get(), from, there, target.first(there));
+    const bool good = read_rows(dataset, from, target.first(there));
     std::ranges::fill(target.subspan(good ? there : 0), std::numeric_limits<double>::quiet_NaN());
   };
   if (!basin.mapping) return read(first, values);
@@ -130,17 +130,19 @@ void Recording::read_through(const Basin& basin, const std::string& feature, std
   const std::size_t count = first < map.size() ? std::min(values.size(), map.size() - first) : 0;
   std::vector<double> piece;
   for (std::size_t i = 0; i < count;) {
+    if (map[first + i] < 0) {  // none: the basin has no such event
+      ++i;
+      continue;
+    }
     // As many events as ascend without a long gap.
     std::size_t end = i + 1;
     while (end < count && map[first + end] >= map[first + end - 1] &&
            map[first + end] - map[first + end - 1] <= static_cast<std::int64_t>(longest_gap))
       ++end;
     const std::int64_t from = map[first + i];
-    if (from >= 0) {
-      piece.resize(static_cast<std::size_t>(map[first + end - 1] - from + 1));
-      read(static_cast<std::size_t>(from), piece);
-      for (std::size_t k = i; k < end; ++k) values[k] = piece[static_cast<std::size_t>(map[first + k] - from)];
-    }
+    piece.resize(static_cast<std::size_t>(map[first + end - 1] - from + 1));
+    read(static_cast<std::size_t>(from), piece);
+    for (std::size_t k = i; k < end; ++k) values[k] = piece[static_cast<std::size_t>(map[first + k] - from)];
     i = end;
   }
 }

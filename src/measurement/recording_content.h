@@ -3,15 +3,11 @@
 #include <map>
 
 #include "measurement/basin.h"
+#include "measurement/hdf5_numbers.h"
 #include "measurement/hdf5_reading.h"
 #include "measurement/recording.h"
 
 namespace rheocyte {
-
-struct OpenDataset {
-  Hdf5Handle dataset;
-  DatasetShape shape;
-};
 
 using Datasets = std::map<std::string, OpenDataset>;
 
@@ -25,7 +21,8 @@ struct Recording::Basin {
 
 struct Recording::Content {
   std::filesystem::path path;
-  std::uintmax_t bytes = 0;
+  std::uintmax_t bytes = 0, bytes_with_basins = 0;
+  PieceRead on_piece;
   Hdf5Handle file, events_group, contours;
   Metadata metadata;
   Datasets scalars, images;

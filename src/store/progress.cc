@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "store/standard_error.h"
 
@@ -13,7 +14,7 @@ namespace rheocyte {
 namespace {
 
 constexpr int width = 30;
-constexpr double seconds_between_lines = 10, seconds_between_shares = 2;
+constexpr double seconds_between_lines = 10, seconds_between_shares = 2, seconds_between_words = 0.2;
 
 std::string duration(double seconds) {
   const int s = int(seconds + 0.5);
@@ -27,6 +28,14 @@ double seconds_since(std::chrono::steady_clock::time_point time) {
 }
 
 }  // namespace
+
+std::function<void()> now_and_then(std::function<void()> tell) {
+  return [tell = std::move(tell), last = std::chrono::steady_clock::time_point()]() mutable {
+    if (seconds_since(last) < seconds_between_words) return;
+    last = std::chrono::steady_clock::now();
+    tell();
+  };
+}
 
 void FileProgress::operator()(double fraction) {
   if (quiet_ || seconds_since(last_line_) < seconds_between_shares) return;

@@ -9,6 +9,9 @@ namespace rheocyte {
 /// How work tells that it goes on; `fraction` is in [0, 1].
 using TellProgress = std::function<void(double fraction)>;
 
+/// As `tell`, but called as often as one likes it calls that only a few times a second.
+std::function<void()> now_and_then(std::function<void()> tell);
+
 /// Of one file: lines "NAME: 40 %" on standard error, at most one in two seconds.
 class FileProgress {
  public:
@@ -22,7 +25,6 @@ class FileProgress {
 };
 
 /// Of things that are counted: a bar on a terminal, plain lines elsewhere.
-
 class Progress {
  public:
   /// `what` is counted, e.g. "radii"; `done` of `total` were there before.
