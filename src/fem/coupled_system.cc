@@ -130,8 +130,9 @@ std::size_t CoupledSystem::memory_bytes() const {
   for (const Condensed& c : condensed_)
     numbers += c.lu.matrixLU().size() + c.inner_outer.size() + c.outer_inner.size() + c.schur.size();
   for (const ElementUnknowns& element : elements_) {
-    for (const auto& table : element.position)
-      numbers += 2 * (table.value.size() + table.slope[0].size() + table.slope[1].size());  // here and in the space
+    if (!element.liquid || !element.position) continue;  // elements of the cell share theirs
+    for (const auto& table : element.position->at_points)
+      numbers += table.value.size() + table.slope[0].size() + table.slope[1].size();
   }
   return numbers * sizeof(double);
 }

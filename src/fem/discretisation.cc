@@ -47,8 +47,11 @@ Discretisation::Discretisation(const ChannelMesh& mesh, int degree, const Liquid
   number_unknowns(flag_nodes());
   find_edges();
   set_inflow();
+  const auto node_values = MatrixXd::Identity(reference_.nodes(), reference_.nodes());
+  const auto positions = std::make_shared<PositionShapes>(
+      PositionShapes{{reference_.shape, reference_.shape}, {node_values, node_values}});
   for (std::size_t e = 0; e < mesh.elements().size(); ++e) {
-    elements_.push_back(is_cell(mesh.elements()[e].block) ? cell_element(int(e)) : liquid_element(int(e)));
+    elements_.push_back(is_cell(mesh.elements()[e].block) ? cell_element(int(e), positions) : liquid_element(int(e)));
   }
 }
 
@@ -205,13 +208,12 @@ std::vector<PointMap<double, 2>> Discretisation::undeformed_maps(int element) co
   return maps;
 }
 
-ElementUnknowns Discretisation::cell_element(int element) const {
+ElementUnknowns Discretisation::cell_element(int element, const std::shared_ptr<const PositionShapes>& position) const {
   const auto& nodes = nodes_.of_element[element];
   ElementUnknowns unknowns;
   if (interior_ == Interior::liquid) return unknowns;
   unknowns.position_columns = reference_.nodes();
-  unknowns.position.fill(reference_.shape);
-  unknowns.position_at_nodes.fill(MatrixXd::Identity(reference_.nodes(), reference_.nodes()));
+  unknowns.position = position;
   unknowns.undeformed = undeformed_maps(element);
   for (int c = 0; c < 2; ++c) {
     for (const int node : nodes) unknowns.columns.push_back({displacement(node, c)});
@@ -265,11 +267,13 @@ void Discretisation::add_spokes(int element, ElementUnknowns& unknowns) const {
   }
   const ShapeTable<2>& shape = reference_.shape;
   unknowns.position_columns = p + 1;
-  unknowns.position_at_nodes = extension;
+  const auto position = std::make_shared<PositionShapes>();
+  position->at_nodes = extension;
   for (int c = 0; c < 2; ++c) {
-    unknowns.position[c].value = shape.value * extension[c];
-    for (int k = 0; k < 2; ++k) unknowns.position[c].slope[k] = shape.slope[k] * extension[c];
+    position->at_points[c].value = shape.value * extension[c];
+    for (int k = 0; k < 2; ++k) position->at_points[c].slope[k] = shape.slope[k] * extension[c];
   }
+  unknowns.position = position;
   for (int c = 0; c < 2; ++c) {
     for (const int node : surface) unknowns.columns.push_back({displacement(node, c)});
   }

@@ -7,6 +7,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "case/problem.h"
@@ -28,14 +29,19 @@ struct Slot {
 /// What fills the cell: an elastic solid, or a liquid at rest of which only the pressure matters (a pure shell).
 enum class Interior { elastic, liquid };
 
+/// What the x and r columns of positions do.
+struct PositionShapes {
+  std::array<ShapeTable<2>, 2> at_points;  ///< the quadrature's
+  std::array<MatrixXd, 2> at_nodes;        ///< nodes x columns
+};
+
 /// What one element knows. Column slots: displacements x then r of `position_columns` functions, in the liquid
 /// velocities x then r of the nodes, pressures. Row slots: x-tests, r-tests of the nodes, pressure tests.
 struct ElementUnknowns {
   bool liquid = false;
   int position_columns = 0;
-  std::array<ShapeTable<2>, 2> position;        ///< what the x and r columns do at the quadrature points
-  std::array<MatrixXd, 2> position_at_nodes;    ///< and at the nodes: nodes x columns
-  std::vector<PointMap<double, 2>> undeformed;  ///< map at the quadrature points
+  std::shared_ptr<const PositionShapes> position;  ///< shared with copies and, in the cell, by all elements
+  std::vector<PointMap<double, 2>> undeformed;     ///< map at the quadrature points
   std::vector<Slot> columns;
   std::vector<int> rows;  ///< unknown whose equation the row belongs to, or -1
 
@@ -92,7 +98,7 @@ class Discretisation {
   void number_unknowns(const std::vector<NodeFlags>&);
   void find_edges();
   void set_inflow();
-  ElementUnknowns cell_element(int element) const;
+  ElementUnknowns cell_element(int element, const std::shared_ptr<const PositionShapes>&) const;
   ElementUnknowns liquid_element(int element) const;
   void add_spokes(int element, ElementUnknowns&) const;
   std::vector<PointMap<double, 2>> undeformed_maps(int element) const;

@@ -7,7 +7,8 @@ namespace rheocyte {
 std::vector<ColumnGroup<2>> column_groups(const ElementUnknowns& element, const ReferenceElement<2>& reference) {
   const int n = reference.nodes(), m = element.position_columns, first_velocity = 2 * m;
   std::vector<ColumnGroup<2>> groups;
-  for (int c = 0; c < 2 && m > 0; ++c) groups.push_back({&element.position[c], c * m, m, Source::position, c});
+  for (int c = 0; c < 2 && m > 0; ++c)
+    groups.push_back({&element.position->at_points[c], c * m, m, Source::position, c});
   for (int c = 0; c < 2 && element.liquid; ++c)
     groups.push_back({&reference.shape, first_velocity + c * n, n, Source::velocity, c});
   const int first_pressure = first_velocity + (element.liquid ? 2 * n : 0);

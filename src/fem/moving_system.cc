@@ -84,7 +84,7 @@ void MovingSystem::set_liquid_history(int e) {
       const int unknown = element.columns[c * m + i].unknown;
       local(i) = unknown < 0 ? 0 : motion_.unknowns(unknown);
     }
-    if (m > 0) mesh.col(c) = element.position[c].value * local;
+    if (m > 0) mesh.col(c) = element.position->at_points[c].value * local;
     velocity.col(c) = reference.shape.value * component_at_nodes(motion_.velocities, nodes, c);
   }
   if (motion_.outward.size() > 0) mesh.col(1) += reference.shape.value * VectorXd(motion_.outward(nodes));

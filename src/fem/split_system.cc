@@ -71,7 +71,7 @@ void SplitSystem::integrate_liquid(int e, const Media& media, double step, const
       const int displacement = element.columns[c * m + k].unknown;
       foot(k) = displacement < 0 ? 0 : surface_velocity_(displacement);
     }
-    if (m > 0) mesh.col(c) = element.position[c].value * foot;
+    if (m > 0) mesh.col(c) = element.position->at_points[c].value * foot;
     VectorXd old = component_at_nodes(before.velocities, nodes, c);
     if (c == 0) old.array() -= v_cell;
     velocity.col(c) = reference.shape.value * old * -rate;

@@ -103,7 +103,7 @@ MatrixXd nodal_fields(const Discretisation& space, int e, const Media& media, co
   }
   const ToNodes to_nodes(space.reference());
   for (int c = 0; c < 2; ++c) {
-    if (m > 0) fields.col(ux + c) = um * (element.position_at_nodes[c] * local.segment(c * m, m));
+    if (m > 0) fields.col(ux + c) = um * (element.position->at_nodes[c] * local.segment(c * m, m));
     for (int k = 0; k < n; ++k) fields(k, x + c) = um * space.node_points()[nodes[k]](c) + fields(k, ux + c);
     if (element.liquid) fields.col(wx + c) = scales.velocity_m_per_s * local.segment(2 * m + c * n, n);
   }

@@ -45,7 +45,7 @@ MatrixXd axial_coordinates(const StateView& state, int e) {
   VectorXd x(nodes.size());
   for (int k = 0; k < x.size(); ++k) x(k) = state.space.node_points()[nodes[k]](0);
   if (const int columns = element.position_columns; columns > 0)
-    x += element.position_at_nodes[0] * local_values(element, state.unknowns).head(columns);
+    x += element.position->at_nodes[0] * local_values(element, state.unknowns).head(columns);
   const Eigen::Index n = state.space.reference().nodes_1d.size();
   return x.reshaped(n, n);
 }

@@ -49,6 +49,7 @@ double deformation_of(const ResolvedState& state) {
 
 void Ladder::add(ResolvedState state) {
   deformations.push_back(deformation_of(state));
+  if (!keeps_systems && !rungs.empty()) rungs.back().discrete.reset();
   rungs.push_back(std::move(state));
   estimated_error = estimate_error(deformations);
 }
@@ -67,7 +68,7 @@ Status climb(const Problem& problem, const NewtonOptions& newton, ResolvedState 
     if (rung.subdivision.top < elements) continue;
     const bool same_mesh = rung.subdivision.top == elements;
     const bool goes_on = same_mesh && !ladder.rungs.empty();
-    Ladder fresh;  // a new mesh at a lower degree need not be better at once
+    Ladder fresh{ladder.keeps_systems};  // a new mesh at a lower degree need not be better at once
     if (!goes_on) std::swap(ladder, fresh);
     int degree = rung.first_degree;
     if (same_mesh) degree = std::max(degree, state.resolution.degree + (goes_on ? 1 : 0));

@@ -12,8 +12,9 @@ double deformation_of(const ResolvedState&);
 
 /// A state at the resolutions of one mesh, coarse to fine.
 struct Ladder {
-  std::vector<ResolvedState> rungs;
-  std::vector<double> deformations;                                  ///< rung by rung
+  bool keeps_systems = true;  ///< of all rungs; or of the last one alone
+  std::vector<ResolvedState> rungs = {};
+  std::vector<double> deformations = {};                             ///< rung by rung
   double estimated_error = std::numeric_limits<double>::infinity();  ///< relative, of the last deformation
 
   void add(ResolvedState);

@@ -36,7 +36,12 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
   const std::string where =
       fmt::format("{:.3g} times the wanted moduli (deformation {:.4f})", 1 / outcome.reached, last.deformation);
   switch (outcome.status) {
-    case Status::surface_unstable: return unstable_surface(where, last.surface);
+    case Status::surface_unstable:
+      if (last.known_end > 0)
+        return unstable_surface(
+            fmt::format("{:.3g} times the wanted moduli (the last state kept has {})", last.known_end, where),
+            last.surface);
+      return unstable_surface(where, last.surface);
     case Status::branch_ended:
       return "The branch of stationary shapes ends at " + where +
              "; softer cells are drawn out without limit: raise the moduli above that, or lower flow rate or "

@@ -38,6 +38,7 @@ struct LastState {
   double deformation = 0;
   double estimated_error = 0;  ///< relative
   SurfaceKind surface = SurfaceKind::bare;
+  double known_end = 0;  ///< least modulus over the wanted one, where it was known beforehand
 };
 
 /// One sentence for the user: what happened, where, what to try.

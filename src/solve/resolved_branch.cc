@@ -11,6 +11,8 @@ namespace {
 /// near the end of the branch the rear shoulder and the front tip need the fine ones.
 const std::array<Resolution, 4> ways = {{{{2, 4, 1, 2}, 4}, {{2, 4, 1, 2}, 6}, {{3, 6, 1, 2}, 6}, {{3, 6, 1, 2}, 8}}};
 
+constexpr std::size_t ways_of_quick_search = 2;
+
 /// Least step (relative) where a finer resolution can go on, and where none can.
 constexpr double least_step_before_refining = 0.03, least_step_at_last = 2e-3;
 /// Intermediate states serve as starting points only.
@@ -102,15 +104,19 @@ ContinuationOptions options_on_the_way(const Problem& problem, const NewtonOptio
 
 }  // namespace
 
-ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton, const BranchObserver& observe) {
+ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton, const BranchObserver& observe,
+                            Search search) {
+  const bool thorough = search == Search::thorough;
+  const std::size_t count = thorough ? ways.size() : ways_of_quick_search;
   ResolvedState state;
   double seen = 0;  // a resolution that starts anew need not show again what a coarser one showed
   const BranchObserver observe_new = [&](const Discretisation& space, const BranchState& branch) {
     if (branch.parameter > seen && observe) observe(space, branch);
     seen = std::max(seen, branch.parameter);
   };
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    const ContinuationOptions options = options_on_the_way(problem, newton, i + 1 == ways.size(), observe_new);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool last = thorough && i + 1 == count;
+    const ContinuationOptions options = options_on_the_way(problem, newton, last, observe_new);
     ResolvedState next = enter(problem, options, state, ways[i]);
     if (next.status == Status::converged) advance(problem, options, next);
     next.steps += state.steps;

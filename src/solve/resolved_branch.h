@@ -22,9 +22,13 @@ struct ResolvedState {
 /// Sees each converged state of the way.
 using BranchObserver = std::function<void(const Discretisation&, const BranchState&)>;
 
+/// How hard the end of a branch is looked for: thorough on all resolutions to 0.2 % of the compliance, quick to some
+/// per cent where it is known anyway.
+enum class Search { thorough, quick };
+
 /// Follows the branch from the sphere to compliance 1, first on a coarse resolution; where that fails, it goes on from
 /// the last state on finer ones. States whose surface is beyond Biot's limit are not accepted.
-ResolvedState follow_branch(const Problem&, const NewtonOptions&, const BranchObserver&);
+ResolvedState follow_branch(const Problem&, const NewtonOptions&, const BranchObserver&, Search = Search::thorough);
 
 /// The same state at another resolution; if Newton leaves it, the branch is followed anew there.
 ResolvedState at_resolution(const Problem&, const NewtonOptions&, const ResolvedState& from, const Resolution&);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fem/write_fields.h"
+#include "solve/branch_ends.h"
 #include "solve/describe.h"
 
 namespace rheocyte {
@@ -100,7 +101,28 @@ void explain(const Problem& problem, const ResolvedState& state, StationaryState
   } else if (outcome.status == Status::iteration_limit && state.branch.parameter > 0) {
     outcome.status = Status::branch_ended;
   }
-  outcome.message = explanation(outcome, {r.shape.deformation, r.estimated_error, surface_kind(problem)});
+  const double known_end =
+      is_far_too_soft(problem) ? least_shear_modulus(problem).value() / problem.bulk.shear_modulus : 0;
+  outcome.message = explanation(outcome, {r.shape.deformation, r.estimated_error, surface_kind(problem), known_end});
+}
+
+/// The branch from the sphere to the problem, or to the end of the branch where that is known to lie before.
+ResolvedState follow_as_far_as_it_goes(const Problem& problem, const NewtonOptions& newton,
+                                       const ProgressCallback& report) {
+  const bool ends_before = is_far_too_soft(problem);
+  const Problem target = ends_before ? at_end_of_branch(problem) : problem;
+  const double share = problem.bulk.shear_modulus / target.bulk.shear_modulus;
+  const BranchObserver observe = [&](const Discretisation& space, const BranchState& b) {
+    const double compliance = ends_before ? share * b.parameter : b.parameter;
+    report(
+        {compliance, measure(contour(space, b.unknowns)).deformation, b.newton_iterations, space.reference().degree()});
+  };
+  ResolvedState state = follow_branch(target, newton, observe, ends_before ? Search::quick : Search::thorough);
+  if (ends_before) {
+    state.branch.parameter *= share;
+    if (state.status != Status::stopped) state.status = Status::surface_unstable;
+  }
+  return state;
 }
 
 }  // namespace
@@ -140,18 +162,15 @@ StationaryState Session::solve(const Problem& problem, const ProgressCallback& p
       report({state.branch.parameter, ladder->deformations.back(), state.newton_iterations, state.resolution.degree});
   };
 
-  Kept answer{problem, {}};
+  Kept answer{problem, {.keeps_systems = memory_limit_ > 0}};
   ResolvedState state;
   if (answer_nearby(problem, newton, result.statistics, answer)) {
     ++warm_starts_;
     state = answer.ladder.rungs.back();
     report({1, answer.ladder.deformations.back(), result.statistics.newton_iterations, state.resolution.degree});
   } else {
-    answer.ladder = {};
-    state = follow_branch(problem, newton, [&](const Discretisation& space, const BranchState& b) {
-      report({b.parameter, measure(contour(space, b.unknowns)).deformation, b.newton_iterations,
-              space.reference().degree()});
-    });
+    answer.ladder = {.keeps_systems = memory_limit_ > 0};
+    state = follow_as_far_as_it_goes(problem, newton, report);
     add_work(state, result.statistics);
   }
   result.outcome.status = state.status;
@@ -163,7 +182,7 @@ StationaryState Session::solve(const Problem& problem, const ProgressCallback& p
   }
   if (state.discrete && state.branch.parameter > 0) describe(problem, state, result);
   explain(problem, state, result);
-  if (result.outcome.status == Status::converged) keep(std::move(answer));
+  if (memory_limit_ > 0 && result.outcome.status == Status::converged) keep(std::move(answer));
   result.statistics.total_s = seconds_since(start);
   return result;
 }

@@ -45,7 +45,7 @@ VectorXd fields_at(const SmallChannel& channel, const VectorXd& state, int e, co
   Eigen::MatrixXd at_nodes = MatrixXd::Zero(n, 6);  // x, r, v_x, v_r, u_x, u_r
   for (int k = 0; k < n; ++k) {
     for (int c = 0; c < 2; ++c) {
-      if (m > 0) at_nodes(k, 4 + c) = element.position_at_nodes[c].row(k) * local.segment(c * m, m);
+      if (m > 0) at_nodes(k, 4 + c) = element.position->at_nodes[c].row(k) * local.segment(c * m, m);
       at_nodes(k, c) = space.node_points()[nodes[k]](c) + at_nodes(k, 4 + c);
       if (element.liquid) at_nodes(k, 2 + c) = local(2 * m + c * n + k);
     }

@@ -7,6 +7,9 @@
 
 #include "fem/observe.h"
 #include "laboratory.h"
+#include "solve/branch_ends.h"
+#include "solve/describe.h"
+#include "solve/resolved_branch.h"
 #include "solve/stationary.h"
 
 namespace rheocyte {
@@ -55,20 +58,44 @@ INSTANTIATE_TEST_SUITE_P(Tenth, Range,
 
 class EndOfTheBranchSlow : public testing::TestWithParam<NamedCell> {};
 
-TEST_P(EndOfTheBranchSlow, IsNamedAsInstabilityOfTheSurface) {
-  // Asked for a cell that is far too soft, the program stops at Biot's limit, says so, and hands over the last state.
+/// The end of the branch by search, without what is known of it beforehand.
+StationaryState search(const Problem& problem) {
+  const ResolvedState end = follow_branch(problem, {.tolerance = 1e-10}, {});
+  StationaryState state;
+  describe_state(problem, {end.discrete, media_at(problem, end.branch.parameter), end.branch.unknowns}, state);
+  state.outcome = {end.status, "", end.branch.parameter};
+  return state;
+}
+
+TEST_P(EndOfTheBranchSlow, IsAnInstabilityOfTheSurface) {
+  // Followed to a cell that is far too soft, the branch stops at Biot's limit, where it is known to end.
   const LaboratoryCell& cell = GetParam().cell;
-  const StationaryState state = solve(cell);
+  const Problem problem = test::in_newtonian_liquid(cell, Inertia::none, accuracy);
+  const StationaryState state = search(problem);
   std::printf("| %g | %.3f | %.4f | %.2f | %.4f |\n", cell.radius_um, cell.young_modulus_kPa / state.outcome.reached,
               state.shape.deformation, state.shape.area * test::tube_radius_um * test::tube_radius_um,
               state.biot_ratio);
-  EXPECT_EQ(state.outcome.status, Status::surface_unstable);
-  EXPECT_NE(state.outcome.message.find("Biot"), std::string::npos) << state.outcome.message;
+  EXPECT_NE(state.outcome.status, Status::converged);
+  EXPECT_LT(state.stability_margin, small_margin);
   EXPECT_LT(state.outcome.reached, 1);
   EXPECT_GE(state.shape.deformation, GetParam().reached);
   // Newton loses the state a little above the limit, the more so the larger the cell.
   EXPECT_LT(state.biot_ratio, 1.1 * biot_limit);
   EXPECT_GT(state.biot_ratio, 0.9 * biot_limit);
+  const double end = problem.bulk.shear_modulus / state.outcome.reached;
+  EXPECT_NEAR(least_shear_modulus(problem).value(), end, 0.02 * end);
+}
+
+TEST_P(EndOfTheBranchSlow, IsSaidOfACellFarTooSoft) {
+  // Asked for such a cell, the program says at once where the branch ends, and hands over a state before.
+  const Problem problem = test::in_newtonian_liquid(GetParam().cell, Inertia::none, accuracy);
+  const StationaryState state = solve_stationary(problem);
+  EXPECT_EQ(state.outcome.status, Status::surface_unstable);
+  EXPECT_NE(state.outcome.message.find("Biot"), std::string::npos) << state.outcome.message;
+  const double kept = problem.bulk.shear_modulus / state.outcome.reached / least_shear_modulus(problem).value();
+  EXPECT_GT(kept, 1);
+  EXPECT_LT(kept, 1.3);
+  EXPECT_GE(state.shape.deformation, GetParam().reached / 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Linear, EndOfTheBranchSlow,
