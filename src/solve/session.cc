@@ -16,6 +16,9 @@ constexpr double final_tolerance = 1e-10;
 /// surface's stretch by it: farther on the state may belong to another branch.
 constexpr double greatest_change = 0.2, greatest_stretch_change = 0.06;
 
+/// Of the surface's stability, where coarse resolutions lose the branch.
+constexpr double margin_at_coarse_ends = 0.3;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -96,7 +99,8 @@ void explain(const Problem& problem, const ResolvedState& state, StationaryState
   Outcome& outcome = r.outcome;
   const bool failed_on_the_way = outcome.status != Status::converged && outcome.status != Status::stopped &&
                                  outcome.status != Status::accuracy_not_reached;
-  if (failed_on_the_way && state.discrete && r.stability_margin < small_margin) {
+  const double margin = state.gave_up ? margin_at_coarse_ends : small_margin;
+  if (failed_on_the_way && state.discrete && r.stability_margin < margin) {
     outcome.status = Status::surface_unstable;
   } else if (outcome.status == Status::iteration_limit && state.branch.parameter > 0) {
     outcome.status = Status::branch_ended;
@@ -117,7 +121,7 @@ ResolvedState follow_as_far_as_it_goes(const Problem& problem, const NewtonOptio
     report(
         {compliance, measure(contour(space, b.unknowns)).deformation, b.newton_iterations, space.reference().degree()});
   };
-  ResolvedState state = follow_branch(target, newton, observe, ends_before ? Search::quick : Search::thorough);
+  ResolvedState state = follow_branch(target, newton, observe, ends_before ? Search::quick : Search::hopeful);
   if (ends_before) {
     state.branch.parameter *= share;
     if (state.status != Status::stopped) state.status = Status::surface_unstable;
