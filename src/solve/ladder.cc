@@ -21,6 +21,10 @@ constexpr double round_off = 1e-12, tiny_deformation = 1e-5;
 /// No first change is trusted below this: neighbouring degrees may agree by chance.
 constexpr double least_first_estimate = 2e-5;
 
+/// Above this r0 / R the liquid's film is so thin and long that the coarsest mesh is only compared with.
+constexpr double narrow_gap = 0.85;
+bool has_narrow_gap(const Problem& problem) { return problem.radius_ratio > narrow_gap; }
+
 /// Error of the last of some values of the deformation on ever finer resolutions, relative to it
 /// (docs/theory.md, eq:error): the last change times the rest of a geometric series, and half of the last two changes
 /// at least.
@@ -54,10 +58,12 @@ void Ladder::add(ResolvedState state) {
   estimated_error = estimate_error(deformations);
 }
 
-bool is_accurate(const Ladder& ladder, double accuracy) {
+bool is_accurate(const Ladder& ladder, const Problem& problem) {
   if (ladder.rungs.size() < 2) return false;
+  const bool coarsest = ladder.rungs.back().resolution.subdivision.top == meshes.front().subdivision.top;
+  if (coarsest && has_narrow_gap(problem)) return false;
   const double size = std::abs(ladder.deformations.back()), error = ladder.estimated_error;
-  return error <= accuracy || (size < tiny_deformation && error * size <= round_off);
+  return error <= problem.accuracy || (size < tiny_deformation && error * size <= round_off);
 }
 
 Status climb(const Problem& problem, const NewtonOptions& newton, ResolvedState state, Ladder& ladder,
@@ -67,12 +73,14 @@ Status climb(const Problem& problem, const NewtonOptions& newton, ResolvedState 
     const auto elements = state.resolution.subdivision.top;
     if (rung.subdivision.top < elements) continue;
     const bool same_mesh = rung.subdivision.top == elements;
-    const bool goes_on = same_mesh && !ladder.rungs.empty();
+    const bool goes_on = (same_mesh || has_narrow_gap(problem)) && !ladder.rungs.empty();
     Ladder fresh{ladder.keeps_systems};  // a new mesh at a lower degree need not be better at once
     if (!goes_on) std::swap(ladder, fresh);
     int degree = rung.first_degree;
     if (same_mesh) degree = std::max(degree, state.resolution.degree + (goes_on ? 1 : 0));
-    for (; degree <= rung.last_degree; ++degree) {
+    const bool only_begins = rung.subdivision.top == meshes.front().subdivision.top && has_narrow_gap(problem);
+    const int last_degree = only_begins ? rung.first_degree + 1 : rung.last_degree;
+    for (; degree <= last_degree; ++degree) {
       ResolvedState next = at_resolution(problem, newton, state, {rung.subdivision, degree});
       if (next.status == Status::stopped) {
         observe(next, nullptr);
@@ -86,7 +94,7 @@ Status climb(const Problem& problem, const NewtonOptions& newton, ResolvedState 
       state = next;
       ladder.add(std::move(next));
       observe(ladder.rungs.back(), &ladder);
-      if (is_accurate(ladder, problem.accuracy)) return Status::converged;
+      if (is_accurate(ladder, problem)) return Status::converged;
     }
     if (ladder.rungs.empty() && !fresh.rungs.empty()) std::swap(ladder, fresh);
   }

@@ -10,7 +10,7 @@ namespace rheocyte {
 /// The deformation of a state's contour.
 double deformation_of(const ResolvedState&);
 
-/// A state at the resolutions of one mesh, coarse to fine.
+/// A state at the resolutions of one mesh, coarse to fine; where the gap is narrow, of several.
 struct Ladder {
   bool keeps_systems = true;  ///< of all rungs; or of the last one alone
   std::vector<ResolvedState> rungs = {};
@@ -20,8 +20,9 @@ struct Ladder {
   void add(ResolvedState);
 };
 
-/// Whether the estimated error is below the wanted one, or below what can be resolved of a tiny deformation.
-bool is_accurate(const Ladder&, double accuracy);
+/// Whether the estimated error is below the wanted one, or below what can be resolved of a tiny deformation. Where the
+/// gap is narrow the coarsest mesh is not trusted: neighbouring degrees agree there although both are wrong.
+bool is_accurate(const Ladder&, const Problem&);
 
 /// Sees each state that is tried, and whether it became a rung.
 using RungObserver = std::function<void(const ResolvedState&, const Ladder*)>;

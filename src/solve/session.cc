@@ -145,7 +145,7 @@ bool Session::answer_nearby(const Problem& problem, const NewtonOptions& newton,
   for (ResolvedState& rung : kept.ladder.rungs) {
     if (!move_rung(kept.problem, problem, newton, rung, statistics)) return false;
     answer.ladder.add(std::move(rung));
-    if (is_accurate(answer.ladder, problem.accuracy)) break;
+    if (is_accurate(answer.ladder, problem)) break;
   }
   return true;
 }
@@ -178,7 +178,7 @@ StationaryState Session::solve(const Problem& problem, const ProgressCallback& p
     add_work(state, result.statistics);
   }
   result.outcome.status = state.status;
-  if (state.status == Status::converged && !is_accurate(answer.ladder, problem.accuracy))
+  if (state.status == Status::converged && !is_accurate(answer.ladder, problem))
     result.outcome.status = climb(problem, newton, state, answer.ladder, on_rung);
   if (!answer.ladder.rungs.empty()) {
     state = answer.ladder.rungs.back();

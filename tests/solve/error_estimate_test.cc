@@ -46,5 +46,19 @@ INSTANTIATE_TEST_SUITE_P(Cells, ErrorEstimate,
                                          test::in_power_law_liquid(test::problem({6, 1.75, 0}))),
                          case_name);
 
+TEST(ErrorEstimateInANarrowGap, DoesNotTrustTwoDegreesOfTheCoarsestMesh) {
+  // Degrees 4 and 5 agree to 5e-5 there, and both are wrong by 1e-3.
+  Problem problem = test::problem({10.25, 3.2857, 1}, 5e-6);
+  const StationaryState exact = solve_stationary(problem);
+  ASSERT_EQ(exact.outcome.status, Status::converged) << exact.outcome.message;
+  for (const double accuracy : {1e-2, 1e-3, 1e-4}) {
+    problem.accuracy = accuracy;
+    const StationaryState state = solve_stationary(problem);
+    EXPECT_LE(std::abs(state.shape.deformation / exact.shape.deformation - 1),
+              state.estimated_error + exact.estimated_error)
+        << "wanted " << accuracy;
+  }
+}
+
 }  // namespace
 }  // namespace rheocyte
