@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "app/counted.h"
 #include "app/result.h"
 #include "store/build_info.h"
 
@@ -75,7 +76,9 @@ std::string summary(const Result& result, const std::string& folder) {
   text += line("cell velocity", fmt::format("{:.5g} m/s", state.cell_velocity * scales.velocity_m_per_s),
                fmt::format("mean velocity of the liquid {:.5g}", scales.velocity_m_per_s));
   text += line("pressure drop", fmt::format("{:.5g} Pa", state.pressure_drop * scales.stress_Pa),
-               fmt::format("{:.4g} due to the cell", state.additional_pressure_drop * scales.stress_Pa));
+               std::isfinite(state.additional_pressure_drop)
+                   ? fmt::format("{:.4g} due to the cell", state.additional_pressure_drop * scales.stress_Pa)
+                   : "");
   if (const double reached = state.outcome.reached; reached > 0 && reached < 1) {
     const Cell& cell = result.input.cell;
     const auto modulus = [&](std::string_view name, const std::optional<double>& wanted, std::string_view unit) {
@@ -88,9 +91,11 @@ std::string summary(const Result& result, const std::string& folder) {
   if (std::isfinite(state.estimated_error))
     text += line("estimated error", fmt::format("{:.1e}", state.estimated_error),
                  fmt::format("of the deformation, wanted {:.1e}", result.problem.accuracy));
+  else if (result.input.time.scheme != TimeScheme::stationary && state.outcome.status == Status::converged)
+    text += line("estimated error", "not known", "of the mesh; a run with another time.degree shows it");
   text += line("time", fmt::format("{:.2f} s", state.statistics.total_s),
-               fmt::format("{} steps, {} Newton iterations, {} unknowns", state.statistics.continuation_steps,
-                           state.statistics.newton_iterations, state.statistics.unknowns));
+               fmt::format("{}, {}, {} unknowns", counted(state.statistics.continuation_steps, "step"),
+                           counted(state.statistics.newton_iterations, "Newton iteration"), state.statistics.unknowns));
   return text + fmt::format("  {:<18} {}\n", "folder", folder);
 }
 

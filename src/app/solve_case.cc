@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/counted.h"
 #include "app/exit_codes.h"
 #include "app/finish_result.h"
 #include "app/result.h"
@@ -30,8 +31,8 @@ ProgressCallback progress_lines(const Case& c) {
                            : cell.bulk.young_modulus_kPa
                                ? fmt::format("E = {:.5g} kPa", share * *cell.bulk.young_modulus_kPa)
                                : fmt::format("E2D = {:.5g} mN/m", share * cell.cortex.modulus_mN_per_m.value_or(0));
-    tell(fmt::format("step {:>3}  {:<16}  degree {:>2}  deformation {:.6f}  {} Newton iterations", ++step, stiffness,
-                     point.degree, point.deformation, point.newton_iterations));
+    tell(fmt::format("step {:>3}  {:<16}  degree {:>2}  deformation {:.6f}  {}", ++step, stiffness, point.degree,
+                     point.deformation, counted(point.newton_iterations, "Newton iteration")));
   };
 }
 

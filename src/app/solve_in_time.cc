@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/checkpoint.h"
+#include "app/counted.h"
 #include "app/finish_result.h"
 #include "case/scales.h"
 #include "case/user_error.h"
@@ -90,8 +91,8 @@ class Recorder {
     write_checkpoint_if_due();
     const HistoryRow& row = record_.rows.back();
     if (!options_.quiet)
-      tell(fmt::format("t {:>10.4f} us  step {:<9.3g} order {}  deformation {:.6f}  {} Newton iterations", row.t_us,
-                       row.step_us, row.order, row.measure("deformation"), row.newton_iterations));
+      tell(fmt::format("t {:>10.4f} us  step {:<9.3g} order {}  deformation {:.6f}  {}", row.t_us, row.step_us,
+                       row.order, row.measure("deformation"), counted(row.newton_iterations, "Newton iteration")));
   }
 
   void write_checkpoint_if_due() {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace rheocyte {
 
 SurfaceKind surface_kind(const Problem& problem) {
@@ -13,16 +15,20 @@ SurfaceKind surface_kind(const Problem& problem) {
 
 namespace {
 
+std::string way_out_of_wrinkles(SurfaceKind kind) {
+  const std::string hold = kind == SurfaceKind::held
+                               ? ""
+                               : ", or stabilise the surface by a little bending stiffness (cell.cortex.bending_kBT = "
+                                 "1e4) or tension (cell.cortex.tension_mN_per_m)";
+  return "raise the moduli above that, lower flow rate or viscosity" + hold + ".";
+}
+
 std::string unstable_surface(const std::string& where, SurfaceKind kind) {
   const std::string what = kind == SurfaceKind::membrane
                                ? "The cortex of so soft a cell is compressed and wrinkles: the smooth branch ends at "
                                : "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder): the "
                                  "smooth branch ends at ";
-  const std::string hold = kind == SurfaceKind::held
-                               ? "."
-                               : ", or hold the surface by a little bending stiffness (cell.cortex.bending_kBT = 1e4) "
-                                 "or tension (cell.cortex.tension_mN_per_m).";
-  return what + where + "; raise the moduli above that, lower flow rate or viscosity" + hold;
+  return what + where + "; " + way_out_of_wrinkles(kind);
 }
 
 }  // namespace
@@ -31,7 +37,11 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
   if (outcome.status == Status::converged) return "The stationary shape was found.";
   if (outcome.status == Status::stopped && outcome.reached <= 0) return "Stopped by a signal before the first state.";
   if (outcome.reached <= 0) {
-    return "No state was found, not even of a nearly rigid cell; please report this case as a fault of the program.";
+    if (outcome.status == Status::surface_unstable)
+      return "The surface of this cell wrinkles at the smallest load already; stabilise it by a little "
+             "bending stiffness (cell.cortex.bending_kBT = 1e4) or tension (cell.cortex.tension_mN_per_m).";
+    return "No state was found, not even of a nearly rigid cell: the case is far outside what the solver can follow; "
+           "check the units of its numbers.";
   }
   const std::string where =
       fmt::format("{:.3g} times the wanted moduli (deformation {:.4f})", 1 / outcome.reached, last.deformation);
@@ -48,6 +58,9 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
              "viscosity.";
     case Status::mesh_folded: return "The mesh of the liquid folds beyond " + where + "; raise the moduli above that.";
     case Status::accuracy_not_reached:
+      if (!std::isfinite(last.estimated_error))
+        return "The shape was found, but on one mesh only, so that its error cannot be estimated; raise the moduli, or "
+               "lower flow rate or viscosity.";
       return fmt::format(
           "The shape was found, but its error is estimated at {:.1e} on the finest mesh; ask for less, "
           "numerics.accuracy above that.",

@@ -89,7 +89,7 @@ std::map<int, std::vector<Point>> current_points(const Discretisation& space, co
       const int node = space.nodes().of_element[e][k];
       Point x = space.node_points()[node];
       if (m > 0) {
-        for (int c = 0; c < 2; ++c) x(c) += element.position_at_nodes[c].row(k) * local.segment(c * m, m);
+        for (int c = 0; c < 2; ++c) x(c) += element.position->at_nodes[c].row(k) * local.segment(c * m, m);
       }
       seen[node].push_back(x);
     }
