@@ -95,9 +95,21 @@ build_jobs() {
   echo $((jobs > 0 ? jobs : 1))
 }
 
-# configure <preset>; the current folder is the top of the checkout.
+# python_environment <folder>: a virtual environment with all that the Python package and its tests need. Sets
+# python_options, the options of configure; they are empty where there can be no such environment.
+python_environment() {
+  # shellcheck disable=SC2034 # used by the scripts that source this file
+  python_options=()
+  if python3 -m venv "$1" && "$1/bin/pip" install --quiet --disable-pip-version-check -r tests/python/requirements.txt; then
+    python_options=(-DRHEOCYTE_PYTHON=ON "-DPython_EXECUTABLE=$PWD/$1/bin/python")
+  else
+    echo 'Python packages cannot be installed here (no network, or no module venv): the Python package is left out.'
+  fi
+}
+
+# configure <preset> [<option>...]; the current folder is the top of the checkout.
 configure() {
-  cmake --preset "$1" || fail "CMake could not configure the preset \"$1\"; its message is above. A build folder that is
+  cmake --preset "$@" || fail "CMake could not configure the preset \"$1\"; its message is above. A build folder that is
 old or was copied from elsewhere is mended by removing it."
 }
 

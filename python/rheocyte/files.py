@@ -13,11 +13,9 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image  # matplotlib needs it, too
 
+from rheocyte.errors import InputError, reason
+
 COMPRESSION = 3  # of PNG files, of 9: twice as fast as the usual 6 for a fifth more bytes
-
-
-class InputError(Exception):
-    """The user's file is missing or damaged; the text is one sentence that names it."""
 
 
 def read_result(path):
@@ -69,11 +67,6 @@ def read_contour(path):
 def read_column(path, column):
     """One column of a CSV file as an array of finite numbers."""
     return np.array([number(row, column, path) for row in read_table(path, [column])])
-
-
-def reason(error):
-    """What the operating system or a parser said, without the path that stands before it already."""
-    return getattr(error, "strerror", None) or str(error)
 
 
 def save_figure(figure, stem, dpi, palette=False, svg_dpi=300):

@@ -52,12 +52,17 @@ def read_story(folder):
     fields = read_vtu(folder / "fields.vtu", ["velocity_relative", "stress", "region"])
     if fields.data["velocity_relative"].ndim != 2:
         raise InputError(f"{folder / 'fields.vtu'}: the field \"velocity_relative\" is not a vector.")
+    shell = find(result, "case", "cell", "bulk", "law") == "none"
+    tension = read_column(folder / "contour.csv", "tension_meridional_mN_per_m") if shell else None
+    return story_of(result, contour, fields, tension)
+
+
+def story_of(result, contour, fields, tension):
+    """A result with its contour (n, 2), the fields of its mesh and, of a shell, the tension along the contour."""
     radius = float(fields.points[:, 1].max())
     length = min(VIEW * radius, *np.abs([fields.points[:, 0].min(), fields.points[:, 0].max()]))
     columns = 720
     grid = PixelGrid(np.linspace(-length, length, columns), np.linspace(0, radius, columns // 4))
-    shell = find(result, "case", "cell", "bulk", "law") == "none"
-    tension = read_column(folder / "contour.csv", "tension_meridional_mN_per_m") if shell else None
     return Story(result, contour, radius, grid, *pixels(fields, grid), tension)
 
 

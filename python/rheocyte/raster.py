@@ -128,5 +128,5 @@ class Raster(Artist):
         graphics = renderer.new_gc()
         self._set_gc_clip(graphics)
         smooth = Image.fromarray(self.pixels[::-1]).resize(size, Image.Resampling.BILINEAR)
-        renderer.draw_image(graphics, x0, y0, np.asarray(smooth))
+        renderer.draw_image(graphics, x0, y0, np.array(smooth))  # a view of it cannot be written to
         graphics.restore()

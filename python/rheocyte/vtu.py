@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rheocyte.files import InputError, reason
+from rheocyte.errors import InputError, reason
 
 VTK_LAGRANGE_QUADRILATERAL = 70
 TYPES = {"Float32": "<f4", "Float64": "<f8", "UInt8": "u1", "Int32": "<i4", "Int64": "<i8"}

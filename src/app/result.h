@@ -35,7 +35,7 @@ std::span<const Field<StepOfResult, nlohmann::ordered_json>> branch_fields();
 std::span<const Field<SolveStatistics, nlohmann::ordered_json>> statistics_fields();
 
 /// A point of the surface.
-struct SurfacePoint {
+struct ProfilePoint {
   const SurfaceProfile& surface;
   Eigen::Index row;
 };
@@ -43,7 +43,7 @@ struct SurfacePoint {
 /// contour.csv: the meridian from the front pole to the rear one, densely sampled, in um, with stretches, tensions and
 /// curvatures of the surface.
 std::string contour_csv(const Result&);
-std::span<const Field<SurfacePoint>> contour_fields();  ///< its columns; the values are dimensionless
+std::span<const Field<ProfilePoint>> contour_fields();  ///< its columns; the values are dimensionless
 
 /// The lines that `rheocyte solve` prints at its end.
 std::string summary(const Result&, const std::string& folder);

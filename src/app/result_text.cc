@@ -21,8 +21,8 @@ std::string line(std::string_view name, const std::string& value, const std::str
 
 }  // namespace
 
-std::span<const Field<SurfacePoint>> contour_fields() {
-  using P = SurfacePoint;
+std::span<const Field<ProfilePoint>> contour_fields() {
+  using P = ProfilePoint;
   static constexpr Field<P> fields[] = {
       {"x_um", "along the channel, 0 at the cell's barycentre", [](const P& p) { return p.surface.point(p.row, 0); }},
       {"r_um", "distance from the axis", [](const P& p) { return std::max(p.surface.point(p.row, 1), 0.0); }},

@@ -26,19 +26,6 @@ constexpr double us_per_s = 1e6;
 constexpr std::chrono::duration<double> least_time_between_checkpoints(0.25), greatest_time_between_checkpoints(10);
 constexpr const char* fields_folder = "fields";
 
-TimeRun run_of(const Case& c, const Scales& scales) {
-  const double unit_us = scales.time_s() * us_per_s;
-  TimeRun run;
-  run.end = *c.time.end_us / unit_us;
-  run.output_every = *c.time.output_every_us / unit_us;
-  run.accuracy = c.time.accuracy.value_or(run.accuracy);
-  run.degree = int(*c.time.degree);
-  run.scheme = c.time.scheme;
-  run.step = c.time.step_us.value_or(0) / unit_us;
-  run.surface_elements = surface_elements(c);
-  return run;
-}
-
 /// Keeps the record of a computation and writes what must not be lost.
 class Recorder {
  public:
@@ -121,6 +108,19 @@ class Recorder {
 
 }  // namespace
 
+TimeRun time_run_of(const Case& c, const Scales& scales) {
+  const double unit_us = scales.time_s() * us_per_s;
+  TimeRun run;
+  run.end = *c.time.end_us / unit_us;
+  run.output_every = *c.time.output_every_us / unit_us;
+  run.accuracy = c.time.accuracy.value_or(run.accuracy);
+  run.degree = int(*c.time.degree);
+  run.scheme = c.time.scheme;
+  run.step = c.time.step_us.value_or(0) / unit_us;
+  run.surface_elements = surface_elements(c);
+  return run;
+}
+
 int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Drawing>& drawing) {
   Result result{c, scales_of(c), problem_of(c), {}};
   std::optional<Checkpoint> from;
@@ -130,7 +130,7 @@ int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Draw
   ResultFolder folder(options.folder);
   Recorder recorder(result, options, folder);
   if (from) recorder.take_over(*from);
-  result.state = follow_in_time(result.problem, run_of(c, result.scales), recorder.observer(),
+  result.state = follow_in_time(result.problem, time_run_of(c, result.scales), recorder.observer(),
                                 start ? &*start : nullptr, &stop_wanted());
   recorder.write_all();
   refuse_unfinite_numbers(result);

@@ -1,0 +1,43 @@
+"""Numbers of users as arrays for the compiled module."""
+
+import numpy as np
+
+from rheocyte.errors import UserError
+
+
+def numbers(values, name):
+    """An array of 64-bit numbers; the values themselves, not a copy, if they are such an array already."""
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind not in "fiub":
+            raise TypeError(f"its type is {array.dtype}")
+        return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+    except (TypeError, ValueError) as error:
+        raise UserError(f"{name} is not an array of numbers: {error}.") from error
+
+
+def equally_long(**arrays):
+    """One-dimensional arrays of one length; UserError naming those that differ."""
+    lengths = {name: array.shape for name, array in arrays.items()}
+    for name, shape in lengths.items():
+        if len(shape) != 1:
+            raise UserError(f"{name} has the shape {shape}; one number per event is wanted.")
+    if len(set(lengths.values())) > 1:
+        told = ", ".join(f"{name} {shape[0]}" for name, shape in lengths.items())
+        raise UserError(f"the arrays are not equally long: {told}.")
+
+
+def number(value, name):
+    """One finite number."""
+    array = numbers(value, name)
+    if array.size != 1 or not np.isfinite(array).all():
+        raise UserError(f"{name} is {value!r}; one finite number is wanted.")
+    return float(array.reshape(())) if array.ndim else float(array)
+
+
+def positive(value, name):
+    """One finite number above 0."""
+    found = number(value, name)
+    if not found > 0:
+        raise UserError(f"{name} is {found:g}; it must be above 0.")
+    return found

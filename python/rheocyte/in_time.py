@@ -1,0 +1,94 @@
+"""The way of a cell in time."""
+
+import numpy as np
+
+from rheocyte.cases import Case
+from rheocyte.errors import NoStateError
+from rheocyte.native_module import native
+from rheocyte.states import Result
+
+
+def evolve(case=None, **overrides):
+    """Follows a cell from the sphere in time; the case needs time.end_us and cell.viscosity_mPas.
+
+    case    a Case, the path of a case file, a dictionary or None; keywords replace its keys as for Case
+
+    Returns an Evolution, an iterator of the states at 0, time.output_every_us, ..., time.end_us. It computes in a thread
+    of its own, ahead of the loop. Equations and schemes stand in docs/theory-time.md.
+
+    >>> for state in rheocyte.evolve("examples/paper-cell-in-time.toml"):
+    ...     print(state.t_us, state.deformation)
+    """
+    if not isinstance(case, Case) or overrides:
+        case = Case(case, **overrides)
+    return Evolution(case)
+
+
+class State:
+    """A cell at a time of output: t_us, contour (array (n, 2) of x and r in um), deformation, area_um2, ...
+
+    The numbers are those of the shape, with the names of result.json.
+    """
+
+    def __init__(self, numbers):
+        numbers["contour"][:, 1] = np.maximum(numbers["contour"][:, 1], 0)
+        self.__dict__.update(numbers)
+
+    def __repr__(self):
+        return f"<State at {self.t_us:g} us: deformation {self.deformation:.6f}>"
+
+
+class Evolution:
+    """Iterator of the states of rheocyte.evolve.
+
+    evolution.history    numbers of all steps so far, a pandas.DataFrame with the columns of history.csv
+    evolution.result     the last state, a Result; waits for the end
+    evolution.stop()     ends the computation; so does Ctrl-C in a loop, and what was computed stays
+
+    A numerical failure ends the iteration; `result.status` and `result.message` tell the reason, and `check()` raises
+    it as NoStateError.
+    """
+
+    def __init__(self, case):
+        self._case = case
+        self._native = native.Evolution(case._values)
+        self._waiting = []
+
+    def __iter__(self):
+        return self
+
+    def __next__(self):
+        if self._waiting:
+            return self._waiting.pop(0)
+        numbers = self._native.next()
+        if numbers is None:
+            raise StopIteration
+        return State(numbers)
+
+    @property
+    def history(self):
+        """One row for each step in time so far."""
+        import pandas
+
+        return pandas.DataFrame(self._native.history())
+
+    @property
+    def result(self):
+        """The last state with all its numbers; waits for the end of the computation."""
+        while (numbers := self._native.next()) is not None:
+            self._waiting.append(State(numbers))
+        return Result(self._native.result(), self._case)
+
+    def check(self):
+        """Waits for the end; NoStateError if it is not that of the case."""
+        result = self.result
+        if not result.converged:
+            raise NoStateError(result)
+        return self
+
+    def stop(self):
+        """Ends the computation with the present step; what was computed stays."""
+        self._native.stop()
+
+    def __repr__(self):
+        return f"<Evolution: {'complete' if self._native.is_over() else 'under way'}>"

@@ -1,0 +1,154 @@
+"""Recordings of RT-DC: Young's moduli of their events, moduli of bulk and cortex, features of masks."""
+
+import io
+import os
+
+import numpy as np
+
+from rheocyte.arrays import number, positive
+from rheocyte.errors import UserError
+from rheocyte.native_module import native
+from rheocyte.stiffness_tables import place_of_table
+
+_UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "young_modulus_kPa": "kPa",
+          "standard_error_kPa": "kPa", "state": ""}
+
+
+def extract(recording, *, table="", pixelation=True, correct_area=True, progress=None, **measuring):
+    """Young's modulus of each event of a recording, as `rheocyte extract` gives it.
+
+    recording       path of an .rtdc file, or an open dclab dataset of one
+    table           name or path of a table, as for Table; "": the shipped one that fits the medium
+    pixelation      whether pixels are corrected for; correct_area: whether areas are, too
+    progress        called with the share that is done; True: a bar of tqdm where it is installed
+    channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas, medium, viscosity_model,
+    temperature     replace the metadata; temperature is a number in degrees Celsius, "feature" or "metadata"
+    least, greatest dictionaries of limits of features: least={"area_ratio": 1}, greatest={"area_ratio": 1.05}
+
+    Returns a pandas.DataFrame with one row per event: area_um2, deformation, viscosity_mPas, young_modulus_kPa,
+    standard_error_kPa (without it for published tables), state (a category). attrs: units, table, settings, warnings.
+
+    UserError for what is wrong with the recording, naming what it lacks. HDF5 is known to break down on some damaged
+    files: for files of unknown origin use the command, which reads them in a process of its own.
+    """
+    import pandas
+
+    options = native.ExtractOptions()
+    options.measuring = _measuring(measuring, "extract")
+    options.table = place_of_table(table)
+    options.no_pixelation, options.no_area_correction = not pixelation, not correct_area
+    with _bar(progress) as tell:
+        columns, attributes = native.extract(_path(recording), options, tell)
+    if not len(columns["standard_error_kPa"]) or np.isnan(columns["standard_error_kPa"]).all():
+        del columns["standard_error_kPa"]
+    columns["state"] = pandas.Categorical.from_codes(columns["state"], list(native.state_names))
+    frame = pandas.DataFrame(columns, copy=False)
+    frame.attrs.update(attributes, units={name: _UNITS[name] for name in frame})
+    return frame
+
+
+def moduli(recording, table, *, fit_tension=False, only_figure=False, progress=None, **measuring):
+    """Moduli of bulk and cortex of each cell from its contour, as `rheocyte moduli` gives them.
+
+    table           folder of a combined table (examples/tables/combined.toml)
+    fit_tension     the tension, too, by a table with several of them
+    only_figure     by area, deformation and Lambda1/Lambda2 alone
+    others          as for extract
+
+    Returns a pandas.DataFrame: area_um2, deformation, viscosity_mPas, young_modulus_kPa, cortex_modulus_mN_per_m,
+    tension_mN_per_m and stiffness_kPa with their standard errors, chi_squared, status. attrs: settings, warnings.
+    """
+    import pandas
+
+    options = native.ModuliOptions()
+    options.measuring = _measuring(measuring, "moduli")
+    options.table = os.fspath(table)
+    options.fit_tension, options.only_figure = bool(fit_tension), bool(only_figure)
+    descriptor = os.memfd_create("rheocyte-moduli")  # memory, not a file
+    try:
+        with _bar(progress) as tell:
+            warnings = native.moduli(_path(recording), f"/proc/self/fd/{descriptor}", options, tell)
+        with open(descriptor, encoding="utf-8", closefd=False) as file:
+            file.seek(0)
+            text = file.read()
+    finally:
+        os.close(descriptor)
+    frame = pandas.read_csv(io.StringIO(text), sep="\t", comment="#").drop(columns="event")
+    settings = [line[2:] for line in text.splitlines() if line.startswith("# ")]
+    frame.attrs.update(settings=settings, warnings=warnings)
+    return frame
+
+
+def features(masks, pixel_size_um):
+    """Features of the shape from masks, as dclab defines them (docs/theory-extract.md, sec. "features").
+
+    masks           boolean or integer array (events, rows, columns), or (rows, columns) of one event; anything but 0
+                    belongs to the cell, of which the longest outline counts
+    pixel_size_um   size of a pixel
+
+    Returns a pandas.DataFrame with one row per event, NaN where there is no cell: area_um (um2, of the convex hull),
+    deform, pos_x, pos_y (um), area_msd (pixels), area_ratio, size_x, size_y (um), inert_ratio_cvx, inert_ratio_raw,
+    inert_ratio_prnc, tilt (radian), volume (um3).
+    """
+    import pandas
+
+    array = np.asarray(masks)
+    if array.dtype.kind not in "biu" or array.ndim not in (2, 3) or 0 in array.shape[-2:]:
+        raise UserError(f"masks has the type {array.dtype} and the shape {array.shape}; wanted are booleans or whole "
+                        "numbers (events, rows, columns).")
+    size = positive(pixel_size_um, "pixel_size_um")
+    as_bytes = array.view(np.uint8) if array.dtype.itemsize == 1 else (array != 0).view(np.uint8)
+    as_bytes = np.ascontiguousarray(as_bytes).reshape(-1, *array.shape[-2:])
+    return pandas.DataFrame(native.features(as_bytes, size))
+
+
+def _path(recording):
+    path = getattr(recording, "path", recording)
+    if not isinstance(path, (str, os.PathLike)):
+        raise UserError(f"{recording!r} is no path of a recording; give that of an .rtdc file.")
+    return os.fspath(path)
+
+
+_NUMBERS = ("channel_width_um", "flow_rate_ul_s", "pixel_size_um", "viscosity_mPas")
+_TEXTS = ("medium", "viscosity_model")
+
+
+def _measuring(given, function):
+    options = native.MeasuringOptions()
+    least, greatest = (given.pop(name, None) or {} for name in ("least", "greatest"))
+    options.set_gates(*([f"{feature}={number(limit, feature)!r}" for feature, limit in limits.items()]
+                        for limits in (least, greatest)))
+    for name, value in given.items():
+        if value is None:
+            continue
+        if name in _NUMBERS:
+            setattr(options, name, positive(value, name))
+        elif name in _TEXTS:
+            setattr(options, name, str(value))
+        elif name == "temperature":
+            options.temperature = value if isinstance(value, str) else repr(number(value, name))
+        else:
+            known = ", ".join((*_NUMBERS, *_TEXTS, "temperature", "least", "greatest"))
+            raise UserError(f"{function} has no argument {name!r}; there are {known}.")
+    return options
+
+
+class _bar:
+    """A function of the share that is done: the caller's, a bar of tqdm, or none."""
+
+    def __init__(self, progress):
+        self._call, self._bar = progress if callable(progress) else None, None
+        if progress is True:
+            try:
+                from tqdm.auto import tqdm
+            except ImportError:
+                return
+            self._bar = tqdm(total=100, unit="%")
+            self._call = lambda share: self._bar.update(100 * share - self._bar.n)
+
+    def __enter__(self):
+        return self._call
+
+    def __exit__(self, *_):
+        if self._bar is not None:
+            self._bar.close()

@@ -1,0 +1,209 @@
+"""Stationary states: solving a case, and what is known of its state."""
+
+import base64
+import io
+import json
+import os
+import threading
+
+import numpy as np
+
+from rheocyte.cases import Case
+from rheocyte.errors import NoStateError, UserError
+from rheocyte.native_module import native
+
+_DEFAULT_MEMORY_MB = 256
+
+
+def solve(case=None, *, check=False, progress=None, **overrides):
+    """The stationary shape of a cell, from the sphere to the wanted stiffness by itself.
+
+    case        a Case, the path of a case file, a dictionary or None; keywords replace its keys as for Case
+    check       raise NoStateError where the state does not exist or was not reached; else the Result says so in
+                `status` and `message`, and holds the last state on the way
+    progress    called after each step with a dictionary (compliance, deformation, newton_iterations, degree)
+
+    Returns a Result. UserError for a case that is wrong; Ctrl-C ends the computation.
+    The equations stand in docs/theory.md.
+
+    >>> rheocyte.solve("examples/paper-cell.toml").deformation
+    """
+    return Session(memory_MB=0).solve(case, check=check, progress=progress, **overrides)
+
+
+class Session:
+    """Solves one case after another and keeps meshes, factors and states: a case near an earlier one starts from there.
+
+    Session(memory_MB=256)    the latest states are kept up to this size
+
+    Threads may share a session, but then wait for each other; give each one of its own. A computation does not hold
+    Python's lock.
+    """
+
+    def __init__(self, memory_MB=_DEFAULT_MEMORY_MB):
+        if not isinstance(memory_MB, (int, float)) or not 0 <= memory_MB < 1e9:
+            raise UserError(f"Session: memory_MB is {memory_MB!r}; give a size from 0 on.")
+        self._native = native.Session(int(memory_MB * 2**20))
+
+    def solve(self, case=None, *, check=False, progress=None, **overrides):
+        """As rheocyte.solve, from a kept state if one is near; the answer is the same up to rounding and tolerance."""
+        if not isinstance(case, Case) or overrides:
+            case = Case(case, **overrides)
+        result = Result(self._native.solve(case._values, progress), case)
+        if check and not result.converged:
+            raise NoStateError(result)
+        return result
+
+    @property
+    def warm_starts(self):
+        """How many answers started from a kept state."""
+        return self._native.warm_starts()
+
+    @property
+    def memory_bytes(self):
+        """Size of what is kept, about."""
+        return self._native.memory_bytes()
+
+    def __repr__(self):
+        return f"<Session: {self.warm_starts} warm starts, {self.memory_bytes / 2**20:.0f} MB kept>"
+
+
+class Result:
+    """A state of cell and liquid, with every number of result.json as an attribute (docs/result-reference.md).
+
+    result.deformation, result.area_um2, result.cell_velocity_m_per_s, ...; None where there is no such number
+    result.converged       whether it is the state that was asked for; else `status` and `message` say why not
+    result.case            the case as a dictionary; `problem` is the Case itself
+    result.contour         meridian, array (n, 2): x along the channel from the barycentre, r >= 0 from the axis, in um,
+                           from the front pole to the rear one
+    result.surface         columns of contour.csv by their names: stretches, tensions (mN/m), curvatures (1/um)
+    result.fields()        velocity, pressure, stress, displacement in cell and liquid
+    result.plot()          the picture, a matplotlib figure
+    """
+
+    def __init__(self, computed, case):
+        self._native = computed
+        self._case = Case(case)
+        self._known = None
+        self._lock = threading.Lock()
+
+    @property
+    def _numbers(self):
+        if self._known is None:
+            self._known = json.loads(self._native.json())
+        return self._known
+
+    def __getattr__(self, name):
+        if name.startswith("_") or name not in self._numbers:
+            raise AttributeError(f"a result has no {name!r}; its numbers are {', '.join(self.__dict__.get('_known') or ())}")
+        return self._numbers[name]
+
+    def __getitem__(self, name):
+        return self._numbers[name]
+
+    def keys(self):
+        """Names of the numbers, those of result.json."""
+        return self._numbers.keys()
+
+    def __iter__(self):
+        return iter(self._numbers)
+
+    def __len__(self):
+        return len(self._numbers)
+
+    def __dir__(self):
+        return sorted({*super().__dir__(), *self._numbers})
+
+    def to_dict(self):
+        """The content of result.json."""
+        return json.loads(self._native.json())
+
+    @property
+    def status(self):
+        """"converged", or the name of the reason why not."""
+        return self._native.status()
+
+    @property
+    def converged(self):
+        """Whether it is the state that was asked for."""
+        return self.status == "converged"
+
+    @property
+    def problem(self):
+        """The Case that was solved."""
+        return self._case
+
+    @property
+    def surface(self):
+        """Columns of contour.csv: dictionary of arrays (n,) by names with units, from the front pole to the rear one."""
+        return self._native.surface()
+
+    @property
+    def contour(self):
+        """Meridian, array (n, 2) of x and r >= 0 in um, x from the barycentre along the flow; n = 0 without a state."""
+        surface = self.surface
+        return np.stack([surface["x_um"], surface["r_um"]], axis=1)
+
+    def fields(self, x_um=None, r_um=None):
+        """Fields of cell and liquid in the half section r >= 0.
+
+        Without arguments those of the mesh, rheocyte.vtu.Fields: points (N, 3) in um, elements (n, p + 1, p + 1), data
+        by name. With two arrays of equidistant places a dictionary of arrays (len(r_um), len(x_um)), NaN outside the
+        channel; vectors are (rows, columns, 2).
+
+        velocity (m/s, laboratory), velocity_relative (m/s, to the cell), pressure (Pa, 0 in the undisturbed flow at the
+        cell), stress (Pa, von Mises, in the cell), shear_stress (Pa, in the liquid), displacement (um), region (0
+        liquid, 1 cell). UserError if there is no state.
+        """
+        from rheocyte import field_arrays, vtu
+
+        fields = vtu.read_grid(self._vtu(), field_arrays.NAMES)
+        if x_um is None and r_um is None:
+            return fields
+        return field_arrays.on_grid(fields, x_um, r_um)
+
+    def save_fields(self, path):
+        """Writes the fields as a .vtu file for ParaView, PyVista or meshio."""
+        content = self._vtu()
+        try:
+            with open(path, "wb") as file:
+                file.write(content)
+        except OSError as error:
+            raise UserError(f"{os.fspath(path)} cannot be written: {error.strerror}.") from error
+
+    def _vtu(self):
+        if not self._native.has_state():
+            raise UserError(f"this result has no fields: {self.message}")
+        descriptor = os.memfd_create("rheocyte-fields")  # memory, not a file
+        try:
+            if not self._native.write_fields(f"/proc/self/fd/{descriptor}"):
+                raise MemoryError("the fields do not fit into memory")
+            with open(descriptor, "rb", closefd=False) as file:
+                file.seek(0)
+                return file.read()
+        finally:
+            os.close(descriptor)
+
+    def plot(self):
+        """The picture of `rheocyte solve`: cell, flow and stress; a matplotlib figure."""
+        from rheocyte import picture
+
+        return picture.draw(picture.story_of(self.to_dict(), self.contour, self.fields(), self._shell_tension()))
+
+    def _shell_tension(self):
+        return self.surface["tension_meridional_mN_per_m"] if self.case["cell"]["bulk"]["law"] == "none" else None
+
+    def _repr_html_(self):
+        """Picture and numbers for notebooks."""
+        if not self._native.has_state():
+            return f"<p><b>{self.status}</b>: {self.message}</p>"
+        with self._lock:
+            file = io.BytesIO()
+            self.plot().savefig(file, format="png", dpi=200)
+        text = base64.b64encode(file.getvalue()).decode()
+        return f'<img style="width: 100%; max-width: 640px" src="data:image/png;base64,{text}" alt="{self!r}">'
+
+    def __repr__(self):
+        if not self._native.has_state():
+            return f"<Result: {self.status}>"
+        return f"<Result: {self.status}, deformation {self.deformation:.6f}, area {self.area_um2:.3f} um2>"

@@ -1,0 +1,188 @@
+// Recordings and masks: events with their moduli, and features of outlines.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "case/user_error.h"
+#include "extract/extraction.h"
+#include "extract/moduli_recording.h"
+#include "measurement/contour_features.h"
+#include "measurement/contour_from_mask.h"
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/interruptible.h"
+
+namespace rheocyte {
+
+namespace py = pybind11;
+
+namespace {
+
+using Progress = std::optional<std::function<void(double)>>;
+
+void tell(const Progress& progress, double share) {
+  if (!progress) return;
+  const py::gil_scoped_acquire acquired;
+  (*progress)(share);
+}
+
+struct Events {
+  std::vector<double> area, deformation, viscosity, modulus, standard_error;
+  std::vector<std::int8_t> state;
+  ExtractSummary summary;
+  std::vector<std::string> lines;
+
+  void append(const EventBlock& b) {
+    const auto add = [](std::vector<double>& to, std::span<const double> from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    add(area, b.area_um2);
+    add(deformation, b.deformation);
+    add(viscosity, b.viscosity_mPas);
+    add(modulus, b.young_modulus_kPa);
+    add(standard_error, b.standard_error_kPa);
+    std::ranges::transform(b.state, std::back_inserter(state), [](ModulusState s) { return std::int8_t(s); });
+  }
+};
+
+Events events_of(const std::filesystem::path& file, const ExtractOptions& options, const Progress& progress,
+                 const std::atomic<bool>& stop) {
+  const ModulusTables tables(options.table);
+  const Recording recording(file);
+  Extraction extraction(recording, options, tables);
+  Events events;
+  const std::size_t all = recording.events(), block = extraction.block();
+  for (std::size_t first = 0; first < all && !stop; first += block) {
+    const std::size_t count = std::min(block, all - first);
+    events.append(extraction.compute(first, count));
+    tell(progress, static_cast<double>(first + count) / static_cast<double>(all));
+  }
+  events.summary = extraction.summary();
+  events.lines = extraction.lines();
+  return events;
+}
+
+py::tuple extract(const std::filesystem::path& file, const ExtractOptions& options, const Progress& progress) {
+  check_measuring_options(options.measuring);
+  Events e = interruptible([&](const std::atomic<bool>& stop) { return events_of(file, options, progress, stop); });
+  py::dict columns, attributes;
+  columns["area_um2"] = array_of(std::move(e.area));
+  columns["deformation"] = array_of(std::move(e.deformation));
+  columns["viscosity_mPas"] = array_of(std::move(e.viscosity));
+  columns["young_modulus_kPa"] = array_of(std::move(e.modulus));
+  columns["standard_error_kPa"] = array_of(std::move(e.standard_error));
+  columns["state"] = array_of(std::move(e.state));
+  attributes["table"] = e.summary.table;
+  attributes["settings"] = e.lines;
+  attributes["warnings"] = e.summary.warnings;
+  return py::make_tuple(columns, attributes);
+}
+
+// The lines of `rheocyte moduli`, into a file that may be a piece of memory.
+std::vector<std::string> moduli(const std::filesystem::path& recording, const std::filesystem::path& target,
+                                const ModuliOptions& options, const Progress& progress) {
+  check_measuring_options(options.measuring);
+  struct Stopped {};
+  return interruptible([&](const std::atomic<bool>& stop) -> std::vector<std::string> {
+    try {
+      const ModuliTable table(options);
+      return moduli_of_recording(recording, target, options, table,
+                                 [&](double share) {
+                                   tell(progress, share);
+                                   if (stop) throw Stopped{};
+                                 })
+          .warnings;
+    } catch (const Stopped&) {
+      return {};
+    }
+  });
+}
+
+struct FeatureColumn {
+  const char* name;
+  double ContourFeatures::*member;
+};
+
+// Those of dclab where it has them.
+constexpr FeatureColumn feature_columns[] = {{"area_um", &ContourFeatures::area_um2},
+                                             {"deform", &ContourFeatures::deformation},
+                                             {"pos_x", &ContourFeatures::x_um},
+                                             {"pos_y", &ContourFeatures::y_um},
+                                             {"area_msd", &ContourFeatures::raw_area_px},
+                                             {"area_ratio", &ContourFeatures::area_ratio},
+                                             {"size_x", &ContourFeatures::width_um},
+                                             {"size_y", &ContourFeatures::height_um},
+                                             {"inert_ratio_cvx", &ContourFeatures::inertia_ratio},
+                                             {"inert_ratio_raw", &ContourFeatures::inertia_ratio_raw},
+                                             {"inert_ratio_prnc", &ContourFeatures::inertia_ratio_principal},
+                                             {"tilt", &ContourFeatures::tilt},
+                                             {"volume", &ContourFeatures::volume_um3}};
+
+using Masks = py::array_t<std::uint8_t, py::array::c_style>;
+
+// Masks (events, rows, columns), not empty; the caller has looked.
+py::dict features(const Masks& masks, double pixel_size_um) {
+  const auto count = static_cast<std::size_t>(masks.shape(0));
+  const ImageSize size{static_cast<std::size_t>(masks.shape(2)), static_cast<std::size_t>(masks.shape(1))};
+  const std::uint8_t* const pixels = masks.data();
+  const auto found = interruptible([&](const std::atomic<bool>& stop) {
+    std::vector<ContourFeatures> all;
+    ContourFinder finder;
+    ContourMeasurer measurer;
+    for (std::size_t i = 0; i < count && !stop; ++i)
+      all.push_back(
+          measurer.measure(finder.contour_of({size, {pixels + i * size.pixels(), size.pixels()}}), pixel_size_um));
+    return all;
+  });
+  py::dict columns;
+  for (const auto& [name, member] : feature_columns) {
+    std::vector<double> values(found.size());
+    std::ranges::transform(found, values.begin(), [member = member](const auto& f) { return f.*member; });
+    columns[name] = array_of(std::move(values));
+  }
+  return columns;
+}
+
+void bind_options(py::module_& module) {
+  using M = MeasuringOptions;
+  py::class_<M>(module, "MeasuringOptions")
+      .def(py::init<>())
+      .def_readwrite("channel_width_um", &M::channel_width_um)
+      .def_readwrite("flow_rate_ul_s", &M::flow_rate_ul_s)
+      .def_readwrite("pixel_size_um", &M::pixel_size_um)
+      .def_readwrite("viscosity_mPas", &M::viscosity_mPas)
+      .def_readwrite("medium", &M::medium)
+      .def_readwrite("viscosity_model", &M::viscosity_model)
+      .def_readwrite("temperature", &M::temperature)
+      .def("set_gates", [](M& m, const std::vector<std::string>& least, const std::vector<std::string>& greatest) {
+        m.gates = {least, greatest};
+      });
+  py::class_<ExtractOptions>(module, "ExtractOptions")
+      .def(py::init<>())
+      .def_readwrite("measuring", &ExtractOptions::measuring)
+      .def_readwrite("table", &ExtractOptions::table)
+      .def_readwrite("no_pixelation", &ExtractOptions::no_pixelation)
+      .def_readwrite("no_area_correction", &ExtractOptions::no_area_correction);
+  py::class_<ModuliOptions>(module, "ModuliOptions")
+      .def(py::init<>())
+      .def_readwrite("measuring", &ModuliOptions::measuring)
+      .def_readwrite("table", &ModuliOptions::table)
+      .def_readwrite("fit_tension", &ModuliOptions::fit_tension)
+      .def_readwrite("only_figure", &ModuliOptions::only_figure);
+}
+
+}  // namespace
+
+void bind_recordings(py::module_& module) {
+  bind_options(module);
+  module.def("extract", &extract);
+  module.def("moduli", &moduli);
+  module.def("features", &features);
+}
+
+}  // namespace rheocyte

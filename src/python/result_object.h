@@ -1,0 +1,16 @@
+// A solved state as Python holds it.
+#pragma once
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include "app/result.h"
+
+namespace rheocyte {
+
+/// The content of result.json as text.
+std::string json_text(const Result& result);
+
+/// The columns of contour.csv by their names.
+pybind11::dict surface_columns(const Result& result);
+
+}  // namespace rheocyte

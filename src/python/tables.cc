@@ -1,0 +1,168 @@
+// Tables of moduli: events in numpy arrays, lines, and the viscosity of buffers.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "case/user_error.h"
+#include "extract/find_table.h"
+#include "extract/modulus_tables.h"
+#include "extract/shipped_tables.h"
+#include "infer/isoelasticity_lines.h"
+#include "infer/read_modulus_map.h"
+#include "measurement/viscosity.h"
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/interruptible.h"
+
+namespace rheocyte {
+
+namespace py = pybind11;
+
+namespace {
+
+using SharedMap = std::shared_ptr<const ModulusMap>;
+
+/// A table that a program holds.
+struct HeldTable {
+  SharedMap map;
+};
+
+struct Columns {
+  std::vector<double> modulus_kPa, standard_error_kPa;
+  std::vector<std::int8_t> state;
+};
+
+// Columns of a block stay in the second fastest memory.
+constexpr std::size_t block = 4096;
+
+Columns estimates(const ModulusMap& map, const MeasuringConditions& conditions, const MeasuredEvents& events,
+                  const std::atomic<bool>& stop) {
+  const std::size_t all = events.size.size();
+  Columns columns{std::vector<double>(all), std::vector<double>(all), std::vector<std::int8_t>(all)};
+  std::array<ModulusState, block> states{};
+  std::array<double, block> viscosity{};
+  const bool one_viscosity = events.viscosity_mPas.size() == 1;
+  if (one_viscosity) viscosity.fill(events.viscosity_mPas.front());
+  for (std::size_t first = 0; first < all && !stop; first += block) {
+    const std::size_t count = std::min(block, all - first);
+    map.estimate(
+        conditions,
+        {events.size.subspan(first, count), events.deformation.subspan(first, count),
+         one_viscosity ? std::span<const double>(viscosity).first(count) : events.viscosity_mPas.subspan(first, count)},
+        {std::span(columns.modulus_kPa).subspan(first, count),
+         std::span(columns.standard_error_kPa).subspan(first, count), std::span(states).first(count)});
+    std::transform(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(count),
+                   columns.state.begin() + static_cast<std::ptrdiff_t>(first),
+                   [](ModulusState state) { return static_cast<std::int8_t>(state); });
+  }
+  return columns;
+}
+
+MeasuringConditions conditions_of(double width_um, double rate_ul_s, double pixel_size_um, bool correct_area) {
+  return {{.width_um = width_um, .rate_ul_s = rate_ul_s}, pixel_size_um, correct_area};
+}
+
+// The arrays are equally long (or there is a single viscosity): the caller has looked.
+py::tuple modulus(const HeldTable& table, const Numbers& area, const Numbers& deformation, const Numbers& viscosity,
+                  const MeasuringConditions& conditions) {
+  const MeasuredEvents events{span_of(area), span_of(deformation), span_of(viscosity)};
+  Columns columns =
+      interruptible([&](const std::atomic<bool>& stop) { return estimates(*table.map, conditions, events, stop); });
+  return py::make_tuple(array_of(std::move(columns.modulus_kPa)), array_of(std::move(columns.standard_error_kPa)),
+                        array_of(std::move(columns.state)));
+}
+
+py::array_t<double> seen(const ModulusMap& map, const MeasuringConditions& conditions,
+                         std::span<const PlanePoint> points) {
+  return array_of_points(as_measured(points, map.origin().flow, conditions, &map), &PlanePoint::x, &PlanePoint::y);
+}
+
+// Moduli in the measurement, whose viscosity must be given.
+py::list lines(const HeldTable& table, std::vector<double> levels_kPa, int count,
+               const MeasuringConditions& conditions) {
+  const double factor = scale_factors(table.map->origin().flow, conditions.flow).modulus;
+  if (levels_kPa.empty())
+    levels_kPa = even_levels(*table.map, count);
+  else
+    for (double& level : levels_kPa) level /= factor;
+  py::list list;
+  for (const auto& line : isoelasticity_lines(*table.map, levels_kPa).lines)
+    list.append(py::make_tuple(line.modulus_kPa * factor, seen(*table.map, conditions, line.points)));
+  return list;
+}
+
+py::dict origin(const HeldTable& table) {
+  const TableOrigin& o = table.map->origin();
+  py::dict d;
+  d["identifier"] = o.identifier;
+  d["model"] = o.model;
+  d["program"] = o.program;
+  d["spec"] = o.spec;
+  d["channel_width_um"] = o.flow.width_um;
+  d["flow_rate_ul_s"] = o.flow.rate_ul_s;
+  d["viscosity_mPas"] = o.flow.viscosity_mPas;
+  d["flow_exponent"] = o.flow.exponent;
+  d["description"] = o.description();
+  d["is_own"] = table.map->is_own();
+  return d;
+}
+
+Buffer buffer_of(const std::string& medium_name, const std::string& model_name) {
+  const auto medium = medium_of_name(medium_name);
+  if (!medium)
+    throw UserError(
+        "the medium \"" + one_line(medium_name, 60) +
+        "\" has no known viscosity; give viscosity_mPas, or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, "
+        "water.");
+  const auto model = viscosity_model_of_name(model_name);
+  if (!model)
+    throw UserError("unknown viscosity model " + one_line(model_name, 60) +
+                    "; there are buyukurganci-2022 and herold-2017.");
+  return {*medium, *model};
+}
+
+py::array_t<double> viscosities(const Buffer& buffer, double width_um, double rate_ul_s, const Numbers& celsius) {
+  std::vector<double> result(static_cast<std::size_t>(celsius.size()));
+  buffer.viscosity({.width_um = width_um, .rate_ul_s = rate_ul_s}, span_of(celsius), result);
+  return array_of(std::move(result));
+}
+
+std::map<std::string, std::string> table_files() {
+  std::map<std::string, std::string> files;
+  for (const auto& [name, file] : shipped_tables()) files.emplace(name, file.string());
+  return files;
+}
+
+HeldTable table_for(double flow_exponent) {
+  const auto tables = std::make_shared<const ModulusTables>("");
+  return {SharedMap(tables, &tables->used(flow_exponent))};
+}
+
+}  // namespace
+
+void bind_tables(py::module_& module) {
+  py::class_<MeasuringConditions>(module, "Conditions")
+      .def(py::init(&conditions_of))
+      .def("set_viscosity", [](MeasuringConditions& c, double mPas) { c.flow.viscosity_mPas = mPas; });
+  py::class_<HeldTable>(module, "Table")
+      .def(py::init([](const std::string& name) { return HeldTable{read_modulus_map(find_table(name))}; }))
+      .def_static("for_exponent", &table_for)
+      .def("origin", &origin)
+      .def("modulus", &modulus)
+      .def("lines", &lines)
+      .def("support",
+           [](const HeldTable& t, const MeasuringConditions& c) { return seen(*t.map, c, support(*t.map)); });
+  py::class_<Buffer>(module, "Buffer")
+      .def(py::init(&buffer_of))
+      .def("flow_exponent", &Buffer::flow_exponent)
+      .def("viscosity", &viscosities);
+  module.def("table_files", &table_files);
+  module.attr("state_names") =
+      std::vector<std::string_view>(names_of_modulus_states.begin(), names_of_modulus_states.end());
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,30 @@
+"""Cases and recordings that several tests take."""
+
+from pathlib import Path
+
+import pytest
+
+TOP = Path(__file__).resolve().parents[2]
+REFERENCE = TOP.parent / "shared" / "reference"
+PAPER = {"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+         "cell": {"radius_um": 7.66, "bulk": {"young_modulus_kPa": 4.0}}, "numerics": {"accuracy": 1e-3}}
+
+
+@pytest.fixture
+def paper():
+    """The keys of a cell like the paper's, which solves in a fraction of a second."""
+    return {section: dict(keys) for section, keys in PAPER.items()}
+
+
+@pytest.fixture(scope="session")
+def top():
+    """The folder of the sources."""
+    return TOP
+
+
+@pytest.fixture(scope="session")
+def state():
+    """One solved state."""
+    import rheocyte
+
+    return rheocyte.solve(PAPER)

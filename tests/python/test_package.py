@@ -1,0 +1,78 @@
+"""The package beside others: it loads fast and late, next to h5py's HDF5, and draws without its compiled module."""
+
+import inspect
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import rheocyte
+
+PACKAGE = Path(rheocyte.__file__).parent
+
+
+def run(code, *arguments, **environment):
+    said = subprocess.run([sys.executable, "-B", "-c", code, *arguments], capture_output=True, text=True, check=False,
+                          env={**os.environ, **environment})
+    assert said.returncode == 0, said.stderr
+    return said.stdout
+
+
+def test_importing_loads_neither_pictures_nor_frames():
+    loaded = run("import sys, rheocyte; rheocyte.solve, rheocyte.Table; print(*sys.modules)").split()
+    assert "rheocyte.lib.native" in loaded and not {"matplotlib", "pandas", "scipy"} & set(loaded)
+
+
+@pytest.mark.parametrize("order", ["h5py, rheocyte", "rheocyte, h5py"])
+def test_two_hdf5_libraries_live_in_one_process(order, tmp_path):
+    pytest.importorskip("h5py")
+    code = f"""
+import sys, numpy as np, {order}
+rheocyte.Table
+path = sys.argv[1]
+with h5py.File(path, "w") as file:
+    file["events/area_um"] = np.linspace(50, 150, 100)
+    file["events/deform"] = np.linspace(0.01, 0.03, 100)
+    file.attrs["setup:channel width"] = 20.0
+for _ in range(3):
+    frame = rheocyte.extract(path, flow_rate_ul_s=0.04, viscosity_mPas=15, pixel_size_um=0.34)
+    with h5py.File(path) as file:
+        assert (file["events/area_um"][:] == frame["area_um2"]).all()
+print(frame["young_modulus_kPa"].notna().sum() > 50)
+"""
+    assert run(code, str(tmp_path / "both.rtdc")).strip() == "True"
+
+
+def test_pictures_need_no_compiled_module(tmp_path):
+    for file in PACKAGE.glob("*.py"):
+        (tmp_path / "rheocyte").mkdir(exist_ok=True)
+        (tmp_path / "rheocyte" / file.name).write_bytes(file.read_bytes())
+    code = """
+import sys; sys.path.insert(0, sys.argv[1])
+import rheocyte, rheocyte.picture
+from rheocyte import colours
+try:
+    rheocyte.solve
+except ImportError as error:
+    print("pip install ." in str(error), rheocyte.__file__.startswith(sys.argv[1]))
+"""
+    assert run(code, str(tmp_path)).split() == ["True", "True"]
+
+
+def test_every_public_name_explains_itself():
+    for name in rheocyte.__all__:
+        thing = getattr(rheocyte, name)
+        assert name in dir(rheocyte)
+        if inspect.isclass(thing) or inspect.isfunction(thing):
+            assert thing.__doc__ and len(thing.__doc__.splitlines()[0]) > 10, name
+    with pytest.raises(AttributeError):
+        rheocyte.sovle
+
+
+def test_docstrings_of_methods_are_there():
+    for owner in (rheocyte.Case, rheocyte.Result, rheocyte.Session, rheocyte.Table, rheocyte.Evolution):
+        for name, member in vars(owner).items():
+            if not name.startswith("_") and (inspect.isfunction(member) or isinstance(member, property)):
+                assert inspect.getdoc(member), f"{owner.__name__}.{name}"

@@ -1,0 +1,106 @@
+"""Recordings and masks give in Python what dclab and the command line give; mistakes are told."""
+
+import os
+import subprocess
+
+import numpy as np
+import pandas
+import pytest
+
+import rheocyte
+from conftest import REFERENCE
+from rheocyte import UserError
+
+RECORDINGS = sorted((REFERENCE / "rtdc").glob("*.rtdc"))
+needs_recordings = pytest.mark.skipif(not RECORDINGS, reason="the reference recordings are not beside this checkout")
+KNOWN = {"channel_width_um": 20, "flow_rate_ul_s": 0.04, "medium": "CellCarrier", "temperature": 23}
+
+
+@needs_recordings
+def test_a_frame_holds_units_settings_and_the_numbers_of_the_command(tmp_path):
+    file = REFERENCE / "rtdc" / "example.rtdc"
+    shares = []
+    frame = rheocyte.extract(file, progress=shares.append, pixel_size_um=0.34, **KNOWN)
+    assert shares[-1] == 1 and frame.attrs["units"]["young_modulus_kPa"] == "kPa" and frame.attrs["settings"]
+    assert frame["state"].isin(rheocyte.STATES).all()
+    has = np.isfinite(frame["young_modulus_kPa"])
+    assert (frame["state"].isin(["valid", "regularised"]) == has).all() and has.any()
+    program = os.environ.get("RHEOCYTE_PROGRAM")
+    if not program:
+        pytest.skip("RHEOCYTE_PROGRAM names no program to compare with")
+    subprocess.run([program, "extract", file, "-o", tmp_path, "--quiet", "--pixel-size-um", "0.34", "--channel-width-um",
+                    "20", "--flow-rate-ul-s", "0.04", "--medium", "CellCarrier", "--temperature", "23"], check=True)
+    written = pandas.read_csv(tmp_path / "example_rheocyte.tsv", sep="\t", comment="#")
+    assert np.allclose(written["young_modulus_kPa"], frame["young_modulus_kPa"], rtol=1e-6, equal_nan=True)  # 32 bits
+
+
+@needs_recordings
+def test_gates_shut_events_out():
+    file = REFERENCE / "rtdc" / "example.rtdc"
+    frame = rheocyte.extract(file, least={"area_um": 50}, greatest={"area_um": 100}, pixel_size_um=0.34, **KNOWN)
+    inside = frame["area_um2"].between(50, 100)
+    assert ((frame["state"] == "gated") == ~inside).all()
+
+
+@pytest.mark.parametrize("arguments, sentence", [
+    ({"chanel_width_um": 20}, "no argument 'chanel_width_um'"),
+    ({"channel_width_um": -20}, "channel"),
+    ({"temperature": "warm"}, "warm"),
+    ({"least": {"area_um": "x"}}, "area_um"),
+])
+@needs_recordings
+def test_wrong_arguments_are_value_errors(arguments, sentence):
+    with pytest.raises(UserError, match=sentence):
+        rheocyte.extract(REFERENCE / "rtdc" / "example.rtdc", **{**KNOWN, **arguments})
+
+
+def test_a_file_that_is_none_or_damaged_is_named(tmp_path):
+    with pytest.raises(UserError, match="nowhere.rtdc"):
+        rheocyte.extract(tmp_path / "nowhere.rtdc")
+    (tmp_path / "damaged.rtdc").write_bytes(b"\x89HDF\r\n\x1a\n" + b"\xff" * 2000)
+    with pytest.raises(UserError, match="damaged.rtdc"):
+        rheocyte.extract(tmp_path / "damaged.rtdc")
+    with pytest.raises(UserError, match="no path"):
+        rheocyte.extract(5)
+
+
+def test_a_disc_of_pixels_has_the_features_of_a_disc():
+    y, x = np.mgrid[:80, :250]
+    masks = np.stack([np.hypot(x - 120, y - 40) <= 20, np.zeros((80, 250), bool)])
+    found = rheocyte.features(masks, 0.34)
+    assert found.loc[0, "area_um"] == pytest.approx(np.pi * (20 * 0.34) ** 2, rel=0.02)  # of 40 pixels across
+    assert (found.loc[0, "pos_x"], found.loc[0, "pos_y"]) == pytest.approx((120 * 0.34, 40 * 0.34))
+    assert found.loc[0, "inert_ratio_cvx"] == pytest.approx(1, abs=1e-12)
+    assert found.loc[1].isna().all()
+    for kind in ("i8", "u1", "i1"):
+        assert rheocyte.features(masks.astype(kind), 0.34).equals(found)
+    assert rheocyte.features(masks[0], 0.34).equals(found.iloc[:1])
+    assert rheocyte.features(masks[:, :, ::-1][:, :, ::-1], 0.34).equals(found)
+
+
+@pytest.mark.parametrize("masks, size", [
+    (np.zeros((2, 3, 4)), 0.34), (np.zeros(5, bool), 0.34), (np.zeros((1, 0, 5), bool), 0.34), ("mask", 0.34),
+    (np.zeros((2, 3, 4), bool), 0), (np.zeros((2, 3, 4), bool), "large"), (np.zeros((2, 3, 4), bool), np.nan)])
+def test_what_is_no_mask_is_refused(masks, size):
+    with pytest.raises(UserError):
+        rheocyte.features(masks, size)
+
+
+def test_the_closed_model_is_that_of_the_command():
+    import json
+
+    cell = rheocyte.analytic(5, young_modulus_kPa=10)
+    assert cell.deformation > 0 and cell.within_limits and cell.contour.shape[1] == 2
+    softer = rheocyte.analytic(5, young_modulus_kPa=20)
+    assert cell.deformation == pytest.approx(4 * softer.deformation, rel=0.02)  # second order in the strain
+    program = os.environ.get("RHEOCYTE_PROGRAM")
+    if program:
+        said = subprocess.run([program, "analytic", "cell", "--radius-um", "5", "--young-modulus-kPa", "10", "--json"],
+                              capture_output=True, check=True).stdout
+        assert json.loads(said) == cell.to_dict()
+    for wrong in ({}, {"young_modulus_kPa": -1}, {"young_modulus_kPa": 1, "cortex_modulus_mN_per_m": 1},
+                  {"young_modulus_kPa": 1, "tension_ratio": 0.1}, {"young_modulus_kPa": "soft"}):
+        with pytest.raises(UserError):
+            rheocyte.analytic(5, **wrong)
+    with pytest.raises(UserError, match="tube radius"):
+        rheocyte.analytic(50, young_modulus_kPa=10)

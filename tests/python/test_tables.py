@@ -1,0 +1,129 @@
+"""Tables give moduli of arrays without copies, by the same numbers as the command line, and refuse what does not fit."""
+
+import numpy as np
+import pytest
+
+import rheocyte
+from rheocyte import Table, UserError
+
+SETTING = {"channel_width_um": 20, "flow_rate_ul_s": 0.04}
+WATERY = {**SETTING, "viscosity_mPas": 15}
+
+
+@pytest.fixture(scope="module")
+def table():
+    return Table("LE-2D-26")
+
+
+def test_a_solved_cell_has_its_modulus_in_the_table(table):
+    """The table is one of linear solids in a Newtonian liquid without inertia."""
+    state = rheocyte.solve(radius_um=7, young_modulus_kPa=2, cell__bulk__law="linear", channel_width_um=20,
+                           flow_rate_ul_s=0.04, viscosity_mPas=15, flow__density_kg_per_m3=0)
+    found = table.modulus(state.area_um2, state.deformation, **WATERY)
+    assert found.young_modulus_kPa == pytest.approx(2, rel=2e-3)  # the table interpolates to some parts in a thousand
+    assert found.standard_error_kPa < 0.02 and rheocyte.STATES[int(found.state)] == "valid"
+
+
+def test_shapes_are_kept_and_inputs_stay(table):
+    area, deform = np.linspace(60, 200, 12).reshape(3, 4)[0], np.full(4, 0.03)
+    before = area.copy(), deform.copy()
+    found = table.modulus(area, deform, **WATERY)
+    assert all(column.shape == (4,) for column in found) and found.state.dtype == np.int8
+    assert (area == before[0]).all() and (deform == before[1]).all()
+    assert table.modulus(100, 0.03, **WATERY).young_modulus_kPa.shape == ()
+    assert [len(column) for column in table.modulus([], [], **WATERY)] == [0, 0, 0]
+
+
+def test_views_lists_and_narrow_numbers_give_the_same(table):
+    area, deform = np.linspace(60, 200, 1000), np.linspace(0.01, 0.06, 1000)
+    whole = table.modulus(area, deform, **WATERY).young_modulus_kPa
+    assert np.array_equal(table.modulus(area[::2], deform[::2], **WATERY).young_modulus_kPa, whole[::2], equal_nan=True)
+    assert np.array_equal(table.modulus(area.tolist(), deform.tolist(), **WATERY)[0], whole, equal_nan=True)
+    narrow = table.modulus(area.astype("f4"), deform.astype("f4"), **WATERY).young_modulus_kPa
+    assert np.allclose(narrow, whole, rtol=1e-5, equal_nan=True)  # single precision, amplified by the table's slopes
+
+
+def test_an_array_that_fits_is_not_copied():
+    from rheocyte.arrays import numbers
+
+    values = np.linspace(0, 1, 10)
+    assert np.shares_memory(numbers(values, "values"), values)
+
+
+def test_blocks_do_not_show(table):
+    """One call on many events gives what calls on single events give."""
+    rng = np.random.default_rng(5)
+    area, deform = rng.uniform(20, 300, 9001), rng.uniform(0, 0.2, 9001)
+    viscosity = rng.uniform(3, 20, 9001)
+    whole = table.modulus(area, deform, viscosity_mPas=viscosity, pixel_size_um=0.34, **SETTING)
+    for i in (0, 511, 512, 4095, 4096, 9000):
+        one = table.modulus(area[i], deform[i], viscosity_mPas=viscosity[i], pixel_size_um=0.34, **SETTING)
+        # vector instructions on whole blocks and on remainders round differently
+        assert np.allclose([float(c) for c in one], [c[i] for c in whole], rtol=1e-12, equal_nan=True)
+    assert set(np.unique(whole.state)) > {0}
+
+
+def test_states_tell_why_there_is_no_modulus(table):
+    found = table.modulus([np.nan, 1, 1e4, 100, 100], [0.03, 0.03, 0.03, 1e-9, 0.9], **WATERY)
+    assert [rheocyte.STATES[k] for k in found.state[:4]] == ["no data", "too small", "too large", "too stiff"]
+    assert np.isnan(found.young_modulus_kPa).all()
+
+
+def test_temperatures_of_events_are_viscosities_of_events(table):
+    celsius = np.array([20.0, 23.0, 26.0])
+    mPas = rheocyte.viscosity("CellCarrier", temperature_C=celsius, **SETTING)
+    assert (np.diff(mPas) < 0).all() and mPas[1] == rheocyte.viscosity("CellCarrier", temperature_C=23, **SETTING)
+    by_celsius = table.modulus([100] * 3, [0.03] * 3, medium="CellCarrier", temperature_C=celsius, **SETTING)
+    by_mPas = table.modulus([100] * 3, [0.03] * 3, viscosity_mPas=mPas, **SETTING)
+    assert np.array_equal(by_celsius.young_modulus_kPa, by_mPas.young_modulus_kPa)
+
+
+def test_the_table_of_a_medium_thins_as_it_does():
+    assert Table.for_medium("CellCarrier").identifier == "LE-2D-MC049-26"
+    assert Table.for_medium("water").identifier == "LE-2D-26"
+    assert set(rheocyte.table_names()) >= {"LE-2D-26", "LE-2D-MC049-26", "LE-2D-MC059-26", "LE-2D-MC083-26"}
+
+
+def test_lines_are_where_the_modulus_is_constant(table):
+    for modulus, points in table.lines([1, 2, 4]):
+        again = table.modulus(*points[1:-1].T, **WATERY).young_modulus_kPa
+        assert np.allclose(again, modulus, rtol=1e-6)  # the line is found to eight digits
+    for modulus, points in table.lines(count=5, channel_width_um=30, flow_rate_ul_s=0.16, viscosity_mPas=6,
+                                       pixel_size_um=0.34):
+        again = table.modulus(*points[2:-2].T, channel_width_um=30, flow_rate_ul_s=0.16, viscosity_mPas=6,
+                              pixel_size_um=0.34).young_modulus_kPa
+        assert np.nanmax(np.abs(again / modulus - 1)) < 1e-2  # the pixels are added by an iteration
+    border = table.support()
+    assert border.shape[1] == 2 and len(border) > 10
+
+
+@pytest.mark.parametrize("area, deform, setting, sentence", [
+    ([1, 2], [0.1], WATERY, "not equally long: area_um2 2, deform 1"),
+    ([[1, 2]], [[1, 2]], WATERY, "one number per event"),
+    (["a"], [0.1], WATERY, "area_um2 is not an array of numbers"),
+    ([1j], [0.1], WATERY, "area_um2 is not an array of numbers"),
+    (None, [0.1], WATERY, "area_um2 is not an array of numbers"),
+    ([[1], [2, 3]], [0.1], WATERY, "area_um2 is not an array of numbers"),
+    ([1], [0.1], SETTING, "viscosity is missing"),
+    ([1], [0.1], {**WATERY, "medium": "water"}, "exclude each other"),
+    ([1], [0.1], {**SETTING, "medium": "honey", "temperature_C": 23}, "honey"),
+    ([1], [0.1], {**SETTING, "medium": "water", "temperature_C": 23, "viscosity_model": "mine"}, None),
+    ([1], [0.1], {**WATERY, "channel_width_um": -1}, "channel_width_um is -1"),
+    ([1], [0.1], {**WATERY, "flow_rate_ul_s": np.nan}, "flow_rate_ul_s"),
+    ([1], [0.1], {**WATERY, "pixel_size_um": -0.3}, "pixel_size_um"),
+    ([1, 2], [0.1, 0.1], {**SETTING, "viscosity_mPas": [1, 2, 3]}, "viscosity 3"),
+])
+def test_what_does_not_fit_is_a_value_error(table, area, deform, setting, sentence):
+    with pytest.raises(UserError, match=sentence):
+        table.modulus(area, deform, **setting)
+
+
+def test_a_table_that_is_not_there_or_damaged_is_named(tmp_path):
+    with pytest.raises(UserError, match="LE-2D-27.*did you mean.*LE-2D-26"):
+        Table("LE-2D-27")
+    with pytest.raises(UserError):
+        Table(5)
+    file = tmp_path / "grid_mine.cbor"
+    file.write_bytes(b"\x00" * 100)
+    with pytest.raises(UserError, match="grid_mine.cbor"):
+        Table(file)
