@@ -4,8 +4,11 @@
 
 namespace rheocyte {
 
+std::filesystem::path python_package_folder() {
+  return supplied_folder("RHEOCYTE_PYTHON", "../share/rheocyte/python", python_folder);
+}
+
 std::vector<std::string> python_call(const std::string& module) {
-  const auto folder = supplied_folder("RHEOCYTE_PYTHON", "../share/rheocyte/python", python_folder);
   // -I: neither the current folder nor PYTHONPATH can put other modules in place of Python's own or of ours.
   // -B: a result must not leave byte code beside the sources.
   return {python_interpreter,
@@ -13,7 +16,7 @@ std::vector<std::string> python_call(const std::string& module) {
           "-B",
           "-c",
           "import sys; sys.path.insert(0, sys.argv.pop(1)); from rheocyte.start import main; main()",
-          folder.string(),
+          python_package_folder().string(),
           module};
 }
 

@@ -8,9 +8,11 @@
 
 namespace rheocyte {
 
+/// The folder that holds the package; the environment's RHEOCYTE_PYTHON replaces it.
+std::filesystem::path python_package_folder();
+
 /// The command line that runs a module of the package (python/rheocyte/start.py); the module's arguments follow.
-/// Nothing of the current folder nor of the user's own Python takes part. The environment's RHEOCYTE_PYTHON replaces
-/// the folder in which the package is looked for.
+/// Nothing of the current folder nor of the user's own Python takes part.
 std::vector<std::string> python_call(const std::string& module);
 
 /// A module of the package that draws. Loading takes longer than drawing: it can begin before there is anything to

@@ -1,5 +1,8 @@
 """The real dclab and rheocyte in one process: the same numbers from published tables, features and viscosities."""
 
+import os
+import subprocess
+
 import numpy as np
 import pytest
 
@@ -100,6 +103,14 @@ def test_the_plugin_gives_dclab_the_moduli_of_the_table(plugin):
     same(dataset["rheocyte_modulus"], expected.young_modulus_kPa)
     same(dataset["rheocyte_modulus_error"], expected.standard_error_kPa)
     assert np.array_equal(dataset["rheocyte_state"], expected.state)
+
+
+def test_the_command_prints_the_plugin(tmp_path):
+    program = os.environ.get("RHEOCYTE_PROGRAM")
+    if not program:
+        pytest.skip("RHEOCYTE_PROGRAM names no program")
+    said = subprocess.run([program, "dclab-plugin"], capture_output=True, check=True).stdout
+    assert said == plugin_file(tmp_path).read_bytes()
 
 
 @pytest.mark.parametrize("dataset", [{"medium": "other"}, {"region": "reservoir"}])

@@ -1,0 +1,39 @@
+// `rheocyte dclab-plugin`
+// Prints a file of the Python package.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "app/commands.h"
+#include "case/user_error.h"
+#include "store/python_package.h"
+
+namespace rheocyte {
+
+namespace {
+
+void print_plugin() {
+  const auto path = python_package_folder() / "rheocyte" / "dclab_plugin.py";
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file || text.empty())
+    throw UserError(fmt::format("{}: cannot be read; it comes with the program, so install that again.",
+                                one_line(path.string(), 300)));
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw UserError("rheocyte: standard output cannot be written.");
+}
+
+}  // namespace
+
+void add_dclab_plugin_command(CLI::App& app, int&) {
+  auto* command =
+      app.add_subcommand("dclab-plugin", "print the plugin feature that gives dclab and DCscope our moduli");
+  command->footer("For example: rheocyte dclab-plugin > rheocyte_modulus.py (see docs/python.md)");
+  command->callback(print_plugin);
+}
+
+}  // namespace rheocyte
