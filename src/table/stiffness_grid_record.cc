@@ -1,6 +1,7 @@
 // The file of a grid.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -65,6 +66,13 @@ double positive(const json& record, const char* key) {
   return value;
 }
 
+// A state without an answer is no node: all numbers of a grid are finite.
+std::vector<double> finite_numbers(const json& record, const char* key, std::size_t size) {
+  auto values = numbers_of(record, key, size);
+  check(std::ranges::all_of(values, [](double v) { return std::isfinite(v); }), "a number is not finite");
+  return values;
+}
+
 GridPatch patch_of(const json& record, int columns) {
   GridPatch patch;
   patch.regularised = record.at("regularised");
@@ -72,11 +80,11 @@ GridPatch patch_of(const json& record, int columns) {
   patch.first_column = side(record, "first_column", 0, columns - patch.columns);
   patch.rows = side(record, "rows", 2, greatest_side);
   const auto wide = static_cast<std::size_t>(patch.columns), all = wide * static_cast<std::size_t>(patch.rows);
-  patch.lower = numbers_of(record, "lower", wide);
-  patch.upper = numbers_of(record, "upper", wide);
-  patch.log_stiffness = numbers_of(record, "log_stiffness", all);
-  patch.error = numbers_of(record, "error", all);
-  patch.beyond = numbers_of(record, "beyond", wide);
+  patch.lower = finite_numbers(record, "lower", wide);
+  patch.upper = finite_numbers(record, "upper", wide);
+  patch.log_stiffness = finite_numbers(record, "log_stiffness", all);
+  patch.error = finite_numbers(record, "error", all);
+  patch.beyond = finite_numbers(record, "beyond", wide);
   for (std::size_t c = 0; c < wide; ++c) {
     check(patch.upper[c] > patch.lower[c], "a column has no height");
     check(patch.beyond[c] >= 0 && patch.beyond[c] <= static_cast<double>(NoAnswer::unresolved), "a reason is unknown");
@@ -97,6 +105,7 @@ GridContent content_of(const json& record) {
   o.flow.exponent = positive(record, "flow_exponent");
   o.is_shell = record.at("is_shell");
   grid.least_log_area = record.at("least_log_area");
+  check(std::isfinite(grid.least_log_area), "a number is out of range");
   grid.column_step = positive(record, "column_step");
   grid.columns = side(record, "columns", 2, greatest_side);
   for (const auto& patch : record.at("patches")) grid.patches.push_back(patch_of(patch, grid.columns));
@@ -122,7 +131,8 @@ std::optional<double> grid_flow_exponent(std::string_view head) {
   constexpr std::string_view key = "flow_exponent";
   const auto place = head.substr(0, grid_head_bytes).find(key);
   if (place == std::string_view::npos) return {};
-  const auto value = head.substr(place + key.size());
+  constexpr std::size_t longest_number = 9;  // bytes of CBOR; more would let the reader nest
+  const auto value = head.substr(place + key.size(), longest_number);
   const json number = json::from_cbor(value.begin(), value.end(), false, false);
   return number.is_number() ? std::optional(number.get<double>()) : std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "case/user_error.h"
@@ -174,6 +175,21 @@ TEST(StiffnessGrid, IsTheSameFromItsFile) {
     EXPECT_EQ(a.reason, b.reason);
     EXPECT_TRUE(a.log_stiffness == b.log_stiffness || a.reason != NoAnswer::none);
   }
+}
+
+TEST(StiffnessGrid, NumbersThatAreNotFiniteAreRefusedEvenUnderTheirChecksum) {
+  const auto spec = spec_of_fifty_radii({});
+  const auto good = make_stiffness_grid(spec, invented_branches(spec), "1.0", {8, 8, 4}).value();
+  for (auto member : {&GridPatch::lower, &GridPatch::upper, &GridPatch::log_stiffness, &GridPatch::error}) {
+    for (const double number : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+      auto bad = good;
+      (bad.patches[0].*member)[3] = number;
+      EXPECT_THROW(grid_from_bytes(to_bytes(bad), "grid.cbor"), UserError) << number;
+    }
+  }
+  auto bad = good;
+  bad.least_log_area = std::nan("");
+  EXPECT_THROW(grid_from_bytes(to_bytes(bad), "grid.cbor"), UserError);
 }
 
 TEST(StiffnessGrid, ADamagedFileIsRefused) {
