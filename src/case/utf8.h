@@ -1,6 +1,7 @@
 // Bytes of UTF-8.
 #pragma once
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace rheocyte {
@@ -36,6 +37,17 @@ constexpr std::size_t first_bad_byte(std::string_view text) {
     i += length;
   }
   return std::string_view::npos;
+}
+
+/// The text with a question mark for each byte that is no UTF-8: names of files need not be any.
+inline std::string valid_utf8(std::string text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t bad = first_bad_byte(std::string_view(text).substr(at));
+    if (bad == std::string_view::npos) break;
+    at += bad;
+    text[at++] = '?';
+  }
+  return text;
 }
 
 }  // namespace rheocyte

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "case/json_guard.h"
+#include "measurement/any_bytes.h"
 
 namespace rheocyte {
 
@@ -17,15 +18,21 @@ using nlohmann::json;
 
 constexpr std::size_t greatest_number_of_paths = 64;
 
+json parsed(const std::string& json_text) {
+  const std::string text = escapes_as_stand_ins(json_text);
+  return is_sound_json(text) ? json::parse(text) : json();
+}
+
 std::string text_at(const json& definition, const char* key) {
   const auto found = definition.find(key);
-  return found != definition.end() && found->is_string() ? found->get<std::string>() : std::string();
+  return found != definition.end() && found->is_string() ? without_stand_ins(found->get<std::string>()) : std::string();
 }
 
 std::vector<std::string> texts_in(const json& list) {
   std::vector<std::string> texts;
   for (const auto& entry : list)
-    if (entry.is_string() && texts.size() < greatest_number_of_paths) texts.push_back(entry.get<std::string>());
+    if (entry.is_string() && texts.size() < greatest_number_of_paths)
+      texts.push_back(without_stand_ins(entry.get<std::string>()));
   return texts;
 }
 
@@ -38,7 +45,7 @@ std::string identifier_of(const Metadata& metadata) {
 }  // namespace
 
 std::optional<BasinDefinition> read_basin_definition(const std::string& json_text) {
-  const json definition = is_sound_json(json_text) ? json::parse(json_text) : json();
+  const json definition = parsed(json_text);
   if (!definition.is_object()) return std::nullopt;
   BasinDefinition basin;
   const std::string type = text_at(definition, "type"), format = text_at(definition, "format");
@@ -58,16 +65,18 @@ std::optional<BasinDefinition> read_basin_definition(const std::string& json_tex
 }
 
 std::optional<std::string> name_of_remote_basin(const std::string& json_text) {
-  const json definition = is_sound_json(json_text) ? json::parse(json_text) : json();
+  const json definition = parsed(json_text);
   if (!definition.is_object() || text_at(definition, "type") != "remote") return std::nullopt;
   return fmt::format("{} ({})", text_at(definition, "name"), text_at(definition, "format"));
 }
 
 std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const auto& path : paths) names.push_back(with_stand_ins(path));
   const json definition{{"description", nullptr}, {"features", nullptr}, {"format", "hdf5"},
                         {"identifier", nullptr},  {"mapping", "same"},   {"name", name},
-                        {"paths", paths},         {"perishable", false}, {"type", "file"}};
-  std::istringstream text(definition.dump(2, ' ', false, json::error_handler_t::replace));
+                        {"paths", names},         {"perishable", false}, {"type", "file"}};
+  std::istringstream text(stand_ins_escaped(definition.dump(2, ' ', false, json::error_handler_t::replace)));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);
   return lines;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "case/utf8.h"
 #include "measurement/zstd_filter.h"
 
 namespace rheocyte {
@@ -54,9 +55,16 @@ bool write_lines(hid_t file, const std::string& path, const std::vector<std::str
 
 std::vector<std::string> broken_lines(const std::vector<std::string>& lines) {
   std::vector<std::string> broken;
-  for (const auto& line : lines)
-    for (std::size_t at = 0; at == 0 || at < line.size(); at += longest_log_line)
-      broken.push_back(line.substr(at, longest_log_line));
+  for (const auto& any : lines) {
+    const std::string line = valid_utf8(any);
+    std::size_t at = 0;
+    do {
+      std::size_t end = std::min(at + longest_log_line, line.size());
+      if (end < line.size()) end = start_of_character(line, end);
+      broken.push_back(line.substr(at, end - at));
+      at = end;
+    } while (at < line.size());
+  }
   return broken;
 }
 

@@ -77,6 +77,26 @@ TEST(Basin, FeaturesOfAnotherFileAreFoundBesideTheReferringOne) {
   EXPECT_FALSE(recording.has_scalar("volume"));
 }
 
+// In Latin-1, half of a character of UTF-8, from the end of the private use, and what looks like an escape.
+TEST(Basin, NamesOfAnyBytesAreFoundAgain) {
+  for (const std::string name :
+       {"Z\xFCrich.rtdc", "\xC3.rtdc", "\xF4\x8F\xBE\xA9.rtdc", "\\udcfc.rtdc", "\xC3\xBC \xF0\x9F\x94\xAC.rtdc"}) {
+    const ScratchFolder folder;
+    write_original(folder / name);
+    std::string json;
+    for (const auto& line : file_basin_lines("raw", {name})) json += line + "\n";
+    EXPECT_EQ(read_basin_definition(json).value().paths, std::vector<std::string>{name});
+    {
+      RecordingWriter writer(folder / "companion.rtdc");
+      write_referring(writer);
+      writer.lines("basins/x", file_basin_lines("raw", {name}));
+    }
+    EXPECT_TRUE(Recording(folder / "companion.rtdc").has_scalar("deform")) << name;
+  }
+  EXPECT_NE(file_basin_lines("raw", {"Z\xFCrich"})[8].find("Z\\udcfcrich"), std::string::npos)
+      << "as Python writes the names of files (PEP 383)";
+}
+
 TEST(Basin, AMapPicksTheEvents) {
   const ScratchFolder folder;
   write_original(folder / "original.rtdc");

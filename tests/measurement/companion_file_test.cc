@@ -7,7 +7,9 @@
 #include <fstream>
 
 #include "case/user_error.h"
+#include "case/utf8.h"
 #include "measurement/hdf5_reading.h"
+#include "measurement/hdf5_writing.h"
 #include "measurement/recording_writer.h"
 
 namespace rheocyte {
@@ -113,6 +115,19 @@ TEST(CompanionFile, FeaturesAreCompressedCheckedAndCarryTheirExtremes) {
   EXPECT_EQ(extremes.number("min"), 1);
   EXPECT_EQ(extremes.number("max"), 3);
   EXPECT_EQ(extremes.number("mean"), 2);
+}
+
+TEST(CompanionFile, LinesOfLogsAreBrokenBetweenCharacters) {
+  std::string text;
+  for (int i = 0; i < 150; ++i) text += i % 2 ? "\xC3\xBC" : "a";
+  std::string joined;
+  for (const auto& line : broken_lines({text})) {
+    EXPECT_LE(line.size(), longest_log_line);
+    EXPECT_EQ(first_bad_byte(line), std::string_view::npos) << line;
+    joined += line;
+  }
+  EXPECT_EQ(joined, text);
+  EXPECT_EQ(broken_lines({"", "recording: Z\xFCrich"}), (std::vector<std::string>{"", "recording: Z?rich"}));
 }
 
 TEST(CompanionFile, WhereNothingCanBeWrittenTheUserIsTold) {
