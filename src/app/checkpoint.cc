@@ -16,6 +16,7 @@
 #include "numeric/fingerprint.h"
 #include "store/build_info.h"
 #include "store/bytes.h"
+#include "store/result_folder.h"
 
 namespace rheocyte {
 
@@ -58,6 +59,46 @@ std::optional<std::string> content_of(const fs::path& file) {
   return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
+double reached_us(const Checkpoint& checkpoint) { return checkpoint.record.rows.back().t_us; }
+
+/// Finds the latest checkpoint of a case in several folders.
+class CheckpointSearch {
+ public:
+  explicit CheckpointSearch(const Case& c) : case_(c) {}
+
+  void look_into(Scratch place) {
+    std::optional<Checkpoint> best;
+    for (const int slot : {1, 2}) {
+      const fs::path file = place.path / checkpoint_file(slot);
+      const auto content = content_of(file);
+      if (!content) continue;
+      try {
+        Checkpoint checkpoint = decode_checkpoint(*content, case_, file);
+        if (!best || reached_us(checkpoint) > reached_us(*best)) best = std::move(checkpoint);
+      } catch (const UserError& error) {
+        failure_ = error;
+      }
+    }
+    if (best && (!latest_ || reached_us(*best) > reached_us(latest_->checkpoint)))
+      latest_ = {std::move(*best), place.path, std::move(place.claim)};
+  }
+
+  /// UserError that names the folder in which the user wanted it.
+  FoundCheckpoint latest(const fs::path& wanted) && {
+    if (!latest_ && failure_) throw *failure_;
+    if (!latest_) refuse(wanted, "holds no checkpoint; --continue takes the folder of a result with a [time] section.");
+    if (const double reached = reached_us(latest_->checkpoint); reached > *case_.time.end_us * (1 + 1e-12))
+      refuse(wanted, fmt::format("has reached {:g} us already, time.end_us = {:g} lies before it.", reached,
+                                 *case_.time.end_us));
+    return std::move(*latest_);
+  }
+
+ private:
+  const Case& case_;
+  std::optional<FoundCheckpoint> latest_;
+  std::optional<UserError> failure_;
+};
+
 }  // namespace
 
 std::string time_case_hash(const Case& c) {
@@ -93,26 +134,17 @@ Checkpoint decode_checkpoint(const std::string& content, const Case& c, const fs
   return std::move(*checkpoint);
 }
 
+FoundCheckpoint find_checkpoint(const fs::path& folder, const Case& c) {
+  CheckpointSearch search(c);
+  search.look_into({folder, {}});
+  for (auto& interrupted : interrupted_results(folder)) search.look_into(std::move(interrupted));
+  return std::move(search).latest(folder);
+}
+
 Checkpoint read_checkpoint(const fs::path& folder, const Case& c) {
-  std::optional<Checkpoint> latest;
-  std::optional<UserError> failure;
-  for (const int slot : {1, 2}) {
-    const fs::path file = folder / checkpoint_file(slot);
-    const auto content = content_of(file);
-    if (!content) continue;
-    try {
-      Checkpoint checkpoint = decode_checkpoint(*content, c, file);
-      if (!latest || checkpoint.record.rows.back().t_us > latest->record.rows.back().t_us) latest = checkpoint;
-    } catch (const UserError& error) {
-      failure = error;
-    }
-  }
-  if (!latest && failure) throw *failure;
-  if (!latest) refuse(folder, "holds no checkpoint; --continue takes the folder of a result with a [time] section.");
-  if (const double reached = latest->record.rows.back().t_us; reached > *c.time.end_us * (1 + 1e-12))
-    refuse(folder,
-           fmt::format("has reached {:g} us already, time.end_us = {:g} lies before it.", reached, *c.time.end_us));
-  return *latest;
+  CheckpointSearch search(c);
+  search.look_into({folder, {}});
+  return std::move(search).latest(folder).checkpoint;
 }
 
 TimeStart read_start(const fs::path& folder, const Case& c) {

@@ -5,6 +5,7 @@
 
 #include "app/time_record.h"
 #include "case/case.h"
+#include "store/claim.h"
 
 namespace rheocyte {
 
@@ -29,6 +30,16 @@ std::string checkpoint_file(int slot);
 /// The content of a slot, and back. UserError, which names the file: damaged, of another case, of another version.
 std::string encode_checkpoint(const Checkpoint&, const Case&);
 Checkpoint decode_checkpoint(const std::string& content, const Case&, const std::filesystem::path& file);
+
+/// A checkpoint and the folder in which it lies, which nobody else can remove meanwhile.
+struct FoundCheckpoint {
+  Checkpoint checkpoint;
+  std::filesystem::path folder;
+  Claim claim;
+};
+
+/// As read_checkpoint, for going on: also what killed computations for this folder have left.
+FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const Case&);
 
 /// The later one of the checkpoints of a result that can be read. UserError if there is none, or if the time that it
 /// has reached lies beyond the end of the case.

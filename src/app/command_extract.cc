@@ -15,6 +15,7 @@
 #include "extract/modulus_tables.h"
 #include "store/own_file.h"
 #include "store/standard_error.h"
+#include "store/standard_output.h"
 #include "store/stop_signal.h"
 
 namespace rheocyte {
@@ -42,7 +43,7 @@ class ExtractJob {
     if (was_stopped(exit_code)) return exit_code;
     write_own_file(summary_file_, summary_table(lines_), "recording\tevents\tvalid\t", Foreign::keep);
     if (!options_.batch.quiet)
-      fmt::print("{} of {} recordings, see {}\n", done_, tasks_.size(), summary_file_.string());
+      print(fmt::format("{} of {} recordings, see {}\n", done_, tasks_.size(), summary_file_.string()));
     return exit_code;
   }
 
@@ -56,7 +57,7 @@ class ExtractJob {
     ++done_;
     const std::string name = one_line(task.recording.string(), 200);
     if (!options_.batch.quiet) {
-      fmt::print("{}: {}\n", name, in_one_line(summary));
+      print(fmt::format("{}: {}\n", name, in_one_line(summary)));
       for (const auto& warning : summary.warnings) tell(fmt::format("{}: {}", name, warning));
     }
     if (summary.valid() == 0)

@@ -11,6 +11,7 @@
 #include "extract/moduli_recording.h"
 #include "store/own_file.h"
 #include "store/standard_error.h"
+#include "store/standard_output.h"
 #include "store/stop_signal.h"
 #include "store/whole_file.h"
 
@@ -31,8 +32,7 @@ class ModuliJob {
 
   WholeFile files(const RecordingTask& task) const {
     const auto file = file_for(task);
-    check_replaceable(file, "# rheocyte ", Foreign::keep);
-    return WholeFile(file);
+    return WholeFile(file, [file] { check_replaceable(file, "# rheocyte ", Foreign::keep); });
   }
 
   ModuliSummary work(const RecordingTask& task, const WholeFile& file, const TellProgress& tell_progress) const {
@@ -42,7 +42,7 @@ class ModuliJob {
   bool take(const RecordingTask& task, const ModuliSummary& summary) const {
     const std::string name = one_line(task.recording.string(), 200);
     if (!options_.batch.quiet) {
-      fmt::print("{}: {}, see {}\n", name, in_one_line(summary), file_for(task).string());
+      print(fmt::format("{}: {}, see {}\n", name, in_one_line(summary), file_for(task).string()));
       for (const auto& warning : summary.warnings) tell(fmt::format("{}: {}", name, warning));
     }
     if (summary.with_stiffness() > 0) return true;

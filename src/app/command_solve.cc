@@ -20,8 +20,10 @@ void add_solve_command(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
-      ->add_option("--continue", options->continue_from,
-                   "go on from the last checkpoint in this folder; only for a case with a [time] section")
+      ->add_option(
+          "--continue", options->continue_from,
+          "go on from the last checkpoint of this folder, of a killed computation too; only for a case with a [time] "
+          "section")
       ->type_name("DIR");
   command
       ->add_option(

@@ -17,6 +17,7 @@
 #include "store/build_info.h"
 #include "store/contained.h"
 #include "store/standard_error.h"
+#include "store/standard_output.h"
 #include "store/stop_signal.h"
 #include "store/whole_file.h"
 #include "synth/synth_keys.h"
@@ -57,8 +58,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 void report(const SynthOptions& options, const VirtualRecording& r) {
-  fmt::print("{}: {} events; areas measured {:+.2f} %, deformations {:+.5f} from the true ones on average\n",
-             options.output.string(), r.events, 100 * r.mean_area_error, r.mean_deformation_error);
+  print(fmt::format("{}: {} events; areas measured {:+.2f} %, deformations {:+.5f} from the true ones on average\n",
+                    options.output.string(), r.events, 100 * r.mean_area_error, r.mean_deformation_error));
   for (std::size_t k = 0; k < r.missing.size(); ++k)
     if (r.missing[k] > 0)
       tell(fmt::format("{} of {} cells are left out: {}.", r.missing[k], r.cells, names_of_missing_shapes[k]));
@@ -80,7 +81,7 @@ int run(const SynthOptions& options) {
   if (!spec.table.empty()) spec.table = options.spec.parent_path() / spec.table;  // an absolute one stays
   const auto shapes = shapes_of(spec);
   const RecordingProvenance provenance{fmt::format("rheocyte {}", version), lines_of(text)};
-  WholeFile file(options.output);
+  WholeFile file(options.output, [&] { check_output(options); });
   const auto work = [&](const TellProgress& tell_progress) {
     return write_virtual_recording(spec, *shapes, provenance, file.scratch(), tell_progress);
   };

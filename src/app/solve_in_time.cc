@@ -35,17 +35,17 @@ class Recorder {
   }
 
   /// Takes over what an earlier run has recorded, its field files included.
-  void take_over(const Checkpoint& from) {
-    const TimeRecord& record = from.record;
+  void take_over(const FoundCheckpoint& from) {
+    const TimeRecord& record = from.checkpoint.record;
     record_ = record;
-    last_state_ = from.state;
+    last_state_ = from.checkpoint.state;
     for (std::size_t i = 0; i < record.frames.size(); ++i) {
       const fs::path file = fs::path(fields_folder) / field_file(i);
       std::error_code error;
-      fs::copy_file(options_.continue_from / file, folder_.scratch() / file, error);
+      fs::copy_file(from.folder / file, folder_.scratch() / file, error);
       if (error)
         throw UserError(fmt::format("{}: cannot be copied ({}); start anew without --continue.",
-                                    (options_.continue_from / file).string(), error.message()));
+                                    (from.folder / file).string(), error.message()));
     }
   }
 
@@ -123,9 +123,17 @@ TimeRun time_run_of(const Case& c, const Scales& scales) {
 
 int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Drawing>& drawing) {
   Result result{c, scales_of(c), problem_of(c), {}};
-  std::optional<Checkpoint> from;
+  std::optional<FoundCheckpoint> from;
   std::optional<TimeStart> start;
-  if (!options.continue_from.empty()) start = TimeStart{(from = read_checkpoint(options.continue_from, c))->state};
+  if (!options.continue_from.empty()) {
+    from = find_checkpoint(options.continue_from, c);
+    start = TimeStart{from->checkpoint.state};
+  } else if (!interrupted_results(options.folder).empty()) {
+    tell(
+        fmt::format("{0}: a computation for it was interrupted; --continue {0} would go on from its last checkpoint, "
+                    "which is kept until this one is finished.",
+                    one_line(options.folder.string(), 200)));
+  }
   if (!options.start_from.empty()) start = read_start(options.start_from, c);
   ResultFolder folder(options.folder);
   Recorder recorder(result, options, folder);

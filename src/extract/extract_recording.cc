@@ -11,6 +11,7 @@
 #include "extract/extraction.h"
 #include "measurement/companion_file.h"
 #include "store/build_info.h"
+#include "store/contained.h"
 #include "store/own_file.h"
 
 namespace rheocyte {
@@ -65,18 +66,20 @@ void describe(CompanionFile& companion, const fs::path& folder, const Recording&
   companion.add_basin(paths_to(recording.file(), folder));
 }
 
-// Our own say in their metadata which program has written them.
+// Our own say in their metadata which program has written them. Read in a process of its own, as it may be any file.
 void check_companion(const fs::path& place) {
   std::error_code error;
   if (!fs::exists(place, error)) return;
-  bool ours = false;
-  try {
-    const auto programs = Recording(place).metadata().text("setup:software version");
-    ours = programs && programs->find("rheocyte ") != std::string::npos;
-  } catch (const UserError&) {
-    // no recording at all
-  }
-  if (!ours)
+  const auto is_ours = [&](const TellProgress&) {
+    try {
+      const auto programs = Recording(place).metadata().text("setup:software version");
+      return programs && programs->find("rheocyte ") != std::string::npos;
+    } catch (const UserError&) {
+      return false;  // no recording at all
+    }
+  };
+  const auto looked = run_contained(is_ours, {}, [](double) {});
+  if (!looked.stopped() && !(looked.finished() && looked.result))
     throw UserError(
         fmt::format("{}: is there and was not written by rheocyte; move it away, or name another folder with -o.",
                     one_line(place.string(), 300)));
@@ -120,10 +123,12 @@ class Writers {
 
 }  // namespace
 
-ExtractFiles::ExtractFiles(const ExtractOutput& output, bool with_events) : companion_(output.companion) {
-  if (!with_events) return;
-  check_replaceable(output.events, mark_of_tables, Foreign::keep);
-  events_.emplace(output.events);
+ExtractFiles::ExtractFiles(const ExtractOutput& output, bool with_events)
+    : folder_(output.companion.parent_path()),
+      companion_(output.companion, [place = output.companion] { check_companion(place); }) {
+  if (with_events)
+    events_.emplace(output.events,
+                    [place = output.events] { check_replaceable(place, mark_of_tables, Foreign::keep); });
 }
 
 std::optional<fs::path> ExtractFiles::events() const {
@@ -132,13 +137,14 @@ std::optional<fs::path> ExtractFiles::events() const {
 }
 
 void ExtractFiles::publish() {
+  const Claim alone = wait_for_folder(folder_);  // two calls on one recording leave the files of one of them
+  companion_.check();
   if (events_) events_->publish();
   companion_.publish();
 }
 
 ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files, const ExtractOptions& options,
                                  const ModulusTables& tables, const TellProgress& on_progress) {
-  check_companion(place_of(files.companion()));
   Recording recording(file);
   double done = 0;
   recording.on_piece(now_and_then([&] { on_progress(done); }));

@@ -19,16 +19,17 @@ struct ExtractOutput {
 /// The files of one recording while they are written.
 class ExtractFiles {
  public:
-  /// Makes them empty, under hidden names. UserError, also if a table of events stands there that is not ours.
+  /// Makes them empty, under hidden names. UserError, also if a file stands there that is not ours.
   ExtractFiles(const ExtractOutput& output, bool with_events);
 
   const std::filesystem::path& companion() const { return companion_.scratch(); }
   /// Nothing if no table of events is wanted.
   std::optional<std::filesystem::path> events() const;
-  /// Puts all in their places. UserError.
+  /// Puts all in their places, unless files that are not ours have come there meanwhile. UserError.
   void publish();
 
  private:
+  std::filesystem::path folder_;
   WholeFile companion_;
   std::optional<WholeFile> events_;
 };

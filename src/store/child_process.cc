@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <link.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -15,6 +16,8 @@
 #include <cstring>
 #include <system_error>
 #include <utility>
+
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 
@@ -31,7 +34,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 [[noreturn]] void become(char* const* arguments, int input, int output, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGUSR1);
   if (::getppid() != parent) ::_exit(1);
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
   // Away from 0, 1 and 2 first: they are ours if we were started without standard input or output.
   input = ::fcntl(input, F_DUPFD_CLOEXEC, 3);
   output = ::fcntl(output, F_DUPFD_CLOEXEC, 3);
@@ -56,11 +59,21 @@ void send(int socket, std::string_view text) {
   }
 }
 
+// Until there is something to read, or the end. False once the user wants to stop.
+bool wait_to_read(int descriptor, bool wanted_before) {
+  for (;;) {
+    pollfd awaited{descriptor, POLLIN, 0};
+    if (::poll(&awaited, 1, 200) > 0) return true;
+    if (stop_wanted() && !wanted_before) return false;
+  }
+}
+
 std::string last_line_from(int descriptor) {
   constexpr std::size_t kept = 4096;
+  const bool wanted_before = stop_wanted();  // then this is a part of stopping
   std::string tail;
   char buffer[1024];
-  for (;;) {
+  while (wait_to_read(descriptor, wanted_before)) {
     const ssize_t count = ::read(descriptor, buffer, sizeof buffer);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
@@ -140,7 +153,9 @@ ChildResult ChildProcess::finish(std::string_view input) {
   send(input_, input);
   ::shutdown(input_, SHUT_WR);
   ChildResult result;
+  const bool wanted_before = stop_wanted();
   result.last_line = last_line_from(output_);
+  if (stop_wanted() && !wanted_before) ::kill(child_, SIGKILL);
   const int status = wait_for(std::exchange(child_, -1));
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   return result;

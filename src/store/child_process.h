@@ -34,7 +34,8 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Gives it all of its standard input and waits for its end. To be called once.
+  /// Gives it all of its standard input and waits for its end, or kills it when the user begins to want a stop. To be
+  /// called once.
   ChildResult finish(std::string_view input);
 
  private:

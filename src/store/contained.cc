@@ -53,6 +53,16 @@ void send(int pipe, Message message, const void* data, std::size_t length) {
 
 void send(int pipe, Message message, const std::string& text) { send(pipe, message, text.data(), text.size()); }
 
+int pipe_to_parent = -1;
+
+// Ends the child at once: Eigen's matrices do not survive std::bad_alloc, and nothing here can be saved.
+[[noreturn]] void tell_of_no_memory() {
+  Header header{};
+  header.message = Message::no_memory;
+  static_cast<void>(!::write(pipe_to_parent, &header, sizeof header));
+  ::_exit(0);
+}
+
 void limit(const Containment& limits) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
@@ -68,6 +78,8 @@ void limit(const Containment& limits) {
                                int pipe) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGABRT}) std::signal(signal, SIG_DFL);
+  pipe_to_parent = pipe;
+  std::set_new_handler(tell_of_no_memory);
   // The C library writes about broken memory to standard error, which would frighten more than it helps.
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere >= 0) {

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "case/user_error.h"
+#include "store/foreign_files.h"
 #include "store/whole_file.h"
 
 namespace rheocyte {
@@ -25,6 +26,7 @@ constexpr std::array<std::string_view, 16> own_files{
     "result.json", "contour.csv",  "fields.vtu", "case.toml",  "picture.png",      "picture.svg",
     "history.csv", "contours.csv", "fields.pvd", "fields",     "checkpoint-1.bin", "checkpoint-2.bin",
     "time.png",    "time.svg",     "time.gif",   "channel.csv"};
+constexpr std::array<const char*, 2> checkpoints{"checkpoint-1.bin", "checkpoint-2.bin"};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
   throw UserError(fmt::format("{}: {}", path.string(), reason));
@@ -48,7 +50,10 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 void check_replaceable(const fs::path& folder) {
   std::error_code error;
   const auto status = fs::status(folder, error);
-  if (status.type() == fs::file_type::not_found) return;
+  if (status.type() == fs::file_type::not_found) {
+    if (fs::is_symlink(folder, error)) refuse(folder, "is a link that leads nowhere; give another folder with -o.");
+    return;
+  }
   if (error) refuse(folder, fmt::format("cannot write a result there ({}).", error.message()));
   if (!fs::is_directory(status)) refuse(folder, "is a file; give a folder for the result with -o.");
   const bool empty = fs::is_empty(folder, error);
@@ -73,14 +78,14 @@ fs::path resolved(const fs::path& folder) {
 }
 
 // Makes an empty sibling of the folder, on the same file system, so that a rename can swap them.
-fs::path make_scratch(const fs::path& folder) {
+Scratch make_scratch(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder.parent_path(), error);
   if (error) refuse(folder, fmt::format("cannot make its parent folder ({}).", error.message()));
-  const fs::path scratch = scratch_beside(folder);
-  if (::mkdir(scratch.c_str(), 0700) != 0)
-    refuse(folder, fmt::format("cannot write a result there ({}).", reason_of(errno)));
-  ::chmod(scratch.c_str(), fs::exists(folder) ? 0777 & static_cast<mode_t>(fs::status(folder).permissions()) : 0755);
+  Scratch scratch = new_scratch_folder(folder);
+  if (scratch.failed) refuse(folder, fmt::format("cannot write a result there ({}).", reason_of(scratch.failed)));
+  ::chmod(scratch.path.c_str(),
+          fs::exists(folder) ? 0777 & static_cast<mode_t>(fs::status(folder).permissions()) : 0755);
   return scratch;
 }
 
@@ -96,17 +101,14 @@ void swap_in(const fs::path& scratch, const fs::path& folder) {
   refuse(folder, fmt::format("cannot put the result in its place ({}).", reason_of(errno)));
 }
 
-// Whether all of them could be moved over.
-bool keep_foreign_files(const fs::path& old_folder, const fs::path& folder) {
+bool has_checkpoints(const fs::path& folder) {
   std::error_code error;
-  bool all_kept = true;
-  for (const auto& entry : fs::directory_iterator(old_folder, error)) {
-    const auto name = entry.path().filename();
-    if (std::ranges::find(own_files, name.string()) != own_files.end()) continue;
-    fs::rename(entry.path(), folder / name, error);
-    all_kept = all_kept && !error;
-  }
-  return all_kept && !error;
+  return std::ranges::any_of(checkpoints, [&](const char* name) { return fs::exists(folder / name, error); });
+}
+
+void remove(const Scratch& scratch) {
+  std::error_code ignored;
+  if (!scratch.path.empty()) fs::remove_all(scratch.path, ignored);
 }
 
 }  // namespace
@@ -114,36 +116,47 @@ bool keep_foreign_files(const fs::path& old_folder, const fs::path& folder) {
 fs::path check_result_folder(const fs::path& folder) {
   const fs::path path = resolved(folder);
   check_replaceable(path);
-  std::error_code ignored;
-  fs::remove(make_scratch(path), ignored);
+  remove(make_scratch(path));
   return path;
+}
+
+std::vector<Scratch> interrupted_results(const fs::path& folder) {
+  std::vector<Scratch> found = left_over_folders(resolved(folder));
+  std::erase_if(found, [](const Scratch& scratch) { return !has_checkpoints(scratch.path); });
+  return found;
 }
 
 ResultFolder::ResultFolder(const fs::path& folder) : folder_(resolved(folder)) {
   check_replaceable(folder_);
+  for (const auto& scratch : left_over_folders(folder_))
+    if (!has_checkpoints(scratch.path) && !has_foreign_files(scratch.path, own_files)) remove(scratch);
   scratch_ = make_scratch(folder_);
 }
 
-ResultFolder::~ResultFolder() {
-  std::error_code ignored;
-  if (!scratch_.empty()) fs::remove_all(scratch_, ignored);
-}
+ResultFolder::~ResultFolder() { remove(scratch_); }
 
 void ResultFolder::write(const std::string& file_name, std::string_view content) const {
-  if (const int failed = write_part(scratch_ / file_name, content))
+  if (const int failed = write_part(scratch_.path / file_name, content))
     refuse(folder_,
            fmt::format("cannot write {} ({}); an older result is left as it was.", file_name, reason_of(failed)));
 }
 
 void ResultFolder::publish() {
-  for (const auto& entry : fs::recursive_directory_iterator(scratch_))
+  const fs::path& scratch = scratch_.path;
+  for (const auto& entry : fs::recursive_directory_iterator(scratch))
     if (entry.is_regular_file()) keep_on_disk(entry.path());
-  keep_on_disk(scratch_);
   check_replaceable(folder_);  // the world may have changed during the computation
-  swap_in(scratch_, folder_);
+  // First of all, so that no moment exists in which they stand under the hidden name alone.
+  link_foreign_files(folder_, scratch, own_files);
+  keep_on_disk(scratch);
+  const Claim old = claim_on(folder_);  // soon under the hidden name, but no left-over yet
+  swap_in(scratch, folder_);
   keep_on_disk(folder_.parent_path());
   // What cannot be moved stays in the old folder under its scratch name: better a left-over than a lost file.
-  if (fs::exists(scratch_) && !keep_foreign_files(scratch_, folder_)) scratch_.clear();
+  if (!fs::exists(scratch) || move_foreign_files(scratch, folder_, own_files, Twice::moved_replaces)) remove(scratch_);
+  scratch_ = {};
+  for (const auto& left_over : left_over_folders(folder_))
+    if (move_foreign_files(left_over.path, folder_, own_files, Twice::both_stay)) remove(left_over);
 }
 
 }  // namespace rheocyte

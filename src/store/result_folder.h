@@ -2,12 +2,19 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "store/scratch.h"
 
 namespace rheocyte {
 
 /// The absolute path without links; makes its parents. UserError if a result cannot be written there: no permission,
 /// the parent is a file, or the folder holds something else than a result of rheocyte. Leaves no trace but the parents.
 std::filesystem::path check_result_folder(const std::filesystem::path& folder);
+
+/// Hidden folders with checkpoints that killed calls for this folder have left, each with a claim. They are removed
+/// once a new result is published.
+std::vector<Scratch> interrupted_results(const std::filesystem::path& folder);
 
 /// A result that is being written. Without publish() nothing of it remains.
 class ResultFolder {
@@ -19,7 +26,7 @@ class ResultFolder {
   ResultFolder& operator=(const ResultFolder&) = delete;
 
   /// Where to write now; each file is complete when publish() is called.
-  const std::filesystem::path& scratch() const { return scratch_; }
+  const std::filesystem::path& scratch() const { return scratch_.path; }
 
   /// Writes one file. UserError (full disk, quota), naming the file and the reason.
   void write(const std::string& file_name, std::string_view content) const;
@@ -29,7 +36,8 @@ class ResultFolder {
   void publish();
 
  private:
-  std::filesystem::path folder_, scratch_;
+  std::filesystem::path folder_;
+  Scratch scratch_;
 };
 
 }  // namespace rheocyte

@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM as a wish that the solver polls; a second one ends the process at once.
+// SIGINT, SIGTERM and SIGHUP as a wish that the solver polls; a second one ends the process at once.
 #pragma once
 #include <atomic>
 

@@ -1,28 +1,36 @@
 // A file that is written whole or not at all.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string_view>
+
+#include "store/scratch.h"
 
 namespace rheocyte {
 
 /// A file that does not stand in its place yet. It is written under a hidden name beside that place, which nobody can
-/// foresee; what is not published leaves no trace.
+/// foresee; what is not published leaves no trace, and what a killed process leaves is removed by the next one.
 class WholeFile {
  public:
-  /// Makes the empty file. UserError.
-  explicit WholeFile(const std::filesystem::path& wanted);
+  /// Makes the empty file. `check` throws if what stands in the place must not be replaced; it is asked now and when
+  /// the file is published. UserError.
+  explicit WholeFile(const std::filesystem::path& wanted, std::function<void()> check = {});
   ~WholeFile();
-  WholeFile(WholeFile&& other) noexcept;
+  WholeFile(WholeFile&&) noexcept = default;
   WholeFile& operator=(WholeFile&&) = delete;
 
   /// Where to write now.
-  const std::filesystem::path& scratch() const { return scratch_; }
+  const std::filesystem::path& scratch() const { return scratch_.path; }
+  /// UserError if what stands in the place must not be replaced.
+  void check() const;
   /// Brings the content to the disk and puts the file in its place in one step. UserError; an older file is then left
   /// as it was.
   void publish();
 
  private:
-  std::filesystem::path wanted_, scratch_;
+  std::filesystem::path wanted_;
+  std::function<void()> check_;
+  Scratch scratch_;
 };
 
 /// Writes `content` in the same way. Returns 0 or the number of the error (errno).
@@ -30,11 +38,6 @@ int write_whole_file(const std::filesystem::path& wanted, std::string_view conte
 
 /// Writes a file into a folder that is published as a whole. Returns 0 or errno.
 int write_part(const std::filesystem::path& file, std::string_view content);
-
-/// A hidden name in the same folder that nobody can foresee: ".NAME.rheocyte-1f0c97aa52de".
-std::filesystem::path scratch_beside(const std::filesystem::path& wanted);
-/// The place for which a hidden name was made; of another path the path itself.
-std::filesystem::path place_of(const std::filesystem::path& scratch);
 
 /// A file or a folder. Returns 0 or errno.
 int bring_to_disk(const std::filesystem::path& path);

@@ -70,10 +70,6 @@ void write_whole(const fs::path& path, std::string_view content) {
 
 }  // namespace
 
-Claim::~Claim() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 TableFolder::TableFolder(const fs::path& folder, const TableSpec& spec)
     : folder_(folder),
       spec_(spec),

@@ -6,24 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "store/claim.h"
 #include "table/radius_plan.h"
 #include "table/table_spec.h"
 
 namespace rheocyte {
-
-/// A claim on one branch; the system gives it up when the process ends, however it ends.
-class Claim {
- public:
-  Claim() = default;
-  explicit Claim(int descriptor) : descriptor_(descriptor) {}
-  Claim(Claim&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
-  Claim& operator=(Claim&&) = delete;
-  ~Claim();
-  explicit operator bool() const { return descriptor_ >= 0; }
-
- private:
-  int descriptor_ = -1;
-};
 
 class TableFolder {
  public:

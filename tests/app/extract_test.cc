@@ -251,6 +251,31 @@ TEST_F(Extract, FilesOfOthersInThePlaceOfResultsAreKept) {
   }
 }
 
+TEST_F(Extract, OfTwoCallsAtATimeTheFilesOfOneAreLeft) {
+  write_recording("a.rtdc");
+  const auto call = [&](const char* viscosity) {
+    return "\"$0\" extract --quiet " + path("a.rtdc") + " --no-pixelation --table " + path("table.txt") +
+           " --viscosity-mPas " + viscosity;
+  };
+  const std::string both = call("15") + " & one=$!; " + call("10") + " & other=$!; wait $one && wait $other";
+  for (int round = 0; round < 10; ++round) {
+    const auto ended = test::run({{"/bin/sh", "-c", both, RHEOCYTE}});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const double modulus = column(Recording(folder_ / "a_rheocyte.rtdc"), "emodulus")[0];
+    const bool thin = test::content_of(folder_ / "a_rheocyte.tsv").find("\t10\t") != std::string::npos;
+    EXPECT_NEAR(modulus, 0.001 * 80 / 0.04 * (thin ? 10.0 / 15 : 1), 1e-9) << round;
+  }
+  for (const auto& entry : fs::directory_iterator(folder_ / ""))
+    EXPECT_EQ(entry.path().string().find("/."), std::string::npos);
+}
+
+TEST_F(Extract, WhatAKilledCallHasLeftIsRemovedByTheNext) {
+  write_recording("a.rtdc");
+  test::write_file(folder_ / ".a_rheocyte.rtdc.rheocyte-0123456789ab", "half of a file");
+  EXPECT_EQ(extract({path("a.rtdc")}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / ".a_rheocyte.rtdc.rheocyte-0123456789ab"));
+}
+
 TEST_F(Extract, StopsWhenTheUserWantsAndLeavesNothingUnfinished) {
   write_recording("a.rtdc");
   std::ofstream(folder_ / "0.rtdc") << "no recording";  // its sentence is the sign that the work has begun

@@ -55,21 +55,33 @@ TEST_F(InTime, ARestartContinuesToTheBit) {
 }
 
 TEST_F(InTime, AKilledRunGoesOnFromItsHiddenFolder) {
-  // kill -9 after the first step is told: the folder in which the result was being written has a checkpoint, and what
-  // goes on from there equals the undisturbed run byte by byte.
+  // kill -9 after the first step is told: its checkpoint is found by the name of the result, and what goes on from
+  // there equals the undisturbed run byte by byte. Once the result is there, nothing hidden is left.
   ASSERT_EQ(run(solve("undisturbed", {"--set", "time.end_us=60"})).exit_code, 0);
   auto command = solve("killed", {"--set", "time.end_us=60"});
   std::erase(command.arguments, "--quiet");
   command.signal = SIGKILL;
   EXPECT_EQ(run(command).exit_code, 128 + SIGKILL);
   EXPECT_FALSE(fs::exists(at("killed")));
-  fs::path hidden;
+  for (const char* name : {"continued", "killed"}) {
+    const auto ended = run(solve(name, {"--set", "time.end_us=60", "--continue", at("killed")}));
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(text(name + std::string("/history.csv")), text("undisturbed/history.csv"));
+    EXPECT_EQ(text(name + std::string("/contours.csv")), text("undisturbed/contours.csv"));
+  }
   for (const auto& entry : fs::directory_iterator(folder_.path()))
-    if (entry.path().filename().string().starts_with(".killed.rheocyte-")) hidden = entry.path();
-  ASSERT_FALSE(hidden.empty());
-  ASSERT_EQ(run(solve("continued", {"--set", "time.end_us=60", "--continue", hidden})).exit_code, 0);
-  EXPECT_EQ(text("continued/history.csv"), text("undisturbed/history.csv"));
-  EXPECT_EQ(text("continued/contours.csv"), text("undisturbed/contours.csv"));
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path();
+}
+
+TEST_F(InTime, WhoStartsAnewIsToldOfAKilledRun) {
+  auto command = solve("killed", {"--set", "time.end_us=60"});
+  std::erase(command.arguments, "--quiet");
+  command.signal = SIGKILL;
+  ASSERT_EQ(run(command).exit_code, 128 + SIGKILL);
+  const auto anew = run(solve("killed", {"--set", "time.end_us=1"}));
+  EXPECT_EQ(anew.exit_code, 0);
+  EXPECT_NE(anew.err.find("was interrupted; --continue"), std::string::npos) << anew.err;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "the new result is there";
 }
 
 TEST_F(InTime, AChannelEntryWritesTheWallAndKeepsWhatItHasWhenItFails) {

@@ -29,6 +29,7 @@ namespace {
     const rlimit limit{bytes, bytes};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
+  std::signal(SIGHUP, SIG_DFL);  // also where the tests themselves go on without a terminal
   std::vector<char*> arguments;
   for (const auto& argument : wanted.arguments) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);

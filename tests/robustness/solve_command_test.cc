@@ -125,7 +125,7 @@ TEST_F(SolveCommand, ANumberThatIsNotFiniteIsNeverASuccess) {
 }
 
 TEST_F(SolveCommand, ASignalStopsItWithTheLastStateWritten) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
     auto slow = solve("slow", {"--no-picture"});
     slow.signal = signal;
     const auto ended = run(slow);

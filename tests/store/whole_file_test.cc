@@ -2,6 +2,7 @@
 #include "store/whole_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -71,6 +72,33 @@ TEST_F(WholeFileTest, HiddenNamesDifferAndTellTheirPlace) {
   EXPECT_EQ(place_of(one), place);
   for (const char* name : {"a.txt", ".a.txt", ".a.rheocyte-", ".a.rheocyte-12345678901g", ".rheocyte-123456789012"})
     EXPECT_EQ(place_of(folder_ / name), folder_ / name);
+}
+
+TEST_F(WholeFileTest, WhatAKilledProcessHasLeftIsRemovedAndWhatIsInUseIsNot) {
+  const fs::path other = scratch_beside(folder_ / "b.txt"), folder = scratch_beside(folder_ / "c");
+  std::ofstream(other) << "half of the n";
+  fs::create_symlink("a.txt", scratch_beside(folder_ / "d.txt"));
+  fs::create_directory(folder);
+  std::ofstream(folder_ / ".hidden.rheocyte-of-mine") << "notes";
+  const Scratch in_use = new_scratch_file(folder_ / "e.txt");
+  EXPECT_FALSE(fs::exists(other));
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(write_whole_file(folder_ / "a.txt", "new"));  // another process looks for left-overs anew
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_TRUE(fs::exists(in_use.path));
+  EXPECT_TRUE(fs::exists(folder)) << "may hold what a user wants";
+  EXPECT_TRUE(fs::exists(folder_ / ".hidden.rheocyte-of-mine"));
+  EXPECT_EQ(names().size(), 5U);
+}
+
+TEST_F(WholeFileTest, WhatComesToItsPlaceMeanwhileIsKept) {
+  const fs::path place = folder_ / "a.txt";
+  WholeFile file(place, [&] { check_replaceable(place, "# mine", Foreign::keep); });
+  write_whole_file(place, "notes of somebody");
+  EXPECT_THROW(file.publish(), UserError);
+  EXPECT_EQ(content(place), "notes of somebody");
 }
 
 TEST_F(WholeFileTest, ALinkStaysALink) {

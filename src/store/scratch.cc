@@ -1,0 +1,107 @@
+#include "store/scratch.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <mutex>
+#include <random>
+#include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace rheocyte {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view infix = ".rheocyte-";
+constexpr std::size_t random_digits = 12;
+constexpr int greatest_number_of_tries = 100;
+
+// False if another process has taken it for a left-over in the moment between its making and its claim.
+bool hold(const Claim& claim) {
+  if (::flock(claim.descriptor(), LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
+  struct stat made {};
+  return ::fstat(claim.descriptor(), &made) == 0 && made.st_nlink > 0;
+}
+
+bool is_first_call_for(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<fs::path> known;
+  const std::lock_guard lock(mutex);
+  return known.insert(folder).second;
+}
+
+void remove_left_over_files(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (place_of(entry.path()) == entry.path() || !entry.is_regular_file(error) || entry.is_symlink(error)) continue;
+    if (const Claim mine = claim_on(entry.path())) ::unlink(entry.path().c_str());
+  }
+}
+
+fs::path folder_of(const fs::path& wanted) { return wanted.has_parent_path() ? wanted.parent_path() : "."; }
+
+template <class Make>
+Scratch new_scratch(const fs::path& wanted, const Make& make) {
+  for (int i = 0; i < greatest_number_of_tries; ++i) {
+    Scratch scratch{scratch_beside(wanted), {}};
+    scratch.claim = make(scratch.path);
+    if (!scratch.claim && errno != EEXIST) return {{}, {}, errno};
+    if (scratch.claim && hold(scratch.claim)) return scratch;
+  }
+  return {{}, {}, EEXIST};
+}
+
+}  // namespace
+
+fs::path scratch_beside(const fs::path& wanted) {
+  std::random_device random;  // the system's, not a series from a seed
+  const auto number = std::uint64_t{random()} << 32U | random();
+  return wanted.parent_path() /
+         fmt::format(".{:.200}{}{:0{}x}", wanted.filename().string(), infix, number & 0xffff'ffff'ffffU, random_digits);
+}
+
+fs::path place_of(const fs::path& scratch) {
+  const std::string name = scratch.filename().string();
+  const auto end = name.rfind(infix);
+  const bool hidden = name.starts_with('.') && end != std::string::npos && end > 0 &&
+                      name.size() == end + infix.size() + random_digits &&
+                      name.find_first_not_of("0123456789abcdef", end + infix.size()) == std::string::npos;
+  return hidden ? scratch.parent_path() / name.substr(1, end - 1) : scratch;
+}
+
+Scratch new_scratch_file(const fs::path& wanted) {
+  if (is_first_call_for(folder_of(wanted))) remove_left_over_files(folder_of(wanted));
+  return new_scratch(wanted, [](const fs::path& path) {
+    return Claim(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+  });
+}
+
+Scratch new_scratch_folder(const fs::path& wanted) {
+  return new_scratch(wanted, [](const fs::path& path) {
+    if (::mkdir(path.c_str(), 0700) != 0) return Claim();
+    return Claim(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  });
+}
+
+std::vector<Scratch> left_over_folders(const fs::path& place) {
+  std::vector<Scratch> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_of(place), error)) {
+    const bool hidden = place_of(entry.path()) != entry.path();
+    if (!hidden || place_of(entry.path()).filename() != place.filename() || entry.is_symlink(error) ||
+        !entry.is_directory(error))
+      continue;
+    if (Claim mine = claim_on(entry.path())) found.push_back({entry.path(), std::move(mine)});
+  }
+  return found;
+}
+
+}  // namespace rheocyte
