@@ -1,12 +1,13 @@
 """How the program runs a module of this package: python3 -I -c CODE FOLDER MODULE [ARGUMENT...].
 
-CODE (src/app/python_package.cc) puts FOLDER, that of the package, in front of Python's own module path and calls
+CODE (src/store/python_package.cc) puts FOLDER, that of the package, in front of Python's own module path and calls
 main(). Without arguments the module is loaded at once and awaits them on standard input, each followed by NUL, until
 its end: the program starts it while there is nothing to draw yet. It draws nothing if none come.
 """
 
 import importlib
 import os
+import resource
 import signal
 import sys
 
@@ -15,6 +16,7 @@ def main():
     """Command line."""
     signal.signal(signal.SIGUSR1, lambda *_: sys.exit(1))  # the program is gone; temporary files go, too
     name, *arguments = sys.argv[1:]
+    check_memory()
     try:
         load_matplotlib()
         module, run = importlib.import_module(f"rheocyte.{name}"), importlib.import_module("rheocyte.files").run
@@ -26,6 +28,15 @@ def main():
     if arguments:
         sys.argv[:] = [name, *arguments]
         run(module.main)
+
+
+def check_memory():
+    """Under a small limit of memory, OpenBLAS, on which numpy stands, asks for it again and again without end."""
+    limit, needed = resource.getrlimit(resource.RLIMIT_AS)[0], 400 << 20
+    if limit != resource.RLIM_INFINITY and limit < needed:
+        print(f"rheocyte: the pictures need {needed >> 20} MB of memory; ulimit -v allows {limit >> 20} MB.",
+              file=sys.stderr)
+        sys.exit(2)
 
 
 def load_matplotlib():

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -15,6 +14,7 @@
 #include "case/case_keys.h"
 #include "case/user_error.h"
 #include "store/own_file.h"
+#include "store/standard_output.h"
 #include "table/table_metadata.h"
 
 namespace rheocyte {
@@ -35,11 +35,6 @@ struct TableOptions {
   std::filesystem::path folder;
   bool force = false;
 };
-
-void print(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw UserError("rheocyte: standard output cannot be written.");
-}
 
 void check_stiffness(const CellOptions& options) {
   const bool solid = options.input.young_modulus_kPa.has_value();

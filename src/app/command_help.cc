@@ -12,6 +12,7 @@
 #include "app/commands.h"
 #include "app/result_reference.h"
 #include "case/key_reference.h"
+#include "store/standard_output.h"
 #include "synth/synth_keys.h"
 #include "table/table_keys.h"
 
@@ -38,11 +39,11 @@ const std::map<std::string, std::function<std::string(bool markdown)>> reference
 
 void print_help(const CLI::App& app, const HelpOptions& options) {
   if (const auto found = references.find(options.topic); found != references.end())
-    fmt::print("{}", found->second(options.markdown));
+    print(found->second(options.markdown));
   else if (!options.topic.empty())
-    fmt::print("{}", app.get_subcommand(options.topic)->help("rheocyte"));
+    print(app.get_subcommand(options.topic)->help("rheocyte"));
   else
-    fmt::print("{}", app.help());
+    print(app.help());
 }
 
 }  // namespace

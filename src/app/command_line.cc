@@ -4,12 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <new>
+#include <system_error>
 #include <vector>
 
 #include "app/exit_codes.h"
 #include "case/nearest_name.h"
 #include "case/user_error.h"
 #include "store/standard_error.h"
+#include "store/standard_output.h"
 
 namespace rheocyte {
 
@@ -29,6 +31,15 @@ void check_command_name(const CLI::App& app, int argc, char** argv) {
                               hint.empty() ? "; `rheocyte --help` lists the commands." : hint));
 }
 
+// Results that a script reads there are lost without a word otherwise.
+int with_output(int exit_code) {
+  const int failed = finish_output();
+  if (failed == 0) return exit_code;
+  tell(fmt::format("rheocyte: standard output cannot be written ({}); what goes into files is complete.",
+                   std::generic_category().message(failed)));
+  return exit_code == exit_converged ? exit_user_error : exit_code;
+}
+
 int report(const std::string& sentence, int exit_code) {
   tell(one_line(sentence, 1000));
   return exit_code;
@@ -40,9 +51,9 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code)
   try {
     check_command_name(app, argc, argv);
     app.parse(argc, argv);
-    return exit_code;
+    return with_output(exit_code);
   } catch (const CLI::Success& wish) {  // --help, --version
-    return app.exit(wish);
+    return with_output(app.exit(wish));
   } catch (const CLI::ParseError& error) {
     return report(fmt::format("rheocyte: {} (see `rheocyte --help`)", error.what()), exit_user_error);
   } catch (const UserError& error) {

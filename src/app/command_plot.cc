@@ -20,6 +20,7 @@
 #include "store/file_writer.h"
 #include "store/python_package.h"
 #include "store/standard_error.h"
+#include "store/standard_output.h"
 #include "store/stop_signal.h"
 #include "store/whole_file.h"
 
@@ -118,7 +119,7 @@ class Plot {
                        drawn.last_line.empty() ? "the drawing program failed" : one_line(drawn.last_line, 300)));
       return exit_own_bug;
     }
-    if (!options_.quiet) fmt::print("{0}.png and {0}.svg\n", stem_.string());
+    if (!options_.quiet) print(fmt::format("{0}.png and {0}.svg\n", stem_.string()));
     return exit_converged;
   }
 

@@ -13,6 +13,7 @@
 #include "store/build_info.h"
 #include "store/python_package.h"
 #include "store/standard_error.h"
+#include "store/standard_output.h"
 #include "store/stop_signal.h"
 #include "table/combined_table.h"
 #include "table/grid_from_branches.h"
@@ -91,7 +92,7 @@ int make_table(const TableOptions& options) {
   }
   if (rank.number > 0) return exit_converged;
   write_files(folder, options);
-  if (!options.quiet) fmt::print("{}  folder {}\n", summary(folder), options.folder.string());
+  if (!options.quiet) print(fmt::format("{}  folder {}\n", summary(folder), options.folder.string()));
   return exit_converged;
 }
 

@@ -10,6 +10,7 @@
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "store/standard_error.h"
+#include "store/standard_output.h"
 #include "store/stop_signal.h"
 
 namespace rheocyte {
@@ -42,9 +43,7 @@ void write_result(const Result& result, ResultFolder& folder, const SolveOptions
 }
 
 void print_result(const Result& result, const SolveOptions& options, const std::string& json) {
-  const auto text = options.json ? json : options.quiet ? "" : summary(result, options.folder.string());
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw UserError("rheocyte: standard output cannot be written; the result is in the folder.");
+  print(options.json ? json : options.quiet ? "" : summary(result, options.folder.string()));
 }
 
 int exit_code_of(const Outcome& outcome) {

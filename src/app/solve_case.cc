@@ -17,6 +17,7 @@
 #include "store/build_info.h"
 #include "store/result_folder.h"
 #include "store/standard_error.h"
+#include "store/standard_output.h"
 #include "store/stop_signal.h"
 
 namespace rheocyte {
@@ -41,7 +42,7 @@ void print_case(const Case& c) {
   nlohmann::ordered_json json{{"program", "rheocyte"}, {"version", version}};
   json["case"] = to_json(c);
   json["case_hash"] = case_hash(c);
-  fmt::print("{}\n", json.dump(2));
+  print(json.dump(2) + "\n");
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+// Whatever the system allows the program, it ends with a sentence and an exit code of its own: no crash, no endless
+// run.
+#include <gtest/gtest.h>
+
+#include "run_program.h"
+
+namespace rheocyte::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+Ended in_shell(const std::string& before, const std::string& arguments) {
+  return run({{"/bin/sh", "-c", before + "exec \"$0\" " + arguments, RHEOCYTE}});
+}
+
+const std::string good_case = std::string(EXAMPLES) + "/paper-cell.toml";
+
+#ifndef __SANITIZE_ADDRESS__  // which needs terabytes of addresses itself
+TEST(Limits, TooLittleMemoryIsASentence) {
+  const TemporaryFolder folder;
+  const auto result = (folder.path() / "result").string();
+  int refused = 0;
+  for (const int kB : {500000, 150000, 110000, 90000, 75000, 65000, 55000, 50000, 47000, 45000, 43000, 40000, 38000}) {
+    const auto ended =
+        in_shell("ulimit -v " + std::to_string(kB) + "; ", "solve " + good_case + " --no-picture --quiet -o " + result);
+    if (ended.exit_code == 0 || ended.exit_code == 127) continue;  // enough; not even enough to be loaded
+    ++refused;
+    expect_sentence(ended, "the memory does not suffice", 1);
+  }
+  EXPECT_GE(refused, 3);
+  EXPECT_EQ(run({{RHEOCYTE, "solve", good_case, "--no-picture", "--quiet", "-o", result}}).exit_code, 0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << "nothing is left of those that ended";
+}
+
+// numpy would ask for memory without end.
+TEST(Limits, WithoutMemoryForAPictureThereIsAWarning) {
+  const TemporaryFolder folder;
+  const auto ended =
+      in_shell("ulimit -v 250000; ", "solve " + good_case + " --quiet -o " + (folder.path() / "result").string());
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_NE(ended.err.find("the pictures need 400 MB of memory"), std::string::npos) << ended.err;
+}
+
+TEST(Limits, ASmallStackIsLiftedOrNamed) {
+  expect_sentence(in_shell("ulimit -s 64; ", "help case"), "the stack is limited to 64 kB");
+  EXPECT_EQ(in_shell("ulimit -S -s 64; ", "solve --check " + good_case).exit_code, 0);
+}
+#endif
+
+TEST(Limits, OutputThatCannotBePrintedIsASentence) {
+  for (const std::string arguments : {"help case", "--version", "--help", "analytic --help"})
+    expect_sentence(in_shell("", arguments + " > /dev/full"), "standard output cannot be written");
+}
+
+TEST(Limits, ALinkThatLeadsNowhereTakesNoResult) {
+  const TemporaryFolder folder;
+  const auto link = folder.path() / "link";
+  fs::create_symlink(folder.path() / "nowhere", link);
+  expect_sentence(run({{RHEOCYTE, "solve", good_case, "-o", link}}), "is a link that leads nowhere");
+}
+
+}  // namespace
+}  // namespace rheocyte::test
