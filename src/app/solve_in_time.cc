@@ -137,7 +137,10 @@ int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Draw
   if (!options.start_from.empty()) start = read_start(options.start_from, c);
   ResultFolder folder(options.folder);
   Recorder recorder(result, options, folder);
-  if (from) recorder.take_over(*from);
+  if (from) {
+    recorder.take_over(*from);
+    from->claim = {};  // what a killed run has left may go once there is a result
+  }
   result.state = follow_in_time(result.problem, time_run_of(c, result.scales), recorder.observer(),
                                 start ? &*start : nullptr, &stop_wanted());
   recorder.write_all();
