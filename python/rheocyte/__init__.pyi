@@ -1,0 +1,19 @@
+from rheocyte.cases import Case as Case
+from rheocyte.cases import case_keys as case_keys
+from rheocyte.closed_model import analytic as analytic
+from rheocyte.errors import NoStateError as NoStateError
+from rheocyte.errors import UserError as UserError
+from rheocyte.in_time import Evolution as Evolution
+from rheocyte.in_time import evolve as evolve
+from rheocyte.recordings import extract as extract
+from rheocyte.recordings import features as features
+from rheocyte.recordings import moduli as moduli
+from rheocyte.states import Result as Result
+from rheocyte.states import Session as Session
+from rheocyte.states import solve as solve
+from rheocyte.stiffness_tables import STATES as STATES
+from rheocyte.stiffness_tables import Table as Table
+from rheocyte.stiffness_tables import table_names as table_names
+from rheocyte.stiffness_tables import viscosity as viscosity
+
+__version__: str

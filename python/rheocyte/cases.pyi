@@ -1,0 +1,75 @@
+# Made by `python -m rheocyte.case_stub`; the keys are declared in src/case/case_keys.cc.
+from collections.abc import Mapping
+from os import PathLike
+from typing import Any, Literal
+
+def case_keys() -> list[dict[str, Any]]: ...
+
+class _ChannelProfile:
+    x_um: list[float] | None  # places along a channel that is not straight, in place of its width or radius; the cell starts at 0
+    R_um: list[float] | None  # radii of the wall at these places, smooth and monotonic in between, constant beyond the ends
+
+class _Channel:
+    width_um: float | None  # width of the square channel, mapped to a tube of radius 0.547 x width
+    radius_um: float | None  # radius of the tube
+    length_um: float | None  # length of the channel over which the given pressure drops
+    profile: _ChannelProfile
+
+class _Flow:
+    drive: Literal["rate", "pressure-drop", "controlled-pressure"]  # what is given: the flow rate; the pressure drop, with the flow rate as a result; the flow rate, reached through a pressure drop that is adapted in each step as in Mokbel et al. 2017
+    rate_ul_per_s: float | None  # flow rate through the channel, sheath and sample together
+    pressure_drop_Pa: float | None  # pressure drop over channel.length_um, with the cell in it
+    law: Literal["newtonian", "power-law", "carreau"]  # law of the liquid, power-law: viscosity = consistency x shear rate^(exponent - 1), carreau: that of Carreau and Yasuda, with plateaus at low and high shear rates
+    viscosity_mPas: float | None  # viscosity of the liquid
+    consistency_Pa_sn: float | None  # consistency of the shear-thinning liquid
+    exponent: float | None  # exponent n of the shear-thinning liquid, 1 = Newtonian
+    zero_shear_viscosity_mPas: float | None  # viscosity of the shear-thinning liquid at rest
+    infinite_shear_viscosity_mPas: float | None  # viscosity of the shear-thinning liquid at very high shear rates
+    relaxation_time_ms: float | None  # inverse of the shear rate at which thinning begins
+    yasuda_exponent: float | None  # exponent a of Carreau and Yasuda's law: how sharply thinning begins
+    shear_rate_floor: float | None  # shear rate, relative to mean speed / tube radius, below which the viscosity levels off
+    density_kg_per_m3: float | None  # density of the liquid, 0 = no inertia (Stokes flow)
+
+class _CellBulk:
+    law: Literal["linear", "neo-hookean", "mooney-rivlin", "none"]  # elastic law of the cell's interior, none: a liquid, which makes the cell a shell
+    young_modulus_kPa: float | None  # Young's modulus of the cell's interior, which is incompressible
+    mooney_share: float | None  # share of the neo-hookean law in the mooney-rivlin one, the rest is linear
+
+class _CellCortex:
+    law: Literal["none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference"]  # elastic law of the cell's surface, the cortex
+    modulus_mN_per_m: float | None  # elastic modulus E2D of the cortex, Young's modulus x thickness
+    tension_mN_per_m: float | None  # surface tension of the cell
+    tension_ratio: float | None  # surface tension as a share of the modulus of the cortex
+    bending_kBT: float | None  # bending stiffness c_b of the cell's surface in units of k_B T at 25 degrees C (4.116e-21 J)
+
+class _Cell:
+    radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius
+    viscosity_mPas: float | None  # viscosity of the cell's interior; a stationary shape does not depend on it
+    density_kg_per_m3: float | None  # density of the cell
+    bulk: _CellBulk
+    cortex: _CellCortex
+
+class _Time:
+    scheme: Literal["stationary", "monolithic", "partitioned"]  # stationary: the final shape at once; monolithic: the way to it, in implicit steps of controlled size; partitioned: in the splitting of Mokbel et al. 2017
+    end_us: float | None  # time to follow the cell, which starts as a sphere
+    output_every_us: float | None  # time between contours, fields and frames of the animation
+    accuracy: float | None  # wanted accuracy of the surface's positions in each step, relative to the radius
+    step_us: float | None  # step of the splitting, which is explicit in the elasticity
+    grid_um: float | None  # size of the elements along the cell's surface, 0.2 in Mokbel et al. 2017; 0: the mesh of the implicit steps
+    degree: float | None  # polynomial degree of the spaces
+
+class _Numerics:
+    accuracy: float | None  # wanted relative accuracy of the deformation, mesh and degree are chosen for it
+
+class Case:
+    channel: _Channel
+    flow: _Flow
+    cell: _Cell
+    time: _Time
+    numerics: _Numerics
+    def __init__(self, source: str | PathLike[str] | Mapping[str, Any] | Case | None = None, **overrides: Any) -> None: ...
+    def replace(self, **overrides: Any) -> Case: ...
+    def to_dict(self) -> dict[str, Any]: ...
+    def to_toml(self) -> str: ...
+    @property
+    def hash(self) -> str: ...
