@@ -97,6 +97,9 @@ class Case:
     __slots__ = ("_stated", "_values", "_nested")
 
     def __init__(self, source=None, **overrides):
+        if isinstance(source, Case) and not overrides:
+            self._keep(source._stated, source._values, source._nested)  # which never change, they are replaced
+            return
         replaced = dict(_flat({_full_name(name): value for name, value in overrides.items()}))
         if isinstance(source, (str, os.PathLike)):
             # Its mistakes are told with their lines.
@@ -116,7 +119,10 @@ class Case:
         nested = json.loads(values.json())
         named = {_FORMER.get(name, name): value for name, value in (stated | replaced).items()}
         has_effect = dict(_flat(nested))
-        object.__setattr__(self, "_stated", {name: value for name, value in named.items() if name in has_effect})
+        self._keep({name: value for name, value in named.items() if name in has_effect}, values, nested)
+
+    def _keep(self, stated, values, nested):
+        object.__setattr__(self, "_stated", stated)
         object.__setattr__(self, "_values", values)
         object.__setattr__(self, "_nested", nested)
 

@@ -100,3 +100,10 @@ def test_keywords_are_the_options_of_the_command_line(paper):
             assert Case(paper, tube_radius_um=12).channel.radius_um == 12
         if key["option"] == "--young-modulus-kPa":
             assert Case(paper, young_modulus_kPa=7).cell.bulk.young_modulus_kPa == 7
+
+
+def test_a_copy_and_a_result_keep_the_case_as_it_was(paper):
+    case = Case(paper)
+    copy, result = Case(case), rheocyte.solve(case)
+    case.cell.bulk.young_modulus_kPa = 9
+    assert copy.cell.bulk.young_modulus_kPa == result.problem.cell.bulk.young_modulus_kPa == 4
