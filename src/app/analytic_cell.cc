@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "case/json_guard.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
@@ -122,7 +122,7 @@ std::string json_text(const AnalyticCell& cell) {
   json["duct"] = cell.input.conditions.square_duct ? "square" : "tube";
   json["within_limits"] = cell.remark().empty();
   json["remark"] = cell.remark();
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string contour_text(const AnalyticCell& cell) {
@@ -130,8 +130,7 @@ std::string contour_text(const AnalyticCell& cell) {
                             surface_points(cell.cell, cell.strain, Eigen::ArrayXd::LinSpaced(contour_points, 0, pi));
   points(0, 1) = points(contour_points - 1, 1) = 0;  // sin(pi) is not zero in floating point
   std::string text(contour_mark);
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    fmt::format_to(std::back_inserter(text), "{:.10g},{:.10g}\n", points(i, 0), points(i, 1));
+  for (Eigen::Index i = 0; i < points.rows(); ++i) text += fmt::format("{:.10g},{:.10g}\n", points(i, 0), points(i, 1));
   return text;
 }
 

@@ -1,7 +1,6 @@
 // `rheocyte scale TABLE`
 // A look-up table or isoelasticity lines for another channel, flow rate or viscosity.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "app/commands.h"
 #include "app/key_option.h"
 #include "case/case_keys.h"
+#include "case/joined.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
 #include "store/own_file.h"
@@ -56,7 +56,7 @@ void run(const ScaleOptions& options) {
   const auto doubts = doubts_of_scaling(table, to);
   if (!doubts.empty() && !options.inexact)
     throw UserError(fmt::format("{}: the scaling would not be exact: {}; --inexact scales nevertheless.",
-                                options.table.string(), fmt::join(doubts, "; ")));
+                                options.table.string(), joined(doubts, "; ")));
   TableText result = scaled(table, to, version);
   rename(result, to, options.identifier);
   write_own_file(options.output, to_text(result), table_mark, foreign(options.force));

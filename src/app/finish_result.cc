@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/exit_codes.h"
+#include "case/json_guard.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "store/standard_error.h"
@@ -68,7 +69,7 @@ void write_field_file(const FieldWriter& write, const Scales& scales, const fs::
 
 int finish_result(const Result& result, ResultFolder& folder, const SolveOptions& options,
                   const nlohmann::ordered_json& numbers, std::optional<Drawing>& drawing) {
-  const auto json = numbers.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const auto json = json_text(numbers) + "\n";
   write_result(result, folder, options, json, drawing);
   print_result(result, options, json);
   const auto& outcome = result.state.outcome;

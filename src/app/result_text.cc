@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string_view>
 
 #include "app/counted.h"
@@ -43,11 +42,10 @@ std::span<const Field<ProfilePoint>> contour_fields() {
 std::string contour_csv(const Result& result) {
   const SurfaceProfile& surface = result.state.surface;
   std::string text;
-  const auto out = std::back_inserter(text);
   const auto add_row = [&](const auto& text_of) {
     std::string_view separator;
     for (const auto& field : contour_fields()) {
-      fmt::format_to(out, "{}{}", separator, text_of(field));
+      text += fmt::format("{}{}", separator, text_of(field));
       separator = ",";
     }
     text += "\n";

@@ -10,6 +10,7 @@
 #include "app/finish_result.h"
 #include "app/result.h"
 #include "app/solve_in_time.h"
+#include "case/json_guard.h"
 #include "case/read_case.h"
 #include "case/scales.h"
 #include "case/user_error.h"
@@ -42,7 +43,8 @@ void print_case(const Case& c) {
   nlohmann::ordered_json json{{"program", "rheocyte"}, {"version", version}};
   json["case"] = to_json(c);
   json["case_hash"] = case_hash(c);
-  print(json.dump(2) + "\n");
+  print(json_text(json) + "
+");
 }
 
 }  // namespace

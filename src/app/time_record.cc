@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "case/scales.h"
 #include "laws/wall_profile.h"
@@ -79,13 +78,12 @@ ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
 
 std::string history_csv(const TimeRecord& record) {
   std::string text = "t_us";
-  const auto out = std::back_inserter(text);
-  for (const auto& measure : history_measures) fmt::format_to(out, ",{}", measure.name);
-  for (const auto& field : history_fields()) fmt::format_to(out, ",{}", field.name);
+  for (const auto& measure : history_measures) text += fmt::format(",{}", measure.name);
+  for (const auto& field : history_fields()) text += fmt::format(",{}", field.name);
   for (const HistoryRow& row : record.rows) {
-    fmt::format_to(out, "\n{:.12g}", row.t_us);
-    for (const double value : row.measures) fmt::format_to(out, ",{:.12g}", value);
-    for (const auto& field : history_fields()) fmt::format_to(out, ",{:.10g}", field.value(row));
+    text += fmt::format("\n{:.12g}", row.t_us);
+    for (const double value : row.measures) text += fmt::format(",{:.12g}", value);
+    for (const auto& field : history_fields()) text += fmt::format(",{:.10g}", field.value(row));
   }
   return text + "\n";
 }
@@ -94,8 +92,8 @@ std::string contours_csv(const TimeRecord& record) {
   std::string text = "t_us,x_um,r_um\n";
   for (const ContourFrame& frame : record.frames)
     for (Eigen::Index i = 0; i < frame.point_um.rows(); ++i)
-      fmt::format_to(std::back_inserter(text), "{:.10g},{:.8g},{:.8g}\n", frame.t_us, frame.point_um(i, 0),
-                     std::max(frame.point_um(i, 1), 0.0));
+      text +=
+          fmt::format("{:.10g},{:.8g},{:.8g}\n", frame.t_us, frame.point_um(i, 0), std::max(frame.point_um(i, 1), 0.0));
   return text;
 }
 
@@ -107,7 +105,7 @@ std::string channel_csv(const WallTable& table, const Scales& scales) {
   std::string text = "x_um,R_um\n";
   for (int i = 0; i <= samples; ++i) {
     const double x = start + (end - start) * i / samples;
-    fmt::format_to(std::back_inserter(text), "{:.8g},{:.8g}\n", um * x, um * wall.radius(x));
+    text += fmt::format("{:.8g},{:.8g}\n", um * x, um * wall.radius(x));
   }
   return text;
 }

@@ -33,4 +33,12 @@ bool is_sound_json(std::string_view bytes, json::input_format_t format) {
   return json::sax_parse(bytes.begin(), bytes.end(), &guard, format);
 }
 
+nlohmann::ordered_json parse_sound_json(std::string_view text) {
+  return is_sound_json(text) ? nlohmann::ordered_json::parse(text) : nlohmann::ordered_json();
+}
+
+std::string json_text(const nlohmann::ordered_json& tree, JsonCharacters characters) {
+  return tree.dump(2, ' ', characters == JsonCharacters::ascii, json::error_handler_t::replace);
+}
+
 }  // namespace rheocyte

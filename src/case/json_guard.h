@@ -12,4 +12,12 @@ inline constexpr int greatest_json_nesting = 32;
 bool is_sound_json(std::string_view bytes,
                    nlohmann::json::input_format_t format = nlohmann::json::input_format_t::json);
 
+/// A tree of what is sound, null of anything else.
+nlohmann::ordered_json parse_sound_json(std::string_view text);
+
+/// As text; bytes that are not UTF-8 are replaced. Written once, for each use of nlohmann's writer costs seconds of
+/// compilation.
+enum class JsonCharacters { utf8, ascii };
+std::string json_text(const nlohmann::ordered_json&, JsonCharacters = JsonCharacters::utf8);
+
 }  // namespace rheocyte

@@ -1,9 +1,10 @@
 #include "case/key.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
+
+#include "case/joined.h"
 
 namespace rheocyte {
 
@@ -48,13 +49,13 @@ std::string allowed_values(const KeyDescription& key) {
     return fmt::format("a number in {}, or {{mean = ..., sd = ..., distribution = \"normal\" or \"lognormal\"}}",
                        range_text(spread->range, key.unit));
   if (std::holds_alternative<Word>(key.kind)) return "a short text";
-  return fmt::format("\"{}\"", fmt::join(std::get<Choice>(key.kind).options, "\" or \""));
+  return fmt::format("\"{}\"", joined(std::get<Choice>(key.kind).options, "\" or \""));
 }
 
 std::string value_text(const KeyDescription& key, const Value& value) {
   if (std::holds_alternative<int>(value)) return fmt::format("\"{}\"", option_of(key, value));
   if (const auto* word = std::get_if<std::string>(&value)) return fmt::format("\"{}\"", *word);
-  if (const auto* list = std::get_if<std::vector<double>>(&value)) return fmt::format("[{}]", fmt::join(*list, ", "));
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) return fmt::format("[{}]", joined(*list, ", "));
   if (const auto* spread = std::get_if<Spread>(&value)) return short_number(spread->mean);
   return short_number(std::get<double>(value));
 }

@@ -1,11 +1,11 @@
 #include "case/key_reading.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "case/joined.h"
 #include "case/key_value.h"
 #include "case/nearest_name.h"
 #include "case/user_error.h"
@@ -79,7 +79,7 @@ std::string fitting_options(const KeyDescription& choice, const Condition& condi
   std::vector<std::string_view> fitting;
   for (const auto option : std::get<Choice>(choice.kind).options)
     if ((option == condition.option) != condition.negated) fitting.push_back(option);
-  return fmt::format("\"{}\"", fmt::join(fitting, "\" or \""));
+  return fmt::format("\"{}\"", joined(fitting, "\" or \""));
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include "case/write_keys.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include "case/joined.h"
 
 namespace rheocyte {
 
@@ -36,7 +37,7 @@ void visit_value(const KeyDescription& key, const Value& value, Visitor&& visit)
 
 std::string toml_value(double value) { return fmt::format("{}", value); }
 std::string toml_value(std::string_view word) { return fmt::format("\"{}\"", word); }
-std::string toml_value(const std::vector<double>& list) { return fmt::format("[{}]", fmt::join(list, ", ")); }
+std::string toml_value(const std::vector<double>& list) { return fmt::format("[{}]", joined(list, ", ")); }
 
 }  // namespace
 

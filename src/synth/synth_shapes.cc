@@ -1,11 +1,11 @@
 #include "synth/synth_shapes.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <set>
 #include <system_error>
 
+#include "case/joined.h"
 #include "case/user_error.h"
 #include "synth/analytic_shapes.h"
 #include "synth/branch_shapes.h"
@@ -44,7 +44,7 @@ void check_tensions(SynthSpec& spec, const std::vector<double>& ratios) {
     if (!is_given)
       refuse(spec,
              fmt::format("has the tensions {} in E2D; give cell.cortex.tension_ratio or cell.cortex.tension_mN_per_m.",
-                         fmt::join(ratios, ", ")));
+                         joined(ratios, ", ")));
     return;
   }
   if (is_given)

@@ -1,7 +1,7 @@
 // A branch as bytes.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "case/joined.h"
 #include "table/branch.h"
 #include "table/checked_record.h"
 
@@ -100,7 +100,7 @@ SampledBranch checked_branch(std::string_view bytes, const std::string& spec_has
 }  // namespace
 
 std::string branch_record_format() {
-  return fmt::format("{} {}: {}", kind.kind, kind.format, fmt::join(measure_names(), ", "));
+  return fmt::format("{} {}: {}", kind.kind, kind.format, joined(measure_names(), ", "));
 }
 
 std::string to_bytes(const SampledBranch& branch, const std::string& spec_hash) {

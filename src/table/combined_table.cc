@@ -1,13 +1,13 @@
 #include "table/combined_table.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 
+#include "case/joined.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -61,7 +61,7 @@ std::string row_text(const CombinedBranch& branch, int i) {
                               (1 - share) * S, cortex, ratio * cortex, branch.error[std::size_t(i)]};
   for (const auto* matrix : {&branch.value, &branch.slope})
     for (int f = 0; f < feature_count; ++f) numbers.push_back((*matrix)(i, f));
-  return fmt::format("{}\n", fmt::join(numbers, ","));
+  return fmt::format("{}\n", joined(numbers, ","));
 }
 
 // Goes over the lines of a file and keeps the place of errors.
@@ -71,7 +71,7 @@ class Reader {
 
   CombinedTable read(const TableSpec& spec) {
     CombinedTable table{spec, {}};
-    if (next() != fmt::format("{}", fmt::join(column_names(), ",")))
+    if (next() != fmt::format("{}", joined(column_names(), ",")))
       refuse("the columns are not those of a combined table of this version; let `rheocyte table` write it again");
     while (!text_.empty()) take_row(numbers_of(next()), table.branches);
     for (auto& branch : table.branches) finish(branch);
@@ -157,7 +157,7 @@ CombinedTable make_combined_table(const TableSpec& spec, std::span<const Sampled
 }
 
 std::string combined_table_csv(const CombinedTable& table) {
-  std::string text = fmt::format("{}\n", fmt::join(column_names(), ","));
+  std::string text = fmt::format("{}\n", joined(column_names(), ","));
   for (const auto& branch : table.branches)
     for (int i = 0; i < branch.samples(); ++i) text += row_text(branch, i);
   return text;

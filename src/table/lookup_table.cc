@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
 #include "table/table_lines.h"
 #include "table/table_metadata.h"
@@ -166,16 +165,15 @@ std::string lut_text(const LookupTable& table, Abscissa abscissa) {
 
 std::string full_table_csv(const LookupTable& table) {
   std::string text = fmt::format("radius_um,{}", stiffness_column(table.spec));
-  auto out = std::back_inserter(text);
-  for (const auto& measure : table_measures) fmt::format_to(out, ",{}", measure.name);
+  for (const auto& measure : table_measures) text += fmt::format(",{}", measure.name);
   text += ",deformation_error,stiffness_error,bending_kBT,regularised,end_of_branch\n";
   for (const auto& row : table.rows) {
-    fmt::format_to(out, "{},{}", row.radius_um, row.state.stiffness);
-    for (const double value : row.value) fmt::format_to(out, ",{}", value);
+    text += fmt::format("{},{}", row.radius_um, row.state.stiffness);
+    for (const double value : row.value) text += fmt::format(",{}", value);
     const double bending =
         row.state.regularised ? row.state.branch->bending_kBT : table.spec.base.cell.cortex.bending_kBT;
-    fmt::format_to(out, ",{},{},{},{:d},{:d}\n", row.state.error, row.stiffness_error, bending, row.state.regularised,
-                   row.is_end);
+    text += fmt::format(",{},{},{},{:d},{:d}\n", row.state.error, row.stiffness_error, bending, row.state.regularised,
+                        row.is_end);
   }
   return text;
 }
@@ -188,9 +186,9 @@ std::string end_of_branch_csv(const LookupTable& table) {
     if (!ends_early(radius)) continue;
     const TableRow row = end_row(radius);
     const auto& end = radius.own()->end;
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", row.radius_um, row.state.stiffness,
-                   row.at(Measure::area_um2), row.at(Measure::deformation), row.at(Measure::volume_um3),
-                   row.at(Measure::least_meridional_stretch), end.status, csv_text(end.message));
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", row.radius_um, row.state.stiffness, row.at(Measure::area_um2),
+                        row.at(Measure::deformation), row.at(Measure::volume_um3),
+                        row.at(Measure::least_meridional_stretch), end.status, csv_text(end.message));
   }
   return text;
 }
@@ -204,8 +202,8 @@ std::string regularisation_csv(const LookupTable& table) {
       const double stiffness = held->stiffness[std::size_t(i)];
       if (stiffness > bare->stiffness.front() || stiffness < bare->stiffness.back()) continue;
       const double d = interpolate(*bare, Measure::deformation, stiffness), with = held->at(i, Measure::deformation);
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{:.3g}\n", radius.radius_um(), stiffness,
-                     interpolate(*bare, Measure::area_um2, stiffness), held->bending_kBT, d, with, with / d - 1);
+      text += fmt::format("{},{},{},{},{},{},{:.3g}\n", radius.radius_um(), stiffness,
+                          interpolate(*bare, Measure::area_um2, stiffness), held->bending_kBT, d, with, with / d - 1);
     }
   }
   return text;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
@@ -82,7 +81,7 @@ class Reader {
   }
 
   void parse_metadata() {
-    if (is_sound_json(json_)) table_.metadata = nlohmann::ordered_json::parse(json_);
+    table_.metadata = parse_sound_json(json_);
     if (!table_.metadata.is_object()) refuse(place(), "the metadata above are not valid JSON.");
     for (const auto& [key, unit] :
          {std::pair("channel_width", "um"), std::pair("flow_rate", "uL/s"), std::pair("fluid_viscosity", "mPa s")}) {
@@ -139,19 +138,18 @@ class Reader {
 
 std::string to_text(const TableText& table) {
   std::string text;
-  auto out = std::back_inserter(text);
   const auto add_comment = [&](std::string_view line) {
-    fmt::format_to(out, "#{}{}\n", line.empty() ? "" : " ", line);
+    text += fmt::format("#{}{}\n", line.empty() ? "" : " ", line);
   };
   for (const auto& comment : table.comments) add_comment(comment);
-  fmt::format_to(out, "{}\n", begin_mark);
-  std::string json = table.metadata.dump(2, ' ', true) + "\n";
+  text += fmt::format("{}\n", begin_mark);
+  std::string json = json_text(table.metadata, JsonCharacters::ascii) + "\n";
   for (std::string_view rest = json; !rest.empty(); rest.remove_prefix(rest.find('\n') + 1))
     add_comment(rest.substr(0, rest.find('\n')));
-  fmt::format_to(out, "{}\n#\n", end_mark);
+  text += fmt::format("{}\n#\n", end_mark);
   add_comment(column_names(table.abscissa));
   for (const auto& [x, deformation, modulus] : table.rows)
-    fmt::format_to(out, "{:.9e}\t{:.9e}\t{:.9e}\n", x, deformation, modulus);
+    text += fmt::format("{:.9e}\t{:.9e}\t{:.9e}\n", x, deformation, modulus);
   return text;
 }
 
