@@ -43,8 +43,7 @@ void print_case(const Case& c) {
   nlohmann::ordered_json json{{"program", "rheocyte"}, {"version", version}};
   json["case"] = to_json(c);
   json["case_hash"] = case_hash(c);
-  print(json_text(json) + "
-");
+  print(json_text(json) + "\n");
 }
 
 }  // namespace
