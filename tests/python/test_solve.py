@@ -137,8 +137,13 @@ def test_a_way_that_is_stopped_keeps_what_was_computed(paper):
 INTERRUPTED = """
 import os, signal, sys, rheocyte
 case = rheocyte.Case(sys.argv[1], numerics__accuracy=1e-7)
+sent = []
+def interrupt_once(step):
+    if not sent:
+        sent.append(step)
+        os.kill(os.getpid(), signal.SIGINT)
 try:
-    rheocyte.solve(case, progress=lambda step: os.kill(os.getpid(), signal.SIGINT))
+    rheocyte.solve(case, progress=interrupt_once)
 except KeyboardInterrupt:
     print("interrupted")
 print(rheocyte.solve(case, numerics__accuracy=1e-3).converged)
