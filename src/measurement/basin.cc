@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
 
 #include "case/json_guard.h"
 #include "measurement/any_bytes.h"
+#include "numeric/md5.h"
 
 namespace rheocyte {
 
@@ -36,11 +38,23 @@ std::vector<std::string> texts_in(const json& list) {
   return texts;
 }
 
-std::string identifier_of(const Metadata& metadata) {
-  if (const auto run = metadata.text("experiment:run identifier")) return *run;
-  return metadata.text("experiment:time").value_or("") + "_" + metadata.text("experiment:date").value_or("") + "_" +
-         metadata.text("setup:identifier").value_or("");
+// As it was written, with its blanks, for it goes into the digest; nothing if absent or empty.
+std::optional<std::string> raw_text(const Metadata& metadata, const std::string& key) {
+  const auto found = metadata.values().find(key);
+  if (found == metadata.values().end()) return std::nullopt;
+  const auto* const text = std::get_if<std::string>(&found->second);
+  if (!text) return metadata.text(key);
+  return text->empty() ? std::nullopt : std::optional(*text);
 }
+
+// 16 bytes in the groups of a UUID.
+std::string as_uuid(const std::string& digits) {
+  return fmt::format("{}-{}-{}-{}-{}", digits.substr(0, 8), digits.substr(8, 4), digits.substr(12, 4),
+                     digits.substr(16, 4), digits.substr(20));
+}
+
+// Written by programs of any system.
+std::string file_name_in(const std::string& path) { return path.substr(path.find_last_of("/\\") + 1); }
 
 }  // namespace
 
@@ -82,18 +96,30 @@ std::vector<std::string> file_basin_lines(const std::string& name, const std::ve
   return lines;
 }
 
-std::optional<fs::path> find_basin_file(const BasinDefinition& basin, const fs::path& referring_file) {
-  for (const auto& path : basin.paths) {
-    std::error_code error;
-    const fs::path candidate = referring_file.parent_path() / path;  // an absolute path stays itself
-    if (fs::is_regular_file(candidate, error)) return candidate;
-  }
-  return std::nullopt;
+std::vector<fs::path> basin_files(const BasinDefinition& basin, const fs::path& referring_file) {
+  std::vector<fs::path> files;
+  for (const auto& path : basin.paths)
+    for (const auto& place : {path, file_name_in(path)}) {
+      std::error_code error;
+      const fs::path candidate = referring_file.parent_path() / place;  // an absolute path stays itself
+      if (fs::is_regular_file(candidate, error) && std::ranges::find(files, candidate) == files.end())
+        files.push_back(candidate);
+    }
+  return files;
+}
+
+std::optional<std::string> measurement_identifier(const Metadata& metadata) {
+  if (auto run = raw_text(metadata, "experiment:run identifier")) return run;
+  const auto time = raw_text(metadata, "experiment:time"), date = raw_text(metadata, "experiment:date"),
+             setup = raw_text(metadata, "setup:identifier");
+  if (!time || !date || !setup) return std::nullopt;
+  return as_uuid(md5(fmt::format("{}_{}_{}", *time, *date, *setup)));
 }
 
 bool same_measurement(const Metadata& referring, const Metadata& basin, bool mapped) {
-  const std::string ours = identifier_of(referring), theirs = identifier_of(basin);
-  return mapped ? ours.starts_with(theirs) : ours == theirs;
+  const auto ours = measurement_identifier(referring), theirs = measurement_identifier(basin);
+  if (!ours || !theirs) return true;
+  return mapped ? ours->starts_with(*theirs) : *ours == *theirs;
 }
 
 }  // namespace rheocyte

@@ -28,12 +28,17 @@ std::optional<std::string> name_of_remote_basin(const std::string& json_text);
 /// The definition of a basin of kind file with equal numbers of events, in lines for /basins.
 std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths);
 
-/// The first of the paths that is a file, relative ones seen from the folder of the referring recording.
-std::optional<std::filesystem::path> find_basin_file(const BasinDefinition& basin,
-                                                     const std::filesystem::path& referring_file);
+/// The files that stand at the basin's paths, relative ones seen from the folder of the referring recording, or under
+/// the same names in that folder; in this order, at each path in turn.
+std::vector<std::filesystem::path> basin_files(const BasinDefinition& basin,
+                                               const std::filesystem::path& referring_file);
 
-/// Whether two files belong to one measurement: equal run identifiers, or equal time, date and setup identifier.
-/// With a mapping, it is enough that the referring one's run identifier starts with the basin's.
+/// What the field's programs call a measurement: experiment:run identifier, else the MD5 digest of time, date and
+/// setup:identifier joined by "_", written as a UUID. Nothing if one of the three is missing.
+std::optional<std::string> measurement_identifier(const Metadata& metadata);
+
+/// Whether two files may belong to one measurement: their identifiers are equal, or, with a mapping, the referring
+/// one's starts with the basin's (programs that export a part of a recording append to it). True if one has none.
 bool same_measurement(const Metadata& referring, const Metadata& basin, bool mapped);
 
 }  // namespace rheocyte

@@ -71,6 +71,9 @@ class Recording {
   void open_feature(const std::string& name);
   void open_basins(std::set<std::filesystem::path>& opened);
   void add_basin(const std::string& json, std::set<std::filesystem::path>& opened);
+  /// Why not; empty if the basin can be read from this file.
+  std::string open_basin_file(const std::filesystem::path& file, Basin& basin,
+                              std::set<std::filesystem::path>& opened) const;
   const Basin* basin_with(const std::string& feature) const;
   static bool is_in(const Basin& basin, const std::string& feature);
   static void read_through(const Basin& basin, const std::string& feature, std::size_t first, std::span<double> values);

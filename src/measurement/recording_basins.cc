@@ -76,27 +76,31 @@ void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
     c.basins.push_back(std::move(basin));
     return;
   }
-  const auto file = find_basin_file(*definition, c.path);
+  std::string reason = "its file was not found";
+  for (const auto& file : basin_files(*definition, c.path)) {
+    reason = open_basin_file(file, basin, opened);
+    if (!reason.empty()) continue;
+    c.bytes_with_basins += basin.recording->content_->bytes_with_basins;
+    // A file may consist of basins alone.
+    if (c.events == 0) c.events = basin.mapping ? basin.mapping->size() : basin.recording->events();
+    c.basins.push_back(std::move(basin));
+    return;
+  }
+  c.remarks.push_back(fmt::format("the basin \"{}\" is not used: {}.", name, reason));
+}
+
+std::string Recording::open_basin_file(const fs::path& file, Basin& basin, std::set<fs::path>& opened) const {
   std::error_code error;
-  if (!file || opened.contains(fs::weakly_canonical(*file, error))) {
-    c.remarks.push_back(fmt::format("the basin \"{}\" is not used: {}.", name,
-                                    file ? "it leads back to a file that is open" : "its file was not found"));
-    return;
-  }
+  if (opened.contains(fs::weakly_canonical(file, error))) return "it leads back to a file that is open";
   try {
-    basin.recording.reset(new Recording(*file, opened));
+    basin.recording.reset(new Recording(file, opened));
   } catch (const UserError& problem) {
-    c.remarks.push_back(fmt::format("the basin \"{}\" is not used: {}", name, problem.what()));
-    return;
+    const std::string sentence = problem.what();
+    return sentence.substr(0, sentence.find_last_not_of('.') + 1);
   }
-  if (!same_measurement(c.metadata, basin.recording->metadata(), basin.mapping.has_value())) {
-    c.remarks.push_back(fmt::format("the basin \"{}\" is not used: it belongs to another measurement.", name));
-    return;
-  }
-  c.bytes_with_basins += basin.recording->content_->bytes_with_basins;
-  // A file may consist of basins alone.
-  if (c.events == 0) c.events = basin.mapping ? basin.mapping->size() : basin.recording->events();
-  c.basins.push_back(std::move(basin));
+  if (!same_measurement(content_->metadata, basin.recording->metadata(), basin.mapping.has_value()))
+    return "it belongs to another measurement";
+  return {};
 }
 
 bool Recording::is_in(const Basin& basin, const std::string& feature) {

@@ -9,6 +9,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string json(text);
     const auto definition = rheocyte::read_basin_definition(json);
     rheocyte::name_of_remote_basin(json);
-    if (definition) rheocyte::find_basin_file(*definition, "no-such-folder/recording.rtdc");
+    if (definition) rheocyte::basin_files(*definition, "no-such-folder/recording.rtdc");
   });
 }

@@ -2,6 +2,7 @@
 #include "measurement/basin.h"
 
 #include <cmath>
+#include <map>
 
 #include "case/user_error.h"
 #include "measurement/recording.h"
@@ -21,20 +22,23 @@ std::vector<double> column(const Recording& recording, const std::string& featur
   return values;
 }
 
-void write_original(const std::filesystem::path& file, const std::string& time = "12:34:56") {
-  RecordingWriter writer(file);
+void write_setup(RecordingWriter& writer, const std::string& time = "12:34:56") {
   writer.text("experiment:time", time);
   writer.text("experiment:date", "2026-01-31");
+  writer.text("setup:identifier", "RC-ZMD");
+}
+
+void write_original(const std::filesystem::path& file, const std::string& time = "12:34:56") {
+  RecordingWriter writer(file);
+  write_setup(writer, time);
   writer.scalar("deform", {0.0, 0.1, 0.2, 0.3, 0.4, 0.5});
   writer.scalar("area_um", {0, 10, 20, 30, 40, 50});
   writer.images("mask", {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}, 1, 2);
   for (int i = 0; i < 6; ++i) writer.contour({i, i, i, 2 * i});
 }
 
-void write_referring(RecordingWriter& writer) {
-  writer.text("experiment:time", "12:34:56");
-  writer.text("experiment:date", "2026-01-31");
-}
+// By Python: uuid.UUID(hex=hashlib.md5(b"12:34:56_2026-01-31_RC-ZMD").hexdigest())
+constexpr const char* identifier_of_setup = "ceb6fc8f-fe03-c501-f3b1-5285289dd7da";
 
 TEST(Basin, ItsDefinitionSurvivesWritingAndReading) {
   std::string json;
@@ -63,7 +67,7 @@ TEST(Basin, FeaturesOfAnotherFileAreFoundBesideTheReferringOne) {
   write_original(folder / "original.rtdc");
   {
     RecordingWriter writer(folder / "companion.rtdc");
-    write_referring(writer);
+    write_setup(writer);
     writer.scalar("emodulus", {1, 2, 3, 4, 5, 6});
     writer.scalar("area_um", {7, 7, 7, 7, 7, 7});
     writer.lines("basins/x", file_basin_lines("raw", {"/nowhere/original.rtdc", "original.rtdc"}));
@@ -88,7 +92,7 @@ TEST(Basin, NamesOfAnyBytesAreFoundAgain) {
     EXPECT_EQ(read_basin_definition(json).value().paths, std::vector<std::string>{name});
     {
       RecordingWriter writer(folder / "companion.rtdc");
-      write_referring(writer);
+      write_setup(writer);
       writer.lines("basins/x", file_basin_lines("raw", {name}));
     }
     EXPECT_TRUE(Recording(folder / "companion.rtdc").has_scalar("deform")) << name;
@@ -97,12 +101,75 @@ TEST(Basin, NamesOfAnyBytesAreFoundAgain) {
       << "as Python writes the names of files (PEP 383)";
 }
 
+TEST(Basin, AMeasurementIsNamedByItsRunElseByTheDigestOfItsSetup) {
+  std::map<std::string, Metadata::Value> values{
+      {"experiment:time", "12:34:56"}, {"experiment:date", "2026-01-31"}, {"setup:identifier", "RC-ZMD"}};
+  EXPECT_EQ(measurement_identifier(Metadata(values)), identifier_of_setup);
+  values["experiment:run identifier"] = "";
+  EXPECT_EQ(measurement_identifier(Metadata(values)), identifier_of_setup);
+  values["experiment:run identifier"] = "mine";
+  EXPECT_EQ(measurement_identifier(Metadata(values)), "mine");
+  values = {{"experiment:time", "12:34:56"}};
+  EXPECT_FALSE(measurement_identifier(Metadata(values))) << "incomplete";
+}
+
+TEST(Basin, AFilteredExportBelongsToItsOriginal) {
+  // The field's programs append to the identifier of the original, also where that has none of its own.
+  const ScratchFolder folder;
+  write_original(folder / "original.rtdc");
+  const auto events_of_export = [&](const std::string& identifier, const std::string& mapping) {
+    {
+      RecordingWriter writer(folder / "export.rtdc");
+      write_setup(writer);
+      writer.text("experiment:run identifier", identifier);
+      writer.scalar("basinmap0", {5, 1}, H5T_STD_I64LE);
+      writer.lines("basins/x", {R"({"type": "file", "format": "hdf5", "name": "raw", "paths": ["original.rtdc"],)",
+                                R"("mapping": ")" + mapping + "\"}"});
+    }
+    const Recording recording(folder / "export.rtdc");
+    return recording.has_scalar("deform") ? column(recording, "deform") : std::vector<double>();
+  };
+  const std::string identifier = identifier_of_setup;
+  EXPECT_EQ(events_of_export(identifier + "_dclab-1a2b3c4", "basinmap0"), (std::vector<double>{0.5, 0.1}));
+  EXPECT_TRUE(events_of_export("another_dclab-1a2b3c4", "basinmap0").empty());
+  EXPECT_TRUE(events_of_export(identifier + "_dclab-1a2b3c4", "same").empty()) << "without a map, all of it must agree";
+}
+
+TEST(Basin, FilesWithoutAnIdentifierAreTakenAsTheyAre) {
+  const ScratchFolder folder;
+  write_original(folder / "original.rtdc");
+  {
+    RecordingWriter writer(folder / "a.rtdc");
+    writer.text("experiment:time", "00:00:00");
+    writer.scalar("userdef0", {1, 2, 3, 4, 5, 6});
+    writer.lines("basins/x", file_basin_lines("raw", {"original.rtdc"}));
+  }
+  EXPECT_TRUE(Recording(folder / "a.rtdc").has_scalar("deform"));
+}
+
+TEST(Basin, TheNextPathIsTriedAfterAFileOfAnotherMeasurementAndTheFoldersOfOtherSystemsAreForgotten) {
+  const ScratchFolder folder;
+  write_original(folder / "other.rtdc", "00:00:00");
+  write_original(folder / "original.rtdc");
+  for (const std::string path : {"D:\\data\\day 1\\original.rtdc", "/moved/away/original.rtdc"}) {
+    {
+      RecordingWriter writer(folder / "a.rtdc");
+      write_setup(writer);
+      writer.scalar("userdef0", {1, 2, 3, 4, 5, 6});
+      writer.lines("basins/x", file_basin_lines("raw", {"other.rtdc", path}));
+    }
+    const Recording recording(folder / "a.rtdc");
+    EXPECT_TRUE(recording.has_scalar("deform")) << path;
+    EXPECT_TRUE(recording.remarks().empty());
+  }
+}
+
 TEST(Basin, AMapPicksTheEvents) {
   const ScratchFolder folder;
   write_original(folder / "original.rtdc");
   {
     RecordingWriter writer(folder / "subset.rtdc");
-    write_referring(writer);
+    write_setup(writer);
     writer.scalar("basinmap0", {5, 1, 2, 99}, H5T_STD_U64LE);
     writer.lines("basins/x", {R"({"type": "file", "format": "hdf5", "name": "raw", "paths": ["original.rtdc"],)",
                               R"("features": ["deform", "mask", "contour"], "mapping": "basinmap0"})"});
@@ -137,7 +204,7 @@ TEST(Basin, ARemoteOneIsNamedAndNotRead) {
   const ScratchFolder folder;
   {
     RecordingWriter writer(folder / "a.rtdc");
-    write_referring(writer);
+    write_setup(writer);
     writer.scalar("userdef0", {1, 2, 3, 4, 5, 6});
     writer.lines("basins/0",
                  {R"({"type": "remote", "format": "http", "name": "store",)", R"("urls": ["https://x.org/a"]})"});
@@ -156,7 +223,7 @@ TEST(Basin, AnotherMeasurementAMissingFileOrALoopIsARemark) {
   write_original(folder / "other.rtdc", "00:00:00");
   {
     RecordingWriter writer(folder / "a.rtdc");
-    write_referring(writer);
+    write_setup(writer);
     writer.scalar("userdef0", {1, 2, 3, 4, 5, 6});
     writer.lines("basins/0", file_basin_lines("other", {"other.rtdc"}));
     writer.lines("basins/1", file_basin_lines("missing", {"missing.rtdc"}));
