@@ -87,17 +87,17 @@ Recording::Recording(Recording&&) noexcept = default;
 Recording& Recording::operator=(Recording&&) noexcept = default;
 
 Recording::Recording(const fs::path& file) {
-  std::set<fs::path> opened;
-  *this = Recording(file, opened);
+  std::error_code error;
+  Opening opening{.chain = {fs::weakly_canonical(file, error)}};
+  *this = Recording(file, opening);
 }
 
-Recording::Recording(const fs::path& file, std::set<fs::path>& opened) : content_(std::make_unique<Content>()) {
+Recording::Recording(const fs::path& file, Opening& opening) : content_(std::make_unique<Content>()) {
   Content& c = *content_;
   c.path = file;
   c.file = open_file(file);
   std::error_code error;
   c.bytes = c.bytes_with_basins = fs::file_size(file, error);
-  opened.insert(fs::weakly_canonical(file, error));
   c.metadata = read_attributes(c.file.get());
   c.events_group = open_group(c.file.get(), "events");
   if (leads_to_another_file(c.file.get(), "events"))
@@ -110,7 +110,7 @@ Recording::Recording(const fs::path& file, std::set<fs::path>& opened) : content
   c.contours = open_group(c.events_group.get(), "contour");
   c.events = usual_length(c.scalars);
   if (c.events == 0) c.events = usual_length(c.images);
-  open_basins(opened);
+  open_basins(opening);
   if (c.events == 0) refuse(file, "holds no events.");
   if (double(c.events) > reading_limits.events_per_byte * double(c.bytes_with_basins))
     refuse(file, fmt::format("is damaged: it claims {} events, more than its {} bytes can hold.", c.events,

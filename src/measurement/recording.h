@@ -67,13 +67,17 @@ class Recording {
  private:
   struct Content;
   struct Basin;
-  explicit Recording(const std::filesystem::path& file, std::set<std::filesystem::path>& opened);
+  /// While files and the basins of basins are opened.
+  struct Opening {
+    std::set<std::filesystem::path> chain;  ///< from the recording to this basin
+    int files = 0;                          ///< in all
+  };
+  explicit Recording(const std::filesystem::path& file, Opening& opening);
   void open_feature(const std::string& name);
-  void open_basins(std::set<std::filesystem::path>& opened);
-  void add_basin(const std::string& json, std::set<std::filesystem::path>& opened);
+  void open_basins(Opening& opening);
+  void add_basin(const std::string& json, Opening& opening);
   /// Why not; empty if the basin can be read from this file.
-  std::string open_basin_file(const std::filesystem::path& file, Basin& basin,
-                              std::set<std::filesystem::path>& opened) const;
+  std::string open_basin_file(const std::filesystem::path& file, Basin& basin, Opening& opening) const;
   const Basin* basin_with(const std::string& feature) const;
   static bool is_in(const Basin& basin, const std::string& feature);
   static void read_through(const Basin& basin, const std::string& feature, std::size_t first, std::span<double> values);

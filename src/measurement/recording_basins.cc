@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t greatest_number_of_basins = 16;
+constexpr int greatest_number_of_files = 64;  // basins of basins included
 constexpr const char* internal_group = "basin_events";
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -25,7 +26,7 @@ std::string joined(const std::vector<std::string>& lines) {
 
 }  // namespace
 
-void Recording::open_basins(std::set<fs::path>& opened) {
+void Recording::open_basins(Opening& opening) {
   Content& c = *content_;
   const Hdf5Handle group = open_group(c.file.get(), "basins");
   auto names = group ? member_names(group.get()) : std::nullopt;
@@ -38,11 +39,11 @@ void Recording::open_basins(std::set<fs::path>& opened) {
   for (const auto& name : *names) {
     const Hdf5Handle dataset = open_dataset(group.get(), name);
     const auto lines = dataset ? read_lines(dataset.get(), c.bytes) : std::nullopt;
-    if (lines) add_basin(joined(*lines), opened);
+    if (lines) add_basin(joined(*lines), opening);
   }
 }
 
-void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
+void Recording::add_basin(const std::string& json, Opening& opening) {
   Content& c = *content_;
   const auto definition = read_basin_definition(json);
   if (!definition) {
@@ -78,7 +79,7 @@ void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
   }
   std::string reason = "its file was not found";
   for (const auto& file : basin_files(*definition, c.path)) {
-    reason = open_basin_file(file, basin, opened);
+    reason = open_basin_file(file, basin, opening);
     if (!reason.empty()) continue;
     c.bytes_with_basins += basin.recording->content_->bytes_with_basins;
     // A file may consist of basins alone.
@@ -89,15 +90,20 @@ void Recording::add_basin(const std::string& json, std::set<fs::path>& opened) {
   c.remarks.push_back(fmt::format("the basin \"{}\" is not used: {}.", name, reason));
 }
 
-std::string Recording::open_basin_file(const fs::path& file, Basin& basin, std::set<fs::path>& opened) const {
+std::string Recording::open_basin_file(const fs::path& file, Basin& basin, Opening& opening) const {
   std::error_code error;
-  if (opened.contains(fs::weakly_canonical(file, error))) return "it leads back to a file that is open";
+  const auto link = opening.chain.insert(fs::weakly_canonical(file, error));
+  if (!link.second) return "it leads back to a file that is open";
+  std::string problem;
   try {
-    basin.recording.reset(new Recording(file, opened));
-  } catch (const UserError& problem) {
-    const std::string sentence = problem.what();
-    return sentence.substr(0, sentence.find_last_not_of('.') + 1);
+    if (++opening.files > greatest_number_of_files) throw UserError("its files refer to too many others");
+    basin.recording.reset(new Recording(file, opening));
+  } catch (const UserError& refusal) {
+    problem = refusal.what();
+    problem.resize(problem.find_last_not_of('.') + 1);
   }
+  opening.chain.erase(link.first);
+  if (!problem.empty()) return problem;
   if (!same_measurement(content_->metadata, basin.recording->metadata(), basin.mapping.has_value()))
     return "it belongs to another measurement";
   return {};

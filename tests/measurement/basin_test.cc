@@ -164,6 +164,21 @@ TEST(Basin, TheNextPathIsTriedAfterAFileOfAnotherMeasurementAndTheFoldersOfOther
   }
 }
 
+TEST(Basin, TwoWaysToOneFileAreNoLoop) {
+  const ScratchFolder folder;
+  write_original(folder / "original.rtdc");
+  for (const std::string name : {"b.rtdc", "a.rtdc"}) {  // a refers to b, too, as an export of an export does
+    RecordingWriter writer(folder / name);
+    write_setup(writer);
+    writer.scalar("userdef0", {1, 2, 3, 4, 5, 6});
+    if (name == "a.rtdc") writer.lines("basins/0", file_basin_lines("export", {"b.rtdc"}));
+    writer.lines("basins/1", file_basin_lines("raw", {"original.rtdc"}));
+  }
+  const Recording recording(folder / "a.rtdc");
+  EXPECT_TRUE(recording.remarks().empty());
+  EXPECT_TRUE(recording.has_scalar("deform"));
+}
+
 TEST(Basin, AMapPicksTheEvents) {
   const ScratchFolder folder;
   write_original(folder / "original.rtdc");
