@@ -109,7 +109,7 @@ void add_synth_command(CLI::App& app, int& exit_code) {
   command->add_flag("--force", options->force, "replace a file that is there");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
   command->callback([options, &exit_code] {
-    watch_signals();
+    watch_signals(SecondSignal::waits);
     exit_code = run(*options);
   });
 }

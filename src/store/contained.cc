@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -15,6 +16,7 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <system_error>
 
 #include "case/user_error.h"
@@ -74,10 +76,35 @@ void limit(const Containment& limits) {
 #endif
 }
 
+constexpr std::array stopping_signals{SIGINT, SIGTERM, SIGHUP};
+
+/// Signals that ask the program to stop wait as long as this object lives: until a new process has said what it does
+/// about them.
+class SignalsHeldBack {
+ public:
+  SignalsHeldBack() {
+    sigset_t stopping;
+    ::sigemptyset(&stopping);
+    for (const int signal : stopping_signals) ::sigaddset(&stopping, signal);
+    ::sigprocmask(SIG_BLOCK, &stopping, &before_);
+  }
+  ~SignalsHeldBack() { let_through(); }
+  SignalsHeldBack(const SignalsHeldBack&) = delete;
+  SignalsHeldBack& operator=(const SignalsHeldBack&) = delete;
+  void let_through() const { ::sigprocmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t before_{};
+};
+
 [[noreturn]] void be_the_child(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
-                               int pipe) {
+                               int pipe, const SignalsHeldBack& signals) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGABRT}) std::signal(signal, SIG_DFL);
+  // A terminal sends its signals to all processes. The parent answers them; a child that died of them would look like
+  // one that broke down.
+  for (const int signal : stopping_signals) std::signal(signal, SIG_IGN);
+  for (const int signal : {SIGSEGV, SIGABRT}) std::signal(signal, SIG_DFL);
+  signals.let_through();
   pipe_to_parent = pipe;
   std::set_new_handler(tell_of_no_memory);
   // The C library writes about broken memory to standard error, which would frighten more than it helps.
@@ -154,8 +181,16 @@ class Inbox {
 ContainedEnd conclude(const Inbox& inbox, int status) {
   if (WIFEXITED(status) && inbox.has_end()) return inbox.end();
   // A breakdown after the result (when HDF5 closes) does not make the result good: files may be incomplete.
-  if (WIFSIGNALED(status)) return {Kind::broke_down, ::strsignal(WTERMSIG(status))};
+  if (WIFSIGNALED(status))
+    return {WTERMSIG(status) == SIGKILL ? Kind::killed : Kind::broke_down, ::strsignal(WTERMSIG(status))};
   return {Kind::broke_down, "it ended without a result"};
+}
+
+// What waits for a drive that does not answer cannot be killed before that does; it is not waited for then.
+void kill_child(pid_t child) {
+  constexpr int rounds = 100, pause_ms = 10;
+  ::kill(child, SIGKILL);
+  for (int i = 0; i < rounds && ::waitpid(child, nullptr, WNOHANG) == 0; ++i) ::poll(nullptr, 0, pause_ms);
 }
 
 ContainedEnd watch(pid_t child, int pipe, double patience_s, const TellProgress& on_progress) {
@@ -170,8 +205,7 @@ ContainedEnd watch(pid_t child, int pipe, double patience_s, const TellProgress&
     }
     const bool hangs = std::chrono::duration<double>(Clock::now() - last_word).count() > patience_s;
     if (!hangs && !stop_wanted()) continue;
-    ::kill(child, SIGKILL);
-    wait_for(child);
+    kill_child(child);
     return {stop_wanted() ? Kind::stopped : Kind::hung, {}};
   }
 }
@@ -183,6 +217,7 @@ ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgr
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   std::fflush(nullptr);
+  std::optional<SignalsHeldBack> signals(std::in_place);
   const pid_t child = ::fork();
   if (child < 0) {
     ::close(ends[0]);
@@ -191,8 +226,9 @@ ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgr
   }
   if (child == 0) {
     ::close(ends[0]);
-    be_the_child(work, limits, ends[1]);
+    be_the_child(work, limits, ends[1], *signals);
   }
+  signals.reset();
   ::close(ends[1]);
   ContainedEnd end = watch(child, ends[0], limits.patience_s, on_progress);
   ::close(ends[0]);
@@ -211,6 +247,9 @@ std::string sentence_for(const std::filesystem::path& recording, const Contained
           "{}: nothing could be read for {} s; it is damaged, or its drive does not answer (--patience "
           "waits longer).",
           name, patience_s);
+    case Kind::killed:
+      return fmt::format("{}: reading it was ended from outside ({}), perhaps for want of memory; try again.", name,
+                         one_line(end.text, 100));
     case Kind::broke_down:
       return fmt::format(
           "{}: the HDF5 library broke down while reading it ({}); it is damaged, copy it once more from "

@@ -23,6 +23,7 @@ struct ContainedEnd {
     user_error,  ///< `text` is the sentence
     own_error,   ///< another exception; `text` says which
     broke_down,  ///< a signal ended it; `text` names it
+    killed,      ///< by somebody else, for example by the system that is short of memory; `text` names the signal
     no_memory,   ///< the limit was reached
     hung,        ///< killed, because it was silent for too long
     stopped      ///< killed, because the user wants to stop
@@ -45,8 +46,8 @@ ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgr
                                  const TellProgress& on_progress);
 
 /// Forks, runs `work` in the child, where it may tell its progress, and returns what became of it; the result comes
-/// back as bytes (store/bytes.h). The child prints nothing. `on_progress` is called in the parent. The process must
-/// have a single thread.
+/// back as bytes (store/bytes.h). The child prints nothing; it does not see SIGINT, SIGTERM and SIGHUP and is killed
+/// when the parent has got one. `on_progress` is called in the parent. The process must have a single thread.
 template <class Work>
 auto run_contained(const Work& work, const Containment& limits, const TellProgress& on_progress) {
   using Result = std::invoke_result_t<const Work&, const TellProgress&>;

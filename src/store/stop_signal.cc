@@ -17,10 +17,11 @@ extern "C" void note_signal(int number) {
 
 }  // namespace
 
-void watch_signals() {
+void watch_signals(SecondSignal second) {
   struct sigaction action {};
   action.sa_handler = note_signal;
-  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  action.sa_flags = SA_RESTART;
+  if (second == SecondSignal::ends) action.sa_flags |= static_cast<int>(SA_RESETHAND);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
   // Under nohup the user wants it to go on without a terminal.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "case/user_error.h"
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 namespace {
@@ -64,6 +65,39 @@ TEST(Contained, ACrashIsNamed) {
 
 TEST(Contained, AProcessThatEndsWithoutAResultHasBrokenDown) {
   EXPECT_EQ(end_of([](const TellProgress&) -> std::string { ::_exit(0); }).kind, Kind::broke_down);
+}
+
+TEST(Contained, SignalsToTheWholeProgramDoNotBreakTheWork) {
+  const auto end = end_of([](const TellProgress&) -> std::string {
+    std::raise(SIGINT);
+    std::raise(SIGTERM);
+    return "alive";
+  });
+  EXPECT_EQ(end.kind, Kind::finished);
+}
+
+TEST(Contained, AKillFromOutsideIsNoBreakdown) {
+  const auto end = end_of([](const TellProgress&) -> std::string {
+    std::raise(SIGKILL);
+    return "not reached";
+  });
+  EXPECT_EQ(end.kind, Kind::killed);
+}
+
+/// The end of work that sends signals to its parent and to itself, as a terminal does, and then hangs; the exit code of
+/// a process of its own.
+[[noreturn]] void exit_as_stopped_by_two_signals() {
+  watch_signals(SecondSignal::waits);
+  const auto end = end_of([](const TellProgress&) -> std::string {
+    for (const int signal : {SIGINT, SIGTERM})
+      for (const pid_t process : {::getppid(), ::getpid()}) ::kill(process, signal);
+    for (;;) ::pause();
+  });
+  std::_Exit(end.kind == Kind::stopped ? 0 : 1);
+}
+
+TEST(Contained, TwoSignalsInARowStopTheWorkAndTheParentLivesOnToTidyUp) {
+  EXPECT_EXIT(exit_as_stopped_by_two_signals(), testing::ExitedWithCode(0), "");
 }
 
 TEST(Contained, SilenceEndsAfterItsPatience) {
