@@ -27,8 +27,8 @@ class ExtractJob {
  public:
   explicit ExtractJob(const ExtractOptions& options)
       : options_(options),
-        tasks_(list_recordings(options.batch)),
-        summary_file_(summary_file(options.batch, tasks_)),
+        tasks_(tasks_of(options.batch)),
+        summary_file_(summary_file(options.batch)),
         tables_(options.table) {
     if (options.no_area_correction && !tables_.own())
       throw UserError(fmt::format(
@@ -38,7 +38,6 @@ class ExtractJob {
   }
 
   int run() {
-    make_folders(tasks_);
     const int exit_code = run_batch(tasks_, options_.batch, options_.measuring.patience_s, *this);
     if (was_stopped(exit_code)) return exit_code;
     write_own_file(summary_file_, summary_table(lines_), "recording\tevents\tvalid\t", Foreign::keep);
@@ -47,7 +46,10 @@ class ExtractJob {
     return exit_code;
   }
 
-  ExtractFiles files(const RecordingTask& task) const { return {task.output, !options_.no_tsv}; }
+  ExtractFiles files(const RecordingTask& task) const {
+    const std::string suffix(companion_suffix);
+    return {{task.result(suffix + ".rtdc"), task.result(suffix + ".tsv")}, !options_.no_tsv};
+  }
 
   ExtractSummary work(const RecordingTask& task, const ExtractFiles& files, const TellProgress& tell_progress) const {
     return extract_recording(task.recording, files, options_, tables_, tell_progress);
@@ -86,7 +88,7 @@ void add_extract_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("extract", "Young's moduli of the cells in recordings (.rtdc)");
   auto options = std::make_shared<ExtractOptions>();
   declare_extract_options(*command, *options, [options, &exit_code] {
-    watch_signals();
+    watch_signals(SecondSignal::waits);
     exit_code = ExtractJob(*options).run();
   });
 }

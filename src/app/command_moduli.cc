@@ -25,8 +25,7 @@ class ModuliJob {
   explicit ModuliJob(const ModuliOptions& options) : options_(options), table_(options) {}
 
   int run() {
-    const auto tasks = list_recordings(options_.batch);
-    make_folders(tasks);
+    const auto tasks = tasks_of(options_.batch);
     return run_batch(tasks, options_.batch, options_.measuring.patience_s, *this);
   }
 
@@ -55,9 +54,7 @@ class ModuliJob {
   void fail(const RecordingTask&, const std::string&) const {}
 
  private:
-  static std::filesystem::path file_for(const RecordingTask& task) {
-    return task.output.events.parent_path() / (task.recording.stem().string() + "_moduli.tsv");
-  }
+  static std::filesystem::path file_for(const RecordingTask& task) { return task.result("_moduli.tsv"); }
 
   const ModuliOptions& options_;
   ModuliTable table_;
@@ -81,7 +78,7 @@ void add_moduli_command(CLI::App& app, int& exit_code) {
                     "by area, deformation and Lambda1/Lambda2, the measures of the paper's figure 9");
   command->callback([options, &exit_code] {
     check_measuring_options(options->measuring);
-    watch_signals();
+    watch_signals(SecondSignal::waits);
     exit_code = ModuliJob(*options).run();
   });
 }

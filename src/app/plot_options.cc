@@ -9,6 +9,7 @@
 
 #include "app/extract_options.h"
 #include "case/user_error.h"
+#include "extract/recording_list.h"
 
 namespace rheocyte {
 
@@ -74,6 +75,7 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
   command.add_flag("--no-pixelation", options.no_pixelation, "draw the lines as they are without pixels");
   command.add_flag("--quiet", options.quiet, "print nothing but errors");
   command.callback([&options, run = std::move(run)] {
+    options.inputs = without_companions_of_others(options.inputs);
     check(options);
     run();
   });

@@ -2,21 +2,34 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <system_error>
 
 namespace rheocyte {
 
-void make_folders(std::span<const RecordingTask> tasks) {
-  for (const auto& task : tasks) {
-    const auto folder = task.output.companion.parent_path();
-    std::error_code error;
-    if (folder.empty() || std::filesystem::is_directory(folder, error)) continue;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-      throw UserError(
-          fmt::format("{}: the folder cannot be made ({}).", one_line(folder.string(), 300), error.message()));
-  }
+namespace fs = std::filesystem;
+
+ResultPlace::ResultPlace(const fs::path& folder, const fs::path& of_all) {
+  std::error_code error;
+  std::vector<fs::path> missing;
+  const fs::path top = (of_all / "result").lexically_normal().parent_path();
+  for (fs::path at = folder; !at.empty() && at != top && !fs::exists(at, error); at = at.parent_path())
+    missing.push_back(at);
+  if (!folder.empty() && !fs::is_directory(folder, error)) fs::create_directories(folder, error);
+  if (error)
+    throw UserError(
+        fmt::format("{}: the folder cannot be made ({}).", one_line(folder.string(), 300), error.message()));
+  made_.assign(missing.rbegin(), missing.rend());
+}
+
+ResultPlace::~ResultPlace() {
+  std::error_code not_empty;
+  for (; !made_.empty(); made_.pop_back()) fs::remove(made_.back(), not_empty);
+}
+
+std::vector<RecordingTask> tasks_of(const BatchOptions& options) {
+  RecordingList list = list_recordings(options);
+  if (!list.passed_over.empty() && !options.quiet) tell(passed_over_text(list.passed_over));
+  return std::move(list.tasks);
 }
 
 }  // namespace rheocyte

@@ -1,8 +1,10 @@
 // One call of a command on many recordings: each is read in a process of its own, so that a damaged one ends nothing
 // but itself.
 #pragma once
+#include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/exit_codes.h"
 #include "case/user_error.h"
@@ -12,8 +14,22 @@
 
 namespace rheocyte {
 
-/// Makes the folders in which the results go. UserError.
-void make_folders(std::span<const RecordingTask> tasks);
+/// The folder of a result, below that of all results, while the result is written. Folders that were made for it and
+/// are empty in the end go again; that of all results stays, in which other calls may be about to write.
+class ResultPlace {
+ public:
+  /// Makes the folder. UserError.
+  ResultPlace(const std::filesystem::path& folder, const std::filesystem::path& of_all);
+  ~ResultPlace();
+  ResultPlace(const ResultPlace&) = delete;
+  ResultPlace& operator=(const ResultPlace&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< the deepest last
+};
+
+/// The recordings of one call; says what was passed over, unless it is to be quiet. UserError as list_recordings.
+std::vector<RecordingTask> tasks_of(const BatchOptions& options);
 
 /// Runs a job on the recordings in turn and returns the exit code: of a failure, if there was any, else of a recording
 /// without any result. The job says by
@@ -27,6 +43,7 @@ int run_batch(std::span<const RecordingTask> tasks, const BatchOptions& options,
   for (const auto& task : tasks) {
     std::string sentence;
     try {
+      const ResultPlace place(task.results.parent_path(), options.folder);
       auto files = job.files(task);
       const auto work = [&](const TellProgress& tell_progress) { return job.work(task, files, tell_progress); };
       Containment limits;

@@ -128,7 +128,40 @@ TEST_F(Extract, SearchesFoldersAndKeepsTheirNames) {
   const auto again = extract({"-r", path("data")});
   EXPECT_NE(again.out.find("2 of 2 recordings"), std::string::npos) << again.out;
   expect_refusal({path("data")}, "give -r");
-  expect_refusal({path("data/day1/M1.rtdc"), path("data/day2/M1.rtdc"), "-o", path("out")}, "results of one name");
+}
+
+TEST_F(Extract, ResultsAmongTheGivenFilesAreNoRecordings) {
+  write_recording("a.rtdc");
+  EXPECT_EQ(extract({path("a.rtdc")}).exit_code, 0);
+  const auto again = extract({path("a.rtdc"), path("a_rheocyte.rtdc"), path("a.rtdc")});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.out.find("1 of 1 recordings"), std::string::npos) << again.out;
+  EXPECT_NE(again.err.find("a_rheocyte.rtdc: is a result of this program and was passed over."), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "a_rheocyte_rheocyte.rtdc"));
+  expect_refusal({path("a_rheocyte.rtdc")}, "is a result of this program, as its name says; give the recording");
+}
+
+TEST_F(Extract, RecordingsOfOneNameAreToldApartByTheirFolders) {
+  for (const std::string day : {"day1", "day2"}) {
+    fs::create_directories(folder_ / day);
+    write_recording(day + "/M1.rtdc");
+  }
+  write_recording("M2.rtdc");
+  const auto ended =
+      extract({path("day1/M1.rtdc"), path("day2/M1.rtdc"), path("M2.rtdc"), "-o", path("out"), "--quiet"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  for (const std::string name : {"day1_M1", "day2_M1", "M2"})
+    EXPECT_TRUE(fs::exists(folder_ / ("out/" + name + "_rheocyte.rtdc"))) << name;
+}
+
+TEST_F(Extract, FoldersWithoutResultsAreNotLeftBehind) {
+  fs::create_directories(folder_ / "data/day1");
+  fs::create_directories(folder_ / "data/day2");
+  std::ofstream(folder_ / "data/day1/bad.rtdc") << "no recording";
+  write_recording("data/day2/good.rtdc");
+  EXPECT_EQ(extract({"-r", path("data"), "-o", path("out")}).exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "out/day1"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/day2/good_rheocyte.rtdc"));
 }
 
 TEST_F(Extract, ABadRecordingDoesNotKeepTheOthersBack) {
