@@ -21,11 +21,11 @@ TableRow end_row(const RadiusBranches& radius) {
   return row;
 }
 
-void add_rows(LookupTable& table, const RadiusBranches& radius, const std::vector<double>& levels) {
+std::vector<TableRow> rows_at(const TableSpec& spec, const RadiusBranches& radius, const std::vector<double>& levels) {
   std::vector<TableRow> rows;
   for (const double level : levels) {
     const auto state = radius.at_deformation(level);
-    if (!state || (state->regularised && table.spec.bending_beyond_kBT == 0)) continue;
+    if (!state || (state->regularised && spec.bending_beyond_kBT == 0)) continue;
     rows.push_back(row_at(radius, *state));
     rows.back().value(int(Measure::deformation)) = level;
   }
@@ -37,8 +37,19 @@ void add_rows(LookupTable& table, const RadiusBranches& radius, const std::vecto
     rows.push_back(end_row(radius));
   }
   std::ranges::stable_sort(rows, {}, [](const TableRow& row) { return row.at(Measure::deformation); });
-  for (auto& row : rows)
-    if (is_inside(table.spec, row)) table.rows.push_back(std::move(row));
+  std::erase_if(rows, [&](const TableRow& row) { return !is_inside(spec, row); });
+  return rows;
+}
+
+// Every other column has its rows between those of its neighbours. Rows at one level would be corners of rectangles,
+// whose four corners lie on one circle: which diagonal divides them would be left to rounding, in each program and at
+// each channel width another.
+std::vector<double> levels_of_column(const std::vector<double>& levels, std::size_t column) {
+  if (column % 2 == 0) return levels;
+  std::vector<double> between{levels.front()};
+  for (std::size_t k = 1; k < levels.size(); ++k) between.push_back(std::sqrt(levels[k - 1] * levels[k]));
+  between.push_back(levels.back());
+  return between;
 }
 
 // The last bare states of those radii whose rows go on with bending.
@@ -63,23 +74,27 @@ struct LutPoint {
   bool regularised;
 };
 
-std::vector<LutPoint> points_of_rows(const LookupTable& table) {
+// Spheres of one radius have one volume.
+std::vector<LutPoint> points_by_volume(const LookupTable& table) {
+  const auto levels = deformation_levels(table.spec);
   std::vector<LutPoint> points;
-  for (const auto& row : table.rows)
-    points.push_back(
-        {{row.at(Measure::volume_um3), row.at(Measure::deformation), row.state.stiffness}, row.state.regularised});
+  for (std::size_t i = 0; i < table.radii.size(); ++i)
+    for (const auto& row : rows_at(table.spec, table.radii[i], levels_of_column(levels, i)))
+      points.push_back(
+          {{row.at(Measure::volume_um3), row.at(Measure::deformation), row.state.stiffness}, row.state.regularised});
   return points;
 }
 
 // As many areas as there are radii, by equal steps of the root, and the ends of the branches if the table ends there.
-std::vector<LutPoint> upright_points(const LookupTable& table) {
+std::vector<LutPoint> points_by_area(const LookupTable& table) {
   const TableSpec& spec = table.spec;
   const double first = std::sqrt(spec.least_area_um2), last = std::sqrt(spec.greatest_area_um2);
+  const auto levels = deformation_levels(spec);
   std::vector<LutPoint> points;
   for (int i = 0; i < spec.radii; ++i) {
     const double root = first + (last - first) * i / (spec.radii - 1);
     const double area = std::clamp(root * root, spec.least_area_um2, spec.greatest_area_um2);
-    for (const double level : deformation_levels(spec))
+    for (const double level : levels_of_column(levels, std::size_t(i)))
       if (const auto answer = table.between.by_area(area, level); answer.reason == NoAnswer::none)
         points.push_back({{area, level, answer.stiffness}, answer.regularised});
   }
@@ -124,7 +139,8 @@ LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBran
                               std::string_view version) {
   LookupTable table{spec, std::string(version), by_radius(branches), TableInterpolation(spec, branches), {}};
   const auto levels = deformation_levels(spec);
-  for (const auto& radius : table.radii) add_rows(table, radius, levels);
+  for (const auto& radius : table.radii)
+    std::ranges::move(rows_at(spec, radius, levels), std::back_inserter(table.rows));
   return table;
 }
 
@@ -156,7 +172,7 @@ std::string lut_text(const LookupTable& table, Abscissa abscissa) {
   const bool by_area = abscissa == Abscissa::area;
   TableText text = empty_text(table, abscissa);
   if (!by_area) text.metadata[table_identifier_key] = table.spec.identifier + "-volume";
-  const auto points = by_area ? upright_points(table) : points_of_rows(table);
+  const auto points = by_area ? points_by_area(table) : points_by_volume(table);
   text.metadata["regularised_rows"] = std::ranges::count(points, true, &LutPoint::regularised);
   text.metadata["rows"] = points.size();
   for (const auto& point : points) text.rows.push_back(point.row);

@@ -46,9 +46,10 @@ std::vector<double> deformation_levels(const TableSpec& spec);
 /// spec asks for them. The branches must outlive the table; equal branches in any order give equal tables.
 LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBranch> branches, std::string_view version);
 
-/// The table in dclab's format, by columns of equal size and at the same deformations in all of them: programs put
-/// triangles between the points, and only upright columns keep these well-shaped at small deformations. Spheres of one
-/// radius have one volume; for areas the stiffness is interpolated between the branches.
+/// The table in dclab's format, by columns of equal size, at the same deformations in every other of them and halfway
+/// between in the rest: programs put triangles between the points, upright columns keep these well-shaped at small
+/// deformations, and staggered ones leave no diagonal to rounding. For areas the stiffness is interpolated between the
+/// branches.
 std::string lut_text(const LookupTable&, Abscissa);
 
 /// All measures of all rows with the shortest digits that give back the same numbers.
