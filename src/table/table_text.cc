@@ -122,7 +122,10 @@ class Reader {
       line = trim(line.substr(std::size_t(end - line.data())));
     }
     if (!line.empty()) refuse(place(), "holds more than three numbers.");
-    if (!(row[0] > 0) || !(row[2] > 0)) refuse(place(), "sizes and moduli must be positive.");
+    // Lines may begin where the cell has no size, as those of closed formulas do.
+    const bool may_be_zero = table_.metadata.contains(lines_identifier_key);
+    if (!(row[0] > 0 || (row[0] == 0 && may_be_zero)) || !(row[2] > 0))
+      refuse(place(), "sizes and moduli must be positive.");
     table_.rows.push_back(row);
   }
 

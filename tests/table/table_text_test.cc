@@ -82,6 +82,7 @@ TEST(TableText, DamageIsNamedWithItsLine) {
   expect(replaced(good, "7.634000000e-02", "seven"), "lut.txt:21: does not hold three numbers");
   expect(replaced(good, "7.634000000e-02", "nan"), "does not hold three numbers");
   expect(replaced(good, "2.817470000e+01", "-2.8"), "lut.txt:21: sizes and moduli must be positive");
+  expect(replaced(good, "2.817470000e+01", "0"), "lut.txt:21: sizes and moduli must be positive");
   expect(replaced(good, "3.770000000e-01", "0"), "lut.txt:21: sizes and moduli must be positive");
   expect(replaced(good, "3.770000000e-01", "3.77e-01\t1"), "more than three numbers");
 }
