@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <limits>
 #include <system_error>
 
@@ -22,6 +24,15 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   throw UserError(fmt::format("{}: {}", one_line(file.string(), 300), reason));
 }
 
+// By the flags that HDF5 sets in the superblock of a file of its newest version and clears at the end.
+bool is_being_written(const fs::path& file) {
+  constexpr std::size_t version_at = 8, flags_at = 11;
+  constexpr unsigned char writing = 1, single_writer = 4;
+  std::array<char, flags_at + 1> head{};
+  std::ifstream(file, std::ios::binary).read(head.data(), head.size());
+  return head[version_at] == 3 && (static_cast<unsigned char>(head[flags_at]) & (writing | single_writer)) != 0;
+}
+
 Hdf5Handle open_file(const fs::path& file) {
   std::error_code error;
   const auto status = fs::status(file, error);
@@ -36,6 +47,10 @@ Hdf5Handle open_file(const fs::path& file) {
   if (::access(file.c_str(), R_OK) != 0) refuse(file, "cannot be read; check its permissions.");
   if (::H5Fis_hdf5(file.c_str()) <= 0)
     refuse(file, "is not an HDF5 file, or its first bytes are damaged; .rtdc recordings are HDF5 files.");
+  if (is_being_written(file))
+    refuse(file,
+           "is open for writing: its recording has not ended, or the program that made it broke down; wait for "
+           "the end, or free it with h5clear -s (of the HDF5 tools).");
   refuse(file, "is damaged or incomplete and cannot be opened; copy it once more from where it was recorded.");
 }
 
@@ -58,6 +73,11 @@ std::string missing_filter(hid_t dataset) {
 
 [[noreturn]] void refuse_data(const fs::path& file, const std::string& feature, hid_t dataset) {
   refuse(file, fmt::format("the feature {} cannot be read: {}.", one_line(feature, 60), missing_filter(dataset)));
+}
+
+std::size_t number_of_members(hid_t group) {
+  H5G_info_t info{};
+  return ::H5Gget_info(group, &info) < 0 ? 0 : info.nlinks;
 }
 
 bool is_picture(const DatasetShape& shape) {
@@ -110,6 +130,7 @@ Recording::Recording(const fs::path& file, Opening& opening) : content_(std::mak
   c.contours = open_group(c.events_group.get(), "contour");
   c.events = usual_length(c.scalars);
   if (c.events == 0) c.events = usual_length(c.images);
+  if (c.events == 0 && c.contours) c.events = number_of_members(c.contours.get());
   open_basins(opening);
   if (c.events == 0) refuse(file, "holds no events.");
   if (double(c.events) > reading_limits.events_per_byte * double(c.bytes_with_basins))

@@ -198,5 +198,32 @@ TEST(Recording, DataThatLieInOtherFilesAreNotFollowed) {
   EXPECT_TRUE(recording.has_scalar("deform"));
 }
 
+TEST(Recording, ContoursAloneAreEvents) {
+  const ScratchFolder folder;
+  {
+    RecordingWriter writer(folder / "a.rtdc");
+    for (int i = 0; i < 3; ++i) writer.contour({i, i, i, 2 * i});
+  }
+  const Recording recording(folder / "a.rtdc");
+  EXPECT_EQ(recording.events(), 3U);
+  EXPECT_EQ(recording.read_contour(2), (PixelContour{{2, 2}, {2, 4}}));
+}
+
+TEST(Recording, OneThatIsBeingWrittenIsNotCalledDamaged) {
+  const ScratchFolder folder;
+  const Hdf5Handle newest(::H5Pcreate(H5P_FILE_ACCESS));
+  ::H5Pset_libver_bounds(newest.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+  const Hdf5Handle file(::H5Fcreate((folder / "a.rtdc").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, newest.get()));
+  ASSERT_TRUE(file);
+  ASSERT_GE(::H5Fstart_swmr_write(file.get()), 0);
+  std::filesystem::copy_file(folder / "a.rtdc", folder / "seen.rtdc");  // as another process sees it
+  try {
+    const Recording recording(folder / "seen.rtdc");
+    FAIL() << "it is open for writing";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("is open for writing"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace rheocyte
