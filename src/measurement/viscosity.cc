@@ -42,6 +42,12 @@ constexpr std::array<std::pair<std::string_view, Medium>, 13> names_of_media{{
     {"water", Medium::water},
 }};
 
+std::string_view without_blanks_around(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const auto first = text.find_first_not_of(blanks);
+  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 std::string in_small_letters(std::string_view text) {
   std::string small(text);
   std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -96,7 +102,7 @@ void water_viscosity(const Source& celsius, Target& viscosity) {
 
 std::optional<Medium> medium_of_name(std::string_view name) {
   constexpr std::string_view suffix = " mc-pbs";
-  std::string wanted = in_small_letters(name);
+  std::string wanted = in_small_letters(without_blanks_around(name));
   if (wanted.ends_with('%')) wanted += suffix;
   const auto* const found = std::ranges::find(names_of_media, wanted, [](const auto& entry) { return entry.first; });
   return found == names_of_media.end() ? std::nullopt : std::optional(found->second);

@@ -9,11 +9,14 @@
 
 namespace rheocyte {
 
+/// Metadata of virtual recordings whose liquid has no name: its viscosity (mPa s).
+inline constexpr const char* viscosity_key = "user:rheocyte viscosity_mPas";
+
 /// Liquids with a known viscosity: methyl cellulose in phosphate-buffered saline, and water.
 enum class Medium { methyl_cellulose_049, methyl_cellulose_059, methyl_cellulose_083, water };
 
-/// The medium of a recording's metadata, capitals do not count: "CellCarrier", "0.49% MC-PBS", "0.5%", "CellCarrierB",
-/// "water", ...; nothing for any other name.
+/// The medium of a recording's metadata, capitals and blanks around it do not count: "CellCarrier", "0.49% MC-PBS",
+/// "0.5%", "CellCarrierB", "water", ...; nothing for any other name.
 std::optional<Medium> medium_of_name(std::string_view name);
 
 /// The concentration's usual name, e.g. "0.49% MC-PBS".

@@ -185,7 +185,10 @@ void write_metadata(const SynthSpec& spec, const RecordingProvenance& provenance
   file.add_metadata("setup:medium", spec.medium.empty() ? std::string("other") : spec.medium);
   file.add_metadata("setup:module composition", std::string("virtual"));
   file.add_metadata("setup:software version", provenance.program);
-  if (!spec.viscosity_mPas) file.add_metadata("setup:temperature", spec.temperature_C.mean);
+  if (spec.viscosity_mPas)
+    file.add_metadata(viscosity_key, *spec.viscosity_mPas);
+  else
+    file.add_metadata("setup:temperature", spec.temperature_C.mean);
 }
 
 void describe_truth(const SynthSpec& spec, const CellShapes& shapes, const VirtualRecording& result,

@@ -79,6 +79,7 @@ TEST(Viscosity, WithoutFlowAThinningLiquidHasNone) {
 }
 
 TEST(Viscosity, MediaAreKnownByAllTheirNames) {
+  EXPECT_EQ(medium_of_name(" CellCarrier "), Medium::methyl_cellulose_049) << "blanks around it do not count";
   for (const char* name : {"CellCarrier", "cellcarrier", "0.49% MC-PBS", "0.5%", "0.50%", "0.5% MC-PBS"})
     EXPECT_EQ(medium_of_name(name), Medium::methyl_cellulose_049) << name;
   for (const char* name : {"CellCarrierB", "CellCarrier B", "0.59% MC-PBS", "0.6%", "0.60%"})
