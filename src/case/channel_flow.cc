@@ -1,6 +1,7 @@
 #include "case/channel_flow.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "case/scales.h"
 
@@ -23,6 +24,11 @@ ChannelFlow channel_flow_of(const Case& c) {
           .rate_ul_s = c.flow.rate_ul_per_s.value(),
           .viscosity_mPas = effective_viscosity_mPas(c.flow, width),
           .exponent = c.flow.law == LiquidLaw::power_law ? c.flow.exponent.value() : 1};
+}
+
+double reynolds_number(double density_kg_per_m3, const ChannelFlow& at) {
+  const double R = tube_radius_per_channel_width * at.width_um * 1e-6, Q = at.rate_ul_s * 1e-9;
+  return density_kg_per_m3 * Q / (std::numbers::pi * R * at.viscosity_mPas * 1e-3);
 }
 
 ScaleFactors scale_factors(const ChannelFlow& from, const ChannelFlow& to) {

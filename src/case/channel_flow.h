@@ -18,6 +18,9 @@ struct ChannelFlow {
 /// g = 8 Q / L^3 (0.6671 + 0.2121 / n), by which RT-DC programs compare buffers and tables.
 ChannelFlow channel_flow_of(const Case&);
 
+/// rho Q / (pi R eta), with the mean speed and the radius R of the tube that stands for the channel.
+double reynolds_number(double density_kg_per_m3, const ChannelFlow&);
+
 /// By what lengths, areas, volumes, moduli of a bulk, moduli and tensions of a cortex, and the product of viscosity and
 /// flow rate are multiplied where a state moves from one channel to another; deformations stay. Exact without inertia
 /// and bending, between liquids of one exponent.

@@ -52,15 +52,10 @@ bool is_shear_thinning(const ordered_json& metadata) {
   return says_so || exponent_of(metadata) != 1;
 }
 
-// With the mean speed and the radius of the tube.
-double reynolds(double density_kg_per_m3, const ChannelFlow& at) {
-  const double R = tube_radius_per_channel_width * at.width_um * 1e-6, Q = at.rate_ul_s * 1e-9;
-  return density_kg_per_m3 * Q / (std::numbers::pi * R * at.viscosity_mPas * 1e-3);
-}
-
 double inertia_effect(const TableText& table, const ChannelFlow& to) {
   const double density = number_at(table.metadata, "/fluid_density");
-  return deformation_per_reynolds * std::abs(reynolds(density, to) - reynolds(density, channel_flow_of(table)));
+  return deformation_per_reynolds *
+         std::abs(reynolds_number(density, to) - reynolds_number(density, channel_flow_of(table)));
 }
 
 std::string text_of(const ChannelFlow& at) {
