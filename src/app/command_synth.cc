@@ -76,7 +76,7 @@ int run(const SynthOptions& options) {
   const std::string text = read_case_text(options.spec);
   for (const auto& remark :
        remarks_on_names(key_list(synth_keys()), given_keys(text, options.spec.string(), options.settings)))
-    tell(remark);
+    if (!options.quiet) tell(remark);
   SynthSpec spec = parse_synth_spec(text, options.spec.string(), options.settings);
   if (!spec.table.empty()) spec.table = options.spec.parent_path() / spec.table;  // an absolute one stays
   const auto shapes = shapes_of(spec);

@@ -26,8 +26,10 @@ CLI::Option* add_key_option(CLI::App& command, const KeyDescription& key, const 
   auto* option =
       add_key_option(command, key, spelling, fmt::format("{} ({})", key.sentence, allowed_values(key)), take);
   if (former.empty()) return option;
-  const auto take_and_tell = [spelling, former, take](double value) {
-    tell(fmt::format("rheocyte: {} is now called {}; this version still reads the old name.", former, spelling));
+  const auto take_and_tell = [&command, spelling, former, take](double value) {
+    const auto* const quiet = command.get_option_no_throw("--quiet");
+    if (!quiet || quiet->count() == 0)
+      tell(fmt::format("rheocyte: {} is now called {}; this version still reads the old name.", former, spelling));
     take(value);
   };
   add_key_option(command, key, former, "", take_and_tell)->group("")->excludes(option);
