@@ -58,7 +58,7 @@ struct Truth {
 
 void take(const std::string& line, const Truth& truth, std::map<std::string, Group>& groups) {
   std::istringstream fields(line);
-  std::vector<double> number(12, NAN);
+  std::vector<double> number(13, NAN);  // up to chi_squared
   std::string word;
   for (double& n : number) fields >> word, n = std::stod(word);
   fields >> word;
@@ -66,9 +66,9 @@ void take(const std::string& line, const Truth& truth, std::map<std::string, Gro
   for (const auto& name : {word, std::string("all")}) {
     Group& group = groups[name];
     ++group.cells;
-    group.young.take(number[3], number[4], truth.young.at(i));
-    group.cortex.take(number[5], number[6], truth.cortex.at(i));
-    group.stiffness.take(number[9], number[10], truth.young.at(i) + truth.cortex.at(i) / truth.radius.at(i));
+    group.young.take(number[4], number[5], truth.young.at(i));
+    group.cortex.take(number[6], number[7], truth.cortex.at(i));
+    group.stiffness.take(number[10], number[11], truth.young.at(i) + truth.cortex.at(i) / truth.radius.at(i));
   }
 }
 
