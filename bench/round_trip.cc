@@ -16,7 +16,8 @@ using namespace rheocyte;
 
 void report(const char* file) {
   const Recording recording(file);
-  const auto modulus = column(recording, "emodulus"), error = column(recording, "userdef1"),
+  const auto feature_of_error = recording.metadata().text("user:rheocyte standard error");
+  const auto modulus = column(recording, "emodulus"), error = column(recording, feature_of_error.value_or("")),
              truth = column(recording, "userdef2"), deformation = column(recording, "userdef4");
   std::vector<double> bias, share, depth;
   int covered = 0, within = 0;

@@ -13,7 +13,7 @@
 #include "extract/extract_recording.h"
 #include "extract/extract_summary.h"
 #include "extract/modulus_tables.h"
-#include "store/own_file.h"
+#include "extract/summary_table.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
@@ -21,6 +21,12 @@
 namespace rheocyte {
 
 namespace {
+
+std::string why_none(const ExtractSummary& s) {
+  if (s.counts[static_cast<std::size_t>(ModulusState::no_data)] == s.events)
+    return "no event has area, deformation and viscosity";
+  return fmt::format("all events lie outside the table {}{}", s.table, s.gates.empty() ? "" : " or the gates");
+}
 
 /// All recordings of one call.
 class ExtractJob {
@@ -39,9 +45,8 @@ class ExtractJob {
 
   int run() {
     const int exit_code = run_batch(tasks_, options_.batch, options_.measuring.patience_s, *this);
-    if (was_stopped(exit_code)) return exit_code;
-    write_own_file(summary_file_, summary_table(lines_), "recording\tevents\tvalid\t", Foreign::keep);
-    if (!options_.batch.quiet)
+    if (!lines_.empty()) add_to_summary(summary_file_, lines_);
+    if (!was_stopped(exit_code) && !options_.batch.quiet)
       print(fmt::format("{} of {} recordings, see {}\n", done_, tasks_.size(), summary_file_.string()));
     return exit_code;
   }
@@ -62,11 +67,9 @@ class ExtractJob {
       print(fmt::format("{}: {}\n", name, in_one_line(summary)));
       for (const auto& warning : summary.warnings) tell(fmt::format("{}: {}", name, warning));
     }
-    if (summary.valid() == 0)
-      tell(fmt::format("{}: all events lie outside the table {}{}: {}.", name, summary.table,
-                       summary.gates.empty() ? "" : " or the gates", in_one_line(summary)));
+    if (summary.with_modulus() == 0) tell(fmt::format("{}: {}: {}.", name, why_none(summary), in_one_line(summary)));
     lines_.push_back({task.recording, summary, {}});
-    return summary.valid() > 0;
+    return summary.with_modulus() > 0;
   }
 
   void fail(const RecordingTask& task, const std::string& sentence) {

@@ -8,6 +8,7 @@
 #include "app/extract_options.h"
 #include "app/recording_batch.h"
 #include "case/user_error.h"
+#include "extract/event_table.h"
 #include "extract/moduli_recording.h"
 #include "store/own_file.h"
 #include "store/standard_error.h"
@@ -31,7 +32,7 @@ class ModuliJob {
 
   WholeFile files(const RecordingTask& task) const {
     const auto file = file_for(task);
-    return WholeFile(file, [file] { check_replaceable(file, "# rheocyte ", Foreign::keep); });
+    return WholeFile(file, [file] { check_replaceable(file, mark_of_events(file), Foreign::keep); });
   }
 
   ModuliSummary work(const RecordingTask& task, const WholeFile& file, const TellProgress& tell_progress) const {

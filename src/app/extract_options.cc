@@ -44,6 +44,8 @@ void declare_measuring_options(CLI::App& command, MeasuringOptions& options) {
       .add_option("--temperature", options.temperature,
                   "degC; or feature: of each event; or metadata; default: of each event if the recording has it")
       ->type_name("VALUE|feature|metadata");
+  command.add_option("--temperature-if-missing", options.temperature_if_missing, "degC, only where none is recorded")
+      ->type_name("VALUE");
   declare_gate_options(command, options.gates);
   command.add_option("--patience", options.patience_s,
                      "give a recording up when nothing was read from it for so many seconds (60)");

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <fstream>
 
 #include "case/user_error.h"
 
@@ -24,11 +25,24 @@ char* put_number(char* at, double number) {
 
 }  // namespace
 
+std::string_view mark_of_events(const std::filesystem::path& file) {
+  constexpr std::string_view former = "# rheocyte ";
+  std::string start(former.size(), '\0');
+  std::ifstream(file, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start == former ? former : first_columns_of_events;
+}
+
+std::string commented(const std::vector<std::string>& remarks) {
+  std::string text;
+  for (const auto& remark : remarks) text.append("# ").append(one_line(remark, 1000)).append("\n");
+  return text;
+}
+
 EventTable::EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks, bool has_errors)
     : file_(file), has_errors_(has_errors) {
-  for (const auto& remark : remarks) text_ += "# " + one_line(remark, 1000) + "\n";
-  text_ += "event\tarea_um2\tdeformation\tviscosity_mPas\tyoung_modulus_kPa\t";
+  text_ += first_columns_of_events;
   text_ += has_errors_ ? "standard_error_kPa\tstate\n" : "state\n";
+  text_ += commented(remarks);
   write_out();
 }
 
@@ -52,7 +66,7 @@ void EventTable::append(const EventBlock& block) {
     }
     *at++ = '\t';
     text_.append(line, at);
-    text_ += name_of(block.state[i]);
+    for (const char c : name_of(block.state[i])) text_ += c == ' ' ? '_' : c;
     text_ += '\n';
   }
   write_out();

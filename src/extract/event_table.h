@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "infer/modulus_state.h"
@@ -17,10 +18,21 @@ struct EventBlock {
   std::span<const ModulusState> state;
 };
 
+/// With these words a table of events begins: its first line holds the names of all columns, so that programs of every
+/// kind find them there.
+inline constexpr std::string_view first_columns_of_events =
+    "event\tarea_um2\tdeformation\tviscosity_mPas\tyoung_modulus_kPa\t";
+
+/// The words with which one of ours begins, or those of an older version if the file begins with them.
+std::string_view mark_of_events(const std::filesystem::path& file);
+
+/// The remarks in lines of their own, each behind "# ".
+std::string commented(const std::vector<std::string>& remarks);
+
 /// Writes tab-separated lines with the shortest decimals that give back single precision (relative 6e-8).
 class EventTable {
  public:
-  /// `remarks` go above the columns' names, each behind "# ". With a column for standard errors if they are known.
+  /// `remarks` go below the columns' names, each behind "# ". With a column for standard errors if they are known.
   /// UserError.
   EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks, bool has_errors);
 

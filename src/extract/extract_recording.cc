@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <ctime>
 #include <system_error>
+#include <tuple>
 
 #include "case/user_error.h"
 #include "extract/event_table.h"
 #include "extract/extraction.h"
+#include "measurement/basin.h"
 #include "measurement/companion_file.h"
 #include "store/build_info.h"
 #include "store/contained.h"
@@ -19,8 +21,6 @@ namespace rheocyte {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view mark_of_tables = "# rheocyte ";
 
 std::string program() { return fmt::format("rheocyte {}", version); }
 
@@ -51,12 +51,31 @@ std::vector<std::string> paths_to(const fs::path& original, const fs::path& fold
   return paths;
 }
 
+/// Names of features for what the field's programs have no name for: of userdef0 to userdef9 those that the recording
+/// does not use itself. Empty if there are not enough.
+struct FreeNames {
+  std::string state, standard_error;
+
+  FreeNames(const Recording& recording, bool has_errors) {
+    std::vector<std::string> free;
+    for (int k = 0; k < 10; ++k)
+      if (const auto name = fmt::format("userdef{}", k); !recording.has_scalar(name)) free.push_back(name);
+    if (!free.empty()) state = free[0];
+    if (has_errors && free.size() > 1) standard_error = free[1];
+  }
+};
+
 void describe(CompanionFile& companion, const fs::path& folder, const Recording& recording,
-              const Extraction& extraction) {
+              const Extraction& extraction, const FreeNames& names) {
   companion.add_user_metadata("rheocyte emodulus", "Young's modulus (kPa), with the settings in the log");
-  companion.add_user_metadata("rheocyte userdef0", meaning_of_states());
-  if (extraction.table().is_own())
-    companion.add_user_metadata("rheocyte userdef1", "standard error of emodulus (kPa), of pixels and of the table");
+  for (const auto& [name, role, meaning] :
+       {std::tuple(names.state, "state", meaning_of_states()),
+        std::tuple(names.standard_error, "standard error",
+                   std::string("standard error of emodulus (kPa), of pixels, table and inertia"))}) {
+    if (name.empty()) continue;
+    companion.add_user_metadata("rheocyte " + name, meaning);
+    companion.add_user_metadata(std::string("rheocyte ") + role, name);
+  }
   companion.add_user_metadata("rheocyte table", extraction.table().origin().identifier);
   std::vector<std::string> log{program() + " extract", "time: " + now_utc(),
                                "recording: " + recording.file().filename().string()};
@@ -66,46 +85,65 @@ void describe(CompanionFile& companion, const fs::path& folder, const Recording&
   companion.add_basin(paths_to(recording.file(), folder));
 }
 
+[[noreturn]] void refuse_to_replace(const fs::path& place, const char* what) {
+  throw UserError(fmt::format("{}: is there and {}; move it away, or name another folder with -o.",
+                              one_line(place.string(), 300), what));
+}
+
+// Nothing if it is no recording at all.
+std::optional<Metadata> metadata_in(const fs::path& place) {
+  try {
+    return Recording(place).metadata();
+  } catch (const UserError&) {
+    return std::nullopt;
+  }
+}
+
 // Our own say in their metadata which program has written them. Read in a process of its own, as it may be any file.
 void check_companion(const fs::path& place) {
   std::error_code error;
   if (!fs::exists(place, error)) return;
   const auto is_ours = [&](const TellProgress&) {
-    try {
-      const auto programs = Recording(place).metadata().text("setup:software version");
-      return programs && programs->find("rheocyte ") != std::string::npos;
-    } catch (const UserError&) {
-      return false;  // no recording at all
-    }
+    const auto metadata = metadata_in(place);
+    const auto programs = metadata ? metadata->text("setup:software version") : std::nullopt;
+    return programs && programs->find("rheocyte ") != std::string::npos;
   };
   const auto looked = run_contained(is_ours, {}, [](double) {});
   if (!looked.stopped() && !(looked.finished() && looked.result))
-    throw UserError(
-        fmt::format("{}: is there and was not written by rheocyte; move it away, or name another folder with -o.",
-                    one_line(place.string(), 300)));
+    refuse_to_replace(place, "was not written by rheocyte");
 }
 
-/// Both files of a recording, block by block.
+// Where calls for single recordings of one name write into one folder.
+void check_same_recording(const fs::path& place, const Recording& original) {
+  const auto metadata = metadata_in(place);
+  if (metadata && !same_measurement(original.metadata(), *metadata, false))
+    refuse_to_replace(place, "belongs to another recording of this name");
+}
+
+/// Both files of a recording, block by block. The companion holds area and deformation, too: the recording may only
+/// imply them, or be moved away.
 class Writers {
  public:
   Writers(const ExtractFiles& files, const Recording& recording, const Extraction& extraction)
-      : companion_(files.companion(), recording, program()), has_errors_(extraction.table().is_own()) {
-    describe(companion_, fs::absolute(files.companion()).parent_path(), recording, extraction);
-    companion_.add_feature("emodulus");
-    companion_.add_feature("userdef0");
-    if (has_errors_) companion_.add_feature("userdef1");
+      : companion_(files.companion(), recording, program()), names_(recording, extraction.table().is_own()) {
+    describe(companion_, fs::absolute(files.companion()).parent_path(), recording, extraction, names_);
+    for (const auto& feature :
+         {std::string("emodulus"), std::string("area_um"), std::string("deform"), names_.state, names_.standard_error})
+      if (!feature.empty()) companion_.add_feature(feature);
     if (!files.events()) return;
     auto remarks = extraction.lines();
     remarks.insert(remarks.begin(), {program() + " extract", "recording: " + recording.file().string()});
-    table_.emplace(*files.events(), remarks, has_errors_);
+    table_.emplace(*files.events(), remarks, extraction.table().is_own());
   }
 
   void write(std::size_t first, const EventBlock& block) {
     states_.resize(block.state.size());
     std::ranges::transform(block.state, states_.begin(), [](ModulusState s) { return static_cast<double>(s); });
     companion_.write("emodulus", first, block.young_modulus_kPa);
-    companion_.write("userdef0", first, states_);
-    if (has_errors_) companion_.write("userdef1", first, block.standard_error_kPa);
+    companion_.write("area_um", first, block.area_um2);
+    companion_.write("deform", first, block.deformation);
+    if (!names_.state.empty()) companion_.write(names_.state, first, states_);
+    if (!names_.standard_error.empty()) companion_.write(names_.standard_error, first, block.standard_error_kPa);
     if (table_) table_->append(block);
   }
 
@@ -114,9 +152,19 @@ class Writers {
     if (table_) table_->close();
   }
 
+  /// What has no place in the companion; empty if everything has.
+  std::string missing(const Extraction& extraction) const {
+    if (names_.state.empty())
+      return "the recording uses userdef0 to userdef9 itself; states and standard errors are in the table of events "
+             "only.";
+    if (extraction.table().is_own() && names_.standard_error.empty())
+      return "the recording uses nine userdef features itself; standard errors are in the table of events only.";
+    return {};
+  }
+
  private:
   CompanionFile companion_;
-  bool has_errors_;
+  FreeNames names_;
   std::optional<EventTable> table_;
   std::vector<double> states_;
 };
@@ -124,11 +172,10 @@ class Writers {
 }  // namespace
 
 ExtractFiles::ExtractFiles(const ExtractOutput& output, bool with_events)
-    : folder_(output.companion.parent_path()),
-      companion_(output.companion, [place = output.companion] { check_companion(place); }) {
+    : place_(output.companion), companion_(output.companion, [place = output.companion] { check_companion(place); }) {
   if (with_events)
     events_.emplace(output.events,
-                    [place = output.events] { check_replaceable(place, mark_of_tables, Foreign::keep); });
+                    [place = output.events] { check_replaceable(place, mark_of_events(place), Foreign::keep); });
 }
 
 std::optional<fs::path> ExtractFiles::events() const {
@@ -137,7 +184,8 @@ std::optional<fs::path> ExtractFiles::events() const {
 }
 
 void ExtractFiles::publish() {
-  const Claim alone = wait_for_folder(folder_);  // two calls on one recording leave the files of one of them
+  // Two calls on one recording leave the files of one of them.
+  const Claim alone = wait_for_folder(place_.parent_path());
   companion_.check();
   if (events_) events_->publish();
   companion_.publish();
@@ -146,6 +194,7 @@ void ExtractFiles::publish() {
 ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files, const ExtractOptions& options,
                                  const ModulusTables& tables, const TellProgress& on_progress) {
   Recording recording(file);
+  check_same_recording(files.place(), recording);
   double done = 0;
   recording.on_piece(now_and_then([&] { on_progress(done); }));
   Extraction extraction(recording, options, tables);
@@ -157,7 +206,9 @@ ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files
     on_progress(done = static_cast<double>(first + count) / static_cast<double>(events));
   }
   writers.close();
-  return extraction.summary();
+  ExtractSummary summary = extraction.summary();
+  if (const auto missing = writers.missing(extraction); !missing.empty()) summary.warnings.push_back(missing);
+  return summary;
 }
 
 }  // namespace rheocyte

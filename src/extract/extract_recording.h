@@ -23,13 +23,15 @@ class ExtractFiles {
   ExtractFiles(const ExtractOutput& output, bool with_events);
 
   const std::filesystem::path& companion() const { return companion_.scratch(); }
+  /// Where the companion will stand.
+  const std::filesystem::path& place() const { return place_; }
   /// Nothing if no table of events is wanted.
   std::optional<std::filesystem::path> events() const;
   /// Puts all in their places, unless files that are not ours have come there meanwhile. UserError.
   void publish();
 
  private:
-  std::filesystem::path folder_;
+  std::filesystem::path place_;
   WholeFile companion_;
   std::optional<WholeFile> events_;
 };

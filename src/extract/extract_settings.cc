@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
+#include <limits>
 
+#include "case/case_keys.h"
+#include "case/nearest_name.h"
 #include "case/user_error.h"
+#include "extract/plausibility.h"
 
 namespace rheocyte {
 
@@ -17,11 +21,22 @@ namespace {
   throw UserError(fmt::format("{}: {}", one_line(recording.file().string(), 300), reason));
 }
 
-double quantity(const Recording& recording, const std::optional<double>& given, const std::string& key,
-                const std::string& way_out) {
+// A key of the metadata, and what stands for it on the command line and in a case.
+struct Quantity {
+  const char *key, *unit, *way_out;
+  Range range;
+};
+
+Range range_of(std::string_view key) { return std::get<Number>(case_key(key).kind).range; }
+
+double quantity(const Recording& recording, const std::optional<double>& given, const Quantity& wanted) {
   if (given) return *given;
+  const auto& [key, unit, way_out, range] = wanted;
   const auto stored = recording.metadata().number(key);
-  if (stored && *stored > 0 && std::isfinite(*stored)) return *stored;
+  if (stored && *stored > 0 && !range.contains(*stored))
+    refuse(recording, fmt::format("{} is {:g}, outside {}; is its unit another one? Give it with {}.", key, *stored,
+                                  range_text(range, unit), way_out));
+  if (stored && *stored > 0) return *stored;
   refuse(recording, fmt::format("{} {}; give it with {}.", key,
                                 recording.metadata().has(key) ? "is not a positive number" : "is missing", way_out));
 }
@@ -43,6 +58,9 @@ ViscosityModel chosen_model(const MeasuringOptions& options) {
                               one_line(name, 60)));
 }
 
+constexpr std::array<std::string_view, 6> media{"CellCarrier",  "CellCarrierB", "0.49% MC-PBS",
+                                                "0.59% MC-PBS", "0.83% MC-PBS", "water"};
+
 Medium chosen_medium(const MeasuringOptions& options, const Recording& recording) {
   const auto name = options.medium ? options.medium : recording.metadata().text("setup:medium");
   const auto medium = name ? medium_of_name(*name) : std::nullopt;
@@ -51,38 +69,10 @@ Medium chosen_medium(const MeasuringOptions& options, const Recording& recording
       "give the viscosity with --viscosity-mPas, or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, water with "
       "--medium";
   if (!name) refuse(recording, fmt::format("setup:medium is missing; {}.", way_out));
-  const std::string sentence =
-      fmt::format("the medium \"{}\" has no known viscosity; {}.", one_line(*name, 60), way_out);
+  const std::string sentence = fmt::format("the medium \"{}\" has no known viscosity{}; {}.", one_line(*name, 60),
+                                           did_you_mean(*name, media), way_out);
   if (options.medium) throw UserError("rheocyte: " + sentence);
   refuse(recording, sentence);
-}
-
-void choose_temperature(const MeasuringOptions& options, const Recording& recording, ExtractSettings& settings) {
-  const std::string& wish = options.temperature;
-  double value = 0;
-  const auto [end, error] = std::from_chars(wish.data(), wish.data() + wish.size(), value);
-  if (!wish.empty() && error == std::errc{} && end == wish.data() + wish.size() && std::isfinite(value)) {
-    settings.temperature_from = TemperatureSource::given;
-    settings.temperature_C = value;
-    return;
-  }
-  if (!wish.empty() && wish != "feature" && wish != "metadata")
-    throw UserError(
-        fmt::format("rheocyte: --temperature {}: give degrees Celsius, feature or metadata.", one_line(wish, 60)));
-  const bool has_feature = recording.has_scalar("temp");
-  if (wish == "feature" && !has_feature)
-    refuse(recording, "has no temperature of each event; give --temperature in degrees Celsius.");
-  if (has_feature && wish != "metadata") {
-    settings.temperature_from = TemperatureSource::feature;
-    return;
-  }
-  const auto stored = recording.metadata().number("setup:temperature");
-  if (!stored || !std::isfinite(*stored))
-    refuse(recording,
-           "holds no temperature, on which the viscosity depends; give --temperature in degrees Celsius, or the "
-           "viscosity with --viscosity-mPas.");
-  settings.temperature_from = TemperatureSource::metadata;
-  settings.temperature_C = *stored;
 }
 
 std::string outside(const ExtractSettings& settings) {
@@ -96,12 +86,13 @@ void warn_about_temperature(ExtractSettings& settings) {
   settings.warnings.push_back(fmt::format("{} degC is {}", settings.temperature_C, outside(settings)));
 }
 
-// The one of the recording as a whole; a degree changes the exponents of methyl cellulose by 0.002.
-double usual_temperature_C(const ExtractSettings& settings, const Recording& recording) {
-  constexpr double laboratory_C = 23;
-  if (!settings.viscosity_varies()) return settings.temperature_C;
-  const double stored = recording.metadata().number("setup:temperature").value_or(laboratory_C);
-  return std::isfinite(stored) ? stored : laboratory_C;
+// Virtual recordings tell the viscosity itself.
+std::optional<double> stored_viscosity(const MeasuringOptions& options, const Recording& recording) {
+  const auto medium = options.medium ? options.medium : recording.metadata().text("setup:medium");
+  if (options.medium || (medium && medium_of_name(*medium))) return std::nullopt;
+  const auto stored = recording.metadata().number(viscosity_key);
+  if (stored) check_viscosity(*stored, one_line(recording.file().string(), 300) + ": " + viscosity_key);
+  return stored;
 }
 
 }  // namespace
@@ -126,6 +117,8 @@ std::size_t ExtractSettings::viscosities(const Recording& recording, std::size_t
   }
   std::vector<double> temperatures(mPas.size());
   recording.read_scalar("temp", first, temperatures);
+  for (double& celsius : temperatures)
+    if (!is_possible_temperature(celsius)) celsius = std::numeric_limits<double>::quiet_NaN();
   buffer->viscosity(conditions.flow, temperatures, mPas);
   const auto is_outside = [range = buffer->measured()](double celsius) {
     return std::isfinite(celsius) && !range.contains(celsius);
@@ -153,24 +146,34 @@ ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixel
   ExtractSettings settings;
   auto& conditions = settings.conditions;
   ChannelFlow& flow = conditions.flow;
-  flow.width_um = quantity(recording, options.channel_width_um, "setup:channel width", "--channel-width-um");
-  flow.rate_ul_s = quantity(recording, options.flow_rate_ul_s, "setup:flow rate", "--flow-rate-ul-s");
+  flow.width_um = quantity(recording, options.channel_width_um,
+                           {"setup:channel width", "um", "--channel-width-um", range_of("channel.width_um")});
+  flow.rate_ul_s = quantity(recording, options.flow_rate_ul_s,
+                            {"setup:flow rate", "ul/s", "--flow-rate-ul-s", range_of("flow.rate_ul_per_s")});
   if (pixels != PixelUse::ignore)
     settings.pixel_size_um = conditions.pixel_size_um =
-        quantity(recording, options.pixel_size_um, "imaging:pixel size",
-                 pixels == PixelUse::fit ? "--pixel-size-um" : "--pixel-size-um, or give --no-pixelation");
+        quantity(recording, options.pixel_size_um,
+                 {"imaging:pixel size",
+                  "um",
+                  pixels == PixelUse::fit ? "--pixel-size-um" : "--pixel-size-um, or give --no-pixelation",
+                  {0.01, 10}});
   else
     settings.pixel_size_um =
         options.pixel_size_um.value_or(recording.metadata().number("imaging:pixel size").value_or(0));
+  settings.warnings = contradictions(recording, options.flow_rate_ul_s ? 0 : flow.rate_ul_s, settings.pixel_size_um);
   conditions.correct_area = pixels == PixelUse::correct;
-  if (options.viscosity_mPas) {
-    flow.viscosity_mPas = *options.viscosity_mPas;
+  const auto viscosity = options.viscosity_mPas ? options.viscosity_mPas : stored_viscosity(options, recording);
+  if (viscosity) {
+    flow.viscosity_mPas = *viscosity;
     return settings;
   }
   settings.buffer.emplace(chosen_medium(options, recording), chosen_model(options));
-  choose_temperature(options, recording, settings);
+  const RecordingTemperature temperature = temperature_of(options, recording);
+  settings.temperature_from = temperature.from;
+  settings.temperature_C = temperature.celsius;
+  settings.warnings.insert(settings.warnings.end(), temperature.warnings.begin(), temperature.warnings.end());
   warn_about_temperature(settings);
-  flow.exponent = settings.buffer->flow_exponent(usual_temperature_C(settings, recording));
+  flow.exponent = settings.buffer->flow_exponent(temperature.celsius);
   if (!settings.viscosity_varies()) flow.viscosity_mPas = settings.buffer->viscosity(flow, settings.temperature_C);
   return settings;
 }

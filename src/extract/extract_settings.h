@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "extract/options.h"
+#include "extract/recording_temperature.h"
 #include "infer/modulus_map.h"
 #include "measurement/recording.h"
 #include "measurement/viscosity.h"
 
 namespace rheocyte {
-
-enum class TemperatureSource { none, given, metadata, feature };
 
 /// What is done about the pixels.
 enum class PixelUse {
@@ -30,11 +29,11 @@ struct ExtractSettings {
   double pixel_size_um = 0;      ///< 0 if unknown
   std::optional<Buffer> buffer;  ///< nothing: the viscosity was given
   TemperatureSource temperature_from = TemperatureSource::none;
-  double temperature_C = 0;           ///< if it is the same for all events
+  double temperature_C = 0;           ///< of all events, or their median
   std::vector<std::string> warnings;  ///< sentences without the file's name
 
   bool viscosity_varies() const { return temperature_from == TemperatureSource::feature; }
-  /// Of events [first, first + mPas.size()) (mPa s); NaN for events whose temperature is no number. Returns how many
+  /// Of events [first, first + mPas.size()) (mPa s); NaN for events without a possible temperature. Returns how many
   /// temperatures lie outside those for which the model was measured; there it extrapolates. UserError if the data are
   /// damaged.
   std::size_t viscosities(const Recording& recording, std::size_t first, std::span<double> mPas) const;

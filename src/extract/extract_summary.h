@@ -1,7 +1,6 @@
-// What is said about all events of one recording, and the table with a line for each recording.
+// What is said about all events of one recording.
 #pragma once
 #include <array>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <tuple>
@@ -20,7 +19,20 @@ struct Distribution {
 /// Sorts the values. Quartiles between two values are interpolated linearly.
 Distribution distribution_of(std::span<double> values);
 
+/// Of the metadata, to tell recordings apart; empty where absent.
+struct RecordingLabels {
+  std::string sample, date, time, run_index, chip;
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.sample, s.date, s.time, s.run_index, s.chip);
+  }
+};
+RecordingLabels labels_of(const Metadata& metadata);
+
 struct ExtractSummary {
+  RecordingLabels labels;
   std::size_t events = 0;
   std::array<std::size_t, names_of_modulus_states.size()> counts{};  ///< by ModulusState
   Distribution modulus_kPa;
@@ -35,24 +47,19 @@ struct ExtractSummary {
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.events, s.counts, s.modulus_kPa, s.median_standard_error_kPa, s.mean_viscosity_mPas, s.table,
-                    s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from, s.corrected, s.gates,
-                    s.conditions, s.warnings);
+    return std::tie(s.labels, s.events, s.counts, s.modulus_kPa, s.median_standard_error_kPa, s.mean_viscosity_mPas,
+                    s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from, s.corrected,
+                    s.gates, s.conditions, s.warnings);
   }
 
-  /// Events with a modulus, those of regularised states included.
-  std::size_t valid() const { return counts[0] + counts[static_cast<std::size_t>(ModulusState::regularised)]; }
+  /// Events with a modulus, whatever is said about it.
+  std::size_t with_modulus() const {
+    std::size_t sum = 0;
+    for (std::size_t k = 0; k < counts.size(); ++k)
+      if (has_modulus(static_cast<ModulusState>(k))) sum += counts[k];
+    return sum;
+  }
 };
-
-/// One recording of the summary table; `error` says why there is nothing else.
-struct SummaryLine {
-  std::filesystem::path recording;
-  ExtractSummary summary;
-  std::string error;
-};
-
-/// Tab-separated text with a header line.
-std::string summary_table(std::span<const SummaryLine> lines);
 
 /// For the terminal: numbers of events and moduli in one line.
 std::string in_one_line(const ExtractSummary&);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "extract/plausibility.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
@@ -14,6 +15,8 @@ namespace {
 
 constexpr std::size_t block_of_scalars = 1 << 17;   // 1 MiB per column, a chunk of what is written
 constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible when every event takes microseconds
+
+constexpr double greatest_relative_standard_error = 1;
 
 PixelUse pixel_use(const ExtractOptions& options) {
   if (options.no_pixelation) return PixelUse::ignore;
@@ -61,6 +64,8 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
     other_table_->estimate(settings_.conditions, events, {c.other_modulus, c.standard_error, c.other_states});
   }
   table().estimate(settings_.conditions, events, {c.modulus, c.standard_error, c.states});
+  take_account_of_inertia();
+  if (table().is_own()) set_aside_unresolved();
   if (!gates_.empty()) shut_out(first);
   collect();
   return {c.area, c.deformation, c.viscosity, c.modulus, c.standard_error, c.states};
@@ -68,6 +73,7 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
 
 ExtractSummary Extraction::summary() {
   ExtractSummary s = summary_;
+  s.labels = labels_of(recording_.metadata());
   s.events = recording_.events();
   s.modulus_kPa = distribution_of(moduli_);
   s.mean_viscosity_mPas = viscosity_sum_ / static_cast<double>(viscosities_);
@@ -84,6 +90,7 @@ ExtractSummary Extraction::summary() {
   s.warnings = recording_.remarks();
   s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
   if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
+  if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, greatest_reynolds_number_));
   if (other_table_) s.warnings.push_back(comparison());
   if (recording_.has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
@@ -124,6 +131,33 @@ void Extraction::collect() {
     if (!std::isfinite(columns_.viscosity[i])) continue;
     viscosity_sum_ += columns_.viscosity[i];
     ++viscosities_;
+  }
+}
+
+// What is known of it counts as an error of the modulus; events beyond that are flagged.
+void Extraction::take_account_of_inertia() {
+  Columns& c = columns_;
+  ChannelFlow flow = settings_.conditions.flow;
+  flow.viscosity_mPas = 1;
+  const double at_1_mPas = reynolds_number(buffer_density_kg_per_m3, flow);
+  for (std::size_t i = 0; i < c.states.size(); ++i) {
+    if (!has_modulus(c.states[i])) continue;
+    const double reynolds = at_1_mPas / c.viscosity[i];
+    c.standard_error[i] = std::hypot(c.standard_error[i], modulus_per_reynolds * reynolds * c.modulus[i]);
+    if (reynolds <= greatest_reynolds_number) continue;
+    c.states[i] = ModulusState::inertial;
+    ++inertial_;
+    greatest_reynolds_number_ = std::max(greatest_reynolds_number_, reynolds);
+  }
+}
+
+// Where the deformation is lost in the scatter by pixels, the modulus could be any above some value.
+void Extraction::set_aside_unresolved() {
+  Columns& c = columns_;
+  for (std::size_t i = 0; i < c.states.size(); ++i) {
+    if (!has_modulus(c.states[i]) || c.standard_error[i] <= greatest_relative_standard_error * c.modulus[i]) continue;
+    c.modulus[i] = c.standard_error[i] = std::numeric_limits<double>::quiet_NaN();
+    c.states[i] = ModulusState::unresolved;
   }
 }
 

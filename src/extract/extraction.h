@@ -43,6 +43,8 @@ class Extraction {
 
   std::string comparison() const;
   void collect();
+  void take_account_of_inertia();
+  void set_aside_unresolved();
   void shut_out(std::size_t first);
   void take_modulus(std::size_t i);
 
@@ -58,7 +60,8 @@ class Extraction {
   std::vector<double> moduli_;
   std::vector<float> standard_errors_;
   double viscosity_sum_ = 0, log_ratios_ = 0;
-  std::size_t viscosities_ = 0, compared_ = 0, outside_temperature_ = 0;
+  std::size_t viscosities_ = 0, compared_ = 0, outside_temperature_ = 0, inertial_ = 0;
+  double greatest_reynolds_number_ = 0;
 };
 
 }  // namespace rheocyte

@@ -92,13 +92,17 @@ fs::path find_table(const std::string& wanted) {
     names.push_back(name);
     all += (all.empty() ? "" : ", ") + name;
   }
-  if (names.empty())
-    throw UserError(fmt::format(
-        "rheocyte: --table {}: there is no such file, and no installed dclab with tables was found; give the path of a "
-        "table.",
-        one_line(wanted, 200)));
-  throw UserError(fmt::format("rheocyte: --table {}: there is neither such a file nor such a table{} (there are {}).",
-                              one_line(wanted, 200), did_you_mean(wanted, names), all));
+  const std::string place = fmt::format("rheocyte: --table {}: there is neither such a file nor such a table{}",
+                                        one_line(wanted, 200), did_you_mean(wanted, names));
+  const bool has_published =
+      std::ranges::any_of(tables, [](const auto& table) { return table.second.extension() == ".txt"; });
+  const std::string published =
+      has_published
+          ? ""
+          : " Published tables such as LE-2D-FEM-19 come with dclab (pip install dclab), which was looked for in "
+            "PYTHONPATH, VIRTUAL_ENV, CONDA_PREFIX, ~/.local, /usr/local and /usr.";
+  throw UserError(names.empty() ? place + ". Give the path of a table." + published
+                                : fmt::format("{} (there are {}).{}", place, all, published));
 }
 
 }  // namespace rheocyte

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "case/user_error.h"
+#include "extract/event_table.h"
 #include "extract/extract_settings.h"
 #include "extract/gates.h"
 #include "extract/modulus_tables.h"
+#include "extract/plausibility.h"
 #include "infer/rendered_errors.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/event_features.h"
@@ -66,8 +68,8 @@ class Outlines {
   ContourFinder finder_;
 };
 
-constexpr std::string_view columns =
-    "event\tarea_um2\tdeformation\tviscosity_mPas\tyoung_modulus_kPa\tyoung_modulus_error_kPa\t"
+constexpr std::string_view more_columns =
+    "young_modulus_error_kPa\t"
     "cortex_modulus_mN_per_m\tcortex_modulus_error_mN_per_m\ttension_mN_per_m\ttension_error_mN_per_m\t"
     "stiffness_kPa\tstiffness_error_kPa\tchi_squared\tstatus\n";
 
@@ -97,7 +99,7 @@ class Fits {
     gates_.check(features_, recording.file().string());
   }
 
-  /// What stands above the lines of the events.
+  /// The names of the columns, and the settings.
   std::string header(const ModuliOptions& options) const {
     std::vector<std::string> remarks{
         fmt::format("rheocyte {} moduli", version), "recording: " + recording_.file().string(),
@@ -109,15 +111,14 @@ class Fits {
     const auto settings = settings_.lines();
     remarks.insert(remarks.end(), settings.begin(), settings.end());
     if (!gates_.empty()) remarks.push_back("only events with " + gates_.description());
-    std::string text;
-    for (const auto& remark : remarks) text += "# " + one_line(remark, 1000) + "\n";
-    return text.append(columns);
+    return std::string(first_columns_of_events).append(more_columns) + commented(remarks);
   }
 
   /// The lines of a block of events.
   std::string take(std::size_t first, std::size_t count) {
     viscosity_.resize(count);
     outside_temperature_ += settings_.viscosities(recording_, first, viscosity_);
+    count_inertial();
     inside_.resize(count);
     gates_.apply(features_, first, inside_);
     std::string text;
@@ -136,6 +137,7 @@ class Fits {
     s.warnings = recording_.remarks();
     s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
     if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
+    if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, greatest_reynolds_number_));
     if (std::abs(settings_.conditions.flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
       s.warnings.push_back(fmt::format(
           "the medium thins in shear with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at the "
@@ -152,6 +154,17 @@ class Fits {
     ChannelFlow flow = settings_.conditions.flow;
     flow.viscosity_mPas = viscosity_mPas;
     return fit_pixels(moduli_, pixels_, seen, flow);
+  }
+
+  void count_inertial() {
+    ChannelFlow flow = settings_.conditions.flow;
+    for (const double viscosity_mPas : viscosity_) {
+      flow.viscosity_mPas = viscosity_mPas;
+      const double reynolds = reynolds_number(buffer_density_kg_per_m3, flow);
+      if (!(reynolds > greatest_reynolds_number)) continue;
+      ++inertial_;
+      greatest_reynolds_number_ = std::max(greatest_reynolds_number_, reynolds);
+    }
   }
 
   static ModuliEstimate gated() {
@@ -171,7 +184,8 @@ class Fits {
   SeveralModuli moduli_;
   std::vector<double> viscosity_;
   std::vector<char> inside_;
-  std::size_t outside_temperature_ = 0;
+  std::size_t outside_temperature_ = 0, inertial_ = 0;
+  double greatest_reynolds_number_ = 0;
   ModuliTally tally_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "case/user_error.h"
+#include "extract/plausibility.h"
 
 namespace rheocyte {
 
@@ -13,10 +14,12 @@ void check_measuring_options(const MeasuringOptions& options) {
     throw UserError("rheocyte: --patience must be a positive number.");
   static_cast<void>(Gates(options.gates));
   if (!options.viscosity_mPas) return;
-  const char* const other = options.medium                 ? "--medium"
-                            : options.viscosity_model      ? "--viscosity-model"
-                            : !options.temperature.empty() ? "--temperature"
-                                                           : nullptr;
+  check_viscosity(*options.viscosity_mPas, "rheocyte: --viscosity-mPas");
+  const char* const other = options.medium                            ? "--medium"
+                            : options.viscosity_model                 ? "--viscosity-model"
+                            : !options.temperature.empty()            ? "--temperature"
+                            : !options.temperature_if_missing.empty() ? "--temperature-if-missing"
+                                                                      : nullptr;
   if (other)
     throw UserError(fmt::format("rheocyte: --viscosity-mPas and {} contradict each other; give one of them.", other));
 }

@@ -20,7 +20,8 @@ struct BatchOptions {
 struct MeasuringOptions {
   std::optional<double> channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas;
   std::optional<std::string> medium, viscosity_model;
-  std::string temperature;  ///< degC, "feature", "metadata", or empty: the feature if there is one
+  std::string temperature;             ///< degC, "feature", "metadata", or empty: the feature if there is one
+  std::string temperature_if_missing;  ///< degC where none is recorded; empty: such recordings are refused
   GateOptions gates;
   double patience_s = 60;
 };

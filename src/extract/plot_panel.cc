@@ -9,7 +9,6 @@
 #include "extract/extract_settings.h"
 #include "measurement/event_features.h"
 #include "measurement/shape_source.h"
-#include "numeric/quantile.h"
 
 namespace rheocyte {
 
@@ -34,13 +33,6 @@ class Pairs {
   std::vector<float> pairs_;
 };
 
-double median_temperature(const Recording& recording) {
-  std::vector<double> celsius(recording.events());
-  recording.read_scalar("temp", 0, celsius);
-  std::erase_if(celsius, [](double value) { return !std::isfinite(value); });
-  return median_of(celsius);
-}
-
 bool is_of_the_reservoir(const Recording& recording) {
   std::string region = recording.metadata().text("setup:chip region").value_or("channel");
   std::ranges::transform(region, region.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -55,12 +47,8 @@ void take_conditions(const Recording& recording, const PlotOptions& options, Plo
   ChannelFlow& flow = panel.conditions.flow;
   std::string temperature = fmt::format("{:.3g} °C", settings.temperature_C);
   if (settings.viscosity_varies()) {
-    const double celsius = median_temperature(recording);
-    if (!std::isfinite(celsius))
-      throw UserError(fmt::format("{}: its temperatures are no numbers; give --temperature in degrees Celsius.",
-                                  one_line(recording.file().string(), 300)));
-    flow.viscosity_mPas = settings.buffer->viscosity(flow, celsius);
-    temperature = fmt::format("{:.1f} °C", celsius);
+    flow.viscosity_mPas = settings.buffer->viscosity(flow, settings.temperature_C);
+    temperature = fmt::format("{:.1f} °C", settings.temperature_C);
   }
   panel.measured =
       fmt::format("{:g} µm · {:g} µl/s · {:.2f} mPa s", flow.width_um, flow.rate_ul_s, flow.viscosity_mPas);

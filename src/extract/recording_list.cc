@@ -22,7 +22,8 @@ bool is_companion(const fs::path& file) {
 
 fs::path full_folder(const fs::path& folder) {
   std::error_code error;
-  const fs::path absolute = fs::absolute(folder).lexically_normal(), full = fs::weakly_canonical(absolute, error);
+  const fs::path absolute = fs::absolute(folder.empty() ? "." : folder).lexically_normal(),
+                 full = fs::weakly_canonical(absolute, error);
   return error ? absolute : full;
 }
 

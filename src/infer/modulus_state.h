@@ -5,7 +5,7 @@
 
 namespace rheocyte {
 
-/// The numbers are those that files hold (feature userdef0); they never change their meaning.
+/// The numbers are those that files hold; they never change their meaning.
 enum class ModulusState : int {
   valid = 0,
   no_data = 1,    ///< area, deformation or viscosity is not a finite number
@@ -14,14 +14,15 @@ enum class ModulusState : int {
   too_stiff = 4,    ///< deformed less than the stiffest cell of the table of this area
   too_soft = 5,     ///< deformed more than the softest cell of the table of this area
   unstable = 6,     ///< the bare surface of such a soft cell wrinkles: beyond the end of the smooth states
-  unresolved = 7,   ///< a gap of the table: its states did not converge there
+  unresolved = 7,   ///< the standard error is greater than the modulus; or a gap of the table
   regularised = 8,  ///< there is a modulus, of a cell whose surface is held smooth by bending
-  gated = 9         ///< outside the limits that the user set
+  gated = 9,        ///< outside the limits that the user set
+  inertial = 10     ///< there is a modulus, but the liquid's inertia, which the table does not hold, changes it
 };
 
-inline constexpr std::array<std::string_view, 10> names_of_modulus_states{
-    "valid",    "no data",  "too small",  "too large",   "too stiff",
-    "too soft", "unstable", "unresolved", "regularised", "gated"};
+inline constexpr std::array<std::string_view, 11> names_of_modulus_states{
+    "valid",    "no data",    "too small",   "too large", "too stiff", "too soft",
+    "unstable", "unresolved", "regularised", "gated",     "inertial"};
 
 inline std::string_view name_of(ModulusState state) {
   return names_of_modulus_states.at(static_cast<std::size_t>(state));
@@ -29,7 +30,7 @@ inline std::string_view name_of(ModulusState state) {
 
 /// Whether there is a modulus.
 inline bool has_modulus(ModulusState state) {
-  return state == ModulusState::valid || state == ModulusState::regularised;
+  return state == ModulusState::valid || state == ModulusState::regularised || state == ModulusState::inertial;
 }
 
 }  // namespace rheocyte

@@ -1,58 +1,21 @@
 // `rheocyte extract`: moduli as the formulas say, results beside or in a folder, and a sentence for everything else.
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <fstream>
 #include <functional>
 #include <sstream>
 
-#include "lookup_table_file.h"
-#include "measurement/recording.h"
-#include "measurement/recording_writer.h"
+#include "extract_fixture.h"
 #include "measurement/reference_files.h"
-#include "robustness/run_program.h"
 
 namespace rheocyte {
 namespace {
 
 namespace fs = std::filesystem;
+using test::column;
 using test::RecordingWriter;
-using test::ScratchFolder;
-
-std::vector<double> column(const Recording& recording, const std::string& feature) {
-  std::vector<double> values(recording.events());
-  recording.read_scalar(feature, 0, values);
-  return values;
-}
-
-/// A folder with a table and what the test puts into it.
-class Extract : public testing::Test {
- protected:
-  Extract() { test::write_lookup_table(folder_ / "table.txt"); }
-
-  test::Ended extract(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {RHEOCYTE, "extract", "--table", (folder_ / "table.txt").string()});
-    return test::run({arguments});
-  }
-
-  /// Six events at the table's own channel and flow; the last one has no deformation.
-  void write_recording(const std::string& name, const std::function<void(RecordingWriter&)>& more = {}) const {
-    RecordingWriter writer(folder_ / name);
-    test::write_usual_metadata(writer);
-    writer.scalar("area_um", {80, 10, 400, 80, 80, 80});
-    writer.scalar("deform", {0.03, 0.03, 0.03, -0.01, 0.5, NAN});
-    if (more) more(writer);
-  }
-
-  void expect_refusal(const std::vector<std::string>& arguments, const std::string& words) const {
-    const auto ended = extract(arguments);
-    EXPECT_EQ(ended.exit_code, 2) << words;
-    EXPECT_NE(ended.err.find(words), std::string::npos) << "wanted: " << words << "\n   got: " << ended.err;
-  }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  ScratchFolder folder_;
-};
+using Extract = test::ExtractFixture;
 
 TEST_F(Extract, GivesEachEventItsModulusOrItsReason) {
   write_recording("a.rtdc");
@@ -113,55 +76,10 @@ TEST_F(Extract, UsesMasksWhereNothingElseTellsTheShape) {
   const auto text = test::content_of(folder_ / "a_rheocyte.tsv");
   EXPECT_NE(text.find("area from mask"), std::string::npos);
   EXPECT_NE(text.find("\n1\t63.6956\t"), std::string::npos) << "29 x 19 pixels of 0.34 um\n" << text;
-}
-
-TEST_F(Extract, SearchesFoldersAndKeepsTheirNames) {
-  fs::create_directories(folder_ / "data/day1");
-  fs::create_directories(folder_ / "data/day2");
-  write_recording("data/day1/M1.rtdc");
-  write_recording("data/day2/M1.rtdc");
-  EXPECT_EQ(extract({"-r", path("data"), "-o", path("out")}).exit_code, 0);
-  EXPECT_TRUE(fs::exists(folder_ / "out/day1/M1_rheocyte.rtdc"));
-  EXPECT_TRUE(fs::exists(folder_ / "out/day2/M1_rheocyte.rtdc"));
-  // Results beside the recordings are no recordings of the next call.
-  EXPECT_EQ(extract({"-r", path("data")}).exit_code, 0);
-  const auto again = extract({"-r", path("data")});
-  EXPECT_NE(again.out.find("2 of 2 recordings"), std::string::npos) << again.out;
-  expect_refusal({path("data")}, "give -r");
-}
-
-TEST_F(Extract, ResultsAmongTheGivenFilesAreNoRecordings) {
-  write_recording("a.rtdc");
-  EXPECT_EQ(extract({path("a.rtdc")}).exit_code, 0);
-  const auto again = extract({path("a.rtdc"), path("a_rheocyte.rtdc"), path("a.rtdc")});
-  EXPECT_EQ(again.exit_code, 0);
-  EXPECT_NE(again.out.find("1 of 1 recordings"), std::string::npos) << again.out;
-  EXPECT_NE(again.err.find("a_rheocyte.rtdc: is a result of this program and was passed over."), std::string::npos);
-  EXPECT_FALSE(fs::exists(folder_ / "a_rheocyte_rheocyte.rtdc"));
-  expect_refusal({path("a_rheocyte.rtdc")}, "is a result of this program, as its name says; give the recording");
-}
-
-TEST_F(Extract, RecordingsOfOneNameAreToldApartByTheirFolders) {
-  for (const std::string day : {"day1", "day2"}) {
-    fs::create_directories(folder_ / day);
-    write_recording(day + "/M1.rtdc");
-  }
-  write_recording("M2.rtdc");
-  const auto ended =
-      extract({path("day1/M1.rtdc"), path("day2/M1.rtdc"), path("M2.rtdc"), "-o", path("out"), "--quiet"});
-  EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  for (const std::string name : {"day1_M1", "day2_M1", "M2"})
-    EXPECT_TRUE(fs::exists(folder_ / ("out/" + name + "_rheocyte.rtdc"))) << name;
-}
-
-TEST_F(Extract, FoldersWithoutResultsAreNotLeftBehind) {
-  fs::create_directories(folder_ / "data/day1");
-  fs::create_directories(folder_ / "data/day2");
-  std::ofstream(folder_ / "data/day1/bad.rtdc") << "no recording";
-  write_recording("data/day2/good.rtdc");
-  EXPECT_EQ(extract({"-r", path("data"), "-o", path("out")}).exit_code, 2);
-  EXPECT_FALSE(fs::exists(folder_ / "out/day1"));
-  EXPECT_TRUE(fs::exists(folder_ / "out/day2/good_rheocyte.rtdc"));
+  fs::remove(folder_ / "a.rtdc");
+  const Recording alone(folder_ / "a_rheocyte.rtdc");
+  EXPECT_NEAR(column(alone, "area_um")[0], 63.6956, 1e-9) << "also without the original";
+  EXPECT_TRUE(alone.has_scalar("deform"));
 }
 
 TEST_F(Extract, ABadRecordingDoesNotKeepTheOthersBack) {
@@ -230,12 +148,30 @@ TEST_F(Extract, ContradictingAndWrongOptionsAreRefused) {
   expect_refusal({file, "--temperature", "warm"}, "degrees Celsius, feature or metadata");
   expect_refusal({file, "--temperature", "feature"}, "no temperature of each event");
   expect_refusal({file, "--medium", "soup"}, "the medium \"soup\" has no known viscosity");
+  expect_refusal({file, "--medium", "Cellcarier"}, "did you mean CellCarrier?");
   expect_refusal({file, "--viscosity-model", "guess"}, "unknown viscosity model guess");
   expect_refusal({file, "--medium", "0.83% MC-PBS", "--viscosity-model", "herold-2017"}, "does not know 0.83%");
   expect_refusal({path("none.rtdc")}, "no such file");
   const auto no_table = test::run({{RHEOCYTE, "extract", file, "--table", path("none.txt")}});
   EXPECT_EQ(no_table.exit_code, 2);
   EXPECT_NE(no_table.err.find("there is neither such a file nor such a table"), std::string::npos) << no_table.err;
+  const std::map<std::string, std::string> without_dclab{
+      {"PYTHONPATH", ""}, {"VIRTUAL_ENV", ""}, {"CONDA_PREFIX", ""}, {"HOME", ""}};
+  const auto published = test::run({{RHEOCYTE, "extract", file, "--table", "LE-2D-FEM-19"}, without_dclab});
+  if (published.exit_code != 0) {  // else the system itself has a dclab
+    EXPECT_NE(published.err.find("come with dclab (pip install dclab), which was looked for in PYTHONPATH"),
+              std::string::npos)
+        << published.err;
+  }
+}
+
+TEST_F(Extract, QuietIsQuietAboutFormerNamesToo) {
+  write_recording("a.rtdc");
+  EXPECT_NE(extract({path("a.rtdc"), "--viscosity", "15"}).err.find("is now called --viscosity-mPas"),
+            std::string::npos);
+  const auto quiet = extract({path("a.rtdc"), "--viscosity", "15", "--quiet"});
+  EXPECT_EQ(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
 }
 
 TEST_F(Extract, ATemperatureOutsideTheModelIsAWarning) {

@@ -135,7 +135,7 @@ TEST_F(Synth, ModuliOfCombinedCellsAreThoseOfTheirTruth) {
   EXPECT_EQ(column("v.rtdc", "userdef8"), std::vector<double>(young.size(), 0));
   const Recording recording(folder_ / "v.rtdc");
   EXPECT_EQ(recording.metadata().text("user:rheocyte userdef7"), "true cortex modulus E2D (mN/m)");
-  const auto ended = run({"moduli", path("v.rtdc"), "--table", path("table"), "--viscosity-mPas", "30"});
+  const auto ended = run({"moduli", path("v.rtdc"), "--table", path("table")});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   std::istringstream lines(test::content_of(folder_ / "v_moduli.tsv"));
   std::size_t event = 0;

@@ -1,0 +1,76 @@
+#include "extract/plausibility.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "case/user_error.h"
+#include "numeric/quantile.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double least_viscosity_mPas = 0.2;  // water has 0.28 where it boils
+constexpr double rate_tolerance = 0.01, area_tolerance = 0.02;
+constexpr std::size_t looked_at = 4096;  // events
+
+void add_rate(const Recording& recording, double rate_ul_s, std::vector<std::string>& sentences) {
+  const auto sample = recording.metadata().number("setup:flow rate sample"),
+             sheath = recording.metadata().number("setup:flow rate sheath");
+  if (!sample || !sheath || !(*sample >= 0 && *sheath >= 0 && *sample + *sheath > 0)) return;
+  const double sum = *sample + *sheath;
+  if (std::abs(sum / rate_ul_s - 1) <= rate_tolerance) return;
+  sentences.push_back(fmt::format(
+      "setup:flow rate is {:g} ul/s, but sample and sheath together are {:g} ul/s; moduli are in proportion "
+      "to the flow rate, and {:g} ul/s was taken (--flow-rate-ul-s gives another one).",
+      rate_ul_s, sum, rate_ul_s));
+}
+
+// Areas are stored in um^2 and in pixels: their ratio is the area of a pixel.
+void add_pixel(const Recording& recording, double pixel_size_um, std::vector<std::string>& sentences) {
+  if (!recording.has_scalar("area_um") || !recording.has_scalar("area_cvx")) return;
+  const std::size_t count = std::min(looked_at, recording.events());
+  std::vector<double> um2(count), pixels(count), ratios;
+  recording.read_scalar("area_um", 0, um2);
+  recording.read_scalar("area_cvx", 0, pixels);
+  for (std::size_t i = 0; i < count; ++i)
+    if (um2[i] > 0 && pixels[i] > 0) ratios.push_back(um2[i] / pixels[i]);
+  if (ratios.empty()) return;
+  const double implied = median_of(ratios);
+  if (std::abs(implied / (pixel_size_um * pixel_size_um) - 1) <= area_tolerance) return;
+  sentences.push_back(
+      fmt::format("the pixel size is {:g} um, but areas in um^2 and in pixels (area_um, area_cvx) belong to pixels of "
+                  "{:.3g} um.",
+                  pixel_size_um, std::sqrt(implied)));
+}
+
+}  // namespace
+
+void check_viscosity(double mPas, const std::string& name) {
+  if (mPas >= least_viscosity_mPas) return;
+  throw UserError(
+      fmt::format("{}: {:g} mPa s is less than the viscosity of any liquid that cells live in (water at 37 degC has "
+                  "0.69 mPa s); {:g} Pa s are {:g} mPa s.",
+                  name, mPas, mPas, 1000 * mPas));
+}
+
+std::vector<std::string> contradictions(const Recording& recording, double rate_ul_s, double pixel_size_um) {
+  std::vector<std::string> sentences;
+  if (rate_ul_s > 0) add_rate(recording, rate_ul_s, sentences);
+  if (pixel_size_um > 0) add_pixel(recording, pixel_size_um, sentences);
+  return sentences;
+}
+
+std::string inertia_text(std::size_t events, double greatest) {
+  return fmt::format(
+      "{} events have Reynolds numbers above {:g}, up to {:.2g}: the tables hold no inertia of the liquid, which "
+      "changes "
+      "moduli by about {:.1f} % for each unit up to 8 and by an unknown amount beyond; are flow rate and viscosity "
+      "right?",
+      events, greatest_reynolds_number, greatest, 100 * modulus_per_reynolds);
+}
+
+}  // namespace rheocyte

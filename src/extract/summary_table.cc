@@ -1,0 +1,184 @@
+#include "extract/summary_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "case/user_error.h"
+#include "store/claim.h"
+#include "store/own_file.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view mark = "recording\tevents\tvalid\t";
+
+/// By the names of their columns.
+using Row = std::map<std::string, std::string, std::less<>>;
+
+constexpr std::array<std::string_view, 25> columns_after_counts{"with_modulus_percent",
+                                                                "young_modulus_median_kPa",
+                                                                "young_modulus_first_quartile_kPa",
+                                                                "young_modulus_third_quartile_kPa",
+                                                                "young_modulus_mean_kPa",
+                                                                "young_modulus_standard_deviation_kPa",
+                                                                "young_modulus_standard_error_median_kPa",
+                                                                "table",
+                                                                "medium",
+                                                                "viscosity_model",
+                                                                "mean_viscosity_mPas",
+                                                                "temperature",
+                                                                "channel_width_um",
+                                                                "flow_rate_ul_s",
+                                                                "pixelation_pixel_size_um",
+                                                                "corrected_for_pixels",
+                                                                "gates",
+                                                                "area_from",
+                                                                "deformation_from",
+                                                                "sample",
+                                                                "date",
+                                                                "time",
+                                                                "run_index",
+                                                                "chip",
+                                                                "remarks"};
+
+std::string number_text(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
+
+std::string cell(std::string text) {
+  std::ranges::replace(text, '\t', ' ');
+  return one_line(text, 1000);
+}
+
+std::string column_of(std::string_view state) {
+  std::string name(state);
+  std::ranges::replace(name, ' ', '_');
+  return name;
+}
+
+std::vector<std::string> columns() {
+  std::vector<std::string> names{"recording", "events"};
+  for (const auto state : names_of_modulus_states) names.push_back(column_of(state));
+  for (const auto name : columns_after_counts) names.emplace_back(name);
+  return names;
+}
+
+std::string all_of(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const auto& sentence : sentences) text.append(text.empty() ? "" : " ").append(sentence);
+  return text;
+}
+
+Row row_of(const SummaryLine& line) {
+  Row row{{"recording", line.recording.string()}};
+  if (!line.error.empty()) {
+    row["remarks"] = line.error;
+    return row;
+  }
+  const ExtractSummary& s = line.summary;
+  row["events"] = std::to_string(s.events);
+  for (std::size_t k = 0; k < s.counts.size(); ++k)
+    row[column_of(names_of_modulus_states[k])] = std::to_string(s.counts[k]);
+  const auto events = static_cast<double>(std::max<std::size_t>(s.events, 1));
+  const auto& d = s.modulus_kPa;
+  const auto& c = s.conditions;
+  for (const auto& [name, value] :
+       {std::pair("with_modulus_percent", 100 * static_cast<double>(s.with_modulus()) / events),
+        std::pair("young_modulus_median_kPa", d.median),
+        std::pair("young_modulus_first_quartile_kPa", d.first_quartile),
+        std::pair("young_modulus_third_quartile_kPa", d.third_quartile), std::pair("young_modulus_mean_kPa", d.mean),
+        std::pair("young_modulus_standard_deviation_kPa", d.standard_deviation),
+        std::pair("young_modulus_standard_error_median_kPa", s.median_standard_error_kPa),
+        std::pair("mean_viscosity_mPas", s.mean_viscosity_mPas), std::pair("channel_width_um", c.flow.width_um),
+        std::pair("flow_rate_ul_s", c.flow.rate_ul_s), std::pair("pixelation_pixel_size_um", c.pixel_size_um)})
+    row[name] = number_text(value);
+  row.insert({{"table", s.table},
+              {"medium", s.medium},
+              {"viscosity_model", s.viscosity_model},
+              {"temperature", s.temperature},
+              {"corrected_for_pixels", s.corrected},
+              {"gates", s.gates},
+              {"area_from", s.area_from},
+              {"deformation_from", s.deformation_from},
+              {"sample", s.labels.sample},
+              {"date", s.labels.date},
+              {"time", s.labels.time},
+              {"run_index", s.labels.run_index},
+              {"chip", s.labels.chip},
+              {"remarks", all_of(s.warnings)}});
+  return row;
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (;;) {
+    const auto end = text.find(separator);
+    parts.emplace_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::vector<Row> rows_in(std::string_view text) {
+  std::vector<Row> rows;
+  const auto lines = split(text, '\n');
+  const auto names = split(lines.front(), '\t');
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    const auto cells = split(lines[k], '\t');
+    if (cells.size() != names.size()) continue;  // the end of the text
+    Row& row = rows.emplace_back();
+    for (std::size_t i = 0; i < cells.size(); ++i) row[names[i]] = cells[i];
+  }
+  return rows;
+}
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+fs::path name_in_summary(const fs::path& recording, const fs::path& folder) {
+  std::error_code error;
+  const fs::path full = fs::weakly_canonical(fs::absolute(recording).parent_path(), error) / recording.filename();
+  const fs::path relative = full.lexically_relative(folder);
+  return relative.empty() || *relative.begin() == ".." ? full : relative;
+}
+
+}  // namespace
+
+std::string summary_table(std::span<const SummaryLine> lines, std::string_view earlier) {
+  std::map<std::string, Row> by_recording;
+  for (auto& row : rows_in(earlier)) by_recording[row["recording"]] = std::move(row);
+  for (const auto& line : lines) by_recording[cell(line.recording.string())] = row_of(line);
+  const auto names = columns();
+  std::string text;
+  for (const auto& name : names) text.append(text.empty() ? "" : "\t").append(name);
+  for (auto& [recording, row] : by_recording) {
+    text.append("\n").append(recording);
+    for (std::size_t i = 1; i < names.size(); ++i) text.append("\t").append(cell(row[names[i]]));
+  }
+  return text + "\n";
+}
+
+void add_to_summary(const fs::path& file, std::span<const SummaryLine> lines) {
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path(), error);
+  fs::create_directories(folder, error);
+  std::vector<SummaryLine> named(lines.begin(), lines.end());
+  for (auto& line : named) line.recording = name_in_summary(line.recording, folder);
+  const Claim alone = wait_for_folder(folder);
+  check_replaceable(file, mark, Foreign::keep);
+  write_own_file(file, summary_table(named, content_of(file)), mark, Foreign::keep);
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,115 @@
+// Which of the given files are recordings, and where their results and the table of all of them go.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "extract_fixture.h"
+
+namespace rheocyte {
+namespace {
+
+namespace fs = std::filesystem;
+using test::RecordingWriter;
+using ExtractPlaces = test::ExtractFixture;
+
+TEST_F(ExtractPlaces, SearchesFoldersAndKeepsTheirNames) {
+  fs::create_directories(folder_ / "data/day1");
+  fs::create_directories(folder_ / "data/day2");
+  write_recording("data/day1/M1.rtdc");
+  write_recording("data/day2/M1.rtdc");
+  EXPECT_EQ(extract({"-r", path("data"), "-o", path("out")}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/day1/M1_rheocyte.rtdc"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/day2/M1_rheocyte.rtdc"));
+  // Results beside the recordings are no recordings of the next call.
+  EXPECT_EQ(extract({"-r", path("data")}).exit_code, 0);
+  const auto again = extract({"-r", path("data")});
+  EXPECT_NE(again.out.find("2 of 2 recordings"), std::string::npos) << again.out;
+  expect_refusal({path("data")}, "give -r");
+}
+
+TEST_F(ExtractPlaces, ResultsAmongTheGivenFilesAreNoRecordings) {
+  write_recording("a.rtdc");
+  EXPECT_EQ(extract({path("a.rtdc")}).exit_code, 0);
+  const auto again = extract({path("a.rtdc"), path("a_rheocyte.rtdc"), path("a.rtdc")});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.out.find("1 of 1 recordings"), std::string::npos) << again.out;
+  EXPECT_NE(again.err.find("a_rheocyte.rtdc: is a result of this program and was passed over."), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "a_rheocyte_rheocyte.rtdc"));
+  expect_refusal({path("a_rheocyte.rtdc")}, "is a result of this program, as its name says; give the recording");
+}
+
+TEST_F(ExtractPlaces, RecordingsOfOneNameAreToldApartByTheirFolders) {
+  for (const std::string day : {"day1", "day2"}) {
+    fs::create_directories(folder_ / day);
+    write_recording(day + "/M1.rtdc");
+  }
+  write_recording("M2.rtdc");
+  const auto ended =
+      extract({path("day1/M1.rtdc"), path("day2/M1.rtdc"), path("M2.rtdc"), "-o", path("out"), "--quiet"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  for (const std::string name : {"day1_M1", "day2_M1", "M2"})
+    EXPECT_TRUE(fs::exists(folder_ / ("out/" + name + "_rheocyte.rtdc"))) << name;
+}
+
+TEST_F(ExtractPlaces, FoldersWithoutResultsAreNotLeftBehind) {
+  fs::create_directories(folder_ / "data/day1");
+  fs::create_directories(folder_ / "data/day2");
+  std::ofstream(folder_ / "data/day1/bad.rtdc") << "no recording";
+  write_recording("data/day2/good.rtdc");
+  EXPECT_EQ(extract({"-r", path("data"), "-o", path("out")}).exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "out/day1"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/day2/good_rheocyte.rtdc"));
+}
+
+TEST_F(ExtractPlaces, OneTableTakesTheRecordingsOfAllCallsIntoAFolder) {
+  for (const std::string name : {"a.rtdc", "b.rtdc", "a.rtdc"}) {
+    write_recording(name);
+    EXPECT_EQ(extract({path(name), "-o", path("out")}).exit_code, 0);
+  }
+  const auto summary = test::content_of(folder_ / "out/rheocyte_summary.tsv");
+  EXPECT_EQ(std::ranges::count(summary, '\n'), 3) << summary;
+  EXPECT_NE(summary.find("\tsample\tdate\ttime\trun_index\tchip\t"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("\ttest\t2026-01-31\t12:34:56\t1\t\t"), std::string::npos) << summary;
+}
+
+TEST_F(ExtractPlaces, WithoutAFolderForResultsTheTableLiesWhereAllRecordingsDo) {
+  fs::create_directories(folder_ / "data/day1/early");
+  fs::create_directories(folder_ / "data/day2");
+  write_recording("data/day1/early/M1.rtdc");
+  write_recording("data/day2/M2.rtdc");
+  EXPECT_EQ(extract({"-r", path("data")}).exit_code, 0);
+  EXPECT_NE(test::content_of(folder_ / "data/rheocyte_summary.tsv").find("\nday1/early/M1.rtdc\t6\t"),
+            std::string::npos);
+  EXPECT_EQ(extract({path("data/day1/early/M1.rtdc")}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "data/day1/early/rheocyte_summary.tsv"));
+}
+
+TEST_F(ExtractPlaces, NamesMayBeThoseOfTheCurrentFolder) {
+  write_recording("a.rtdc");
+  fs::create_directories(folder_ / "data");
+  write_recording("data/b.rtdc");
+  const auto here = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {RHEOCYTE, "extract", "--table", "table.txt"});
+    const auto ended = test::run({.arguments = arguments, .folder = folder_ / "."});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  };
+  here({"a.rtdc"});
+  EXPECT_TRUE(fs::exists(folder_ / "a_rheocyte.rtdc"));
+  here({"-r", "."});
+  EXPECT_TRUE(fs::exists(folder_ / "data/b_rheocyte.rtdc"));
+  const auto summary = test::content_of(folder_ / "rheocyte_summary.tsv");
+  EXPECT_EQ(std::ranges::count(summary, '\n'), 3) << summary;
+  EXPECT_NE(summary.find("\ndata/b.rtdc\t6\t"), std::string::npos) << summary;
+  here({"a.rtdc", "data/b.rtdc", "-o", "out"});
+  EXPECT_TRUE(fs::exists(folder_ / "out/b_rheocyte.rtdc"));
+}
+
+TEST_F(ExtractPlaces, AResultOfAnotherRecordingOfTheSameNameIsKept) {
+  write_recording("a.rtdc", [](RecordingWriter& writer) { writer.text("experiment:run identifier", "first"); });
+  EXPECT_EQ(extract({path("a.rtdc"), "-o", path("out")}).exit_code, 0);
+  write_recording("a.rtdc", [](RecordingWriter& writer) { writer.text("experiment:run identifier", "second"); });
+  expect_refusal({path("a.rtdc"), "-o", path("out")}, "belongs to another recording of this name");
+}
+
+}  // namespace
+}  // namespace rheocyte
