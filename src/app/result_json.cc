@@ -73,7 +73,9 @@ std::span<const Field<Result, Json>> computation_fields() {
        [](const Result& r) -> Json { return r.state.statistics.newton_iterations; }},
       {"residual", "of the last Newton iteration, relative to the driving forces",
        [](const Result& r) -> Json { return r.state.residual; }},
-      {"estimated_error", "of the deformation, relative; null for a state on the way and in time",
+      {"estimated_error",
+       "of the deformation, relative (accepted, too, where it is below 1e-12 absolute); null for a state on the way "
+       "and in time",
        [](const Result& r) -> Json { return r.state.estimated_error; }},
       {"wall_time_s", "time that the solver took", [](const Result& r) -> Json { return r.state.statistics.total_s; }},
       {"case", "the complete case with its defaults; its keys are those of the case reference",

@@ -86,7 +86,10 @@ std::string summary(const Result& result, const std::string& folder) {
     modulus("young modulus", cell.bulk.young_modulus_kPa, "kPa");
     modulus("cortex modulus", cell.cortex.modulus_mN_per_m, "mN/m");
   }
-  if (std::isfinite(state.estimated_error))
+  if (state.outcome.status == Status::converged && state.estimated_error > result.problem.accuracy)
+    text += line("estimated error", fmt::format("{:.1e}", deformation_round_off),
+                 "of the deformation, absolute: as small as rounding allows");
+  else if (std::isfinite(state.estimated_error))
     text += line("estimated error", fmt::format("{:.1e}", state.estimated_error),
                  fmt::format("of the deformation, wanted {:.1e}", result.problem.accuracy));
   else if (result.input.time.scheme != TimeScheme::stationary && state.outcome.status == Status::converged)

@@ -15,8 +15,8 @@ struct Rung {
   int first_degree, last_degree;
 };
 constexpr std::array<Rung, 3> meshes = {{{{2, 4, 1, 2}, 4, 9}, {{3, 6, 1, 2}, 7, 10}, {{4, 8, 2, 2}, 7, 10}}};
-/// Of the deformation, absolute: what area and perimeter leave of it after their digits cancel.
-constexpr double round_off = 1e-12, tiny_deformation = 1e-5;
+/// Only deformations below this are accepted for their small absolute error.
+constexpr double tiny_deformation = 1e-5;
 
 /// No first change is trusted below this: neighbouring degrees may agree by chance.
 constexpr double least_first_estimate = 2e-5;
@@ -63,7 +63,7 @@ bool is_accurate(const Ladder& ladder, const Problem& problem) {
   const bool coarsest = ladder.rungs.back().resolution.subdivision.top == meshes.front().subdivision.top;
   if (coarsest && has_narrow_gap(problem)) return false;
   const double size = std::abs(ladder.deformations.back()), error = ladder.estimated_error;
-  return error <= problem.accuracy || (size < tiny_deformation && error * size <= round_off);
+  return error <= problem.accuracy || (size < tiny_deformation && error * size <= deformation_round_off);
 }
 
 Status climb(const Problem& problem, const NewtonOptions& newton, ResolvedState state, Ladder& ladder,

@@ -34,6 +34,12 @@ std::string unstable_surface(const std::string& where, SurfaceKind kind) {
 }  // namespace
 
 std::string explanation(const Outcome& outcome, const LastState& last) {
+  if (outcome.status == Status::converged && last.estimated_error > last.wanted_error)
+    return fmt::format(
+        "The stationary shape was found; its deformation is so small that rounding limits it: it is known within "
+        "{:.0e}, "
+        "not within the wanted {:.1e} of its value.",
+        deformation_round_off, last.wanted_error);
   if (outcome.status == Status::converged) return "The stationary shape was found.";
   if (outcome.status == Status::stopped && outcome.reached <= 0) return "Stopped by a signal before the first state.";
   if (outcome.reached <= 0) {

@@ -33,10 +33,15 @@ struct Outcome {
 enum class SurfaceKind { bare, membrane, held };
 SurfaceKind surface_kind(const Problem&);
 
+/// The absolute error that rounding leaves of a deformation: the digits of area and perimeter cancel. No deformation is
+/// resolved better, whatever relative accuracy is wanted.
+inline constexpr double deformation_round_off = 1e-12;
+
 /// What an explanation speaks of.
 struct LastState {
   double deformation = 0;
   double estimated_error = 0;  ///< relative
+  double wanted_error = 0;     ///< relative
   SurfaceKind surface = SurfaceKind::bare;
   double known_end = 0;  ///< least modulus over the wanted one, where it was known beforehand
 };

@@ -107,7 +107,8 @@ void explain(const Problem& problem, const ResolvedState& state, StationaryState
   }
   const double known_end =
       is_far_too_soft(problem) ? least_shear_modulus(problem).value() / problem.bulk.shear_modulus : 0;
-  outcome.message = explanation(outcome, {r.shape.deformation, r.estimated_error, surface_kind(problem), known_end});
+  outcome.message = explanation(
+      outcome, {r.shape.deformation, r.estimated_error, problem.accuracy, surface_kind(problem), known_end});
 }
 
 /// The branch from the sphere to the problem, or to the end of the branch where that is known to lie before.

@@ -30,17 +30,27 @@ TEST(Outcome, EveryStatusHasASentence) {
   // Whatever was reached; only success speaks of a shape that was found without reserve.
   for (const Status status : statuses) {
     for (const double reached : {0.0, 0.4, 1.0}) {
-      const std::string sentence = explanation({status, "", reached}, {0.05, 1e-3});
+      const std::string sentence =
+          explanation({status, "", reached}, {.deformation = 0.05, .estimated_error = 1e-3, .wanted_error = 1e-3});
       EXPECT_EQ(sentence.back(), '.') << name(status);
       EXPECT_EQ(sentence == "The stationary shape was found.", status == Status::converged);
     }
   }
 }
 
+TEST(Outcome, ADeformationThatRoundingLimitsIsToldSo) {
+  // Its relative error may be anything; what is known is absolute.
+  const Outcome converged{Status::converged, "", 1};
+  const std::string sentence =
+      explanation(converged, {.deformation = 1e-13, .estimated_error = 2.9, .wanted_error = 1e-4});
+  EXPECT_NE(sentence.find("rounding limits it: it is known within 1e-12"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("not within the wanted 1.0e-04"), std::string::npos) << sentence;
+}
+
 TEST(Outcome, TheEndOfTheBranchIsToldInModuliAndDeformation) {
   // 0.4 of the compliance is 2.5 times the modulus.
   for (const Status status : {Status::surface_unstable, Status::branch_ended, Status::mesh_folded}) {
-    const std::string sentence = explanation({status, "", 0.4}, {0.0512, 0});
+    const std::string sentence = explanation({status, "", 0.4}, {.deformation = 0.0512});
     EXPECT_NE(sentence.find("2.5 times the wanted moduli"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("0.0512"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("raise the moduli"), std::string::npos) << sentence;
@@ -51,11 +61,13 @@ TEST(Outcome, AnUnstableSurfaceIsOfferedWhatCouldHoldIt) {
   // By the names of the keys; a surface that is held already is not.
   const Outcome unstable{Status::surface_unstable, "", 0.4};
   for (const char* key : {"cell.cortex.bending_kBT", "cell.cortex.tension_mN_per_m"}) {
-    EXPECT_NE(explanation(unstable, {0.05, 0, SurfaceKind::bare}).find(key), std::string::npos);
-    EXPECT_NE(explanation(unstable, {0.05, 0, SurfaceKind::membrane}).find(key), std::string::npos);
-    EXPECT_EQ(explanation(unstable, {0.05, 0, SurfaceKind::held}).find(key), std::string::npos);
+    EXPECT_NE(explanation(unstable, {.deformation = 0.05, .surface = SurfaceKind::bare}).find(key), std::string::npos);
+    EXPECT_NE(explanation(unstable, {.deformation = 0.05, .surface = SurfaceKind::membrane}).find(key),
+              std::string::npos);
+    EXPECT_EQ(explanation(unstable, {.deformation = 0.05, .surface = SurfaceKind::held}).find(key), std::string::npos);
   }
-  EXPECT_NE(explanation(unstable, {0.05, 0, SurfaceKind::membrane}).find("cortex"), std::string::npos);
+  EXPECT_NE(explanation(unstable, {.deformation = 0.05, .surface = SurfaceKind::membrane}).find("cortex"),
+            std::string::npos);
 }
 
 }  // namespace
