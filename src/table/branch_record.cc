@@ -1,6 +1,9 @@
 // A branch as bytes.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "case/joined.h"
 #include "table/branch.h"
 #include "table/checked_record.h"
@@ -67,6 +70,17 @@ json record_of(const SampledBranch& branch) {
           {"factorisation_seconds", branch.factorisation_seconds}};
 }
 
+/// What tables are made of is finite; a measure that a state does not have is not a number.
+void check_numbers(const SampledBranch& branch) {
+  const auto all_finite = [](const std::vector<Eigen::MatrixX2d>& contours) {
+    return std::ranges::all_of(contours, [](const auto& contour) { return contour.allFinite(); });
+  };
+  const auto is_sound = [](double v) { return std::isfinite(v) && v >= 0; };
+  if (!std::ranges::all_of(branch.stiffness, is_sound) || !std::ranges::all_of(branch.error, is_sound) ||
+      !all_finite(branch.contour) || !all_finite(branch.contour_slope))
+    throw DamagedRecord{"a number is out of range"};
+}
+
 SampledBranch branch_of(const json& record) {
   if (record.at("measures") != json(measure_names())) throw DamagedRecord{"it holds other measures"};
   const auto samples = record.at("samples").get<std::size_t>();
@@ -88,6 +102,7 @@ SampledBranch branch_of(const json& record) {
   branch.refused = record.at("refused");
   branch.seconds = record.at("seconds");
   branch.factorisation_seconds = record.at("factorisation_seconds");
+  check_numbers(branch);
   return branch;
 }
 

@@ -45,6 +45,18 @@ TEST(BranchRecord, ABranchWithoutSamplesIsARecord) {
   EXPECT_EQ(back.end.message, "nothing converged");
 }
 
+TEST(BranchRecord, NumbersOfShapesAndStiffnessesAreFinite) {
+  // Also under a right checksum; only a measure may be one that the state does not have.
+  for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    auto stiffness = invented_branch(7), error = invented_branch(7), contour = invented_branch(7);
+    stiffness.stiffness[1] = wrong;
+    error.error[1] = wrong;
+    contour.contour[1](0, 1) = wrong;
+    for (const auto& branch : {stiffness, error, contour})
+      EXPECT_NE(refusal(to_bytes(branch, hash)).find("branch-007.cbor: "), std::string::npos);
+  }
+}
+
 TEST(BranchRecord, EveryCutIsRefused) {
   const auto bytes = to_bytes(invented_branch(7, {30, 0.3, 2}), hash);
   for (std::size_t length = 0; length < bytes.size(); length += length < 200 ? 1 : 37)
