@@ -86,9 +86,10 @@ def features(masks, pixel_size_um):
                     belongs to the cell, of which the longest outline counts
     pixel_size_um   size of a pixel
 
-    Returns a pandas.DataFrame with one row per event, NaN where there is no cell: area_um (um2, of the convex hull),
-    deform, pos_x, pos_y (um), area_msd (pixels), area_ratio, size_x, size_y (um), inert_ratio_cvx, inert_ratio_raw,
-    inert_ratio_prnc, tilt (radian), volume (um3).
+    Returns a pandas.DataFrame with one row per event, NaN where there is no cell. Of the convex hull: area_um (um2),
+    area_cvx (pixels), deform, circ, pos_x, pos_y (um), inert_ratio_cvx. Of the outline: area_msd (pixels), area_um_raw
+    (um2), deform_raw, per_um_raw (um), inert_ratio_raw, inert_ratio_prnc, eccentr_prnc, tilt (radian), volume (um3),
+    size_x, size_y (um), aspect. Of both: area_ratio, per_ratio.
     """
     import pandas
 

@@ -3,17 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
-#include <system_error>
 #include <tuple>
 
 #include "case/user_error.h"
+#include "extract/companion_origin.h"
 #include "extract/event_table.h"
 #include "extract/extraction.h"
-#include "measurement/basin.h"
 #include "measurement/companion_file.h"
-#include "store/build_info.h"
-#include "store/contained.h"
 #include "store/own_file.h"
 
 namespace rheocyte {
@@ -22,33 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string program() { return fmt::format("rheocyte {}", version); }
-
 std::string meaning_of_states() {
   std::string text = "state of emodulus:";
   for (std::size_t k = 0; k < names_of_modulus_states.size(); ++k)
     text += fmt::format("{} {} {}", k == 0 ? "" : ",", k, names_of_modulus_states[k]);
   return text;
-}
-
-std::string now_utc() {
-  const std::time_t now = std::time(nullptr);
-  char text[32] = "";
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
-// Paths under which the original is looked for: where it is now, seen from the companion's folder, and in that folder.
-std::vector<std::string> paths_to(const fs::path& original, const fs::path& folder) {
-  std::error_code error;
-  const fs::path absolute = fs::weakly_canonical(fs::absolute(original), error);
-  const fs::path relative = fs::relative(absolute, folder, error);
-  std::vector<std::string> paths{absolute.string()};
-  for (const auto& path : {relative.string(), original.filename().string()})
-    if (!path.empty() && std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
-  return paths;
 }
 
 /// Names of features for what the field's programs have no name for: of userdef0 to userdef9 those that the recording
@@ -77,47 +51,7 @@ void describe(CompanionFile& companion, const fs::path& folder, const Recording&
     companion.add_user_metadata(std::string("rheocyte ") + role, name);
   }
   companion.add_user_metadata("rheocyte table", extraction.table().origin().identifier);
-  std::vector<std::string> log{program() + " extract", "time: " + now_utc(),
-                               "recording: " + recording.file().filename().string()};
-  const auto settings = extraction.lines();
-  log.insert(log.end(), settings.begin(), settings.end());
-  companion.add_log("rheocyte-extract", log);
-  companion.add_basin(paths_to(recording.file(), folder));
-}
-
-[[noreturn]] void refuse_to_replace(const fs::path& place, const char* what) {
-  throw UserError(fmt::format("{}: is there and {}; move it away, or name another folder with -o.",
-                              one_line(place.string(), 300), what));
-}
-
-// Nothing if it is no recording at all.
-std::optional<Metadata> metadata_in(const fs::path& place) {
-  try {
-    return Recording(place).metadata();
-  } catch (const UserError&) {
-    return std::nullopt;
-  }
-}
-
-// Our own say in their metadata which program has written them. Read in a process of its own, as it may be any file.
-void check_companion(const fs::path& place) {
-  std::error_code error;
-  if (!fs::exists(place, error)) return;
-  const auto is_ours = [&](const TellProgress&) {
-    const auto metadata = metadata_in(place);
-    const auto programs = metadata ? metadata->text("setup:software version") : std::nullopt;
-    return programs && programs->find("rheocyte ") != std::string::npos;
-  };
-  const auto looked = run_contained(is_ours, {}, [](double) {});
-  if (!looked.stopped() && !(looked.finished() && looked.result))
-    refuse_to_replace(place, "was not written by rheocyte");
-}
-
-// Where calls for single recordings of one name write into one folder.
-void check_same_recording(const fs::path& place, const Recording& original) {
-  const auto metadata = metadata_in(place);
-  if (metadata && !same_measurement(original.metadata(), *metadata, false))
-    refuse_to_replace(place, "belongs to another recording of this name");
+  add_origin(companion, "extract", recording, folder, extraction.lines());
 }
 
 /// Both files of a recording, block by block. The companion holds area and deformation, too: the recording may only

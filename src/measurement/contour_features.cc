@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-constexpr ContourFeatures no_features{nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+constexpr ContourFeatures no_features{nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
 
 /// Integrals over the polygon; the sign of the orientation is removed.
 struct PolygonMoments {
@@ -140,7 +140,48 @@ ContourFeatures ContourMeasurer::measure(std::span<const PixelPoint> contour, do
           .inertia_ratio_raw = std::sqrt(raw.mu20 / raw.mu02),
           .inertia_ratio_principal = ratio,
           .tilt = tilt,
-          .volume_um3 = volume_of_rotation(contour, hull.y) * px * px * px};
+          .volume_um3 = volume_of_rotation(contour, hull.y) * px * px * px,
+          .raw_perimeter_um = perimeter_of(contour) * px};
 }
+
+namespace {
+
+using F = ContourFeatures;
+
+double hull_perimeter_um(const F& f) { return 2 * std::sqrt(std::numbers::pi * f.area_um2) / (1 - f.deformation); }
+double raw_area_um2(const F& f) { return f.area_um2 / f.area_ratio; }
+
+constexpr OutlineFeature all_outline_features[] = {
+    {"area_cvx", "px", "area of the convex hull", [](const F& f) { return f.raw_area_px * f.area_ratio; }},
+    {"area_msd", "px", "area of the outline", [](const F& f) { return f.raw_area_px; }},
+    {"area_ratio", "", "area of the hull over that of the outline", [](const F& f) { return f.area_ratio; }},
+    {"area_um", "um2", "area of the convex hull", [](const F& f) { return f.area_um2; }},
+    {"area_um_raw", "um2", "area of the outline", raw_area_um2},
+    {"aspect", "", "length over height, both in whole pixels", [](const F& f) { return f.width_um / f.height_um; }},
+    {"circ", "", "circularity of the hull, 1 - deform", [](const F& f) { return 1 - f.deformation; }},
+    {"deform", "", "1 - 2 sqrt(pi A) / P of the hull", [](const F& f) { return f.deformation; }},
+    {"deform_raw", "", "the same of the outline",
+     [](const F& f) { return 1 - 2 * std::sqrt(std::numbers::pi * raw_area_um2(f)) / f.raw_perimeter_um; }},
+    {"eccentr_prnc", "", "eccentricity of the ellipse with the principal moments of the outline",
+     [](const F& f) { return std::sqrt(1 - 1 / (f.inertia_ratio_principal * f.inertia_ratio_principal)); }},
+    {"inert_ratio_cvx", "", "root of the ratio of the second moments of the hull, along the channel over across",
+     [](const F& f) { return f.inertia_ratio; }},
+    {"inert_ratio_prnc", "", "the same of the outline along its principal axes",
+     [](const F& f) { return f.inertia_ratio_principal; }},
+    {"inert_ratio_raw", "", "the same of the outline", [](const F& f) { return f.inertia_ratio_raw; }},
+    {"per_ratio", "", "perimeter of the outline over that of the hull",
+     [](const F& f) { return f.raw_perimeter_um / hull_perimeter_um(f); }},
+    {"per_um_raw", "um", "perimeter of the outline", [](const F& f) { return f.raw_perimeter_um; }},
+    {"pos_x", "um", "centroid of the hull along the channel", [](const F& f) { return f.x_um; }},
+    {"pos_y", "um", "centroid of the hull across the channel", [](const F& f) { return f.y_um; }},
+    {"size_x", "um", "length in whole pixels", [](const F& f) { return f.width_um; }},
+    {"size_y", "um", "height in whole pixels", [](const F& f) { return f.height_um; }},
+    {"tilt", "rad", "angle of the long principal axis to the channel, without sign", [](const F& f) { return f.tilt; }},
+    {"volume", "um3", "mean of both halves of the outline rotated about the line through the hull's centroid",
+     [](const F& f) { return f.volume_um3; }}};
+
+}  // namespace
+
+std::span<const OutlineFeature> outline_features() { return all_outline_features; }
 
 }  // namespace rheocyte

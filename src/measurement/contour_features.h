@@ -19,7 +19,17 @@ struct ContourFeatures {
   double inertia_ratio, inertia_ratio_raw;  ///< sqrt(mu20 / mu02) (inert_ratio_cvx, inert_ratio_raw)
   double inertia_ratio_principal, tilt;     ///< of the outline itself along its principal axes (inert_ratio_prnc)
   double volume_um3;                        ///< mean of both halves rotated about the axis through the centroid
+  double raw_perimeter_um;                  ///< (per_um_raw)
 };
+
+/// A feature of the shape by the name that the field's programs give it.
+struct OutlineFeature {
+  const char *name, *unit, *sentence;
+  double (*value)(const ContourFeatures&);
+};
+
+/// All that an outline tells, in the order of their names.
+std::span<const OutlineFeature> outline_features();
 
 /// Computes features; keeps its memory from contour to contour.
 class ContourMeasurer {

@@ -37,6 +37,16 @@ bool write_text(hid_t object, const std::string& name, const std::string& text) 
   return write_attribute(object, name, type.get(), static_cast<const void*>(&pointer));
 }
 
+Hdf5Handle compressed(std::span<const hsize_t> chunk) {
+  Hdf5Handle properties(::H5Pcreate(H5P_DATASET_CREATE));
+  const unsigned level = 5;
+  ::H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
+  ::H5Pset_filter(properties.get(), zstd_filter_number, H5Z_FLAG_MANDATORY, 1, &level);
+  ::H5Pset_fletcher32(properties.get());
+  ::H5Pset_obj_track_times(properties.get(), false);
+  return properties;
+}
+
 bool write_lines(hid_t file, const std::string& path, const std::vector<std::string>& lines) {
   std::size_t longest = longest_log_line;
   for (const auto& line : lines) longest = std::max(longest, line.size());
@@ -45,9 +55,9 @@ bool write_lines(hid_t file, const std::string& path, const std::vector<std::str
     std::memcpy(characters.data() + i * longest, lines[i].data(), lines[i].size());
   const hsize_t extent = lines.size();
   const Hdf5Handle type = text_type(longest), space(::H5Screate_simple(1, &extent, nullptr));
-  const Hdf5Handle links(::H5Pcreate(H5P_LINK_CREATE)), properties(::H5Pcreate(H5P_DATASET_CREATE));
+  const hsize_t chunk = std::max<hsize_t>(extent, 1);
+  const Hdf5Handle links(::H5Pcreate(H5P_LINK_CREATE)), properties = compressed({&chunk, 1});
   ::H5Pset_create_intermediate_group(links.get(), 1);
-  ::H5Pset_obj_track_times(properties.get(), false);
   const Hdf5Handle dataset(
       ::H5Dcreate2(file, path.c_str(), type.get(), space.get(), links.get(), properties.get(), H5P_DEFAULT));
   return dataset && ::H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, characters.data()) >= 0;
@@ -66,16 +76,6 @@ std::vector<std::string> broken_lines(const std::vector<std::string>& lines) {
     } while (at < line.size());
   }
   return broken;
-}
-
-Hdf5Handle compressed(std::span<const hsize_t> chunk) {
-  Hdf5Handle properties(::H5Pcreate(H5P_DATASET_CREATE));
-  const unsigned level = 5;
-  ::H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
-  ::H5Pset_filter(properties.get(), zstd_filter_number, H5Z_FLAG_MANDATORY, 1, &level);
-  ::H5Pset_fletcher32(properties.get());
-  ::H5Pset_obj_track_times(properties.get(), false);
-  return properties;
 }
 
 void Extremes::add(std::span<const double> values) {

@@ -103,26 +103,6 @@ std::vector<std::string> moduli(const std::filesystem::path& recording, const st
   });
 }
 
-struct FeatureColumn {
-  const char* name;
-  double ContourFeatures::*member;
-};
-
-// Those of dclab where it has them.
-constexpr FeatureColumn feature_columns[] = {{"area_um", &ContourFeatures::area_um2},
-                                             {"deform", &ContourFeatures::deformation},
-                                             {"pos_x", &ContourFeatures::x_um},
-                                             {"pos_y", &ContourFeatures::y_um},
-                                             {"area_msd", &ContourFeatures::raw_area_px},
-                                             {"area_ratio", &ContourFeatures::area_ratio},
-                                             {"size_x", &ContourFeatures::width_um},
-                                             {"size_y", &ContourFeatures::height_um},
-                                             {"inert_ratio_cvx", &ContourFeatures::inertia_ratio},
-                                             {"inert_ratio_raw", &ContourFeatures::inertia_ratio_raw},
-                                             {"inert_ratio_prnc", &ContourFeatures::inertia_ratio_principal},
-                                             {"tilt", &ContourFeatures::tilt},
-                                             {"volume", &ContourFeatures::volume_um3}};
-
 using Masks = py::array_t<std::uint8_t, py::array::c_style>;
 
 // Masks (events, rows, columns), not empty; the caller has looked.
@@ -140,10 +120,10 @@ py::dict features(const Masks& masks, double pixel_size_um) {
     return all;
   });
   py::dict columns;
-  for (const auto& [name, member] : feature_columns) {
+  for (const OutlineFeature& feature : outline_features()) {
     std::vector<double> values(found.size());
-    std::ranges::transform(found, values.begin(), [member = member](const auto& f) { return f.*member; });
-    columns[name] = array_of(std::move(values));
+    std::ranges::transform(found, values.begin(), feature.value);
+    columns[feature.name] = array_of(std::move(values));
   }
   return columns;
 }

@@ -117,6 +117,23 @@ TEST(CompanionFile, FeaturesAreCompressedCheckedAndCarryTheirExtremes) {
   EXPECT_EQ(extremes.number("mean"), 2);
 }
 
+TEST(CompanionFile, LogsAndTheBasinAreCompressedToo) {
+  // dclab's check of integrity counts every dataset.
+  const ScratchFolder folder;
+  write_original(folder / "a.rtdc");
+  CompanionFile companion(folder / "b.rtdc", Recording(folder / "a.rtdc"), "rheocyte");
+  companion.add_log("a-log", {"one", "two"});
+  companion.add_basin({"a.rtdc"});
+  companion.close();
+  const Hdf5Handle file(::H5Fopen((folder / "b.rtdc").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  for (const std::string group : {"logs", "basins"}) {
+    const auto names = member_names(open_group(file.get(), group).get());
+    ASSERT_TRUE(names && names->size() == 1) << group;
+    const Hdf5Handle dataset = open_dataset(file.get(), group + "/" + names->front());
+    EXPECT_EQ(::H5Pget_nfilters(Hdf5Handle(::H5Dget_create_plist(dataset.get())).get()), 2) << group;
+  }
+}
+
 TEST(CompanionFile, LinesOfLogsAreBrokenBetweenCharacters) {
   std::string text;
   for (int i = 0; i < 150; ++i) text += i % 2 ? "\xC3\xBC" : "a";

@@ -116,3 +116,35 @@ def test_the_command_prints_the_plugin(tmp_path):
 @pytest.mark.parametrize("dataset", [{"medium": "other"}, {"region": "reservoir"}])
 def test_the_plugin_offers_nothing_where_it_has_nothing(plugin, dataset):
     assert "rheocyte_modulus" not in invented(**dataset)
+
+
+def needs_program():
+    program = os.environ.get("RHEOCYTE_PROGRAM")
+    if not program:
+        pytest.skip("RHEOCYTE_PROGRAM names no program")
+    return program
+
+
+SHAPES = ("area_cvx", "area_msd", "area_ratio", "area_um", "area_um_raw", "aspect", "circ", "deform", "deform_raw",
+          "eccentr_prnc", "inert_ratio_cvx", "inert_ratio_prnc", "inert_ratio_raw", "per_ratio", "per_um_raw", "pos_x",
+          "pos_y", "size_x", "size_y", "tilt", "volume")
+
+
+@pytest.mark.parametrize("path", WITH_EVENTS)
+def test_features_from_masks_are_those_that_recordings_store(path, tmp_path):
+    """In single precision, as far as recordings store them; dclab finds nothing to complain of in the companion."""
+    with dclab.new_dataset(path) as dataset:
+        masks = dataset["mask"] if "mask" in dataset.features_innate and "contour" not in dataset.features_innate else []
+        one_group = [ndimage.label(np.asarray(mask, dtype=bool), np.ones((3, 3)))[1] == 1 for mask in masks]
+        stored = {name: np.array(dataset[name]) for name in SHAPES if name in dataset.features_innate}
+    if not any(one_group):
+        pytest.skip(f"{path.name} holds no masks, or contours that are not those of its masks")
+    subprocess.run([needs_program(), "features", path, "-o", tmp_path, "--quiet"], check=True)
+    companion = tmp_path / f"{path.stem}_features_rheocyte.rtdc"
+    with dclab.new_dataset(companion) as dataset:
+        for name, values in stored.items():
+            assert np.allclose(np.array(dataset[name])[one_group], values[one_group], rtol=1e-6, atol=1e-6), name
+        assert set(SHAPES) <= set(dataset.features_innate)
+    complaints = [dclab.rtdc_dataset.check.check_dataset(file)[:2] for file in (path, companion)]
+    for before, after in zip(*complaints):
+        assert set(after) <= set(before)

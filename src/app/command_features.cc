@@ -1,0 +1,81 @@
+// `rheocyte features FILES... [-o DIR]`
+// Each recording is read in a process of its own, so that a damaged one harms no other. `exit_code`: 0, 2 if a
+// recording could not be used, 3 if one has no event with an outline, 128 + signal.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/extract_options.h"
+#include "app/key_option.h"
+#include "app/recording_batch.h"
+#include "extract/features_recording.h"
+#include "store/standard_output.h"
+#include "store/stop_signal.h"
+#include "synth/synth_keys.h"
+
+namespace rheocyte {
+
+namespace {
+
+struct FeaturesOptions {
+  BatchOptions batch;
+  std::optional<double> pixel_size_um;
+  double patience_s = 60;
+};
+
+/// All recordings of one call.
+class FeaturesJob {
+ public:
+  explicit FeaturesJob(const FeaturesOptions& options) : options_(options) {}
+
+  int run() {
+    const auto tasks = tasks_of(options_.batch);
+    return run_batch(tasks, options_.batch, options_.patience_s, *this);
+  }
+
+  WholeFile files(const RecordingTask& task) const { return features_file(place_for(task)); }
+
+  FeaturesSummary work(const RecordingTask& task, const WholeFile& file, const TellProgress& tell_progress) const {
+    return features_of_recording(task.recording, place_for(task), file.scratch(), options_.pixel_size_um,
+                                 tell_progress);
+  }
+
+  bool take(const RecordingTask& task, const FeaturesSummary& summary) const {
+    const std::string name = one_line(task.recording.string(), 200);
+    if (!options_.batch.quiet)
+      print(fmt::format("{}: {} features of {} of {} events, see {}\n", name, outline_features().size(),
+                        summary.with_outline, summary.events, place_for(task).string()));
+    if (summary.with_outline == 0) tell(fmt::format("{}: no event has an outline.", name));
+    return summary.with_outline > 0;
+  }
+
+  void fail(const RecordingTask&, const std::string&) const {}
+
+ private:
+  static std::filesystem::path place_for(const RecordingTask& task) {
+    return task.result("_features" + std::string(companion_suffix) + ".rtdc");
+  }
+
+  const FeaturesOptions& options_;
+};
+
+}  // namespace
+
+void add_features_command(CLI::App& app, int& exit_code) {
+  auto* command =
+      app.add_subcommand("features", "features of the shape of the cells in recordings (.rtdc) from contours or masks");
+  auto options = std::make_shared<FeaturesOptions>();
+  declare_batch_options(*command, options->batch);
+  add_key_option(*command, *find_key(synth_keys(), "recording.pixel_size_um"), options->pixel_size_um,
+                 "from the recording");
+  command->add_option("--patience", options->patience_s,
+                      "give a recording up when nothing was read from it for so many seconds (60)");
+  command->callback([options, &exit_code] {
+    watch_signals(SecondSignal::waits);
+    exit_code = FeaturesJob(*options).run();
+  });
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,28 @@
+// What every companion of a recording says about itself, and which file it may replace.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "measurement/companion_file.h"
+#include "measurement/recording.h"
+
+namespace rheocyte {
+
+/// Name and version of this program.
+std::string program();
+
+/// Adds the log `rheocyte-COMMAND` (program, time, recording, and these lines) and the basin that leads from `folder`
+/// to the recording: where it is now, seen from there, and in that folder.
+void add_origin(CompanionFile& companion, const std::string& command, const Recording& recording,
+                const std::filesystem::path& folder, const std::vector<std::string>& lines);
+
+/// UserError if a file stands there that this program did not write. It is read in a process of its own, as it may be
+/// any file.
+void check_companion(const std::filesystem::path& place);
+
+/// UserError if a companion of another recording stands there: calls for single recordings of one name may write into
+/// one folder.
+void check_same_recording(const std::filesystem::path& place, const Recording& original);
+
+}  // namespace rheocyte

@@ -1,0 +1,71 @@
+#include "extract/features_recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "case/user_error.h"
+#include "extract/companion_origin.h"
+#include "measurement/shape_source.h"
+
+namespace rheocyte {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t block = 4096;
+
+double pixel_size(const Recording& recording, std::optional<double> given) {
+  const double size = given.value_or(recording.metadata().number("imaging:pixel size").value_or(0));
+  if (size > 0 && std::isfinite(size)) return size;
+  throw UserError(
+      fmt::format("{}: imaging:pixel size {}; give --pixel-size-um.", one_line(recording.file().string(), 300),
+                  recording.metadata().has("imaging:pixel size") ? "is not a positive number" : "is missing"));
+}
+
+}  // namespace
+
+WholeFile features_file(const fs::path& place) {
+  return WholeFile(place, [place] { check_companion(place); });
+}
+
+FeaturesSummary features_of_recording(const fs::path& file, const fs::path& place, const fs::path& scratch,
+                                      std::optional<double> pixel_size_um, const TellProgress& on_progress) {
+  Recording recording(file);
+  check_same_recording(place, recording);
+  if (!ShapeSource::has_outlines(recording))
+    throw UserError(fmt::format("{}: holds neither contours nor masks, from which features of the shape are computed.",
+                                one_line(file.string(), 300)));
+  const double size_um = pixel_size(recording, pixel_size_um);
+  double done = 0;
+  recording.on_piece(now_and_then([&] { on_progress(done); }));
+  ShapeSource shapes(recording, size_um);
+  CompanionFile companion(scratch, recording, program());
+  for (const OutlineFeature& feature : outline_features()) companion.add_feature(feature.name);
+  add_origin(companion, "features", recording, fs::absolute(scratch).parent_path(),
+             {fmt::format("pixel size: {} um", size_um),
+              fmt::format("outlines: {}", recording.has_contours() ? "contours" : "masks")});
+  FeaturesSummary summary{recording.events()};
+  std::vector<ContourFeatures> features;
+  std::vector<double> values;
+  for (std::size_t first = 0; first < summary.events; first += block) {
+    const std::size_t count = std::min(block, summary.events - first);
+    features.resize(count);
+    values.resize(count);
+    shapes.read_features(first, features);
+    for (const OutlineFeature& feature : outline_features()) {
+      std::ranges::transform(features, values.begin(), feature.value);
+      companion.write(feature.name, first, values);
+    }
+    summary.with_outline += std::size_t(
+        std::ranges::count_if(features, [](const ContourFeatures& f) { return std::isfinite(f.area_um2); }));
+    on_progress(done = static_cast<double>(first + count) / static_cast<double>(summary.events));
+  }
+  companion.close();
+  return summary;
+}
+
+}  // namespace rheocyte
