@@ -41,14 +41,14 @@ def _full_name(name):
     return dotted if dotted in _KEYS else _ALIASES.get(name, dotted)
 
 
-def _flat(values, prefix=""):
+def flat_keys(values, prefix=""):
     """Pairs of a dotted key and its value from nested dictionaries."""
     for name, value in values.items():
         if not isinstance(name, str):
             raise UserError(f"Case: the key {name!r} is no text; write \"cell.radius_um\".")
         full = prefix + name
         if isinstance(value, Mapping) and (value or full in _SECTIONS):
-            yield from _flat(value, full + ".")
+            yield from flat_keys(value, full + ".")
         else:
             yield full, value
 
@@ -100,7 +100,7 @@ class Case:
         if isinstance(source, Case) and not overrides:
             self._keep(source._stated, source._values, source._nested)  # which never change, they are replaced
             return
-        replaced = dict(_flat({_full_name(name): value for name, value in overrides.items()}))
+        replaced = dict(flat_keys({_full_name(name): value for name, value in overrides.items()}))
         if isinstance(source, (str, os.PathLike)):
             # Its mistakes are told with their lines.
             native.CaseValues.from_file(os.fspath(source), list(replaced.items()))
@@ -108,7 +108,7 @@ class Case:
         elif isinstance(source, Case):
             stated = dict(source._stated)
         elif source is None or isinstance(source, Mapping):
-            stated = dict(_flat(source or {}))
+            stated = dict(flat_keys(source or {}))
         else:
             raise UserError(f"Case: {type(source).__name__} is no source of a case; give a path or a dictionary.")
         self._take(stated, replaced)
@@ -118,7 +118,7 @@ class Case:
         values = native.CaseValues.from_keys(list(stated.items()), list(replaced.items()))
         nested = json.loads(values.json())
         named = {_FORMER.get(name, name): value for name, value in (stated | replaced).items()}
-        has_effect = dict(_flat(nested))
+        has_effect = dict(flat_keys(nested))
         self._keep({name: value for name, value in named.items() if name in has_effect}, values, nested)
 
     def _keep(self, stated, values, nested):
@@ -140,7 +140,7 @@ class Case:
         if name in _SECTIONS:
             if not isinstance(value, Mapping):
                 raise UserError(f"Case: {name} is a section; set its keys, or give it a dictionary.")
-            self._take(self._stated, dict(_flat(value, name + ".")))
+            self._take(self._stated, dict(flat_keys(value, name + ".")))
         elif name in _KEYS:
             self._take(self._stated, {name: value})
         else:
@@ -184,5 +184,5 @@ class Case:
         return Case, (self.to_dict(),)
 
     def __repr__(self):
-        keys = ", ".join(f"{name}={value!r}" for name, value in _flat(self._nested))
+        keys = ", ".join(f"{name}={value!r}" for name, value in flat_keys(self._nested))
         return f"Case({keys})"

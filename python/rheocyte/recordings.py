@@ -8,6 +8,7 @@ import numpy as np
 from rheocyte.arrays import number, positive
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
+from rheocyte.progress import progress_bar
 from rheocyte.stiffness_tables import place_of_table
 
 _UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "young_modulus_kPa": "kPa",
@@ -37,7 +38,7 @@ def extract(recording, *, table="", pixelation=True, correct_area=True, progress
     options.measuring = _measuring(measuring, "extract")
     options.table = place_of_table(table)
     options.no_pixelation, options.no_area_correction = not pixelation, not correct_area
-    with _bar(progress) as tell:
+    with progress_bar(progress) as tell:
         columns, attributes = native.extract(_path(recording), options, tell)
     if not len(columns["standard_error_kPa"]) or np.isnan(columns["standard_error_kPa"]).all():
         del columns["standard_error_kPa"]
@@ -66,7 +67,7 @@ def moduli(recording, table, *, fit_tension=False, only_figure=False, progress=N
     options.fit_tension, options.only_figure = bool(fit_tension), bool(only_figure)
     descriptor = os.memfd_create("rheocyte-moduli")  # memory, not a file
     try:
-        with _bar(progress) as tell:
+        with progress_bar(progress) as tell:
             warnings = native.moduli(_path(recording), f"/proc/self/fd/{descriptor}", options, tell)
         with open(descriptor, encoding="utf-8", closefd=False) as file:
             file.seek(0)
@@ -132,24 +133,3 @@ def _measuring(given, function):
             known = ", ".join((*_NUMBERS, *_TEXTS, "temperature", "least", "greatest"))
             raise UserError(f"{function} has no argument {name!r}; there are {known}.")
     return options
-
-
-class _bar:
-    """A function of the share that is done: the caller's, a bar of tqdm, or none."""
-
-    def __init__(self, progress):
-        self._call, self._bar = progress if callable(progress) else None, None
-        if progress is True:
-            try:
-                from tqdm.auto import tqdm
-            except ImportError:
-                return
-            self._bar = tqdm(total=100, unit="%")
-            self._call = lambda share: self._bar.update(100 * share - self._bar.n)
-
-    def __enter__(self):
-        return self._call
-
-    def __exit__(self, *_):
-        if self._bar is not None:
-            self._bar.close()

@@ -11,15 +11,12 @@
 #include "app/exit_codes.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
+#include "store/progress.h"
 #include "store/python_package.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
-#include "table/combined_table.h"
-#include "table/grid_from_branches.h"
-#include "table/lookup_table.h"
-#include "table/simulations_file.h"
-#include "table/table_folder.h"
+#include "table/finish_table.h"
 #include "table/table_workers.h"
 
 namespace rheocyte {
@@ -34,50 +31,23 @@ struct TableOptions {
   bool quiet = false, no_picture = false;
 };
 
-void write_combined(const TableFolder& folder, const std::vector<SampledBranch>& branches) {
-  folder.publish(combined_table_name(folder.spec()), combined_table_csv(make_combined_table(folder.spec(), branches)));
-  folder.publish("end-of-branch.csv", combined_ends_csv(branches));
-  folder.tidy();
-}
-
-void write_files(const TableFolder& folder, const TableOptions& options) {
-  const auto branches = folder.read_all();
-  if (folder.spec().is_combined()) return write_combined(folder, branches);
-  const LookupTable table = make_lookup_table(folder.spec(), branches, version);
-  for (const auto& [name, content] : table_files(table, options.levels)) folder.publish(name, content);
-  folder.publish(fmt::format("simulations_{}.h5", folder.spec().identifier), simulations_file(table));
-  if (const auto grid = make_stiffness_grid(folder.spec(), branches, version))
-    folder.publish(grid_file_name(folder.spec().identifier), to_bytes(*grid));
-  else
-    tell(
-        "rheocyte: warning: the branches are too few or too short for a grid; `rheocyte extract` takes the text "
-        "table.");
-  folder.tidy();
-  if (options.no_picture) return;
+void draw(const TableFolder& folder) {
   if (const auto failure = Drawing("table_picture").finish(folder.path()); !failure.empty())
     tell(fmt::format("rheocyte: warning: no pictures ({}); the tables are complete.", one_line(failure, 300)));
 }
 
-std::string summary(const TableFolder& folder) {
-  int samples = 0, refused = 0, solves = 0, unstable = 0, short_of_range = 0;
-  double seconds = 0, factorisation = 0;
-  for (const SampledBranch& branch : folder.read_all()) {
-    samples += branch.samples();
-    refused += branch.refused;
-    solves += branch.solves;
-    seconds += branch.seconds;
-    factorisation += branch.factorisation_seconds;
-    if (branch.bending_kBT > 0 || branch.empty()) continue;  // those that go on where others have ended
-    unstable += branch.end.status == "surface-unstable";
-    short_of_range +=
-        branch.end.status != "surface-unstable" && branch.end.status != "covered" && branch.end.status != "dented";
-  }
-  return fmt::format(
-      "{} states on {} branches, {} solves, {:.0f} s of one processor ({:.0f} % factorisation)\n"
-      "{} branches end at the instability of the surface, {} short of the range for other reasons (end-of-branch.csv); "
-      "{} states refused\n",
-      samples, folder.branches(), solves, seconds, 100 * factorisation / std::max(seconds, 1e-9), unstable,
-      short_of_range, refused);
+/// False if a signal has ended it.
+bool compute(const TableFolder& folder, int jobs, bool quiet) {
+  watch_signals();
+  folder.take_over();
+  Progress progress("branches", folder.branches(), folder.done(), quiet);
+  const TableObserver observer{[&](int done) { progress.show(done); },
+                               [&] {
+                                 if (!quiet) tell("the rest is being computed by other processes");
+                               }};
+  const bool is_complete = work_on_table(folder, jobs, observer, stop_wanted());
+  progress.finish();
+  return is_complete;
 }
 
 int make_table(const TableOptions& options) {
@@ -85,13 +55,14 @@ int make_table(const TableOptions& options) {
   const TableFolder folder(options.folder, spec);
   const Rank rank = rank_from_environment();
   const int jobs = options.jobs > 0 ? options.jobs : rank.count > 1 ? 1 : available_processors();
-  if (!work_on_table(folder, jobs, options.quiet || rank.number > 0)) {
+  if (!compute(folder, jobs, options.quiet || rank.number > 0)) {
     tell(fmt::format("rheocyte: stopped after {} of {} branches; the same command goes on from here.", folder.done(),
                      folder.branches()));
     return exit_stopped();
   }
   if (rank.number > 0) return exit_converged;
-  write_files(folder, options);
+  for (const auto& sentence : finish_table(folder, options.levels, version)) tell("rheocyte: warning: " + sentence);
+  if (!options.no_picture && !spec.is_combined()) draw(folder);
   if (!options.quiet) print(fmt::format("{}  folder {}\n", summary(folder), options.folder.string()));
   return exit_converged;
 }

@@ -1,5 +1,7 @@
 // Tables of moduli: events in numpy arrays, lines, and the viscosity of buffers.
+#include <pybind11/functional.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +19,9 @@
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
+#include "store/build_info.h"
+#include "table/finish_table.h"
+#include "table/table_workers.h"
 
 namespace rheocyte {
 
@@ -142,6 +147,24 @@ HeldTable table_for(double flow_exponent) {
   return {SharedMap(tables, &tables->used(flow_exponent))};
 }
 
+// Works on the folder of a table; tells branches that are done and all. Sentences about what could not be made.
+std::vector<std::string> compute_table(const std::string& text, const std::string& name,
+                                       const std::vector<std::string>& settings, const std::filesystem::path& place,
+                                       int jobs, const std::optional<std::function<void(double)>>& progress) {
+  const TableSpec spec = parse_table_spec(text, name, settings);
+  return interruptible([&](const std::atomic<bool>& stop) -> std::vector<std::string> {
+    const TableFolder folder(place, spec);
+    folder.take_over();
+    const auto tell = [&](int done) {
+      if (!progress) return;
+      const py::gil_scoped_acquire acquired;
+      (*progress)(static_cast<double>(done) / folder.branches());
+    };
+    if (!work_on_table(folder, jobs > 0 ? jobs : available_processors(), {tell, {}}, stop)) return {};
+    return finish_table(folder, {}, version);
+  });
+}
+
 }  // namespace
 
 void bind_tables(py::module_& module) {
@@ -161,6 +184,7 @@ void bind_tables(py::module_& module) {
       .def("flow_exponent", &Buffer::flow_exponent)
       .def("viscosity", &viscosities);
   module.def("table_files", &table_files);
+  module.def("compute_table", &compute_table);
   module.attr("state_names") =
       std::vector<std::string_view>(names_of_modulus_states.begin(), names_of_modulus_states.end());
 }

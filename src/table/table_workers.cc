@@ -14,9 +14,6 @@
 #include <vector>
 
 #include "solve/outcome.h"
-#include "store/progress.h"
-#include "store/standard_error.h"
-#include "store/stop_signal.h"
 #include "table/sample_branch.h"
 
 namespace rheocyte {
@@ -42,21 +39,19 @@ class Workers {
   }
   ~Workers() { stop(); }
 
-  bool wait(Progress progress, bool quiet) {
+  bool wait(const TableObserver& observer, const std::atomic<bool>& wanted) {
     bool has_told = false;
     for (;;) {
       const int done = folder_.done();
-      progress.show(done);
+      if (observer.done) observer.done(done);
       std::unique_lock lock(mutex_);
-      if (done == folder_.branches() || signal_received() || failure_) break;
-      if (idle_ == jobs_ && !quiet && !std::exchange(has_told, true))
-        tell("the rest is being computed by other processes");
+      if (done == folder_.branches() || wanted || failure_) break;
+      if (idle_ == jobs_ && observer.waits && !std::exchange(has_told, true)) observer.waits();
       changed_.wait_for(lock, look);
     }
-    progress.finish();
     stop();
     if (failure_) std::rethrow_exception(failure_);
-    return !signal_received();
+    return !wanted;
   }
 
  private:
@@ -135,11 +130,9 @@ int available_processors() {
   return std::max(1u, std::thread::hardware_concurrency());
 }
 
-bool work_on_table(const TableFolder& folder, int jobs, bool quiet) {
-  folder.take_over();
-  watch_signals();
-  const int done = folder.done(), left = folder.branches() - done;
-  return Workers(folder, std::clamp(left, 1, jobs)).wait({"branches", folder.branches(), done, quiet}, quiet);
+bool work_on_table(const TableFolder& folder, int jobs, const TableObserver& observer, const std::atomic<bool>& stop) {
+  const int left = folder.branches() - folder.done();
+  return Workers(folder, std::clamp(left, 1, jobs)).wait(observer, stop);
 }
 
 }  // namespace rheocyte

@@ -127,3 +127,33 @@ def test_a_table_that_is_not_there_or_damaged_is_named(tmp_path):
     file.write_bytes(b"\x00" * 100)
     with pytest.raises(UserError, match="grid_mine.cbor"):
         Table(file)
+
+
+SMALL = {"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+         "cell": {"bulk": {"law": "linear"}},
+         "table": {"identifier": "SMALL", "least_area_um2": 60, "greatest_area_um2": 120, "greatest_deformation": 0.01, "radii": 5,
+                   "rows_per_radius": 20, "accuracy": 1e-3}}
+
+
+def test_a_table_is_computed_in_a_folder(tmp_path):
+    """Its moduli are those of direct solves; a second call goes on, here: has nothing left to do."""
+    shares = []
+    made = rheocyte.table(SMALL, tmp_path / "small", progress=shares.append)
+    assert made.identifier == "SMALL" and shares[-1] == 1
+    state = rheocyte.solve(radius_um=5.3, young_modulus_kPa=3, cell__bulk__law="linear", **WATERY)
+    found = made.modulus(state.area_um2, state.deformation, **WATERY)
+    assert found.young_modulus_kPa == pytest.approx(3, rel=5e-3)
+    shares.clear()
+    again = rheocyte.table(SMALL, tmp_path / "small", progress=shares.append)
+    assert set(shares) == {1} and again.modulus(80, 0.005, **WATERY) == made.modulus(80, 0.005, **WATERY)
+    with pytest.raises(UserError, match="another spec"):
+        rheocyte.table(SMALL, tmp_path / "small", table__radii=6)
+
+
+@pytest.mark.parametrize("spec, words", [
+    ({**SMALL, "table": {**SMALL["table"], "radius": 3}}, "table.radius"), ("nowhere.toml", "nowhere.toml"), (5, "no spec"),
+    ({**SMALL, "table": {**SMALL["table"], "radii": float("nan")}}, "nan"), ({"table": {"radii": object()}}, "object")])
+def test_what_is_no_spec_is_refused(spec, words, tmp_path):
+    with pytest.raises(UserError, match=words):
+        rheocyte.table(spec, tmp_path / "table")
+    assert not (tmp_path / "table").exists()
