@@ -2,7 +2,7 @@
 
 Solve a cell          Case, solve, Session, Result, evolve
 Tables                Table, table, table_names, viscosity, STATES
-Recordings            extract, moduli, features
+Recordings            extract, moduli, features, synth
 Small deformations    analytic
 Mistakes              UserError (a ValueError), NoStateError
 Keys of a case        case_keys
@@ -22,7 +22,7 @@ _MODULES = {
     "Evolution": "in_time", "evolve": "in_time",
     "STATES": "stiffness_tables", "Table": "stiffness_tables", "table_names": "stiffness_tables",
     "table": "stiffness_tables", "viscosity": "stiffness_tables",
-    "extract": "recordings", "features": "recordings", "moduli": "recordings",
+    "extract": "recordings", "features": "recordings", "moduli": "recordings", "synth": "recordings",
     "analytic": "closed_model",
     "NoStateError": "errors", "UserError": "errors",
 }

@@ -1,7 +1,8 @@
-"""Recordings of RT-DC: Young's moduli of their events, moduli of bulk and cortex, features of masks."""
+"""Recordings of RT-DC: Young's moduli of their events, moduli of bulk and cortex, features of masks, virtual ones."""
 
 import io
 import os
+from pathlib import Path
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from rheocyte.arrays import number, positive
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
 from rheocyte.progress import progress_bar
+from rheocyte.specs import read_spec
 from rheocyte.stiffness_tables import place_of_table
 
 _UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "young_modulus_kPa": "kPa",
@@ -78,6 +80,26 @@ def moduli(recording, table, *, fit_tension=False, only_figure=False, progress=N
     settings = [line[2:] for line in text.splitlines() if line.startswith("# ")]
     frame.attrs.update(settings=settings, warnings=warnings)
     return frame
+
+
+def synth(spec, file, *, replace=False, progress=None, **overrides):
+    """Makes a virtual recording (.rtdc) of a population of cells, as `rheocyte synth` does.
+
+    spec            path of a TOML file, or a dictionary with its keys, nested or dotted (`rheocyte help synth`)
+    file            the recording; replace: one that is there already
+    progress        called with the share that is done; True: a bar of tqdm where it is installed
+    overrides       keys that replace those of the spec, with two underscores for each dot: recording__cells=1000
+
+    The features userdef1 to userdef6 hold the true values. Returns the number of events. UserError names a wrong key.
+    """
+    place = Path(os.fspath(file))
+    text, name, settings = read_spec(spec, overrides, "synth")
+    if place.suffix != ".rtdc":
+        raise UserError(f"{place}: recordings have names that end in .rtdc.")
+    if place.exists() and not (replace and place.is_file()):
+        raise UserError(f"{place}: is there already; give another name, or replace=True for a file.")
+    with progress_bar(progress) as tell:
+        return native.synth(text, name, settings, str(place), tell)
 
 
 def features(masks, pixel_size_um):

@@ -1,20 +1,18 @@
 """Tables of Young's moduli over area and deformation: rheocyte's own and published ones."""
 
 import importlib.util
-import json
 import os
 import warnings
-from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from rheocyte.arrays import equally_long, number, numbers, positive
-from rheocyte.cases import flat_keys
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
 from rheocyte.progress import progress_bar
+from rheocyte.specs import read_spec
 
 STATES = tuple(native.state_names)  # names of the numbers in Moduli.state
 _MODEL = "buyukurganci-2022"
@@ -55,34 +53,13 @@ def table(spec, folder, *, jobs=None, progress=None, **overrides):
     Returns the Table; for cells with bulk and cortex, the folder, which rheocyte.moduli takes. UserError names a wrong
     key, or says that the folder belongs to another spec. Ctrl-C keeps the branches that are complete.
     """
-    if isinstance(spec, Mapping):
-        text, name = _toml(flat_keys(spec)), "the dictionary"
-    elif isinstance(spec, (str, os.PathLike)):
-        name = os.fspath(spec)
-        try:
-            text = Path(spec).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as failure:
-            raise UserError(f"{name}: cannot be read ({failure}).") from failure
-    else:
-        raise UserError(f"table: {type(spec).__name__} is no spec; give a path or a dictionary.")
-    settings = _toml((key.replace("__", "."), value) for key, value in overrides.items()).splitlines()
+    text, name, settings = read_spec(spec, overrides, "table")
     with progress_bar(progress) as tell:
         for sentence in native.compute_table(text, name, settings, os.fspath(folder), jobs or 0, tell):
             warnings.warn(sentence, stacklevel=2)
     if any(Path(folder).glob("grid_*.cbor")) or any(Path(folder).glob("lut_*.txt")):
         return Table(folder)
     return Path(folder)
-
-
-def _toml(pairs):
-    """Lines of TOML: its numbers, truths, texts and lists are those of JSON."""
-    lines = []
-    for key, value in pairs:
-        try:
-            lines.append(f"{key}={json.dumps(value, allow_nan=False)}\n")
-        except (TypeError, ValueError) as failure:
-            raise UserError(f"table: {key} = {value!r} is no finite number, text or list of them.") from failure
-    return "".join(lines)
 
 
 def viscosity(medium, *, channel_width_um, flow_rate_ul_s, temperature_C, model=_MODEL):

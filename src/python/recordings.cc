@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <sstream>
 
 #include "case/user_error.h"
 #include "extract/extraction.h"
@@ -16,6 +17,10 @@
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
+#include "store/build_info.h"
+#include "store/whole_file.h"
+#include "synth/synth_shapes.h"
+#include "synth/virtual_recording.h"
 
 namespace rheocyte {
 
@@ -103,6 +108,36 @@ std::vector<std::string> moduli(const std::filesystem::path& recording, const st
   });
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// The file appears whole or not at all; the caller has looked whether one is there. The number of its events.
+std::size_t synth(const std::string& text, const std::string& name, const std::vector<std::string>& settings,
+                  const std::filesystem::path& place, const Progress& progress) {
+  SynthSpec spec = parse_synth_spec(text, name, settings);
+  if (!spec.table.empty()) spec.table = std::filesystem::path(name).parent_path() / spec.table;
+  const RecordingProvenance provenance{std::string("rheocyte ") + version, lines_of(text)};
+  struct Stopped {};
+  return interruptible([&](const std::atomic<bool>& stop) -> std::size_t {
+    const auto shapes = shapes_of(spec);
+    WholeFile file(place);
+    try {
+      const auto made = write_virtual_recording(spec, *shapes, provenance, file.scratch(), [&](double share) {
+        tell(progress, share);
+        if (stop) throw Stopped{};
+      });
+      file.publish();
+      return made.events;
+    } catch (const Stopped&) {
+      return 0;
+    }
+  });
+}
+
 using Masks = py::array_t<std::uint8_t, py::array::c_style>;
 
 // Masks (events, rows, columns), not empty; the caller has looked.
@@ -163,6 +198,7 @@ void bind_recordings(py::module_& module) {
   module.def("extract", &extract);
   module.def("moduli", &moduli);
   module.def("features", &features);
+  module.def("synth", &synth);
 }
 
 }  // namespace rheocyte

@@ -104,3 +104,32 @@ def test_the_closed_model_is_that_of_the_command():
             rheocyte.analytic(5, **wrong)
     with pytest.raises(UserError, match="tube radius"):
         rheocyte.analytic(50, young_modulus_kPa=10)
+
+
+CELLS = {"recording": {"cells": 300, "seed": 5}, "channel": {"width_um": 20},
+         "flow": {"rate_ul_per_s": 0.04, "medium": "CellCarrier", "temperature_C": {"mean": 23, "sd": 0.3}},
+         "cell": {"radius_um": {"mean": 5.5, "sd": 0.2},
+                  "bulk": {"young_modulus_kPa": {"mean": 8, "sd": 0.5, "distribution": "lognormal"}}}}
+
+
+def test_virtual_cells_come_back(tmp_path):
+    """Their file is a recording; a file that is there is not replaced unasked."""
+    file = tmp_path / "cells.rtdc"
+    events = rheocyte.synth(CELLS, file)
+    assert 0 < events <= 300
+    frame = rheocyte.extract(file)
+    assert len(frame) == events and frame["area_um2"].median() == pytest.approx(np.pi * 5.5**2, rel=0.05)
+    with pytest.raises(UserError, match="is there already"):
+        rheocyte.synth(CELLS, file)
+    assert rheocyte.synth(CELLS, file, replace=True, recording__cells=50) <= 50
+    with pytest.raises(UserError, match="cels"):
+        rheocyte.synth({**CELLS, "recording": {"cels": 3}}, tmp_path / "other.rtdc")
+    with pytest.raises(UserError, match=".rtdc"):
+        rheocyte.synth(CELLS, tmp_path / "other.h5")
+
+
+def test_moduli_of_bulk_and_cortex_need_their_table(tmp_path):
+    file = tmp_path / "cells.rtdc"
+    rheocyte.synth(CELLS, file)
+    with pytest.raises(UserError, match="nowhere"):
+        rheocyte.moduli(file, tmp_path / "nowhere")

@@ -146,7 +146,7 @@ def test_a_table_is_computed_in_a_folder(tmp_path):
     shares.clear()
     again = rheocyte.table(SMALL, tmp_path / "small", progress=shares.append)
     assert set(shares) == {1} and again.modulus(80, 0.005, **WATERY) == made.modulus(80, 0.005, **WATERY)
-    with pytest.raises(UserError, match="another spec"):
+    with pytest.raises(UserError, match="was begun as"):
         rheocyte.table(SMALL, tmp_path / "small", table__radii=6)
 
 

@@ -1,0 +1,33 @@
+"""Specs of tables and virtual recordings: files or dictionaries of the keys that `rheocyte help table|synth` explains."""
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from rheocyte.cases import flat_keys
+from rheocyte.errors import UserError
+
+
+def read_spec(spec, overrides, function):
+    """Text of a spec, what stands for it in messages, and the overrides as lines "key=value"."""
+    settings = _toml(((key.replace("__", "."), value) for key, value in overrides.items()), function).splitlines()
+    if isinstance(spec, Mapping):
+        return _toml(flat_keys(spec), function), "the dictionary", settings
+    if not isinstance(spec, (str, os.PathLike)):
+        raise UserError(f"{function}: {type(spec).__name__} is no spec; give a path or a dictionary.")
+    try:
+        return Path(spec).read_text(encoding="utf-8"), os.fspath(spec), settings
+    except (OSError, UnicodeDecodeError) as failure:
+        raise UserError(f"{os.fspath(spec)}: cannot be read ({failure}).") from failure
+
+
+def _toml(pairs, function):
+    """Lines of TOML: its numbers, truths, texts and lists are those of JSON."""
+    lines = []
+    for key, value in pairs:
+        try:
+            lines.append(f"{key}={json.dumps(value, allow_nan=False)}\n")
+        except (TypeError, ValueError) as failure:
+            raise UserError(f"{function}: {key} = {value!r} is no finite number, text or list of them.") from failure
+    return "".join(lines)
