@@ -179,7 +179,7 @@ def our_moduli(path, table, width, rate, mPas=None, medium=None, degC=None, mode
 def test_moduli_of_recordings_are_those_of_dclab(path, table):
     """Ten ways to measure, by published tables: the same events without a modulus, the others equal to 1e-6."""
     with dclab.new_dataset(path) as dataset:
-        if not {"area_um", "deform"} <= set(dataset.features_innate):
+        if "area_um" not in dataset or "deform" not in dataset:
             pytest.skip(f"{path.name} holds no area or deformation")
     for measured in MEASURED:
         same(our_moduli(path, table, **measured), their_moduli(path, table, **measured))

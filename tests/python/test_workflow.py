@@ -1,0 +1,47 @@
+"""The workflow brings a folder of recordings to moduli, pictures and a report, and does nothing twice."""
+
+import os
+import subprocess
+import sys
+
+import pandas
+import pytest
+
+import rheocyte
+from conftest import TOP
+
+pytest.importorskip("snakemake", reason="Snakemake is not installed", exc_type=ImportError)
+
+CELLS = {"recording": {"cells": 200, "seed": 3}, "channel": {"width_um": 20},
+         "flow": {"rate_ul_per_s": 0.04, "medium": "CellCarrier", "temperature_C": {"mean": 23, "sd": 0.3}},
+         "cell": {"radius_um": {"mean": 5.5, "sd": 0.2}, "bulk": {"young_modulus_kPa": {"mean": 1.2, "sd": 0.1}}}}
+
+
+def workflow(folder, *more):
+    program = os.environ.get("RHEOCYTE_PROGRAM")
+    if not program:
+        pytest.skip("RHEOCYTE_PROGRAM names no program")
+    return subprocess.run([sys.executable, "-m", "snakemake", "-s", TOP / "examples/workflow/Snakefile", "--cores", "1",
+                           "--config", "recordings=in", "results=out", f"rheocyte={program}", *more],
+                          cwd=folder, capture_output=True, text=True, check=False)
+
+
+def test_a_folder_of_recordings_becomes_a_report(tmp_path):
+    (tmp_path / "in/day 1").mkdir(parents=True)
+    for name, modulus in (("a", 1.0), ("day 1/b", 1.5)):
+        rheocyte.synth(CELLS, tmp_path / f"in/{name}.rtdc", cell__bulk__young_modulus_kPa=modulus)
+    ended = workflow(tmp_path)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    report = pandas.read_csv(tmp_path / "out/report.tsv", sep="\t")
+    assert list(report["recording"]) == ["a", "day 1/b"]
+    error = report["standard_error_of_median_kPa"]
+    assert ((report["median_kPa"] - [1.0, 1.5]).abs() < 5 * error).all()
+    for made in ("report.png", "a_rheocyte.png", "day 1/b_rheocyte.rtdc"):
+        assert (tmp_path / "out" / made).stat().st_size > 0
+    again = workflow(tmp_path)
+    assert again.returncode == 0 and "Nothing to be done" in again.stdout + again.stderr
+
+
+def test_a_folder_without_recordings_is_named(tmp_path):
+    ended = workflow(tmp_path)
+    assert ended.returncode != 0 and "there is no recording" in ended.stdout + ended.stderr
