@@ -26,13 +26,15 @@ CLI::Option* add_key_option(CLI::App& command, const KeyDescription& key, const 
   auto* option =
       add_key_option(command, key, spelling, fmt::format("{} ({})", key.sentence, allowed_values(key)), take);
   if (former.empty()) return option;
-  const auto take_and_tell = [&command, spelling, former, take](double value) {
+  const auto take_and_tell = [&command, option, spelling, former, take](double value) {
+    if (option->count() > 0)
+      throw UserError(fmt::format("rheocyte: {} is the former name of {}; give one of them.", former, spelling));
     const auto* const quiet = command.get_option_no_throw("--quiet");
     if (!quiet || quiet->count() == 0)
       tell(fmt::format("rheocyte: {} is now called {}; this version still reads the old name.", former, spelling));
     take(value);
   };
-  add_key_option(command, key, former, "", take_and_tell)->group("")->excludes(option);
+  add_key_option(command, key, former, "", take_and_tell)->group("");
   return option;
 }
 
