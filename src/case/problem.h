@@ -11,6 +11,12 @@ namespace rheocyte {
 /// How a case is computed: the stationary shape at once, or the way to it (docs/theory-time.md).
 enum class TimeScheme { stationary, monolithic, partitioned };
 
+/// The channel's cross-section. A tube also stands for the square channel of the same pressure drop.
+enum class Section { tube, square };
+
+/// From where the camera looks at a cell in a square channel: onto a wall, or along the section's diagonal.
+enum class Camera { side, diagonal };
+
 /// What drives the liquid: a given flow rate, a given pressure drop over the channel, or a pressure drop that is
 /// adapted in each step in time until the flow rate is the wanted one (Mokbel et al. 2017).
 enum class Drive { rate, pressure_drop, controlled_pressure };
@@ -22,9 +28,10 @@ inline double disturbed_half_length(double radius_ratio) { return 1.4 * radius_r
 /// through the undisturbed part to the end and back is damped by exp(-8.9 * 2) = 2e-8.
 inline double least_half_length(double radius_ratio) { return disturbed_half_length(radius_ratio) + 2.0; }
 
-/// Physical size of the dimensionless units, SI.
+/// Physical size of the dimensionless units, SI. In a square channel of half width h they are h, U = Q / (4 h^2) and
+/// S = eta(U/h) U / h (docs/theory-square.md, eq:square-scales).
 struct Scales {
-  double length_m = 1;          ///< tube radius R
+  double length_m = 1;          ///< tube radius R, or h
   double velocity_m_per_s = 1;  ///< mean speed U = Q / (pi R^2), undisturbed if the pressure drop is given
   double stress_Pa = 1;         ///< S = eta(U/R) U / R
 
@@ -33,11 +40,13 @@ struct Scales {
 
 /// One case, dimensionless: the media and the channel that they are in.
 struct Problem : Media {
-  double radius_ratio = 0.5;  ///< r0 / R, in (0, 0.95)
-  Drive drive = Drive::rate;  ///< the given rate is 1; the given pressure drop that of the undisturbed flow
-  double channel_length = 0;  ///< simulated, in R; 0: the shortest, 2 least_half_length()
-  WallTable wall;             ///< the way of the cell; acts in time only
-  double accuracy = 1e-4;     ///< wanted relative accuracy of the deformation
+  Section section = Section::tube;
+  Camera camera = Camera::side;  ///< where the channel is square
+  double radius_ratio = 0.5;     ///< r0 / R, in (0, 0.95)
+  Drive drive = Drive::rate;     ///< the given rate is 1; the given pressure drop that of the undisturbed flow
+  double channel_length = 0;     ///< simulated, in R; 0: the shortest, 2 least_half_length()
+  WallTable wall;                ///< the way of the cell; acts in time only
+  double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation
 };
 
 }  // namespace rheocyte

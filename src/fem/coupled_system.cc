@@ -1,45 +1,12 @@
 #include "fem/coupled_system.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "fem/end_loads.h"
+#include "fem/observe.h"
 
 namespace rheocyte {
-namespace {
-
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
-
-WorkMeter& WorkMeter::operator+=(const WorkMeter& other) {
-  assembly_s += other.assembly_s;
-  condensation_s += other.condensation_s;
-  sparse_s += other.sparse_s;
-  solve_s += other.solve_s;
-  factorisations += other.factorisations;
-  return *this;
-}
-
-WorkMeter WorkMeter::operator-(const WorkMeter& other) const {
-  WorkMeter difference = *this;
-  difference.assembly_s -= other.assembly_s;
-  difference.condensation_s -= other.condensation_s;
-  difference.sparse_s -= other.sparse_s;
-  difference.solve_s -= other.solve_s;
-  difference.factorisations -= other.factorisations;
-  return difference;
-}
-
 /// One element's elimination: inner unknowns belong to it alone, outer ones couple it to others.
 struct CoupledSystem::Condensed {
   std::vector<int> inner_row, inner_column, inner_unknown;  ///< slots, and the unknown of each
@@ -141,6 +108,20 @@ VectorXd CoupledSystem::sphere() const {
   VectorXd unknowns = VectorXd::Zero(space_.unknowns());
   unknowns(space_.cell_velocity()) = 1;
   return unknowns;
+}
+
+double CoupledSystem::cell_radius() const { return space_.mesh().geometry().radius(); }
+
+double CoupledSystem::largest_displacement(const VectorXd& unknowns) const {
+  return rheocyte::largest_displacement(space_, unknowns);
+}
+
+void CoupledSystem::scale_displacement(double factor, VectorXd& unknowns) const {
+  rheocyte::scale_displacement(space_, factor, unknowns);
+}
+
+double CoupledSystem::stretch_change(const VectorXd& from, const VectorXd& to) const {
+  return rheocyte::stretch_change(space_, from, to);
 }
 
 VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, double& least_det) {

@@ -6,44 +6,30 @@
 #include <utility>
 
 #include "fem/element_integrals.h"
+#include "fem/nonlinear_system.h"
 #include "fem/sparse_lu.h"
 #include "fem/surface_integrals.h"
 
 namespace rheocyte {
 
-/// Seconds and counts of the parts of the work.
-struct WorkMeter {
-  double assembly_s = 0;      ///< integrals over elements, with and without tangent
-  double condensation_s = 0;  ///< dense elimination inside elements
-  double sparse_s = 0;        ///< numeric sparse factorisation
-  double solve_s = 0;
-  int factorisations = 0;
-
-  WorkMeter& operator+=(const WorkMeter&);
-  WorkMeter operator-(const WorkMeter&) const;
-};
-
-class CoupledSystem {
+class CoupledSystem : public NonlinearSystem {
  public:
-  virtual ~CoupledSystem();
-  CoupledSystem(const CoupledSystem&) = delete;
-  CoupledSystem& operator=(const CoupledSystem&) = delete;
+  ~CoupledSystem() override;
 
   const Discretisation& space() const { return space_; }
 
-  /// The unstressed sphere in a liquid at rest, moving with the mean speed of the flow.
-  VectorXd sphere() const;
-
-  /// Residual of all equations; `least_det` is set to the least relative det of the mesh.
-  VectorXd residual(const Media&, const VectorXd& unknowns, double& least_det);
-  /// The same, and the tangent factorised. False in `factorised` if the tangent is singular or not finite.
-  VectorXd linearise(const Media&, const VectorXd& unknowns, double& least_det, bool& factorised);
-  /// Solves with the tangent of the last `linearise`.
-  VectorXd solve(const VectorXd& rhs);
+  VectorXd sphere() const override;
+  VectorXd residual(const Media&, const VectorXd& unknowns, double& least_det) override;
+  VectorXd linearise(const Media&, const VectorXd& unknowns, double& least_det, bool& factorised) override;
+  VectorXd solve(const VectorXd& rhs) override;
+  double cell_radius() const override;
+  double largest_displacement(const VectorXd& unknowns) const override;
+  void scale_displacement(double factor, VectorXd& unknowns) const override;
+  /// Of the meridional stretch.
+  double stretch_change(const VectorXd& from, const VectorXd& to) const override;
   /// Tangent times a vector at given unknowns (for tests; assembles anew).
   VectorXd apply_tangent(const Media&, const VectorXd& unknowns, const VectorXd& direction);
 
-  const WorkMeter& work() const { return work_; }
   /// Of the factors and tables that it holds, about.
   std::size_t memory_bytes() const;
 
@@ -89,7 +75,11 @@ class CoupledSystem {
   std::unique_ptr<SparseMatrix> matrix_;
   std::unique_ptr<SparseLU> lu_;
   ElementSystem element_;
-  WorkMeter work_;
 };
+
+/// Of a system with axial symmetry.
+inline const Discretisation& space_of(const NonlinearSystem& system) {
+  return static_cast<const CoupledSystem&>(system).space();
+}
 
 }  // namespace rheocyte

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/observe.h"
-
 namespace rheocyte {
 namespace {
 
@@ -22,7 +20,7 @@ constexpr double thinning_step = 0.2, least_thinning_step = 0.01;
 
 /// Newton at one compliance from a guess in the Newtonian liquid. A power law is singular where nothing flows yet, so
 /// the liquid is approached from the Newtonian one in steps that halve where Newton fails.
-NewtonReport enter_branch(StationarySystem& system, const Problem& problem, const ContinuationOptions& options,
+NewtonReport enter_branch(NonlinearSystem& system, const Problem& problem, const ContinuationOptions& options,
                           double compliance, VectorXd& unknowns) {
   NewtonReport report;
   Media media = media_at(problem, compliance);
@@ -66,7 +64,7 @@ VectorXd branch_tangent(const Path& path, const BranchState& state) {
   return path.system(state.parameter).solve(-parameter_slope(path, state));
 }
 
-ContinuationReport start_branch(StationarySystem& system, const Problem& problem, const ContinuationOptions& options) {
+ContinuationReport start_branch(NonlinearSystem& system, const Problem& problem, const ContinuationOptions& options) {
   ContinuationReport report;
   Media wanted = problem;
   wanted.liquid = at_thinning(problem.liquid, 0);
@@ -80,14 +78,14 @@ ContinuationReport start_branch(StationarySystem& system, const Problem& problem
     return report;
   }
   const VectorXd response = system.solve(-residual);
-  const double displacement = largest_displacement(system.space(), response) / problem.radius_ratio;
+  const double displacement = system.largest_displacement(response) / system.cell_radius();
 
   // The displacement is proportional to the compliance at first; velocity and pressure do not depend on it.
   BranchState& state = report.last;
   state.parameter = std::min(1.0, options.displacement_per_step / displacement);
   state.unknowns = sphere + response;
-  scale_displacement(system.space(), state.parameter, state.unknowns);
-  for (; state.parameter > 1e-6; state.parameter /= 4, scale_displacement(system.space(), 0.25, state.unknowns)) {
+  system.scale_displacement(state.parameter, state.unknowns);
+  for (; state.parameter > 1e-6; state.parameter /= 4, system.scale_displacement(0.25, state.unknowns)) {
     VectorXd unknowns = state.unknowns;
     const NewtonReport newton_report = enter_branch(system, problem, options, state.parameter, unknowns);
     report.newton_iterations += newton_report.iterations;
@@ -96,7 +94,7 @@ ContinuationReport start_branch(StationarySystem& system, const Problem& problem
     if (report.status == Status::stopped) return report;
     if (report.status != Status::converged) continue;
     BranchState found{state.parameter, unknowns, {}, report.newton_iterations};
-    if (options.accept && !options.accept(system.space(), found)) {
+    if (options.accept && !options.accept(system, found)) {
       report.status = Status::surface_unstable;
       continue;
     }
@@ -120,10 +118,10 @@ double limited_step(const Path& path, double parameter, double h) {
 }
 
 /// Whether Newton found a state, near its prediction.
-Status judge(const NewtonReport& newton, const Discretisation& space, const VectorXd& guess, const VectorXd& found,
+Status judge(const NewtonReport& newton, const NonlinearSystem& system, const VectorXd& guess, const VectorXd& found,
              const ContinuationOptions& options) {
   if (newton.status != Status::converged) return newton.status;
-  return stretch_change(space, guess, found) < options.greatest_correction ? Status::converged : Status::branch_ended;
+  return system.stretch_change(guess, found) < options.greatest_correction ? Status::converged : Status::branch_ended;
 }
 
 }  // namespace
@@ -141,23 +139,23 @@ ContinuationReport continue_branch(const Path& path, const ContinuationOptions& 
   }
   BranchState before;
   const auto displacement_rate = [&](const BranchState& state) {
-    const Discretisation& space = path.system(state.parameter).space();
-    return std::max(largest_displacement(space, state.tangent) / space.mesh().geometry().radius(), 1e-12);
+    const NonlinearSystem& system = path.system(state.parameter);
+    return std::max(system.largest_displacement(state.tangent) / system.cell_radius(), 1e-12);
   };
   double h = options.displacement_per_step / displacement_rate(last);
   while (last.parameter < path.end) {
     h = limited_step(path, last.parameter, h);
     BranchState next;
     next.parameter = h >= path.end - last.parameter ? path.end : last.parameter + h;
-    StationarySystem& system = path.system(next.parameter);
+    NonlinearSystem& system = path.system(next.parameter);
     const VectorXd guess = predict(last, before.tangent.size() > 0 ? &before : nullptr, h);
     next.unknowns = guess;
     const NewtonReport newton_report = newton(system, path.media(next.parameter), options.newton, next.unknowns);
     report.newton_iterations += newton_report.iterations;
     next.newton_iterations = newton_report.iterations;
-    Status status = judge(newton_report, system.space(), guess, next.unknowns, options);
+    Status status = judge(newton_report, system, guess, next.unknowns, options);
     if (status == Status::stopped) return report.status = status, report;
-    if (status == Status::converged && options.accept && !options.accept(system.space(), next))
+    if (status == Status::converged && options.accept && !options.accept(system, next))
       status = Status::surface_unstable;
     if (status != Status::converged) {
       h /= 2;
@@ -170,7 +168,7 @@ ContinuationReport continue_branch(const Path& path, const ContinuationOptions& 
     last = std::move(next);
     ++report.steps;
     // With an exact tangent the predictor's error grows like h^3: aim at a first correction of 1 % of the radius.
-    const double radius = system.space().mesh().geometry().radius();
+    const double radius = system.cell_radius();
     const double growth = std::cbrt(0.01 * radius / std::max(newton_report.first_correction, 1e-12));
     h = std::min(h * std::clamp(growth, 0.4, 2.5), 2 * options.displacement_per_step / displacement_rate(last));
   }

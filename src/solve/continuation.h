@@ -24,7 +24,7 @@ struct ContinuationOptions {
   double greatest_correction = 0.06;
   double least_step = 2e-3;  ///< of the parameter, relative to its distance from the path's origin (or to 1)
   /// Called with each converged state; returning false refuses it as unstable, and the step is halved.
-  std::function<bool(const Discretisation&, const BranchState&)> accept;
+  std::function<bool(const NonlinearSystem&, const BranchState&)> accept;
 };
 
 struct ContinuationReport {
@@ -36,7 +36,7 @@ struct ContinuationReport {
 
 /// First state on the branch of a problem, in its compliance: Newton from the sphere where the response is still
 /// nearly linear.
-ContinuationReport start_branch(StationarySystem&, const Problem&, const ContinuationOptions&);
+ContinuationReport start_branch(NonlinearSystem&, const Problem&, const ContinuationOptions&);
 
 /// Continues from a converged state to the end of the path as far as it goes.
 ContinuationReport continue_branch(const Path&, const ContinuationOptions&, BranchState from);

@@ -25,9 +25,14 @@ constexpr double least_first_estimate = 2e-5;
 constexpr double narrow_gap = 0.85;
 bool has_narrow_gap(const Problem& problem) { return problem.radius_ratio > narrow_gap; }
 
-/// Error of the last of some values of the deformation on ever finer resolutions, relative to it
-/// (docs/theory.md, eq:error): the last change times the rest of a geometric series, and half of the last two changes
-/// at least.
+/// Whether the surface is so near its limit that no mesh can hold the state.
+bool is_nearly_unstable(const Problem& problem, const ResolvedState& state) {
+  return state.branch.unknowns.size() > 0 &&
+         stability_margin(problem, state.discrete->space, state.branch.unknowns) < small_margin;
+}
+
+}  // namespace
+
 double estimate_error(const std::vector<double>& values) {
   const std::size_t n = values.size();
   if (n < 2) return std::numeric_limits<double>::infinity();
@@ -38,14 +43,6 @@ double estimate_error(const std::vector<double>& values) {
   const double share = ratio < 0 ? 1 : std::max(0.5, ratio / (1 - ratio));  // below 0: changes of alternating sign
   return std::max(share * std::abs(change), 0.5 * std::abs(before)) / size;
 }
-
-/// Whether the surface is so near its limit that no mesh can hold the state.
-bool is_nearly_unstable(const Problem& problem, const ResolvedState& state) {
-  return state.branch.unknowns.size() > 0 &&
-         stability_margin(problem, state.discrete->space, state.branch.unknowns) < small_margin;
-}
-
-}  // namespace
 
 double deformation_of(const ResolvedState& state) {
   return measure(contour(state.discrete->space, state.branch.unknowns)).deformation;

@@ -7,6 +7,11 @@
 
 namespace rheocyte {
 
+/// Error of the last of some values of the deformation on ever finer resolutions, relative to it
+/// (docs/theory.md, eq:error): the last change times the rest of a geometric series, and half of the last two changes
+/// at least.
+double estimate_error(const std::vector<double>& deformations);
+
 /// The deformation of a state's contour.
 double deformation_of(const ResolvedState&);
 

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <utility>
 
-#include "fem/observe.h"
-
 namespace rheocyte {
+
+using Eigen::VectorXd;
+
 namespace {
 
 /// A full step may reduce the least det of the mesh to this share at most; else it is shortened.
@@ -17,7 +18,7 @@ constexpr double chord_reduction = 0.1;
 constexpr double hopeless_residual = 1e6;
 
 /// Takes the longest step 1, 1/2, 1/4, ... that does not fold the mesh; returns whether there is one.
-bool step(CoupledSystem& system, const Media& media, const VectorXd& correction, double det_before, VectorXd& x,
+bool step(NonlinearSystem& system, const Media& media, const VectorXd& correction, double det_before, VectorXd& x,
           VectorXd& residual) {
   double share = 1;
   for (int i = 0; i <= greatest_halvings; ++i, share /= 2) {
@@ -38,12 +39,12 @@ constexpr double round_off_displacement = 1e-14, round_off_residual = 1e-6;
 
 }  // namespace
 
-double residual_scale(CoupledSystem& system, const Media& media) {
+double residual_scale(NonlinearSystem& system, const Media& media) {
   double det = 0;
   return system.residual(media, system.sphere(), det).norm();
 }
 
-NewtonReport newton(CoupledSystem& system, const Media& media, const NewtonOptions& options, VectorXd& x) {
+NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOptions& options, VectorXd& x) {
   NewtonReport report;
   const double scale = options.residual_scale > 0 ? options.residual_scale : residual_scale(system, media);
   bool keep = options.keep_factors;  // whether the next step is a chord step
@@ -68,7 +69,7 @@ NewtonReport newton(CoupledSystem& system, const Media& media, const NewtonOptio
     if (det <= 0) return report.status = Status::mesh_folded, report;
     const VectorXd correction = system.solve(-residual);
     if (!correction.allFinite()) return report.status = Status::not_finite, report;
-    const double displacement = largest_displacement(system.space(), correction);
+    const double displacement = system.largest_displacement(correction);
     if (report.iterations++ == 0) report.first_correction = displacement;
     if (!step(system, media, correction, det, x, residual)) {
       if (!std::exchange(keep, false)) return report.status = Status::mesh_folded, report;

@@ -1,8 +1,9 @@
-// Newton's method on the coupled system, with chord steps while a kept factorisation still contracts well.
+// Newton's method on a system of equations, with chord steps while a kept factorisation still contracts well.
 #pragma once
 #include <atomic>
+#include <vector>
 
-#include "fem/coupled_system.h"
+#include "fem/nonlinear_system.h"
 #include "solve/outcome.h"
 
 namespace rheocyte {
@@ -25,10 +26,10 @@ struct NewtonReport {
 };
 
 /// Norm of the residual of the undeformed sphere in a liquid at rest: the scale of the driving forces.
-double residual_scale(CoupledSystem&, const Media&);
+double residual_scale(NonlinearSystem&, const Media&);
 
 /// Improves `unknowns` in place. If the report is not `converged`, `unknowns` are unspecified; the caller keeps the
 /// last good state. The system keeps the last factorisation.
-NewtonReport newton(CoupledSystem&, const Media&, const NewtonOptions&, VectorXd& unknowns);
+NewtonReport newton(NonlinearSystem&, const Media&, const NewtonOptions&, Eigen::VectorXd& unknowns);
 
 }  // namespace rheocyte

@@ -16,8 +16,8 @@ void Discrete::move_to(const Problem& problem, const Resolution& resolution) {
 
 double Path::unit(double parameter) const { return std::isfinite(origin) ? parameter - origin : 1; }
 
-Path stiffness_path(StationarySystem& system, const Problem& problem) {
-  return {[&system](double) -> StationarySystem& { return system; },
+Path stiffness_path(NonlinearSystem& system, const Problem& problem) {
+  return {[&system](double) -> NonlinearSystem& { return system; },
           [problem](double compliance) { return media_at(problem, compliance); }};
 }
 

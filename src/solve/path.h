@@ -32,7 +32,7 @@ struct Discrete {
 
 /// Media, and the system if the geometry moves, as functions of the parameter.
 struct Path {
-  std::function<StationarySystem&(double)> system;
+  std::function<NonlinearSystem&(double)> system;
   std::function<Media(double)> media;
   double end = 1;     ///< the wanted value
   double origin = 0;  ///< steps are limited relative to the distance from here; -infinity: not limited
@@ -43,6 +43,6 @@ struct Path {
 
 /// From the rigid cell (0) to the problem (1) in the compliance of everything that is elastic. The system must outlive
 /// the path.
-Path stiffness_path(StationarySystem&, const Problem&);
+Path stiffness_path(NonlinearSystem&, const Problem&);
 
 }  // namespace rheocyte

@@ -90,7 +90,8 @@ ResolvedState enter(const Problem& problem, const ContinuationOptions& options, 
 ContinuationOptions options_on_the_way(const Problem& problem, const NewtonOptions& newton, bool last,
                                        const BranchObserver& observe) {
   ContinuationOptions options;
-  options.accept = [observe, problem](const Discretisation& space, const BranchState& branch) {
+  options.accept = [observe, problem](const NonlinearSystem& system, const BranchState& branch) {
+    const Discretisation& space = space_of(system);
     if (is_wrinkled(problem, space, branch.unknowns)) return false;
     if (observe) observe(space, branch);
     return true;

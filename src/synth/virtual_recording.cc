@@ -57,9 +57,9 @@ struct Block {
 };
 
 /// Cells one after the other, each from its own random numbers.
-class Camera {
+class VirtualCamera {
  public:
-  Camera(const SynthSpec& spec, const CellShapes& shapes, VirtualRecording& result)
+  VirtualCamera(const SynthSpec& spec, const CellShapes& shapes, VirtualRecording& result)
       : spec_(spec), shapes_(shapes), size_(spec.image_size()), result_(result), mask_(size_.pixels()) {
     if (!spec.viscosity_mPas) buffer_.emplace(*medium_of_name(spec.medium), spec.viscosity_model);
   }
@@ -240,7 +240,7 @@ VirtualRecording write_virtual_recording(const SynthSpec& spec, const CellShapes
   VirtualRecording result;
   RecordingFile file(path);
   write_metadata(spec, provenance, file);
-  Camera camera(spec, shapes, result);
+  VirtualCamera camera(spec, shapes, result);
   Block block;
   const auto cells = static_cast<std::uint64_t>(spec.cells);
   constexpr std::size_t greatest_block_bytes = 64 << 20;

@@ -107,7 +107,7 @@ class BranchSampler {
   }
 
   Path path(int level, double end) {
-    return {[this, level](double) -> StationarySystem& { return at_level(level).system; },
+    return {[this, level](double) -> NonlinearSystem& { return at_level(level).system; },
             [this](double u) { return media_at(problem(u), 1); }, end, -std::numeric_limits<double>::infinity()};
   }
 
@@ -116,8 +116,8 @@ class BranchSampler {
     options.newton = newton_;
     options.newton.iteration_limit = 5;
     options.least_step = least_step;
-    options.accept = [this](const Discretisation& where, const BranchState& state) {
-      const bool accepted = !is_wrinkled(problem(state.parameter), where, state.unknowns);
+    options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
+      const bool accepted = !is_wrinkled(problem(state.parameter), space_of(system), state.unknowns);
       result_.refused += !accepted;
       return accepted;
     };

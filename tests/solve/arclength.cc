@@ -18,7 +18,7 @@ class ArcTracer {
  public:
   ArcTracer(const Path& path, const ArcOptions& options, const BranchState& start)
       : path_(path), options_(options), system_(path.system(start.parameter)), unit_(path.unit(start.parameter)) {
-    const Discretisation& space = system_.space();
+    const Discretisation& space = space_of(system_);
     for (const BoundaryEdge& edge : space.surface()) {
       for (const int node : edge.nodes) {
         for (int c = 0; c < 2; ++c) {
@@ -63,9 +63,9 @@ class ArcTracer {
   }
 
   bool is_near(const VectorXd& guess, const VectorXd& found) const {
-    return stretch_change(system_.space(), guess, found) < options_.greatest_correction;
+    return system_.stretch_change(guess, found) < options_.greatest_correction;
   }
-  bool goes_on(const BranchState& state) const { return !options_.go_on || options_.go_on(system_.space(), state); }
+  bool goes_on(const BranchState& state) const { return !options_.go_on || options_.go_on(space_of(system_), state); }
 
  private:
   double product(const VectorXd& a, const VectorXd& b) const {
@@ -76,7 +76,7 @@ class ArcTracer {
 
   const Path& path_;
   const ArcOptions& options_;
-  StationarySystem& system_;
+  NonlinearSystem& system_;
   double unit_, weight_ = 1;
   std::vector<int> surface_;  ///< unknowns of the surface's displacement; a vertex counts twice
 };

@@ -102,7 +102,7 @@ TEST(Continuation, AStateThatIsNotAcceptedEndsTheBranchBeforeIt) {
   CoarseProblem coarse(test::problem({6, 2.29, 0}));
   ContinuationOptions options;
   options.displacement_per_step = 0.03;
-  options.accept = [](const Discretisation&, const BranchState& state) { return state.parameter < 0.5; };
+  options.accept = [](const NonlinearSystem&, const BranchState& state) { return state.parameter < 0.5; };
   const ContinuationReport report = coarse.follow(options);
   EXPECT_EQ(report.status, Status::surface_unstable);
   EXPECT_GT(report.last.parameter, 0);

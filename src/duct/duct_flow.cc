@@ -1,0 +1,144 @@
+#include "duct/duct_flow.h"
+
+#include <Eigen/LU>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "laws/tensor.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr double same_point = 1e-9;
+/// Change of the liquid's thinning in one step, and the least one.
+constexpr double thinning_step = 0.2, least_thinning_step = 1e-3;
+constexpr int iteration_limit = 25;
+constexpr double tolerance = 1e-12;
+
+FacePoint bilinear(const std::array<FacePoint, 4>& corners, double s, double t) {
+  return DuctElement{Part::end, Face::front, corners, {0, 1}}.on_face(s, t);
+}
+
+/// Shear stress of the velocity's gradient.
+template <class T>
+Components<T, 2> shear_stress(const Liquid& liquid, const Components<T, 2>& gradient) {
+  return gradient * viscosity(liquid, T(gradient.squaredNorm()));
+}
+
+}  // namespace
+
+CrossSection::CrossSection(const DuctGeometry& geometry, int degree) : reference_(degree) {
+  const VectorXd& s = reference_.nodes_1d;
+  const int n = degree + 1;
+  const auto quadrilaterals = triangle_quadrilaterals();
+  const auto point = [&](int e, int k) -> Eigen::Vector2d {
+    const FacePoint at = bilinear(quadrilaterals[e], s(k % n), s(k / n));
+    return geometry.map(Part::end, Face::front, at, 1).tail<2>();
+  };
+  const NodeNumbers numbers = number_nodes<2>(int(quadrilaterals.size()), reference_.nodes(), point);
+  points_.resize(numbers.count);
+  weights_.setZero(numbers.count);
+  wall_.resize(numbers.count);
+  for (std::size_t e = 0; e < quadrilaterals.size(); ++e) {
+    Element element{numbers.of_element[e], {}, VectorXd(reference_.points())};
+    Eigen::MatrixX2d X(reference_.nodes(), 2);
+    for (int k = 0; k < reference_.nodes(); ++k) {
+      X.row(k) = point(int(e), k).transpose();
+      points_[element.nodes[k]] = X.row(k);
+      wall_[element.nodes[k]] = geometry.is_wall({0, X(k, 0), X(k, 1)});
+    }
+    element.slope.fill(MatrixXd(reference_.points(), reference_.nodes()));
+    for (int q = 0; q < reference_.points(); ++q) {
+      Eigen::Matrix2d G;
+      for (int k = 0; k < 2; ++k) G.col(k) = X.transpose() * reference_.shape.slope[k].row(q).transpose();
+      const Eigen::Matrix2d inverse = G.inverse();
+      element.weights(q) = reference_.weights(q) * G.determinant();
+      for (int c = 0; c < 2; ++c) {
+        element.slope[c].row(q) =
+            inverse(0, c) * reference_.shape.slope[0].row(q) + inverse(1, c) * reference_.shape.slope[1].row(q);
+      }
+    }
+    weights_(element.nodes) += reference_.shape.value.transpose() * element.weights;
+    elements_.push_back(std::move(element));
+  }
+}
+
+int CrossSection::node_at(const Eigen::Vector2d& at) const {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if ((points_[i] - at).norm() < same_point) return int(i);
+  }
+  assert(false);
+  return -1;
+}
+
+bool CrossSection::improve(const Liquid& liquid, DuctFlow& flow) const {
+  using Dual = ceres::Jet<double, 2>;
+  const int n = int(points_.size());
+  for (int iteration = 0; iteration < iteration_limit; ++iteration) {
+    // The last equation: mean speed 1.
+    MatrixXd tangent = MatrixXd::Zero(n + 1, n + 1);
+    VectorXd residual = VectorXd::Zero(n + 1);
+    for (const Element& element : elements_) {
+      const VectorXd local = flow.velocity(element.nodes);
+      const VectorXd dy = element.slope[0] * local, dz = element.slope[1] * local;
+      Eigen::MatrixX2d fluxes(dy.size(), 2);
+      Eigen::MatrixX4d flux_slopes(dy.size(), 4);
+      for (int q = 0; q < dy.size(); ++q) {
+        const auto stress = shear_stress<Dual>(liquid, {Dual(dy(q), 0), Dual(dz(q), 1)});
+        for (int c = 0; c < 2; ++c) {
+          fluxes(q, c) = element.weights(q) * stress(c).a;
+          for (int d = 0; d < 2; ++d) flux_slopes(q, 2 * c + d) = element.weights(q) * stress(c).v(d);
+        }
+      }
+      for (int c = 0; c < 2; ++c) {
+        const auto test = element.slope[c].transpose();
+        residual(element.nodes) += test * fluxes.col(c);
+        for (int d = 0; d < 2; ++d) {
+          const MatrixXd weighted = flux_slopes.col(2 * c + d).asDiagonal() * element.slope[d];
+          tangent(element.nodes, element.nodes) += test * weighted;
+        }
+      }
+    }
+    residual.head(n) -= flow.pressure_gradient * weights_;
+    residual(n) = weights_.sum() - weights_.dot(flow.velocity);
+    tangent.col(n).head(n) = tangent.row(n).head(n).transpose() = -weights_;
+    for (int i = 0; i < n; ++i) {
+      if (!wall_[i]) continue;
+      tangent.row(i).setZero();
+      tangent(i, i) = 1;
+      residual(i) = 0;
+    }
+    const VectorXd correction = tangent.partialPivLu().solve(-residual);
+    if (!correction.allFinite()) return false;
+    flow.velocity += correction.head(n);
+    flow.pressure_gradient += correction(n);
+    if (correction.lpNorm<Eigen::Infinity>() < tolerance * (1 + flow.pressure_gradient)) return true;
+  }
+  return false;
+}
+
+DuctFlow CrossSection::flow(const Liquid& liquid) const {
+  const double way = thinning(liquid);
+  DuctFlow flow{0, VectorXd::Zero(points_.size())};
+  if (!improve(at_thinning(liquid, 0), flow)) flow.pressure_gradient = std::numeric_limits<double>::quiet_NaN();
+  if (liquid.law == LiquidLaw::newtonian) {
+    flow.pressure_gradient *= liquid.viscosity;
+    return flow;
+  }
+  double reached = 0, step = way > 0 ? std::min(1.0, thinning_step / way) : 1;
+  while (reached < 1) {
+    const double share = 1 - reached - step < 1e-9 ? 1 : reached + step;
+    DuctFlow trial = flow;
+    if (improve(share == 1 ? liquid : at_thinning(liquid, share), trial)) {
+      flow = trial;
+      reached = share;
+    } else if ((step /= 2) * way < least_thinning_step) {
+      flow.pressure_gradient = std::numeric_limits<double>::quiet_NaN();
+      return flow;
+    }
+  }
+  return flow;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,149 @@
+#include "duct/duct_space.h"
+
+#include <cmath>
+
+namespace rheocyte {
+namespace {
+
+constexpr double tiny = 1e-10;
+
+}  // namespace
+
+DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid)
+    : mesh_(mesh),
+      reference_(degree),
+      section_(mesh.geometry(), degree),
+      nodes_(mesh.number_nodes(degree)),
+      points_(nodes_.count) {
+  const VectorXd& s = reference_.nodes_1d;
+  const int n = degree + 1;
+  for (int e = 0; e < int(mesh.elements().size()); ++e) {
+    for (int k = 0; k < reference_.nodes(); ++k)
+      points_[nodes_.of_element[e][k]] = mesh.point(e, {s(k % n), s(k / n % n), s(k / (n * n))});
+  }
+  find_held_node();
+  number_unknowns(flag_nodes(), liquid);
+  for (int e = 0; e < int(mesh.elements().size()); ++e) elements_.push_back(unknowns_of(e));
+}
+
+/// The node on the axis that is nearest to the cell's centre.
+void DuctSpace::find_held_node() {
+  double nearest = mesh_.geometry().radius();
+  for (int i = 0; i < nodes_.count; ++i) {
+    if (points_[i].tail<2>().norm() > tiny || std::abs(points_[i](0)) >= nearest - tiny) continue;
+    held_node_ = i;
+    nearest = std::abs(points_[i](0));
+  }
+}
+
+std::vector<DuctSpace::NodeFlags> DuctSpace::flag_nodes() const {
+  std::vector<NodeFlags> flags(nodes_.count);
+  const double end = mesh_.geometry().half_length();
+  for (int i = 0; i < nodes_.count; ++i) {
+    const DuctPoint& x = points_[i];
+    flags[i].side_plane = x(2) < tiny;
+    flags[i].diagonal = x(1) - x(2) < tiny;
+    flags[i].wall = mesh_.geometry().is_wall(x);
+    flags[i].inlet = x(0) < -end + tiny;
+    flags[i].outlet = x(0) > end - tiny;
+  }
+  for (std::size_t e = 0; e < nodes_.of_element.size(); ++e) {
+    for (const int node : nodes_.of_element[e])
+      (mesh_.elements()[e].in_cell() ? flags[node].cell : flags[node].liquid) = true;
+  }
+  return flags;
+}
+
+void DuctSpace::number_unknowns(const std::vector<NodeFlags>& flags, const Liquid& liquid) {
+  const DuctFlow inflow = section_.flow(liquid);
+  displacement_.assign(3 * nodes_.count, -1);
+  velocity_.assign(3 * nodes_.count, Slot{});
+  cell_velocity_ = unknowns_++;
+  for (int i = 0; i < nodes_.count; ++i) {
+    const NodeFlags& f = flags[i];
+    const bool on_axis = f.side_plane && f.diagonal;
+    // Numbers of the components y and z of a node that may move across the flow.
+    const auto number_across = [&](auto&& at) {
+      if (!on_axis) at(1) = unknowns_++;
+      if (!f.side_plane) at(2) = f.diagonal ? at(1) : unknowns_++;
+    };
+    if (f.cell) {
+      if (i != held_node_) displacement_[3 * i] = unknowns_++;
+      number_across([&](int c) -> int& { return displacement_[3 * i + c]; });
+      continue;
+    }
+    if (f.wall || f.inlet) {  // they move backwards past the cell
+      velocity_[3 * i] = {cell_velocity_, -1, 0};
+      if (f.inlet) velocity_[3 * i].constant = inflow.velocity(section_.node_at(points_[i].tail<2>()));
+      continue;
+    }
+    velocity_[3 * i].unknown = unknowns_++;
+    if (!f.outlet) number_across([&](int c) -> int& { return velocity_[3 * i + c].unknown; });
+  }
+  pressure_.resize(nodes_.of_element.size() * std::size_t(reference_.pressures()));
+  for (int& unknown : pressure_) unknown = unknowns_++;
+}
+
+std::vector<PointMap<double, 3>> DuctSpace::undeformed_maps(int element) const {
+  const int n = reference_.nodes();
+  Eigen::MatrixX3d X(n, 3);
+  for (int k = 0; k < n; ++k) X.row(k) = points_[nodes_.of_element[element][k]].transpose();
+  std::array<Eigen::MatrixX3d, 3> G;
+  for (int k = 0; k < 3; ++k) G[k] = reference_.shape.slope[k] * X;
+  std::vector<PointMap<double, 3>> maps;
+  for (int q = 0; q < reference_.points(); ++q) {
+    MapFields<double, 3> map;
+    for (int k = 0; k < 3; ++k) map.G.col(k) = G[k].row(q).transpose();
+    maps.emplace_back(map);
+  }
+  return maps;
+}
+
+/// In the cell the nodes' own; along a spoke those of its foot on the surface, which die away outward
+/// (docs/theory.md, eq:spokes).
+void DuctSpace::add_displacements(int element, HexahedronUnknowns& unknowns) const {
+  const DuctElement& self = mesh_.elements()[element];
+  const auto& nodes = nodes_.of_element[element];
+  if (self.part == Part::end) return;
+  unknowns.moves = true;
+  const int p = reference_.degree(), n = p + 1;
+  for (int c = 0; c < 3; ++c) {
+    for (int k = 0; k < reference_.nodes(); ++k) {
+      if (self.in_cell()) {
+        unknowns.displacement.push_back({displacement(nodes[k], c)});
+        continue;
+      }
+      const VectorXd& s = reference_.nodes_1d;
+      const double outward = self.outward_at(s(k / (n * n)));
+      const double slide = c == 0 ? wall_slide(self.face, self.on_face(s(k % n), s(k / n % n))) : 0;
+      const int foot = nodes_.of_element[self.foot][k % (n * n)];
+      unknowns.displacement.push_back({displacement(foot, c), 1 - outward * (1 - slide)});
+    }
+  }
+}
+
+HexahedronUnknowns DuctSpace::unknowns_of(int element) const {
+  const auto& nodes = nodes_.of_element[element];
+  HexahedronUnknowns unknowns;
+  unknowns.liquid = !mesh_.elements()[element].in_cell();
+  unknowns.undeformed = undeformed_maps(element);
+  add_displacements(element, unknowns);
+  for (int c = 0; c < 3; ++c) {
+    for (const int node : nodes) {
+      // The momentum of the held node belongs to v_cell. On the surface the relative velocity vanishes, and the
+      // liquid's momentum is added to the cell's equation.
+      const bool in_cell = displacement(node, 0) >= 0 || node == held_node_;
+      if (unknowns.liquid) unknowns.velocity.push_back(in_cell ? Slot{} : velocity(node, c));
+      const int own = velocity(node, c).unknown == cell_velocity_ ? -1 : velocity(node, c).unknown;
+      const int held = node == held_node_ && c == 0 ? cell_velocity_ : displacement(node, c);
+      unknowns.rows.push_back(in_cell ? held : own);
+    }
+  }
+  for (int k = 0; k < reference_.pressures(); ++k) {
+    unknowns.pressure.push_back({pressure(element, k)});
+    unknowns.rows.push_back(pressure(element, k));
+  }
+  return unknowns;
+}
+
+}  // namespace rheocyte

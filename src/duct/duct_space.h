@@ -1,0 +1,68 @@
+// Unknowns of the stationary problem in one eighth of a duct, and where each hexahedron finds its own.
+//
+// As in the tube (fem/discretisation.h): displacements of the cell's nodes, velocities of the liquid's nodes relative
+// to the cell, discontinuous pressures, the cell's velocity v_cell. The planes of symmetry are known to the table of
+// slots alone: in z = 0 the components along z vanish, and in y = z the components y and z of a node are one unknown,
+// to whose equation the tests of both belong (docs/theory-square.md, eq:tie).
+#pragma once
+#include "duct/duct_flow.h"
+#include "fem/discretisation.h"
+#include "laws/cartesian.h"
+
+namespace rheocyte {
+
+/// What one hexahedron knows. Columns: displacements x, y, z of its nodes (none where the mesh rests), in the liquid
+/// velocities, pressures. Rows: tests of the momentum x, y, z, of the pressures.
+struct HexahedronUnknowns {
+  bool liquid = false;
+  bool moves = false;                           ///< whether there are displacements
+  std::vector<PointMap<double, 3>> undeformed;  ///< map at the quadrature points
+  std::vector<Slot> displacement, velocity, pressure;
+  std::vector<int> rows;  ///< unknown whose equation the row belongs to, or -1
+};
+
+class DuctSpace {
+ public:
+  /// The liquid's undisturbed flow enters.
+  DuctSpace(const DuctMesh&, int degree, const Liquid&);
+
+  const DuctMesh& mesh() const { return mesh_; }
+  const ReferenceElement<3>& reference() const { return reference_; }
+  const std::vector<HexahedronUnknowns>& elements() const { return elements_; }
+  const NodeNumbers& nodes() const { return nodes_; }
+  const std::vector<DuctPoint>& node_points() const { return points_; }
+  const CrossSection& section() const { return section_; }
+
+  int unknowns() const { return unknowns_; }
+  int cell_velocity() const { return cell_velocity_; }
+  /// Unknown of a component of a node's displacement, -1 if fixed or not in the cell.
+  int displacement(int node, int c) const { return displacement_[3 * node + c]; }
+  const Slot& velocity(int node, int c) const { return velocity_[3 * node + c]; }
+  int pressure(int element, int mode) const { return pressure_[element * reference_.pressures() + mode]; }
+  /// The node on the axis whose axial displacement is held, which fixes the cell's place.
+  int held_node() const { return held_node_; }
+
+ private:
+  struct NodeFlags {
+    bool cell = false, liquid = false, side_plane = false, diagonal = false, wall = false, inlet = false,
+         outlet = false;
+  };
+  std::vector<NodeFlags> flag_nodes() const;
+  void number_unknowns(const std::vector<NodeFlags>&, const Liquid&);
+  void find_held_node();
+  HexahedronUnknowns unknowns_of(int element) const;
+  void add_displacements(int element, HexahedronUnknowns&) const;
+  std::vector<PointMap<double, 3>> undeformed_maps(int element) const;
+
+  DuctMesh mesh_;
+  ReferenceElement<3> reference_;
+  CrossSection section_;
+  NodeNumbers nodes_;
+  std::vector<DuctPoint> points_;
+  std::vector<int> displacement_, pressure_;
+  std::vector<Slot> velocity_;
+  int unknowns_ = 0, cell_velocity_ = -1, held_node_ = -1;
+  std::vector<HexahedronUnknowns> elements_;
+};
+
+}  // namespace rheocyte

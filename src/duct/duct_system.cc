@@ -1,0 +1,153 @@
+#include "duct/duct_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "duct/observe_duct.h"
+
+namespace rheocyte {
+namespace {
+
+std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space) {
+  const auto& elements = space.elements();
+  std::vector<CoupledUnknowns> coupled(elements.size());
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    std::set<int> unknowns(elements[e].rows.begin(), elements[e].rows.end());
+    for (const auto* slots : {&elements[e].displacement, &elements[e].velocity}) {
+      for (const Slot& slot : *slots) unknowns.insert(slot.unknown);
+    }
+    unknowns.erase(-1);
+    coupled[e].unknowns.assign(unknowns.begin(), unknowns.end());
+    coupled[e].pressure = elements[e].pressure[0].unknown;
+    coupled[e].medium = elements[e].liquid;
+  }
+  // Neighbours share the nodes of a face.
+  const std::size_t face = std::size_t(space.reference().degree() + 1) * (space.reference().degree() + 1);
+  std::vector<std::vector<int>> sorted = space.nodes().of_element;
+  for (auto& nodes : sorted) std::sort(nodes.begin(), nodes.end());
+  for (std::size_t e = 0; e < sorted.size(); ++e) {
+    for (std::size_t f = 0; f < e; ++f) {
+      std::vector<int> common;
+      std::set_intersection(sorted[e].begin(), sorted[e].end(), sorted[f].begin(), sorted[f].end(),
+                            std::back_inserter(common));
+      if (common.size() < face) continue;
+      coupled[e].neighbours.push_back(int(f));
+      coupled[f].neighbours.push_back(int(e));
+    }
+  }
+  return coupled;
+}
+
+/// Area of each axial test function on the outlet.
+VectorXd outlet_load(const DuctSpace& space) {
+  VectorXd load = VectorXd::Zero(space.unknowns());
+  const ReferenceElement<2> face(space.reference().degree());
+  const double end = space.mesh().geometry().half_length();
+  for (std::size_t e = 0; e < space.elements().size(); ++e) {
+    const auto& nodes = space.nodes().of_element[e];
+    const auto last = std::vector<int>(nodes.end() - face.nodes(), nodes.end());
+    if (space.node_points()[last.front()](0) < end - 1e-10) continue;
+    Eigen::MatrixX2d X(face.nodes(), 2);
+    for (int k = 0; k < face.nodes(); ++k) X.row(k) = space.node_points()[last[k]].tail<2>().transpose();
+    const Eigen::MatrixX2d G1 = face.shape.slope[0] * X, G2 = face.shape.slope[1] * X;
+    const Eigen::ArrayXd area = (G1.col(0).array() * G2.col(1).array() - G1.col(1).array() * G2.col(0).array()).abs();
+    const VectorXd weights = face.shape.value.transpose() * (face.weights.array() * area).matrix();
+    for (int k = 0; k < face.nodes(); ++k) {
+      const Slot& slot = space.velocity(last[k], 0);
+      if (slot.unknown >= 0 && slot.unknown != space.cell_velocity()) load(slot.unknown) += weights(k);
+    }
+  }
+  return load;
+}
+
+}  // namespace
+
+DuctSystem::DuctSystem(const DuctSpace& space)
+    : space_(space),
+      element_(space.reference().degree()),
+      tangent_(element_, space.reference()),
+      lu_(space.unknowns(), coupled_unknowns(space)),
+      outlet_load_(outlet_load(space)),
+      place_(space.unknowns(), -1) {}
+
+VectorXd DuctSystem::sphere() const {
+  VectorXd unknowns = VectorXd::Zero(space_.unknowns());
+  unknowns(space_.cell_velocity()) = 1;
+  return unknowns;
+}
+
+double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
+  if (!(undisturbed_ && undisturbed_->first == liquid))
+    undisturbed_ = {liquid, space_.section().flow(liquid).pressure_gradient};
+  return undisturbed_->second;
+}
+
+VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, Want want, double& least_det) {
+  // The undisturbed pressure vanishes at the cell.
+  const double outlet_pressure = -undisturbed_gradient(media.liquid) * space_.mesh().geometry().half_length();
+  VectorXd total = outlet_pressure * outlet_load_;
+  least_det = std::numeric_limits<double>::infinity();
+  for (int e = 0; e < int(space_.elements().size()); ++e) {
+    const HexahedronUnknowns& self = space_.elements()[e];
+    {
+      const Stopwatch watch(work_.assembly_s);
+      const VectorXd residual = integrate_hexahedron(space_, element_, e, media, unknowns, want, points_);
+      least_det = std::min(least_det, points_.fluxes.least_det);
+      for (int i = 0; i < residual.size(); ++i) {
+        if (self.rows[i] >= 0) total(self.rows[i]) += residual(i);
+      }
+      if (want == Want::residual) continue;
+      const std::vector<int>& order = lu_.order(e);
+      for (int i = 0; i < int(order.size()); ++i) place_[order[i]] = i;
+      matrix_.setZero(Eigen::Index(order.size()), Eigen::Index(order.size()));
+      tangent_.add(self, media.liquid.reynolds != 0, points_, place_, matrix_);
+    }
+    const Stopwatch watch(work_.condensation_s);
+    lu_.condense(e, matrix_);
+  }
+  return total;
+}
+
+VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, double& least_det) {
+  return assemble(media, unknowns, Want::residual, least_det);
+}
+
+VectorXd DuctSystem::linearise(const Media& media, const VectorXd& unknowns, double& least_det, bool& factorised) {
+  VectorXd total = assemble(media, unknowns, Want::residual_and_tangent, least_det);
+  const Stopwatch watch(work_.sparse_s);
+  factorised = total.allFinite() && lu_.factorise();
+  ++work_.factorisations;
+  return total;
+}
+
+VectorXd DuctSystem::solve(const VectorXd& rhs) {
+  const Stopwatch watch(work_.solve_s);
+  return lu_.solve(rhs);
+}
+
+double DuctSystem::largest_displacement(const VectorXd& unknowns) const {
+  double largest = 0;
+  for (int i = 0; i < 3 * space_.nodes().count; ++i) {
+    if (const int unknown = space_.displacement(i / 3, i % 3); unknown >= 0)
+      largest = std::max(largest, std::abs(unknowns(unknown)));
+  }
+  return largest;
+}
+
+void DuctSystem::scale_displacement(double factor, VectorXd& unknowns) const {
+  std::vector<bool> scaled(space_.unknowns(), false);  // a tied unknown only once
+  for (int i = 0; i < 3 * space_.nodes().count; ++i) {
+    const int unknown = space_.displacement(i / 3, i % 3);
+    if (unknown < 0 || scaled[unknown]) continue;
+    unknowns(unknown) *= factor;
+    scaled[unknown] = true;
+  }
+}
+
+double DuctSystem::stretch_change(const VectorXd& from, const VectorXd& to) const {
+  return duct_stretch_change(space_, from, to);
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,50 @@
+// The nonlinear system of cell and liquid in one eighth of a duct: residual, exact tangent, and its factorisation
+// subdomain by subdomain (docs/theory-square.md).
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "duct/duct_integrals.h"
+#include "fem/nested_lu.h"
+#include "fem/nonlinear_system.h"
+
+namespace rheocyte {
+
+class DuctSystem final : public NonlinearSystem {
+ public:
+  /// The space must outlive this object. Media with a cortex are not for this system.
+  explicit DuctSystem(const DuctSpace&);
+
+  const DuctSpace& space() const { return space_; }
+  const TensorElement& element() const { return element_; }
+
+  VectorXd sphere() const override;
+  VectorXd residual(const Media&, const VectorXd& unknowns, double& least_det) override;
+  VectorXd linearise(const Media&, const VectorXd& unknowns, double& least_det, bool& factorised) override;
+  VectorXd solve(const VectorXd& rhs) override;
+  double cell_radius() const override { return space_.mesh().geometry().radius(); }
+  double largest_displacement(const VectorXd& unknowns) const override;
+  void scale_displacement(double factor, VectorXd& unknowns) const override;
+  double stretch_change(const VectorXd& from, const VectorXd& to) const override;
+
+  /// Pressure gradient of the liquid's undisturbed flow at mean speed 1.
+  double undisturbed_gradient(const Liquid&) const;
+  /// Of one factorisation of the linear system, and of the entries of its factors.
+  double factorisation_flops() const { return lu_.flops(); }
+  double factor_entries() const { return lu_.entries(); }
+
+ private:
+  VectorXd assemble(const Media&, const VectorXd& unknowns, Want, double& least_det);
+
+  const DuctSpace& space_;
+  TensorElement element_;
+  HexahedronTangent tangent_;
+  NestedLU lu_;
+  VectorXd outlet_load_;
+  mutable std::optional<std::pair<Liquid, double>> undisturbed_;
+  HexahedronPoints points_;
+  MatrixXd matrix_;
+  std::vector<int> place_;  ///< of each unknown in the matrix of an element
+};
+
+}  // namespace rheocyte

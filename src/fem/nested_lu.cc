@@ -1,0 +1,94 @@
+#include "fem/nested_lu.h"
+
+#include <cmath>
+
+#include "fem/nested_order.h"
+
+namespace rheocyte {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) : unknowns_(unknowns) {
+  std::vector<int> place(unknowns, -1);
+  for (const Subdomain& subdomain : nested_order(unknowns, elements)) {
+    Front& front = fronts_.emplace_back();
+    front.unknowns = subdomain.eliminated;
+    front.eliminated = int(front.unknowns.size());
+    front.unknowns.insert(front.unknowns.end(), subdomain.remaining.begin(), subdomain.remaining.end());
+    front.parts = subdomain.parts;
+    flops_ += elimination_flops(front.eliminated, double(subdomain.remaining.size()));
+    if (front.parts[0] < 0) continue;
+    for (int i = 0; i < int(front.unknowns.size()); ++i) place[front.unknowns[i]] = i;
+    for (int side = 0; side < 2; ++side) {
+      const Front& part = fronts_[front.parts[side]];
+      for (int i = part.eliminated; i < int(part.unknowns.size()); ++i)
+        front.positions[side].push_back(place[part.unknowns[i]]);
+    }
+  }
+}
+
+void NestedLU::eliminate(Front& front, MatrixXd& matrix) {
+  const Eigen::Index f = front.eliminated, o = matrix.rows() - f;
+  front.schur = matrix.bottomRightCorner(o, o);
+  if (f == 0) return;
+  front.lu.compute(matrix.topLeftCorner(f, f));
+  front.rows = matrix.bottomLeftCorner(o, f);
+  front.solved_columns = front.lu.solve(matrix.topRightCorner(f, o));
+  front.schur.noalias() -= front.rows * front.solved_columns;
+}
+
+void NestedLU::condense(int element, MatrixXd& matrix) { eliminate(fronts_[element], matrix); }
+
+bool NestedLU::factorise() {
+  MatrixXd matrix;
+  for (Front& front : fronts_) {
+    if (front.parts[0] < 0) continue;
+    const auto n = Eigen::Index(front.unknowns.size());
+    matrix.setZero(n, n);
+    for (int side = 0; side < 2; ++side) {
+      Front& part = fronts_[front.parts[side]];
+      const std::vector<int>& at = front.positions[side];
+      for (std::size_t j = 0; j < at.size(); ++j) {
+        for (std::size_t i = 0; i < at.size(); ++i)
+          matrix(at[i], at[j]) += part.schur(Eigen::Index(i), Eigen::Index(j));
+      }
+      part.schur.resize(0, 0);
+    }
+    eliminate(front, matrix);
+    if (!front.solved_columns.allFinite()) return false;
+  }
+  const Front& whole = fronts_.back();
+  if (whole.eliminated == 0) return true;
+  const auto pivots = whole.lu.matrixLU().diagonal().array().abs();
+  return pivots.allFinite() && pivots.minCoeff() > 0;
+}
+
+VectorXd NestedLU::solve(const VectorXd& rhs) const {
+  VectorXd x = rhs;
+  for (const Front& front : fronts_) {
+    if (front.eliminated == 0) continue;
+    const std::vector<int>& all = front.unknowns;
+    const std::vector<int> first(all.begin(), all.begin() + front.eliminated),
+        rest(all.begin() + front.eliminated, all.end());
+    const VectorXd y = front.lu.solve(VectorXd(x(first)));
+    x(first) = y;
+    if (!rest.empty()) x(rest) -= front.rows * y;
+  }
+  for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
+    const std::vector<int>& all = front->unknowns;
+    const std::vector<int> first(all.begin(), all.begin() + front->eliminated),
+        rest(all.begin() + front->eliminated, all.end());
+    if (front->eliminated > 0 && !rest.empty()) x(first) -= front->solved_columns * VectorXd(x(rest));
+  }
+  return x;
+}
+
+double NestedLU::entries() const {
+  double sum = 0;
+  for (const Front& front : fronts_)
+    sum += double(front.eliminated) * (2 * double(front.unknowns.size()) - front.eliminated);
+  return sum;
+}
+
+}  // namespace rheocyte

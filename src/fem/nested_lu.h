@@ -1,0 +1,56 @@
+// Direct solution of a finite-element system by condensing ever larger subdomains: elements are joined in pairs,
+// pairs in pairs, and each time all unknowns that no other element knows are eliminated from a dense matrix
+// (docs/theory-square.md, eq:nested). With 50 to 150 elements of high degree the faces between subdomains are large
+// dense blocks by themselves, so that no ordering of single unknowns could do better, and no library is needed.
+#pragma once
+#include <Eigen/LU>
+#include <array>
+#include <vector>
+
+namespace rheocyte {
+
+/// What couples in an element. Unknowns and equations share their numbers.
+struct CoupledUnknowns {
+  std::vector<int> unknowns;
+  /// The constant pressure, -1 if there is none: it and the motion of the faces inside a subdomain determine each other
+  /// but for one pressure, which stays until the subdomain has grown.
+  int pressure = -1;
+  int medium = 0;               ///< pressures of neighbours are determined together where they have the same one
+  std::vector<int> neighbours;  ///< elements that share a face
+};
+
+class NestedLU {
+ public:
+  /// Chooses the order of joining. The elements must hang together through their faces.
+  NestedLU(int unknowns, const std::vector<CoupledUnknowns>&);
+
+  /// An element's unknowns in the order of its matrix.
+  const std::vector<int>& order(int element) const { return fronts_[element].unknowns; }
+  /// Condenses an element's matrix, which may be overwritten. All elements have to be given, then `factorise` be
+  /// called.
+  void condense(int element, Eigen::MatrixXd& matrix);
+  /// Joins the subdomains; false if the matrix is singular or not finite.
+  bool factorise();
+  Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
+
+  double flops() const { return flops_; }  ///< of one factorisation, elements included
+  double entries() const;                  ///< of the factors
+
+ private:
+  struct Front {
+    std::vector<int> unknowns;  ///< those that are eliminated first
+    int eliminated = 0;
+    std::array<int, 2> parts{-1, -1};           ///< the fronts that are joined
+    std::array<std::vector<int>, 2> positions;  ///< of their remaining unknowns in this one
+    Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+    Eigen::MatrixXd solved_columns, rows;  ///< K_ff^-1 K_fo and K_of
+    Eigen::MatrixXd schur;                 ///< of the remaining unknowns, until it is joined
+  };
+  void eliminate(Front&, Eigen::MatrixXd& matrix);
+
+  std::vector<Front> fronts_;  ///< elements first, each after its parts, the whole last
+  int unknowns_;
+  double flops_ = 0;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,42 @@
+// Where the time of a computation goes.
+#pragma once
+#include <chrono>
+
+namespace rheocyte {
+
+/// Seconds and counts of the parts of the work.
+struct WorkMeter {
+  double assembly_s = 0;      ///< integrals over elements, with and without tangent
+  double condensation_s = 0;  ///< dense elimination inside elements
+  double sparse_s = 0;        ///< numeric sparse factorisation
+  double solve_s = 0;
+  int factorisations = 0;
+
+  WorkMeter& operator+=(const WorkMeter& other) {
+    assembly_s += other.assembly_s;
+    condensation_s += other.condensation_s;
+    sparse_s += other.sparse_s;
+    solve_s += other.solve_s;
+    factorisations += other.factorisations;
+    return *this;
+  }
+  WorkMeter operator-(const WorkMeter& other) const {
+    return {assembly_s - other.assembly_s, condensation_s - other.condensation_s, sparse_s - other.sparse_s,
+            solve_s - other.solve_s, factorisations - other.factorisations};
+  }
+};
+
+/// Adds the seconds of its life.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,133 @@
+#include "duct/duct_system.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "duct/observe_duct.h"
+
+namespace rheocyte {
+namespace {
+
+/// A coarse duct with a cell in it.
+struct SmallDuct {
+  explicit SmallDuct(const Liquid& liquid, int degree = 2)
+      : space(DuctMesh(DuctGeometry(Section::square, 0.6), {.along = 2, .layers = 1, .axial = 1}), degree, liquid),
+        system(space) {}
+  DuctSpace space;
+  DuctSystem system;
+};
+
+Media media(const Liquid& liquid) {
+  return {.liquid = liquid, .bulk = {.law = BulkLaw::mooney_rivlin, .mooney_share = 0.3}};
+}
+
+/// Some flow round a cell that is deformed by a tenth of its radius.
+VectorXd deformed_state(DuctSystem& system, const Media& law) {
+  VectorXd state = system.sphere();
+  double det = 0;
+  bool factorised = false;
+  const VectorXd residual = system.linearise(law, state, det, factorised);
+  EXPECT_TRUE(factorised);
+  state += system.solve(-residual);
+  system.scale_displacement(0.06 / system.largest_displacement(state), state);
+  return state;
+}
+
+VectorXd residual(DuctSystem& system, const Media& law, const VectorXd& state) {
+  double det = 0;
+  return system.residual(law, state, det);
+}
+
+TEST(DuctSystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
+  // d = K^-1 g for some g, so that residual(x + h d) - residual(x) - h g falls with h^2.
+  const Liquid newtonian{.reynolds = 0.7},
+      power_law{.law = LiquidLaw::power_law, .exponent = 0.6, .shear_rate_floor = 0.3};
+  for (const Liquid& liquid : {newtonian, power_law}) {
+    SmallDuct duct(liquid);
+    const Media law = media(liquid);
+    const VectorXd x = deformed_state(duct.system, law);
+    double det = 0;
+    bool factorised = false;
+    const VectorXd r = duct.system.linearise(law, x, det, factorised);
+    ASSERT_TRUE(factorised);
+    EXPECT_GT(det, 0);
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    VectorXd g = VectorXd::Zero(r.size()).unaryExpr([&](double) { return uniform(engine); });
+    VectorXd d = duct.system.solve(g);
+    g *= 0.1 / d.lpNorm<Eigen::Infinity>();
+    d *= 0.1 / d.lpNorm<Eigen::Infinity>();
+    const auto remainder = [&](double h) { return (residual(duct.system, law, x + h * d) - r - h * g).norm(); };
+    // 1e-2 and 1e-3 lie between the third order and rounding.
+    const double slope = std::log10(remainder(1e-2) / remainder(1e-3));
+    EXPECT_NEAR(slope, 2, 0.05);
+  }
+}
+
+TEST(DuctSystem, LineariseReturnsTheResidual) {
+  SmallDuct duct({});
+  const Media law = media({});
+  const VectorXd x = deformed_state(duct.system, law);
+  double det = 0, det_again = 0;
+  bool factorised = false;
+  const VectorXd r = duct.system.linearise(law, x, det, factorised);
+  // Up to the rounding of sums in another order.
+  EXPECT_LT((r - duct.system.residual(law, x, det_again)).norm(), 1e-12 * r.norm());
+  EXPECT_EQ(det, det_again);
+}
+
+TEST(DuctSystem, TheUndisturbedFlowSolvesTheEquationsFarFromTheCell) {
+  // With the cell's speed as it is, only equations of the layers round the cell, and of the cell, have a residual.
+  const Liquid liquid{.law = LiquidLaw::power_law, .exponent = 0.7, .shear_rate_floor = 0.1};
+  SmallDuct duct(liquid, 4);
+  const DuctSpace& space = duct.space;
+  VectorXd x = duct.system.sphere();
+  const DuctFlow flow = space.section().flow(liquid);
+  const double box = space.mesh().geometry().box();
+  for (int i = 0; i < space.nodes().count; ++i) {
+    const DuctPoint& X = space.node_points()[i];
+    const int unknown = space.velocity(i, 0).unknown;
+    if (unknown < 0 || unknown == space.cell_velocity() || std::abs(X(0)) < box - 1e-9) continue;
+    x(unknown) = flow.velocity(space.section().node_at(X.tail<2>())) - 1;
+  }
+  for (int e = 0; e < int(space.elements().size()); ++e) {
+    if (space.mesh().elements()[e].part != Part::end) continue;
+    // p = -G x on boxes: linear in the third coordinate.
+    const VectorXd& points = space.reference().points_1d;
+    const int m = int(points.size());
+    VectorXd p(space.reference().points());
+    for (int q = 0; q < p.size(); ++q)
+      p(q) =
+          -flow.pressure_gradient * space.mesh().point(e, {points(q % m), points(q / m % m), points(q / (m * m))})(0);
+    const VectorXd modes =
+        space.reference().pressure.value.transpose() * (space.reference().weights.array() * p.array()).matrix();
+    for (int k = 0; k < modes.size(); ++k) x(space.pressure(e, k)) = modes(k);
+  }
+  const VectorXd r = residual(duct.system, {.liquid = liquid}, x);
+  double greatest = 0;
+  for (int i = 0; i < space.nodes().count; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const int unknown = space.velocity(i, c).unknown;
+      if (unknown < 0 || unknown == space.cell_velocity() || std::abs(space.node_points()[i](0)) < box + 1e-9) continue;
+      greatest = std::max(greatest, std::abs(r(unknown)));
+    }
+  }
+  EXPECT_LT(greatest, 1e-9);
+}
+
+TEST(DuctSpace, TransferToAHigherDegreeKeepsTheShape) {
+  const Media law = media({});
+  SmallDuct coarse({}, 3), fine({}, 4);
+  const VectorXd x = deformed_state(coarse.system, law);
+  const VectorXd y = transfer(coarse.space, x, fine.space);
+  // Polynomials of a degree are polynomials of the next one; the sphere's own nodes differ by their interpolation.
+  EXPECT_NEAR(cell_volume(fine.space, fine.system.element(), y).volume /
+                  cell_volume(coarse.space, coarse.system.element(), x).volume,
+              1, 2e-3);
+  EXPECT_EQ(y(fine.space.cell_velocity()), x(coarse.space.cell_velocity()));
+}
+
+}  // namespace
+}  // namespace rheocyte

@@ -1,0 +1,77 @@
+#include "fem/nested_lu.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace rheocyte {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A grid of quadrilateral elements with two unknowns at each corner, one pressure each, and one unknown of all.
+struct Grid {
+  int nx, ny, unknowns;
+  std::vector<CoupledUnknowns> elements;
+
+  Grid(int columns, int rows) : nx(columns), ny(rows), unknowns(2 * (nx + 1) * (ny + 1) + nx * ny + 1) {
+    for (int j = 0; j < ny; ++j) {
+      for (int i = 0; i < nx; ++i) {
+        CoupledUnknowns& element = elements.emplace_back();
+        for (const int node :
+             {i + (nx + 1) * j, i + 1 + (nx + 1) * j, i + (nx + 1) * (j + 1), i + 1 + (nx + 1) * (j + 1)})
+          element.unknowns.insert(element.unknowns.end(), {2 * node, 2 * node + 1});
+        element.pressure = 2 * (nx + 1) * (ny + 1) + i + nx * j;
+        element.unknowns.push_back(element.pressure);
+        element.unknowns.push_back(unknowns - 1);
+        if (i > 0) element.neighbours.push_back(i - 1 + nx * j);
+        if (i + 1 < nx) element.neighbours.push_back(i + 1 + nx * j);
+        if (j > 0) element.neighbours.push_back(i + nx * (j - 1));
+        if (j + 1 < ny) element.neighbours.push_back(i + nx * (j + 1));
+      }
+    }
+  }
+};
+
+TEST(NestedLU, SolvesTheSumOfTheElementsMatrices) {
+  const Grid grid(5, 4);
+  NestedLU lu(grid.unknowns, grid.elements);
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto random = [&](double) { return uniform(engine); };
+  MatrixXd whole = MatrixXd::Zero(grid.unknowns, grid.unknowns);
+  for (int e = 0; e < int(grid.elements.size()); ++e) {
+    const std::vector<int>& order = lu.order(e);
+    ASSERT_EQ(order.size(), grid.elements[e].unknowns.size());
+    // Not symmetric; dominant enough for every part to be regular.
+    MatrixXd matrix = MatrixXd::Zero(order.size(), order.size()).unaryExpr(random);
+    matrix.diagonal().array() += 5;
+    whole(order, order) += matrix;
+    lu.condense(e, matrix);
+  }
+  ASSERT_TRUE(lu.factorise());
+  const VectorXd rhs = VectorXd::Zero(grid.unknowns).unaryExpr(random);
+  // Rounding of a hundred unknowns.
+  EXPECT_LT((whole * lu.solve(rhs) - rhs).norm(), 1e-12 * rhs.norm());
+}
+
+TEST(NestedLU, AZeroMatrixIsNotFactorised) {
+  const Grid grid(2, 2);
+  NestedLU lu(grid.unknowns, grid.elements);
+  for (int e = 0; e < 4; ++e) {
+    MatrixXd matrix = MatrixXd::Zero(lu.order(e).size(), lu.order(e).size());
+    lu.condense(e, matrix);
+  }
+  EXPECT_FALSE(lu.factorise());
+}
+
+TEST(NestedLU, CostsNoMoreThanSeparatorsOfAGrid) {
+  // A dense matrix of all unknowns would take 2/3 n^3 operations; separators of a long grid take a small share of it.
+  const Grid grid(20, 4);
+  const double n = grid.unknowns;
+  EXPECT_LT(NestedLU(grid.unknowns, grid.elements).flops(), 0.03 * 2 / 3 * n * n * n);
+}
+
+}  // namespace
+}  // namespace rheocyte
