@@ -35,7 +35,7 @@ struct Seen {
   double smooth_log_area = 0, smooth_deformation = 0;
 };
 
-class Camera {
+class RenderingCamera {
  public:
   Seen look(const CellShape& shape, double area_px, int places) {
     const double per_um = std::sqrt(area_px / shape.area_um2);
@@ -119,7 +119,7 @@ std::vector<Seen> look_at_shapes(const CellShapes& shapes, const TableSpec& spec
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(0, 1);
   const auto log_uniform = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
-  Camera camera;
+  RenderingCamera camera;
   std::vector<Seen> all;
   while (static_cast<int>(all.size()) < count) {
     const auto radii = sweep_radii_um(spec);
