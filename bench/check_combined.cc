@@ -111,8 +111,8 @@ struct Tally {
   }
 
   void print(const std::string& what) const {
-    fmt::print("{}: {} fits, {} resolved, {} not told apart, {} other\n  E: {}\n  E2D: {}\n", what, fits, resolved,
-               unresolved, other, spread(young), spread(cortex));
+    fmt::print("{}: {} fits, {} resolved, {} not determined separately, {} other\n  E: {}\n  E2D: {}\n", what, fits,
+               resolved, unresolved, other, spread(young), spread(cortex));
     if (resolved > 0)
       fmt::print("  resolved, but a modulus is wrong by more than a factor of two: {:.1f} %\n",
                  100.0 * beyond / resolved);

@@ -23,7 +23,7 @@ _MODULES = {
     "STATES": "stiffness_tables", "Table": "stiffness_tables", "table_names": "stiffness_tables",
     "table": "stiffness_tables", "viscosity": "stiffness_tables",
     "extract": "recordings", "features": "recordings", "moduli": "recordings", "synth": "recordings",
-    "analytic": "closed_model",
+    "analytic": "analytical_model",
     "NoStateError": "errors", "UserError": "errors",
 }
 __all__ = sorted(_MODULES)

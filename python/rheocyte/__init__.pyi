@@ -1,6 +1,6 @@
 from rheocyte.cases import Case as Case
 from rheocyte.cases import case_keys as case_keys
-from rheocyte.closed_model import analytic as analytic
+from rheocyte.analytical_model import analytic as analytic
 from rheocyte.errors import NoStateError as NoStateError
 from rheocyte.errors import UserError as UserError
 from rheocyte.in_time import Evolution as Evolution

@@ -135,7 +135,7 @@ def draw_panel(axes, panel, rectangle):
     if panel.support is not None:
         axes.add_patch(Polygon(panel.support, facecolor=SUPPORT, edgecolor="none", zorder=0))
     for _, points in panel.lines:
-        axes.plot(*evened(points).T, color=LINE, linewidth=0.6, zorder=1, solid_capstyle="round")
+        axes.plot(*smoothed(points).T, color=LINE, linewidth=0.6, zorder=1, solid_capstyle="round")
     draw_events(axes, panel.events, rectangle)
     label_lines(axes, panel.lines, rectangle)
     draw_words(axes, panel, rectangle)
@@ -162,7 +162,7 @@ def draw_events(axes, events, rectangle):
             collection.set_path_effects([withStroke(linewidth=width + 1.1, foreground=HALF, alpha=0.7)])
 
 
-def evened(points):
+def smoothed(points):
     """The line without the small steps of a table's interpolation: quadratics through 11 neighbours at a time."""
     count = len(points)
     if count < 40:

@@ -82,7 +82,7 @@ class Table:
 
     Table(name="LE-2D-26")    a name of rheocyte.table_names(), a table of an installed dclab ("LE-2D-FEM-19"), the folder
                               or a file of a table of rheocyte, or a file in dclab's format
-    Table.for_medium(...)     the table whose liquid thins in shear as a buffer does
+    Table.for_medium(...)     the table whose liquid is as shear-thinning as a buffer
 
     rheocyte's own tables know standard errors and correct areas for pixels; published ones give what dclab gives, to
     1e-6. UserError if there is no such table or it is damaged. docs/theory-extract.md holds the equations.

@@ -54,7 +54,7 @@ class Table:
 
     @property
     def regularised(self):
-        """Rows whose surface is held by a bending stiffness."""
+        """Rows whose surface is stabilised by bending stiffness."""
         return self.column["regularised"] > 0
 
 
@@ -198,7 +198,7 @@ def draw_lines(table, grid):
     outline = regularised_outline(table)
     if len(outline):
         axes.fill(*outline.T, facecolor=REGULARISED, alpha=0.16, linewidth=0, zorder=1)
-        handles.append(Patch(facecolor=REGULARISED, alpha=0.16, label="surface held by bending"))
+        handles.append(Patch(facecolor=REGULARISED, alpha=0.16, label="surface stabilised by bending"))
     levels = line_levels(grid)
     drawn = axes.contour(grid.area, grid.deformation, np.ma.masked_invalid(np.log(grid.stiffness)), np.log(levels),
                          colors=LINE, linewidths=0.9, linestyles="solid", zorder=3)
@@ -216,7 +216,7 @@ def draw_coverage(table):
     handles = []
     area, deformation = table.column["area_um2"], table.column["deformation"]
     for rows, colour, label in ((~table.regularised, LINE, "bare surface"),
-                                (table.regularised, REGULARISED, "surface held by bending")):
+                                (table.regularised, REGULARISED, "surface stabilised by bending")):
         if rows.any():
             axes.plot(area[rows], deformation[rows], ".", color=colour, markersize=1.3, markeredgewidth=0,
                       rasterized=True)

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from rheocyte.density import Density, levels_enclosing, thinned
-from rheocyte.event_plot import evened, upper_end, visible_part
+from rheocyte.event_plot import smoothed, upper_end, visible_part
 
 PACKAGE = Path(__file__).resolve().parents[1]
 RECTANGLE = ((0.0, 200.0), (0.0, 0.2))
@@ -78,7 +78,7 @@ class Axes(unittest.TestCase):
     def test_evening_keeps_a_smooth_line(self):
         x = np.linspace(30, 290, 400)
         line = np.stack([x, 1e-3 * x + 1e-6 * x**2], axis=1)
-        np.testing.assert_allclose(evened(line), line, rtol=1e-9)
+        np.testing.assert_allclose(smoothed(line), line, rtol=1e-9)
 
 
 class Pictures(unittest.TestCase):

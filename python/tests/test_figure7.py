@@ -1,4 +1,4 @@
-"""The study of beads: the paper's spline, lines of equal modulus, and the figure from what the commands write."""
+"""The study of beads: the paper's spline, isoelasticity lines, and the figure from what the commands write."""
 
 import subprocess
 import tempfile

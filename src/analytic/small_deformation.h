@@ -1,4 +1,4 @@
-// The closed model of Mietke et al. 2015: shape of a little deformed cell, solid or shell, in a tube.
+// The analytical model of Mietke et al. 2015: shape of a little deformed cell, solid or shell, in a tube.
 //
 // It is the limit of vanishing deformation of every elastic law; how far it reaches beyond is measured against
 // `rheocyte solve` (docs/verification.md, sec. 8).

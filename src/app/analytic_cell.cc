@@ -75,7 +75,7 @@ std::string summary(const AnalyticCell& cell) {
   const auto stiffness = cell.is_solid() ? fmt::format("solid, E = {:g} kPa", *cell.input.young_modulus_kPa)
                                          : fmt::format("shell, E2D = {:g} mN/m, tension {:g} E2D",
                                                        *cell.input.cortex_modulus_mN_per_m, cell.input.tension_ratio);
-  std::string text = fmt::format("rheocyte {}: closed model of small deformations\n", version);
+  std::string text = fmt::format("rheocyte {}: analytical model of small deformations\n", version);
   text += line("cell", stiffness);
   text += line("radius", fmt::format("{:g} um", cell.input.radius_um),
                fmt::format("{:.6g} of the tube radius {:g} um", cell.cell.sphere.lambda, R));

@@ -1,4 +1,4 @@
-// `rheocyte analytic cell`: one cell of the closed model in physical units.
+// `rheocyte analytic cell`: one cell of the analytical model in physical units.
 #pragma once
 #include <optional>
 #include <string>

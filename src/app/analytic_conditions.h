@@ -1,4 +1,4 @@
-// Channel and flow for the closed model, from the command line: where its physical units are.
+// Channel and flow for the analytical model, from the command line: where its physical units are.
 #pragma once
 #include <optional>
 #include <string>

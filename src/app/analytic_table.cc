@@ -105,7 +105,8 @@ TableText empty_table(const AnalyticTableInput& input, const char* identifier_ke
   const auto& flow = input.conditions.input.flow;
   TableText table;
   table.comments = {
-      fmt::format("{}{}: closed model of Mietke et al. 2015 for small deformations.", table_mark.substr(2), version),
+      fmt::format("{}{}: analytical model of Mietke et al. 2015 for small deformations.", table_mark.substr(2),
+                  version),
       fmt::format(
           "A linear elastic sphere in a tube of radius {:g} um, which stands for the square channel; velocity on "
           "the axis",
@@ -113,20 +114,21 @@ TableText empty_table(const AnalyticTableInput& input, const char* identifier_ke
       fmt::format("of the {}. Area and deformation are those of the convex contour, without any pixelation.",
                   input.conditions.square_duct ? "square duct" : "tube"),
       fmt::format("Deformations up to {:g}.", input.greatest_deformation), ""};
-  table.metadata = {{"authors", "rheocyte"},
-                    {"channel_width", input.conditions.input.channel.width_um.value()},
-                    {"channel_width_unit", "um"},
-                    {"dimensionality", "2Daxis"},
-                    {"flow_rate", flow.rate_ul_per_s.value()},
-                    {"flow_rate_unit", "uL/s"},
-                    {"fluid_viscosity", flow.viscosity_mPas.value()},
-                    {"fluid_viscosity_unit", "mPa s"},
-                    {identifier_key, identifier_of(input)},
-                    {"method", "analytical"},
-                    {"model", "linear elastic"},
-                    {"publication", "https://doi.org/10.1016/j.bpj.2015.09.006"},
-                    {"software", fmt::format("rheocyte {}", version)},
-                    {"summary", "closed model of small deformations, linear elastic incompressible sphere in a tube"}};
+  table.metadata = {
+      {"authors", "rheocyte"},
+      {"channel_width", input.conditions.input.channel.width_um.value()},
+      {"channel_width_unit", "um"},
+      {"dimensionality", "2Daxis"},
+      {"flow_rate", flow.rate_ul_per_s.value()},
+      {"flow_rate_unit", "uL/s"},
+      {"fluid_viscosity", flow.viscosity_mPas.value()},
+      {"fluid_viscosity_unit", "mPa s"},
+      {identifier_key, identifier_of(input)},
+      {"method", "analytical"},
+      {"model", "linear elastic"},
+      {"publication", "https://doi.org/10.1016/j.bpj.2015.09.006"},
+      {"software", fmt::format("rheocyte {}", version)},
+      {"summary", "analytical model of small deformations, linear elastic incompressible sphere in a tube"}};
   return table;
 }
 

@@ -1,4 +1,4 @@
-// `rheocyte analytic table` and `lines`: the closed model as text files for dclab.
+// `rheocyte analytic table` and `lines`: the analytical model as text files for dclab.
 #pragma once
 #include <optional>
 #include <string>

@@ -148,7 +148,7 @@ void add_lines_command(CLI::App& analytic) {
 }  // namespace
 
 void add_analytic_command(CLI::App& app, int&) {
-  auto* command = app.add_subcommand("analytic", "closed model of small deformations: one cell, table, lines");
+  auto* command = app.add_subcommand("analytic", "analytical model of small deformations: one cell, table, lines");
   command->require_subcommand(1);
   command->footer("For example: rheocyte analytic cell --radius-um 6 --young-modulus-kPa 5");
   add_cell_command(*command);

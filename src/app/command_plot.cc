@@ -134,7 +134,7 @@ class Plot {
 
 void add_plot_command(CLI::App& app, int& exit_code) {
   auto* command =
-      app.add_subcommand("plot", "area against deformation of recordings (.rtdc), with lines of equal modulus");
+      app.add_subcommand("plot", "area against deformation of recordings (.rtdc), with isoelasticity lines");
   auto options = std::make_shared<PlotOptions>();
   declare_plot_options(*command, *options, [options, &exit_code] {
     watch_signals();

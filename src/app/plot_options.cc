@@ -37,7 +37,7 @@ void check(const PlotOptions& options) {
                                                                                                         : "--levels"));
   if (!has_usual_axes(options) && (has_table || has_lines || !options.levels_kPa.empty()))
     throw UserError(
-        fmt::format("rheocyte: {} and --x or --y contradict each other; lines of equal modulus are drawn over "
+        fmt::format("rheocyte: {} and --x or --y contradict each other; isoelasticity lines are drawn over "
                     "area_um and deform only.",
                     has_table   ? "--table"
                     : has_lines ? "--lines"
@@ -62,7 +62,7 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
       ->type_name("NAME");
   command
       .add_option("--table", options.table,
-                  "look-up table for lines of equal modulus and the shaded region, as for extract; default: the "
+                  "look-up table for isoelasticity lines and the shaded region, as for extract; default: the "
                   "program's own")
       ->type_name("TABLE");
   command.add_option("--lines", options.lines, "isoelasticity lines in dclab's format, in place of the table's own")

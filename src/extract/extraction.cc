@@ -116,7 +116,7 @@ std::string Extraction::comparison() const {
     return exponent < 1 ? fmt::format("{} (its liquid has the exponent {:.3g})", name, exponent)
                         : fmt::format("{} with the effective viscosity", name);
   };
-  const std::string text = fmt::format("the medium thins in shear (exponent {:.3g}); moduli are from {}",
+  const std::string text = fmt::format("the medium is shear-thinning (exponent {:.3g}); moduli are from {}",
                                        settings_.conditions.flow.exponent, way(table()));
   if (compared_ == 0) return text + ".";
   const double percent = 100 * std::expm1(log_ratios_ / static_cast<double>(compared_));

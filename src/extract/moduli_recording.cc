@@ -140,7 +140,7 @@ class Fits {
     if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, greatest_reynolds_number_));
     if (std::abs(settings_.conditions.flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
       s.warnings.push_back(fmt::format(
-          "the medium thins in shear with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at the "
+          "the medium is shear-thinning with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at the "
           "wall stands for both, and moduli are off by up to 5 %, those of large cells most.",
           settings_.conditions.flow.exponent, simulated_exponent_));
     if (s.resolved() == 0 && s.with_stiffness() > 0)

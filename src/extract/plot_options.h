@@ -21,7 +21,7 @@ struct PlotOptions {
   std::filesystem::path output;  ///< as given, with or without .png or .svg; empty: beside the first recording
 };
 
-/// Whether the axes are those of lines of equal modulus.
+/// Whether the axes are those of isoelasticity lines.
 inline bool has_usual_axes(const PlotOptions& options) { return options.x == "area_um" && options.y == "deform"; }
 
 }  // namespace rheocyte

@@ -108,14 +108,14 @@ PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWant
   if (is_of_the_reservoir(recording)) {
     panel.measured = "reservoir";
     if (lines == LinesWanted::yes)
-      panel.warnings.emplace_back("was recorded in the reservoir, where no lines of equal modulus exist.");
+      panel.warnings.emplace_back("was recorded in the reservoir, where no isoelasticity lines exist.");
   } else if (lines == LinesWanted::yes) {
     take_conditions(recording, options, panel);
   } else if (lines == LinesWanted::if_possible) {
     try {
       take_conditions(recording, options, panel);
     } catch (const UserError& missing) {
-      panel.warnings.push_back(fmt::format("drawn without lines of equal modulus. {}", missing.what()));
+      panel.warnings.push_back(fmt::format("drawn without isoelasticity lines. {}", missing.what()));
     }
   }
   panel.warnings.insert(panel.warnings.begin(), recording.remarks().begin(), recording.remarks().end());

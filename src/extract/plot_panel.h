@@ -32,7 +32,7 @@ struct PlotPanel {
   }
 };
 
-/// Lines of equal modulus; if possible: with a warning where the recording does not say how it was measured.
+/// Isoelasticity lines; if possible: with a warning where the recording does not say how it was measured.
 enum class LinesWanted { no, if_possible, yes };
 
 /// Takes the drawable events of a block: the two numbers of each in turn.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
               x_deformation = int(CellCoordinate::log_deformation), x_ratio = int(CellCoordinate::tension_ratio);
-/// Cells whose misfits differ by less cannot be told apart at 90 %.
+/// Cells whose misfits differ by less cannot be distinguished at 90 %.
 constexpr double same_chi_squared = 2.7;
 /// What is known before: an error of so many widths of the table's range. Keeps covariances finite.
 constexpr double prior_widths = 3;

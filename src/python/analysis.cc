@@ -1,4 +1,4 @@
-// The closed model of small deformations, and the computation of whole tables.
+// The analytical model of small deformations, and the computation of whole tables.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 

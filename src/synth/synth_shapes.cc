@@ -72,8 +72,8 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   if (folder.spec().is_combined()) return shapes_of_combined_table(spec, folder);
   const bool is_shell = folder.spec().stiffness_key == "cell.cortex.modulus_mN_per_m";
   if (spec.kind != (is_shell ? CellKind::shell : CellKind::solid))
-    refuse(spec, fmt::format("its cells are told apart by {}, so cell.kind must be \"{}\".",
-                             folder.spec().stiffness_key, is_shell ? "shell" : "solid"));
+    refuse(spec, fmt::format("its cells differ by {}, so cell.kind must be \"{}\".", folder.spec().stiffness_key,
+                             is_shell ? "shell" : "solid"));
   auto branches = finished_branches(folder);
   std::set<double> radii;
   for (const auto& branch : branches) radii.insert(branch.radius_um);

@@ -9,7 +9,7 @@ namespace rheocyte {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int reach = 2;  // columns over which the border is evened
+constexpr int reach = 2;  // columns over which the border is smoothed
 constexpr int points_per_column = 8;
 
 /// Where a branch ends.
@@ -122,7 +122,7 @@ Border upper_border(std::span<const LogBranch> branches, const TableSpec& spec, 
       weights += weight;
     }
     border.height.push_back(sum / weights);
-    // Where the border is evened below the table's greatest deformation, the next states are not in the grid.
+    // Where the border is smoothed below the table's greatest deformation, the next states are not in the grid.
     const bool is_highest = border.height.back() > greatest - 1e-9;
     const NoAnswer beyond = polygon.beyond(columns.at(c));
     border.beyond.push_back(is_highest                     ? NoAnswer::too_soft

@@ -152,7 +152,7 @@ TEST_F(ModuliCommand, EachEventHasTheViscosityOfItsTemperature) {
   const Ended ended = moduli({table_folder().string(), "--only-figure"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_NE(ended.err.find("3 events have temperatures outside 22 to 37 degC"), std::string::npos) << ended.err;
-  EXPECT_NE(ended.err.find("thins in shear with the exponent 0.6"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("is shear-thinning with the exponent 0.6"), std::string::npos) << ended.err;
   const auto rows = rows_of(table());
   ASSERT_EQ(rows.size(), std::size_t(events));
   // By eq:buyukurganci at 40 and 25 degC; six digits are printed.
@@ -185,8 +185,8 @@ TEST_F(ModuliCommand, SaysInOneLineWhatARecordingHolds) {
 }
 
 TEST_F(ModuliCommand, ARecordingWithoutMadeOutModuliIsSaidAndHasItsExitCode) {
-  // 3 where no event has the shape of a cell of the table; 0 where bulk and cortex are not told apart, for their sum is
-  // a result; as `rheocyte extract`, 2 comes before 3.
+  // 3 where no event has the shape of a cell of the table; 0 where bulk and cortex cannot be determined separately, for
+  // their sum is a result; as `rheocyte extract`, 2 comes before 3.
   const auto expect = [&](const std::vector<std::string>& more, int exit_code, const std::string& words) {
     std::vector<std::string> options{table_folder().string(), "--viscosity-mPas", "15"};
     options.insert(options.end(), more.begin(), more.end());

@@ -46,7 +46,7 @@ class OwnTable : public testing::Test {
     writer.scalar("deform", {0.016, 0.03, 0.03, -0.01, 0.3, NAN, 0.15});
     if (more) more(writer);
   }
-  /// The folder of a table with branches of the closed model: 4 to 40 kPa at 20 um, 0.04 ul/s, 15 mPa s.
+  /// The folder of a table with branches of the analytical model: 4 to 40 kPa at 20 um, 0.04 ul/s, 15 mPa s.
   TableSpec write_closed_table(const std::string& name) const {
     const auto spec = parse_table_spec(
         "channel.width_um = 20\nflow.rate_ul_per_s = 0.04\nflow.viscosity_mPas = 15\n[table]\nidentifier = \"CLOSED\"\n"
@@ -149,7 +149,7 @@ TEST_F(OwnTable, IsFoundByIdentifierFileAndFolder) {
   EXPECT_EQ(modulus({}), modulus({"--table", "LE-2D-MC049-26"}));
   const double by_folder = modulus({"--table", path("table")});
   EXPECT_EQ(by_folder, modulus({"--table", path("table/grid_CLOSED.cbor")}));
-  EXPECT_NEAR(by_folder / modulus({}), 1, 0.05) << "the closed model against simulations at a deformation of 0.01";
+  EXPECT_NEAR(by_folder / modulus({}), 1, 0.05) << "the analytical model against simulations at a deformation of 0.01";
   EXPECT_LT(modulus({"--no-area-correction"}), 0.99 * modulus({}));
   fs::remove(folder_ / "table/grid_CLOSED.cbor");
   expect_refusal({"extract", path("a.rtdc"), "--table", path("table")}, "holds no grid_*.cbor");
@@ -213,7 +213,7 @@ TEST_F(OwnTable, AShearThinningMediumGetsTheTableOfItsLiquid) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments, {{"RHEOCYTE_TABLES", path("shipped")}});
   };
-  EXPECT_EQ(extract().err.find("thins in shear"), std::string::npos) << "no table has such a liquid";
+  EXPECT_EQ(extract().err.find("shear-thinning"), std::string::npos) << "no table has such a liquid";
   const double newtonian = column(folder_ / "a_rheocyte.rtdc", "emodulus")[0];
   ship("THINNING", 0.66, 1.1);
   const auto ended = extract();

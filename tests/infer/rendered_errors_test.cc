@@ -40,9 +40,9 @@ Difference difference(const ShapeErrors& rendered, double area_um2, double true_
 constexpr double log_ratio_of_deviations = 0.4;
 
 TEST(RenderedErrors, OfSolidsAreThoseOfTheFittedLaw) {
-  // Shapes of the closed model, none of which was used for the fit. The law leaves 1.3e-3 in ln(area) and 5e-4 in the
-  // deformation to 95 % of single shapes, so that one of a dozen may exceed that, but not its double; twice the scatter
-  // of the mean of 2000 pictures is 3e-4 and 1e-4.
+  // Shapes of the analytical model, none of which was used for the fit. The law leaves 1.3e-3 in ln(area) and 5e-4 in
+  // the deformation to 95 % of single shapes, so that one of a dozen may exceed that, but not its double; twice the
+  // scatter of the mean of 2000 pictures is 3e-4 and 1e-4.
   constexpr int pictures = 2000;
   constexpr double usual_area = 1.3e-3 + 3e-4, usual_deformation = 5e-4 + 1e-4;
   const AnalyticShapes model({.flow = {20, 0.04}, .greatest_deformation = 0.03});

@@ -16,7 +16,8 @@ def kinds(outputs):
 
 
 @pytest.mark.parametrize("path", [pytest.param(path, id=path.stem) for path in sorted((TOP / "examples/notebooks").glob("*.ipynb"))])
-def test_a_notebook_runs(path):
+def test_a_notebook_runs(path, monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")  # as in a notebook that is looked at
     notebook = nbformat.read(path, as_version=4)
     stored = [cell.outputs for cell in notebook.cells if cell.cell_type == "code"]
     assert all(stored), "execute the notebook before it is kept"

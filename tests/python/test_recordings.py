@@ -86,7 +86,7 @@ def test_what_is_no_mask_is_refused(masks, size):
         rheocyte.features(masks, size)
 
 
-def test_the_closed_model_is_that_of_the_command():
+def test_the_analytical_model_is_that_of_the_command():
     import json
 
     cell = rheocyte.analytic(5, young_modulus_kPa=10)

@@ -47,7 +47,7 @@ TEST_F(TableCommand, KilledTwentyTimesItEndsWithTheSameBytes) {
 }
 
 TEST_F(TableCommand, TwoRanksMakeTheTableOfOneProcess) {
-  // As under mpirun: both with the same command, told apart by their environment; rank 0 writes the files.
+  // As under mpirun: both with the same command, distinguished by their environment; rank 0 writes the files.
   ASSERT_EQ(make(table("one")).exit_code, 0);
   const std::map<std::string, std::string> zero{{"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "2"}},
       one{{"OMPI_COMM_WORLD_RANK", "1"}, {"OMPI_COMM_WORLD_SIZE", "2"}};

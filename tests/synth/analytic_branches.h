@@ -1,4 +1,4 @@
-// Branches as a table holds them, from the closed model in place of simulations.
+// Branches as a table holds them, from the analytical model in place of simulations.
 #pragma once
 #include "table/branch.h"
 

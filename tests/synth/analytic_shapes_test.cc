@@ -1,4 +1,4 @@
-// The closed model gives the shapes of `rheocyte analytic`, in um, and says where it ends.
+// The analytical model gives the shapes of `rheocyte analytic`, in um, and says where it ends.
 #include "synth/analytic_shapes.h"
 
 #include <gtest/gtest.h>

@@ -102,7 +102,7 @@ TEST(StiffnessGrid, EndsAtTheInstabilityOrGoesOnWithBending) {
     EXPECT_GT(other.error, 3e-4) << "the step at the border is part of the error";
   }
   EXPECT_GT(unstable, 50);
-  EXPECT_LT(lost, 30) << "the border is evened below the ends of the branches";
+  EXPECT_LT(lost, 30) << "the border is smoothed below the ends of the branches";
 }
 
 TEST(StiffnessGrid, JaggedEndsMakeNoWrongNumbers) {

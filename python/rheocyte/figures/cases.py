@@ -153,7 +153,7 @@ class Laboratory:
         self.tell(f"[{count:>{len(str(total))}}/{total}] {solution.name}: {outcome} ({seconds:.1f} s)")
 
     def analytic(self, name, case):
-        """The closed model of small deformations for a solid or shell of paper.py; takes milliseconds, is not kept."""
+        """The analytical model of small deformations for a solid or shell of paper.py; takes milliseconds, is not kept."""
         folder = self.folder / name
         make_folder(folder)
         ended = self.call("analytic", "cell", *analytic_options(case), "--json", "-o", folder / "contour.csv")

@@ -25,7 +25,7 @@ VIEW_UM, PIXELS = 11.5, 340  # half the width of a view, and its width
 POINTS = 480  # of a drawn contour
 LEAST_DENT_UM = 0.1  # depth from which the chord over a dent is drawn
 MARKS = 40  # dots on a whole contour
-SEEN = 5e-4  # a raw deformation that differs by less is not told apart
+SEEN = 5e-4  # a raw deformation that differs by less is not seen
 
 
 @dataclass

@@ -177,7 +177,7 @@ def draw(beads, lines, boxes):
 
 
 def draw_beads(axes, beads, lines):
-    """Events coloured by density, lines of equal modulus, and the areas that are chosen."""
+    """Events coloured by density, isoelasticity lines, and the areas that are chosen."""
     rectangle = ((100.0, 190.0), (0.0, 0.045))
     axes.set(xlim=rectangle[0], ylim=rectangle[1], xlabel="area (µm²)", ylabel="deformation",
              title="a   virtual beads as measured, with 0.34 µm pixels")

@@ -125,7 +125,7 @@ def end_between(found, last, modulus):
 
 
 def analytical(laboratory, kind):
-    """Lines of the closed model, each up to the greatest radius for which it answers."""
+    """Lines of the analytical model, each up to the greatest radius for which it answers."""
     cells = [(modulus, radius) for modulus in kind.moduli for radius in ANALYTICAL_RADII_UM]
     with ThreadPoolExecutor(laboratory.processors) as pool:
         answers = dict(zip(cells, pool.map(lambda cell: analytical_cell(laboratory, kind, *cell), cells)))

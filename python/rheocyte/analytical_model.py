@@ -10,7 +10,7 @@ from rheocyte.native_module import native
 
 
 class SmallDeformation:
-    """A cell of the closed model: deformation, area_um2, cell_velocity_m_per_s, ... with the names of result.json.
+    """A cell of the analytical model: deformation, area_um2, cell_velocity_m_per_s, ... with the names of result.json.
 
     contour     meridian, array (n, 2) of x and r in um, front to rear
     """
