@@ -33,7 +33,11 @@ bool is_complete_vtu(const fs::path& file) {
 void write_result(const Result& result, ResultFolder& folder, const SolveOptions& options, const std::string& json,
                   std::optional<Drawing>& drawing) {
   folder.write("case.toml", to_toml(result.input));
-  folder.write("contour.csv", contour_csv(result));
+  folder.write("contour.csv", contour_csv(result.state.surface, result.scales));
+  if (result.problem.section == Section::square) {
+    folder.write("contour_side.csv", contour_csv(result.state.views[0], result.scales));
+    folder.write("contour_diagonal.csv", contour_csv(result.state.views[1], result.scales));
+  }
   if (result.state.write_fields)  // else stopped or failed before there was any state
     write_field_file(result.state.write_fields, result.scales, folder.scratch() / "fields.vtu", options.folder);
   folder.write("result.json", json);

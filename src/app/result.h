@@ -42,7 +42,7 @@ struct ProfilePoint {
 
 /// contour.csv: the meridian from the front pole to the rear one, densely sampled, in um, with stretches, tensions and
 /// curvatures of the surface.
-std::string contour_csv(const Result&);
+std::string contour_csv(const SurfaceProfile&, const Scales&);
 std::span<const Field<ProfilePoint>> contour_fields();  ///< its columns; the values are dimensionless
 
 /// The lines that `rheocyte solve` prints at its end.

@@ -29,7 +29,8 @@ std::span<const Field<ProfilePoint>> contour_fields() {
        [](const P& p) { return p.surface.rest_angle(p.row); }},
       {"stretch_meridional", "stretch of the surface along the meridian",
        [](const P& p) { return p.surface.stretch(p.row, 0); }},
-      {"stretch_hoop", "stretch round the axis", [](const P& p) { return p.surface.stretch(p.row, 1); }},
+      {"stretch_hoop", "stretch round the axis, in a square channel across the meridian",
+       [](const P& p) { return p.surface.stretch(p.row, 1); }},
       {"tension_meridional_mN_per_m", "Cauchy tension of the surface, surface tension included",
        [](const P& p) { return p.surface.tension(p.row, 0); }},
       {"tension_hoop_mN_per_m", "likewise, round the axis", [](const P& p) { return p.surface.tension(p.row, 1); }},
@@ -39,8 +40,7 @@ std::span<const Field<ProfilePoint>> contour_fields() {
   return fields;
 }
 
-std::string contour_csv(const Result& result) {
-  const SurfaceProfile& surface = result.state.surface;
+std::string contour_csv(const SurfaceProfile& surface, const Scales& scales) {
   std::string text;
   const auto add_row = [&](const auto& text_of) {
     std::string_view separator;
@@ -55,7 +55,7 @@ std::string contour_csv(const Result& result) {
     // The first point of a piece is the last one of the piece before.
     if (i > 0 && i % SurfaceProfile::points_per_piece == 0) continue;
     add_row([&](const auto& field) {
-      return fmt::format("{:.10g}", field.value({surface, i}) * dimensionless_one(unit_of(field.name), result.scales));
+      return fmt::format("{:.10g}", field.value({surface, i}) * dimensionless_one(unit_of(field.name), scales));
     });
   }
   return text;
@@ -71,6 +71,9 @@ std::string summary(const Result& result, const std::string& folder) {
       line("deformation", fmt::format("{:.6f}", shape.deformation), fmt::format("raw {:.6f}", shape.deformation_raw));
   text +=
       line("area", fmt::format("{:.3f} um^2", shape.area * R * R), fmt::format("raw {:.3f}", shape.area_raw * R * R));
+  if (std::isfinite(state.deformation_side))
+    text += line("by view", fmt::format("{:.6f} side", state.deformation_side),
+                 fmt::format("{:.6f} diagonal", state.deformation_diagonal));
   text += line("cell velocity", fmt::format("{:.5g} m/s", state.cell_velocity * scales.velocity_m_per_s),
                fmt::format("mean velocity of the liquid {:.5g}", scales.velocity_m_per_s));
   text += line("pressure drop", fmt::format("{:.5g} Pa", state.pressure_drop * scales.stress_Pa),

@@ -14,9 +14,11 @@ struct ChannelProfile {
 
 /// The tube, or the square channel that is mapped to it, or the profile; exactly one of the three is given.
 struct Channel {
+  Section section = Section::tube;
   std::optional<double> width_um, radius_um;
   std::optional<double> length_um = {};  ///< only where the pressure drop is given
   ChannelProfile profile = {};
+  std::optional<Camera> camera = {};  ///< only where the section is square
 };
 
 /// The liquid and how much of it flows. Empty: the key has no effect for this law.

@@ -10,8 +10,9 @@ constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "p
     carreau{"flow.law", "carreau"}, shear_thinning{"flow.law", "newtonian", true},
     mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
     has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
-    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
-    has_rate{"flow.drive", "pressure-drop", true}, has_pressure_drop{"flow.drive", "pressure-drop"};
+    square{"channel.section", "square"}, monolithic{"time.scheme", "monolithic"},
+    partitioned{"time.scheme", "partitioned"}, has_rate{"flow.drive", "pressure-drop", true},
+    has_pressure_drop{"flow.drive", "pressure-drop"};
 
 // The member of a case is the name of its key; behind it stand the other parts of its KeyDescription in their order.
 #define FIELD(member) \
@@ -21,7 +22,15 @@ constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "p
 // The options of a choice stand in the order of its enumeration (case/problem.h, laws/).
 // The ranges are wide; they catch wrong units and keep every dimensionless group finite.
 const std::array table = {
-    KEY(channel.width_um, "um", "width of the square channel, mapped to a tube of radius 0.547 x width",
+    KEY(channel.section, "",
+        "cross-section that is computed: a tube, which also stands for the square channel of the same pressure drop, "
+        "or the square itself in three dimensions",
+        Choice{{"tube", "square"}}, 0),
+    KEY(channel.camera, "",
+        "from where a square channel is seen, side: at right angles to a wall, diagonal: along the section's diagonal",
+        Choice{{"side", "diagonal"}}, 0, square),
+    KEY(channel.width_um, "um",
+        "width of the square channel, mapped to a tube of radius 0.547 x width unless channel.section is \"square\"",
         Number{{1, 10000}}, required, {}, "channel.radius_um", "--channel-width-um", "--channel-width"),
     KEY(channel.radius_um, "um", "radius of the tube", Number{{0.5, 5000}}, required, {}, "channel.width_um",
         "--tube-radius-um"),
@@ -69,7 +78,8 @@ const std::array table = {
     KEY(flow.density_kg_per_m3, "kg/m3", "density of the liquid, 0 = no inertia (Stokes flow)", Number{{0, 1e6}},
         1000.0),
 
-    KEY(cell.radius_um, "um", "radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius",
+    KEY(cell.radius_um, "um",
+        "radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the width",
         Number{{0.01, 5000}}, required, {}, {}, "--radius-um"),
     KEY(cell.viscosity_mPas, "mPa s", "viscosity of the cell's interior; a stationary shape does not depend on it",
         Number{{1e-3, 1e9}}, required, in_time),

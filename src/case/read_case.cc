@@ -70,8 +70,27 @@ void check_profile(const Case& c, const KeyReading& keys) {
                                  keys.stated(drive)));
 }
 
+// What is computed in tubes alone.
+void check_square(const Case& c, const KeyReading& keys) {
+  if (c.channel.section != Section::square) return;
+  const auto refuse = [&](std::string_view key, std::string_view reason) {
+    keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
+  };
+  if (!c.channel.width_um || has_profile(keys))
+    refuse("channel.section", "needs channel.width_um, not a radius or a profile");
+  if (c.flow.drive != Drive::rate)
+    refuse("channel.section", "is for a given flow rate; give flow.rate_ul_per_s, or take the tube");
+  if (c.time.scheme != TimeScheme::stationary)
+    refuse("channel.section", "is for stationary shapes; leave [time] out, or take the tube");
+  if (c.cell.bulk.law == BulkLaw::none || c.cell.cortex.law != CortexLaw::none ||
+      c.cell.cortex.tension_mN_per_m.value_or(0) > 0 || c.cell.cortex.bending_kBT > 0)
+    refuse("channel.section",
+           "is for an elastic interior without a cortex, tension or bending stiffness; leave them out, or take the "
+           "tube");
+}
+
 void check_cell_in_tube(const Case& c, const KeyReading& keys) {
-  const double R = tube_radius_um(c), r0 = c.cell.radius_um;
+  const double R = unit_length_um(c), r0 = c.cell.radius_um;
   if (has_profile(keys) && r0 > greatest_radius_ratio * R)
     keys.refuse(
         profile_R,
@@ -80,9 +99,10 @@ void check_cell_in_tube(const Case& c, const KeyReading& keys) {
                     profile_R, R, r0, r0 / greatest_radius_ratio));
   if (r0 >= least_radius_ratio * R && r0 <= greatest_radius_ratio * R) return;
   constexpr std::string_view key = "cell.radius_um";
-  keys.refuse(key, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the tube radius {:.6g} um.",
+  const auto what = c.channel.section == Section::square ? "half width of the square" : "tube radius";
+  keys.refuse(key, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the {} {:.6g} um.",
                                keys.stated(key), least_radius_ratio * R, greatest_radius_ratio * R, least_radius_ratio,
-                               greatest_radius_ratio, R));
+                               greatest_radius_ratio, what, R));
 }
 
 // The ends of the channel must not see the cell.
@@ -152,6 +172,7 @@ Case complete_case(KeyReading& keys, std::vector<std::string_view> left_open) {
   keys.complete(left_open);
   Case c;
   keys.fill(c, case_keys());
+  check_square(c, keys);
   check_profile(c, keys);
   if (has_radius) {
     check_cell_in_tube(c, keys);

@@ -19,6 +19,10 @@ double tube_radius_um(const Case& c) {
   return c.channel.radius_um ? *c.channel.radius_um : tube_radius_per_channel_width * c.channel.width_um.value();
 }
 
+double unit_length_um(const Case& c) {
+  return c.channel.section == Section::square ? c.channel.width_um.value() / 2 : tube_radius_um(c);
+}
+
 int surface_elements(const Case& c) {
   const double grid = c.time.grid_um.value_or(0);
   return grid > 0 ? std::max(8, int(std::ceil(std::numbers::pi * c.cell.radius_um / grid))) : 0;
@@ -32,11 +36,12 @@ double tension_mN_per_m(const Case& c) {
 
 Scales scales_of(const Case& c) {
   const Liquid liquid = liquid_of(c.flow);
-  const double R = tube_radius_um(c) * m_per_um;
+  const double R = unit_length_um(c) * m_per_um;
+  const double area = (c.channel.section == Section::square ? 4 : std::numbers::pi) * R * R;
   const double rate =
       c.flow.drive == Drive::pressure_drop
           ? undisturbed_mean_speed(liquid, *c.flow.pressure_drop_Pa * R / (*c.channel.length_um * m_per_um))
-          : *c.flow.rate_ul_per_s * m3_per_ul / (std::numbers::pi * R * R * R);
+          : *c.flow.rate_ul_per_s * m3_per_ul / (area * R);
   return {R, rate * R, stress_at_rate(liquid, rate)};
 }
 
@@ -61,7 +66,9 @@ Problem problem_of(const Case& c) {
                     .modulus = c.cell.cortex.modulus_mN_per_m.value_or(0) * N_per_mN / (S * R),
                     .tension = tension_mN_per_m(c) * N_per_mN / (S * R),
                     .bending = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R)};
-  problem.radius_ratio = c.cell.radius_um / tube_radius_um(c);
+  problem.section = c.channel.section;
+  problem.camera = c.channel.camera.value_or(Camera::side);
+  problem.radius_ratio = c.cell.radius_um / unit_length_um(c);
   problem.drive = c.flow.drive;
   problem.channel_length = c.channel.length_um.value_or(0) / tube_radius_um(c);
   problem.wall = {c.channel.profile.x_um, c.channel.profile.R_um};

@@ -20,8 +20,11 @@ int surface_elements(const Case&);
 /// Radius of the tube in um: given, mapped from the width of the square channel, or the least one of the profile.
 double tube_radius_um(const Case&);
 
+/// The unit of lengths: the tube's radius, or half the width where the square itself is computed.
+double unit_length_um(const Case&);
+
 /// R, U = Q / (pi R^2), and S, the stress of the liquid at the shear rate U / R, in SI units. Where the pressure drop
-/// is given, U is the mean speed of the liquid without the cell.
+/// is given, U is the mean speed of the liquid without the cell. In a square h, U = Q / (4 h^2) and eta(U/h) U/h.
 Scales scales_of(const Case&);
 
 /// pi R^2 U, the unit of flow rates.

@@ -20,6 +20,7 @@ void read_flow(const StateView& state, StateNumbers& r) {
   r.channel_length = 2 * half;
   r.pressure_drop = inlet_pressure(state.space, state.unknowns) + gradient * half;
   r.flow_rate = flow_rate(state.space, state.unknowns);
+  r.volume_flow = std::numbers::pi * r.flow_rate;
   const double undisturbed = undisturbed_pressure_gradient(state.media.liquid, r.flow_rate) * r.channel_length;
   if (state.problem.wall.is_straight()) r.additional_pressure_drop = r.pressure_drop - undisturbed;
   if (const int p = state.space.inner_pressure(); p >= 0)
@@ -78,6 +79,7 @@ double greatest_shear_rate(const StateView& state, const Contour& contour) {
 StateNumbers numbers_of(const StateView& state, const Contour& contour, const SurfaceState& surface) {
   StateNumbers r;
   r.shape = measure(contour);
+  r.volume_of_revolution = r.shape.volume;
   r.relative_volume_change =
       r.shape.volume / (4.0 / 3 * std::numbers::pi * std::pow(state.problem.radius_ratio, 3)) - 1;
   read_flow(state, r);

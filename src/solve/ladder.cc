@@ -33,7 +33,7 @@ bool is_nearly_unstable(const Problem& problem, const ResolvedState& state) {
 
 }  // namespace
 
-double estimate_error(const std::vector<double>& values) {
+double estimate_error(const std::vector<double>& values, double share_of_change_before) {
   const std::size_t n = values.size();
   if (n < 2) return std::numeric_limits<double>::infinity();
   const double change = values[n - 1] - values[n - 2], size = std::max(std::abs(values[n - 1]), 1e-300);
@@ -41,7 +41,7 @@ double estimate_error(const std::vector<double>& values) {
   const double before = values[n - 2] - values[n - 3];
   const double ratio = before == 0 ? 0 : std::min(change / before, 0.9);
   const double share = ratio < 0 ? 1 : std::max(0.5, ratio / (1 - ratio));  // below 0: changes of alternating sign
-  return std::max(share * std::abs(change), 0.5 * std::abs(before)) / size;
+  return std::max(share * std::abs(change), share_of_change_before * std::abs(before)) / size;
 }
 
 double deformation_of(const ResolvedState& state) {

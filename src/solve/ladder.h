@@ -8,9 +8,9 @@
 namespace rheocyte {
 
 /// Error of the last of some values of the deformation on ever finer resolutions, relative to it
-/// (docs/theory.md, eq:error): the last change times the rest of a geometric series, and half of the last two changes
-/// at least.
-double estimate_error(const std::vector<double>& deformations);
+/// (docs/theory.md, eq:error): the last change times the rest of a geometric series, and half of the last change and a
+/// share of the one before at least.
+double estimate_error(const std::vector<double>& deformations, double share_of_change_before = 0.5);
 
 /// The deformation of a state's contour.
 double deformation_of(const ResolvedState&);

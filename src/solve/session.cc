@@ -7,6 +7,7 @@
 #include "fem/write_fields.h"
 #include "solve/branch_ends.h"
 #include "solve/describe.h"
+#include "solve/stationary_duct.h"
 
 namespace rheocyte {
 namespace {
@@ -153,6 +154,7 @@ bool Session::answer_nearby(const Problem& problem, const NewtonOptions& newton,
 
 StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress,
                                const std::atomic<bool>* stop) {
+  if (problem.section == Section::square) return solve_in_duct(problem, progress, stop);
   const auto start = std::chrono::steady_clock::now();
   StationaryState result;
   result.shape = measure(Contour{});  // not a number until there is a shape

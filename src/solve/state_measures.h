@@ -20,9 +20,12 @@ inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 /// The numbers of a state; dimensionless, in the units of case/problem.h.
 struct StateNumbers {
   ShapeMeasures shape;  ///< of the contour; lengths in R
+  double deformation_side = no_value, deformation_diagonal = no_value;
+  double volume_of_revolution = no_value;  ///< of the contour; in a tube that of the cell
   double relative_volume_change = no_value;
   double cell_velocity = no_value;             ///< in U
-  double flow_rate = no_value;                 ///< in pi R^2 U
+  double flow_rate = no_value;                 ///< mean velocity in U
+  double volume_flow = no_value;               ///< in R^2 U
   double pressure_drop = no_value;             ///< over the simulated channel, in S
   double additional_pressure_drop = no_value;  ///< the part that is due to the cell
   double inner_pressure = no_value;            ///< in S, the undisturbed pressure at the cell being 0
@@ -64,11 +67,18 @@ inline constexpr StateMeasure state_measures[] = {
     {"deformation", "1 - 2 sqrt(pi A) / P of the contour's convex hull, which is what a camera sees",
      &ShapeMeasures::deformation, AlsoIn::both},
     {"deformation_raw", "the same of the contour itself", &ShapeMeasures::deformation_raw, AlsoIn::both},
+    {"deformation_side", "the same of the silhouette seen at right angles to a wall", &StateNumbers::deformation_side,
+     AlsoIn::none, "in a tube"},
+    {"deformation_diagonal", "the same of the silhouette seen along the diagonal of the channel",
+     &StateNumbers::deformation_diagonal, AlsoIn::none, "in a tube"},
     {"area_um2", "area of the contour's convex hull", &ShapeMeasures::area, AlsoIn::both},
     {"area_raw_um2", "area within the contour", &ShapeMeasures::area_raw, AlsoIn::tables},
     {"perimeter_um", "perimeter of the convex hull", &ShapeMeasures::perimeter, AlsoIn::tables},
     {"perimeter_raw_um", "perimeter of the contour", &ShapeMeasures::perimeter_raw},
-    {"volume_um3", "volume of the cell, the body of revolution of the contour", &ShapeMeasures::volume, AlsoIn::both},
+    {"volume_um3", "volume of the cell, in a tube the body of revolution of the contour", &ShapeMeasures::volume,
+     AlsoIn::both},
+    {"volume_of_revolution_um3", "volume of the body of revolution of the contour, which programs compute from images",
+     &StateNumbers::volume_of_revolution},
     {"relative_volume_change", "change of the volume since the sphere at rest; the cell is incompressible",
      &StateNumbers::relative_volume_change, AlsoIn::history},
     {"moment_ratio",
@@ -79,12 +89,11 @@ inline constexpr StateMeasure state_measures[] = {
     {"inertia_ratio", "1 / sqrt(moment_ratio), as RT-DC programs have it", &ShapeMeasures::inertia_ratio,
      AlsoIn::tables},
     {"cell_velocity_m_per_s", "velocity of the cell along the channel", &StateNumbers::cell_velocity, AlsoIn::both},
-    {"mean_velocity_m_per_s", "flow rate over the area of the tube", &StateNumbers::flow_rate},
+    {"mean_velocity_m_per_s", "flow rate over the area of the channel", &StateNumbers::flow_rate},
     {.name = "flow_rate_ul_per_s",
      .sentence = "flow rate through the channel; the given one unless the pressure drop is given",
-     .member = &StateNumbers::flow_rate,
-     .columns = AlsoIn::history,
-     .factor = std::numbers::pi},
+     .member = &StateNumbers::volume_flow,
+     .columns = AlsoIn::history},
     {"pressure_drop_Pa", "pressure drop over the simulated length of the channel", &StateNumbers::pressure_drop,
      AlsoIn::history},
     {"additional_pressure_drop_Pa", "the part of it that is due to the cell", &StateNumbers::additional_pressure_drop,
@@ -93,18 +102,21 @@ inline constexpr StateMeasure state_measures[] = {
      &StateNumbers::inner_pressure, AlsoIn::none, "where the interior is elastic"},
     {"simulated_length_um", "length of the simulated channel", &StateNumbers::channel_length},
     {"tube_radius_um", "radius of the tube that stands for the channel, the least one if it varies",
-     &StateNumbers::tube_radius},
+     &StateNumbers::tube_radius, AlsoIn::none, "in a square channel"},
     {"reynolds",
      "density x cell velocity x tube radius / viscosity, which is the liquid's at the shear rate mean velocity / tube "
-     "radius",
+     "radius; in a square channel with half the width as the radius",
      &StateNumbers::reynolds},
     {"shear_rate_max_per_s",
      "greatest shear rate sqrt(2 D:D) of the liquid beside the cell, between the planes across the channel through its "
      "poles, cell and wall included",
      &StateNumbers::shear_rate_max},
-    {"least_meridional_stretch", "least stretch of the surface along the meridian",
+    {"least_meridional_stretch",
+     "least stretch of the surface along the meridian, in a square channel in any direction",
      &StateNumbers::least_meridional_stretch, AlsoIn::tables},
-    {"biot_ratio", "least ratio of meridional to normal stretch of the surface; a bare surface wrinkles below 0.2956",
+    {"biot_ratio",
+     "least ratio of meridional (in a square channel the least) to normal stretch of the surface; a bare surface "
+     "wrinkles below 0.2956",
      &StateNumbers::biot_ratio},
     {"stability_margin",
      "distance of the surface from short wrinkles: 1 for the sphere or where bending stiffness or tension hold the "

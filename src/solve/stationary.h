@@ -1,5 +1,6 @@
 // The stationary shape of one cell: from the sphere to the wanted state by itself (docs/theory.md, sec. 4).
 #pragma once
+#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -49,10 +50,11 @@ struct SurfaceProfile {
 /// Everything that is known of a stationary state; dimensionless, in the units of case/problem.h.
 struct StationaryState : StateNumbers {
   Outcome outcome;
-  Contour contour;  ///< barycentre at x = 0
+  Contour contour;  ///< barycentre at x = 0; in a square channel the silhouette that the camera sees
   SurfaceProfile surface;
-  double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
-  double estimated_error = no_value;  ///< relative, of the deformation
+  std::array<SurfaceProfile, 2> views;  ///< in a square channel: the surface along both silhouettes, by Camera
+  double residual = no_value;           ///< of the last Newton iteration, relative to the driving forces
+  double estimated_error = no_value;    ///< relative, of the deformation
   SolveStatistics statistics;
   std::vector<BranchStep> branch;
   /// Writes fields.vtu (velocity, pressure, stress, displacement on the deformed mesh, high-order cells) in

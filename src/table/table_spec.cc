@@ -114,6 +114,8 @@ void refuse_swept_keys(const TableSpec& spec, const KeyReading& keys) {
     refuse(key,
            "must not be given, because a table sweeps it; choose table.least_deformation and "
            "table.greatest_deformation");
+  if (spec.base.channel.section != Section::tube)
+    refuse("channel.section", "is not for tables, which are computed in tubes; leave it out");
   for (const auto key : {drive_key, std::string_view("flow.pressure_drop_Pa")})
     refuse(key, "must not be given, because a table is that of one flow rate; choose flow.rate_ul_per_s");
 }

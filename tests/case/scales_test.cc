@@ -45,6 +45,18 @@ TEST(Scales, AWidthMeansTheTubeOf0547TimesIt) {
   EXPECT_EQ(tube_radius_um(c), 10.94);
 }
 
+TEST(Scales, OfASquareAreHalfItsWidthAndTheSpeedOverItsArea) {
+  Case c = paper_cell();
+  c.channel = {.section = Section::square, .width_um = 20, .radius_um = {}};
+  const Scales scales = scales_of(c);
+  const double h = 1e-5, U = 0.04e-9 / (4 * h * h);
+  EXPECT_NEAR(scales.length_m / h, 1, rounding);
+  EXPECT_NEAR(scales.velocity_m_per_s / U, 1, rounding);
+  EXPECT_NEAR(scales.stress_Pa / (15e-3 * U / h), 1, rounding);
+  EXPECT_NEAR(problem_of(c).radius_ratio, 0.766, rounding);
+  EXPECT_EQ(problem_of(c).section, Section::square);
+}
+
 TEST(Scales, TheGroupsOfThePaperCell) {
   const Problem problem = problem_of(paper_cell());
   const double R = 10.94e-6, U = 0.04e-9 / (std::numbers::pi * R * R), eta = 15e-3, E = 3437;

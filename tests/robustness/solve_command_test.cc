@@ -25,11 +25,29 @@ class SolveCommand : public testing::Test {
 
   json numbers() const { return json::parse(content_of(result() / "result.json")); }
 
+  // The number of a key.
+  double number(const char* key) const { return numbers()[key].get<double>(); }
+
   // Nothing but the result itself may be left beside it.
   std::ptrdiff_t entries_beside() const { return std::distance(fs::directory_iterator(folder_.path()), {}); }
 
   TemporaryFolder folder_;
 };
+
+TEST_F(SolveCommand, ASquareChannelHasBothViewsAndTheCamerasOne) {
+  const Command command{{RHEOCYTE, "solve", std::string(EXAMPLES) + "/square-channel.toml", "-o", result(), "--set",
+                         "numerics.accuracy=0.05"}};
+  const auto ended = run(command);
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  for (const auto* file : {"contour.csv", "contour_side.csv", "contour_diagonal.csv", "fields.vtu"})
+    EXPECT_TRUE(fs::exists(result() / file)) << file;
+  EXPECT_EQ(content_of(result() / "contour.csv"), content_of(result() / "contour_diagonal.csv"));
+  EXPECT_EQ(number("deformation"), number("deformation_diagonal"));
+  EXPECT_GT(number("deformation_side"), number("deformation_diagonal"));
+  EXPECT_GT(number("volume_of_revolution_um3"), number("volume_um3"));  // the corners bulge
+  EXPECT_TRUE(numbers()["tube_radius_um"].is_null());
+  EXPECT_NEAR(number("flow_rate_ul_per_s"), 0.04, 1e-12);
+}
 
 TEST_F(SolveCommand, WritesEveryFileAndEveryNumber) {
   const auto ended = run(solve("", {"--no-picture"}));

@@ -1,0 +1,32 @@
+// What is told of a stationary state in a square duct.
+#pragma once
+#include <memory>
+
+#include "duct/duct_system.h"
+#include "duct/observe_duct.h"
+#include "solve/stationary.h"
+
+namespace rheocyte {
+
+/// Space and system of one resolution; they stay together.
+struct DuctDiscrete {
+  DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree)
+      : space(DuctMesh(DuctGeometry(problem.section, problem.radius_ratio), subdivision), degree, problem.liquid),
+        system(space) {}
+  DuctSpace space;
+  DuctSystem system;
+};
+
+/// Deformation of the silhouette that the camera sees.
+double duct_deformation(const DuctSpace&, const VectorXd& unknowns, Camera);
+
+/// Distance of the surface from short wrinkles, 1 for the sphere, 0 at Biot's limit for waves along the direction of
+/// the least stretch (docs/theory-square.md, eq:square-biot).
+double duct_stability_margin(const DuctSpace&, const VectorXd& unknowns);
+
+/// Fills in contours, surface, numbers, sizes and the writer of fields; outcome, errors and counts of work are left
+/// alone.
+void describe_duct(const Problem&, const Media&, const std::shared_ptr<DuctDiscrete>&, const VectorXd& unknowns,
+                   StationaryState&);
+
+}  // namespace rheocyte

@@ -1,0 +1,121 @@
+// The square channel in three dimensions against the tube's program, and against values that were computed
+// independently with the same method by another program.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solve/continuation.h"
+#include "solve/describe_duct.h"
+#include "solve/stationary_duct.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr double half_width_m = 1e-5, mean_velocity = 0.04e-9 / (4 * half_width_m * half_width_m);
+
+/// r0 in h; E in kPa; in the channel of 20 um at 0.04 ul/s, Stokes.
+Problem newtonian_cell(double radius_ratio, double young_modulus_kPa) {
+  Problem problem;
+  problem.section = Section::square;
+  problem.radius_ratio = radius_ratio;
+  problem.bulk.shear_modulus = 1e3 * young_modulus_kPa / 3 / (15e-3 * mean_velocity / half_width_m);
+  return problem;
+}
+
+/// In methyl cellulose, K = 0.4057 Pa s^n.
+Problem power_law_cell(double radius_ratio, double young_modulus_kPa) {
+  Problem problem = newtonian_cell(radius_ratio, 1);
+  problem.liquid = {.law = LiquidLaw::power_law, .exponent = 0.6039};
+  problem.bulk.shear_modulus =
+      1e3 * young_modulus_kPa / 3 / (0.4057 * std::pow(mean_velocity / half_width_m, problem.liquid.exponent));
+  return problem;
+}
+
+struct Deformations {
+  double side, diagonal;
+};
+
+/// Along the branch at degree 3, then carried to a degree.
+Deformations deformations(const Problem& problem, int degree) {
+  const auto coarse = std::make_shared<DuctDiscrete>(problem, DuctSubdivision{}, 3);
+  ContinuationOptions options;
+  options.newton.tolerance = 1e-7;
+  ContinuationReport report = start_branch(coarse->system, problem, options);
+  if (report.last.parameter < 1)
+    report = continue_branch(stiffness_path(coarse->system, problem), options, report.last);
+  EXPECT_EQ(report.last.parameter, 1);
+  DuctDiscrete fine(problem, {}, degree);
+  VectorXd state = transfer(coarse->space, report.last.unknowns, fine.space);
+  EXPECT_EQ(newton(fine.system, problem, {.tolerance = 1e-9}, state).status, Status::converged);
+  return {duct_deformation(fine.space, state, Camera::side), duct_deformation(fine.space, state, Camera::diagonal)};
+}
+
+/// Velocity of a rigid sphere over that of the undisturbed liquid on the axis.
+double velocity_ratio(double radius_ratio, int degree) {
+  Problem problem;
+  problem.section = Section::square;
+  problem.radius_ratio = radius_ratio;
+  problem.bulk.shear_modulus = 1e7;
+  DuctDiscrete discrete(problem, {}, degree);
+  VectorXd state = discrete.system.sphere();
+  EXPECT_EQ(newton(discrete.system, problem, {.tolerance = 1e-8}, state).status, Status::converged);
+  const CrossSection& section = discrete.space.section();
+  return state(discrete.space.cell_velocity()) / section.flow({}).velocity(section.node_at({0, 0}));
+}
+
+TEST(SquareChannel, ARigidSphereLagsBehindTheLiquidOnTheAxis) {
+  // The coarse mesh at degree 4 is good to 5e-5.
+  EXPECT_NEAR(velocity_ratio(0.5, 4), 0.86282, 1e-4);
+}
+
+TEST(SquareChannel, SlowSmallRigidSpheresLagAsFaxenSays) {
+  EXPECT_NEAR(velocity_ratio(0.1, 5), 0.994294, 1e-4);
+  EXPECT_NEAR(velocity_ratio(0.2, 5), 0.977360, 1e-4);
+}
+
+TEST(SquareChannel, ATubeInThreeDimensionsIsTheTubeInBothViews) {
+  // 69 hexahedra at degree 4 are good to 1e-3 of the deformation, and the circle to its interpolation.
+  Problem problem;
+  problem.radius_ratio = 0.5484;
+  problem.bulk.shear_modulus = 10;
+  problem.accuracy = 1e-5;
+  const double exact = solve_stationary(problem).shape.deformation;
+  const auto [side, diagonal] = deformations(problem, 4);
+  EXPECT_NEAR(side / exact, 1, 1e-3);
+  EXPECT_NEAR(diagonal / exact, 1, 1e-3);
+}
+
+TEST(SquareChannel, SlowATubeInThreeDimensionsIsTheTubeInBothViewsToOneTenThousandth) {
+  Problem problem;
+  problem.radius_ratio = 0.5484;
+  problem.bulk.shear_modulus = 5;
+  problem.accuracy = 1e-6;
+  const double exact = solve_stationary(problem).shape.deformation;
+  const auto [side, diagonal] = deformations(problem, 6);
+  EXPECT_NEAR(side / exact, 1, 1e-4);
+  EXPECT_NEAR(diagonal / exact, 1, 1e-4);
+}
+
+TEST(SquareChannel, SlowDeformationsAreThoseOfAnIndependentProgram) {
+  // Given to four digits and to 2e-4.
+  const auto thinning = deformations(power_law_cell(0.6, 1.198), 5);
+  EXPECT_NEAR(thinning.side / 0.02279, 1, 3e-4);
+  EXPECT_NEAR(thinning.diagonal / 0.02040, 1, 3e-4);
+  EXPECT_NEAR(deformations(newtonian_cell(0.6, 4.0), 5).side / 0.012644, 1, 3e-4);
+  EXPECT_NEAR(deformations(newtonian_cell(0.6, 2.5), 5).side / 0.03502, 1, 3e-4);
+}
+
+TEST(SquareChannel, TheCellKeepsItsVolumeAndItsImageDoesNotTell) {
+  // The image's body of revolution is 0.2 % smaller at this size; each element keeps its volume.
+  Problem problem = power_law_cell(0.6, 1.198);
+  problem.accuracy = 2e-2;
+  const StationaryState state = solve_stationary(problem);
+  ASSERT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
+  EXPECT_NEAR(state.relative_volume_change, 0, 1e-5);
+  EXPECT_NEAR(state.volume_of_revolution / state.shape.volume, 0.998, 5e-4);
+  EXPECT_EQ(state.deformation_side, state.shape.deformation);
+  EXPECT_LT(state.deformation_diagonal, 0.92 * state.deformation_side);
+}
+
+}  // namespace
+}  // namespace rheocyte
