@@ -84,7 +84,9 @@ StationaryState solve_stationary(const Problem& problem, const ProgressCallback&
   state.surface = surface_of_sphere(problem.radius_ratio);
   state.shape = measure(state.contour);
   state.cell_velocity = 1.5;
+  state.volume_of_revolution = state.shape.volume;
   state.flow_rate = 1;
+  state.volume_flow = 3;
   state.reynolds = state.stability_margin = state.least_tension = state.shear_rate_max = 0;
   state.pressure_drop = 30;
   state.additional_pressure_drop = 1;
