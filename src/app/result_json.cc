@@ -74,8 +74,8 @@ std::span<const Field<Result, Json>> computation_fields() {
       {"residual", "of the last Newton iteration, relative to the driving forces",
        [](const Result& r) -> Json { return r.state.residual; }},
       {"estimated_error",
-       "of the deformation, relative (accepted, too, where it is below 1e-12 absolute); null for a state on the way "
-       "and in time",
+       "of the deformation, relative (accepted, too, where it is below 1e-12 absolute); null for a state on the way; "
+       "in time the distance from the stationary shape, once the cell has settled",
        [](const Result& r) -> Json { return r.state.estimated_error; }},
       {"wall_time_s", "time that the solver took", [](const Result& r) -> Json { return r.state.statistics.total_s; }},
       {"case", "the complete case with its defaults; its keys are those of the case reference",

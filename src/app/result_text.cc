@@ -89,14 +89,16 @@ std::string summary(const Result& result, const std::string& folder) {
     modulus("young modulus", cell.bulk.young_modulus_kPa, "kPa");
     modulus("cortex modulus", cell.cortex.modulus_mN_per_m, "mN/m");
   }
-  if (state.outcome.status == Status::converged && state.estimated_error > result.problem.accuracy)
+  const bool in_time = result.input.time.scheme != TimeScheme::stationary;
+  if (!in_time && state.outcome.status == Status::converged && state.estimated_error > result.problem.accuracy)
     text += line("estimated error", fmt::format("{:.1e}", deformation_round_off),
                  "of the deformation, absolute: as small as rounding allows");
   else if (std::isfinite(state.estimated_error))
     text += line("estimated error", fmt::format("{:.1e}", state.estimated_error),
                  fmt::format("of the deformation, wanted {:.1e}", result.problem.accuracy));
-  else if (result.input.time.scheme != TimeScheme::stationary && state.outcome.status == Status::converged)
-    text += line("estimated error", "not known", "of the mesh; a run with another time.degree shows it");
+  else if (in_time && state.outcome.status == Status::converged)
+    text += line("estimated error", "not known", "of the deformation");
+  if (in_time && state.outcome.status == Status::converged) text += fmt::format("  {}\n", state.outcome.message);
   text += line("time", fmt::format("{:.2f} s", state.statistics.total_s),
                fmt::format("{}, {}, {} unknowns", counted(state.statistics.continuation_steps, "step"),
                            counted(state.statistics.newton_iterations, "Newton iteration"), state.statistics.unknowns));

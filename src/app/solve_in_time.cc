@@ -10,6 +10,7 @@
 #include "app/checkpoint.h"
 #include "app/counted.h"
 #include "app/finish_result.h"
+#include "app/stationary_end.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "store/standard_error.h"
@@ -54,7 +55,7 @@ class Recorder {
             [this](const TimePoint& point, const TimeState& state) { add(point, state); }};
   }
 
-  const TimeRecord& record() const { return record_; }
+  TimeRecord& record() { return record_; }
 
   void write_all() {
     if (last_state_) write_checkpoint();
@@ -144,6 +145,7 @@ int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Draw
   result.state = follow_in_time(result.problem, time_run_of(c, result.scales), recorder.observer(),
                                 start ? &*start : nullptr, &stop_wanted());
   recorder.write_all();
+  compare_with_stationary(result, recorder.record(), stop_wanted());
   refuse_unfinite_numbers(result);
   auto numbers = to_json(result);
   numbers["time"] =

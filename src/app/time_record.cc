@@ -36,12 +36,16 @@ std::span<const Field<TimeRecord, Json>> time_fields() {
       {"t_us", "time that was reached", [](const TimeRecord& r) -> Json { return r.rows.back().t_us; }},
       {"steps", "steps in time", [](const TimeRecord& r) -> Json { return r.rows.size() - 1; }},
       {"frames", "contours and files of fields", [](const TimeRecord& r) -> Json { return r.frames.size(); }},
-      {"greatest_relative_volume_change", "greatest magnitude on the way", [](const TimeRecord& r) -> Json {
+      {"greatest_relative_volume_change", "greatest magnitude on the way",
+       [](const TimeRecord& r) -> Json {
          double greatest = 0;
          for (const HistoryRow& row : r.rows)
            greatest = std::max(greatest, std::abs(row.measure("relative_volume_change")));
          return greatest;
-       }}};
+       }},
+      {"stationary_deformation",
+       "of the same cell, with a mesh chosen for its accuracy; null if there is no such shape, or a contraction",
+       [](const TimeRecord& r) -> Json { return r.stationary_deformation; }}};
   return fields;
 }
 

@@ -1,6 +1,7 @@
 // What a computation in time leaves behind: a row for each step, a contour for each output.
 #pragma once
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -36,6 +37,8 @@ struct ContourFrame {
 struct TimeRecord {
   std::vector<HistoryRow> rows;
   std::vector<ContourFrame> frames;
+  /// Of the same cell, at the end of the run; NaN if there is none, or none to compare with.
+  double stationary_deformation = std::numeric_limits<double>::quiet_NaN();
 
   /// For store/bytes.h.
   template <class Self>

@@ -138,9 +138,8 @@ class TimeFollower {
   std::string explanation(Status status) const {
     if (status == Status::converged)
       return fmt::format(
-          "The cell was followed to the end. Its error in space is not estimated: one mesh of degree {} was used, and "
-          "a "
-          "run with another time.degree shows it.",
+          "The cell was followed to the end on one mesh of degree {}, whose error is not estimated: a run with another "
+          "time.degree shows it.",
           run_.degree);
     const double share = 100 * stepper_->now().time / run_.end;
     if (status == Status::stopped)

@@ -40,6 +40,22 @@ TEST_F(InTime, WritesEveryFile) {
   EXPECT_LT(numbers["time"]["greatest_relative_volume_change"], 1e-6);
 }
 
+TEST_F(InTime, TheEndIsComparedWithTheStationaryShape) {
+  // Early it has not settled and its error is not known; at last the distance is the error of the mesh, which is told.
+  ASSERT_EQ(run(solve("early", {"--set", "time.end_us=20"})).exit_code, 0);
+  ASSERT_EQ(run(solve("late", {"--set", "time.end_us=1500"})).exit_code, 0);
+  const auto early = nlohmann::json::parse(text("early/result.json")),
+             late = nlohmann::json::parse(text("late/result.json"));
+  const double stationary = late["time"]["stationary_deformation"];
+  EXPECT_DOUBLE_EQ(early["time"]["stationary_deformation"], stationary);
+  EXPECT_TRUE(early["estimated_error"].is_null());
+  EXPECT_NE(early["message"].get<std::string>().find("it has not settled"), std::string::npos) << early["message"];
+  EXPECT_NE(late["message"].get<std::string>().find("the cell has settled"), std::string::npos) << late["message"];
+  const double distance = std::abs(late["deformation"].get<double>() / stationary - 1);
+  EXPECT_GT(distance, 5e-5) << "degree 3 is coarse";
+  EXPECT_NEAR(late["estimated_error"], distance, 1e-4);
+}
+
 TEST_F(InTime, ARestartContinuesToTheBit) {
   // The second part begins where the first one ended and repeats none of its rows, whichever folder it is written to; a
   // run that has arrived stays as it is. (tests/solve: a resumed state takes the same steps, bit by bit.)
