@@ -70,14 +70,19 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
   for (const Camera camera : {Camera::side, Camera::diagonal})
     r.views[std::size_t(camera)] = profile(space, unknowns, camera, volume.barycentre);
   r.surface = r.views[std::size_t(problem.camera)];
-  r.contour = duct_contour(space, unknowns, problem.camera);
-  shift(-volume.barycentre, r.contour);
+  const auto contour_at = [&](Camera camera) {
+    Contour contour = duct_contour(space, unknowns, camera);
+    shift(-volume.barycentre, contour);
+    return contour;
+  };
+  const auto deformation_at = [&](Camera camera) { return measure(contour_at(camera)).deformation; };
+  r.contour = contour_at(problem.camera);
 
   r.shape = measure(r.contour);
   r.volume_of_revolution = r.shape.volume;
   r.shape.volume = volume.volume;
-  r.deformation_side = duct_deformation(space, unknowns, Camera::side);
-  r.deformation_diagonal = duct_deformation(space, unknowns, Camera::diagonal);
+  r.deformation_side = deformation_at(Camera::side);
+  r.deformation_diagonal = deformation_at(Camera::diagonal);
   const double a = space.mesh().geometry().radius();
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
   read_flow(problem, media, *discrete, unknowns, r);
