@@ -68,7 +68,7 @@ TEST(SquareChannel, ARigidSphereLagsBehindTheLiquidOnTheAxis) {
   EXPECT_NEAR(velocity_ratio(0.5, 4), 0.86282, 1e-4);
 }
 
-TEST(SquareChannel, SlowSmallRigidSpheresLagAsFaxenSays) {
+TEST(SquareChannelSlow, SmallRigidSpheresLagAsFaxenSays) {
   EXPECT_NEAR(velocity_ratio(0.1, 5), 0.994294, 1e-4);
   EXPECT_NEAR(velocity_ratio(0.2, 5), 0.977360, 1e-4);
 }
@@ -85,7 +85,7 @@ TEST(SquareChannel, ATubeInThreeDimensionsIsTheTubeInBothViews) {
   EXPECT_NEAR(diagonal / exact, 1, 1e-3);
 }
 
-TEST(SquareChannel, SlowATubeInThreeDimensionsIsTheTubeInBothViewsToOneTenThousandth) {
+TEST(SquareChannelSlow, ATubeInThreeDimensionsIsTheTubeInBothViewsToOneTenThousandth) {
   Problem problem;
   problem.radius_ratio = 0.5484;
   problem.bulk.shear_modulus = 5;
@@ -96,7 +96,7 @@ TEST(SquareChannel, SlowATubeInThreeDimensionsIsTheTubeInBothViewsToOneTenThousa
   EXPECT_NEAR(diagonal / exact, 1, 1e-4);
 }
 
-TEST(SquareChannel, SlowDeformationsAreThoseOfAnIndependentProgram) {
+TEST(SquareChannelSlow, DeformationsAreThoseOfAnIndependentProgram) {
   // Given to four digits and to 2e-4.
   const auto thinning = deformations(power_law_cell(0.6, 1.198), 5);
   EXPECT_NEAR(thinning.side / 0.02279, 1, 3e-4);
