@@ -28,7 +28,8 @@ LEGEND_IN = 0.26  # below all panels
 GREATEST_NUMBER = 12000  # of events drawn in a panel; all count for colours and contours
 STANDARD_AREA, STANDARD_DEFORMATION, STANDARD_WIDTH = 200, 0.2, 20
 LABELS = {"area_um": "area (µm²)", "deform": "deformation", "emodulus": "Young's modulus (kPa)",
-          "volume": "volume (µm³)", "temp": "temperature (°C)", "time": "time (s)"}
+          "volume": "volume (µm³)", "temp": "temperature (°C)", "time": "time (s)",
+          "inertia_ratio_expected": "inertia ratio of the model's cell", "inertia_ratio": "inertia ratio, measured"}
 LINE, SUPPORT, HALF = "#7d8891", "#eef1f4", "#ffffff"
 
 
@@ -82,9 +83,16 @@ def values_range(values):
     return float(np.floor(low / step) * step), float(np.ceil(high / step) * step)
 
 
+def ratio_range(ratios, low, high):
+    """An axis that holds 99 % of the inertia ratios, and at least these two."""
+    return float(min(low, np.quantile(ratios, 0.005))), float(max(high, np.quantile(ratios, 0.99)))
+
+
 def common_ranges(panels):
     """Axes of other features, alike for all panels."""
     events = np.concatenate([panel.events for panel in panels])
+    if is_comparison(panels[0].story):
+        return [(ratio_range(events[:, 0], 0.97, 1.1), ratio_range(events[:, 1], 0.9, 1.15))] * len(panels)
     return [(values_range(events[:, 0]), values_range(events[:, 1]))] * len(panels)
 
 
@@ -96,6 +104,11 @@ def label_of(feature):
 def is_usual(story):
     """Whether the axes are area and deformation."""
     return (story.get("x", "area_um"), story.get("y", "deform")) == ("area_um", "deform")
+
+
+def is_comparison(story):
+    """Whether measured stand against expected inertia ratios."""
+    return (story.get("x"), story.get("y")) == ("inertia_ratio_expected", "inertia_ratio")
 
 
 def ranges(panels):
@@ -136,6 +149,9 @@ def draw_panel(axes, panel, rectangle):
         axes.add_patch(Polygon(panel.support, facecolor=SUPPORT, edgecolor="none", zorder=0))
     for _, points in panel.lines:
         axes.plot(*smoothed(points).T, color=LINE, linewidth=0.6, zorder=1, solid_capstyle="round")
+    if is_comparison(panel.story):
+        axes.plot(*[(0.5, 5)] * 2, color=LINE, linewidth=0.8, zorder=1)
+        axes.fill_between((0.5, 5), (0.45, 4.95), (0.55, 5.05), color=SUPPORT, linewidth=0, zorder=0)
     draw_events(axes, panel.events, rectangle)
     label_lines(axes, panel.lines, rectangle)
     draw_words(axes, panel, rectangle)

@@ -1,4 +1,4 @@
-"""python -m rheocyte.figure --program PATH N DIR: figure N of Mokbel et al. 2017, solving what is missing for it.
+"""python -m rheocyte.figure --program PATH N DIR [RECORDINGS]: figure N of Mokbel et al. 2017, solving what is missing.
 
 Writes DIR/figure-N.png, .svg and .csv and keeps the results in DIR/cases and DIR/tables. Exit code 2 and one sentence on stderr for
 the user's errors, 1 if a cell could not be solved (the figure says so at its place), 128 + number after a signal.
@@ -35,9 +35,9 @@ class Parser(argparse.ArgumentParser):
 
 def available():
     """Numbers of the figures for which there is a module, then the names of those that are not in the paper."""
-    names = [module.name.removeprefix("figure").removeprefix("_") for module in pkgutil.iter_modules(figures.__path__)
-             if module.name.startswith("figure")]
-    return sorted(filter(str.isdecimal, names), key=int) + sorted(name for name in names if name.isalpha())
+    names = [module.name.removeprefix("figure").removeprefix("_").replace("_", "-")
+             for module in pkgutil.iter_modules(figures.__path__) if module.name.startswith("figure")]
+    return sorted(filter(str.isdecimal, names), key=int) + sorted(name for name in names if not name.isdecimal())
 
 
 def chosen(text):
@@ -52,16 +52,20 @@ def chosen(text):
 
 def drawing(number):
     """The module of a figure."""
-    return importlib.import_module(f"rheocyte.figures.{f'figure{number}' if number.isdecimal() else f'figure_{number}'}")
+    name = f"figure{number}" if number.isdecimal() else f"figure_{number.replace('-', '_')}"
+    return importlib.import_module(f"rheocyte.figures.{name}")
 
 
-def make(number, folder, program):
+def make(number, folder, program, recordings=(), options=()):
     """Solves, draws and writes; returns the cells that could not be solved."""
     from rheocyte.figures.cases import Laboratory, make_folder
 
     start = time.monotonic()
     make_folder(folder)
-    laboratory = Laboratory(program, folder / "cases", tell=lambda line: print(line, file=sys.stderr, flush=True))
+    if recordings and number != "real-cells":
+        raise InputError(f"figure {number} draws no recordings ({recordings[0][:60]}); real-cells does.")
+    laboratory = Laboratory(program, folder / "cases", tell=lambda line: print(line, file=sys.stderr, flush=True),
+                            recordings=list(recordings), options=list(options))
     figure, rows = drawing(number).make(laboratory)
     stem = folder / f"figure-{number}"
     save_figure(figure, stem, DPI, palette=True, svg_dpi=180)
@@ -81,13 +85,19 @@ def main():
     parser = Parser(prog="rheocyte figure", description=__doc__.splitlines()[0])
     parser.add_argument("number", metavar="N")
     parser.add_argument("folder", metavar="DIR", type=Path)
+    parser.add_argument("recordings", metavar="FILE", nargs="*")
+    parser.add_argument("--viscosity-mPas", help="of the liquid, for recordings that do not tell it")
+    parser.add_argument("--temperature-if-missing", help="degC, for recordings that do not tell it")
     parser.add_argument("--program", required=True, help="the program rheocyte that solves")
     arguments = parser.parse_args()
     number = chosen(arguments.number)
     for name in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(name, raise_stopped)
     try:
-        failures = make(number, arguments.folder, arguments.program)
+        given = {"--viscosity-mPas": arguments.viscosity_mPas,
+                 "--temperature-if-missing": arguments.temperature_if_missing}
+        options = [part for name, text in given.items() if text for part in (name, text)]
+        failures = make(number, arguments.folder, arguments.program, arguments.recordings, options)
     except Stopped as stopped:
         print(f"rheocyte: stopped; what was solved is kept in {arguments.folder}, the same command goes on "
               "from there.", file=sys.stderr)

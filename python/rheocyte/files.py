@@ -31,11 +31,11 @@ def read_result(path):
     return result
 
 
-def read_table(path, columns):
-    """Rows of a CSV file as dictionaries of strings; `columns` are the names that must be in its header."""
+def read_table(path, columns, delimiter=","):
+    """Rows of a text table as dictionaries of strings; `columns` are the names that must be in its header."""
     try:
         with open(path, newline="", encoding="utf-8") as file:
-            reader = csv.DictReader(file)
+            reader = csv.DictReader(file, delimiter=delimiter)
             rows, names = list(reader), reader.fieldnames or []
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path} cannot be read: {reason(error)}.") from error

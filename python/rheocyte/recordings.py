@@ -14,22 +14,28 @@ from rheocyte.specs import read_spec
 from rheocyte.stiffness_tables import place_of_table
 
 _UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "young_modulus_kPa": "kPa",
-          "standard_error_kPa": "kPa", "state": ""}
+          "standard_error_kPa": "kPa", "state": "", "shape_excess": "", "shape_excess_error": "", "elongated": "",
+          "odd_share": "", "mode_3": "", "young_modulus_asymmetry_kPa": "kPa", "standard_error_asymmetry_kPa": "kPa"}
 
 
-def extract(recording, *, table="", pixelation=True, correct_area=True, progress=None, **measuring):
+def extract(recording, *, table="", pixelation=True, correct_area=True, asymmetry=True, progress=None, **measuring):
     """Young's modulus of each event of a recording, as `rheocyte extract` gives it.
 
     recording       path of an .rtdc file, or an open dclab dataset of one
     table           name or path of a table, as for Table; "": the shipped one that fits the medium
     pixelation      whether pixels are corrected for; correct_area: whether areas are, too
+    asymmetry       whether contours or masks are read for the modulus from the asymmetry of the outlines
     progress        called with the share that is done; True: a bar of tqdm where it is installed
     channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas, medium, viscosity_model,
     temperature     replace the metadata; temperature is a number in degrees Celsius, "feature" or "metadata"
     least, greatest dictionaries of limits of features: least={"area_ratio": 1}, greatest={"area_ratio": 1.05}
 
     Returns a pandas.DataFrame with one row per event: area_um2, deformation, viscosity_mPas, young_modulus_kPa,
-    standard_error_kPa (without it for published tables), state (a category). attrs: units, table, settings, warnings.
+    standard_error_kPa (without it for published tables), state (a category). Where the recording has inertia ratios,
+    contours or masks: shape_excess (inertia ratio - that of the table's cell), shape_excess_error, elongated (a flag),
+    odd_share (of the deformation). With contours or masks: mode_3, young_modulus_asymmetry_kPa,
+    standard_error_asymmetry_kPa (docs/real-cells.md). attrs: units, table, settings, warnings, shapes (what is said
+    about the shapes of all events, in sentences).
 
     UserError for what is wrong with the recording, naming what it lacks. HDF5 is known to break down on some damaged
     files: for files of unknown origin use the command, which reads them in a process of its own.
@@ -40,10 +46,13 @@ def extract(recording, *, table="", pixelation=True, correct_area=True, progress
     options.measuring = _measuring(measuring, "extract")
     options.table = place_of_table(table)
     options.no_pixelation, options.no_area_correction = not pixelation, not correct_area
+    options.no_asymmetry = not asymmetry
     with progress_bar(progress) as tell:
         columns, attributes = native.extract(_path(recording), options, tell)
     if not len(columns["standard_error_kPa"]) or np.isnan(columns["standard_error_kPa"]).all():
         del columns["standard_error_kPa"]
+    if "elongated" in columns:
+        columns["elongated"] = columns["elongated"].astype(bool)
     columns["state"] = pandas.Categorical.from_codes(columns["state"], list(native.state_names))
     frame = pandas.DataFrame(columns, copy=False)
     frame.attrs.update(attributes, units={name: _UNITS[name] for name in frame})
@@ -112,7 +121,7 @@ def features(masks, pixel_size_um):
     Returns a pandas.DataFrame with one row per event, NaN where there is no cell. Of the convex hull: area_um (um2),
     area_cvx (pixels), deform, circ, pos_x, pos_y (um), inert_ratio_cvx. Of the outline: area_msd (pixels), area_um_raw
     (um2), deform_raw, per_um_raw (um), inert_ratio_raw, inert_ratio_prnc, eccentr_prnc, tilt (radian), volume (um3),
-    size_x, size_y (um), aspect. Of both: area_ratio, per_ratio.
+    size_x, size_y (um), aspect. Of both: area_ratio, per_ratio. Cosine modes of the hull's radius: mode_2 .. mode_7.
     """
     import pandas
 

@@ -65,6 +65,7 @@ class ExtractJob {
     const std::string name = one_line(task.recording.string(), 200);
     if (!options_.batch.quiet) {
       print(fmt::format("{}: {}\n", name, in_one_line(summary)));
+      for (const auto& line : shape_lines(summary.shapes)) print(fmt::format("{}: {}\n", name, line));
       for (const auto& warning : summary.warnings) tell(fmt::format("{}: {}", name, warning));
     }
     if (summary.with_modulus() == 0) tell(fmt::format("{}: {}: {}.", name, why_none(summary), in_one_line(summary)));

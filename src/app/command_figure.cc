@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
@@ -20,13 +21,19 @@ namespace {
 struct FigureOptions {
   std::string number;
   std::filesystem::path folder = "figures";
+  std::vector<std::string> recordings;
+  std::string viscosity_mPas, temperature_if_missing;
 };
 
 // Returns only if the interpreter cannot be started.
 int become_python(const FigureOptions& options) {
   auto call = python_call("figure");
-  call.insert(call.end(),
-              {"--program", (program_folder() / "rheocyte").string(), "--", options.number, options.folder.string()});
+  call.insert(call.end(), {"--program", (program_folder() / "rheocyte").string()});
+  if (!options.viscosity_mPas.empty()) call.insert(call.end(), {"--viscosity-mPas", options.viscosity_mPas});
+  if (!options.temperature_if_missing.empty())
+    call.insert(call.end(), {"--temperature-if-missing", options.temperature_if_missing});
+  call.insert(call.end(), {"--", options.number, options.folder.string()});
+  call.insert(call.end(), options.recordings.begin(), options.recordings.end());
   const auto failure = become_program(call);
   tell(fmt::format("rheocyte: cannot start {}; the figures need Python with numpy and matplotlib.", failure));
   return exit_own_bug;
@@ -37,8 +44,17 @@ int become_python(const FigureOptions& options) {
 void add_figure_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("figure", "remake a figure of Mokbel et al. 2017, solving what is missing for it");
   auto options = std::make_shared<FigureOptions>();
-  command->add_option("N", options->number, "number of the figure in the paper; entry: a cell enters a narrow channel")
+  command
+      ->add_option(
+          "N", options->number,
+          "number of the figure in the paper; entry: a cell enters a narrow channel; real-cells: whether the cells "
+          "of recordings have the shapes of the model")
       ->required();
+  command->add_option("FILES", options->recordings, "recordings (.rtdc), for real-cells");
+  command->add_option("--viscosity-mPas", options->viscosity_mPas, "of the liquid, for recordings that do not tell it")
+      ->type_name("VALUE");
+  command->add_option("--temperature-if-missing", options->temperature_if_missing, "degC, as for extract")
+      ->type_name("VALUE");
   command
       ->add_option("-o,--output", options->folder,
                    "folder for figure-N.png, .svg and .csv; results in its folders cases and tables are used again")

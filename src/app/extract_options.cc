@@ -63,6 +63,8 @@ void declare_extract_options(CLI::App& command, ExtractOptions& options, std::fu
   command.add_flag("--no-pixelation", options.no_pixelation, "correct nothing for the pixels");
   command.add_flag("--no-area-correction", options.no_area_correction,
                    "do not correct areas for the pixels; published tables never do");
+  command.add_flag("--no-asymmetry", options.no_asymmetry,
+                   "do not read contours and masks for the modulus from the asymmetry of the outlines; faster");
   command.add_flag("--no-tsv", options.no_tsv, "do not write a table with one line per event");
   command.callback([&options, run = std::move(run)] {
     check_measuring_options(options.measuring);

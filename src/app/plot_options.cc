@@ -10,6 +10,7 @@
 #include "app/extract_options.h"
 #include "case/user_error.h"
 #include "extract/recording_list.h"
+#include "extract/shape_features.h"
 
 namespace rheocyte {
 
@@ -35,7 +36,8 @@ void check(const PlotOptions& options) {
         fmt::format("rheocyte: --no-lines and {} contradict each other; give one of them.", has_table   ? "--table"
                                                                                             : has_lines ? "--lines"
                                                                                                         : "--levels"));
-  if (!has_usual_axes(options) && (has_table || has_lines || !options.levels_kPa.empty()))
+  const bool has_shapes = ShapeFeatures::knows(options.x) || ShapeFeatures::knows(options.y);
+  if (!has_usual_axes(options) && ((has_table && !has_shapes) || has_lines || !options.levels_kPa.empty()))
     throw UserError(
         fmt::format("rheocyte: {} and --x or --y contradict each other; isoelasticity lines are drawn over "
                     "area_um and deform only.",
@@ -50,6 +52,13 @@ void check(const PlotOptions& options) {
   for (const double level : options.levels_kPa)
     if (!(level > 0 && std::isfinite(level)))
       throw UserError("rheocyte: --levels must be positive moduli (kPa), separated by commas.");
+}
+
+void choose_shapes(PlotOptions& options) {
+  if (!has_usual_axes(options))
+    throw UserError("rheocyte: --shapes and --x or --y contradict each other; give one of them.");
+  options.x = expected_ratio_feature;
+  options.y = ratio_feature;
 }
 
 }  // namespace
@@ -69,6 +78,8 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
       ->type_name("FILE");
   command.add_option("--x", options.x, "feature on the axis to the right; default: area_um")->type_name("FEATURE");
   command.add_option("--y", options.y, "feature on the axis upwards; default: deform")->type_name("FEATURE");
+  command.add_flag("--shapes", options.shapes,
+                   "measured against expected inertia ratio: whether the cells have the shapes of the model");
   command.add_flag("--no-lines", options.no_lines, "draw no lines, not even those of the program's own table");
   command.add_option("--levels", options.levels_kPa, "moduli (kPa) of the table's lines, e.g. 0.5,1,2")->delimiter(',');
   declare_measuring_options(command, options.measuring);
@@ -76,6 +87,7 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
   command.add_flag("--quiet", options.quiet, "print nothing but errors");
   command.callback([&options, run = std::move(run)] {
     options.inputs = without_companions_of_others(options.inputs);
+    if (options.shapes) choose_shapes(options);
     check(options);
     run();
   });

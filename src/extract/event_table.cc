@@ -23,6 +23,17 @@ char* put_number(char* at, double number) {
   return put(at, static_cast<float>(number));
 }
 
+char* put_shape(char* at, const ShapeExcess& shape) {
+  for (const double number : {shape.excess, shape.error}) {
+    *at++ = '\t';
+    at = put_number(at, number);
+  }
+  *at++ = '\t';
+  *at++ = shape.is_elongated() ? '1' : '0';
+  *at++ = '\t';
+  return put_number(at, shape.odd_share);
+}
+
 }  // namespace
 
 std::string_view mark_of_events(const std::filesystem::path& file) {
@@ -38,10 +49,15 @@ std::string commented(const std::vector<std::string>& remarks) {
   return text;
 }
 
-EventTable::EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks, bool has_errors)
-    : file_(file), has_errors_(has_errors) {
+EventTable::EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks,
+                       const EventColumns& columns)
+    : file_(file), columns_(columns) {
   text_ += first_columns_of_events;
-  text_ += has_errors_ ? "standard_error_kPa\tstate\n" : "state\n";
+  if (columns_.errors) text_ += "standard_error_kPa\t";
+  text_ += "state";
+  if (columns_.shapes) text_ += "\tshape_excess\tshape_excess_error\telongated\todd_share";
+  if (columns_.asymmetry) text_ += "\tmode_3\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa";
+  text_ += '\n';
   text_ += commented(remarks);
   write_out();
 }
@@ -52,7 +68,7 @@ void EventTable::write_out() {
 }
 
 void EventTable::append(const EventBlock& block) {
-  char line[256];
+  char line[512];
   for (std::size_t i = 0; i < block.state.size(); ++i) {
     char* at = put(line, ++events_);
     for (const double number :
@@ -60,14 +76,20 @@ void EventTable::append(const EventBlock& block) {
       *at++ = '\t';
       at = put_number(at, number);
     }
-    if (has_errors_) {
+    if (columns_.errors) {
       *at++ = '\t';
       at = put_number(at, block.standard_error_kPa[i]);
     }
     *at++ = '\t';
+    for (const char c : name_of(block.state[i])) *at++ = c == ' ' ? '_' : c;
+    if (columns_.shapes) at = put_shape(at, block.shape[i]);
+    if (columns_.asymmetry)
+      for (const double number : {block.mode_3[i], block.asymmetry_kPa[i], block.asymmetry_error_kPa[i]}) {
+        *at++ = '\t';
+        at = put_number(at, number);
+      }
+    *at++ = '\n';
     text_.append(line, at);
-    for (const char c : name_of(block.state[i])) text_ += c == ' ' ? '_' : c;
-    text_ += '\n';
   }
   write_out();
 }

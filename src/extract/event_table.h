@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "infer/modulus_state.h"
+#include "infer/shape_map.h"
 #include "store/file_writer.h"
 
 namespace rheocyte {
@@ -16,6 +17,14 @@ struct EventBlock {
   std::span<const double> area_um2, deformation, viscosity_mPas, young_modulus_kPa;
   std::span<const double> standard_error_kPa;  ///< empty if unknown
   std::span<const ModulusState> state;
+  std::span<const ShapeExcess> shape;                          ///< empty if nothing is known of the shapes
+  std::span<const double> mode_3;                              ///< empty, as the next two, without contours and masks
+  std::span<const double> asymmetry_kPa, asymmetry_error_kPa;  ///< Young's modulus from the asymmetry
+};
+
+/// Columns beside those that every table of events has.
+struct EventColumns {
+  bool errors = false, shapes = false, asymmetry = false;
 };
 
 /// With these words a table of events begins: its first line holds the names of all columns, so that programs of every
@@ -32,9 +41,8 @@ std::string commented(const std::vector<std::string>& remarks);
 /// Writes tab-separated lines with the shortest decimals that give back single precision (relative 6e-8).
 class EventTable {
  public:
-  /// `remarks` go below the columns' names, each behind "# ". With a column for standard errors if they are known.
-  /// UserError.
-  EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks, bool has_errors);
+  /// `remarks` go below the columns' names, each behind "# ". UserError.
+  EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks, const EventColumns& columns);
 
   /// Appends events; the first one ever has number 1. UserError, e.g. if the disk is full.
   void append(const EventBlock& block);
@@ -47,7 +55,7 @@ class EventTable {
 
   FileWriter file_;
   std::string text_;
-  bool has_errors_;
+  EventColumns columns_;
   std::size_t events_ = 0;
 };
 

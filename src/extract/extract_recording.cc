@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
+#include <functional>
 
 #include "case/user_error.h"
 #include "extract/companion_origin.h"
@@ -25,30 +25,50 @@ std::string meaning_of_states() {
   return text;
 }
 
-/// Names of features for what the field's programs have no name for: of userdef0 to userdef9 those that the recording
-/// does not use itself. Empty if there are not enough.
-struct FreeNames {
-  std::string state, standard_error;
-
-  FreeNames(const Recording& recording, bool has_errors) {
-    std::vector<std::string> free;
-    for (int k = 0; k < 10; ++k)
-      if (const auto name = fmt::format("userdef{}", k); !recording.has_scalar(name)) free.push_back(name);
-    if (!free.empty()) state = free[0];
-    if (has_errors && free.size() > 1) standard_error = free[1];
-  }
+/// A column of the companion for which the field's programs have no name.
+struct OwnColumn {
+  std::string role, meaning;
+  std::function<std::span<const double>(const EventBlock&)> values;
+  std::string name = {};  ///< of the feature; empty if there are not enough
 };
 
+/// The most important first.
+std::vector<OwnColumn> own_columns(const Extraction& extraction) {
+  std::vector<OwnColumn> columns{{"state", meaning_of_states(), {}}};
+  if (extraction.table().is_own())
+    columns.push_back({"standard error", "standard error of emodulus (kPa), of pixels, table and inertia",
+                       &EventBlock::standard_error_kPa});
+  if (extraction.event_shapes().has_asymmetry()) {
+    columns.push_back({"young_modulus_asymmetry",
+                       "Young's modulus (kPa) from area and asymmetry (mode c3) of the outline, see docs/real-cells.md",
+                       &EventBlock::asymmetry_kPa});
+    columns.push_back({"standard error asymmetry", "standard error of young_modulus_asymmetry (kPa)",
+                       &EventBlock::asymmetry_error_kPa});
+  }
+  if (extraction.event_shapes().is_known()) {
+    columns.push_back({"shape_excess",
+                       "inertia ratio - that of the table's cell of this area and deformation; elongated: above 0.05",
+                       {}});
+    columns.push_back(
+        {"odd_share", "share of the deformation that is not that of an ellipse of this inertia ratio", {}});
+  }
+  return columns;
+}
+
+/// Of userdef0 to userdef9 those that the recording does not use itself.
+void give_names(const Recording& recording, std::vector<OwnColumn>& columns) {
+  auto next = columns.begin();
+  for (int k = 0; k < 10 && next != columns.end(); ++k)
+    if (const auto name = fmt::format("userdef{}", k); !recording.has_scalar(name)) (next++)->name = name;
+}
+
 void describe(CompanionFile& companion, const fs::path& folder, const Recording& recording,
-              const Extraction& extraction, const FreeNames& names) {
+              const Extraction& extraction, const std::vector<OwnColumn>& columns) {
   companion.add_user_metadata("rheocyte emodulus", "Young's modulus (kPa), with the settings in the log");
-  for (const auto& [name, role, meaning] :
-       {std::tuple(names.state, "state", meaning_of_states()),
-        std::tuple(names.standard_error, "standard error",
-                   std::string("standard error of emodulus (kPa), of pixels, table and inertia"))}) {
-    if (name.empty()) continue;
-    companion.add_user_metadata("rheocyte " + name, meaning);
-    companion.add_user_metadata(std::string("rheocyte ") + role, name);
+  for (const auto& column : columns) {
+    if (column.name.empty()) continue;
+    companion.add_user_metadata("rheocyte " + column.name, column.meaning);
+    companion.add_user_metadata("rheocyte " + column.role, column.name);
   }
   companion.add_user_metadata("rheocyte table", extraction.table().origin().identifier);
   add_origin(companion, "extract", recording, folder, extraction.lines());
@@ -59,25 +79,26 @@ void describe(CompanionFile& companion, const fs::path& folder, const Recording&
 class Writers {
  public:
   Writers(const ExtractFiles& files, const Recording& recording, const Extraction& extraction)
-      : companion_(files.companion(), recording, program()), names_(recording, extraction.table().is_own()) {
-    describe(companion_, fs::absolute(files.companion()).parent_path(), recording, extraction, names_);
-    for (const auto& feature :
-         {std::string("emodulus"), std::string("area_um"), std::string("deform"), names_.state, names_.standard_error})
-      if (!feature.empty()) companion_.add_feature(feature);
+      : companion_(files.companion(), recording, program()), columns_(own_columns(extraction)) {
+    give_names(recording, columns_);
+    describe(companion_, fs::absolute(files.companion()).parent_path(), recording, extraction, columns_);
+    for (const char* feature : {"emodulus", "area_um", "deform"}) companion_.add_feature(feature);
+    for (const auto& column : columns_)
+      if (!column.name.empty()) companion_.add_feature(column.name);
     if (!files.events()) return;
     auto remarks = extraction.lines();
     remarks.insert(remarks.begin(), {program() + " extract", "recording: " + recording.file().string()});
-    table_.emplace(*files.events(), remarks, extraction.table().is_own());
+    const EventShapes& shapes = extraction.event_shapes();
+    table_.emplace(*files.events(), remarks,
+                   EventColumns{extraction.table().is_own(), shapes.is_known(), shapes.has_asymmetry()});
   }
 
   void write(std::size_t first, const EventBlock& block) {
-    states_.resize(block.state.size());
-    std::ranges::transform(block.state, states_.begin(), [](ModulusState s) { return static_cast<double>(s); });
     companion_.write("emodulus", first, block.young_modulus_kPa);
     companion_.write("area_um", first, block.area_um2);
     companion_.write("deform", first, block.deformation);
-    if (!names_.state.empty()) companion_.write(names_.state, first, states_);
-    if (!names_.standard_error.empty()) companion_.write(names_.standard_error, first, block.standard_error_kPa);
+    for (const auto& column : columns_)
+      if (!column.name.empty()) companion_.write(column.name, first, values_of(column, block));
     if (table_) table_->append(block);
   }
 
@@ -86,21 +107,35 @@ class Writers {
     if (table_) table_->close();
   }
 
-  /// What has no place in the companion; empty if everything has.
-  std::string missing(const Extraction& extraction) const {
-    if (names_.state.empty())
-      return "the recording uses userdef0 to userdef9 itself; states and standard errors are in the table of events "
-             "only.";
-    if (extraction.table().is_own() && names_.standard_error.empty())
-      return "the recording uses nine userdef features itself; standard errors are in the table of events only.";
-    return {};
+  /// What has no place in the companion and would be missed there; empty if everything has.
+  std::string missing() const {
+    std::string roles;
+    for (const auto& column : columns_)
+      if (column.name.empty() && (column.role == "state" || column.role == "standard error"))
+        roles += (roles.empty() ? "" : " and ") + column.role;
+    if (roles.empty()) return {};
+    return fmt::format(
+        "the recording uses so many of userdef0 to userdef9 itself that {} of the moduli {} in the table "
+        "of events only.",
+        roles, roles.find(" and ") == std::string::npos ? "is" : "are");
   }
 
  private:
+  std::span<const double> values_of(const OwnColumn& column, const EventBlock& block) {
+    if (column.values) return column.values(block);
+    values_.resize(block.state.size());
+    if (column.role == "state")
+      std::ranges::transform(block.state, values_.begin(), [](ModulusState s) { return static_cast<double>(s); });
+    else
+      std::ranges::transform(block.shape, values_.begin(),
+                             column.role == "shape_excess" ? &ShapeExcess::excess : &ShapeExcess::odd_share);
+    return values_;
+  }
+
   CompanionFile companion_;
-  FreeNames names_;
+  std::vector<OwnColumn> columns_;
   std::optional<EventTable> table_;
-  std::vector<double> states_;
+  std::vector<double> values_;
 };
 
 }  // namespace
@@ -141,7 +176,7 @@ ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files
   }
   writers.close();
   ExtractSummary summary = extraction.summary();
-  if (const auto missing = writers.missing(extraction); !missing.empty()) summary.warnings.push_back(missing);
+  if (const auto missing = writers.missing(); !missing.empty()) summary.warnings.push_back(missing);
   return summary;
 }
 

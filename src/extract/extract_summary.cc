@@ -2,32 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "case/user_error.h"
-#include "numeric/quantile.h"
 
 namespace rheocyte {
-
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
-Distribution distribution_of(std::span<double> values) {
-  if (values.empty()) return {nan, nan, nan, nan, nan};
-  std::ranges::sort(values);
-  const auto count = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-  double squares = 0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75), mean,
-          values.size() > 1 ? std::sqrt(squares / (count - 1)) : nan};
-}
 
 RecordingLabels labels_of(const Metadata& metadata) {
   const auto text = [&](const char* key) { return metadata.text(key).value_or(""); };

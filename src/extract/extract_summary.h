@@ -6,18 +6,12 @@
 #include <tuple>
 #include <vector>
 
+#include "extract/distribution.h"
 #include "extract/extract_settings.h"
+#include "extract/shape_verdict.h"
 #include "infer/modulus_state.h"
 
 namespace rheocyte {
-
-/// Of the events with a modulus (kPa); NaN if there are none, the standard deviation (n - 1) also for a single one.
-struct Distribution {
-  double median = 0, first_quartile = 0, third_quartile = 0, mean = 0, standard_deviation = 0;
-};
-
-/// Sorts the values. Quartiles between two values are interpolated linearly.
-Distribution distribution_of(std::span<double> values);
 
 /// Of the metadata, to tell recordings apart; empty where absent.
 struct RecordingLabels {
@@ -38,6 +32,7 @@ struct ExtractSummary {
   Distribution modulus_kPa;
   double median_standard_error_kPa = 0;  ///< of the events with a modulus; NaN if unknown
   double mean_viscosity_mPas = 0;
+  ShapeVerdict shapes;
   std::string table, medium, viscosity_model, temperature, area_from, deformation_from;
   std::string corrected;  ///< for the pixels: "area and deformation", "deformation", "nothing"
   std::string gates;      ///< limits of the events that count; empty: all
@@ -48,8 +43,8 @@ struct ExtractSummary {
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.labels, s.events, s.counts, s.modulus_kPa, s.median_standard_error_kPa, s.mean_viscosity_mPas,
-                    s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from, s.corrected,
-                    s.gates, s.conditions, s.warnings);
+                    s.shapes, s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from,
+                    s.corrected, s.gates, s.conditions, s.warnings);
   }
 
   /// Events with a modulus, whatever is said about it.

@@ -36,6 +36,8 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
       table_(tables.used(settings_.conditions.flow.exponent)),
       other_table_(tables.other(settings_.conditions.flow.exponent)),
       shapes_(recording, settings_.pixel_size_um),
+      event_shapes_(recording, settings_.conditions, tables.shapes(settings_.conditions.flow.exponent),
+                    !options.no_asymmetry),
       gates_(options.measuring.gates),
       features_(recording, shapes_) {
   gates_.check(features_, recording.file().string());
@@ -50,7 +52,9 @@ void Extraction::Columns::resize(std::size_t count) {
 
 std::size_t Extraction::block() const {
   const auto stored = [](const std::string& source) { return source != "mask" && source != "contour"; };
-  return stored(shapes_.area_from()) && stored(shapes_.deformation_from()) ? block_of_scalars : block_of_outlines;
+  const bool by_outlines =
+      event_shapes_.has_asymmetry() || !stored(shapes_.area_from()) || !stored(shapes_.deformation_from());
+  return by_outlines ? block_of_outlines : block_of_scalars;
 }
 
 EventBlock Extraction::compute(std::size_t first, std::size_t count) {
@@ -64,11 +68,24 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
     other_table_->estimate(settings_.conditions, events, {c.other_modulus, c.standard_error, c.other_states});
   }
   table().estimate(settings_.conditions, events, {c.modulus, c.standard_error, c.states});
-  take_account_of_inertia();
-  if (table().is_own()) set_aside_unresolved();
+  const Moduli moduli{c.modulus, c.standard_error, c.states};
+  take_account_of_inertia(moduli);
+  if (table().is_own()) set_aside_unresolved(moduli);
+  compute_shapes(first, events);
   if (!gates_.empty()) shut_out(first);
   collect();
-  return {c.area, c.deformation, c.viscosity, c.modulus, c.standard_error, c.states};
+  const auto& s = c.shapes;
+  return {c.area,   c.deformation, c.viscosity, c.modulus,     c.standard_error,
+          c.states, s.excess,      s.mode_3,    s.modulus_kPa, s.standard_error_kPa};
+}
+
+void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events) {
+  ShapeColumns& c = columns_.shapes;
+  c = event_shapes_.compute(first, events);
+  if (!event_shapes_.has_asymmetry()) return;
+  const Moduli moduli{c.modulus_kPa, c.standard_error_kPa, c.states};
+  take_account_of_inertia(moduli);
+  set_aside_unresolved(moduli);
 }
 
 ExtractSummary Extraction::summary() {
@@ -87,6 +104,10 @@ ExtractSummary Extraction::summary() {
   s.area_from = shapes_.area_from();
   s.deformation_from = shapes_.deformation_from();
   s.conditions = settings_.conditions;
+  s.shapes = shape_tally_.verdict();
+  s.shapes.inertia_ratio_from = event_shapes_.inertia_ratio_from();
+  s.shapes.direction = event_shapes_.direction();
+  s.shapes.missing = event_shapes_.missing();
   s.warnings = recording_.remarks();
   s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
   if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
@@ -128,47 +149,60 @@ void Extraction::collect() {
   for (std::size_t i = 0; i < columns_.states.size(); ++i) {
     ++summary_.counts[static_cast<std::size_t>(columns_.states[i])];
     if (has_modulus(columns_.states[i])) take_modulus(i);
+    if (columns_.states[i] == ModulusState::inertial) count_inertial(columns_.viscosity[i]);
     if (!std::isfinite(columns_.viscosity[i])) continue;
     viscosity_sum_ += columns_.viscosity[i];
     ++viscosities_;
   }
+  const ShapeColumns& s = columns_.shapes;
+  shape_tally_.take(
+      {s.excess, s.inertia_ratio, columns_.deformation, s.mode_3, s.x_um, columns_.modulus, s.modulus_kPa});
+}
+
+void Extraction::count_inertial(double viscosity_mPas) {
+  ChannelFlow flow = settings_.conditions.flow;
+  flow.viscosity_mPas = viscosity_mPas;
+  ++inertial_;
+  greatest_reynolds_number_ = std::max(greatest_reynolds_number_, reynolds_number(buffer_density_kg_per_m3, flow));
 }
 
 // What is known of it counts as an error of the modulus; events beyond that are flagged.
-void Extraction::take_account_of_inertia() {
-  Columns& c = columns_;
+void Extraction::take_account_of_inertia(const Moduli& moduli) {
   ChannelFlow flow = settings_.conditions.flow;
   flow.viscosity_mPas = 1;
   const double at_1_mPas = reynolds_number(buffer_density_kg_per_m3, flow);
-  for (std::size_t i = 0; i < c.states.size(); ++i) {
-    if (!has_modulus(c.states[i])) continue;
-    const double reynolds = at_1_mPas / c.viscosity[i];
-    c.standard_error[i] = std::hypot(c.standard_error[i], modulus_per_reynolds * reynolds * c.modulus[i]);
+  for (std::size_t i = 0; i < moduli.states.size(); ++i) {
+    if (!has_modulus(moduli.states[i])) continue;
+    const double reynolds = at_1_mPas / columns_.viscosity[i];
+    moduli.standard_error_kPa[i] =
+        std::hypot(moduli.standard_error_kPa[i], modulus_per_reynolds * reynolds * moduli.kPa[i]);
     if (reynolds <= greatest_reynolds_number) continue;
-    c.states[i] = ModulusState::inertial;
-    ++inertial_;
-    greatest_reynolds_number_ = std::max(greatest_reynolds_number_, reynolds);
+    moduli.states[i] = ModulusState::inertial;
   }
 }
 
-// Where the deformation is lost in the scatter by pixels, the modulus could be any above some value.
-void Extraction::set_aside_unresolved() {
-  Columns& c = columns_;
-  for (std::size_t i = 0; i < c.states.size(); ++i) {
-    if (!has_modulus(c.states[i]) || c.standard_error[i] <= greatest_relative_standard_error * c.modulus[i]) continue;
-    c.modulus[i] = c.standard_error[i] = std::numeric_limits<double>::quiet_NaN();
-    c.states[i] = ModulusState::unresolved;
+// Where the deformation or the asymmetry is lost in the scatter by pixels, the modulus could be any above some value.
+void Extraction::set_aside_unresolved(const Moduli& moduli) {
+  for (std::size_t i = 0; i < moduli.states.size(); ++i) {
+    if (!has_modulus(moduli.states[i]) ||
+        moduli.standard_error_kPa[i] <= greatest_relative_standard_error * moduli.kPa[i])
+      continue;
+    moduli.kPa[i] = moduli.standard_error_kPa[i] = std::numeric_limits<double>::quiet_NaN();
+    moduli.states[i] = ModulusState::unresolved;
   }
 }
 
 void Extraction::shut_out(std::size_t first) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Columns& c = columns_;
   c.inside.resize(c.states.size());
   gates_.apply(features_, first, c.inside);
   for (std::size_t i = 0; i < c.inside.size(); ++i) {
     if (c.inside[i]) continue;
-    c.modulus[i] = c.standard_error[i] = std::numeric_limits<double>::quiet_NaN();
+    c.modulus[i] = c.standard_error[i] = nan;
     c.states[i] = ModulusState::gated;
+    c.shapes.excess[i] = {nan, nan, nan, nan};
+    if (event_shapes_.has_asymmetry()) c.shapes.modulus_kPa[i] = c.shapes.standard_error_kPa[i] = nan;
   }
 }
 

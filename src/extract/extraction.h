@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "extract/event_shapes.h"
 #include "extract/event_table.h"
 #include "extract/extract_settings.h"
 #include "extract/extract_summary.h"
@@ -16,13 +17,14 @@
 
 namespace rheocyte {
 
-/// One recording on its way through the blocks; memory does not grow with it but for 12 bytes per event.
+/// One recording on its way through the blocks; memory does not grow with it but for 52 bytes per event.
 class Extraction {
  public:
   /// The three must outlive the object. UserError naming what the recording lacks, and the option that gives it.
   Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables);
 
   const ModulusMap& table() const { return table_; }
+  const EventShapes& event_shapes() const { return event_shapes_; }
   /// The number of events that are best computed at once.
   std::size_t block() const;
   /// Of events [first, first + count), until the next call. All events in turn, so that the summary is that of all.
@@ -37,22 +39,32 @@ class Extraction {
   struct Columns {
     std::vector<double> area, deformation, viscosity, modulus, standard_error, other_modulus;
     std::vector<ModulusState> states, other_states;
+    ShapeColumns shapes;
     std::vector<char> inside;  ///< the gates
     void resize(std::size_t count);
   };
 
   std::string comparison() const;
   void collect();
-  void take_account_of_inertia();
-  void set_aside_unresolved();
+  /// Young's moduli of the events of a block, and what is said about them.
+  struct Moduli {
+    std::span<double> kPa, standard_error_kPa;
+    std::span<ModulusState> states;
+  };
+  void take_account_of_inertia(const Moduli& moduli);
+  static void set_aside_unresolved(const Moduli& moduli);
   void shut_out(std::size_t first);
   void take_modulus(std::size_t i);
+  void count_inertial(double viscosity_mPas);
+  void compute_shapes(std::size_t first, const MeasuredEvents& events);
 
   const Recording& recording_;
   ExtractSettings settings_;
   const ModulusMap& table_;
   const ModulusMap* other_table_;  ///< to compare with
   ShapeSource shapes_;
+  EventShapes event_shapes_;
+  ShapeTally shape_tally_;
   Gates gates_;
   EventFeatures features_;
   Columns columns_;

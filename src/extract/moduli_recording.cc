@@ -15,9 +15,8 @@
 #include "extract/modulus_tables.h"
 #include "extract/plausibility.h"
 #include "infer/rendered_errors.h"
-#include "measurement/contour_from_mask.h"
 #include "measurement/event_features.h"
-#include "measurement/shape_in_pixels.h"
+#include "measurement/event_outlines.h"
 #include "measurement/shape_source.h"
 #include "store/build_info.h"
 #include "store/file_writer.h"
@@ -26,58 +25,26 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t fewest_points = 12;  // of an outline that is a cell
-constexpr std::size_t block = 256;         // of events between two words of progress
+constexpr std::size_t block = 256;  // of events between two words of progress
 
-/// The outlines of a recording, event by event.
-class Outlines {
- public:
-  Outlines(const Recording& recording, double pixel_um) : recording_(recording), pixel_um_(pixel_um) {
-    if (!recording.has_contours()) size_ = recording.image_size("mask");
-    if (!recording.has_contours() && !size_)
-      throw UserError(fmt::format("{}: has neither contours nor masks; several moduli need the shape of each cell.",
-                                  one_line(recording.file().string(), 300)));
-    if (size_) block_ = recording.image_rows_per_chunk("mask");
-  }
-
-  /// NaN where there is no cell.
-  ShapeVector features(std::size_t event) {
-    const PixelContour contour = outline(event);
-    if (contour.size() < fewest_points) return ShapeVector::Constant(std::numeric_limits<double>::quiet_NaN());
-    return shape_of_contour(contour, pixel_um_);
-  }
-
- private:
-  PixelContour outline(std::size_t event) {
-    if (!size_) return recording_.read_contour(event);
-    if (event < first_ || event >= first_ + count_) {
-      first_ = event - event % block_;
-      count_ = std::min(block_, recording_.events() - first_);
-      pixels_.resize(count_ * size_->pixels());
-      recording_.read_images("mask", first_, count_, pixels_);
-    }
-    return finder_.contour_of(
-        {*size_, std::span(pixels_).subspan((event - first_) * size_->pixels(), size_->pixels())});
-  }
-
-  const Recording& recording_;
-  double pixel_um_;
-  std::optional<ImageSize> size_;
-  std::size_t block_ = 1, first_ = 0, count_ = 0;  ///< events whose masks are at hand
-  std::vector<std::uint8_t> pixels_;
-  ContourFinder finder_;
-};
+const Recording& with_outlines(const Recording& recording) {
+  if (!ShapeSource::has_outlines(recording))
+    throw UserError(fmt::format("{}: has neither contours nor masks; several moduli need the shape of each cell.",
+                                one_line(recording.file().string(), 300)));
+  return recording;
+}
 
 constexpr std::string_view more_columns =
     "young_modulus_error_kPa\t"
     "cortex_modulus_mN_per_m\tcortex_modulus_error_mN_per_m\ttension_mN_per_m\ttension_error_mN_per_m\t"
-    "stiffness_kPa\tstiffness_error_kPa\tchi_squared\tstatus\n";
+    "stiffness_kPa\tstiffness_error_kPa\tchi_squared\tstatus\t"
+    "shape_excess\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa\n";
 
 std::string line(std::size_t event, const ShapeVector& seen, double viscosity_mPas, const ModuliEstimate& e) {
   std::string text = fmt::format("{}\t{:.6g}\t{:.6g}\t{:.6g}", event + 1, std::exp(seen(0)), seen(1), viscosity_mPas);
   for (const Modulus m : {Modulus::young, Modulus::cortex, Modulus::tension})
     text += fmt::format("\t{:.6g}\t{:.3g}", e.value(m), e.error(m));
-  return text + fmt::format("\t{:.6g}\t{:.3g}\t{:.4g}\t{}\n", e.stiffness_kPa, e.stiffness_error_kPa, e.chi_squared,
+  return text + fmt::format("\t{:.6g}\t{:.3g}\t{:.4g}\t{}", e.stiffness_kPa, e.stiffness_error_kPa, e.chi_squared,
                             name_of(e.status));
 }
 
@@ -87,12 +54,13 @@ class Fits {
   Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table)
       : recording_(recording),
         settings_(extract_settings(options.measuring, PixelUse::fit, recording)),
-        outlines_(recording, settings_.pixel_size_um),
+        outlines_(with_outlines(recording), settings_.pixel_size_um),
         shapes_(recording, settings_.pixel_size_um),
         features_(recording, shapes_),
         gates_(options.measuring.gates),
         pixels_(table.between, settings_.pixel_size_um * table.simulated.width_um / settings_.conditions.flow.width_um),
         simulated_exponent_(table.simulated.exponent),
+        shapes_of_solids_(solids_.shapes(settings_.conditions.flow.exponent)),
         moduli_(table.between, table.simulated,
                 {options.only_figure ? features_of_figure() : features_of_contour(), options.fit_tension,
                  table.between.tension_ratios().front()}) {
@@ -121,12 +89,15 @@ class Fits {
     count_inertial();
     inside_.resize(count);
     gates_.apply(features_, first, inside_);
+    std::vector<ShapeVector> seen;
+    for (std::size_t i = 0; i < count; ++i) seen.push_back(outlines_.features(first + i));
+    compare(seen);
     std::string text;
     for (std::size_t i = 0; i < count; ++i) {
-      const ShapeVector seen = outlines_.features(first + i);
-      const ModuliEstimate estimate = inside_[i] ? fit(seen, viscosity_[i]) : gated();
+      const ModuliEstimate estimate = inside_[i] ? fit(seen[i], viscosity_[i]) : gated();
       tally_.take(estimate);
-      text += line(first + i, seen, viscosity_[i], estimate);
+      text += line(first + i, seen[i], viscosity_[i], estimate) +
+              fmt::format("\t{:.4g}\t{:.6g}\t{:.3g}\n", excess_[i].excess, solid_kPa_[i], solid_error_kPa_[i]);
     }
     return text;
   }
@@ -156,6 +127,30 @@ class Fits {
     return fit_pixels(moduli_, pixels_, seen, flow);
   }
 
+  /// With the solids of the table that comes with the program.
+  void compare(std::span<const ShapeVector> seen) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr int mode_2 = int(ShapeFeature::first_mode);
+    std::vector<double> area, deformation, ratio, second, third;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      area.push_back(std::exp(seen[i](0)));
+      deformation.push_back(seen[i](1));
+      ratio.push_back(inside_[i] ? 1 / std::sqrt(seen[i](2)) : nan);
+      second.push_back(seen[i](mode_2));
+      third.push_back(seen[i](mode_2 + 1));
+    }
+    excess_.assign(seen.size(), {nan, nan, nan, nan});
+    solid_kPa_.assign(seen.size(), nan);
+    solid_error_kPa_.assign(seen.size(), nan);
+    if (!shapes_of_solids_) return;
+    const MeasuredEvents events{area, deformation, viscosity_};
+    std::vector<ModulusState> states(seen.size());
+    shapes_of_solids_->compare(settings_.conditions, events, ratio, excess_);
+    if (shapes_of_solids_->has_asymmetry())
+      shapes_of_solids_->estimate(settings_.conditions, events, {second, third},
+                                  {solid_kPa_, solid_error_kPa_, states});
+  }
+
   void count_inertial() {
     ChannelFlow flow = settings_.conditions.flow;
     for (const double viscosity_mPas : viscosity_) {
@@ -175,15 +170,19 @@ class Fits {
 
   const Recording& recording_;
   ExtractSettings settings_;
-  Outlines outlines_;
+  EventOutlines outlines_;
   ShapeSource shapes_;
   EventFeatures features_;
   Gates gates_;
   RenderedErrors pixels_;
   double simulated_exponent_;
+  ModulusTables solids_{std::string()};
+  const ShapeMap* shapes_of_solids_;
   SeveralModuli moduli_;
   std::vector<double> viscosity_;
   std::vector<char> inside_;
+  std::vector<ShapeExcess> excess_;
+  std::vector<double> solid_kPa_, solid_error_kPa_;  ///< by the asymmetry, as if the cells were solids
   std::size_t outside_temperature_ = 0, inertial_ = 0;
   double greatest_reynolds_number_ = 0;
   ModuliTally tally_;

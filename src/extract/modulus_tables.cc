@@ -73,4 +73,16 @@ const ModulusMap* ModulusTables::other(double flow_exponent) const {
   return table ? &table->ready() : nullptr;
 }
 
+const ShapeMap* ModulusTables::shapes(double flow_exponent) const {
+  const ModulusMap& table = used(flow_exponent);
+  if (table.shapes()) return table.shapes();
+  if (!standard_) {
+    const auto shipped = shipped_tables();
+    const auto found = shipped.find(std::string(standard_table));
+    if (found == shipped.end()) return nullptr;
+    standard_ = read_modulus_map(found->second);
+  }
+  return standard_->shapes();
+}
+
 }  // namespace rheocyte

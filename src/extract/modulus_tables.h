@@ -26,6 +26,10 @@ class ModulusTables {
   /// To compare with: the other way to take a shear-thinning liquid; null if there is none.
   const ModulusMap* other(double flow_exponent) const;
 
+  /// What cells look like: by the table that is used, or that of a Newtonian liquid that comes with the program; null
+  /// if neither knows.
+  const ShapeMap* shapes(double flow_exponent) const;
+
   /// True if rheocyte's own tables are used, of which areas are corrected and errors known.
   bool own() const { return !given_ || tables_.front().map->is_own(); }
 
@@ -46,7 +50,8 @@ class ModulusTables {
   const Table* matching(double flow_exponent) const;
 
   std::vector<Table> tables_;
-  bool given_ = false;  ///< the first one is the user's choice
+  mutable std::unique_ptr<const ModulusMap> standard_;  ///< once its shapes are needed
+  bool given_ = false;                                  ///< the first one is the user's choice
 };
 
 }  // namespace rheocyte

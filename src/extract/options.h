@@ -31,6 +31,7 @@ struct ExtractOptions {
   MeasuringOptions measuring;
   std::string table;  ///< a file, a folder of a table, or an identifier; empty: the tables that come with the program
   bool no_pixelation = false, no_area_correction = false, no_tsv = false;
+  bool no_asymmetry = false;  ///< contours and masks are not read where areas and deformations are stored
 };
 
 /// UserError if a value is not positive or two of them contradict.

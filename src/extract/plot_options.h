@@ -15,6 +15,7 @@ struct PlotOptions {
   std::filesystem::path lines;     ///< a file of isoelasticity lines; empty: lines of the table
   std::vector<double> levels_kPa;  ///< of the lines, in the recording's channel; empty: spread over the picture
   std::string x = "area_um", y = "deform";  ///< features on the axes
+  bool shapes = false;                      ///< measured against expected inertia ratio
   bool no_lines = false;                    ///< not even those of the program's own table
   bool no_pixelation = false;               ///< lines are drawn where they are without pixels
   bool quiet = false;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "case/user_error.h"
 #include "extract/extract_settings.h"
+#include "extract/shape_features.h"
 #include "measurement/event_features.h"
 #include "measurement/shape_source.h"
 
@@ -66,6 +68,8 @@ class Axes {
         gates_(options.measuring.gates),
         usual_(has_usual_axes(options)) {
     gates_.check(features_, recording.file().string());
+    if (ShapeFeatures::knows(options.x) || ShapeFeatures::knows(options.y))
+      by_shapes_.emplace(recording, shapes, options);
   }
 
   // Events outside the gates get no numbers; returns how many they are.
@@ -73,8 +77,8 @@ class Axes {
     if (usual_) {
       shapes_.read(first, x, y);
     } else {
-      features_.read(options_.x, first, x);
-      features_.read(options_.y, first, y);
+      read(options_.x, first, x);
+      read(options_.y, first, y);
     }
     if (gates_.empty()) return 0;
     inside_.resize(x.size());
@@ -85,9 +89,15 @@ class Axes {
   }
 
  private:
+  void read(const std::string& feature, std::size_t first, std::vector<double>& values) {
+    if (ShapeFeatures::knows(feature)) return by_shapes_->read(feature, first, values);
+    features_.read(feature, first, values);
+  }
+
   ShapeSource& shapes_;
   const PlotOptions& options_;
   EventFeatures features_;
+  std::optional<ShapeFeatures> by_shapes_;
   Gates gates_;
   bool usual_;
   std::vector<char> inside_;

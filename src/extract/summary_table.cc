@@ -27,13 +27,32 @@ constexpr std::string_view mark = "recording\tevents\tvalid\t";
 /// By the names of their columns.
 using Row = std::map<std::string, std::string, std::less<>>;
 
-constexpr std::array<std::string_view, 25> columns_after_counts{"with_modulus_percent",
+constexpr std::array<std::string_view, 44> columns_after_counts{"with_modulus_percent",
                                                                 "young_modulus_median_kPa",
                                                                 "young_modulus_first_quartile_kPa",
                                                                 "young_modulus_third_quartile_kPa",
                                                                 "young_modulus_mean_kPa",
                                                                 "young_modulus_standard_deviation_kPa",
                                                                 "young_modulus_standard_error_median_kPa",
+                                                                "young_modulus_asymmetry_median_kPa",
+                                                                "young_modulus_asymmetry_first_quartile_kPa",
+                                                                "young_modulus_asymmetry_third_quartile_kPa",
+                                                                "with_asymmetry",
+                                                                "deformation_over_asymmetry_modulus",
+                                                                "shapes",
+                                                                "shape_excess_median",
+                                                                "shape_excess_median_error",
+                                                                "inertia_ratio_median",
+                                                                "inertia_ratio_expected",
+                                                                "elongated_percent",
+                                                                "odd_share_median",
+                                                                "red_cells",
+                                                                "inertia_ratio_change",
+                                                                "deformation_change",
+                                                                "deformation_change_error",
+                                                                "mode_3_change",
+                                                                "shapes_text",
+                                                                "trend_text",
                                                                 "table",
                                                                 "medium",
                                                                 "viscosity_model",
@@ -79,6 +98,30 @@ std::string all_of(const std::vector<std::string>& sentences) {
   return text;
 }
 
+constexpr std::array<const char*, 4> names_of_fits{"unknown", "model", "doubtful", "elongated"};
+
+void add_shapes(const ShapeVerdict& v, Row& row) {
+  for (const auto& [name, value] :
+       {std::pair("young_modulus_asymmetry_median_kPa", v.asymmetry_kPa.median),
+        std::pair("young_modulus_asymmetry_first_quartile_kPa", v.asymmetry_kPa.first_quartile),
+        std::pair("young_modulus_asymmetry_third_quartile_kPa", v.asymmetry_kPa.third_quartile),
+        std::pair("deformation_over_asymmetry_modulus", v.modulus_ratio),
+        std::pair("shape_excess_median", v.excess.value), std::pair("shape_excess_median_error", v.excess.error),
+        std::pair("inertia_ratio_median", v.inertia_ratio),
+        std::pair("inertia_ratio_expected", v.expected_inertia_ratio),
+        std::pair("elongated_percent", v.elongated_percent()), std::pair("odd_share_median", v.odd_share),
+        std::pair("inertia_ratio_change", v.inertia_ratio_trend.change),
+        std::pair("deformation_change", v.deformation_trend.change),
+        std::pair("deformation_change_error", v.deformation_trend.error),
+        std::pair("mode_3_change", v.asymmetry_trend.change)})
+    row[name] = number_text(value);
+  row["with_asymmetry"] = std::to_string(v.with_asymmetry);
+  row["red_cells"] = std::to_string(v.red_cells);
+  row["shapes"] = names_of_fits.at(static_cast<std::size_t>(v.fit()));
+  row["shapes_text"] = v.text();
+  row["trend_text"] = v.trend_text();
+}
+
 Row row_of(const SummaryLine& line) {
   Row row{{"recording", line.recording.string()}};
   if (!line.error.empty()) {
@@ -102,6 +145,7 @@ Row row_of(const SummaryLine& line) {
         std::pair("mean_viscosity_mPas", s.mean_viscosity_mPas), std::pair("channel_width_um", c.flow.width_um),
         std::pair("flow_rate_ul_s", c.flow.rate_ul_s), std::pair("pixelation_pixel_size_um", c.pixel_size_um)})
     row[name] = number_text(value);
+  add_shapes(s.shapes, row);
   row.insert({{"table", s.table},
               {"medium", s.medium},
               {"viscosity_model", s.viscosity_model},

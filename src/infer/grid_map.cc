@@ -11,16 +11,24 @@
 #include <utility>
 
 #include "case/user_error.h"
+#include "infer/smooth_events.h"
 #include "measurement/pixel_errors.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t block_size = 512;  // columns of a block stay in the fastest memory
+constexpr std::size_t block_size = event_block_size;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-using Column = Eigen::Array<double, block_size, 1>;
+// Variance of ln(modulus) by scattering area and deformation (eq:standard-error).
+double variance_by_pixels(const GridAnswer& answer, const PixelErrors& pixels, double deformation) {
+  const double by_area = answer.by_log_area * pixels.area_deviation;
+  const double by_deformation = answer.by_log_deformation * pixels.deformation_deviation / deformation;
+  return by_area * by_area + by_deformation * by_deformation + 2 * pixels.correlation * by_area * by_deformation;
+}
+
+}  // namespace
 
 ModulusState state_of(const GridAnswer& answer) {
   switch (answer.reason) {
@@ -36,19 +44,11 @@ ModulusState state_of(const GridAnswer& answer) {
   return ModulusState::no_data;
 }
 
-// Variance of ln(modulus) by scattering area and deformation (eq:standard-error).
-double variance_by_pixels(const GridAnswer& answer, const PixelErrors& pixels, double deformation) {
-  const double by_area = answer.by_log_area * pixels.area_deviation;
-  const double by_deformation = answer.by_log_deformation * pixels.deformation_deviation / deformation;
-  return by_area * by_area + by_deformation * by_deformation + 2 * pixels.correlation * by_area * by_deformation;
-}
-
-}  // namespace
-
 GridMap::GridMap(GridContent grid) : ModulusMap(grid.origin), grid_(std::move(grid)) {
   if (origin().is_shell)
     throw UserError(fmt::format("The table {} holds moduli of a cortex (mN/m); Young's moduli need a table of solids.",
                                 origin().identifier));
+  if (grid_.content().shapes) shapes_ = std::make_unique<ShapeMap>(grid_);
 }
 
 void GridMap::estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
@@ -70,23 +70,11 @@ void GridMap::estimate_block(const MeasuringConditions& conditions, const Measur
                              const EstimatedModuli& estimates) const {
   const std::size_t count = block.size.size();
   const auto rows = static_cast<Eigen::Index>(count);
-  Column log_area, deformation, log_deformation, modulus;
-  std::array<PixelErrors, block_size> pixels;
+  SmoothEvents smooth;
+  EventColumn log_deformation, modulus;
   std::array<GridAnswer, block_size> answers;
-  log_area.head(rows) = Eigen::Map<const Eigen::ArrayXd>(block.size.data(), rows).log();
-  std::ranges::copy(block.deformation, deformation.data());
-  if (conditions.pixel_size_um > 0) {
-    const double log_pixel_area = 2 * std::log(conditions.pixel_size_um);
-    Column factor = Column::Ones();
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      pixels[i] = pixel_errors(log_area[k] - log_pixel_area, deformation[k]);
-      deformation[k] -= pixels[i].deformation_excess;
-      factor[k] = pixels[i].area_factor;
-    }
-    if (conditions.correct_area) log_area.head(rows) += factor.head(rows).log();
-  }
-  log_area.head(rows) += std::log(scale_factors(conditions.flow, origin().flow).area);
+  remove_pixels(conditions, origin().flow, block, smooth);
+  const auto& [log_area, deformation, pixels] = smooth;
   // A deformation below zero is one that is too small, not one that is missing.
   for (Eigen::Index k = 0; k < rows; ++k) log_deformation[k] = deformation[k] < 0 ? 0 : deformation[k];
   log_deformation.head(rows) = log_deformation.head(rows).log();

@@ -1,7 +1,10 @@
 // Young's modulus of each event with its standard error, from a grid of rheocyte's own tables (docs/theory-extract.md,
 // sec. "own tables").
 #pragma once
+#include <memory>
+
 #include "infer/modulus_map.h"
+#include "infer/shape_map.h"
 #include "table/stiffness_grid.h"
 
 namespace rheocyte {
@@ -12,6 +15,7 @@ class GridMap : public ModulusMap {
   explicit GridMap(GridContent grid);
 
   bool is_own() const override { return true; }
+  const ShapeMap* shapes() const override { return shapes_.get(); }
   /// The standard error comes from the scatter by pixels and the table's error (eq:standard-error).
   void estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
                 const EstimatedModuli& moduli) const override;
@@ -27,6 +31,7 @@ class GridMap : public ModulusMap {
                       const EstimatedModuli& moduli) const;
 
   StiffnessGrid grid_;
+  std::unique_ptr<const ShapeMap> shapes_;
 };
 
 }  // namespace rheocyte

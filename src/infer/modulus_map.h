@@ -31,6 +31,11 @@ struct EstimatedModuli {
   std::span<ModulusState> state;
 };
 
+class ShapeMap;
+
+/// What is said about an event with this answer of a grid.
+ModulusState state_of(const GridAnswer& answer);
+
 class ModulusMap {
  public:
   virtual ~ModulusMap() = default;
@@ -39,6 +44,8 @@ class ModulusMap {
   /// Whether it is one of rheocyte's own grids: for these areas are corrected for pixels, too, and errors are known.
   /// Published tables are used as the programs of the field do.
   virtual bool is_own() const = 0;
+  /// What its cells look like; null if it does not know.
+  virtual const ShapeMap* shapes() const { return nullptr; }
 
   /// Area and deformation less what the pixels do (unless the pixel size is 0), area and modulus scaled to the table's
   /// channel, flow and viscosity (docs/theory-extract.md, eq:scaling).

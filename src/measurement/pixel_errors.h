@@ -23,6 +23,16 @@ inline constexpr double greatest_fitted_deformation = 0.2;
 /// differs from another of the same area and deformation counts as scatter; a shell differs by more.
 PixelErrors pixel_errors(double log_area_px, double deformation);
 
+/// For the third mode of the outline's radius (docs/theory-extract.md, eq:asymmetry-errors).
+struct AsymmetryErrors {
+  double excess = 0;     ///< measured c_3 - that of the smooth contour
+  double deviation = 0;  ///< standard deviation of the measured c_3
+};
+
+/// By the natural logarithm of the measured area in pixels and the measured c_2 and c_3. Pixels make the ends of an
+/// elongated cell more alike: they take away the more of c_3 the greater c_2 is.
+AsymmetryErrors asymmetry_errors(double log_area_px, double mode_2, double mode_3);
+
 /// The inverse: the mean measured area in pixels and deformation of a smooth contour.
 struct PixelShape {
   double area_px = 0, deformation = 0;

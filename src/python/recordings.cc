@@ -4,19 +4,24 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <sstream>
+#include <string>
 
 #include "case/user_error.h"
 #include "extract/extraction.h"
 #include "extract/moduli_recording.h"
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
+#include "measurement/shape_in_pixels.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
+#include "shape/radius_modes.h"
 #include "store/build_info.h"
 #include "store/whole_file.h"
 #include "synth/synth_shapes.h"
@@ -38,7 +43,8 @@ void tell(const Progress& progress, double share) {
 
 struct Events {
   std::vector<double> area, deformation, viscosity, modulus, standard_error;
-  std::vector<std::int8_t> state;
+  std::vector<std::int8_t> state, elongated;
+  std::vector<double> shape_excess, shape_excess_error, odd_share, mode_3, asymmetry, asymmetry_error;
   ExtractSummary summary;
   std::vector<std::string> lines;
 
@@ -52,6 +58,15 @@ struct Events {
     add(modulus, b.young_modulus_kPa);
     add(standard_error, b.standard_error_kPa);
     std::ranges::transform(b.state, std::back_inserter(state), [](ModulusState s) { return std::int8_t(s); });
+    for (const ShapeExcess& shape : b.shape) {
+      shape_excess.push_back(shape.excess);
+      shape_excess_error.push_back(shape.error);
+      elongated.push_back(shape.is_elongated() ? 1 : 0);
+      odd_share.push_back(shape.odd_share);
+    }
+    add(mode_3, b.mode_3);
+    add(asymmetry, b.asymmetry_kPa);
+    add(asymmetry_error, b.asymmetry_error_kPa);
   }
 };
 
@@ -82,6 +97,18 @@ py::tuple extract(const std::filesystem::path& file, const ExtractOptions& optio
   columns["young_modulus_kPa"] = array_of(std::move(e.modulus));
   columns["standard_error_kPa"] = array_of(std::move(e.standard_error));
   columns["state"] = array_of(std::move(e.state));
+  if (std::isfinite(e.summary.shapes.excess.value)) {
+    columns["shape_excess"] = array_of(std::move(e.shape_excess));
+    columns["shape_excess_error"] = array_of(std::move(e.shape_excess_error));
+    columns["elongated"] = array_of(std::move(e.elongated));
+    columns["odd_share"] = array_of(std::move(e.odd_share));
+  }
+  if (!e.mode_3.empty()) {
+    columns["mode_3"] = array_of(std::move(e.mode_3));
+    columns["young_modulus_asymmetry_kPa"] = array_of(std::move(e.asymmetry));
+    columns["standard_error_asymmetry_kPa"] = array_of(std::move(e.asymmetry_error));
+  }
+  attributes["shapes"] = shape_lines(e.summary.shapes);
   attributes["table"] = e.summary.table;
   attributes["settings"] = e.lines;
   attributes["warnings"] = e.summary.warnings;
@@ -140,25 +167,40 @@ std::size_t synth(const std::string& text, const std::string& name, const std::v
 
 using Masks = py::array_t<std::uint8_t, py::array::c_style>;
 
+struct Found {
+  std::vector<ContourFeatures> features;
+  std::vector<ShapeVector> shapes;
+};
+
 // Masks (events, rows, columns), not empty; the caller has looked.
 py::dict features(const Masks& masks, double pixel_size_um) {
   const auto count = static_cast<std::size_t>(masks.shape(0));
   const ImageSize size{static_cast<std::size_t>(masks.shape(2)), static_cast<std::size_t>(masks.shape(1))};
   const std::uint8_t* const pixels = masks.data();
   const auto found = interruptible([&](const std::atomic<bool>& stop) {
-    std::vector<ContourFeatures> all;
+    Found all;
     ContourFinder finder;
     ContourMeasurer measurer;
-    for (std::size_t i = 0; i < count && !stop; ++i)
-      all.push_back(
-          measurer.measure(finder.contour_of({size, {pixels + i * size.pixels(), size.pixels()}}), pixel_size_um));
+    for (std::size_t i = 0; i < count && !stop; ++i) {
+      const PixelContour& contour = finder.contour_of({size, {pixels + i * size.pixels(), size.pixels()}});
+      all.features.push_back(measurer.measure(contour, pixel_size_um));
+      const bool is_cell = std::isfinite(all.features.back().area_um2);
+      all.shapes.push_back(is_cell ? shape_of_contour(contour, pixel_size_um)
+                                   : ShapeVector::Constant(std::numeric_limits<double>::quiet_NaN()));
+    }
     return all;
   });
   py::dict columns;
   for (const OutlineFeature& feature : outline_features()) {
-    std::vector<double> values(found.size());
-    std::ranges::transform(found, values.begin(), feature.value);
+    std::vector<double> values(count);
+    std::ranges::transform(found.features, values.begin(), feature.value);
     columns[feature.name] = array_of(std::move(values));
+  }
+  for (int k = first_radius_mode; k <= last_radius_mode; ++k) {
+    std::vector<double> values(count);
+    const int row = int(ShapeFeature::first_mode) + k - least_mode;
+    std::ranges::transform(found.shapes, values.begin(), [row](const ShapeVector& shape) { return shape(row); });
+    columns[("mode_" + std::to_string(k)).c_str()] = array_of(std::move(values));
   }
   return columns;
 }
@@ -182,6 +224,7 @@ void bind_options(py::module_& module) {
       .def_readwrite("measuring", &ExtractOptions::measuring)
       .def_readwrite("table", &ExtractOptions::table)
       .def_readwrite("no_pixelation", &ExtractOptions::no_pixelation)
+      .def_readwrite("no_asymmetry", &ExtractOptions::no_asymmetry)
       .def_readwrite("no_area_correction", &ExtractOptions::no_area_correction);
   py::class_<ModuliOptions>(module, "ModuliOptions")
       .def(py::init<>())

@@ -11,7 +11,10 @@ namespace {
 
 ShapeMeasures no_measures() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+  ShapeMeasures none{nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, {}, {}};
+  none.modes.fill(nan);
+  none.modes_raw.fill(nan);
+  return none;
 }
 
 }  // namespace
@@ -22,7 +25,8 @@ ShapeMeasures measure(const Contour& contour) {
   if (!hull) return no_measures();
 
   const double origin = meridian->points().col(0).mean();
-  const ArcIntegrals raw = integrate(whole(*meridian), origin), convex = integrate(hull->arcs, origin);
+  const ArcChain outline = whole(*meridian);
+  const ArcIntegrals raw = integrate(outline, origin), convex = integrate(hull->arcs, origin);
   if (!(raw.area > 0 && raw.volume > 0)) return no_measures();
   return {.area = convex.area,
           .perimeter = convex.perimeter,
@@ -34,7 +38,9 @@ ShapeMeasures measure(const Contour& contour) {
           .barycentre = origin + raw.volume_x / raw.volume,
           .moment_ratio = convex.lateral_moment() / convex.axial_moment(),
           .inertia_ratio = std::sqrt(convex.axial_moment() / convex.lateral_moment()),
-          .moment_ratio_raw = raw.lateral_moment() / raw.axial_moment()};
+          .moment_ratio_raw = raw.lateral_moment() / raw.axial_moment(),
+          .modes = radius_modes(hull->arcs, origin + convex.area_x / convex.area),
+          .modes_raw = radius_modes(outline, origin + raw.area_x / raw.area)};
 }
 
 }  // namespace rheocyte

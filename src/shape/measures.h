@@ -1,6 +1,7 @@
 // Shape measures of a cell's contour as RT-DC programs define them (docs/theory.md, sec. "shape").
 #pragma once
 #include "shape/contour.h"
+#include "shape/radius_modes.h"
 
 namespace rheocyte {
 
@@ -13,6 +14,7 @@ struct ShapeMeasures {
   double moment_ratio = 1;   ///< Lambda1 / Lambda2 of the convexified contour, < 1: elongated along the flow
   double inertia_ratio = 1;  ///< sqrt(Lambda2 / Lambda1)
   double moment_ratio_raw = 1;
+  RadiusModes modes{}, modes_raw{};  ///< of the radius about each one's centroid
 };
 
 /// Integrates the polynomial pieces themselves, not a polygon (error of quadrature near rounding for smooth curves).

@@ -42,11 +42,17 @@ struct StateNumbers {
 /// The files beside result.json in which a measure is a column.
 enum class AlsoIn { none, tables, history, both };
 
+/// A mode of the outline's radius.
+struct ShapeMode {
+  RadiusModes ShapeMeasures::*modes;
+  int k;
+};
+
 /// A number of result.json.
 struct StateMeasure {
   std::string_view name;  ///< ends with its unit
   std::string_view sentence;
-  std::variant<double StateNumbers::*, double ShapeMeasures::*> member;
+  std::variant<double StateNumbers::*, double ShapeMeasures::*, ShapeMode> member;
   AlsoIn columns = AlsoIn::none;     ///< a column of tables must be smooth along a branch
   std::string_view null_where = {};  ///< where there is no such number; elsewhere it is finite
   double factor = 1;                 ///< of the unit of the number in powers of R, U and S
@@ -55,6 +61,8 @@ struct StateMeasure {
   constexpr bool in_history() const { return columns == AlsoIn::history || columns == AlsoIn::both; }
   constexpr double value(const StateNumbers& numbers) const {
     if (const auto* of_shape = std::get_if<double ShapeMeasures::*>(&member)) return numbers.shape.**of_shape;
+    if (const auto* mode = std::get_if<ShapeMode>(&member))
+      return (numbers.shape.*mode->modes)[std::size_t(mode->k - first_radius_mode)];
     return numbers.*std::get<double StateNumbers::*>(member);
   }
   constexpr double physical(const StateNumbers& numbers, const Scales& scales) const {
@@ -87,6 +95,27 @@ inline constexpr StateMeasure state_measures[] = {
      &ShapeMeasures::moment_ratio, AlsoIn::tables},
     {"moment_ratio_raw", "the same of the contour", &ShapeMeasures::moment_ratio_raw, AlsoIn::tables},
     {"inertia_ratio", "1 / sqrt(moment_ratio), as RT-DC programs have it", &ShapeMeasures::inertia_ratio,
+     AlsoIn::tables},
+    {"mode_2",
+     "cosine mode c_2 of the radius of the convex hull about its centroid, over the mean radius: r = 1 + sum c_k "
+     "cos(k theta), theta = 0 along the flow",
+     ShapeMode{&ShapeMeasures::modes, 2}, AlsoIn::both},
+    {"mode_3", "its cosine mode c_3", ShapeMode{&ShapeMeasures::modes, 3}, AlsoIn::both},
+    {"mode_4", "its cosine mode c_4", ShapeMode{&ShapeMeasures::modes, 4}, AlsoIn::both},
+    {"mode_5", "its cosine mode c_5", ShapeMode{&ShapeMeasures::modes, 5}, AlsoIn::both},
+    {"mode_6", "its cosine mode c_6", ShapeMode{&ShapeMeasures::modes, 6}, AlsoIn::both},
+    {"mode_7", "its cosine mode c_7", ShapeMode{&ShapeMeasures::modes, 7}, AlsoIn::both},
+    {"mode_2_raw", "c_2 of the contour itself about its centroid", ShapeMode{&ShapeMeasures::modes_raw, 2},
+     AlsoIn::tables},
+    {"mode_3_raw", "c_3 of the contour itself about its centroid", ShapeMode{&ShapeMeasures::modes_raw, 3},
+     AlsoIn::tables},
+    {"mode_4_raw", "c_4 of the contour itself about its centroid", ShapeMode{&ShapeMeasures::modes_raw, 4},
+     AlsoIn::tables},
+    {"mode_5_raw", "c_5 of the contour itself about its centroid", ShapeMode{&ShapeMeasures::modes_raw, 5},
+     AlsoIn::tables},
+    {"mode_6_raw", "c_6 of the contour itself about its centroid", ShapeMode{&ShapeMeasures::modes_raw, 6},
+     AlsoIn::tables},
+    {"mode_7_raw", "c_7 of the contour itself about its centroid", ShapeMode{&ShapeMeasures::modes_raw, 7},
      AlsoIn::tables},
     {"cell_velocity_m_per_s", "velocity of the cell along the channel", &StateNumbers::cell_velocity, AlsoIn::both},
     {"mean_velocity_m_per_s", "flow rate over the area of the channel", &StateNumbers::flow_rate},

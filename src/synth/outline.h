@@ -10,6 +10,10 @@ namespace rheocyte {
 /// first point is not repeated.
 Eigen::MatrixX2d silhouette(const Eigen::MatrixX2d& meridian);
 
+/// The polygon with the cosine mode c_2 of this size added to its radius about its centroid, which leaves c_3 alone but
+/// for products of modes: an elongation along the flow that the model of the cell does not have.
+Eigen::MatrixX2d with_ellipse(const Eigen::MatrixX2d& outline, double mode_2);
+
 /// Errors of a segmentation: how far the outline is off, and over which length it is off alike.
 struct OutlineNoise {
   double deviation = 0;    ///< standard deviation of the displacement along the normal; 0: none

@@ -109,6 +109,10 @@ Keys cell_keys() {
                                    no_solid, tension),
       spread<&Spec::tension_mN_per_m>(tension, "tension of combined cells, in place of the ratio", absent,
                                       "cell.tension_mN_per_m", is_combined, ratio),
+      key<&Spec::added_ellipse>({"cell.added_ellipse", "",
+                                 "mode c_2 added to each outline after the model, e.g. 0.1: an elongation along the "
+                                 "flow as many real cells have it (docs/real-cells.md); true values are those before",
+                                 Number{{-0.3, 0.5}}, 0.0}),
   };
 }
 

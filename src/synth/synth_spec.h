@@ -33,6 +33,7 @@ struct SynthSpec {
   std::optional<Spread> young_modulus_kPa;                ///< of solids and combined cells
   std::optional<Spread> cortex_modulus_mN_per_m;          ///< E2D of shells and combined cells
   std::optional<Spread> tension_ratio, tension_mN_per_m;  ///< at most one; of shells the same ratio for all
+  double added_ellipse = 0;                               ///< mode c_2 that is added to each outline
   // [shapes]
   std::filesystem::path table;  ///< folder of a table of `rheocyte table`; empty: the analytical model
   double greatest_deformation = 0;

@@ -104,7 +104,7 @@ class VirtualCamera {
   // In pixels; the cell lies anywhere between the pixels.
   Eigen::MatrixX2d outline_in_picture(const CellShape& shape, std::uint64_t number) {
     auto place = CellRandom(seed(), number, Purpose::place), noise = CellRandom(seed(), number, Purpose::contour);
-    Eigen::MatrixX2d outline = silhouette(shape.meridian);
+    Eigen::MatrixX2d outline = with_ellipse(silhouette(shape.meridian), spec_.added_ellipse);
     outline = displaced(outline, {spec_.contour_um, spec_.contour_correlation_um}, noise) / spec_.pixel_size_um;
     const double middle = 0.5 * (outline.col(0).maxCoeff() + outline.col(0).minCoeff());
     const double x =

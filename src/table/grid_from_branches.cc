@@ -7,6 +7,7 @@
 
 #include "numeric/lagrange.h"
 #include "table/branch_border.h"
+#include "table/shapes_from_branches.h"
 #include "table/table_metadata.h"
 
 namespace rheocyte {
@@ -239,6 +240,7 @@ std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<
   const int shift = bare->first_column;
   trim_to(grid, *bare);
   for (auto& patch : grid.patches) patch.first_column -= shift;
+  grid.shapes = shapes_from_branches(grid, branches);
   return grid;
 }
 

@@ -1,57 +1,18 @@
 #include "table/stiffness_grid.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "numeric/hermite.h"
-#include "numeric/lagrange.h"
+#include "table/node_slopes.h"
 
 namespace rheocyte {
 
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int slope_points = 5;
-
-// Derivatives of the polynomials through the five (or all) nodes around each, in units of the node distance.
-std::vector<double> slopes(std::span<const double> values) {
-  const int n = static_cast<int>(values.size()), m = std::min(slope_points, n);
-  std::vector<double> nodes(static_cast<std::size_t>(m)), all;
-  std::iota(nodes.begin(), nodes.end(), 0);
-  std::vector<std::vector<double>> weights;  // by the place among the nodes
-  for (const double place : nodes) weights.push_back(lagrange_weights(nodes, place).slope);
-  for (int i = 0; i < n; ++i) {
-    const int first = std::clamp(i - m / 2, 0, n - m);
-    const auto& own = weights[static_cast<std::size_t>(i - first)];
-    all.push_back(std::inner_product(own.begin(), own.end(), values.begin() + first, 0.0));
-  }
-  return all;
-}
-
-// Along the rows of each column, or across the columns of each row.
-std::vector<double> slopes_by_row(std::span<const double> values, std::size_t rows) {
-  std::vector<double> all;
-  for (std::size_t first = 0; first < values.size(); first += rows) {
-    const auto column = slopes(values.subspan(first, rows));
-    all.insert(all.end(), column.begin(), column.end());
-  }
-  return all;
-}
-
-std::vector<double> slopes_by_column(std::span<const double> values, std::size_t rows) {
-  const std::size_t columns = values.size() / rows;
-  std::vector<double> all(values.size()), line(columns);
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t c = 0; c < columns; ++c) line[c] = values[c * rows + row];
-    const auto slope = slopes(line);
-    for (std::size_t c = 0; c < columns; ++c) all[c * rows + row] = slope[c];
-  }
-  return all;
-}
 
 }  // namespace
 
@@ -64,7 +25,7 @@ StiffnessGrid::Patch StiffnessGrid::ready(const GridPatch& patch) {
              by_both = slopes_by_column(by_row, rows);
   for (std::size_t i = 0; i < values.size(); ++i)
     made.nodes.push_back({values[i], by_column[i], by_row[i], by_both[i]});
-  const auto lower = slopes(patch.lower), upper = slopes(patch.upper);
+  const auto lower = node_slopes(patch.lower), upper = node_slopes(patch.upper);
   for (std::size_t c = 0; c < columns; ++c) {
     made.lower.push_back({patch.lower[c], lower[c]});
     made.upper.push_back({patch.upper[c], upper[c]});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case/channel_flow.h"
+#include "table/shape_grid.h"
 #include "table/table_interpolation.h"
 
 namespace rheocyte {
@@ -40,7 +41,8 @@ struct GridContent {
   TableOrigin origin;
   double least_log_area = 0, column_step = 0;  ///< ln(um^2)
   int columns = 0;
-  std::vector<GridPatch> patches;  ///< the bare surface's first; each lies on top of the one before
+  std::vector<GridPatch> patches;         ///< the bare surface's first; each lies on top of the one before
+  std::optional<ShapeNodes> shapes = {};  ///< of the bare surface; grids of older versions have none
 };
 
 struct GridAnswer {

@@ -31,23 +31,38 @@ json record_of(const GridPatch& patch) {
           {"beyond", blob_of(patch.beyond)}};
 }
 
+json record_of(const ShapeNodes& shapes) {
+  json modes = json::array();
+  for (const auto& mode : shapes.modes) modes.push_back(blob_of(mode));
+  return {{"least_log_area", shapes.least_log_area},
+          {"column_step", shapes.column_step},
+          {"columns", shapes.columns},
+          {"rows", shapes.rows},
+          {"lower", blob_of(shapes.lower)},
+          {"upper", blob_of(shapes.upper)},
+          {"inertia_ratio", blob_of(shapes.inertia_ratio)},
+          {"modes", std::move(modes)}};
+}
+
 json record_of(const GridContent& grid) {
   const TableOrigin& o = grid.origin;
   json patches = json::array();
   for (const auto& patch : grid.patches) patches.push_back(record_of(patch));
-  return {{"identifier", o.identifier},
-          {"model", o.model},
-          {"program", o.program},
-          {"spec", o.spec},
-          {"channel_width_um", o.flow.width_um},
-          {"flow_rate_ul_per_s", o.flow.rate_ul_s},
-          {"viscosity_mPas", o.flow.viscosity_mPas},
-          {"flow_exponent", o.flow.exponent},
-          {"is_shell", o.is_shell},
-          {"least_log_area", grid.least_log_area},
-          {"column_step", grid.column_step},
-          {"columns", grid.columns},
-          {"patches", std::move(patches)}};
+  json record = {{"identifier", o.identifier},
+                 {"model", o.model},
+                 {"program", o.program},
+                 {"spec", o.spec},
+                 {"channel_width_um", o.flow.width_um},
+                 {"flow_rate_ul_per_s", o.flow.rate_ul_s},
+                 {"viscosity_mPas", o.flow.viscosity_mPas},
+                 {"flow_exponent", o.flow.exponent},
+                 {"is_shell", o.is_shell},
+                 {"least_log_area", grid.least_log_area},
+                 {"column_step", grid.column_step},
+                 {"columns", grid.columns},
+                 {"patches", std::move(patches)}};
+  if (grid.shapes) record["shapes"] = record_of(*grid.shapes);
+  return record;
 }
 
 void check(bool good, const char* what) {
@@ -92,6 +107,27 @@ GridPatch patch_of(const json& record, int columns) {
   return patch;
 }
 
+ShapeNodes shapes_of(const json& record) {
+  ShapeNodes shapes;
+  shapes.least_log_area = record.at("least_log_area");
+  check(std::isfinite(shapes.least_log_area), "a number is out of range");
+  shapes.column_step = positive(record, "column_step");
+  shapes.columns = side(record, "columns", 2, greatest_side);
+  shapes.rows = side(record, "rows", 2, greatest_side);
+  const auto wide = static_cast<std::size_t>(shapes.columns), all = wide * static_cast<std::size_t>(shapes.rows);
+  shapes.lower = finite_numbers(record, "lower", wide);
+  shapes.upper = finite_numbers(record, "upper", wide);
+  for (std::size_t c = 0; c < wide; ++c) check(shapes.upper[c] > shapes.lower[c], "a column has no height");
+  shapes.inertia_ratio = finite_numbers(record, "inertia_ratio", all);
+  const json& modes = record.at("modes");
+  check(modes.is_array() && modes.size() == shapes.modes.size(), "its modes are others");
+  for (std::size_t k = 0; k < shapes.modes.size(); ++k) {
+    const json one = {{"mode", modes[k]}};
+    shapes.modes[k] = finite_numbers(one, "mode", all);
+  }
+  return shapes;
+}
+
 GridContent content_of(const json& record) {
   GridContent grid;
   TableOrigin& o = grid.origin;
@@ -110,6 +146,7 @@ GridContent content_of(const json& record) {
   grid.columns = side(record, "columns", 2, greatest_side);
   for (const auto& patch : record.at("patches")) grid.patches.push_back(patch_of(patch, grid.columns));
   check(!grid.patches.empty(), "it has no states");
+  if (record.contains("shapes")) grid.shapes = shapes_of(record.at("shapes"));
   return grid;
 }
 

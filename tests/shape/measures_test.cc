@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "shapes.h"
 
 namespace rheocyte {
@@ -75,6 +78,40 @@ TEST(Measures, SmallDeformationsAreGoodToThirteenDigitsAbsolute) {
   const double e = 1e-4;
   const double deformation = measure(interpolate(test::ellipse(1 + e, (1 - e)), fine)).deformation;
   EXPECT_NEAR(deformation, 0.75 * e * e, 1e-14);  // a hundred times rounding, a tenth of what is promised
+}
+
+TEST(Measures, TheModesOfTheRadiusAreThoseThatTheOutlineWasMadeOf) {
+  // Without a first mode about the point it was drawn round, so the centroid is moved by second order: there the modes
+  // change by at most the product of two of them.
+  const auto radius = [](double t) {
+    return 2 * (1 + 1e-5 * std::cos(2 * t) - 3e-5 * std::cos(3 * t) + 2e-5 * std::cos(7 * t));
+  };
+  const ShapeMeasures shape = measure(test::transformed(interpolate(test::polar(radius), fine), 1.5, 0.7));
+  const RadiusModes expected{1e-5, -3e-5, 0, 0, 0, 2e-5};
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_NEAR(shape.modes[k], expected[k], 1e-8) << k;
+    EXPECT_NEAR(shape.modes_raw[k], expected[k], 1e-8) << k;
+  }
+}
+
+TEST(Measures, TheModesOfAnEllipseAreThoseOfItsRadius) {
+  // r(theta) = a b / sqrt(b^2 cos^2 + a^2 sin^2), by the trapezoidal rule, which is exact for periodic functions.
+  const double a = 1.3, b = 0.8;
+  const int points = 400;
+  std::array<double, last_radius_mode + 1> sum{};
+  for (int i = 0; i < points; ++i) {
+    const double t = 2 * pi * i / points, r = a * b / std::hypot(b * std::cos(t), a * std::sin(t));
+    for (int k = 0; k <= last_radius_mode; ++k) sum[std::size_t(k)] += r * std::cos(k * t);
+  }
+  const ShapeMeasures shape = measure(interpolate(test::ellipse(a, b), {.degree = 12, .pieces = 12}));
+  for (int k = first_radius_mode; k <= last_radius_mode; ++k)
+    EXPECT_NEAR(shape.modes[std::size_t(k - first_radius_mode)], 2 * sum[std::size_t(k)] / sum[0], 10 * rounding) << k;
+}
+
+TEST(Measures, ADentedContourAndItsHullHaveModesOfTheirOwn) {
+  const auto radius = [](double t) { return 1 - 0.3 * std::exp(-4 * (t - pi) * (t - pi)); };
+  const ShapeMeasures shape = measure(interpolate(test::polar(radius), fine));
+  EXPECT_GT(std::abs(shape.modes[1] - shape.modes_raw[1]), 1e-2);
 }
 
 TEST(Measures, ScaleAndTranslationChangeNothingButTheUnit) {

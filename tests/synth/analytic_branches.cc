@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "shape/outline_shape.h"
+#include "shape/radius_modes.h"
 #include "synth/analytic_shapes.h"
 
 namespace rheocyte::test {
@@ -30,6 +32,16 @@ SampledBranch analytic_branch(double radius_um) {
     take(Measure::area_um2, &CellShape::area_um2);
     take(Measure::deformation, &CellShape::deformation);
     take(Measure::volume_um3, &CellShape::volume_um3);
+    const auto shape_of = [](const CellShape& cell) { return shape_vector(outline_shape(mirrored(cell.meridian))); };
+    const ShapeVector shape = shape_of(here), change = (shape_of(stiffer) - shape_of(softer)) / (2 * step);
+    const auto ratio = int(Measure::named("inertia_ratio")), mode = int(Measure::named("mode_2"));
+    const double moments = shape(int(ShapeFeature::moment_ratio));
+    branch.value(i, ratio) = 1 / std::sqrt(moments);
+    branch.slope(i, ratio) = -0.5 * change(int(ShapeFeature::moment_ratio)) / (moments * std::sqrt(moments));
+    for (int k = 0; k <= last_radius_mode - first_radius_mode; ++k) {
+      branch.value(i, mode + k) = shape(int(ShapeFeature::first_mode) + k);
+      branch.slope(i, mode + k) = change(int(ShapeFeature::first_mode) + k);
+    }
     branch.contour.push_back(here.meridian);
     branch.contour_slope.emplace_back((stiffer.meridian - softer.meridian) / (2 * step));
   }

@@ -35,6 +35,9 @@ inline double invented_modulus(double area_um2, double deformation) {
   return invented_stiffness(std::sqrt(area_um2 / (std::numbers::pi * (1 + 0.5 * deformation))), deformation);
 }
 
+/// The deformation of an outline with c_3 alone is 2 c_3^2.
+inline double invented_asymmetry(double deformation) { return std::sqrt(deformation / 2); }
+
 /// Of all measures the values (first column) and their slopes with ln(stiffness).
 inline Eigen::MatrixX2d invented_state(double radius, double stiffness, double bending = 0) {
   const double d = invented_deformation(radius, stiffness, bending);
@@ -54,6 +57,9 @@ inline Eigen::MatrixX2d invented_state(double radius, double stiffness, double b
   set(Measure::moment_ratio, 1 - 3 * d, -3);
   set(Measure::named("moment_ratio_raw"), 1 - 3.1 * d, -3.1);
   set(Measure::named("inertia_ratio"), 1 + 1.5 * d, 1.5);
+  set(Measure::named("mode_2"), 0.3 * d, 0.3);
+  set(Measure::named("mode_3"), invented_asymmetry(d), 0.5 * invented_asymmetry(d) / d);
+  set(Measure::named("mode_5"), 0.1 * invented_asymmetry(d), 0.05 * invented_asymmetry(d) / d);
   set(Measure::named("cell_velocity_m_per_s"), 0.18 + 0.1 * d, 0.1);
   set(Measure::named("additional_pressure_drop_Pa"), 300 - 100 * d, -100);
   set(Measure::least_meridional_stretch, 1 - 3 * d, -3);

@@ -56,6 +56,8 @@ class Laboratory:
     processors: int = field(default_factory=lambda: len(os.sched_getaffinity(0)))
     tell: object = print
     failures: list = field(default_factory=list)  # of Solution
+    recordings: list = field(default_factory=list)  # paths of .rtdc files, for the figures that draw them
+    options: list = field(default_factory=list)  # of `rheocyte extract`, for them
 
     def solve(self, cases):
         """Solutions of a dictionary name -> case (keys as in `rheocyte help case`), under the same names."""

@@ -1,0 +1,94 @@
+#include "extract/event_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "measurement/shape_source.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* stored_ratio = "inert_ratio_cvx";
+constexpr std::size_t looked_at = 1024, at_a_time = 64;  // events, for the direction
+constexpr int second_mode = int(ShapeFeature::first_mode), third_mode = second_mode + 1;
+
+}  // namespace
+
+EventShapes::EventShapes(const Recording& recording, const MeasuringConditions& conditions, const ShapeMap* map,
+                         bool with_asymmetry)
+    : recording_(recording), conditions_(conditions), map_(map) {
+  const bool has_outlines = ShapeSource::has_outlines(recording), has_ratio = recording.has_scalar(stored_ratio);
+  if (!map) {
+    missing_ = "the table does not say what its cells look like, so shapes cannot be compared with those of the model.";
+    return;
+  }
+  if (has_outlines && ((with_asymmetry && map->has_asymmetry()) || !has_ratio)) {
+    outlines_.emplace(recording, conditions.pixel_size_um > 0 ? conditions.pixel_size_um : 1);
+    find_direction();
+  }
+  if (has_ratio)
+    inertia_ratio_from_ = stored_ratio;
+  else if (has_outlines)
+    inertia_ratio_from_ = recording.has_contours() ? "contour" : "mask";
+  if (inertia_ratio_from_.empty())
+    missing_ =
+        "the recording has neither inert_ratio_cvx nor contours nor masks: whether the shapes are those of the model "
+        "is unknown.";
+  else if (!has_outlines)
+    missing_ = "the recording has neither contours nor masks: there are no moduli from the asymmetry of the outlines.";
+}
+
+void EventShapes::find_direction() {
+  const std::size_t events = recording_.events(), pieces = std::min(looked_at, events) / at_a_time + 1;
+  double sum = 0, squares = 0, count = 0;
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    const std::size_t first = piece * events / pieces, last = std::min(first + at_a_time, events);
+    for (std::size_t event = first; event < last; ++event) {
+      const double c = outlines_->features(event)(third_mode);
+      if (!(std::abs(c) < 0.3)) continue;  // no cell
+      sum += c;
+      squares += c * c;
+      ++count;
+    }
+  }
+  if (count < 2) return;
+  const double mean = sum / count, error = std::sqrt(std::max(0.0, squares / count - mean * mean) / count);
+  if (std::abs(mean) > 2 * error) direction_ = mean * map_->sign_of_asymmetry() > 0 ? 1 : -1;
+}
+
+void EventShapes::read_outlines(std::size_t first, std::size_t count) {
+  const int direction = direction_ < 0 ? -1 : 1;
+  const bool stored = inertia_ratio_from_ == stored_ratio;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ShapeVector features = outlines_->features(first + i);
+    columns_.mode_2[i] = features(second_mode);
+    columns_.mode_3[i] = direction * features(third_mode);
+    if (!stored) columns_.inertia_ratio[i] = 1 / std::sqrt(features(int(ShapeFeature::moment_ratio)));
+  }
+}
+
+const ShapeColumns& EventShapes::compute(std::size_t first, const MeasuredEvents& events) {
+  const std::size_t count = events.size.size();
+  ShapeColumns& c = columns_;
+  c.inertia_ratio.assign(count, nan);
+  c.x_um.assign(count, nan);
+  c.excess.assign(count, {nan, nan, nan, nan});
+  if (!is_known()) return c;
+  if (recording_.has_scalar("pos_x")) recording_.read_scalar("pos_x", first, c.x_um);
+  if (inertia_ratio_from_ == stored_ratio) recording_.read_scalar(stored_ratio, first, c.inertia_ratio);
+  if (outlines_) {
+    for (auto* column : {&c.mode_2, &c.mode_3, &c.modulus_kPa, &c.standard_error_kPa}) column->resize(count);
+    c.states.assign(count, ModulusState::no_data);
+    c.modulus_kPa.assign(count, nan);
+    read_outlines(first, count);
+    if (map_->has_asymmetry())
+      map_->estimate(conditions_, events, {c.mode_2, c.mode_3}, {c.modulus_kPa, c.standard_error_kPa, c.states});
+  }
+  map_->compare(conditions_, events, c.inertia_ratio, c.excess);
+  return c;
+}
+
+}  // namespace rheocyte

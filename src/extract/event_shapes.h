@@ -1,0 +1,53 @@
+// The shapes of a recording's events against those of a table, and their moduli from the asymmetry of the outline.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "infer/shape_map.h"
+#include "measurement/event_outlines.h"
+#include "measurement/recording.h"
+
+namespace rheocyte {
+
+/// One value per event of a block.
+struct ShapeColumns {
+  std::vector<double> inertia_ratio, x_um;  ///< NaN where unknown
+  std::vector<double> mode_2, mode_3;       ///< of a cell that moves towards +x; empty without contours and masks
+  std::vector<ShapeExcess> excess;
+  std::vector<double> modulus_kPa, standard_error_kPa;  ///< from the asymmetry; empty without contours and masks
+  std::vector<ModulusState> states;
+};
+
+class EventShapes {
+ public:
+  /// The recording and the map must outlive it; without a map nothing is known. `with_asymmetry`: contours or masks are
+  /// read, where there are any. UserError if the data are damaged.
+  EventShapes(const Recording& recording, const MeasuringConditions& conditions, const ShapeMap* map,
+              bool with_asymmetry);
+
+  bool is_known() const { return map_ != nullptr && !inertia_ratio_from_.empty(); }
+  bool has_asymmetry() const { return outlines_.has_value(); }
+  const std::string& inertia_ratio_from() const { return inertia_ratio_from_; }
+  /// In which the cells move, from the sign of the mean asymmetry: +1, -1 along x, 0 if chance decides.
+  int direction() const { return direction_; }
+  /// What the recording lacks, and what therefore is not known; empty if nothing.
+  const std::string& missing() const { return missing_; }
+
+  /// Of the events from `first` on, until the next call.
+  const ShapeColumns& compute(std::size_t first, const MeasuredEvents& events);
+
+ private:
+  void find_direction();
+  void read_outlines(std::size_t first, std::size_t count);
+
+  const Recording& recording_;
+  MeasuringConditions conditions_;
+  const ShapeMap* map_;
+  std::optional<EventOutlines> outlines_;
+  std::string inertia_ratio_from_, missing_;
+  int direction_ = 0;
+  ShapeColumns columns_;
+};
+
+}  // namespace rheocyte

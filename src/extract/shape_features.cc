@@ -1,0 +1,59 @@
+#include "extract/shape_features.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> names{ratio_feature, expected_ratio_feature, "shape_excess", "odd_share",
+                                                "mode_3"};
+
+double ShapeExcess::*member_of(const std::string& feature) {
+  if (feature == expected_ratio_feature) return &ShapeExcess::expected;
+  return feature == "shape_excess" ? &ShapeExcess::excess : &ShapeExcess::odd_share;
+}
+
+}  // namespace
+
+bool ShapeFeatures::knows(const std::string& feature) { return std::ranges::find(names, feature) != names.end(); }
+
+ShapeFeatures::ShapeFeatures(const Recording& recording, ShapeSource& source, const PlotOptions& options)
+    : recording_(recording),
+      source_(source),
+      settings_(
+          extract_settings(options.measuring, options.no_pixelation ? PixelUse::ignore : PixelUse::correct, recording)),
+      tables_(options.table),
+      shapes_(recording, settings_.conditions, tables_.shapes(settings_.conditions.flow.exponent),
+              options.x == "mode_3" || options.y == "mode_3") {
+  const bool wants_asymmetry = options.x == "mode_3" || options.y == "mode_3";
+  if (!shapes_.is_known() || (wants_asymmetry && !shapes_.has_asymmetry()))
+    throw UserError(fmt::format("{}: {}", one_line(recording.file().string(), 300), shapes_.missing()));
+}
+
+void ShapeFeatures::compute(std::size_t first, std::size_t count) {
+  if (columns_ && first == first_ && area_.size() == count) return;
+  for (auto* column : {&area_, &deformation_, &viscosity_}) column->resize(count);
+  source_.read(first, area_, deformation_);
+  settings_.viscosities(recording_, first, viscosity_);
+  columns_ = &shapes_.compute(first, {area_, deformation_, viscosity_});
+  first_ = first;
+}
+
+void ShapeFeatures::read(const std::string& feature, std::size_t first, std::span<double> values) {
+  compute(first, values.size());
+  if (feature == ratio_feature)
+    std::ranges::copy(columns_->inertia_ratio, values.begin());
+  else if (feature == "mode_3")
+    std::ranges::copy(columns_->mode_3, values.begin());
+  else
+    std::ranges::transform(columns_->excess, values.begin(), member_of(feature));
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,189 @@
+#include "extract/shape_verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numeric/quantile.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double of_the_model = 0.02, still_doubtful = 0.05;  // medians of the excess
+constexpr double normal_deviations_per_quartile = 0.6745;
+constexpr std::size_t fewest_for_a_verdict = 5, fewest_for_a_trend = 20;  // events
+constexpr double least_length_um = 15;                                    // of what a recording sees, for a trend
+
+std::vector<double> ascending(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values;
+}
+
+double robust_deviation(std::span<const double> sorted) {
+  return (quantile(sorted, 0.75) - quantile(sorted, 0.25)) / (2 * normal_deviations_per_quartile);
+}
+
+Median median_with_error(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  if (values.empty()) return {nan, nan};
+  const auto sorted = ascending(std::move(values));
+  const double error = 1.25 * robust_deviation(sorted) / std::sqrt(static_cast<double>(sorted.size()));
+  return {quantile(sorted, 0.5), sorted.size() > 1 ? error : nan};
+}
+
+/// Least squares over the places, without what lies four robust deviations from the median.
+Trend trend_of(std::span<const double> x, std::span<const double> y, double length) {
+  std::vector<double> finite;
+  for (const double v : y)
+    if (std::isfinite(v)) finite.push_back(v);
+  if (finite.size() < fewest_for_a_trend || !(length >= least_length_um)) return {nan, nan, nan};
+  const auto sorted = ascending(std::move(finite));
+  const double middle = quantile(sorted, 0.5), widest = 4 * robust_deviation(sorted);
+  double n = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]) || !(std::abs(y[i] - middle) <= widest)) continue;
+    const double dx = x[i] - mean_x, dy = y[i] - mean_y;  // Welford's sums
+    ++n;
+    mean_x += dx / n;
+    mean_y += dy / n;
+    xx += dx * (x[i] - mean_x);
+    xy += dx * (y[i] - mean_y);
+    yy += dy * (y[i] - mean_y);
+  }
+  if (n < static_cast<double>(fewest_for_a_trend) || !(xx > 0)) return {nan, nan, middle};
+  const double slope = xy / xx, rest = std::max(0.0, yy - slope * xy) / (n - 2);
+  return {slope * length, std::sqrt(rest / xx) * length, middle};
+}
+
+std::string changes_text(const char* name, const Trend& trend) {
+  return fmt::format("{} {:+.2g} +- {:.2g} of {:.3g}", name, trend.change, trend.error, trend.median);
+}
+
+}  // namespace
+
+bool Trend::is_changing() const { return std::abs(change) > 3 * error && std::abs(change) > 0.05 * std::abs(median); }
+
+void ShapeTally::take(const JudgedEvents& e) {
+  const auto at = [](std::span<const double> values, std::size_t i) {
+    return values.empty() ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(values[i]);
+  };
+  for (std::size_t i = 0; i < e.excess.size(); ++i) {
+    const ShapeExcess& excess = e.excess[i];
+    if (!std::isfinite(excess.excess)) continue;
+    if (e.inertia_ratio[i] > greatest_inertia_ratio_of_cells) {
+      ++red_cells_;
+      continue;
+    }
+    if (!e.asymmetry_kPa.empty() && std::isfinite(e.asymmetry_kPa[i])) {
+      asymmetry_kPa_.push_back(e.asymmetry_kPa[i]);
+      if (std::isfinite(e.modulus_kPa[i])) ratios_.push_back(static_cast<float>(e.modulus_kPa[i] / e.asymmetry_kPa[i]));
+    }
+    elongated_ += excess.is_elongated() ? 1 : 0;
+    events_.push_back({static_cast<float>(excess.excess), static_cast<float>(excess.expected), at(e.inertia_ratio, i),
+                       static_cast<float>(excess.odd_share), at(e.deformation, i), at(e.mode_3, i), at(e.x_um, i)});
+  }
+}
+
+ShapeVerdict ShapeTally::verdict() const {
+  ShapeVerdict v;
+  v.judged = events_.size();
+  v.elongated = elongated_;
+  v.red_cells = red_cells_;
+  const auto column = [&](float Event::*member) {
+    std::vector<double> values;
+    for (const Event& event : events_) values.push_back(event.*member);
+    return values;
+  };
+  const auto median = [&](float Event::*member) { return median_with_error(column(member)).value; };
+  v.excess = median_with_error(column(&Event::excess));
+  v.inertia_ratio = median(&Event::inertia_ratio);
+  v.expected_inertia_ratio = median(&Event::expected);
+  v.odd_share = median(&Event::odd_share);
+  const auto x = column(&Event::x);
+  auto places = x;
+  std::erase_if(places, [](double place) { return !std::isfinite(place); });
+  std::ranges::sort(places);
+  v.seen_um = places.empty() ? nan : quantile(places, 0.95) - quantile(places, 0.05);
+  v.inertia_ratio_trend = trend_of(x, column(&Event::inertia_ratio), v.seen_um);
+  v.deformation_trend = trend_of(x, column(&Event::deformation), v.seen_um);
+  v.asymmetry_trend = trend_of(x, column(&Event::mode_3), v.seen_um);
+  auto moduli = asymmetry_kPa_;
+  v.asymmetry_kPa = distribution_of(moduli);
+  v.with_asymmetry = moduli.size();
+  auto ratios = ratios_;
+  v.modulus_ratio = median_of(ratios);
+  return v;
+}
+
+double ShapeVerdict::elongated_percent() const {
+  return judged == 0 ? nan : 100 * static_cast<double>(elongated) / static_cast<double>(judged);
+}
+
+ShapeVerdict::Fit ShapeVerdict::fit() const {
+  if (judged < fewest_for_a_verdict || !std::isfinite(excess.value)) return Fit::unknown;
+  if (excess.value < std::min(of_the_model + 2 * excess.error, still_doubtful)) return Fit::model;
+  // Few events may lie above by chance.
+  return excess.value < std::max(still_doubtful, of_the_model + 2 * excess.error) ? Fit::doubtful : Fit::elongated;
+}
+
+std::string ShapeVerdict::text() const {
+  const std::string numbers =
+      fmt::format("inertia ratio {:.3g}, expected {:.3g}, excess {:.3f} +- {:.3f}; {:.1f} % of {} events flagged",
+                  inertia_ratio, expected_inertia_ratio, excess.value, excess.error, elongated_percent(), judged);
+  switch (fit()) {
+    case Fit::unknown:
+      if (judged == 0 && !missing.empty()) return missing;
+      return fmt::format("{} too few to say whether the shapes are those of the model.",
+                         judged == 1 ? "1 event is" : fmt::format("{} events are", judged));
+    case Fit::model: return fmt::format("the shapes are those of the model ({}).", numbers);
+    case Fit::doubtful: return fmt::format("whether the shapes are those of the model is doubtful ({}).", numbers);
+    case Fit::elongated: break;
+  }
+  // The modulus goes with the root of the deformation.
+  const bool shares_known = odd_share > 0.02, both_known = std::isfinite(modulus_ratio);
+  const std::string low = both_known || shares_known
+                              ? fmt::format("too low by about a factor of {:.2g}",
+                                            both_known ? 1 / modulus_ratio : 1 / std::sqrt(odd_share))
+                              : std::string("too low by a factor that is not known");
+  return fmt::format(
+      "the cells are elongated along the flow more than any elastic cell of the model ({}); Young's moduli from "
+      "deformation are {}, see docs/real-cells.md.",
+      numbers, low);
+}
+
+std::string ShapeVerdict::trend_text() const {
+  if (judged == 0) return {};
+  if (!std::isfinite(seen_um)) return "no pos_x: whether the shapes still change along the channel is unknown.";
+  if (seen_um < least_length_um)
+    return fmt::format("the cells are seen at one place ({:.2g} um): whether they still change is unknown.", seen_um);
+  if (judged < fewest_for_a_trend || !std::isfinite(deformation_trend.change))
+    return fmt::format("too few events for a trend along the channel ({}).", judged);
+  std::string changes =
+      changes_text("inertia ratio", inertia_ratio_trend) + ", " + changes_text("deformation", deformation_trend);
+  if (std::isfinite(asymmetry_trend.change)) changes += ", " + changes_text("c3", asymmetry_trend);
+  const bool is_changing =
+      inertia_ratio_trend.is_changing() || deformation_trend.is_changing() || asymmetry_trend.is_changing();
+  return fmt::format("the shapes are {} over {:.0f} um along x ({}).", is_changing ? "still changing" : "settled",
+                     seen_um, changes);
+}
+
+std::vector<std::string> shape_lines(const ShapeVerdict& v) {
+  std::vector<std::string> lines;
+  if (v.judged > 0) lines = {v.text(), v.trend_text()};
+  if (!v.missing.empty()) lines.push_back(v.missing);
+  if (v.with_asymmetry > 0)
+    lines.push_back(fmt::format("E from the asymmetry of {} events: median {:.4g} kPa (quartiles {:.4g} to {:.4g})",
+                                v.with_asymmetry, v.asymmetry_kPa.median, v.asymmetry_kPa.first_quartile,
+                                v.asymmetry_kPa.third_quartile));
+  if (v.red_cells > 0)
+    lines.push_back(fmt::format("{} {} above {:g}, as of red cells; {} not count here.", v.red_cells,
+                                v.red_cells == 1 ? "event has an inertia ratio" : "events have inertia ratios",
+                                greatest_inertia_ratio_of_cells, v.red_cells == 1 ? "it does" : "they do"));
+  return lines;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,93 @@
+// Whether the cells of a recording have the shapes of the model, and what can be trusted if they have not
+// (docs/real-cells.md).
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "extract/distribution.h"
+#include "infer/shape_map.h"
+
+namespace rheocyte {
+
+/// Median and its standard error, 1.25 robust sigma / sqrt(n); NaN without values.
+struct Median {
+  double value = 0, error = 0;
+};
+
+/// How a feature changes along the channel.
+struct Trend {
+  double change = 0, error = 0;  ///< over the places that the recording sees
+  double median = 0;             ///< of the feature
+  /// Whether it changes by more than chance and by more than a twentieth of itself.
+  bool is_changing() const;
+};
+
+/// Of the events of one recording inside the gates.
+struct ShapeVerdict {
+  std::size_t judged = 0;          ///< events with area, deformation and inertia ratio, red cells apart
+  std::size_t elongated = 0;       ///< of these, flagged
+  std::size_t red_cells = 0;       ///< inertia ratio above 2
+  std::string missing;             ///< what the recording lacks, in a sentence; empty if nothing
+  std::string inertia_ratio_from;  ///< the stored feature or "contour", "mask"; empty if there is none
+  Median excess;
+  double inertia_ratio = 0, expected_inertia_ratio = 0, odd_share = 0;  ///< medians
+  double seen_um = 0;  ///< along the channel, 5 % to 95 % of the events; NaN without pos_x
+  Trend inertia_ratio_trend, deformation_trend, asymmetry_trend;
+  int direction = 0;               ///< in which the cells move: along +x or -x; 0 if that is unknown
+  Distribution asymmetry_kPa;      ///< Young's moduli from the asymmetry
+  std::size_t with_asymmetry = 0;  ///< events that have one
+  double modulus_ratio = 0;        ///< median of E from deformation / E from asymmetry; NaN if unknown
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.judged, s.elongated, s.red_cells, s.missing, s.inertia_ratio_from, s.excess, s.inertia_ratio,
+                    s.expected_inertia_ratio, s.odd_share, s.seen_um, s.inertia_ratio_trend, s.deformation_trend,
+                    s.asymmetry_trend, s.direction, s.asymmetry_kPa, s.with_asymmetry, s.modulus_ratio);
+  }
+
+  double elongated_percent() const;
+  /// Whether the shapes are those of the model.
+  enum class Fit { unknown, model, doubtful, elongated };
+  Fit fit() const;
+  /// In one sentence.
+  std::string text() const;
+  /// "settled", "still changing", or why that is unknown, with numbers.
+  std::string trend_text() const;
+};
+
+/// For the terminal: the sentence, the trend, both moduli, and how many red cells there are; nothing if nothing is
+/// known.
+std::vector<std::string> shape_lines(const ShapeVerdict& verdict);
+
+/// What is known of a block of events, spans of one length; empty where a recording has nothing of the kind. Events
+/// outside the gates have no inertia ratio.
+struct JudgedEvents {
+  std::span<const ShapeExcess> excess;
+  std::span<const double> inertia_ratio, deformation, mode_3, x_um;
+  std::span<const double> modulus_kPa, asymmetry_kPa;
+};
+
+/// Takes block by block; keeps 32 bytes per event.
+class ShapeTally {
+ public:
+  void take(const JudgedEvents& events);
+  /// Of all events taken so far; what the tally does not know (source, direction) is left to the caller.
+  ShapeVerdict verdict() const;
+
+ private:
+  struct Event {
+    float excess, expected, inertia_ratio, odd_share, deformation, mode_3, x;
+  };
+  std::vector<Event> events_;
+  std::vector<double> asymmetry_kPa_;
+  std::vector<float> ratios_;
+  std::size_t elongated_ = 0, red_cells_ = 0;
+};
+
+inline constexpr double greatest_inertia_ratio_of_cells = 2;  ///< red cells rest in a longer shape
+
+}  // namespace rheocyte

@@ -1,0 +1,132 @@
+#include "infer/shape_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "infer/smooth_events.h"
+#include "table/grid_by_asymmetry.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double sign_of(const ShapeGrid& shapes) {
+  const ShapeNodes& nodes = shapes.nodes();
+  return shapes.mode(3, nodes.least_log_area, std::exp(nodes.lower.front())) < 0 ? -1 : 1;
+}
+
+template <class Take>
+void in_blocks(std::size_t all, const Take& take) {
+  for (std::size_t first = 0; first < all; first += event_block_size)
+    take(first, std::min(event_block_size, all - first));
+}
+
+MeasuredEvents part(const MeasuredEvents& events, std::size_t first, std::size_t count) {
+  return {events.size.subspan(first, count), events.deformation.subspan(first, count),
+          events.viscosity_mPas.empty() ? events.viscosity_mPas : events.viscosity_mPas.subspan(first, count)};
+}
+
+}  // namespace
+
+bool ShapeExcess::is_elongated() const {
+  constexpr double least = 0.05, deviations = 3;
+  return excess > std::max(least, deviations * error);
+}
+
+double deformation_of_ellipse(double ratio) {
+  // Ramanujan's second formula for the perimeter: off by 1e-9 for a ratio of 3.
+  const double h = std::pow((ratio - 1) / (ratio + 1), 2);
+  const double perimeter_over_pi = (ratio + 1) * (1 + 3 * h / (10 + std::sqrt(4 - 3 * h)));
+  return 1 - 2 * std::sqrt(ratio) / perimeter_over_pi;
+}
+
+double inertia_ratio_deviation(double area_um2, double pixel_size_um) {
+  // Measured on nearly round cells of 30 to 109 um^2 in pixels of 0.34 um.
+  return 0.016 * std::sqrt(30 / area_um2) * (pixel_size_um / 0.34);
+}
+
+ShapeMap::ShapeMap(const StiffnessGrid& grid)
+    : origin_(grid.origin()), shapes_(grid.content().shapes.value()), sign_(sign_of(shapes_)) {
+  if (auto by_asymmetry = grid_by_asymmetry(grid, shapes_)) by_asymmetry_.emplace(std::move(*by_asymmetry));
+}
+
+double ShapeMap::inertia_ratio(double area_um2, double deformation) const {
+  return shapes_.inertia_ratio(std::log(area_um2), deformation);
+}
+
+void ShapeMap::compare(const MeasuringConditions& conditions, const MeasuredEvents& events,
+                       std::span<const double> inertia_ratios, std::span<ShapeExcess> excesses) const {
+  assert(inertia_ratios.size() == events.size.size() && excesses.size() == events.size.size());
+  SmoothEvents smooth;
+  in_blocks(excesses.size(), [&](std::size_t first, std::size_t count) {
+    remove_pixels(conditions, origin_.flow, part(events, first, count), smooth);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const double ratio = inertia_ratios[first + i], deformation = smooth.deformation[k];
+      ShapeExcess& e = excesses[first + i];
+      e.expected = shapes_.inertia_ratio(smooth.log_area[k], deformation);
+      e.excess = ratio > 0 && shapes_.has_area(smooth.log_area[k]) ? ratio - e.expected : nan;
+      e.error = inertia_ratio_deviation(events.size[first + i], conditions.pixel_size_um);
+      const bool has_deformation = deformation > smooth.pixels[i].deformation_deviation && ratio > 0;
+      e.odd_share = has_deformation ? 1 - deformation_of_ellipse(ratio) / deformation : nan;
+    }
+  });
+}
+
+void ShapeMap::estimate(const MeasuringConditions& conditions, const MeasuredEvents& events, const MeasuredModes& modes,
+                        const EstimatedModuli& moduli) const {
+  const std::size_t all = moduli.modulus_kPa.size();
+  assert(events.size.size() == all && modes.mode_3.size() == all && modes.mode_2.size() == all);
+  assert(has_asymmetry() && events.viscosity_mPas.size() == all);
+  in_blocks(all, [&](std::size_t first, std::size_t count) {
+    estimate_block(conditions, part(events, first, count),
+                   {modes.mode_2.subspan(first, count), modes.mode_3.subspan(first, count)},
+                   {moduli.modulus_kPa.subspan(first, count), moduli.standard_error_kPa.subspan(first, count),
+                    moduli.state.subspan(first, count)});
+  });
+}
+
+void ShapeMap::estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
+                              const MeasuredModes& modes, const EstimatedModuli& estimates) const {
+  const std::size_t count = block.size.size();
+  const auto rows = static_cast<Eigen::Index>(count);
+  SmoothEvents smooth;
+  EventColumn asymmetry, log_asymmetry, modulus;
+  std::array<AsymmetryErrors, event_block_size> pixels{};
+  std::array<GridAnswer, event_block_size> answers;
+  remove_pixels(conditions, origin_.flow, block, smooth);
+  const double log_pixel_area = 2 * std::log(conditions.pixel_size_um);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (conditions.pixel_size_um > 0)
+      pixels[i] = asymmetry_errors(std::log(block.size[i]) - log_pixel_area, modes.mode_2[i], modes.mode_3[i]);
+    const auto k = static_cast<Eigen::Index>(i);
+    asymmetry[k] = (modes.mode_3[i] - pixels[i].excess) * sign_;
+    // An asymmetry of the wrong sign is one that is too small, not one that is missing.
+    log_asymmetry[k] = asymmetry[k] < 0 ? 0 : asymmetry[k];
+  }
+  log_asymmetry.head(rows) = log_asymmetry.head(rows).log();
+  by_asymmetry_->answer({smooth.log_area.data(), count}, {log_asymmetry.data(), count}, {answers.data(), count});
+  for (std::size_t i = 0; i < count; ++i) modulus[static_cast<Eigen::Index>(i)] = answers[i].log_stiffness;
+  modulus.head(rows) = modulus.head(rows).exp();
+  const double factor = scale_factors(origin_.flow, {conditions.flow.width_um, conditions.flow.rate_ul_s, 1}).modulus;
+  for (std::size_t i = 0; i < count; ++i) {
+    const GridAnswer& answer = answers[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    const bool has = answer.reason == NoAnswer::none && std::isfinite(block.viscosity_mPas[i]);
+    const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : nan;
+    const double by_area = answer.by_log_area * smooth.pixels[i].area_deviation,
+                 by_asymmetry = answer.by_log_deformation * pixels[i].deviation / asymmetry[k];
+    estimates.modulus_kPa[i] = value;
+    estimates.standard_error_kPa[i] =
+        value * std::sqrt(by_area * by_area + by_asymmetry * by_asymmetry + answer.error * answer.error);
+    estimates.state[i] = answer.reason == NoAnswer::none && !has ? ModulusState::no_data : state_of(answer);
+  }
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,53 @@
+// What the cells of a table look like: inertia ratio and modes of the hull over area and deformation.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "shape/radius_modes.h"
+
+namespace rheocyte {
+
+/// Nodes at equal distances in ln(area) and, in each column, at equal distances in ln(deformation). Columns x rows with
+/// the rows of a column behind each other.
+struct ShapeNodes {
+  double least_log_area = 0, column_step = 0;  ///< ln(um^2)
+  int columns = 0, rows = 0;
+  std::vector<double> lower, upper;   ///< ln(deformation) of the first and the last row, by column
+  std::vector<double> inertia_ratio;  ///< of the hull
+  std::array<std::vector<double>, std::tuple_size_v<RadiusModes>> modes;  ///< c_2, c_3, ...
+};
+
+/// Bicubic (Hermite). Even modes and ir - 1 grow like the deformation, odd modes like its square root: what is left is
+/// nearly constant, and so nodes can be far apart.
+class ShapeGrid {
+ public:
+  explicit ShapeGrid(ShapeNodes nodes);
+
+  const ShapeNodes& nodes() const { return nodes_; }
+
+  /// Outside the table's areas and beyond the end of its states the nearest ones count; a deformation that is not
+  /// positive belongs to a circle. NaN for NaN.
+  double inertia_ratio(double log_area, double deformation) const;
+  bool has_area(double log_area) const;
+  /// c_k, first_radius_mode <= k <= last_radius_mode.
+  double mode(int k, double log_area, double deformation) const;
+
+ private:
+  struct Node {
+    double value, by_column, by_row, by_both;
+  };
+  using Field = std::vector<Node>;
+  Field field(std::span<const double> values, bool is_odd) const;
+  /// A field at the table's cell nearest to these, and the deformation of that.
+  struct Scaled {
+    double value, deformation;
+  };
+  Scaled scaled(const Field& field, double log_area, double deformation) const;
+
+  ShapeNodes nodes_;
+  std::vector<double> lower_slope_, upper_slope_;
+  Field inertia_ratio_;
+  std::array<Field, std::tuple_size_v<RadiusModes>> modes_;
+};
+
+}  // namespace rheocyte

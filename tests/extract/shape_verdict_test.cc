@@ -1,0 +1,99 @@
+// What is said about the shapes of a recording.
+#include "extract/shape_verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace rheocyte {
+namespace {
+
+/// Events that scatter by +-0.01 about an excess, along 60 um; `growth` of the deformation over them.
+ShapeVerdict verdict_of(double excess, double growth = 0, double length_um = 60, int events = 200) {
+  std::vector<ShapeExcess> excesses;
+  std::vector<double> ratio, deformation, x;
+  for (int i = 0; i < events; ++i) {
+    const double scatter = 0.01 * std::sin(2.4 * i), place = double(i) / events;
+    excesses.push_back({1, excess + scatter, 0.01, 0.3});
+    ratio.push_back(1 + excess + scatter);
+    deformation.push_back(0.02 + growth * place + 0.001 * std::sin(1.7 * i));
+    x.push_back(100 + length_um * place);
+  }
+  ShapeTally tally;
+  tally.take({excesses, ratio, deformation, {}, x, {}, {}});
+  return tally.verdict();
+}
+
+TEST(ShapeVerdict, NamesTheThreeCases) {
+  EXPECT_EQ(verdict_of(0.005).fit(), ShapeVerdict::Fit::model);
+  EXPECT_NE(verdict_of(0.005).text().find("the shapes are those of the model"), std::string::npos);
+  EXPECT_EQ(verdict_of(0.035).fit(), ShapeVerdict::Fit::doubtful);
+  EXPECT_EQ(verdict_of(0.2).fit(), ShapeVerdict::Fit::elongated);
+  // The share of odd modes is 0.3: the modulus goes with its root.
+  EXPECT_NE(verdict_of(0.2).text().find("too low by about a factor of 1.8"), std::string::npos)
+      << verdict_of(0.2).text();
+}
+
+TEST(ShapeVerdict, TheErrorOfTheMedianIsThatOfItsRobustScatter) {
+  const ShapeVerdict v = verdict_of(0.2);
+  // Quartiles of 0.01 sin lie at +-0.00707.
+  EXPECT_NEAR(v.excess.value, 0.2, 0.002);
+  EXPECT_NEAR(v.excess.error, 1.25 * 0.00707 / 0.6745 / std::sqrt(200), 1e-4);
+  EXPECT_EQ(v.elongated_percent(), 100);
+}
+
+TEST(ShapeVerdict, SettledCellsAreToldFromThoseThatStillChange) {
+  EXPECT_NE(verdict_of(0.2).trend_text().find("settled"), std::string::npos);
+  const ShapeVerdict growing = verdict_of(0.2, 0.008);
+  EXPECT_NE(growing.trend_text().find("still changing"), std::string::npos) << growing.trend_text();
+  // Over 90 % of the places.
+  EXPECT_NEAR(growing.deformation_trend.change, 0.9 * 0.008, 5 * growing.deformation_trend.error);
+}
+
+TEST(ShapeVerdict, WithoutPlacesOrAtOnePlaceThereIsNoTrend) {
+  EXPECT_NE(verdict_of(0.2, 0, 3).trend_text().find("at one place"), std::string::npos);
+  EXPECT_NE(verdict_of(0.2, 0, NAN).trend_text().find("no pos_x"), std::string::npos);
+  EXPECT_NE(verdict_of(0.2, 0, 60, 10).trend_text().find("too few events"), std::string::npos);
+}
+
+TEST(ShapeVerdict, RedCellsCountApart) {
+  const std::vector<ShapeExcess> excesses{{1, 1.9, 0.01, 0.1}, {1, 0.001, 0.01, 0.1}, {1, NAN, 0.01, 0.1}};
+  const std::vector<double> ratio{2.9, 1.001, NAN}, deformation{0.2, 0.01, 0.01};
+  ShapeTally tally;
+  tally.take({excesses, ratio, deformation, {}, {}, {}, {}});
+  const ShapeVerdict v = tally.verdict();
+  EXPECT_EQ(v.red_cells, 1u);
+  EXPECT_EQ(v.judged, 1u);
+  EXPECT_EQ(v.elongated, 0u);
+  ASSERT_FALSE(shape_lines(v).empty());
+  EXPECT_NE(shape_lines(v).back().find("1 event has an inertia ratio above 2"), std::string::npos);
+}
+
+TEST(ShapeVerdict, AFewEventsDecideNothing) {
+  EXPECT_EQ(verdict_of(0.2, 0, 60, 4).fit(), ShapeVerdict::Fit::unknown);
+  EXPECT_NE(verdict_of(0.2, 0, 60, 1).text().find("1 event is too few"), std::string::npos);
+  // Above 0.05, but no more than two standard errors from what the model has.
+  ShapeVerdict v = verdict_of(0.2);
+  v.excess = {0.15, 0.1};
+  EXPECT_EQ(v.fit(), ShapeVerdict::Fit::doubtful);
+}
+
+TEST(ShapeVerdict, OfNothingNothingIsSaid) {
+  EXPECT_EQ(ShapeTally().verdict().fit(), ShapeVerdict::Fit::unknown);
+  EXPECT_TRUE(shape_lines(ShapeTally().verdict()).empty());
+}
+
+TEST(ShapeVerdict, TheFactorIsThatOfBothModuliWhereBothAreKnown) {
+  const std::vector<ShapeExcess> excesses(30, {1, 0.2, 0.01, 0.3});
+  const std::vector<double> ratio(30, 1.2), deformation(30, 0.02), modulus(30, 1), asymmetry(30, 2.5);
+  ShapeTally tally;
+  tally.take({excesses, ratio, deformation, {}, {}, modulus, asymmetry});
+  const ShapeVerdict v = tally.verdict();
+  EXPECT_NEAR(v.modulus_ratio, 0.4, 1e-6);  // kept in single precision
+  EXPECT_EQ(v.with_asymmetry, 30u);
+  EXPECT_NE(v.text().find("a factor of 2.5"), std::string::npos) << v.text();
+}
+
+}  // namespace
+}  // namespace rheocyte

@@ -1,0 +1,94 @@
+// Measured shapes against those of a table: how much longer they are, and moduli from the asymmetry of the outline.
+#include "infer/shape_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../table/invented_branch.h"
+#include "infer/grid_map.h"
+#include "measurement/pixel_errors.h"
+#include "table/grid_from_branches.h"
+
+namespace rheocyte {
+namespace {
+
+class ShapeMapOf : public testing::Test {
+ protected:
+  struct Estimate {
+    double modulus = 0, error = 0;
+    ModulusState state = ModulusState::valid;
+  };
+  ShapeExcess excess(const MeasuringConditions& conditions, double area, double deformation, double ratio) const {
+    ShapeExcess e;
+    shapes_.compare(conditions, {{&area, 1}, {&deformation, 1}, {}}, {&ratio, 1}, {&e, 1});
+    return e;
+  }
+  Estimate at(const MeasuringConditions& conditions, double area, double mode_3, double viscosity = 15) const {
+    Estimate e;
+    const double mode_2 = 0, deformation = 2 * mode_3 * mode_3;
+    shapes_.estimate(conditions, {{&area, 1}, {&deformation, 1}, {&viscosity, 1}}, {{&mode_2, 1}, {&mode_3, 1}},
+                     {{&e.modulus, 1}, {&e.error, 1}, {&e.state, 1}});
+    return e;
+  }
+  TableSpec spec_ = parse_table_spec(test::short_spec, "spec.toml", std::vector<std::string>{"table.radii=40"});
+  GridMap map_{make_stiffness_grid(spec_, test::invented_branches(spec_), "test").value()};
+  const ShapeMap& shapes_ = *map_.shapes();
+};
+
+TEST_F(ShapeMapOf, ACellOfTheTableHasNoExcessAndIsNotFlagged) {
+  const auto e = excess({{20, 0.04}, 0}, 100, 0.03, 1 + 1.5 * 0.03);
+  EXPECT_NEAR(e.excess, 0, 1e-6);
+  EXPECT_FALSE(e.is_elongated());
+}
+
+TEST_F(ShapeMapOf, AnEllipseExplainsItsDeformationAlone) {
+  const double ratio = 1.3, d = deformation_of_ellipse(ratio);
+  EXPECT_NEAR(d, 0.0128, 1e-4);  // 3/4 c_2^2 with c_2 = (ratio - 1) / (ratio + 1), to second order
+  const auto e = excess({{20, 0.04}, 0}, 100, d, ratio);
+  EXPECT_NEAR(e.odd_share, 0, 1e-9);
+  EXPECT_NEAR(e.excess, ratio - (1 + 1.5 * d), 1e-6);
+  EXPECT_TRUE(e.is_elongated());
+  EXPECT_EQ(deformation_of_ellipse(1), 0);
+}
+
+TEST_F(ShapeMapOf, SmallCellsNeedMoreExcessToBeFlaggedBecausePixelsScatterThem) {
+  // 3 sigma are 0.047; with pixels twice as large, which explain all of the deformation, 0.094.
+  EXPECT_TRUE(excess({{20, 0.04}, 0.34}, 31, 0.03, 1.085).is_elongated());
+  EXPECT_FALSE(excess({{20, 0.04}, 0.68}, 31, 0.03, 1.085).is_elongated());
+}
+
+TEST_F(ShapeMapOf, WithoutNumbersOrOutsideTheAreasNothingIsSaid) {
+  EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, 0.03, NAN).excess));
+  EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, NAN, 0.03, 1.1).excess));
+  EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 10, 0.03, 1.1).excess));
+  EXPECT_FALSE(excess({{20, 0.04}, 0}, 10, 0.03, 1.5).is_elongated());
+  EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, 0, 1.1).odd_share));
+}
+
+TEST_F(ShapeMapOf, TheModulusFromTheAsymmetryIsThatOfTheTableAndScalesLikeTheEquations) {
+  const double d = 0.03, expected = test::invented_modulus(100, d), c = test::invented_asymmetry(d);
+  // c_3 lies between nodes of a root: 1e-3, and E goes with its inverse.
+  EXPECT_NEAR(at({{20, 0.04}, 0}, 100, c).modulus, expected, 2e-3 * expected);
+  const double scaled = expected * (0.16 / 0.04) * (5.5 / 15) * std::pow(20. / 30, 3);
+  EXPECT_NEAR(at({{30, 0.16}, 0}, 100 * 2.25, c, 5.5).modulus, scaled, 2e-3 * scaled);
+}
+
+TEST_F(ShapeMapOf, AnAsymmetryOfTheOtherSignIsTooSmallAndNoneIsNoData) {
+  EXPECT_EQ(at({{20, 0.04}, 0}, 100, -0.1).state, ModulusState::too_stiff);
+  EXPECT_EQ(at({{20, 0.04}, 0}, 100, NAN).state, ModulusState::no_data);
+  EXPECT_EQ(at({{20, 0.04}, 0}, 100, 0.9).state, ModulusState::too_soft);
+  EXPECT_EQ(at({{20, 0.04}, 0}, 10, 0.1).state, ModulusState::too_small);
+  EXPECT_TRUE(std::isnan(at({{20, 0.04}, 0}, 100, -0.1).modulus));
+}
+
+TEST_F(ShapeMapOf, TheErrorIsThatOfThePixels) {
+  const double c = test::invented_asymmetry(0.03);
+  const auto pixels = asymmetry_errors(std::log(100 / (0.34 * 0.34)), 0, c);
+  const auto e = at({{20, 0.04}, 0.34}, 100, c);
+  // d ln E / d ln c_3 is about -1 here, and the area adds little.
+  EXPECT_NEAR(e.error / e.modulus, pixels.deviation / c, 0.3 * pixels.deviation / c);
+}
+
+}  // namespace
+}  // namespace rheocyte

@@ -1,0 +1,77 @@
+#include "table/shape_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "invented_branch.h"
+#include "table/grid_by_asymmetry.h"
+#include "table/grid_from_branches.h"
+
+namespace rheocyte {
+namespace {
+
+using namespace test;
+
+class ShapesOfATable : public ::testing::Test {
+ protected:
+  TableSpec spec_ = spec_of_fifty_radii({"table.greatest_deformation=0.1"});
+  StiffnessGrid grid_{make_stiffness_grid(spec_, invented_branches(spec_), "test").value()};
+  ShapeGrid shapes_{grid_.content().shapes.value()};
+};
+
+TEST_F(ShapesOfATable, GiveBackTheMeasuresOfTheBranchesBetweenTheNodes) {
+  // Measures are cubics between the 24 samples of a branch, here a factor of 1.4 of the deformation apart: what grows
+  // with the deformation is off by 2e-5 of itself, its root by less.
+  for (const double area : {31.0, 77.7, 150.0, 280.0})
+    for (const double d : {1e-4, 0.0123, 0.09}) {
+      EXPECT_NEAR(shapes_.inertia_ratio(std::log(area), d), 1 + 1.5 * d, 1e-4 * d) << area << " " << d;
+      EXPECT_NEAR(shapes_.mode(2, std::log(area), d), 0.3 * d, 1e-4 * d) << area << " " << d;
+      EXPECT_NEAR(shapes_.mode(3, std::log(area), d) / invented_asymmetry(d), 1, 1e-3) << area << " " << d;
+    }
+}
+
+TEST_F(ShapesOfATable, KnowTheNearestCellOutsideAndTheCircleBelow) {
+  const double last = shapes_.inertia_ratio(std::log(77.7), 0.1);
+  EXPECT_DOUBLE_EQ(shapes_.inertia_ratio(std::log(77.7), 0.5), last);
+  EXPECT_DOUBLE_EQ(shapes_.inertia_ratio(std::log(1000.0), 0.01), shapes_.inertia_ratio(std::log(290.0), 0.01));
+  EXPECT_EQ(shapes_.inertia_ratio(std::log(77.7), 0), 1);
+  EXPECT_EQ(shapes_.mode(3, std::log(77.7), -0.001), 0);
+  EXPECT_TRUE(std::isnan(shapes_.inertia_ratio(NAN, 0.01)));
+  EXPECT_TRUE(shapes_.has_area(std::log(77.7)));
+  EXPECT_FALSE(shapes_.has_area(std::log(20.0)));
+}
+
+TEST_F(ShapesOfATable, TheModulusIsTheSameFromDeformationAndFromAsymmetry) {
+  const StiffnessGrid by_asymmetry(grid_by_asymmetry(grid_, shapes_).value());
+  for (const double area : {31.0, 77.7, 150.0, 280.0})
+    for (const double d : {1e-4, 0.0123, 0.09}) {
+      const auto answer = by_asymmetry.answer(area, invented_asymmetry(d));
+      ASSERT_EQ(answer.reason, NoAnswer::none) << area << " " << d;
+      // d ln E / d ln c_3 is about -1, and c_3 is known to 1e-3.
+      EXPECT_NEAR(std::exp(answer.log_stiffness) / invented_modulus(area, d), 1, 2e-3) << area << " " << d;
+    }
+}
+
+TEST_F(ShapesOfATable, AsymmetriesOutsideTheTableHaveNoModulus) {
+  const StiffnessGrid by_asymmetry(grid_by_asymmetry(grid_, shapes_).value());
+  EXPECT_EQ(by_asymmetry.answer(77.7, 0).reason, NoAnswer::too_stiff);
+  EXPECT_EQ(by_asymmetry.answer(77.7, 0.5).reason, NoAnswer::too_soft);
+}
+
+TEST_F(ShapesOfATable, WithoutAsymmetryThereIsNoGridOfIt) {
+  ShapeNodes round = shapes_.nodes();
+  for (double& value : round.modes[1]) value = 0;
+  EXPECT_FALSE(grid_by_asymmetry(grid_, ShapeGrid(round)));
+}
+
+TEST_F(ShapesOfATable, SurviveTheFile) {
+  const GridContent read = grid_from_bytes(to_bytes(grid_.content()), "grid");
+  ASSERT_TRUE(read.shapes);
+  EXPECT_EQ(read.shapes->inertia_ratio, grid_.content().shapes->inertia_ratio);
+  EXPECT_EQ(read.shapes->modes, grid_.content().shapes->modes);
+  EXPECT_EQ(read.shapes->upper, grid_.content().shapes->upper);
+}
+
+}  // namespace
+}  // namespace rheocyte
