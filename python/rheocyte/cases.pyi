@@ -10,7 +10,9 @@ class _ChannelProfile:
     R_um: list[float] | None  # radii of the wall at these places, smooth and monotonic in between, constant beyond the ends
 
 class _Channel:
-    width_um: float | None  # width of the square channel, mapped to a tube of radius 0.547 x width
+    section: Literal["tube", "square"]  # cross-section that is computed: a tube, which also stands for the square channel of the same pressure drop, or the square itself in three dimensions
+    camera: Literal["side", "diagonal"] | None  # from where a square channel is seen, side: at right angles to a wall, diagonal: along the section's diagonal
+    width_um: float | None  # width of the square channel, mapped to a tube of radius 0.547 x width unless channel.section is "square"
     radius_um: float | None  # radius of the tube
     length_um: float | None  # length of the channel over which the given pressure drops
     profile: _ChannelProfile
@@ -43,7 +45,7 @@ class _CellCortex:
     bending_kBT: float | None  # bending stiffness c_b of the cell's surface in units of k_B T at 25 degrees C (4.116e-21 J)
 
 class _Cell:
-    radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius
+    radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the width
     viscosity_mPas: float | None  # viscosity of the cell's interior; a stationary shape does not depend on it
     density_kg_per_m3: float | None  # density of the cell
     bulk: _CellBulk

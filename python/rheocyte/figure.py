@@ -61,9 +61,12 @@ def make(number, folder, program, recordings=(), options=()):
     from rheocyte.figures.cases import Laboratory, make_folder
 
     start = time.monotonic()
-    make_folder(folder)
     if recordings and number != "real-cells":
         raise InputError(f"figure {number} draws no recordings ({recordings[0][:60]}); real-cells does.")
+    if not recordings and number == "real-cells":
+        raise InputError("figure real-cells draws recordings; give them behind its name, for example "
+                         "`rheocyte figure real-cells *.rtdc`.")
+    make_folder(folder)
     laboratory = Laboratory(program, folder / "cases", tell=lambda line: print(line, file=sys.stderr, flush=True),
                             recordings=list(recordings), options=list(options))
     figure, rows = drawing(number).make(laboratory)

@@ -20,10 +20,7 @@ WANTED = ["recording", "shapes", "inertia_ratio_median", "inertia_ratio_expected
 
 
 def make(laboratory):
-    """The figure and the rows of its table; UserError without recordings."""
-    if not laboratory.recordings:
-        raise InputError("figure real-cells draws recordings; give them behind its name, for example "
-                         "`rheocyte figure real-cells *.rtdc`.")
+    """The figure and the rows of its table."""
     rows = [row for row in read_rows(laboratory) if row["shapes"]]
     if not rows:
         raise InputError("no recording could be used; `rheocyte extract` says why.")
