@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <new>
-#include <sstream>
 #include <system_error>
 
 #include "app/commands.h"
@@ -50,13 +49,6 @@ void check_output(const SynthOptions& options) {
     throw UserError(fmt::format("{}: there is no such folder.", one_line(parent.string(), 300)));
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 void report(const SynthOptions& options, const VirtualRecording& r) {
   print(fmt::format("{}: {} events; areas measured {:+.2f} %, deformations {:+.5f} from the true ones on average\n",
                     options.output.string(), r.events, 100 * r.mean_area_error, r.mean_deformation_error));
@@ -80,7 +72,7 @@ int run(const SynthOptions& options) {
   SynthSpec spec = parse_synth_spec(text, options.spec.string(), options.settings);
   if (!spec.table.empty()) spec.table = options.spec.parent_path() / spec.table;  // an absolute one stays
   const auto shapes = shapes_of(spec);
-  const RecordingProvenance provenance{fmt::format("rheocyte {}", version), lines_of(text)};
+  const RecordingProvenance provenance{fmt::format("rheocyte {}", version), text};
   WholeFile file(options.output, [&] { check_output(options); });
   const auto work = [&](const TellProgress& tell_progress) {
     return write_virtual_recording(spec, *shapes, provenance, file.scratch(), tell_progress);

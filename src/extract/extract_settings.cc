@@ -141,6 +141,10 @@ std::vector<std::string> ExtractSettings::lines() const {
   return lines;
 }
 
+double pixel_size_um(const Recording& recording, const std::optional<double>& given, const char* way_out) {
+  return quantity(recording, given, {"imaging:pixel size", "um", way_out, {0.01, 10}});
+}
+
 ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixels, const Recording& recording) {
   check_region(recording);
   ExtractSettings settings;
@@ -152,11 +156,8 @@ ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixel
                             {"setup:flow rate", "ul/s", "--flow-rate-ul-s", range_of("flow.rate_ul_per_s")});
   if (pixels != PixelUse::ignore)
     settings.pixel_size_um = conditions.pixel_size_um =
-        quantity(recording, options.pixel_size_um,
-                 {"imaging:pixel size",
-                  "um",
-                  pixels == PixelUse::fit ? "--pixel-size-um" : "--pixel-size-um, or give --no-pixelation",
-                  {0.01, 10}});
+        pixel_size_um(recording, options.pixel_size_um,
+                      pixels == PixelUse::fit ? "--pixel-size-um" : "--pixel-size-um, or give --no-pixelation");
   else
     settings.pixel_size_um =
         options.pixel_size_um.value_or(recording.metadata().number("imaging:pixel size").value_or(0));

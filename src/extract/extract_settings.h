@@ -47,6 +47,10 @@ struct ExtractSettings {
   std::string temperature_text() const;  ///< "feature temp", "23 (metadata)", ""
 };
 
+/// The size of a pixel that is given, else that of the metadata. UserError if it is missing or cannot be so; `way_out`
+/// names the options.
+double pixel_size_um(const Recording& recording, const std::optional<double>& given, const char* way_out);
+
 /// UserError naming what is missing and the option that gives it; also for recordings of the reservoir.
 ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixels, const Recording& recording);
 

@@ -8,6 +8,7 @@
 
 #include "case/user_error.h"
 #include "extract/companion_origin.h"
+#include "extract/extract_settings.h"
 #include "measurement/shape_source.h"
 
 namespace rheocyte {
@@ -18,14 +19,6 @@ namespace {
 
 constexpr std::size_t block = 4096;
 
-double pixel_size(const Recording& recording, std::optional<double> given) {
-  const double size = given.value_or(recording.metadata().number("imaging:pixel size").value_or(0));
-  if (size > 0 && std::isfinite(size)) return size;
-  throw UserError(
-      fmt::format("{}: imaging:pixel size {}; give --pixel-size-um.", one_line(recording.file().string(), 300),
-                  recording.metadata().has("imaging:pixel size") ? "is not a positive number" : "is missing"));
-}
-
 }  // namespace
 
 WholeFile features_file(const fs::path& place) {
@@ -33,13 +26,13 @@ WholeFile features_file(const fs::path& place) {
 }
 
 FeaturesSummary features_of_recording(const fs::path& file, const fs::path& place, const fs::path& scratch,
-                                      std::optional<double> pixel_size_um, const TellProgress& on_progress) {
+                                      std::optional<double> given_pixel_size_um, const TellProgress& on_progress) {
   Recording recording(file);
   check_same_recording(place, recording);
   if (!ShapeSource::has_outlines(recording))
     throw UserError(fmt::format("{}: holds neither contours nor masks, from which features of the shape are computed.",
                                 one_line(file.string(), 300)));
-  const double size_um = pixel_size(recording, pixel_size_um);
+  const double size_um = pixel_size_um(recording, given_pixel_size_um, "--pixel-size-um");
   double done = 0;
   recording.on_piece(now_and_then([&] { on_progress(done); }));
   ShapeSource shapes(recording, size_um);

@@ -21,7 +21,7 @@ WholeFile features_file(const std::filesystem::path& place);
 /// written; the pixel size (um) is that of the recording if none is given. UserError: no contours or masks, no pixel
 /// size, damaged data, a full disk.
 FeaturesSummary features_of_recording(const std::filesystem::path& recording, const std::filesystem::path& place,
-                                      const std::filesystem::path& scratch, std::optional<double> pixel_size_um,
+                                      const std::filesystem::path& scratch, std::optional<double> given_pixel_size_um,
                                       const TellProgress& on_progress);
 
 }  // namespace rheocyte

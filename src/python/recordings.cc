@@ -9,7 +9,6 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "case/user_error.h"
@@ -135,19 +134,12 @@ std::vector<std::string> moduli(const std::filesystem::path& recording, const st
   });
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 // The file appears whole or not at all; the caller has looked whether one is there. The number of its events.
 std::size_t synth(const std::string& text, const std::string& name, const std::vector<std::string>& settings,
                   const std::filesystem::path& place, const Progress& progress) {
   SynthSpec spec = parse_synth_spec(text, name, settings);
   if (!spec.table.empty()) spec.table = std::filesystem::path(name).parent_path() / spec.table;
-  const RecordingProvenance provenance{std::string("rheocyte ") + version, lines_of(text)};
+  const RecordingProvenance provenance{std::string("rheocyte ") + version, text};
   struct Stopped {};
   return interruptible([&](const std::atomic<bool>& stop) -> std::size_t {
     const auto shapes = shapes_of(spec);

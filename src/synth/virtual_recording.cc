@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "case/user_error.h"
 #include "measurement/contour_features.h"
@@ -161,6 +162,13 @@ class VirtualCamera {
   double frame_ = 0;
 };
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
 void write_metadata(const SynthSpec& spec, const RecordingProvenance& provenance, RecordingFile& file) {
   const ImageSize size = spec.image_size();
   file.add_metadata("experiment:date", spec.date);
@@ -258,7 +266,7 @@ VirtualRecording write_virtual_recording(const SynthSpec& spec, const CellShapes
   result.mean_area_error /= static_cast<double>(result.events);
   result.mean_deformation_error /= static_cast<double>(result.events);
   describe_truth(spec, shapes, result, file);
-  file.add_log("rheocyte-synth", provenance.spec);
+  file.add_log("rheocyte-synth", lines_of(provenance.spec));
   file.close();
   return result;
 }

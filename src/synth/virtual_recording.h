@@ -20,8 +20,8 @@ struct VirtualRecording {
 
 /// What else the file tells.
 struct RecordingProvenance {
-  std::string program;            ///< name and version
-  std::vector<std::string> spec;  ///< lines of the spec, for the log
+  std::string program;  ///< name and version
+  std::string spec;     ///< the text of the spec, for the log
 };
 
 /// Draws the cells of the spec, lets `shapes` say what they look like, renders each to a mask of pixels at a random

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "measurement/recording.h"
-#include "measurement/recording_writer.h"
-#include "robustness/run_program.h"
+#include "extract_fixture.h"
 
 namespace rheocyte {
 namespace {
@@ -20,10 +18,7 @@ class Features : public testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   double value(const std::string& file, const std::string& feature, std::size_t event) const {
-    const Recording recording(folder_ / file);
-    std::vector<double> values(recording.events());
-    recording.read_scalar(feature, 0, values);
-    return values[event];
+    return test::column(Recording(folder_ / file), feature)[event];
   }
 
   /// A rectangle of 12 by 6 pixels, and an empty mask; stored is another area.
