@@ -41,4 +41,8 @@ std::string json_text(const nlohmann::ordered_json& tree, JsonCharacters charact
   return tree.dump(2, ' ', characters == JsonCharacters::ascii, json::error_handler_t::replace);
 }
 
+std::string json_line(const nlohmann::ordered_json& tree) {
+  return tree.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
 }  // namespace rheocyte

@@ -1,0 +1,14 @@
+// The part of the interface about recordings: /api/items and what is below, and their exports.
+#pragma once
+#include "view/export_folder.h"
+#include "view/router.h"
+#include "view/view_session.h"
+
+namespace rheocyte {
+
+class ViewItems;
+
+/// The items must outlive the router.
+void add_recording_routes(Router&, Exports&, ViewSession&, ViewItems&);
+
+}  // namespace rheocyte
