@@ -1,0 +1,286 @@
+// The program's interface over HTTP: types of requests and answers, and one function for each of them.
+
+export type Value = number | string | number[];
+/** A case by dotted names, as in the case reference: "cell.radius_um" -> 7.66. */
+export type Case = Record<string, Value>;
+/** A case as the program writes it: sections within sections. */
+export interface Sections {
+  [name: string]: Value | Sections;
+}
+
+export interface KeyDescription {
+  name: string;
+  section: string;
+  unit: string;
+  sentence: string;
+  kind: 'number' | 'choice' | 'word' | 'list';
+  least?: number;
+  greatest?: number;
+  whole?: boolean;
+  options?: string[];
+  default: Value | null;
+  required: boolean;
+  only_for: { key: string; option: string; negated: boolean } | null;
+  alternative: string | null;
+}
+
+export interface Medium {
+  medium: string;
+  name: string;
+}
+
+export interface MediumLaw {
+  law: string;
+  viscosity_mPas?: number;
+  consistency_Pa_sn?: number;
+  exponent?: number;
+}
+
+export interface Outline {
+  x_um: number[];
+  r_um: number[];
+}
+
+/** Fields on a triangle mesh of the half plane r >= 0; arrays are base64 of little-endian numbers. */
+export interface EncodedFields {
+  points: number;
+  triangles: number;
+  xy_um: string;
+  index: string;
+  region: string;
+  values: Record<string, string>;
+  surface?: { x_um: number[]; r_um: number[]; tension_mN_per_m?: number[] };
+  wall?: Outline;
+  surface3d?: { xyz_um: string; index: string };
+}
+
+/** The keys of result.json that the page reads by name; there are more. */
+export interface Result {
+  status: string;
+  message: string;
+  deformation: number;
+  area_um2: number;
+  cell_velocity_m_per_s: number;
+  pressure_drop_Pa: number;
+  stability_margin: number | null;
+  estimated_error: number | null;
+  wall_time_s: number;
+  tube_radius_um: number;
+  case: Sections;
+  [name: string]: unknown;
+}
+
+export interface State extends Result {
+  contour: Outline;
+  hull: Outline;
+  contours?: { side: Outline; diagonal: Outline };
+  fields?: EncodedFields;
+}
+
+export interface TimeStep {
+  time_s: number;
+  x_um: number;
+  deformation: number;
+  velocity_m_per_s: number;
+  contour: Outline;
+  progress: number;
+}
+
+export interface Isoelastic {
+  young_modulus_kPa: number;
+  x: number[];
+  y: number[];
+}
+
+export interface Lines {
+  lines: Isoelastic[];
+  range?: { x: number[]; y: number[] };
+  table?: string;
+  sentence?: string;
+}
+
+export type ItemKind = 'recording' | 'case' | 'result' | 'table';
+
+export interface Item {
+  item: number;
+  kind: ItemKind;
+  name: string;
+  state: 'ready' | 'loading' | 'failed';
+  error?: string;
+  events?: number;
+  conditions?: Record<string, number | string | null>;
+  condition: string;
+  replicate: string;
+  features?: string[];
+  metadata?: Record<string, unknown>;
+  case?: Sections;
+}
+
+export interface Columns {
+  features: string[];
+  events: number;
+  columns: Float32Array[] | Float64Array[];
+}
+
+export interface EventDetail {
+  features: Record<string, number>;
+  young_modulus_kPa: number | null;
+  standard_error_kPa: number | null;
+  state: string;
+  sentence: string;
+  shape_excess?: number | null;
+  young_modulus_asymmetry_kPa?: number | null;
+  pixel_um: number;
+  outline: { x_um: number[]; y_um: number[] } | null;
+  model: { x_um: number[]; y_um: number[]; cortex: { x_um: number[]; y_um: number[] } | null } | null;
+  case: Sections | null;
+}
+
+export interface Moduli {
+  state: 'none' | 'running' | 'ready' | 'failed';
+  done: number;
+  error?: string;
+  summary?: Record<string, unknown>;
+  lines?: string[];
+  command?: string;
+}
+
+export interface ExportRequest {
+  what: 'events' | 'companion' | 'session' | 'case' | 'result' | 'svg' | 'png';
+  item?: number;
+  gate?: number[] | null;
+  case?: Sections;
+  name?: string;
+  data?: string;
+}
+
+/** What went wrong, in the program's own sentence; `reason` is the word to decide by. */
+export class Refusal extends Error {
+  constructor(
+    readonly status: number,
+    readonly reason: string,
+    sentence: string,
+    readonly detail: { key?: string; nearest?: Sections; last?: { deformation?: number; reached?: number } } = {},
+  ) {
+    super(sentence);
+  }
+}
+
+async function refusal(answer: Response): Promise<Refusal> {
+  const text = await answer.text();
+  try {
+    const body = JSON.parse(text);
+    return new Refusal(answer.status, body.reason ?? 'error', body.error ?? answer.statusText, body);
+  } catch {
+    return new Refusal(answer.status, 'error', text.trim() || answer.statusText);
+  }
+}
+
+async function request(path: string, options: RequestInit = {}): Promise<Response> {
+  let answer: Response;
+  try {
+    answer = await fetch(path, { credentials: 'same-origin', ...options });
+  } catch (failure) {
+    if (failure instanceof DOMException && failure.name === 'AbortError') throw new Refusal(0, 'stopped', 'Stopped.');
+    throw new Refusal(0, 'unreachable', 'The program does not answer; is it still running in its terminal?');
+  }
+  if (!answer.ok) throw await refusal(answer);
+  return answer;
+}
+
+async function json<T>(path: string, options: RequestInit = {}): Promise<T> {
+  return (await request(path, options)).json() as Promise<T>;
+}
+
+function sending(method: string, body: unknown, signal?: AbortSignal): RequestInit {
+  return { method, body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' }, signal };
+}
+
+function query(values: Record<string, string | number | undefined>): string {
+  const given = Object.entries(values).filter(([, value]) => value !== undefined);
+  return new URLSearchParams(given.map(([name, value]) => [name, String(value)])).toString();
+}
+
+export const readHealth = () => json<{ status: string; version: string; threads: number }>('/api/health');
+export const readKeys = () => json<KeyDescription[]>('/api/keys');
+export const readMedia = () => json<Medium[]>('/api/media');
+export const readMediumLaw = (medium: string, temperature: number) =>
+  json<MediumLaw>(`/api/media/viscosity?${query({ medium, temperature })}`);
+
+export interface StateRequest {
+  stream: string;
+  accuracy: number;
+  fields: boolean;
+}
+
+export function solveState(sections: Sections, want: StateRequest, signal?: AbortSignal): Promise<State> {
+  const path = `/api/state?${query({ stream: want.stream, accuracy: want.accuracy, fields: want.fields ? 1 : 0 })}`;
+  return json<State>(path, sending('POST', sections, signal));
+}
+
+export type EvolveLine = TimeStep | { result: Result } | { error: string };
+
+/** Follows a cell in time; calls `take` with each line as it arrives. */
+export async function evolve(
+  sections: Sections,
+  stream: string,
+  take: (line: EvolveLine) => void,
+  signal?: AbortSignal,
+): Promise<void> {
+  const answer = await request(`/api/evolve?${query({ stream })}`, sending('POST', sections, signal));
+  const reader = answer.body!.pipeThrough(new TextDecoderStream()).getReader();
+  let rest = '';
+  for (;;) {
+    const { value, done } = await reader.read();
+    const lines = (rest + (value ?? '')).split('\n');
+    rest = done ? '' : lines.pop()!;
+    for (const line of lines) if (line.trim()) take(JSON.parse(line) as EvolveLine);
+    if (done) return;
+  }
+}
+
+export const caseText = (sections: Sections) =>
+  json<{ toml: string; command: string; python: string }>('/api/case/text', sending('POST', sections));
+export const readCase = (toml: string) => json<{ case: Sections }>('/api/case/read', sending('POST', { toml }));
+export const readCaseLines = (sections: Sections, signal?: AbortSignal) =>
+  json<Lines>(`/api/lines?${query({ case: JSON.stringify(sections) })}`, { signal });
+
+export const readItems = () => json<Item[]>('/api/items');
+export const readItem = (item: number) => json<Item>(`/api/items/${item}`);
+export const changeItem = (item: number, change: { condition?: string; replicate?: string }) =>
+  json<Item>(`/api/items/${item}`, sending('PATCH', change));
+
+/** Columns of features, one array each, in the order asked for. */
+export async function readEvents(
+  item: number,
+  features: string[],
+  type: 'float32' | 'float64' = 'float32',
+  signal?: AbortSignal,
+): Promise<Columns> {
+  const path = `/api/items/${item}/events?${query({ features: features.join(','), type })}`;
+  const answer = await request(path, { signal });
+  const head = JSON.parse(answer.headers.get('X-Rheocyte-Columns')!) as { features: string[]; events: number };
+  const bytes = await answer.arrayBuffer();
+  const size = type === 'float32' ? 4 : 8;
+  const column = (k: number) =>
+    type === 'float32'
+      ? new Float32Array(bytes, k * head.events * size, head.events)
+      : new Float64Array(bytes, k * head.events * size, head.events);
+  return { ...head, columns: head.features.map((_, k) => column(k)) as Float32Array[] | Float64Array[] };
+}
+
+export const readEvent = (item: number, event: number, signal?: AbortSignal) =>
+  json<EventDetail>(`/api/items/${item}/events/${event}`, { signal });
+export const eventImage = (item: number, event: number) => `/api/items/${item}/events/${event}/image`;
+export const eventMask = (item: number, event: number) => `/api/items/${item}/events/${event}/mask`;
+
+export const startModuli = (item: number, settings: Record<string, unknown>) =>
+  json<Moduli>(`/api/items/${item}/moduli`, sending('POST', settings));
+export const readModuli = (item: number) => json<Moduli>(`/api/items/${item}/moduli`);
+export const stopModuli = (item: number) => request(`/api/items/${item}/moduli`, { method: 'DELETE' });
+export const readItemLines = (item: number, x: string, y: string) =>
+  json<Lines>(`/api/items/${item}/lines?${query({ x, y })}`);
+
+export const exportFile = (what: ExportRequest) => json<{ file: string }>('/api/export', sending('POST', what));
+export const readSession = () => json<{ page: Record<string, unknown> | null }>('/api/session');
+export const writeSession = (page: Record<string, unknown>) => json<unknown>('/api/session', sending('PUT', { page }));

@@ -1,0 +1,12 @@
+import { render } from 'preact';
+import { App } from './shell/App';
+import { startPlace } from './shell/place';
+import { startSession } from './shell/session';
+import { startTheme } from './shell/theme';
+import './look/tokens.css';
+import './look/page.css';
+
+startTheme();
+startPlace();
+await startSession();
+render(<App />, document.getElementById('page')!);

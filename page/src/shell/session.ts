@@ -1,0 +1,36 @@
+// What the session file keeps of the page. Each part names itself and says how it is saved and restored.
+import { readSession, writeSession } from '../api';
+
+interface Kept {
+  save(): unknown;
+  restore(value: unknown): void;
+}
+
+const parts = new Map<string, Kept>();
+let restored: Record<string, unknown> = {};
+let timer: number | undefined;
+
+/** A part that was saved in the session is restored at once. */
+export function keepInSession(name: string, part: Kept): void {
+  parts.set(name, part);
+  if (name in restored) part.restore(restored[name]);
+}
+
+function saved(): Record<string, unknown> {
+  const page = { ...restored };
+  for (const [name, part] of parts) page[name] = part.save();
+  return page;
+}
+
+/** To be called before the first part is kept. A page without a session starts empty. */
+export async function startSession(): Promise<void> {
+  restored = (await readSession().catch(() => ({ page: null }))).page ?? {};
+}
+
+export const sendSession = () => writeSession(saved());
+
+/** Sends the session a moment after the last change. */
+export function sessionChanged(): void {
+  window.clearTimeout(timer);
+  timer = window.setTimeout(() => void sendSession().catch(() => undefined), 1000);
+}
