@@ -41,6 +41,9 @@ class Recording {
   /// Whether there is one number per event of this name, e.g. "area_um".
   bool has_scalar(const std::string& feature) const;
 
+  /// Of all of them, in the order of the alphabet; with those of basins.
+  std::vector<std::string> scalar_names() const;
+
   /// Whether a scalar is stored with 32 bits; other programs then compute with 32 bits, too.
   bool is_single_precision(const std::string& feature) const;
 

@@ -117,6 +117,19 @@ bool Recording::is_in(const Basin& basin, const std::string& feature) {
 }
 
 // Internal ones first, as the field's programs do.
+std::vector<std::string> Recording::scalar_names() const {
+  std::set<std::string> names;
+  for (const auto& [name, feature] : content_->scalars) names.insert(name);
+  for (const Basin& basin : content_->basins) {
+    for (const auto& [name, feature] : basin.internal) names.insert(name);
+    if (!basin.recording) continue;
+    for (const auto& name : basin.recording->scalar_names())
+      if (is_in(basin, name)) names.insert(name);
+  }
+  std::erase_if(names, [this](const std::string& name) { return !has_scalar(name); });
+  return {names.begin(), names.end()};
+}
+
 const Recording::Basin* Recording::basin_with(const std::string& feature) const {
   for (const bool internal : {true, false})
     for (const auto& basin : content_->basins)

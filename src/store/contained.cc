@@ -193,20 +193,21 @@ void kill_child(pid_t child) {
   for (int i = 0; i < rounds && ::waitpid(child, nullptr, WNOHANG) == 0; ++i) ::poll(nullptr, 0, pause_ms);
 }
 
-ContainedEnd watch(pid_t child, int pipe, double patience_s, const TellProgress& on_progress) {
+ContainedEnd watch(pid_t child, int pipe, const Containment& limits, const TellProgress& on_progress) {
   Inbox inbox(on_progress);
   Clock::time_point last_word = Clock::now();
   for (;;) {
     pollfd wanted{pipe, POLLIN, 0};
-    const int ready = ::poll(&wanted, 1, 200);
+    const int ready = ::poll(&wanted, 1, limits.is_wanted ? 50 : 200);
     if (ready > 0) {
       if (!inbox.read_from(pipe)) return conclude(inbox, wait_for(child));
       last_word = Clock::now();
     }
-    const bool hangs = std::chrono::duration<double>(Clock::now() - last_word).count() > patience_s;
-    if (!hangs && !stop_wanted()) continue;
+    const bool hangs = std::chrono::duration<double>(Clock::now() - last_word).count() > limits.patience_s;
+    const bool stops = stop_wanted() || (limits.is_wanted && !limits.is_wanted());
+    if (!hangs && !stops) continue;
     kill_child(child);
-    return {stop_wanted() ? Kind::stopped : Kind::hung, {}};
+    return {stops ? Kind::stopped : Kind::hung, {}};
   }
 }
 
@@ -230,7 +231,7 @@ ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgr
   }
   signals.reset();
   ::close(ends[1]);
-  ContainedEnd end = watch(child, ends[0], limits.patience_s, on_progress);
+  ContainedEnd end = watch(child, ends[0], limits, on_progress);
   ::close(ends[0]);
   return end;
 }

@@ -1,0 +1,290 @@
+#include "store/work_host.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "case/user_error.h"
+#include "store/child_process.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Word : char { request = 'q', piece = 'd', progress = 'p', done = 'f', sentence = 'e' };
+
+struct Header {
+  Word word;
+  std::uint32_t length;
+};
+
+constexpr std::size_t longest_piece = std::size_t{1} << 20U, longest_message = std::size_t{1} << 26U;
+constexpr int patience_ms = 100'000;  // longer than that of contained work, which tells of its end itself
+
+bool send_all(int socket, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (count < 0 && errno != EINTR) return false;
+    if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+bool send_message(int socket, Word word, std::string_view text) {
+  std::string head(sizeof(Header), '\0');
+  const Header header{word, static_cast<std::uint32_t>(text.size())};
+  std::memcpy(head.data(), &header, sizeof header);
+  return send_all(socket, head) && send_all(socket, text);
+}
+
+bool receive_all(int socket, char* bytes, std::size_t size) {
+  while (size > 0) {
+    pollfd awaited{socket, POLLIN, 0};
+    const int ready = ::poll(&awaited, 1, patience_ms);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0) return false;
+    const ssize_t count = ::recv(socket, bytes, size, 0);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes += count;
+    size -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+struct Message {
+  Word word = Word::done;
+  std::string text;
+};
+
+/// Nothing once the other end is closed.
+std::optional<Message> receive_message(int socket) {
+  Header header{};
+  char head[sizeof header];
+  if (!receive_all(socket, head, sizeof head)) return std::nullopt;
+  std::memcpy(&header, head, sizeof header);
+  if (header.length > longest_message) return std::nullopt;
+  Message message{header.word, std::string(header.length, '\0')};
+  if (!receive_all(socket, message.text.data(), message.text.size())) return std::nullopt;
+  return message;
+}
+
+union OneDescriptor {
+  char bytes[CMSG_SPACE(sizeof(int))];
+  cmsghdr align;
+};
+
+bool pass_descriptor(int socket, int descriptor) {
+  OneDescriptor space{};
+  char byte = 0;
+  iovec content{&byte, 1};
+  msghdr message{};
+  message.msg_iov = &content;
+  message.msg_iovlen = 1;
+  message.msg_control = space.bytes;
+  message.msg_controllen = sizeof space.bytes;
+  cmsghdr* const head = CMSG_FIRSTHDR(&message);
+  head->cmsg_level = SOL_SOCKET;
+  head->cmsg_type = SCM_RIGHTS;
+  head->cmsg_len = CMSG_LEN(sizeof descriptor);
+  std::memcpy(CMSG_DATA(head), &descriptor, sizeof descriptor);
+  return ::sendmsg(socket, &message, MSG_NOSIGNAL) == 1;
+}
+
+/// -1 once the other end is closed.
+int take_descriptor(int socket) {
+  for (;;) {
+    OneDescriptor space{};
+    char byte = 0;
+    iovec content{&byte, 1};
+    msghdr message{};
+    message.msg_iov = &content;
+    message.msg_iovlen = 1;
+    message.msg_control = space.bytes;
+    message.msg_controllen = sizeof space.bytes;
+    const ssize_t count = ::recvmsg(socket, &message, MSG_CMSG_CLOEXEC);
+    if (count < 0 && errno == EINTR) continue;
+    const cmsghdr* const head = count == 1 ? CMSG_FIRSTHDR(&message) : nullptr;
+    if (!head || head->cmsg_type != SCM_RIGHTS) return -1;
+    int descriptor = -1;
+    std::memcpy(&descriptor, CMSG_DATA(head), sizeof descriptor);
+    return descriptor;
+  }
+}
+
+[[noreturn]] void be_a_worker(int socket, const WorkHost::Work& work) {
+  std::signal(SIGCHLD, SIG_DFL);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const auto request = receive_message(socket);
+  if (!request) ::_exit(1);
+  try {
+    work(request->text, WorkReply(socket));
+    send_message(socket, Word::done, {});
+  } catch (const UserError& error) {
+    send_message(socket, Word::sentence, error.what());
+  } catch (const std::bad_alloc&) {
+    send_message(socket, Word::sentence, "The memory of this machine does not suffice.");
+  } catch (const std::exception& error) {
+    send_message(socket, Word::sentence,
+                 fmt::format("An error of the program itself, please report it: {}", one_line(error.what(), 300)));
+  }
+  ::_exit(0);  // no destructors of the program's objects, no flushing of its buffers
+}
+
+[[noreturn]] void be_the_host(int control, const WorkHost::Work& work, const std::function<void()>& prepare,
+                              const fs::path& folder) {
+  // A terminal sends its signals to all processes; the program answers them, and the end of its socket ends the host.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) std::signal(signal, SIG_IGN);
+  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
+  try {
+    if (prepare) prepare();
+  } catch (const std::exception&) {  // each piece of work will meet the reason again and tell it
+  }
+  for (;;) {
+    const int socket = take_descriptor(control);
+    if (socket < 0) break;
+    if (const pid_t child = ::fork(); child == 0) {
+      ::close(control);
+      be_a_worker(socket, work);
+    }
+    ::close(socket);
+  }
+  while (::waitpid(-1, nullptr, 0) > 0) {  // until all have noticed that nobody waits for them
+  }
+  std::error_code error;
+  fs::remove_all(folder, error);
+  ::_exit(0);
+}
+
+fs::path new_private_folder() {
+  std::error_code error;
+  std::string pattern = (fs::temp_directory_path(error) / "rheocyte-view-XXXXXX").string();
+  if (error || ::mkdtemp(pattern.data()) == nullptr)
+    throw UserError(fmt::format("{}: no folder for temporary files can be made there; is the disk full? TMPDIR names "
+                                "another place.",
+                                one_line(fs::path(pattern).parent_path().string(), 300)));
+  return pattern;
+}
+
+[[noreturn]] void refuse_more() {
+  throw UserError(fmt::format("The system gives no more processes ({}).", std::generic_category().message(errno)));
+}
+
+}  // namespace
+
+void WorkReply::give(std::string_view piece) const {
+  for (std::size_t at = 0; at < piece.size(); at += longest_piece)
+    if (!send_message(socket_, Word::piece, piece.substr(at, longest_piece))) ::_exit(1);
+}
+
+void WorkReply::tell_progress(double fraction) const {
+  if (!send_message(socket_, Word::progress, {reinterpret_cast<const char*>(&fraction), sizeof fraction})) ::_exit(1);
+}
+
+bool WorkReply::is_wanted() const {
+  pollfd asker{socket_, POLLRDHUP, 0};
+  return ::poll(&asker, 1, 0) <= 0;
+}
+
+void WorkReply::run_contained(const fs::path& file, const std::function<void(const TellProgress&)>& work,
+                              Containment limits) const {
+  limits.is_wanted = [this] { return is_wanted(); };
+  const auto contained = [&](const TellProgress& tell) {
+    work(tell);
+    return std::string();
+  };
+  const ContainedEnd end = run_contained_bytes(contained, limits, [this](double done) { tell_progress(done); });
+  if (end.kind == ContainedEnd::Kind::stopped) ::_exit(1);
+  if (end.kind != ContainedEnd::Kind::finished) throw UserError(sentence_for(file, end, limits.patience_s));
+}
+
+HostedWork::HostedWork(HostedWork&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
+
+HostedWork::~HostedWork() {
+  if (socket_ >= 0) ::close(socket_);
+}
+
+void HostedWork::read(const Take& take, const TellProgress& on_progress) {
+  while (auto message = receive_message(socket_)) {
+    switch (message->word) {
+      case Word::piece:
+        if (!take(message->text)) return;
+        break;
+      case Word::progress:
+        if (double fraction = 0; on_progress && message->text.size() == sizeof fraction) {
+          std::memcpy(&fraction, message->text.data(), sizeof fraction);
+          on_progress(fraction);
+        }
+        break;
+      case Word::done: return;
+      default: throw UserError(message->text);
+    }
+  }
+  throw UserError("The process that reads recordings ended before it had answered; try again.");
+}
+
+std::string HostedWork::all(const TellProgress& on_progress) {
+  std::string text;
+  read(
+      [&](std::string_view piece) {
+        text += piece;
+        return true;
+      },
+      on_progress);
+  return text;
+}
+
+WorkHost::WorkHost(Work work, const std::function<void()>& prepare) : folder_(new_private_folder()) {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) refuse_more();
+  std::fflush(nullptr);
+  host_ = ::fork();
+  if (host_ < 0) refuse_more();
+  if (host_ == 0) {
+    ::close(ends[0]);
+    be_the_host(ends[1], work, prepare, folder_);
+  }
+  ::close(ends[1]);
+  control_ = ends[0];
+}
+
+WorkHost::~WorkHost() {
+  ::close(control_);
+  wait_for(host_);
+}
+
+HostedWork WorkHost::ask(const std::string& request) const {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) refuse_more();
+  HostedWork work(ends[0]);
+  bool passed = false;
+  {
+    const std::scoped_lock alone(mutex_);
+    passed = pass_descriptor(control_, ends[1]);
+  }
+  ::close(ends[1]);
+  if (!passed) refuse_more();
+  // A process that ended at once is told of when its answer is read.
+  static_cast<void>(send_message(ends[0], Word::request, request));
+  return work;
+}
+
+}  // namespace rheocyte

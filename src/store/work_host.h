@@ -1,0 +1,81 @@
+// Work in processes of their own for a program that has threads: a fork of such a program is safe only for a program
+// that begins anew, so a host is forked while there is one thread yet, and forks for everybody from then on.
+#pragma once
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "store/contained.h"
+#include "store/progress.h"
+
+namespace rheocyte {
+
+/// To whom a process of the host answers. Once nobody listens any more, the process ends.
+class WorkReply {
+ public:
+  explicit WorkReply(int socket) : socket_(socket) {}
+
+  /// The next piece of the answer; waits as long as it is not taken.
+  void give(std::string_view piece) const;
+  void tell_progress(double fraction) const;
+  /// Whether somebody still waits for the answer.
+  bool is_wanted() const;
+
+  /// What may break its process, in another one (run_contained_bytes): it gives pieces itself and tells its progress.
+  /// `file` is what it reads, for the sentence. UserError.
+  void run_contained(const std::filesystem::path& file, const std::function<void(const TellProgress&)>& work,
+                     Containment limits = {}) const;
+
+ private:
+  int socket_;
+};
+
+/// The answer to one request, as it comes. Its end stops the work within 0.1 s, also if that has not finished.
+class HostedWork {
+ public:
+  explicit HostedWork(int socket) : socket_(socket) {}
+  ~HostedWork();
+  HostedWork(HostedWork&& other) noexcept;
+  HostedWork& operator=(HostedWork&&) = delete;
+
+  /// Hands on all pieces, until the work is done or `take` returns false. UserError with the sentence of the work, or
+  /// because its process broke down.
+  using Take = std::function<bool(std::string_view piece)>;
+  void read(const Take& take, const TellProgress& on_progress = {});
+  /// All pieces together.
+  std::string all(const TellProgress& on_progress = {});
+
+ private:
+  int socket_;
+};
+
+class WorkHost {
+ public:
+  /// UserError of the work is told to whoever asked.
+  using Work = std::function<void(const std::string& request, const WorkReply&)>;
+
+  /// Forks; the process must have a single thread. The host calls `prepare` once.
+  explicit WorkHost(Work work, const std::function<void()>& prepare = {});
+  /// Work that is not finished is stopped.
+  ~WorkHost();
+  WorkHost(const WorkHost&) = delete;
+  WorkHost& operator=(const WorkHost&) = delete;
+
+  /// A private folder that is removed when this program has ended, however it ended.
+  const std::filesystem::path& folder() const { return folder_; }
+
+  /// Starts a process on the request. For several threads at once. UserError if the system has no more processes.
+  HostedWork ask(const std::string& request) const;
+
+ private:
+  std::filesystem::path folder_;
+  int control_ = -1;
+  pid_t host_ = -1;
+  mutable std::mutex mutex_;
+};
+
+}  // namespace rheocyte
