@@ -14,7 +14,7 @@ namespace rheocyte {
 /// What the contained work may use.
 struct Containment {
   std::size_t memory_bytes = std::size_t{4} << 30U;
-  double patience_s = 60;  ///< without a word of progress it counts as hanging
+  double patience_s = 60;                ///< without a word of progress it counts as hanging
   std::function<bool()> is_wanted = {};  ///< asked several times a second; once it is false, the work is stopped
 };
 

@@ -178,9 +178,10 @@ fs::path new_private_folder() {
   std::error_code error;
   std::string pattern = (fs::temp_directory_path(error) / "rheocyte-view-XXXXXX").string();
   if (error || ::mkdtemp(pattern.data()) == nullptr)
-    throw UserError(fmt::format("{}: no folder for temporary files can be made there; is the disk full? TMPDIR names "
-                                "another place.",
-                                one_line(fs::path(pattern).parent_path().string(), 300)));
+    throw UserError(
+        fmt::format("{}: no folder for temporary files can be made there; is the disk full? TMPDIR names "
+                    "another place.",
+                    one_line(fs::path(pattern).parent_path().string(), 300)));
   return pattern;
 }
 
@@ -221,6 +222,8 @@ HostedWork::HostedWork(HostedWork&& other) noexcept : socket_(std::exchange(othe
 HostedWork::~HostedWork() {
   if (socket_ >= 0) ::close(socket_);
 }
+
+void HostedWork::stop() const { ::shutdown(socket_, SHUT_RDWR); }
 
 void HostedWork::read(const Take& take, const TellProgress& on_progress) {
   while (auto message = receive_message(socket_)) {

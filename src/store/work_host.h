@@ -46,6 +46,8 @@ class HostedWork {
   /// because its process broke down.
   using Take = std::function<bool(std::string_view piece)>;
   void read(const Take& take, const TellProgress& on_progress = {});
+  /// From another thread: whoever reads is told that the process has ended.
+  void stop() const;
   /// All pieces together.
   std::string all(const TellProgress& on_progress = {});
 

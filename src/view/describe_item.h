@@ -1,0 +1,18 @@
+// What the view says of an item before anything is computed.
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+
+#include "measurement/recording.h"
+#include "view/item_places.h"
+
+namespace rheocyte {
+
+/// Of a recording {"events", "conditions", "features", "metadata", "pictures", "remarks"}, of a case and a result
+/// {"case"}, of a table {"conditions"}. UserError if it cannot be read.
+nlohmann::ordered_json describe_item(const ItemPlace&);
+
+/// {"channel_width_um", "flow_rate_ul_per_s", "medium", "temperature_C", "pixel_um", "region", "sample", "date",
+/// "run"}, as the metadata says; null where it says nothing.
+nlohmann::ordered_json stated_conditions(const Metadata&);
+
+}  // namespace rheocyte

@@ -1,0 +1,97 @@
+#include "view/event_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "columns are handed on as they lie in memory");
+
+// Moduli of a companion that somebody opens as a recording are features like any other.
+constexpr std::array roles{"state",        "standard error", "young_modulus_asymmetry", "standard error asymmetry",
+                           "shape_excess", "odd_share"};
+
+std::string as_name(std::string role) {
+  std::ranges::replace(role, ' ', '_');
+  return role;
+}
+
+template <class Number>
+void append(std::span<const double> values, std::string& bytes) {
+  const std::size_t start = bytes.size();
+  bytes.resize(start + values.size() * sizeof(Number));
+  char* at = bytes.data() + start;
+  for (const double value : values) {
+    const auto number = static_cast<Number>(value);
+    std::memcpy(at, &number, sizeof number);
+    at += sizeof number;
+  }
+}
+
+}  // namespace
+
+std::vector<ComputedColumn> computed_columns(const Recording& companion) {
+  std::vector<ComputedColumn> columns;
+  if (companion.has_scalar("emodulus")) columns.push_back({"emodulus", "emodulus"});
+  for (const char* role : roles)
+    if (const auto feature = companion.metadata().text(fmt::format("user:rheocyte {}", role));
+        feature && companion.has_scalar(*feature))
+      columns.push_back({as_name(role), *feature});
+  return columns;
+}
+
+EventColumns::EventColumns(const Recording& recording, const Recording* companion)
+    : recording_(recording), companion_(companion) {
+  if (companion) computed_ = computed_columns(*companion);
+  try {
+    const double pixel_size_um = recording.metadata().number("imaging:pixel size").value_or(0);
+    shapes_.emplace(recording, pixel_size_um);
+    features_.emplace(recording, *shapes_);
+  } catch (const UserError&) {  // such recordings have only what they store
+  }
+}
+
+std::vector<std::string> EventColumns::names() const {
+  std::vector<std::string> names = recording_.scalar_names();
+  for (const char* implied : {"area_um", "deform", "area_ratio"})
+    if (features_ && features_->has(implied) && !recording_.has_scalar(implied)) names.emplace_back(implied);
+  std::ranges::sort(names);
+  std::erase_if(names, [this](const std::string& name) { return computed(name) != nullptr; });
+  for (const auto& column : computed_) names.push_back(column.name);
+  return names;
+}
+
+bool EventColumns::has(const std::string& name) const {
+  return computed(name) || (features_ ? features_->has(name) : recording_.has_scalar(name));
+}
+
+const std::string* EventColumns::computed(const std::string& name) const {
+  const auto found = std::ranges::find(computed_, name, &ComputedColumn::name);
+  return found == computed_.end() ? nullptr : &found->feature;
+}
+
+void EventColumns::read(const std::string& name, std::size_t first, std::span<double> values) {
+  if (const std::string* feature = computed(name)) return companion_->read_scalar(*feature, first, values);
+  if (!has(name))
+    throw UserError(
+        fmt::format("{}: has no feature {}.", one_line(recording_.file().string(), 300), one_line(name, 60)));
+  if (features_) return features_->read(name, first, values);
+  recording_.read_scalar(name, first, values);
+}
+
+void append_numbers(std::span<const double> values, NumberType type, std::string& bytes) {
+  if (type == NumberType::float32)
+    append<float>(values, bytes);
+  else
+    append<double>(values, bytes);
+}
+
+}  // namespace rheocyte

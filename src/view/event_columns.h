@@ -1,0 +1,53 @@
+// All features of a recording's events by their names: stored ones, those that it implies, and those that were computed
+// from it.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "measurement/event_features.h"
+#include "measurement/recording.h"
+#include "measurement/shape_source.h"
+
+namespace rheocyte {
+
+/// A column that `rheocyte extract` has computed: its name here, and its feature in the companion.
+struct ComputedColumn {
+  std::string name, feature;
+};
+
+/// Of a companion: emodulus, and what its metadata tells of userdef0 to userdef9: state, standard_error,
+/// young_modulus_asymmetry, standard_error_asymmetry, shape_excess, odd_share.
+std::vector<ComputedColumn> computed_columns(const Recording& companion);
+
+class EventColumns {
+ public:
+  /// Both must outlive it; without a companion nothing has been computed.
+  explicit EventColumns(const Recording& recording, const Recording* companion = nullptr);
+
+  std::size_t events() const { return recording_.events(); }
+  /// In the order of the alphabet, the computed ones at the end.
+  std::vector<std::string> names() const;
+  bool has(const std::string& name) const;
+  /// Values of events [first, first + values.size()), NaN where there is none. UserError naming what the recording does
+  /// not have, or if its data are damaged.
+  void read(const std::string& name, std::size_t first, std::span<double> values);
+
+ private:
+  const std::string* computed(const std::string& name) const;
+
+  const Recording& recording_;
+  const Recording* companion_;
+  std::vector<ComputedColumn> computed_;
+  std::optional<ShapeSource> shapes_;  ///< of recordings that have areas and deformations
+  std::optional<EventFeatures> features_;
+};
+
+/// How numbers are handed on: little endian.
+enum class NumberType { float32, float64 };
+
+/// Appends them to the bytes.
+void append_numbers(std::span<const double> values, NumberType type, std::string& bytes);
+
+}  // namespace rheocyte

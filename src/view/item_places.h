@@ -1,0 +1,26 @@
+// What the user has named on the command line, as the view lists it.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rheocyte {
+
+enum class ItemKind { recording, case_file, result, table };
+std::string_view name_of(ItemKind);
+
+struct ItemPlace {
+  ItemKind kind = ItemKind::recording;
+  std::filesystem::path path;  ///< absolute
+  std::string name = {};       ///< the file's, behind those of the folders below the one that was given
+  std::string error = {};      ///< why there is nothing to be opened; empty otherwise
+};
+
+/// Files, each as what its name says (.toml: a case; .cbor, .txt: a table; else a recording), folders of results and
+/// of tables, and what other folders hold of recordings, results and tables, sorted by name and without companions of
+/// recordings that are there. Each once, in the order given. What is missing or empty stays, with a sentence.
+std::vector<ItemPlace> item_places(std::span<const std::filesystem::path> paths);
+
+}  // namespace rheocyte

@@ -1,0 +1,174 @@
+#include "view/view_items.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <system_error>
+
+#include "case/json_guard.h"
+#include "case/user_error.h"
+#include "extract/modulus_tables.h"
+#include "view/http.h"
+#include "view/item_work.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_label = 200;
+constexpr std::array names_of_states{"loading", "ready", "failed"};
+
+std::string label_in(const Json& labels, const char* name, const std::string& before) {
+  if (!labels.contains(name)) return before;
+  if (!labels[name].is_string()) throw Refused(400, "input", std::string(name) + " is no text.");
+  return one_line(labels[name].get<std::string>(), longest_label);
+}
+
+ViewItems::Item new_item(ItemPlace place) {
+  ViewItems::Item item{std::move(place)};
+  if (item.place.error.empty()) return item;
+  item.state = ViewItems::State::failed;
+  item.error = item.place.error;
+  return item;
+}
+
+}  // namespace
+
+ViewItems::ViewItems(std::span<const fs::path> paths) : host_(do_item_work) {
+  for (auto& place : item_places(paths)) items_.push_back(new_item(std::move(place)));
+  reader_ = std::jthread([this](const std::stop_token& stop) { describe_all(stop); });
+}
+
+ViewItems::~ViewItems() = default;
+
+void ViewItems::describe_all(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::optional<std::size_t> next;
+    {
+      std::unique_lock lock(mutex_);
+      const auto found = std::ranges::find(items_, State::loading, &Item::state);
+      if (found == items_.end()) {
+        added_.wait(lock, stop, [this] { return std::ranges::count(items_, State::loading, &Item::state) > 0; });
+        continue;
+      }
+      next = static_cast<std::size_t>(found - items_.begin());
+    }
+    describe(*next, stop);
+  }
+}
+
+void ViewItems::describe(std::size_t number, const std::stop_token& stop) {
+  const ItemPlace place = at(number).place;
+  State state = State::ready;
+  std::string error;
+  Json description;
+  try {
+    const Json request{{"do", "describe"}, {"kind", name_of(place.kind)}, {"file", place.path.string()}};
+    HostedWork work = host_.ask(json_text(request));
+    const std::stop_callback at_end(stop, [&work] { work.stop(); });
+    description = parse_sound_json(work.all());
+  } catch (const UserError& reason) {
+    state = State::failed;
+    error = reason.what();
+  }
+  const std::scoped_lock lock(mutex_);
+  Item& item = items_[number];
+  item.state = state;
+  item.error = error;
+  item.description = std::move(description);
+}
+
+void ViewItems::look_after(std::size_t number) {
+  std::error_code error;
+  const bool is_there = fs::exists(at(number).place.path, error);
+  const std::scoped_lock lock(mutex_);
+  Item& item = items_[number];
+  if (!item.place.error.empty() || item.state == State::loading) return;
+  const std::string vanished = one_line(item.place.path.string(), 300) + ": is no longer there.";
+  if (!is_there) {
+    item.state = State::failed;
+    item.error = vanished;
+  } else if (item.error == vanished) {
+    item.state = State::loading;
+    added_.notify_all();
+  }
+}
+
+std::size_t ViewItems::count() const {
+  const std::scoped_lock lock(mutex_);
+  return items_.size();
+}
+
+Json ViewItems::list() {
+  Json all = Json::array();
+  for (std::size_t number = 0; number < count(); ++number) {
+    look_after(number);
+    all.push_back(summary_of(number, at(number)));
+  }
+  return all;
+}
+
+ViewItems::Item ViewItems::at(std::size_t number) const {
+  const std::scoped_lock lock(mutex_);
+  if (number >= items_.size()) throw Refused(404, "unknown", "There is no item of this number.");
+  return items_[number];
+}
+
+ViewItems::Item ViewItems::recording(std::size_t number) const {
+  Item item = at(number);
+  if (item.place.kind != ItemKind::recording) throw Refused(409, "kind", "This item is no recording.");
+  if (!item.place.error.empty()) throw UserError(item.place.error);
+  return item;
+}
+
+void ViewItems::label(std::size_t number, const Json& labels) {
+  const Item before = at(number);
+  const std::string condition = label_in(labels, "condition", before.condition),
+                    replicate = label_in(labels, "replicate", before.replicate);
+  const std::scoped_lock lock(mutex_);
+  items_[number].condition = condition;
+  items_[number].replicate = replicate;
+}
+
+Json ViewItems::kept() const {
+  const std::scoped_lock lock(mutex_);
+  Json all = Json::array();
+  for (const Item& item : items_)
+    all.push_back({{"path", item.place.path.string()}, {"condition", item.condition}, {"replicate", item.replicate}});
+  return all;
+}
+
+void ViewItems::restore(const Json& kept) {
+  if (!kept.is_array()) throw UserError("The items of the session are no list.");
+  for (const Json& one : kept) {
+    if (!one.is_object() || !one.contains("path") || !one["path"].is_string())
+      throw UserError("An item of the session has no path.");
+    const std::array<fs::path, 1> path{fs::path(one["path"].get<std::string>())};
+    for (auto& place : item_places(path)) {
+      const std::scoped_lock lock(mutex_);
+      auto found = std::ranges::find(items_, place.path, [](const Item& item) { return item.place.path; });
+      if (found == items_.end()) found = items_.insert(items_.end(), new_item(std::move(place)));
+      found->condition = label_in(one, "condition", found->condition);
+      found->replicate = label_in(one, "replicate", found->replicate);
+    }
+  }
+  added_.notify_all();
+}
+
+Json summary_of(std::size_t number, const ViewItems::Item& item) {
+  Json summary{{"item", number},
+               {"kind", name_of(item.place.kind)},
+               {"name", one_line(item.place.name, 300)},
+               {"state", names_of_states.at(static_cast<std::size_t>(item.state))},
+               {"condition", item.condition},
+               {"replicate", item.replicate}};
+  if (!item.error.empty()) summary["error"] = item.error;
+  for (const char* key : {"events", "conditions"})
+    if (item.description.contains(key)) summary[key] = item.description[key];
+  return summary;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,68 @@
+// The list of what the view has been given, and who reads it. For several threads at once.
+#pragma once
+#include <condition_variable>
+#include <cstddef>
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "store/work_host.h"
+#include "view/item_places.h"
+
+namespace rheocyte {
+
+/// Items are numbers for the page; files of recordings are read in processes of their own only.
+class ViewItems {
+ public:
+  /// To be made while the process has a single thread. Begins to read what the items are.
+  explicit ViewItems(std::span<const std::filesystem::path> paths);
+  ~ViewItems();
+  ViewItems(const ViewItems&) = delete;
+  ViewItems& operator=(const ViewItems&) = delete;
+
+  enum class State { loading, ready, failed };
+  struct Item {
+    ItemPlace place;
+    State state = State::loading;
+    std::string error = {};
+    nlohmann::ordered_json description = {};  ///< see describe_item
+    std::string condition = {}, replicate = {};
+  };
+
+  /// Items that have vanished, or come back, are noticed here.
+  nlohmann::ordered_json list();
+  std::size_t count() const;
+  /// A copy. Refused (404) if there is none of this number.
+  Item at(std::size_t number) const;
+  /// The same of a recording; Refused (409) if the item is something else.
+  Item recording(std::size_t number) const;
+  /// Condition and replicate, as far as they are given.
+  void label(std::size_t number, const nlohmann::ordered_json& labels);
+
+  /// For the session: paths and labels; places that are new are added.
+  nlohmann::ordered_json kept() const;
+  void restore(const nlohmann::ordered_json& kept);
+
+  const WorkHost& host() const { return host_; }
+
+ private:
+  void describe_all(const std::stop_token& stop);
+  void describe(std::size_t number, const std::stop_token& stop);
+  void look_after(std::size_t number);
+
+  WorkHost host_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any added_;
+  std::vector<Item> items_;
+  std::jthread reader_;
+};
+
+/// {"item", "kind", "name", "state", "error", "events", "conditions", "condition", "replicate"}, what is not known is
+/// left out.
+nlohmann::ordered_json summary_of(std::size_t number, const ViewItems::Item&);
+
+}  // namespace rheocyte

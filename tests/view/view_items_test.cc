@@ -1,0 +1,128 @@
+// The list of items: what is named, found and missing; what is wrong with one harms no other.
+#include "view/view_items.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "measurement/recording_writer.h"
+#include "view/http.h"
+
+namespace rheocyte {
+namespace {
+
+namespace fs = std::filesystem;
+using test::RecordingWriter;
+using Json = nlohmann::ordered_json;
+
+class Items : public testing::Test {
+ protected:
+  void write_recording(const std::string& name) const {
+    fs::create_directories((folder_ / name).parent_path());
+    RecordingWriter writer(folder_ / name);
+    test::write_usual_metadata(writer);
+    writer.scalar("area_um", {80, 90, 100});
+    writer.scalar("deform", {0.03, 0.04, 0.05});
+  }
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  }
+
+  test::ScratchFolder folder_;
+};
+
+/// Waits until nothing is loading.
+Json loaded(ViewItems& items) {
+  for (int round = 0; round < 1000; ++round) {
+    Json list = items.list();
+    if (std::ranges::none_of(list, [](const Json& item) { return item["state"] == "loading"; })) return list;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  ADD_FAILURE() << "items are still loading";
+  return {};
+}
+
+TEST_F(Items, AreFoundInFoldersWithoutCompanionsOfRecordingsThatAreThere) {
+  write_recording("data/a.rtdc");
+  write_recording("data/a_rheocyte.rtdc");
+  write_recording("data/day 2/a.rtdc");
+  write_recording("data/alone_rheocyte.rtdc");
+  write("data/result/result.json", R"({"case": {"cell": {"radius_um": 7}}})");
+  const std::array<fs::path, 2> paths{folder_ / "data", folder_ / "data/a.rtdc"};
+  const auto places = item_places(paths);
+  ASSERT_EQ(places.size(), 4u);
+  EXPECT_EQ(places[0].name, "a.rtdc");
+  EXPECT_EQ(places[1].name, "alone_rheocyte.rtdc");
+  EXPECT_EQ(places[2].name, "day 2/a.rtdc");
+  EXPECT_EQ(places[3].name, "result");
+  EXPECT_EQ(places[3].kind, ItemKind::result);
+}
+
+TEST_F(Items, ThatAreDamagedOrMissingStayInTheListWithASentence) {
+  write_recording("good.rtdc");
+  write("damaged.rtdc", "no recording");
+  write("case.toml", "[cell]\nradius_um = -1\n");
+  const std::array<fs::path, 4> paths{folder_ / "damaged.rtdc", folder_ / "good.rtdc", folder_ / "case.toml",
+                                      folder_ / "none.rtdc"};
+  ViewItems items(paths);
+  const Json list = loaded(items);
+  ASSERT_EQ(list.size(), 4u);
+  EXPECT_EQ(list[0]["state"], "failed");
+  EXPECT_NE(list[0]["error"].get<std::string>().find("is not an HDF5 file"), std::string::npos) << list[0];
+  EXPECT_EQ(list[1]["state"], "ready");
+  EXPECT_EQ(list[1]["events"], 3);
+  EXPECT_EQ(list[1]["conditions"]["medium"], "CellCarrier");
+  EXPECT_EQ(list[2]["kind"], "case");
+  EXPECT_NE(list[2]["error"].get<std::string>().find("radius_um"), std::string::npos) << list[2];
+  EXPECT_NE(list[3]["error"].get<std::string>().find("no such file"), std::string::npos) << list[3];
+}
+
+TEST_F(Items, ThatVanishAndComeBackAreNoticed) {
+  write_recording("a.rtdc");
+  const std::array<fs::path, 1> paths{folder_ / "a.rtdc"};
+  ViewItems items(paths);
+  EXPECT_EQ(loaded(items)[0]["state"], "ready");
+  fs::rename(folder_ / "a.rtdc", folder_ / "b.rtdc");
+  EXPECT_NE(items.list()[0]["error"].get<std::string>().find("no longer there"), std::string::npos);
+  fs::rename(folder_ / "b.rtdc", folder_ / "a.rtdc");
+  EXPECT_EQ(loaded(items)[0]["state"], "ready");
+}
+
+TEST_F(Items, KeepLabelsAndPathsInASession) {
+  write_recording("a.rtdc");
+  write_recording("b.rtdc");
+  const std::array<fs::path, 1> first{folder_ / "a.rtdc"};
+  Json kept;
+  {
+    ViewItems items(first);
+    items.label(0, {{"condition", "treated"}, {"replicate", "2"}});
+    items.label(0, {{"replicate", "3"}});
+    EXPECT_THROW(items.label(0, {{"condition", 7}}), Refused);
+    EXPECT_THROW(items.label(1, Json::object()), Refused);
+    kept = items.kept();
+  }
+  const std::array<fs::path, 1> second{folder_ / "b.rtdc"};
+  ViewItems items(second);
+  items.restore(kept);
+  const Json list = loaded(items);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[1]["condition"], "treated");
+  EXPECT_EQ(list[1]["replicate"], "3");
+}
+
+TEST_F(Items, LeaveNoTemporaryFolderBehind) {
+  fs::path folder;
+  {
+    ViewItems items({});
+    folder = items.host().folder();
+    EXPECT_TRUE(fs::is_directory(folder));
+  }
+  EXPECT_FALSE(fs::exists(folder));
+}
+
+}  // namespace
+}  // namespace rheocyte
