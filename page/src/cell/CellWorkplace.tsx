@@ -1,8 +1,23 @@
-// The workplace "Cell": the live solver behind sliders.
+// The workplace "Cell": controls, the picture, the numbers, and the plane of area and deformation.
+import { useEffect } from 'preact/hooks';
+import { notifyFailure } from '../shell/notices';
+import { Controls } from './Controls';
+import * as model from './model';
+import { Numbers } from './Numbers';
+import { Plane } from './Plane';
+import { View } from './View';
+import '../look/cell.css';
+
 export function CellWorkplace() {
+  useEffect(() => void model.startCell().catch(notifyFailure), []);
   return (
-    <section class="cell" aria-label="Cell">
-      <p>The cell.</p>
-    </section>
+    <div class="cell">
+      <Controls />
+      <View />
+      <aside class="side" aria-label="Numbers">
+        <Numbers />
+      </aside>
+      <Plane />
+    </div>
   );
 }

@@ -1,4 +1,5 @@
 // The frame of the page: name, workplaces, theme.
+import { CellTools } from '../cell/CellTools';
 import { CellWorkplace } from '../cell/CellWorkplace';
 import { RecordingsWorkplace } from '../recordings/RecordingsWorkplace';
 import { Notices } from './notices';
@@ -58,7 +59,7 @@ export function App() {
             </button>
           ))}
         </nav>
-        <span id="bar-place" />
+        <div class="bar-place">{workplace === 'cell' && <CellTools />}</div>
         <ThemeSelect />
       </header>
       <main id="main" tabIndex={-1}>

@@ -1,0 +1,66 @@
+// A colour bar: the choice of the field is its title.
+import { tickLabels, ticks, unitText } from '../draw/numbers';
+import type { FieldChoice, Legend } from './looks';
+import type { ColorMap } from '../draw/colormap';
+
+const width = 220;
+
+/** The map as a row of coloured pieces; a gradient of few stops would not keep equal steps. */
+function Strip({ map }: { map: ColorMap }) {
+  const pieces = 64;
+  return (
+    <g shape-rendering="crispEdges">
+      {Array.from({ length: pieces }, (_, k) => (
+        <rect key={k} x={(k * width) / pieces} y={0} width={width / pieces + 0.5} height={10} fill={map.css[Math.round((k / (pieces - 1)) * 255)]} />
+      ))}
+    </g>
+  );
+}
+
+export function Bar({ map, low, high, factor }: { map: ColorMap; low: number; high: number; factor: number }) {
+  const values = ticks(factor * low, factor * high, 5);
+  const labels = tickLabels(values);
+  const place = (value: number) => (width * (value - factor * low)) / (factor * (high - low) || 1);
+  return (
+    <svg class="bar-scale" width={width + 32} height={30} viewBox={`-16 0 ${width + 32} 30`} aria-hidden="true">
+      <Strip map={map} />
+      {values.map((value, k) => (
+        <g key={k} transform={`translate(${place(value)} 0)`}>
+          <path d="M0 10V14" stroke="currentColor" />
+          <text y={26} text-anchor="middle" font-size={11} fill="currentColor">
+            {labels[k]}
+          </text>
+        </g>
+      ))}
+    </svg>
+  );
+}
+
+interface ColorBarProps {
+  label: string;
+  choices: FieldChoice[];
+  chosen: string;
+  legend: Legend | null;
+  choose: (name: string) => void;
+}
+
+const nameOf = ({ title, unit }: FieldChoice) => (unit ? `${title} (${unitText(unit)})` : title);
+
+export function ColorBar({ label, choices, chosen, legend, choose }: ColorBarProps) {
+  return (
+    <div class="color-bar">
+      <select aria-label={label} value={chosen} onChange={(event) => choose(event.currentTarget.value)}>
+        {choices.map((choice) => (
+          <option key={choice.name} value={choice.name}>
+            {nameOf(choice)}
+          </option>
+        ))}
+      </select>
+      {legend ? (
+        <Bar map={legend.map} low={legend.low} high={legend.high} factor={legend.field.factor} />
+      ) : (
+        <p class="none">not in this cell</p>
+      )}
+    </div>
+  );
+}

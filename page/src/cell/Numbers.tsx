@@ -1,0 +1,108 @@
+// The numbers at the right, each with its estimated error. Places stay where they are while the digits change.
+import { significant } from '../draw/numbers';
+import { useStore } from '../shell/store';
+import * as model from './model';
+import { run } from './time';
+
+interface Row {
+  title: string;
+  value: string;
+  unit: string;
+  error: string | null;
+  lead?: boolean;
+}
+
+/** The program estimates the error of the deformation; of the others the page knows what the last refinement changed. */
+function rowsOf({ state, coarse }: model.Solved): Row[] {
+  const relative = state.estimated_error;
+  const power = (value: number) => value.toExponential(0).replace('e', ' × 10^');
+  const refined = (name: 'area_um2' | 'cell_velocity_m_per_s' | 'pressure_drop_Pa') => {
+    const moved = coarse ? Math.abs(state[name] - coarse[name]) : 0;
+    return moved > 0 ? power(moved) : null;
+  };
+  const error = relative === null ? null : power(relative * Math.abs(state.deformation));
+  return [
+    { title: 'Deformation', value: state.deformation.toFixed(5), unit: '', error, lead: true },
+    { title: 'Area', value: significant(state.area_um2, 5), unit: 'µm²', error: refined('area_um2') },
+    { title: 'Cell velocity', value: significant(state.cell_velocity_m_per_s), unit: 'm/s', error: refined('cell_velocity_m_per_s') },
+    { title: 'Pressure drop', value: significant(state.pressure_drop_Pa), unit: 'Pa', error: refined('pressure_drop_Pa') },
+  ];
+}
+
+const powers = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+const raised = (text: string) =>
+  text.replace(/10\^([+-]?)(\d+)/, (_, sign: string, digits: string) => `10${sign === '-' ? '⁻' : ''}${[...digits].map((d) => powers[+d]).join('')}`);
+
+function Measure({ row }: { row: Row }) {
+  return (
+    <div class={row.lead ? 'measure lead' : 'measure'} data-measure={row.title}>
+      <dt>{row.title}</dt>
+      <dd>
+        <span class="value">{row.value}</span> <span class="unit">{row.unit}</span>
+        <span class="error">{row.error === null ? '' : `± ${raised(row.error)}`}</span>
+      </dd>
+    </div>
+  );
+}
+
+/** How far the surface is from wrinkling: 1 at rest, 0 where smooth shapes end. */
+function Margin({ margin }: { margin: number | null }) {
+  const low = margin !== null && margin < 0.1;
+  return (
+    <div class="measure margin" data-measure="Margin">
+      <dt>Margin to the instability</dt>
+      <dd>
+        <span class="value">{margin === null ? '–' : margin.toFixed(3)}</span>
+        <span class="error">{low ? 'the surface is about to wrinkle' : ''}</span>
+      </dd>
+      <meter min={0} max={1} low={0.1} optimum={1} value={Math.max(0, margin ?? 0)} aria-label="Margin to the instability" />
+    </div>
+  );
+}
+
+function Accuracy({ solved }: { solved: model.Solved }) {
+  const working = useStore(model.working);
+  const relative = solved.state.estimated_error;
+  const text = working === 'idle' ? 'as accurate as wanted' : working === 'refining' ? 'refining' : 'solving';
+  return (
+    <div class="measure accuracy">
+      <dt>Estimated error of the deformation</dt>
+      <dd>
+        <span class="value">{relative === null ? '–' : raised(relative.toExponential(1).replace('e', ' × 10^'))}</span>
+        <span class="error">{solved.final && working === 'idle' ? text : `${text} …`}</span>
+      </dd>
+    </div>
+  );
+}
+
+export function Numbers() {
+  const solved = useStore(model.solved);
+  const refused = useStore(model.refused);
+  const time = useStore(run);
+  const step = time?.steps[time.shown];
+  if (step) {
+    const rows: Row[] = [
+      { title: 'Deformation', value: step.deformation.toFixed(5), unit: '', error: null, lead: true },
+      { title: 'Time', value: (1e6 * step.time_s).toFixed(1), unit: 'µs', error: null },
+      { title: 'Place', value: step.x_um.toFixed(2), unit: 'µm', error: null },
+      { title: 'Cell velocity', value: significant(step.velocity_m_per_s), unit: 'm/s', error: null },
+    ];
+    return (
+      <dl class="numbers">
+        {rows.map((row) => (
+          <Measure key={row.title} row={row} />
+        ))}
+      </dl>
+    );
+  }
+  if (!solved) return <dl class="numbers" />;
+  return (
+    <dl class={refused ? 'numbers stale' : 'numbers'}>
+      {rowsOf(solved).map((row) => (
+        <Measure key={row.title} row={row} />
+      ))}
+      <Margin margin={solved.state.stability_margin} />
+      <Accuracy solved={solved} />
+    </dl>
+  );
+}

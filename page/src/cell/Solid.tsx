@@ -1,0 +1,51 @@
+// The shape in three dimensions of a cell in a square channel; three.js is loaded when it is first shown.
+import { useEffect, useRef, useState } from 'preact/hooks';
+import type { Fields } from '../draw/fields';
+import { theme } from '../shell/theme';
+import { useStore } from '../shell/store';
+import type { Solved } from './model';
+import type { SolidView } from './solid3d';
+
+interface SolidProps {
+  solid: NonNullable<Fields['surface3d']>;
+  solved: Solved;
+  stale: boolean;
+}
+
+export function Solid({ solid, solved, stale }: SolidProps) {
+  const box = useRef<HTMLDivElement | null>(null);
+  const [view, setView] = useState<SolidView | null>(null);
+  const [failure, setFailure] = useState<string | null>(null);
+  const shownTheme = useStore(theme);
+  useEffect(() => {
+    let made: SolidView | null = null;
+    let gone = false;
+    const show = ({ SolidView: Made }: typeof import('./solid3d')) => {
+      if (gone) return;
+      made = new Made(box.current!);
+      setView(made);
+    };
+    import('./solid3d').then(show).catch(() => setFailure('This browser draws no 3D pictures (WebGL is not there).'));
+    return () => {
+      gone = true;
+      made?.dispose();
+    };
+  }, []);
+  useEffect(() => {
+    const width_um = Number(solved.of['channel.width_um'] ?? 20);
+    view?.show({ ...solid, width_um, diagonal: solved.of['channel.camera'] === 'diagonal' });
+  }, [view, solid, solved, shownTheme]);
+  return (
+    <div
+      ref={box}
+      class={stale ? 'solid stale' : 'solid'}
+      tabIndex={0}
+      role="group"
+      aria-roledescription="3D picture"
+      aria-label="The cell in three dimensions. Arrow keys turn it, plus and minus move nearer and farther."
+      onKeyDown={(event) => view?.key(event)}
+    >
+      {failure && <p class="waiting">{failure}</p>}
+    </div>
+  );
+}

@@ -1,0 +1,144 @@
+// The middle: the picture, its colour bars and switches, and what the page says when a state does not exist.
+import { useMemo } from 'preact/hooks';
+import type { Outline } from '../api';
+import { Progress, useLasting } from '../shell/Progress';
+import { useStore } from '../shell/store';
+import { Channel, type Scene } from './Channel';
+import { ColorBar } from './ColorBar';
+import { cellFields, changeLooks, liquidFields, looks, paintsOf, type Looks } from './looks';
+import * as model from './model';
+import { Solid } from './Solid';
+import { run } from './time';
+import { TimeLine } from './TimeLine';
+
+const shifted = (outline: Outline, x_um: number): Outline => ({ ...outline, x_um: outline.x_um.map((x) => x + x_um) });
+
+const tubeRadius = (solved: model.Solved) => solved.state.tube_radius_um ?? 0.547 * Number(solved.of['channel.width_um'] ?? 20);
+
+/** Half the height of the picture: the tube's radius, or half the square's width. */
+function wallOf(solved: model.Solved): number {
+  const square = solved.of['channel.section'] === 'square';
+  return square && 'channel.width_um' in solved.of ? 0.5 * Number(solved.of['channel.width_um']) : tubeRadius(solved);
+}
+
+export type Painted = ReturnType<typeof paintsOf>;
+const nothing: Painted = { legends: [null, null], paints: [null, null] };
+
+function sceneOf(solved: model.Solved, painted: Painted): Scene {
+  return {
+    fields: solved.fields,
+    paints: painted.paints,
+    contour: solved.state.contour,
+    hull: solved.state.hull,
+    undeformed_um: Number(solved.of['cell.radius_um']),
+    radius_um: wallOf(solved),
+    place_um: 0,
+    revision: solved.revision,
+  };
+}
+
+function useScene(): [Scene | null, Painted] {
+  const solved = useStore(model.solved);
+  const values = useStore(model.values);
+  const now = useStore(looks);
+  const time = useStore(run);
+  const painted = useMemo(() => (solved?.fields ? paintsOf(solved.fields, now) : nothing), [solved, now]);
+  const step = time?.steps[time.shown];
+  const scene = useMemo((): Scene | null => {
+    if (step) return timeScene(step.contour, step.x_um, values, solved);
+    return solved && sceneOf(solved, painted);
+  }, [step, solved, painted, values]);
+  return [scene, step ? nothing : painted];
+}
+
+/** A step in time has a contour alone; the channel is that of the case. */
+function timeScene(contour: Outline, x_um: number, values: Record<string, unknown>, solved: model.Solved | null): Scene {
+  const profile = values['channel.profile.R_um'] as number[] | undefined;
+  const places = values['channel.profile.x_um'] as number[] | undefined;
+  const width = Number(values['channel.width_um'] ?? 20);
+  const radius_um = profile ? Math.max(...profile) : Number(values['channel.radius_um'] ?? 0.547 * width);
+  const wall = profile && places ? { x_um: places.map((x) => x - x_um), r_um: profile } : undefined;
+  const centred = shifted(contour, -middleOf(contour));
+  return {
+    fields: null,
+    paints: [null, null],
+    contour: centred,
+    hull: null,
+    undeformed_um: Number(values['cell.radius_um']),
+    radius_um,
+    place_um: 0,
+    revision: solved?.revision ?? 0,
+    wall,
+  };
+}
+
+const middleOf = ({ x_um }: Outline) => 0.5 * (Math.min(...x_um) + Math.max(...x_um));
+
+function Switch({ name, title, now }: { name: keyof Looks; title: string; now: Looks }) {
+  return (
+    <label class="switch">
+      <input type="checkbox" checked={Boolean(now[name])} onChange={(event) => changeLooks({ [name]: event.currentTarget.checked })} />
+      {title}
+    </label>
+  );
+}
+
+/** Why there is no state, and the way out. */
+function Refused() {
+  const refusal = useStore(model.refused);
+  if (!refusal) return null;
+  const reached = refusal.detail.last?.deformation;
+  return (
+    <div class="refused" role="alert">
+      <p>{refusal.message}</p>
+      {reached !== undefined && <p>{`The last state that exists has the deformation ${reached.toFixed(5)}.`}</p>}
+      <div class="row">
+        {refusal.detail.nearest && (
+          <button class="primary" onClick={model.goToNearest}>
+            Nearest state that exists
+          </button>
+        )}
+        <button onClick={model.undo}>Undo</button>
+      </div>
+    </div>
+  );
+}
+
+function Working() {
+  const lasting = useLasting(useStore(model.working) !== 'idle');
+  return lasting ? <Progress label="Solving" onStop={model.stopSolving} /> : null;
+}
+
+export function View() {
+  const now = useStore(looks);
+  const refusal = useStore(model.refused);
+  const solved = useStore(model.solved);
+  const [scene, { legends }] = useScene();
+  const solid = solved?.fields?.surface3d ?? null;
+  const stale = refusal !== null;
+  return (
+    <section class="view" aria-label="The cell in its channel">
+      <div class="stage">
+        {scene && (now.solid && solid ? <Solid solid={solid} solved={solved!} stale={stale} /> : <Channel scene={scene} looks={now} stale={stale} />)}
+        {!scene && <p class="waiting">The first state is being solved.</p>}
+        <Refused />
+        <div class="working">
+          <Working />
+        </div>
+      </div>
+      <TimeLine />
+      <div class="legends">
+        <ColorBar label="Field in the liquid" choices={liquidFields} chosen={now.liquid} legend={legends[0]} choose={(liquid) => changeLooks({ liquid })} />
+        <ColorBar label="Field in the cell" choices={cellFields} chosen={now.cell} legend={legends[1]} choose={(cell) => changeLooks({ cell })} />
+        <fieldset class="switches">
+          <legend class="hidden">Lines</legend>
+          <Switch name="streamlines" title="Streamlines" now={now} />
+          <Switch name="undeformed" title="Undeformed" now={now} />
+          <Switch name="hull" title="Hull" now={now} />
+          <Switch name="tension" title="Tension" now={now} />
+          {solid && <Switch name="solid" title="3D" now={now} />}
+        </fieldset>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,37 @@
+// The browser under the tests: Debian's chromium, headless, with an empty profile and no traffic of its own.
+import { existsSync } from 'node:fs';
+import { mkdtemp, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { chromium } from 'playwright-core';
+
+export const program = process.env.CHROMIUM ?? '/usr/bin/chromium';
+/** Why tests in the browser are skipped, or false. */
+export const noBrowser = existsSync(program) ? false : `there is no ${program}`;
+
+const flags = [
+  '--headless',
+  '--no-sandbox',
+  '--disable-gpu',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
+
+/** Opens a browser; `close` removes its profile as well. */
+export async function openBrowser(options = {}, more = []) {
+  const profile = await mkdtemp(join(tmpdir(), 'rheocyte-page-'));
+  const context = await chromium.launchPersistentContext(profile, {
+    executablePath: program,
+    args: [...flags, ...more],
+    viewport: { width: 1280, height: 800 },
+    ...options,
+  });
+  const close = async () => {
+    await context.close();
+    await rm(profile, { recursive: true, force: true });
+  };
+  return { context, close };
+}
