@@ -1,5 +1,6 @@
 // A colour bar: the choice of the field is its title.
-import { tickLabels, ticks, unitText } from '../draw/numbers';
+import { tensionMap } from '../draw/colormap';
+import { significant, tickLabels, ticks, unitText } from '../draw/numbers';
 import type { FieldChoice, Legend } from './looks';
 import type { ColorMap } from '../draw/colormap';
 
@@ -33,6 +34,19 @@ export function Bar({ map, low, high, factor }: { map: ColorMap; low: number; hi
         </g>
       ))}
     </svg>
+  );
+}
+
+/** The colours of the tension along the cortex, with its ends. */
+export function TensionBar({ low, high }: { low: number; high: number }) {
+  return (
+    <span class="tension-bar">
+      <span>{significant(low, 3)}</span>
+      <svg width={80} height={8} viewBox={`0 0 ${width} 10`} preserveAspectRatio="none" aria-hidden="true">
+        <Strip map={tensionMap} />
+      </svg>
+      <span>{`${significant(high, 3)} mN/m`}</span>
+    </span>
   );
 }
 

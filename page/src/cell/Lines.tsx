@@ -1,6 +1,7 @@
 // The lines of the picture, as SVG: walls, streamlines, undeformed circle, contour, hull, tension, scale bar.
 // Colours stand in attributes, not in the style sheet, so that an exported picture keeps them.
 import { useMemo } from 'preact/hooks';
+import type { Fields } from '../draw/fields';
 import { shade, tensionMap } from '../draw/colormap';
 import { streamlines } from '../draw/streamlines';
 import { token } from '../shell/theme';
@@ -55,13 +56,22 @@ function Stream({ stage, scene }: { stage: Stage; scene: Scene }) {
   );
 }
 
+/** Least and greatest tension of the cortex in mN/m; null where there is none. */
+export function tensionRange(fields: Fields | null): [number, number] | null {
+  const tension = fields?.surface?.tension_mN_per_m;
+  if (!tension?.length) return null;
+  const [low, high] = [Math.min(...tension), Math.max(...tension)];
+  return high > 0 || low < 0 ? [low, high] : null;
+}
+
 /** The cortex, coloured by its tension, thick along the contour. */
 function Tension({ stage, scene }: { stage: Stage; scene: Scene }) {
   const surface = scene.fields?.surface;
   const tension = surface?.tension_mN_per_m;
   if (!surface || !tension?.length) return null;
-  const [low, high] = [Math.min(...tension), Math.max(...tension)];
-  if (!(high > 0 || low < 0)) return null;
+  const range = tensionRange(scene.fields);
+  if (!range) return null;
+  const [low, high] = range;
   const every = Math.max(1, Math.floor(tension.length / 120));
   const pieces = [];
   for (let k = 0; k + every < tension.length; k += every) pieces.push([k, k + every]);

@@ -54,8 +54,8 @@ function Margin({ margin }: { margin: number | null }) {
       <dd>
         <span class="value">{margin === null ? '–' : margin.toFixed(3)}</span>
         <span class="error">{low ? 'the surface is about to wrinkle' : ''}</span>
+        <meter min={0} max={1} low={0.1} optimum={1} value={Math.max(0, margin ?? 0)} aria-label="Margin to the instability" />
       </dd>
-      <meter min={0} max={1} low={0.1} optimum={1} value={Math.max(0, margin ?? 0)} aria-label="Margin to the instability" />
     </div>
   );
 }

@@ -4,7 +4,8 @@ import type { Outline } from '../api';
 import { Progress, useLasting } from '../shell/Progress';
 import { useStore } from '../shell/store';
 import { Channel, type Scene } from './Channel';
-import { ColorBar } from './ColorBar';
+import { ColorBar, TensionBar } from './ColorBar';
+import { tensionRange } from './Lines';
 import { cellFields, changeLooks, liquidFields, looks, paintsOf, type Looks } from './looks';
 import * as model from './model';
 import { Solid } from './Solid';
@@ -115,6 +116,7 @@ export function View() {
   const solved = useStore(model.solved);
   const [scene, { legends }] = useScene();
   const solid = solved?.fields?.surface3d ?? null;
+  const tension = tensionRange(solved?.fields ?? null);
   const stale = refusal !== null;
   return (
     <section class="view" aria-label="The cell in its channel">
@@ -136,6 +138,7 @@ export function View() {
           <Switch name="undeformed" title="Undeformed" now={now} />
           <Switch name="hull" title="Hull" now={now} />
           <Switch name="tension" title="Tension" now={now} />
+          {tension && now.tension && <TensionBar low={tension[0]} high={tension[1]} />}
           {solid && <Switch name="solid" title="3D" now={now} />}
         </fieldset>
       </div>

@@ -71,7 +71,7 @@ function take({ revision: answered, state, final }: Answer): void {
 function solve(): void {
   const now = values.get();
   leaveTime();
-  if (isInTime(now)) return;
+  if (isInTime(now)) return solver.stop();
   cases.set(++revision, now);
   solver.want(revision, sectionsOf(now), Number(optionOf(keys.get(), now, 'numerics.accuracy') ?? 1e-4));
 }
@@ -99,11 +99,11 @@ export function change(name: string, value: Value, settled = true): void {
 }
 
 export function settleChange(): void {
-  if (before && !sameCase(before, values.get())) {
-    history.record(before);
-    settle();
-  }
+  const start = before;
   before = null;
+  if (!start || sameCase(start, values.get())) return;
+  history.record(start);
+  settle();
 }
 
 /** Several keys at once, or a whole case from elsewhere: one step to undo. */

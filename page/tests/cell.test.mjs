@@ -1,0 +1,152 @@
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import test from 'node:test';
+import { noBrowser } from './browser.mjs';
+import { field, moveSlider, openCell, settled, shownDeformation, slider, typeNumber } from './cell_page.mjs';
+
+const modulus = 'cell.bulk.young_modulus_kPa';
+
+async function withCell(use, options, hash) {
+  const cell = await openCell(options, hash);
+  try {
+    await use(cell);
+    assert.deepEqual(cell.failures, [], 'the page reports no error and obeys its content security policy');
+  } finally {
+    await cell.end();
+  }
+}
+
+test('A softer cell deforms more: the slider of the modulus moves the deformation', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    const before = await shownDeformation(page);
+    await moveSlider(page, modulus, 450);
+    const after = await shownDeformation(page);
+    assert.ok(after > 1.1 * before, `${after} is not well above ${before}`);
+    assert.ok(Number(await field(page, modulus).inputValue()) < 3.437);
+  }));
+
+test('A state that does not exist leaves the last one greyed, says why, and the nearest one is a click away', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    const before = await shownDeformation(page);
+    await typeNumber(page, modulus, '0.3');
+    await page.locator('.refused').waitFor();
+    assert.ok((await page.locator('.refused p').first().textContent()).length > 20, 'it says why');
+    assert.equal(await page.locator('.channel.stale').count(), 1);
+    assert.equal(await shownDeformation(page), before);
+    await page.getByRole('button', { name: 'Nearest state that exists' }).click();
+    await page.locator('.refused').waitFor({ state: 'detached' });
+    await settled(page);
+    assert.ok((await shownDeformation(page)) > before);
+    assert.equal(await page.locator('.channel.stale').count(), 0);
+  }));
+
+test('A cell that does not fit is refused at its control', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    await typeNumber(page, 'cell.radius_um', '30');
+    await page.locator('[data-key="cell.radius_um"] .wrong').waitFor();
+    assert.equal(await field(page, 'cell.radius_um').getAttribute('aria-invalid'), 'true');
+  }));
+
+test('Undo returns to the case before, redo to the one after; a whole movement is one step', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    const first = await shownDeformation(page);
+    await moveSlider(page, modulus, 480);
+    const second = await shownDeformation(page);
+    await page.getByRole('button', { name: 'Undo' }).click();
+    await settled(page);
+    assert.equal(await shownDeformation(page), first);
+    assert.equal(await field(page, modulus).inputValue(), '3.437');
+    await page.keyboard.press('Control+Shift+Z');
+    await settled(page);
+    assert.equal(await shownDeformation(page), second);
+  }));
+
+test('The address holds the case: a link restores it', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    await typeNumber(page, 'cell.radius_um', '6.5');
+    await settled(page);
+    const shown = await shownDeformation(page);
+    const link = page.url();
+    assert.match(link, /#cell\?.*cell\.radius_um=6\.5/);
+    await page.goto('about:blank');
+    await page.goto(link);
+    await settled(page);
+    assert.equal(await field(page, 'cell.radius_um').inputValue(), '6.5');
+    assert.equal(await shownDeformation(page), shown);
+  }));
+
+test('Keys without effect for the chosen law are not shown; what a law needs comes with it', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    assert.equal(await slider(page, 'flow.exponent').count(), 0);
+    await page.locator('[data-key="flow.law"] select').selectOption('power-law');
+    await settled(page);
+    assert.equal(await slider(page, 'flow.exponent').count(), 1);
+    assert.equal(await slider(page, 'flow.viscosity_mPas').count(), 0);
+    await page.locator('[data-key="flow.law"] select').selectOption('newtonian');
+    await settled(page);
+    assert.equal(await field(page, 'flow.viscosity_mPas').inputValue(), '15');
+  }));
+
+test('A medium of the field brings its law into the case', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    await page.locator('#medium').selectOption({ index: 1 });
+    await page.locator('[data-key="flow.exponent"]').waitFor();
+    await settled(page);
+    assert.equal(await page.locator('[data-key="flow.law"] select').inputValue(), 'power-law');
+  }));
+
+test('All works by keyboard: slider, undo, menu, values in the picture', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    const first = await shownDeformation(page);
+    await slider(page, modulus).focus();
+    for (let k = 0; k < 30; ++k) await page.keyboard.press('ArrowLeft');
+    await settled(page);
+    assert.ok((await shownDeformation(page)) > first);
+    await page.locator('.menu > summary').focus();
+    await page.keyboard.press('Enter');
+    await page.getByRole('button', { name: 'Copy link' }).waitFor();
+    await page.keyboard.press('Escape');
+    await page.getByRole('button', { name: 'Copy link' }).waitFor({ state: 'hidden' });
+    await page.locator('.channel').focus();
+    await page.keyboard.press('ArrowUp');
+    assert.match(await page.locator('.readout').textContent(), /stress/i);
+  }));
+
+test('Every control is reached with the tab key, and the first leads past the frame', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    const reached = new Set();
+    for (let k = 0; k < 70; ++k) {
+      await page.keyboard.press('Tab');
+      reached.add(await page.evaluate(() => document.activeElement.closest('[data-key]')?.dataset.key ?? document.activeElement.className));
+    }
+    for (const wanted of ['skip', modulus, 'cell.radius_um', 'flow.rate_ul_per_s', 'channel']) {
+      assert.ok(reached.has(wanted), `${wanted} is not reached`);
+    }
+  }));
+
+test('A case in time is followed and played along its time line', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    await page.locator('[data-key="time.scheme"] select').selectOption('monolithic');
+    await typeNumber(page, 'time.end_us', '200');
+    await page.getByRole('button', { name: 'Follow the cell in time' }).click();
+    await page.getByRole('button', { name: 'Close' }).waitFor({ timeout: 120000 });
+    const last = await shownDeformation(page);
+    await page.locator('.time-slider').fill('0');
+    assert.ok((await shownDeformation(page)) < last);
+    await page.getByRole('button', { name: 'Play' }).click();
+    await page.getByRole('button', { name: 'Pause' }).waitFor();
+  }));
+
+test('The picture is saved as SVG with its colours, legends and numbers', { skip: noBrowser }, () =>
+  withCell(async ({ page, target }) => {
+    const sent = page.waitForRequest((request) => request.url().endsWith('/api/export'));
+    await page.locator('.menu > summary').click();
+    await page.getByRole('button', { name: 'Save picture (SVG)' }).click();
+    const { data } = (await sent).postDataJSON();
+    const svg = Buffer.from(data, 'base64').toString('utf8');
+    assert.match(svg, /<image href="data:image\/png/);
+    assert.match(svg, /Elastic stress/);
+    const notice = await page.locator('.notice p').textContent();
+    const written = /^Written: (.*)/.exec(notice)[1];
+    if (target.output) assert.equal(await readFile(written, 'utf8'), svg);
+  }));

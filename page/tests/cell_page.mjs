@@ -1,0 +1,47 @@
+// The workplace "Cell" as a person uses it, for the tests: its numbers, sliders, and waiting for the answer.
+import { openBrowser } from './browser.mjs';
+import { startTarget } from './target.mjs';
+
+/** Opens the workplace and waits for its first state of the wanted accuracy. */
+export async function openCell(options = {}, hash = '') {
+  const target = await startTarget();
+  const { context, close } = await openBrowser(options);
+  const page = context.pages()[0] ?? (await context.newPage());
+  const failures = [];
+  page.on('pageerror', (failure) => failures.push(failure.message));
+  page.on('console', (message) => /Content Security Policy/.test(message.text()) && failures.push(message.text()));
+  await page.goto(target.address);
+  if (hash) {
+    await page.goto(new URL(hash, target.address).href);
+    await page.reload();
+  }
+  await settled(page);
+  const end = async () => {
+    await close();
+    await target.stop();
+  };
+  return { page, target, failures, end };
+}
+
+/** Nothing is being solved, and a state is shown. */
+export async function settled(page) {
+  await page.locator('.cell[data-working="idle"] .numbers .lead').waitFor();
+}
+
+export async function shownDeformation(page) {
+  return Number(await page.locator('[data-measure="Deformation"] .value').textContent());
+}
+
+export const slider = (page, key) => page.locator(`[data-key="${key}"] input[type="range"]`);
+export const field = (page, key) => page.locator(`[data-key="${key}"] input.number`);
+
+/** Moves a slider to a place (0..1000) and lets it go. */
+export async function moveSlider(page, key, place) {
+  await slider(page, key).fill(String(place));
+  await settled(page);
+}
+
+export async function typeNumber(page, key, text) {
+  await field(page, key).fill(text);
+  await field(page, key).press('Enter');
+}
