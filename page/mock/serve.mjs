@@ -5,6 +5,7 @@ import { extname, join, normalize } from 'node:path';
 import { setTimeout as pause } from 'node:timers/promises';
 import { fileURLToPath } from 'node:url';
 import { readKeys } from './keys.mjs';
+import { recordingRoute } from './recording_routes.mjs';
 import { linesOf, physicsOf, stateOf, stepOf, wrongKey } from './state.mjs';
 
 const dist = fileURLToPath(new URL('../dist/', import.meta.url));
@@ -84,7 +85,6 @@ const routes = {
   'POST /api/evolve': evolve,
   'POST /api/case/text': text,
   'GET /api/lines': ({ response }) => answer(response, 200, linesOf()),
-  'GET /api/items': ({ response }) => answer(response, 200, []),
   'GET /api/session': ({ response }) => answer(response, 200, { page: session }),
   'PUT /api/session': keepSession,
   'POST /api/export': exported,
@@ -107,7 +107,7 @@ export async function startMock(port = 0) {
   session = null;
   const server = createServer((request, response) => {
     const url = new URL(request.url, 'http://localhost');
-    const route = routes[`${request.method} ${url.pathname}`];
+    const route = routes[`${request.method} ${url.pathname}`] ?? recordingRoute(request.method, url.pathname);
     const work = route ? route({ request, response, url }) : asset(response, url.pathname);
     Promise.resolve(work).catch((failure) => refuse(response, 500, 'mock', String(failure)));
   });

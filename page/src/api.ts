@@ -94,8 +94,8 @@ export interface Isoelastic {
 
 export interface Lines {
   lines: Isoelastic[];
-  range?: { x: number[]; y: number[] };
-  table?: string;
+  range?: { x: number[]; y: number[] } | null;
+  table?: string | null;
   sentence?: string;
 }
 
@@ -122,17 +122,30 @@ export interface Columns {
   columns: Float32Array[] | Float64Array[];
 }
 
+export interface Curve {
+  x_um: number[];
+  y_um: number[];
+}
+
+/** The model's cell of an event, laid over its image. */
+export interface EventModel extends Curve {
+  cortex: Curve | null;
+  /** At each point of the outline: its distance from the centroid less the model's, once their mean radii agree. */
+  residual_um: number[];
+  residual_rms_um: number;
+  source?: string;
+}
+
+/** One event; curves in um from the upper left corner of the image, y downwards. */
 export interface EventDetail {
-  features: Record<string, number>;
+  features: Record<string, number | null>;
   young_modulus_kPa: number | null;
   standard_error_kPa: number | null;
   state: string;
   sentence: string;
-  shape_excess?: number | null;
-  young_modulus_asymmetry_kPa?: number | null;
-  pixel_um: number;
-  outline: { x_um: number[]; y_um: number[] } | null;
-  model: { x_um: number[]; y_um: number[]; cortex: { x_um: number[]; y_um: number[] } | null } | null;
+  pixel_um: number | null;
+  outline: Curve | null;
+  model: EventModel | null;
   case: Sections | null;
 }
 

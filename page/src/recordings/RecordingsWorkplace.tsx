@@ -1,8 +1,154 @@
 // The workplace "Recordings": events of recordings, their moduli, and the model beside each image.
+import { useEffect } from 'preact/hooks';
+import { notifyFailure } from '../shell/notices';
+import { Progress, useLasting } from '../shell/Progress';
+import { useStore } from '../shell/store';
+import { loadingColumns, stopLoading } from './columns';
+import { Distributions } from './Distributions';
+import { ExportMenu } from './ExportMenu';
+import { GateList } from './GateList';
+import { Inspector } from './Inspector';
+import { focus, gates, items, keepModel, panel, plots, readRecordings, recordings, secondPlot, tool, type Panel, type Tool } from './model';
+import { ModuliPanel } from './ModuliPanel';
+import { readKnownModuli } from './moduli';
+import { RecordingList } from './RecordingList';
+import { ScatterPlot } from './ScatterPlot';
+import { MeasuredSelect, StatisticsTable } from './StatisticsTable';
+import './recordings.css';
+
+const tools: [Tool, string, string][] = [
+  ['look', 'Move', 'Drag moves, the wheel zooms, a click chooses an event'],
+  ['box', 'Box', 'Gate: drag a box, limits of both features'],
+  ['polygon', 'Polygon', 'Gate: click corners; the first corner closes it'],
+];
+const panels: [Panel, string][] = [
+  ['statistics', 'Statistics'],
+  ['gates', 'Gates'],
+  ['distributions', 'Distributions'],
+];
+
+let begun = false;
+function useStart(): void {
+  useEffect(() => {
+    if (begun) return;
+    begun = true;
+    keepModel();
+    readRecordings()
+      .then(() => recordings(items.get()).filter((item) => item.state === 'ready'))
+      .then((ready) => Promise.all(ready.map((item) => readKnownModuli(item.item))))
+      .catch(notifyFailure);
+  }, []);
+}
+
+function Toolbar() {
+  const mode = useStore(tool);
+  const shown = useStore(plots);
+  const loading = useLasting(useStore(loadingColumns) > 0);
+  return (
+    <div class="toolbar">
+      <div class="segmented" role="group" aria-label="What the mouse does">
+        {tools.map(([name, title, hint]) => (
+          <button key={name} aria-pressed={mode === name} title={hint} onClick={() => tool.set(name)}>
+            {title}
+          </button>
+        ))}
+      </div>
+      <label class="check">
+        <input type="checkbox" checked={shown.length > 1} onChange={({ currentTarget }) => secondPlot(currentTarget.checked)} />
+        Two plots
+      </label>
+      <OverlayChecks />
+      <span class="spring">{loading && <Progress label="Reading events" onStop={stopLoading} />}</span>
+      <ExportMenu />
+    </div>
+  );
+}
+
+/** Lines and contours, in all plots alike. */
+function OverlayChecks() {
+  const [first] = useStore(plots);
+  const set = (change: { lines?: boolean; contours?: boolean }) => plots.update((all) => all.map((plot) => ({ ...plot, ...change })));
+  return (
+    <>
+      <label class="check" title="Isoelasticity lines of the table, and its range">
+        <input type="checkbox" checked={first.lines} onChange={({ currentTarget }) => set({ lines: currentTarget.checked })} />
+        Lines
+      </label>
+      <label class="check" title="Contours that enclose 50 and 95 % of the events">
+        <input type="checkbox" checked={first.contours} onChange={({ currentTarget }) => set({ contours: currentTarget.checked })} />
+        Contours
+      </label>
+    </>
+  );
+}
+
+/** Arrow keys lead from tab to tab. */
+function moveTab(event: KeyboardEvent, now: Panel): void {
+  const step = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
+  if (step === 0) return;
+  const at = panels.findIndex(([name]) => name === now);
+  const next = panels[(at + step + panels.length) % panels.length][0];
+  panel.set(next);
+  document.getElementById(`tab-${next}`)?.focus();
+  event.preventDefault();
+}
+
+function Results() {
+  const shown = useStore(panel);
+  const active = useStore(gates).filter((gate) => gate.on).length;
+  return (
+    <section class="results" aria-label="Results">
+      <div class="results-head">
+        <div class="tabs" role="tablist" aria-label="Results">
+          {panels.map(([name, title]) => (
+            <button
+              key={name}
+              id={`tab-${name}`}
+              role="tab"
+              aria-selected={shown === name}
+              aria-controls="results-panel"
+              tabIndex={shown === name ? 0 : -1}
+              onClick={() => panel.set(name)}
+              onKeyDown={(event) => moveTab(event, name)}
+            >
+              {title}
+              {name === 'gates' && active > 0 && ` (${active})`}
+            </button>
+          ))}
+        </div>
+        {shown !== 'gates' && <MeasuredSelect />}
+      </div>
+      <div id="results-panel" role="tabpanel" aria-labelledby={`tab-${shown}`} tabIndex={0}>
+        {shown === 'statistics' && <StatisticsTable />}
+        {shown === 'gates' && <GateList />}
+        {shown === 'distributions' && <Distributions />}
+      </div>
+    </section>
+  );
+}
+
 export function RecordingsWorkplace() {
+  useStart();
+  const shown = useStore(plots);
+  useStore(focus);
   return (
     <section class="recordings" aria-label="Recordings">
-      <p>No recordings yet.</p>
+      <aside class="recordings-left">
+        <RecordingList />
+        <ModuliPanel />
+      </aside>
+      <div class="recordings-middle">
+        <Toolbar />
+        <div class={`plots ${shown.length > 1 ? 'two' : ''}`}>
+          {shown.map((plot) => (
+            <ScatterPlot key={plot.id} plot={plot} several={shown.length > 1} />
+          ))}
+        </div>
+        <Results />
+      </div>
+      <aside class="recordings-right">
+        <Inspector />
+      </aside>
     </section>
   );
 }

@@ -1,0 +1,145 @@
+// One event: its image with outline and model, its features, its modulus or the reason why there is none.
+import { useEffect, useState } from 'preact/hooks';
+import { readEvent, type EventDetail } from '../api';
+import { significant } from '../draw/numbers';
+import { openInCell } from '../shell/open_in_cell';
+import { Progress, useLasting } from '../shell/Progress';
+import { useStore } from '../shell/store';
+import { nameOf, unitOf } from './features';
+import { EventImage } from './EventImage';
+import { choice, itemOf, titleOf, type Choice } from './model';
+import { moduliVersion } from './moduli';
+import { ResidualPlot } from './ResidualPlot';
+import { counted } from './scale';
+
+interface Found {
+  detail: EventDetail | null;
+  error: string;
+  stop: () => void;
+  running: boolean;
+}
+
+/** The event's details; those of the one before stay until they have come. */
+function useDetail(chosen: Choice | null): Found {
+  const [detail, setDetail] = useState<EventDetail | null>(null);
+  const [error, setError] = useState('');
+  const [stop, setStop] = useState<AbortController | null>(null);
+  const version = useStore(moduliVersion);
+  useEffect(() => {
+    setError('');
+    if (!chosen) return setDetail(null);
+    const control = new AbortController();
+    setStop(control);
+    readEvent(chosen.item, chosen.event, control.signal)
+      .then(setDetail)
+      .catch((failure: Error & { reason?: string }) => {
+        setDetail(null);
+        if (failure.reason !== 'stopped') setError(failure.message);
+      })
+      .finally(() => setStop((now) => (now === control ? null : now)));
+    return () => control.abort();
+  }, [chosen?.item, chosen?.event, version]);
+  return { detail, error, stop: () => stop?.abort(), running: stop !== null };
+}
+
+function Modulus({ detail }: { detail: EventDetail }) {
+  const value = detail.young_modulus_kPa;
+  return (
+    <div class="modulus">
+      {value !== null && Number.isFinite(value) ? (
+        <p class="large">
+          <span class="symbol">E</span> {significant(value, 3)}
+          {detail.standard_error_kPa !== null && ` ± ${significant(detail.standard_error_kPa, 2)}`} <span class="unit">kPa</span>
+        </p>
+      ) : (
+        <p class="large none">No modulus: {detail.state}</p>
+      )}
+      {detail.sentence && <p class="soft">{detail.sentence}</p>}
+    </div>
+  );
+}
+
+function Extras({ detail }: { detail: EventDetail }) {
+  const features = Object.entries(detail.features).filter(
+    (row): row is [string, number] => row[0] !== 'state' && typeof row[1] === 'number' && Number.isFinite(row[1]),
+  );
+  return (
+    <table class="event-features">
+      <caption class="hidden">Features of the event</caption>
+      <tbody>
+        {features.map(([feature, value]) => (
+          <tr key={feature} title={feature}>
+            <th scope="row">{nameOf(feature)}</th>
+            <td>{Number.isInteger(value) ? counted(value) : significant(value, 5)}</td>
+            <td class="unit">{unitOf(feature)}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+function Steps({ chosen }: { chosen: Choice }) {
+  const count = itemOf(chosen.item)?.events ?? 0;
+  const go = (event: number) => choice.set({ ...chosen, event: Math.min(count - 1, Math.max(0, event)) });
+  return (
+    <div class="row steps">
+      <button aria-label="Previous event" disabled={chosen.event === 0} onClick={() => go(chosen.event - 1)}>
+        ‹
+      </button>
+      <label>
+        <span class="hidden">Number of the event</span>
+        <input
+          class="number"
+          type="number"
+          min={1}
+          max={count}
+          value={chosen.event + 1}
+          onChange={({ currentTarget }) => currentTarget.value && go(Math.round(Number(currentTarget.value)) - 1)}
+        />
+      </label>
+      <span class="soft">of {counted(count)}</span>
+      <button aria-label="Next event" disabled={chosen.event + 1 >= count} onClick={() => go(chosen.event + 1)}>
+        ›
+      </button>
+    </div>
+  );
+}
+
+function Detail({ chosen, detail }: { chosen: Choice; detail: EventDetail }) {
+  return (
+    <>
+      <EventImage key={`${chosen.item}/${chosen.event}`} chosen={chosen} detail={detail} />
+      <Modulus detail={detail} />
+      {detail.outline && detail.model && <ResidualPlot outline={detail.outline} model={detail.model} pixel={detail.pixel_um ?? 0} />}
+      {detail.case && (
+        <button class="primary" onClick={() => openInCell(detail.case!)}>
+          Open in Cell
+        </button>
+      )}
+      <Extras detail={detail} />
+    </>
+  );
+}
+
+export function Inspector() {
+  const chosen = useStore(choice);
+  const { detail, error, stop, running } = useDetail(chosen);
+  const lasting = useLasting(running);
+  const item = chosen ? itemOf(chosen.item) : undefined;
+  return (
+    <section class="inspector" aria-label="Event">
+      <h2>Event</h2>
+      {!chosen && <p class="soft">Choose an event in a plot: its image appears here, with the contour of the model's cell.</p>}
+      {chosen && item && (
+        <>
+          <p class="soft">{titleOf(item)}</p>
+          <Steps chosen={chosen} />
+        </>
+      )}
+      {lasting && <Progress label="The model's cell" onStop={stop} />}
+      {error && <p class="alarm">{error}</p>}
+      {chosen && detail && <Detail chosen={chosen} detail={detail} />}
+    </section>
+  );
+}

@@ -1,0 +1,112 @@
+// Young's moduli of the recording in focus: settings, run with progress, what came out, and the command for it.
+import { Progress } from '../shell/Progress';
+import { notify } from '../shell/notices';
+import { useStore } from '../shell/store';
+import { focus, gates, itemOf, items, moduliSettings, recordings, titleOf } from './model';
+import { gateOptions } from './gates';
+import { endModuli, moduli, runModuli } from './moduli';
+
+const fields: { name: string; label: string; numeric: boolean }[] = [
+  { name: 'table', label: 'Table', numeric: false },
+  { name: 'medium', label: 'Medium', numeric: false },
+  { name: 'temperature', label: 'Temperature, °C', numeric: true },
+  { name: 'viscosity_mPas', label: 'Viscosity, mPa s', numeric: true },
+];
+
+function Setting({ name, label, numeric }: (typeof fields)[number]) {
+  const settings = useStore(moduliSettings);
+  const tables = (useStore(items) ?? []).filter((item) => item.kind === 'table');
+  return (
+    <label class="setting">
+      <span>{label}</span>
+      <input
+        type="text"
+        inputMode={numeric ? 'decimal' : 'text'}
+        value={settings[name] ?? ''}
+        placeholder="automatic"
+        list={name === 'table' ? 'own-tables' : undefined}
+        onChange={({ currentTarget: { value } }) => moduliSettings.update((all) => ({ ...all, [name]: value }))}
+      />
+      {name === 'table' && (
+        <datalist id="own-tables">
+          {tables.map((table) => (
+            <option key={table.item} value={table.name} />
+          ))}
+        </datalist>
+      )}
+    </label>
+  );
+}
+
+/** The command that gives the same numbers; null before there is one. */
+export function Command({ command }: { command: string }) {
+  const active = useStore(gates);
+  const { options, polygons } = gateOptions(active);
+  const whole = options === '' ? command : `${command} ${options}`;
+  const copy = () =>
+    void navigator.clipboard.writeText(whole).then(
+      () => notify('The command is in the clipboard.'),
+      () => notify('The clipboard is not accessible; mark the command and copy it.', 'failed'),
+    );
+  return (
+    <div class="command">
+      <div class="row">
+        <h3>As a command</h3>
+        <button class="quiet" onClick={copy}>
+          Copy
+        </button>
+      </div>
+      <code tabIndex={0}>{whole}</code>
+      {polygons > 0 && <p class="soft">Polygon gates have no option there; the export of the events holds them.</p>}
+    </div>
+  );
+}
+
+function Run() {
+  const number = useStore(focus);
+  const runs = useStore(moduli);
+  const all = recordings(useStore(items)).filter((item) => item.state === 'ready');
+  if (number === null) return null;
+  const run = runs[number];
+  if (run?.state === 'running')
+    return <Progress label={`${Math.round(100 * run.done)} % of the events`} done={run.done} onStop={() => void endModuli(number)} />;
+  return (
+    <div class="row">
+      <button class="primary" title={titleOf(itemOf(number)!)} onClick={() => void runModuli([number])}>
+        Compute moduli
+      </button>
+      {all.length > 1 && (
+        <button aria-label={`Compute the moduli of all ${all.length} recordings`} onClick={() => void runModuli(all.map((item) => item.item))}>All {all.length}</button>
+      )}
+    </div>
+  );
+}
+
+export function ModuliPanel() {
+  const number = useStore(focus);
+  const run = useStore(moduli)[number ?? -1];
+  useStore(items);
+  return (
+    <section class="moduli" aria-label="Moduli">
+      <h2>Young's moduli</h2>
+      <div class="settings">
+        {fields.map((field) => (
+          <Setting key={field.name} {...field} />
+        ))}
+      </div>
+      <Run />
+      {run?.state === 'failed' && run.error && <p class="alarm">{run.error}</p>}
+      {run?.state === 'ready' && run.lines && run.lines.length > 0 && (
+        <details>
+          <summary>What the moduli rest on</summary>
+          <ul class="remarks">
+            {run.lines.map((line) => (
+              <li key={line}>{line}</li>
+            ))}
+          </ul>
+        </details>
+      )}
+      {run?.state === 'ready' && run.command && <Command command={run.command} />}
+    </section>
+  );
+}

@@ -1,0 +1,165 @@
+// One plot: any two features of a recording, its events by density or by a third feature, lines and gates over them.
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+import type { Item, Lines } from '../api';
+import { pixelX, pixelY, margins, innerHeight, innerWidth, type Frame } from './plot_frame';
+import { useStore } from '../shell/store';
+import { counted } from './scale';
+import { nameOf } from './features';
+import { changePlot, choice, focus, gates, itemOf, items, recordings, titleOf, tool, type Plot } from './model';
+import { moduliVersion } from './moduli';
+import { PlotActions } from './plot_actions';
+import { PlotAxes } from './PlotAxes';
+import { useLines, usePlotData, type PlotData } from './plot_data';
+import { DensityContours, Draft, GateShapes, TableLines } from './PlotLines';
+import { AxisSelects, ColourSelect } from './PlotSelects';
+import { PointsCanvas } from './PointsCanvas';
+import { useDrawing, type Drawing } from './use_drawing';
+
+function useSize() {
+  const element = useRef<HTMLDivElement>(null);
+  const [size, setSize] = useState({ width: 0, height: 0 });
+  useEffect(() => {
+    const observer = new ResizeObserver(([entry]) => {
+      const { width, height } = entry.contentRect;
+      setSize({ width: Math.floor(width), height: Math.floor(height) });
+    });
+    observer.observe(element.current!);
+    return () => observer.disconnect();
+  }, []);
+  return { element, ...size };
+}
+
+/** The wheel zooms; it must not scroll the page, so the listener may not be passive. */
+function useWheel(target: { current: SVGSVGElement | null }, actions: PlotActions | null): void {
+  const latest = useRef(actions);
+  latest.current = actions;
+  useEffect(() => {
+    const svg = target.current;
+    if (!svg) return;
+    const turn = (event: WheelEvent) => {
+      event.preventDefault();
+      const own = svg.getBoundingClientRect();
+      latest.current?.zoom(Math.exp(-0.0015 * event.deltaY), [event.clientX - own.left, event.clientY - own.top]);
+    };
+    svg.addEventListener('wheel', turn, { passive: false });
+    return () => svg.removeEventListener('wheel', turn);
+  }, [target.current]);
+}
+
+function ChosenEvent({ frame, data, item }: { frame: Frame; data: PlotData; item: Item }) {
+  const chosen = useStore(choice);
+  if (chosen?.item !== item.item) return null;
+  const x = pixelX(frame, data.places.x[chosen.event] + data.places.originX);
+  const y = pixelY(frame, data.places.y[chosen.event] + data.places.originY);
+  if (!Number.isFinite(x) || !Number.isFinite(y)) return null;
+  return (
+    <g class="chosen-event">
+      <circle cx={x} cy={y} r={7} />
+      <circle cx={x} cy={y} r={7} />
+    </g>
+  );
+}
+
+/** What a reader of the page hears about the plot. */
+const spoken = (plot: Plot, item: Item) =>
+  `Plot of ${nameOf(plot.y.feature)} against ${nameOf(plot.x.feature)}, ${titleOf(item)}, ${counted(item.events ?? 0)} events. ` +
+  'Arrow keys move, plus and minus zoom, 0 shows all; Shift with arrow keys moves a crosshair, Enter chooses the event there; ' +
+  'N and P choose the next and the previous event; B draws a box gate, G a polygon gate, C closes it, Escape ends.';
+
+interface LayersProps {
+  plot: Plot;
+  item: Item;
+  frame: Frame;
+  data: PlotData | null;
+  lines: Lines | null;
+  drawing: Drawing;
+}
+
+function Layers({ plot, item, frame, data, lines, drawing }: LayersProps) {
+  const active = useStore(gates);
+  const clip = `inside-${plot.id}`;
+  return (
+    <>
+      <clipPath id={clip}>
+        <rect x={margins.left} y={margins.top} width={innerWidth(frame)} height={innerHeight(frame)} />
+      </clipPath>
+      <g clip-path={`url(#${clip})`}>
+        {lines && <TableLines plot={plot} frame={frame} lines={lines} />}
+        {data?.density && plot.contours && (item.events ?? 0) >= 20 && <DensityContours density={data.density} frame={frame} />}
+        <GateShapes plot={plot} frame={frame} gates={active} />
+        <Draft frame={frame} points={drawing.points} closed={drawing.closed} crosshair={drawing.crosshair} />
+        {data && <ChosenEvent frame={frame} data={data} item={item} />}
+      </g>
+      <PlotAxes frame={frame} x={plot.x} y={plot.y} />
+    </>
+  );
+}
+
+function Drawn({ plot, item }: { plot: Plot; item: Item }) {
+  const { element, width, height } = useSize();
+  const svg = useRef<SVGSVGElement>(null);
+  const data = usePlotData(plot, item);
+  const lines = useLines(plot, item, useStore(moduliVersion));
+  const mode = useStore(tool);
+  const frame: Frame = { width, height, x: data?.x ?? { low: 0, high: 1 }, y: data?.y ?? { low: 0, high: 1 } };
+  const actions = useMemo(
+    () => (data && width > 0 ? new PlotActions(plot, item, data, frame) : null),
+    [plot, item, data, width, height],
+  );
+  const drawing = useDrawing(actions);
+  useWheel(svg, actions);
+  return (
+    <>
+      <div class={`plot-frame tool-${mode}`} ref={element} data-plot={plot.id}>
+        <PointsCanvas data={data} frame={frame} moving={drawing.moving} />
+        <svg
+          ref={svg}
+          width={width}
+          height={height}
+          tabIndex={0}
+          role="application"
+          aria-label={spoken(plot, item)}
+          onPointerDown={drawing.onPointerDown}
+          onPointerMove={drawing.onPointerMove}
+          onPointerUp={drawing.onPointerUp}
+          onKeyDown={drawing.onKeyDown}
+          onDblClick={() => mode === 'look' && actions?.fit()}
+        >
+          {width > 0 && <Layers {...{ plot, item, frame, data, lines, drawing }} />}
+        </svg>
+      </div>
+      <p class="plot-note">{plot.lines ? (lines?.sentence ?? (lines?.table ? `Isoelasticity lines in kPa: ${lines.table}` : '')) : ''}</p>
+    </>
+  );
+}
+
+export function ScatterPlot({ plot, several }: { plot: Plot; several: boolean }) {
+  const all = recordings(useStore(items));
+  const focused = useStore(focus);
+  const item = itemOf(plot.item ?? focused);
+  return (
+    <section class="plot" aria-label={`Plot ${plot.id}`}>
+      <div class="plot-head">
+        {several && (
+          <label class="choice">
+            <span class="hidden">Recording</span>
+            <select
+              value={plot.item === null ? '' : String(plot.item)}
+              onChange={({ currentTarget: { value } }) => changePlot(plot.id, { item: value === '' ? null : Number(value) })}
+            >
+              <option value="">Recording in focus</option>
+              {all.map((each) => (
+                <option key={each.item} value={String(each.item)}>
+                  {titleOf(each)}
+                </option>
+              ))}
+            </select>
+          </label>
+        )}
+        <AxisSelects plot={plot} features={item?.features ?? []} />
+        <ColourSelect plot={plot} features={item?.features ?? []} />
+      </div>
+      {item && item.state === 'ready' ? <Drawn plot={plot} item={item} /> : <div class="plot-frame empty">No recording.</div>}
+    </section>
+  );
+}

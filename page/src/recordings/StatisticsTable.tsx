@@ -1,0 +1,82 @@
+// Statistics of a feature by recording, over the events within the gates.
+import type { Item } from '../api';
+import { significant } from '../draw/numbers';
+import { useStore } from '../shell/store';
+import { countWithin, statisticsOf } from './analysis';
+import { columnsVersion } from './columns';
+import { isComputed, labelOf, unitOf } from './features';
+import { focus, gates, items, measured, recordings, titleOf } from './model';
+import { FeatureOptions } from './PlotSelects';
+import { counted } from './scale';
+
+export function MeasuredSelect() {
+  const feature = useStore(measured);
+  const offered = [...new Set(recordings(useStore(items)).flatMap((item) => item.features ?? []))];
+  return (
+    <label class="choice">
+      <span>Of</span>
+      <select value={feature} onChange={({ currentTarget }) => measured.set(currentTarget.value)}>
+        <FeatureOptions features={offered} chosen={feature} />
+      </select>
+    </label>
+  );
+}
+
+function Row({ item, feature }: { item: Item; feature: string }) {
+  const active = useStore(gates);
+  const focused = useStore(focus) === item.item;
+  const found = statisticsOf(item, feature, active);
+  const within = countWithin(item, active);
+  const numbers = found && [found.median, found.mean, found.standardDeviation, found.standardError, found.firstQuartile, found.thirdQuartile];
+  return (
+    <tr class={focused ? 'focused' : ''} data-item={item.item}>
+      <th scope="row" title={item.name}>
+        {titleOf(item)}
+      </th>
+      <td class="text">{[item.condition, item.replicate].filter(Boolean).join(' / ') || '–'}</td>
+      <td>{within === undefined ? '–' : counted(within)}</td>
+      <td>{found ? counted(found.count) : '–'}</td>
+      {(numbers ?? Array(6).fill(NaN)).map((value, k) => (
+        <td key={k}>{significant(value, 4)}</td>
+      ))}
+    </tr>
+  );
+}
+
+export function StatisticsTable() {
+  useStore(columnsVersion);
+  const feature = useStore(measured);
+  const shown = recordings(useStore(items)).filter((item) => item.state === 'ready');
+  const missing = isComputed(feature) && !shown.some((item) => item.features?.includes(feature));
+  const unit = unitOf(feature);
+  return (
+    <div class="statistics">
+      {missing && <p class="soft">There are no moduli yet: choose “Compute moduli” on the left.</p>}
+      <table>
+        <caption class="hidden">{labelOf(feature)} by recording</caption>
+        <thead>
+          <tr>
+            <th scope="col">Recording</th>
+            <th scope="col" class="text">Condition</th>
+            <th scope="col">Events</th>
+            <th scope="col">With value</th>
+            <th scope="col">Median</th>
+            <th scope="col">Mean</th>
+            <th scope="col">SD</th>
+            <th scope="col" title="Standard error of the mean">SE</th>
+            <th scope="col">25 %</th>
+            <th scope="col">75 %</th>
+          </tr>
+        </thead>
+        <tbody>
+          {shown.map((item) => (
+            <Row key={item.item} item={item} feature={feature} />
+          ))}
+        </tbody>
+      </table>
+      <p class="soft">
+        {unit && `In ${unit}. `}SE is the standard error of the mean: SD divided by the root of the number of events.
+      </p>
+    </div>
+  );
+}

@@ -1,0 +1,86 @@
+// Names of the features as people read them; what is not listed appears as the file names it.
+const known: Record<string, [string, string]> = {
+  area_um: ['Area', 'µm²'],
+  area_cvx: ['Area of the convex hull', 'px'],
+  area_msd: ['Area of the contour', 'px'],
+  area_ratio: ['Area ratio', ''],
+  aspect: ['Aspect ratio of the box', ''],
+  bright_avg: ['Brightness, mean', ''],
+  bright_sd: ['Brightness, sd', ''],
+  circ: ['Circularity', ''],
+  deform: ['Deformation', ''],
+  emodulus: ["Young's modulus E", 'kPa'],
+  frame: ['Frame', ''],
+  index: ['Index', ''],
+  inert_ratio_cvx: ['Inertia ratio of the hull', ''],
+  inert_ratio_prnc: ['Principal inertia ratio', ''],
+  inert_ratio_raw: ['Inertia ratio of the contour', ''],
+  pos_x: ['Position along the channel', 'µm'],
+  pos_y: ['Position across the channel', 'µm'],
+  odd_share: ['Odd share of the outline', ''],
+  shape_excess: ['Shape excess', ''],
+  size_x: ['Length of the box', 'µm'],
+  size_y: ['Height of the box', 'µm'],
+  standard_error: ['Standard error of E', 'kPa'],
+  standard_error_asymmetry: ['Standard error of E from the asymmetry', 'kPa'],
+  state: ['State of the modulus', ''],
+  temp: ['Temperature', '°C'],
+  tilt: ['Tilt', 'rad'],
+  time: ['Time', 's'],
+  volume: ['Volume', 'µm³'],
+  young_modulus_asymmetry: ['E from the asymmetry', 'kPa'],
+  cortex_modulus_mN_per_m: ['Cortex modulus E2D', 'mN/m'],
+  tension_mN_per_m: ['Cortex tension', 'mN/m'],
+};
+
+const spoken: [RegExp, string][] = [
+  [/_kPa$/, 'kPa'],
+  [/_mN_per_m$/, 'mN/m'],
+  [/_um2$/, 'µm²'],
+  [/_um$/, 'µm'],
+];
+
+export function unitOf(feature: string): string {
+  return known[feature]?.[1] ?? spoken.find(([ending]) => ending.test(feature))?.[1] ?? '';
+}
+
+export function nameOf(feature: string): string {
+  if (known[feature]) return known[feature][0];
+  const bare = spoken.reduce((text, [ending]) => text.replace(ending, ''), feature).replace(/_/g, ' ');
+  return bare.charAt(0).toUpperCase() + bare.slice(1);
+}
+
+/** "Area (µm²)" */
+export function labelOf(feature: string): string {
+  const unit = unitOf(feature);
+  return unit === '' ? nameOf(feature) : `${nameOf(feature)} (${unit})`;
+}
+
+export const youngModulus = 'emodulus';
+const computed = new Set([
+  youngModulus,
+  'state',
+  'standard_error',
+  'young_modulus_asymmetry',
+  'standard_error_asymmetry',
+  'shape_excess',
+  'odd_share',
+]);
+/** What the program computes with the moduli; all else is in the file. */
+export const isComputed = (feature: string): boolean => computed.has(feature);
+
+/** The states of events in the order in which they are listed, with what they mean. */
+export const states: [string, string][] = [
+  ['valid', 'modulus from the table'],
+  ['regularised', 'modulus of a cell whose surface is held smooth by bending'],
+  ['inertial', 'modulus changed by the inertia of the liquid, which the table does not hold'],
+  ['too small', 'smaller than any cell of the table'],
+  ['too large', 'larger than any cell of the table'],
+  ['too stiff', 'deformed less than the stiffest cell of the table'],
+  ['too soft', 'deformed more than the softest cell of the table'],
+  ['unstable', 'the bare surface of such a soft cell wrinkles'],
+  ['unresolved', 'the standard error is greater than the modulus'],
+  ['gated', 'outside the limits of the settings'],
+  ['no data', 'area, deformation or viscosity is missing'],
+];
+export const hasModulus = (state: string): boolean => ['valid', 'regularised', 'inertial'].includes(state);

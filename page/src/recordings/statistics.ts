@@ -1,0 +1,135 @@
+// What is said about the values of many events: the same numbers as the command line's (src/extract/distribution.h).
+
+export interface Statistics {
+  /** Values that are numbers and lie within the gates. */
+  count: number;
+  mean: number;
+  /** n - 1. */
+  standardDeviation: number;
+  /** Of the mean. */
+  standardError: number;
+  median: number;
+  firstQuartile: number;
+  thirdQuartile: number;
+}
+
+/** The values that count: finite and, where a mask is given, marked in it. */
+export function valuesWithin(values: ArrayLike<number>, inside: Uint8Array | null): Float64Array {
+  const kept = new Float64Array(values.length);
+  let count = 0;
+  for (let i = 0; i < values.length; ++i) {
+    const value = values[i];
+    if ((inside === null || inside[i]) && Number.isFinite(value)) kept[count++] = value;
+  }
+  return kept.subarray(0, count);
+}
+
+/** Puts the value of rank k in its place, smaller ones before it (Hoare's selection); reorders the values. */
+export function select(values: Float64Array, k: number, from = 0): number {
+  let low = from;
+  let high = values.length - 1;
+  while (low < high) {
+    const pivot = values[(low + high) >> 1];
+    let i = low;
+    let j = high;
+    while (i <= j) {
+      while (values[i] < pivot) ++i;
+      while (values[j] > pivot) --j;
+      if (i <= j) {
+        const held = values[i];
+        values[i++] = values[j];
+        values[j--] = held;
+      }
+    }
+    if (k <= j) high = j;
+    else if (k >= i) low = i;
+    else break;
+  }
+  return values[k];
+}
+
+/** Quantiles, linear between two values, for ascending shares; reorders the values. NaN of none. */
+export function quantiles(values: Float64Array, shares: number[]): number[] {
+  let from = 0;
+  return shares.map((share) => {
+    if (values.length === 0) return NaN;
+    const place = share * (values.length - 1);
+    const below = Math.floor(place);
+    const lower = select(values, below, from);
+    from = below;
+    if (below + 1 >= values.length) return lower;
+    const upper = select(values, below + 1, below + 1);
+    return lower + (place - below) * (upper - lower);
+  });
+}
+
+/** Sum with the rounding carried along: the order of the values does not matter for what is shown. */
+function carefulMean(values: Float64Array): number {
+  let sum = 0;
+  let lost = 0;
+  for (let i = 0; i < values.length; ++i) {
+    const part = values[i] - lost;
+    const next = sum + part;
+    lost = next - sum - part;
+    sum = next;
+  }
+  return sum / values.length;
+}
+
+function deviation(values: Float64Array, mean: number): number {
+  let squares = 0;
+  for (let i = 0; i < values.length; ++i) squares += (values[i] - mean) * (values[i] - mean);
+  return values.length > 1 ? Math.sqrt(squares / (values.length - 1)) : NaN;
+}
+
+/** Statistics of the values within a mask. */
+export function describe(values: ArrayLike<number>, inside: Uint8Array | null): Statistics {
+  const kept = valuesWithin(values, inside);
+  const mean = kept.length > 0 ? carefulMean(kept) : NaN;
+  const standardDeviation = deviation(kept, mean);
+  const [firstQuartile, median, thirdQuartile] = quantiles(kept, [0.25, 0.5, 0.75]);
+  return {
+    count: kept.length,
+    mean,
+    standardDeviation,
+    standardError: standardDeviation / Math.sqrt(kept.length),
+    median,
+    firstQuartile,
+    thirdQuartile,
+  };
+}
+
+/** Two-sided 95 % points of Student's t for 1 to 30 degrees of freedom; beyond, the normal one with its first correction. */
+const studentPoints = [
+  12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.16, 2.145, 2.131, 2.12, 2.11, 2.101,
+  2.093, 2.086, 2.08, 2.074, 2.069, 2.064, 2.06, 2.056, 2.052, 2.048, 2.045, 2.042,
+];
+export const studentPoint = (degrees: number): number =>
+  degrees < 1 ? NaN : (studentPoints[degrees - 1] ?? 1.96 + 2.4 / degrees);
+
+export interface Interval {
+  value: number;
+  low: number;
+  high: number;
+}
+
+/**
+ * The median and its 95 % interval from the order of the values: ranks n/2 -+ 0.98 sqrt(n), no shape of the distribution
+ * supposed. Below six values there is no such interval.
+ */
+export function medianInterval(values: Float64Array): Interval {
+  const count = values.length;
+  const reach = 0.98 * Math.sqrt(count);
+  const low = Math.floor(count / 2 - reach);
+  const high = Math.ceil(count / 2 + reach);
+  const [median] = quantiles(values, [0.5]);
+  if (low < 0 || high > count - 1) return { value: median, low: NaN, high: NaN };
+  return { value: median, low: select(values, low), high: select(values, high) };
+}
+
+/** Mean of replicates with the 95 % interval by Student's t: what a condition has when its recordings are the sample. */
+export function meanInterval(values: number[]): Interval {
+  const own = describe(values, null);
+  const reach = studentPoint(own.count - 1) * own.standardError;
+  return { value: own.mean, low: own.mean - reach, high: own.mean + reach };
+}

@@ -1,0 +1,198 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { loadModule } from './load_module.mjs';
+
+const { describe, medianInterval, meanInterval, quantiles, studentPoint } = await loadModule('recordings/statistics.ts');
+const { ticksOf, counted, zoomed, spanOf } = await loadModule('recordings/scale.ts');
+const { applyGates, gateOptions, SlabbedPolygon } = await loadModule('recordings/gates.ts');
+const { Density, densityCells, levelsEnclosing } = await loadModule('recordings/density.ts');
+const { isolines } = await loadModule('recordings/isolines.ts');
+const { placesOf } = await loadModule('recordings/places.ts');
+const { PixelCounts, nearestEvent, paint, colourByMean } = await loadModule('recordings/points.ts');
+const { alongAngles, centroid } = await loadModule('recordings/residual.ts');
+
+/** Numbers that look random and are the same every time (Park and Miller). */
+function numbers(count, seed = 7) {
+  let state = seed;
+  return Float64Array.from({ length: count }, () => (state = (state * 48271) % 2147483647) / 2147483647);
+}
+const normal = (count, seed) => {
+  const [a, b] = [numbers(count, seed), numbers(count, seed + 1)];
+  return a.map((value, i) => Math.sqrt(-2 * Math.log(value)) * Math.cos(2 * Math.PI * b[i]));
+};
+
+test('quantiles are those of the sorted values, linear between two of them', () => {
+  const values = numbers(1001);
+  const sorted = values.slice().sort();
+  assert.deepEqual(quantiles(values.slice(), [0, 0.25, 0.5, 1]), [sorted[0], sorted[250], sorted[500], sorted[1000]]);
+  assert.deepEqual(quantiles(Float64Array.of(4, 1, 3, 2), [0.25, 0.5, 0.75]), [1.75, 2.5, 3.25]);
+});
+
+test('equal values and few values have quantiles as well', () => {
+  assert.deepEqual(quantiles(new Float64Array(50).fill(3), [0.25, 0.5]), [3, 3]);
+  assert.deepEqual(quantiles(Float64Array.of(5), [0.25, 0.75]), [5, 5]);
+  assert.ok(Number.isNaN(quantiles(new Float64Array(0), [0.5])[0]));
+});
+
+test('statistics leave out what is no number and what lies outside the mask', () => {
+  const found = describe([1, NaN, 3, 100, 5], Uint8Array.of(1, 1, 1, 0, 1));
+  assert.equal(found.count, 3);
+  assert.equal(found.mean, 3);
+  assert.equal(found.standardDeviation, 2);
+  assert.equal(found.median, 3);
+  assert.ok(Math.abs(found.standardError - 2 / Math.sqrt(3)) < 1e-15); // rounding
+});
+
+test('no events have a count of zero and no other number', () => {
+  const found = describe([], null);
+  assert.equal(found.count, 0);
+  assert.ok([found.mean, found.median, found.standardDeviation, found.standardError].every(Number.isNaN));
+});
+
+test('the 95 % interval of the median holds the true median in about 95 of 100 samples', () => {
+  let held = 0;
+  for (let k = 0; k < 400; ++k) {
+    const { low, high } = medianInterval(numbers(101, 1000 + 37 * k));
+    if (low <= 0.5 && 0.5 <= high) ++held;
+  }
+  assert.ok(held > 400 * 0.92 && held < 400 * 0.985, `${held} of 400`); // three standard deviations of a count at 95 %
+});
+
+test("the interval of replicates is Student's", () => {
+  const { value, low, high } = meanInterval([1, 2, 3]);
+  assert.equal(value, 2);
+  assert.ok(Math.abs(high - 2 - 4.303 / Math.sqrt(3)) < 1e-12 && Math.abs(low + high - 4) < 1e-12);
+  assert.ok(Number.isNaN(meanInterval([1]).low));
+  assert.ok(Math.abs(studentPoint(60) - 2.0) < 2e-3); // tables: 2.000
+});
+
+test('ticks are round numbers within the axis', () => {
+  assert.deepEqual(ticksOf('linear', { low: 0, high: 200 }, 5).map((tick) => tick.label), ['0', '50', '100', '150', '200']);
+  assert.deepEqual(ticksOf('linear', { low: -0.02, high: 0.11 }, 4).map((tick) => tick.label), ['−0.02', '0.00', '0.02', '0.04', '0.06', '0.08', '0.10']);
+  assert.deepEqual(ticksOf('linear', { low: 0, high: 1 }, 4).map((tick) => tick.label), ['0.0', '0.2', '0.4', '0.6', '0.8', '1.0']);
+});
+
+test('a logarithmic axis has decades, and plain numbers where it is short', () => {
+  const decades = ticksOf('log', { low: -1, high: 3 }, 6).filter((tick) => tick.label);
+  assert.deepEqual(decades.map((tick) => tick.label), ['0.1', '1', '10', '100', '1000']);
+  const short = ticksOf('log', { low: Math.log10(2), high: Math.log10(5) }, 4);
+  assert.deepEqual(short.map((tick) => tick.label), ['2', '3', '4', '5']);
+});
+
+test('counts are written in groups of three', () => {
+  assert.equal(counted(1234567), '1\u202f234\u202f567');
+  assert.equal(counted(999), '999');
+});
+
+test('zooming leaves the place under the pointer where it is', () => {
+  const { low, high } = zoomed({ low: 0, high: 10 }, 2, 4);
+  assert.deepEqual([low, high], [2, 7]);
+});
+
+test('an axis is not squeezed by single outliers', () => {
+  const values = numbers(10000);
+  values[0] = 1e6;
+  assert.ok(spanOf(values.sort()).high < 1.2);
+});
+
+test('a range gate holds its ends and no event without a number', () => {
+  const gate = { kind: 'range', id: 1, on: true, feature: 'area_um', low: 2, high: 3 };
+  const inside = applyGates([gate], 5, () => [1, 2, 3, 4, NaN]);
+  assert.deepEqual([...inside], [0, 1, 1, 0, 0]);
+  assert.equal(applyGates([{ ...gate, on: false }], 5, () => [1, 2, 3, 4, NaN]), null);
+});
+
+test('a polygon gate agrees with winding numbers at random places', () => {
+  const star = Array.from({ length: 14 }, (_, k) => {
+    const radius = k % 2 ? 0.2 : 0.5;
+    return [0.5 + radius * Math.cos((Math.PI * k) / 7), 0.5 + radius * Math.sin((Math.PI * k) / 7)];
+  });
+  const polygon = new SlabbedPolygon(star);
+  const winds = (x, y) => {
+    const turn = star.reduce((sum, [ax, ay], k) => {
+      const [bx, by] = star[(k + 1) % star.length];
+      return sum + Math.atan2((ax - x) * (by - y) - (ay - y) * (bx - x), (ax - x) * (bx - x) + (ay - y) * (by - y));
+    }, 0);
+    return Math.abs(turn) > Math.PI;
+  };
+  const [xs, ys] = [numbers(5000, 3), numbers(5000, 5)];
+  for (let i = 0; i < xs.length; ++i) assert.equal(polygon.holds(xs[i], ys[i]), winds(xs[i], ys[i]));
+});
+
+test('a polygon that was drawn on logarithmic axes has edges that are straight there', () => {
+  const gate = { kind: 'polygon', id: 1, on: true, x: 'a', y: 'b', xScale: 'log', yScale: 'log', points: [[1, 1], [100, 100], [100, 1]] };
+  const columns = { a: [10, 10], b: [9, 11] };
+  assert.deepEqual([...applyGates([gate], 2, (name) => columns[name])], [1, 0]);
+});
+
+test('several gates count together; a feature that is missing excludes all events', () => {
+  const low = { kind: 'range', id: 1, on: true, feature: 'a', low: 2, high: null };
+  const high = { kind: 'range', id: 2, on: true, feature: 'a', low: null, high: 4 };
+  assert.deepEqual([...applyGates([low, high], 5, () => [1, 2, 3, 4, 5])], [0, 1, 1, 1, 0]);
+  assert.deepEqual([...applyGates([low], 2, () => undefined)], [0, 0]);
+  assert.deepEqual(gateOptions([low, { ...high, on: false }]), { options: '--min a=2', polygons: 0 });
+});
+
+test('the contours enclose the shares of the events that they state', () => {
+  const [xs, ys] = [normal(40000, 11), normal(40000, 23)];
+  const density = new Density(placesOf(xs, ys, 'linear', 'linear'), null, { low: -5, high: 5 }, { low: -5, high: 5 });
+  for (const share of [0.5, 0.95]) {
+    const [level] = levelsEnclosing(density, [share]);
+    let within = 0;
+    for (let i = 0; i < xs.length; ++i) if (density.at(xs[i], ys[i]) >= level) ++within;
+    assert.ok(Math.abs(within / xs.length - share) < 0.02, `${within / xs.length}`); // smoothing widens by less
+  }
+});
+
+test('the level lines of a round hill are circles and closed', () => {
+  const n = 101;
+  const hill = Float64Array.from({ length: n * n }, (_, k) => -Math.hypot((k % n) - 50, Math.floor(k / n) - 50));
+  const lines = isolines(hill, n, n, -30);
+  assert.equal(lines.length, 1);
+  assert.deepEqual(lines[0][0], lines[0].at(-1));
+  for (const [x, y] of lines[0]) assert.ok(Math.abs(Math.hypot(x - 50, y - 50) - 30) < 0.02); // chords of a cell
+  assert.equal(isolines(hill, n, n, -60).length, 4); // four arcs that end at the rim
+});
+
+test('two hills have two lines, a valley between them does not join them', () => {
+  const n = 64;
+  const hills = Float64Array.from({ length: n * n }, (_, k) => {
+    const [x, y] = [k % n, Math.floor(k / n)];
+    return Math.exp(-((x - 16) ** 2 + (y - 32) ** 2) / 30) + Math.exp(-((x - 48) ** 2 + (y - 32) ** 2) / 30);
+  });
+  assert.equal(isolines(hills, n, n, 0.5).length, 2);
+});
+
+test('every event in view is counted into its pixel, others into none', () => {
+  const xs = Float64Array.of(0.1, 0.1, 0.9, 2, NaN);
+  const ys = Float64Array.of(0.1, 0.1, 0.9, 0.5, 0.5);
+  const view = { x: { low: 0, high: 1 }, y: { low: 0, high: 1 }, width: 10, height: 10 };
+  const counts = new PixelCounts();
+  const places = placesOf(xs, ys, 'linear', 'linear');
+  counts.count(places, Uint8Array.of(1, 0, 1, 1, 1), view);
+  assert.equal(counts.seen, 3);
+  assert.equal(counts.inside.reduce((a, b) => a + b, 0), 2);
+  assert.equal(counts.outside.reduce((a, b) => a + b, 0), 1);
+  assert.equal(nearestEvent(places, null, view, 9, 1, 2), 2);
+  assert.equal(nearestEvent(places, null, view, 5, 5, 2), -1);
+});
+
+test('a pixel has the colour of the mean of its events', () => {
+  const view = { x: { low: 0, high: 1 }, y: { low: 0, high: 1 }, width: 1, height: 1 };
+  const places = placesOf([0.5, 0.5], [0.5, 0.5], 'linear', 'linear');
+  const counts = new PixelCounts();
+  counts.count(places, null, view);
+  counts.sum(places, null, view, [0, 1]);
+  const table = Uint32Array.from({ length: 256 }, (_, k) => k);
+  const out = new Uint32Array(1);
+  paint(out, counts, view, { muted: 0, radius: 0 }, colourByMean(counts, { low: 0, high: 1 }, table, 7));
+  assert.equal(out[0], 128);
+});
+
+test('residuals go around the outline by their angle, upwards in the image being positive', () => {
+  const outline = { x_um: [4, 3, 2, 3], y_um: [4, 3, 4, 5] }; // right, above, left, below
+  assert.deepEqual(centroid(outline), [3, 4]);
+  const { angle_deg, distance_um } = alongAngles(outline, [1, 2, 3, 4]);
+  assert.deepEqual(angle_deg, [-90, 0, 90, 180]);
+  assert.deepEqual(distance_um, [4, 1, 2, 3]);
+});
