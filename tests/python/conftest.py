@@ -1,5 +1,6 @@
 """Cases and recordings that several tests take."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,15 @@ PAPER = {"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity
 def paper():
     """The keys of a cell like the paper's, which solves in a fraction of a second."""
     return {section: dict(keys) for section, keys in PAPER.items()}
+
+
+@pytest.fixture(scope="session")
+def program():
+    """The program, whose numbers the package's must equal."""
+    named = os.environ.get("RHEOCYTE_PROGRAM")
+    if not named:
+        pytest.skip("RHEOCYTE_PROGRAM names no program")
+    return named
 
 
 @pytest.fixture(scope="session")

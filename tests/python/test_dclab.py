@@ -1,6 +1,5 @@
 """The real dclab and rheocyte in one process: the same numbers from published tables, features and viscosities."""
 
-import os
 import subprocess
 
 import numpy as np
@@ -105,10 +104,7 @@ def test_the_plugin_gives_dclab_the_moduli_of_the_table(plugin):
     assert np.array_equal(dataset["rheocyte_state"], expected.state)
 
 
-def test_the_command_prints_the_plugin(tmp_path):
-    program = os.environ.get("RHEOCYTE_PROGRAM")
-    if not program:
-        pytest.skip("RHEOCYTE_PROGRAM names no program")
+def test_the_command_prints_the_plugin(program, tmp_path):
     said = subprocess.run([program, "dclab-plugin"], capture_output=True, check=True).stdout
     assert said == plugin_file(tmp_path).read_bytes()
 
@@ -118,20 +114,13 @@ def test_the_plugin_offers_nothing_where_it_has_nothing(plugin, dataset):
     assert "rheocyte_modulus" not in invented(**dataset)
 
 
-def needs_program():
-    program = os.environ.get("RHEOCYTE_PROGRAM")
-    if not program:
-        pytest.skip("RHEOCYTE_PROGRAM names no program")
-    return program
-
-
 SHAPES = ("area_cvx", "area_msd", "area_ratio", "area_um", "area_um_raw", "aspect", "circ", "deform", "deform_raw",
           "eccentr_prnc", "inert_ratio_cvx", "inert_ratio_prnc", "inert_ratio_raw", "per_ratio", "per_um_raw", "pos_x",
           "pos_y", "size_x", "size_y", "tilt", "volume")
 
 
 @pytest.mark.parametrize("path", WITH_EVENTS)
-def test_features_from_masks_are_those_that_recordings_store(path, tmp_path):
+def test_features_from_masks_are_those_that_recordings_store(program, path, tmp_path):
     """In single precision, as far as recordings store them; dclab finds nothing to complain of in the companion."""
     with dclab.new_dataset(path) as dataset:
         masks = dataset["mask"][:len(dataset)] if "mask" in dataset.features_innate else []
@@ -139,7 +128,7 @@ def test_features_from_masks_are_those_that_recordings_store(path, tmp_path):
         stored = {name: np.array(dataset[name]) for name in SHAPES if name in dataset.features_innate}
     if not any(one_group):
         pytest.skip(f"{path.name} holds no mask of one group")
-    subprocess.run([needs_program(), "features", path, "-o", tmp_path, "--quiet"], check=True)
+    subprocess.run([program, "features", path, "-o", tmp_path, "--quiet"], check=True)
     companion = tmp_path / f"{path.stem}_features_rheocyte.rtdc"
     with dclab.new_dataset(companion) as dataset:
         for name, values in stored.items():

@@ -1,7 +1,6 @@
 """Solving in Python gives what the command line gives, keeps Python's lock free, and ends by Ctrl-C."""
 
 import json
-import os
 import subprocess
 import sys
 import threading
@@ -25,10 +24,7 @@ def test_the_result_has_the_numbers_of_result_json(state):
         state.deformaton
 
 
-def test_the_command_line_gives_the_same_numbers(state, tmp_path):
-    program = os.environ.get("RHEOCYTE_PROGRAM")
-    if not program:
-        pytest.skip("RHEOCYTE_PROGRAM names no program to compare with")
+def test_the_command_line_gives_the_same_numbers(state, program, tmp_path):
     (tmp_path / "case.toml").write_text(state.problem.to_toml())
     subprocess.run([program, "solve", tmp_path / "case.toml", "-o", tmp_path / "r", "--quiet", "--no-picture"], check=True)
     other = json.loads((tmp_path / "r" / "result.json").read_text())

@@ -1,6 +1,5 @@
 """The workflow brings a folder of recordings to moduli, pictures and a report, and does nothing twice."""
 
-import os
 import subprocess
 import sys
 
@@ -17,20 +16,17 @@ CELLS = {"recording": {"cells": 200, "seed": 3}, "channel": {"width_um": 20},
          "cell": {"radius_um": {"mean": 5.5, "sd": 0.2}, "bulk": {"young_modulus_kPa": {"mean": 1.2, "sd": 0.1}}}}
 
 
-def workflow(folder, *more):
-    program = os.environ.get("RHEOCYTE_PROGRAM")
-    if not program:
-        pytest.skip("RHEOCYTE_PROGRAM names no program")
+def workflow(program, folder, *more):
     return subprocess.run([sys.executable, "-m", "snakemake", "-s", TOP / "examples/workflow/Snakefile", "--cores", "1",
                            "--config", "recordings=in", "results=out", f"rheocyte={program}", *more],
                           cwd=folder, capture_output=True, text=True, check=False)
 
 
-def test_a_folder_of_recordings_becomes_a_report(tmp_path):
+def test_a_folder_of_recordings_becomes_a_report(program, tmp_path):
     (tmp_path / "in/day 1").mkdir(parents=True)
     for name, modulus in (("a", 1.0), ("day 1/b", 1.5)):
         rheocyte.synth(CELLS, tmp_path / f"in/{name}.rtdc", cell__bulk__young_modulus_kPa=modulus)
-    ended = workflow(tmp_path)
+    ended = workflow(program, tmp_path)
     assert ended.returncode == 0, ended.stdout + ended.stderr
     report = pandas.read_csv(tmp_path / "out/report.tsv", sep="\t")
     assert list(report["recording"]) == ["a", "day 1/b"]
@@ -38,10 +34,10 @@ def test_a_folder_of_recordings_becomes_a_report(tmp_path):
     assert ((report["median_kPa"] - [1.0, 1.5]).abs() < 5 * error).all()
     for made in ("report.png", "a_rheocyte.png", "day 1/b_rheocyte.rtdc"):
         assert (tmp_path / "out" / made).stat().st_size > 0
-    again = workflow(tmp_path)
+    again = workflow(program, tmp_path)
     assert again.returncode == 0 and "Nothing to be done" in again.stdout + again.stderr
 
 
-def test_a_folder_without_recordings_is_named(tmp_path):
-    ended = workflow(tmp_path)
+def test_a_folder_without_recordings_is_named(program, tmp_path):
+    ended = workflow(program, tmp_path)
     assert ended.returncode != 0 and "there is no recording" in ended.stdout + ended.stderr
