@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "shape/measures.h"
 
@@ -20,6 +21,8 @@ constexpr double tiny_deformation = 1e-5;
 
 /// No first change is trusted below this: neighbouring degrees may agree by chance.
 constexpr double least_first_estimate = 2e-5;
+/// Nor below this share of the change of the inertia ratio: two measures seldom agree by chance at once.
+constexpr double share_of_inertia = 0.3;
 
 /// Above this r0 / R the liquid's film is so thin and long that the coarsest mesh is only compared with.
 constexpr double narrow_gap = 0.85;
@@ -44,15 +47,15 @@ double estimate_error(const std::vector<double>& values, double share_of_change_
   return std::max(share * std::abs(change), share_of_change_before * std::abs(before)) / size;
 }
 
-double deformation_of(const ResolvedState& state) {
-  return measure(contour(state.discrete->space, state.branch.unknowns)).deformation;
-}
-
 void Ladder::add(ResolvedState state) {
-  deformations.push_back(deformation_of(state));
+  const ShapeMeasures shape = measure(contour(state.discrete->space, state.branch.unknowns));
+  const double change = std::abs(shape.inertia_ratio - std::exchange(inertia_ratio, shape.inertia_ratio));
+  deformations.push_back(shape.deformation);
   if (!keeps_systems && !rungs.empty()) rungs.back().discrete.reset();
   rungs.push_back(std::move(state));
   estimated_error = estimate_error(deformations);
+  if (rungs.size() == 2)
+    estimated_error = std::max(estimated_error, share_of_inertia * change / std::max(shape.deformation, 1e-300));
 }
 
 bool is_accurate(const Ladder& ladder, const Problem& problem) {

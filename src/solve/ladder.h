@@ -12,14 +12,12 @@ namespace rheocyte {
 /// share of the one before at least.
 double estimate_error(const std::vector<double>& deformations, double share_of_change_before = 0.5);
 
-/// The deformation of a state's contour.
-double deformation_of(const ResolvedState&);
-
 /// A state at the resolutions of one mesh, coarse to fine; where the gap is narrow, of several.
 struct Ladder {
   bool keeps_systems = true;  ///< of all rungs; or of the last one alone
   std::vector<ResolvedState> rungs = {};
   std::vector<double> deformations = {};                             ///< rung by rung
+  double inertia_ratio = 1;                                          ///< of the last rung
   double estimated_error = std::numeric_limits<double>::infinity();  ///< relative, of the last deformation
 
   void add(ResolvedState);

@@ -60,5 +60,18 @@ TEST(ErrorEstimateInANarrowGap, DoesNotTrustTwoDegreesOfTheCoarsestMesh) {
   }
 }
 
+TEST(ErrorEstimateByChance, OfTwoDegreesThatAgreeByChanceIsNotTheirDifference) {
+  // Degrees 4 and 5 agree to 3e-6 in the deformation of this cell, and both are wrong by 3e-4; their inertia ratios
+  // differ.
+  Problem problem;
+  problem.radius_ratio = 0.811625;
+  problem.bulk = {BulkLaw::linear, 7.50488, 0};
+  problem.accuracy = 1e-5;
+  const StationaryState exact = solve_stationary(problem);
+  problem.accuracy = 2.5e-4;
+  const StationaryState state = solve_stationary(problem);
+  EXPECT_LE(std::abs(state.shape.deformation / exact.shape.deformation - 1), 2 * state.estimated_error);
+}
+
 }  // namespace
 }  // namespace rheocyte
