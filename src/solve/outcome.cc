@@ -88,8 +88,16 @@ const char* name(Status status) {
     case Status::not_finite: return "not-finite";
     case Status::accuracy_not_reached: return "accuracy-not-reached";
     case Status::stopped: return "stopped";
+    case Status::covered: return "covered";
+    case Status::dented: return "dented";
   }
   return "unknown";
+}
+
+std::optional<Status> status_named(std::string_view wanted) {
+  for (Status status = Status::not_started; status <= Status::dented; status = Status(int(status) + 1))
+    if (wanted == name(status)) return status;
+  return std::nullopt;
 }
 
 }  // namespace rheocyte

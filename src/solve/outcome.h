@@ -1,6 +1,8 @@
 // How a computation ended: a value, never an exception and never a log line.
 #pragma once
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "case/problem.h"
 
@@ -18,6 +20,8 @@ enum class Status {
   not_finite,            ///< NaN or infinity in residual or state
   accuracy_not_reached,  ///< converged on every mesh that was tried, but the error estimate stays above the wanted one
   stopped,               ///< by a signal
+  covered,               ///< of a table's branch: it leaves the table's ranges
+  dented,                ///< of a table's branch: the dent at the rear is as deep as the table admits
 };
 
 /// What happened to the user's case.
@@ -51,5 +55,7 @@ std::string explanation(const Outcome&, const LastState&);
 
 /// The stable name that stands in result.json, e.g. "converged", "surface-unstable".
 const char* name(Status);
+/// The one with that name.
+std::optional<Status> status_named(std::string_view);
 
 }  // namespace rheocyte

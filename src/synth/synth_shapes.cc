@@ -70,7 +70,7 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
            "there is no table of `rheocyte table` (no spec.toml in this folder); shapes.table names such a folder.");
   const TableFolder folder(spec.table, read_table_spec(spec.table / "spec.toml"));
   if (folder.spec().is_combined()) return shapes_of_combined_table(spec, folder);
-  const bool is_shell = folder.spec().stiffness_key == "cell.cortex.modulus_mN_per_m";
+  const bool is_shell = folder.spec().sweeps_cortex();
   if (spec.kind != (is_shell ? CellKind::shell : CellKind::solid))
     refuse(spec, fmt::format("its cells differ by {}, so cell.kind must be \"{}\".", folder.spec().stiffness_key,
                              is_shell ? "shell" : "solid"));

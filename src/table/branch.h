@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "solve/outcome.h"
 #include "solve/state_measures.h"
 
 namespace rheocyte {
@@ -41,8 +42,10 @@ inline constexpr Measure Measure::deformation = named("deformation"),
 
 /// How a branch ended at its soft side.
 struct BranchEnd {
-  std::string status;   ///< "covered", or the name of a Status: "surface-unstable", "branch-ended", ...
+  Status status = Status::not_started;
   std::string message;  ///< one sentence
+  /// Whether the cell has no state beyond; otherwise the table or the numerics end there.
+  bool is_physical() const { return status == Status::surface_unstable || status == Status::branch_ended; }
 };
 
 /// Samples from stiff to soft; every row of the matrices is one converged state within the wanted accuracy.

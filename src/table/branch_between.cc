@@ -179,7 +179,7 @@ class Between {
 
 std::string family_of(const TableSpec& spec, const SampledBranch& branch) {
   if (branch.empty()) return "empty";
-  if (branch.end.status != "covered") return branch.end.status;
+  if (branch.end.status != Status::covered) return name(branch.end.status);
   return last_of(branch, Measure::deformation) > spec.greatest_deformation ? "deformation" : "area";
 }
 

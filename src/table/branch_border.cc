@@ -21,9 +21,7 @@ struct End {
 End end_of(const LogBranch& branch, double greatest) {
   const double s = branch.crossing([&](const LogBranch::Point& p) { return p.log_deformation - greatest; });
   if (std::isfinite(s)) return {{branch.at(s).log_area, greatest}, NoAnswer::too_soft};
-  const auto& status = branch.branch().end.status;
-  const bool physical = status == "surface-unstable" || status == "branch-ended";
-  return {branch.last(), physical ? NoAnswer::unstable : NoAnswer::unresolved};
+  return {branch.last(), branch.branch().end.is_physical() ? NoAnswer::unstable : NoAnswer::unresolved};
 }
 
 // Without those that were not followed to their end: one to three of them between two that were.

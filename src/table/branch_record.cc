@@ -61,7 +61,7 @@ json record_of(const SampledBranch& branch) {
           {"error", blob_of(branch.error)},
           {"contour", blob_of_all(branch.contour)},
           {"contour_slope", blob_of_all(branch.contour_slope)},
-          {"end_status", branch.end.status},
+          {"end_status", name(branch.end.status)},
           {"end_message", branch.end.message},
           {"solves", branch.solves},
           {"newton_iterations", branch.newton_iterations},
@@ -96,7 +96,9 @@ SampledBranch branch_of(const json& record) {
   branch.error = numbers_of(record, "error", samples);
   branch.contour = contours(record, "contour", samples);
   branch.contour_slope = contours(record, "contour_slope", samples);
-  branch.end = {record.at("end_status"), record.at("end_message")};
+  const auto end = status_named(record.at("end_status").get<std::string>());
+  if (!end) throw DamagedRecord{"the end of the branch has no known status"};
+  branch.end = {*end, record.at("end_message")};
   branch.solves = record.at("solves");
   branch.newton_iterations = record.at("newton_iterations");
   branch.refused = record.at("refused");

@@ -169,7 +169,7 @@ std::string combined_ends_csv(std::span<const SampledBranch> branches) {
     const int last = branch.samples() - 1;
     text += fmt::format("{},{},{},{},", branch.radius_um, branch.cortex_share, branch.tension_ratio, last + 1);
     text += last < 0 ? "," : fmt::format("{},{}", branch.stiffness.back(), branch.at(last, Measure::deformation));
-    text += fmt::format(",{}\n", branch.end.status);
+    text += fmt::format(",{}\n", name(branch.end.status));
   }
   return text;
 }

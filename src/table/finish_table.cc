@@ -53,9 +53,9 @@ std::string summary(const TableFolder& folder) {
     seconds += branch.seconds;
     factorisation += branch.factorisation_seconds;
     if (branch.bending_kBT > 0 || branch.empty()) continue;  // those that go on where others have ended
-    unstable += branch.end.status == "surface-unstable";
-    short_of_range +=
-        branch.end.status != "surface-unstable" && branch.end.status != "covered" && branch.end.status != "dented";
+    const Status end = branch.end.status;
+    unstable += end == Status::surface_unstable;
+    short_of_range += end != Status::surface_unstable && end != Status::covered && end != Status::dented;
   }
   return fmt::format(
       "{} states on {} branches, {} solves, {:.0f} s of one processor ({:.0f} % factorisation)\n"

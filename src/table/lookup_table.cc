@@ -13,7 +13,7 @@ namespace rheocyte {
 
 namespace {
 
-bool ends_early(const RadiusBranches& radius) { return radius.own() && radius.own()->end.status != "covered"; }
+bool ends_early(const RadiusBranches& radius) { return radius.own() && radius.own()->end.status != Status::covered; }
 
 TableRow end_row(const RadiusBranches& radius) {
   TableRow row = row_at(radius, point_at(*radius.own(), radius.own()->stiffness.back()));
@@ -204,7 +204,7 @@ std::string end_of_branch_csv(const LookupTable& table) {
     const auto& end = radius.own()->end;
     text += fmt::format("{},{},{},{},{},{},{},{}\n", row.radius_um, row.state.stiffness, row.at(Measure::area_um2),
                         row.at(Measure::deformation), row.at(Measure::volume_um3),
-                        row.at(Measure::least_meridional_stretch), end.status, csv_text(end.message));
+                        row.at(Measure::least_meridional_stretch), name(end.status), csv_text(end.message));
   }
   return text;
 }

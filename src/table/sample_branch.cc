@@ -32,11 +32,13 @@ std::string reason(Status status) {
     case Status::accuracy_not_reached: return "the next state is not within the accuracy on the finest mesh";
     case Status::mesh_folded: return "the mesh of the liquid folds";
     case Status::stopped: return "stopped by a signal";
+    case Status::covered: return "The branch leaves the table's ranges.";
+    case Status::dented: return "The dent at the rear is as deep as the table admits.";
     default: return std::string("Newton's method ended: ") + name(status);
   }
 }
 
-BranchEnd end_of(Status status) { return {name(status), reason(status)}; }
+BranchEnd end_of(Status status) { return {status, reason(status)}; }
 
 /// Newton's failure at the end of a branch is the end of the branch.
 BranchEnd end_after(Status failure) {
@@ -157,10 +159,8 @@ class BranchSampler {
 
   std::optional<BranchEnd> leaves_range(const BranchNode& node) const {
     const bool is_large = !spec_.is_combined() && node.at(Measure::area_um2) > 1.02 * spec_.greatest_area_um2;
-    if (node.at(Measure::deformation) > spec_.greatest_deformation || is_large)
-      return BranchEnd{"covered", "The branch leaves the table's ranges."};
-    if (node.at(Measure::deformation_raw) > spec_.greatest_deformation_raw)
-      return BranchEnd{"dented", "The dent at the rear is as deep as the table admits."};
+    if (node.at(Measure::deformation) > spec_.greatest_deformation || is_large) return end_of(Status::covered);
+    if (node.at(Measure::deformation_raw) > spec_.greatest_deformation_raw) return end_of(Status::dented);
     return std::nullopt;
   }
 
@@ -204,7 +204,7 @@ SampledBranch sample_branch(const TableSpec& spec, const BranchPlace& place, con
 }
 
 bool can_be_held(const TableSpec& spec, const SampledBranch& own) {
-  return spec.bending_beyond_kBT > 0 && !own.empty() && own.end.status == name(Status::surface_unstable);
+  return spec.bending_beyond_kBT > 0 && !own.empty() && own.end.status == Status::surface_unstable;
 }
 
 SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own, const std::atomic<bool>* stop) {

@@ -98,8 +98,7 @@ class TableInterpolation::Query {
   NoAnswer missing(int i) const {
     const auto* own = radius(i).own();
     const bool is_beyond = own && deformation_ > own->at(own->samples() - 1, Measure::deformation);
-    const bool ended = own && (own->end.status == "surface-unstable" || own->end.status == "branch-ended");
-    return is_beyond && ended ? NoAnswer::unstable : NoAnswer::unresolved;
+    return is_beyond && own->end.is_physical() ? NoAnswer::unstable : NoAnswer::unresolved;
   }
 
   // Neighbours of the two nodes, as many on both sides as there are; beside two states of one kind only of that kind,

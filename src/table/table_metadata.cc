@@ -13,8 +13,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-bool is_of_cortex(const TableSpec& spec) { return spec.stiffness_key == "cell.cortex.modulus_mN_per_m"; }
-
 void add_power_law(ordered_json& metadata, const Case& c) {
   if (c.flow.law != LiquidLaw::power_law) return;
   metadata["fluid_consistency_coefficient"] = c.flow.consistency_Pa_sn.value();
@@ -27,8 +25,8 @@ void add_power_law(ordered_json& metadata, const Case& c) {
 ordered_json case_without_swept(const TableSpec& spec) {
   ordered_json json = to_json(spec.base);
   json["cell"].erase("radius_um");
-  if (!is_of_cortex(spec)) json["cell"]["bulk"].erase("young_modulus_kPa");
-  if (is_of_cortex(spec) || spec.is_combined()) json["cell"]["cortex"].erase("modulus_mN_per_m");
+  if (!spec.sweeps_cortex()) json["cell"]["bulk"].erase("young_modulus_kPa");
+  if (spec.sweeps_cortex() || spec.is_combined()) json["cell"]["cortex"].erase("modulus_mN_per_m");
   json.erase("numerics");
   return json;
 }
@@ -70,11 +68,11 @@ ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
   return metadata;
 }
 
-std::string_view stiffness_unit(const TableSpec& spec) { return is_of_cortex(spec) ? "mN/m" : "kPa"; }
+std::string_view stiffness_unit(const TableSpec& spec) { return spec.sweeps_cortex() ? "mN/m" : "kPa"; }
 
 std::string_view stiffness_column(const TableSpec& spec) {
   if (spec.is_combined()) return "stiffness_kPa";
-  return is_of_cortex(spec) ? "cortex_modulus_mN_per_m" : "young_modulus_kPa";
+  return spec.sweeps_cortex() ? "cortex_modulus_mN_per_m" : "young_modulus_kPa";
 }
 
 }  // namespace rheocyte

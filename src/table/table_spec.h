@@ -38,6 +38,7 @@ struct TableSpec {
   double greatest_deformation_raw = 1;  ///< of the contour itself, dent included: where branches of combined cells end
 
   bool is_combined() const { return stiffness_key == combined_stiffness; }
+  bool sweeps_cortex() const { return stiffness_key == "cell.cortex.modulus_mN_per_m"; }
 };
 
 /// Reads a spec: the keys of a case and those of the section [table]. UserError as read_case.

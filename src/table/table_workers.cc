@@ -30,7 +30,7 @@ int number_in_environment(const char* name, int otherwise) {
   return text && *text ? std::atoi(text) : otherwise;
 }
 
-bool is_stopped(const SampledBranch& branch) { return branch.end.status == name(Status::stopped); }
+bool is_stopped(const SampledBranch& branch) { return branch.end.status == Status::stopped; }
 
 class Workers {
  public:

@@ -45,7 +45,7 @@ SampledBranch analytic_branch(double radius_um) {
     branch.contour.push_back(here.meridian);
     branch.contour_slope.emplace_back((stiffer.meridian - softer.meridian) / (2 * step));
   }
-  branch.end = {"covered", "down to 4 kPa"};
+  branch.end = {Status::covered, "down to 4 kPa"};
   return branch;
 }
 

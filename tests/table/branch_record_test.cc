@@ -17,7 +17,7 @@ std::string refusal(const std::string& bytes, const std::string& spec = hash) {
 }
 
 TEST(BranchRecord, RoundTripIsExact) {
-  auto branch = invented_branch(7, {30, 0.3, 5, 1e4, "surface-unstable"});
+  auto branch = invented_branch(7, {30, 0.3, 5, 1e4, Status::surface_unstable});
   branch.value(2, 3) = std::numeric_limits<double>::quiet_NaN();
   branch.value(2, 4) = -0.0;
   const auto bytes = to_bytes(branch, hash);
@@ -29,7 +29,7 @@ TEST(BranchRecord, RoundTripIsExact) {
   EXPECT_EQ(back.slope, branch.slope);
   EXPECT_EQ(back.contour, branch.contour);
   EXPECT_EQ(back.contour_slope, branch.contour_slope);
-  EXPECT_EQ(back.end.status, "surface-unstable");
+  EXPECT_EQ(back.end.status, Status::surface_unstable);
   EXPECT_EQ(back.end.message, branch.end.message);
   EXPECT_EQ(back.bending_kBT, 1e4);
   EXPECT_EQ(back.solves, branch.solves);
@@ -39,7 +39,7 @@ TEST(BranchRecord, RoundTripIsExact) {
 TEST(BranchRecord, ABranchWithoutSamplesIsARecord) {
   SampledBranch branch;
   branch.radius_um = 3;
-  branch.end = {"no-first-state", "nothing converged"};
+  branch.end = {Status::iteration_limit, "nothing converged"};
   const auto back = branch_from_bytes(to_bytes(branch, hash), hash, "x");
   EXPECT_TRUE(back.empty());
   EXPECT_EQ(back.end.message, "nothing converged");

@@ -83,7 +83,7 @@ struct InventedSweep {
   double stiffest = 30, softest = 0.3;
   int samples = 24;
   double bending = 0;
-  std::string end = "covered";
+  Status end = Status::covered;
 };
 
 /// Samples with equal steps of ln(stiffness).
@@ -106,7 +106,8 @@ inline SampledBranch invented_branch(double radius, const InventedSweep& sweep =
     branch.contour_slope.push_back((invented_contour(radius, d + 0.5) - invented_contour(radius, d - 0.5)) *
                                    state(0, 1));
   }
-  branch.end = {sweep.end, sweep.end == "covered" ? "" : "the bare surface has lost its stability, it would wrinkle"};
+  branch.end = {sweep.end,
+                sweep.end == Status::covered ? "" : "the bare surface has lost its stability, it would wrinkle"};
   branch.solves = 3 * sweep.samples;
   branch.newton_iterations = 10 * sweep.samples;
   branch.seconds = 1.5;
@@ -144,7 +145,7 @@ std::vector<SampledBranch> invented_unstable_branches(const TableSpec& spec, con
     }
     auto beyond = sweep;
     sweep.softest = invented_stiffness(radius, end);
-    sweep.end = "surface-unstable";
+    sweep.end = Status::surface_unstable;
     branches.push_back(invented_branch(radius, sweep));
     beyond.stiffest = 1.3 * sweep.softest;
     beyond.bending = 1e4;

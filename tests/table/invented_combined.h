@@ -70,7 +70,7 @@ inline SampledBranch invented_combined_samples(const BranchPlace& place, int sam
     branch.contour.push_back(meridian(0));
     branch.contour_slope.emplace_back((meridian(step) - meridian(-step)) / (2 * step));
   }
-  branch.end = {"covered", ""};
+  branch.end = {Status::covered, ""};
   return branch;
 }
 

@@ -87,7 +87,7 @@ TEST(LookupTable, TheEndsOfTheBranchesAreACurve) {
         << line;
     ++ends;
   }
-  EXPECT_EQ(ends, std::ranges::count(branches, "surface-unstable", [](const auto& b) { return b.end.status; }));
+  EXPECT_EQ(ends, std::ranges::count(branches, Status::surface_unstable, [](const auto& b) { return b.end.status; }));
 }
 
 TEST(LookupTable, TheEffectOfBendingIsListedWhereBothBranchesExist) {

@@ -94,7 +94,7 @@ TEST(RadiusPlan, WhereTheKindOfEndChangesTheNeighboursAreComputed) {
   Computed computed(invented_unstable_branches(spec), spec);
   RadiusPlan plan = computed.plan(spec);
   computed.complete(plan);
-  const auto is_unstable = [&](int i) { return plan.branch({i, false})->end.status == "surface-unstable"; };
+  const auto is_unstable = [&](int i) { return plan.branch({i, false})->end.status == Status::surface_unstable; };
   for (int i = 0; i < 100; ++i) {
     const auto own = plan.branch({i, false}), held = plan.branch({i, true});
     ASSERT_TRUE(own && held);

@@ -44,13 +44,13 @@ TEST(SampleBranch, BetweenItsSamplesTheDeformationIsThatOfDirectSolves) {
   // Within the wanted accuracy of 2e-4, for a solid to the end of its branch and for a shell.
   const TableSpec solid = spec(linear_solid, "radii = 3\n");
   const SampledBranch branch = sample_branch(solid, {6});
-  EXPECT_EQ(branch.end.status, "surface-unstable");
+  EXPECT_EQ(branch.end.status, Status::surface_unstable);
   EXPECT_GT(branch.at(branch.samples() - 1, Measure::deformation), 0.16);
   EXPECT_LT(branch.at(0, Measure::deformation), solid.least_deformation);
   EXPECT_LT(greatest_difference(solid, branch), 2e-4);
   const TableSpec thin = spec(shell, "greatest_deformation = 0.03\n");
   const SampledBranch shells = sample_branch(thin, {7.66});
-  EXPECT_EQ(shells.end.status, "covered");
+  EXPECT_EQ(shells.end.status, Status::covered);
   EXPECT_LT(greatest_difference(thin, shells), 2e-4);
 }
 
@@ -71,7 +71,7 @@ TEST(SampleBranch, BeyondTheBareSurfaceBendingGoesOn) {
   // The held branch overlaps the bare one, agrees with it within the known effect of 1e4 k_B T, and goes farther.
   const TableSpec table = spec("[cell.bulk]\nlaw = \"neo-hookean\"\n", "bending_beyond_kBT = 1e4\n");
   const SampledBranch bare = sample_branch(table, {6});
-  EXPECT_EQ(bare.end.status, "surface-unstable");
+  EXPECT_EQ(bare.end.status, Status::surface_unstable);
   const SampledBranch held = sample_held_branch(table, bare);
   ASSERT_FALSE(held.empty()) << held.end.message;
   EXPECT_EQ(held.bending_kBT, 1e4);
@@ -100,7 +100,7 @@ TEST(SampleBranch, AStopEndsItAndSaysSo) {
   // Before the first state already.
   const std::atomic<bool> stop = true;
   const SampledBranch branch = sample_branch(spec(linear_solid, ""), {6}, &stop);
-  EXPECT_EQ(branch.end.status, "stopped");
+  EXPECT_EQ(branch.end.status, Status::stopped);
   EXPECT_TRUE(branch.empty());
 }
 

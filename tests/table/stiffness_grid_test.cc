@@ -131,9 +131,9 @@ TEST(StiffnessGrid, ABranchThatStopsShortBetweenOthersIsBridged) {
   auto branches = invented_branches(spec);
   auto sweep = covering(spec, branches[20].radius_um);
   sweep.softest = invented_stiffness(branches[20].radius_um, 0.02);
-  sweep.end = "accuracy-not-reached";
+  sweep.end = Status::accuracy_not_reached;
   branches[20] = invented_branch(branches[20].radius_um, sweep);
-  branches[30] = SampledBranch{branches[30].radius_um, 0, {}, {}, {}, {}, {}, {}, {"no-first-state", "nothing"}};
+  branches[30] = SampledBranch{branches[30].radius_um, 0, {}, {}, {}, {}, {}, {}, {Status::iteration_limit, "nothing"}};
   const StiffnessGrid grid(make_stiffness_grid(spec, branches, "test").value());
   for (const std::size_t i : {20, 30}) {
     const double area = invented_area(branches[i].radius_um, 0.1);

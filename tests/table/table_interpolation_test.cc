@@ -112,7 +112,7 @@ TEST(TableInterpolation, BeyondTheEndOfTheBranchesTheSurfaceIsUnstable) {
 TEST(TableInterpolation, ARadiusWithoutStatesIsBridgedAndATableWithoutStatesHasNoAnswer) {
   const auto spec = spec_of_fifty_radii({});
   auto branches = invented_branches(spec);
-  branches[20] = SampledBranch{branches[20].radius_um, 0, {}, {}, {}, {}, {}, {}, {"no-first-state", "nothing"}};
+  branches[20] = SampledBranch{branches[20].radius_um, 0, {}, {}, {}, {}, {}, {}, {Status::iteration_limit, "nothing"}};
   const TableInterpolation table(spec, branches);
   const double area = invented_area(branches[20].radius_um, 0.02);
   EXPECT_NEAR(table.by_area(area, 0.02).stiffness / invented_modulus(area, 0.02), 1, 1e-5);
