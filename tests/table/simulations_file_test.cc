@@ -72,7 +72,7 @@ TEST(SimulationsFile, SimulationsAreStatesOfTheBranches) {
   ASSERT_GT(groups, 30u);
   int simulations = 0;
   for (hsize_t g = 0; g < groups; ++g) {
-    const auto group = "/" + std::to_string(g);
+    const std::string group = std::string("/") + std::to_string(g);
     EXPECT_EQ(text(file, group, "emodulus_unit"), "Pa");
     const double modulus_kPa = number(file, group, "emodulus") / 1e3;
     for (hsize_t s = 0; s < members(file, group); ++s, ++simulations) {
