@@ -1,5 +1,5 @@
 // One key of the case as a control: a slider with its number and unit, a choice, or a list.
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { Case, KeyDescription, Value } from '../api';
 import { plain, unitText } from '../draw/numbers';
 import { useStore } from '../shell/store';
@@ -59,7 +59,8 @@ function NumberField({ of, value, wrong }: NumberFieldProps) {
 function useAnchor(value: number): [number, { moved(value: number): void; settled(atEnd: boolean): void }] {
   const [anchor, setAnchor] = useState(value);
   const own = useRef(value);
-  useEffect(() => {
+  // Before the next event: a late look would take the slider's own earlier value for one set by other means.
+  useLayoutEffect(() => {
     if (value === own.current) return;
     own.current = value;
     setAnchor(value);

@@ -63,6 +63,7 @@ export class LiveSolver {
   }
 
   private start(final: boolean): void {
+    window.clearTimeout(this.timer);
     const wanted = this.wanted;
     if (!wanted) return;
     const accuracy = final ? wanted.accuracy : Math.max(displayAccuracy, wanted.accuracy);

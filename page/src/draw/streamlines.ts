@@ -1,70 +1,67 @@
 // Streamlines of the velocity relative to the cell, followed on a coarse grid of it.
 import type { Fields } from './fields';
-import { coverPixels, valueAt, type Frame } from './raster';
+import { coverPixels, sampleRegion, type Frame } from './raster';
 
 interface Grid {
   frame: Frame;
   u: Float32Array;
   v: Float32Array;
   inside: Uint8Array;
+  /** the direction found last */
+  way: Float64Array;
 }
 
-const spacing_um = (radius_um: number) => radius_um / 48;
+const spacing_um = (radius_um: number) => radius_um / 40;
 
 function velocityGrid(fields: Fields, frame: Frame): Grid | null {
   const velocity = fields.values.velocity_m_per_s;
   if (!velocity) return null;
   const points = fields.region.length;
-  const u = Float32Array.from({ length: points }, (_, k) => velocity[2 * k]);
-  const v = Float32Array.from({ length: points }, (_, k) => velocity[2 * k + 1]);
+  const component = (d: number) => Float32Array.from({ length: points }, (_, k) => velocity[2 * k + d]);
   const cover = coverPixels(fields, frame);
-  const size = frame.width * frame.height;
-  const grid = { frame, u: new Float32Array(size), v: new Float32Array(size), inside: new Uint8Array(size) };
-  for (let row = 0, at = 0; row < frame.height; ++row) {
-    for (let column = 0; column < frame.width; ++column, ++at) {
-      const id = cover.triangle[at];
-      if (id < 0 || fields.region[fields.triangles[3 * id]] !== 0) continue;
-      const x = frame.left_um + (column + 0.5) / frame.pixels_per_um;
-      const r = (frame.height - row - 0.5) / frame.pixels_per_um;
-      grid.u[at] = valueAt(fields, cover, u, x, r) ?? 0;
-      grid.v[at] = valueAt(fields, cover, v, x, r) ?? 0;
-      grid.inside[at] = 1;
-    }
-  }
-  return grid;
+  const inside = Uint8Array.from(cover.triangle, (id) => (id >= 0 && fields.region[fields.triangles[3 * id]] === 0 ? 1 : 0));
+  return {
+    frame,
+    u: sampleRegion(fields, cover, component(0), 0),
+    v: sampleRegion(fields, cover, component(1), 0),
+    inside,
+    way: new Float64Array(2),
+  };
 }
 
-/** Direction of the flow at a place of the grid; null in the cell and outside. */
-function direction(grid: Grid, x: number, r: number): [number, number] | null {
-  const { frame } = grid;
+/** Puts the direction of the flow at a place into grid.way; false in the cell and outside. */
+function look(grid: Grid, x: number, r: number): boolean {
+  const { frame, inside, way } = grid;
   const column = (x - frame.left_um) * frame.pixels_per_um - 0.5;
   const row = frame.height - r * frame.pixels_per_um - 0.5;
   const i = Math.min(frame.width - 2, Math.floor(column));
   const j = Math.min(frame.height - 2, Math.floor(row));
-  if (i < 0 || j < 0) return null;
-  const [s, t] = [column - i, Math.min(1, row - j)];
+  if (i < 0 || j < 0) return false;
+  const s = column - i;
+  const t = Math.min(1, row - j);
   let [u, v, weight] = [0, 0, 0];
-  for (const [di, dj, share] of [[0, 0, (1 - s) * (1 - t)], [1, 0, s * (1 - t)], [0, 1, (1 - s) * t], [1, 1, s * t]]) {
-    const at = (j + dj) * frame.width + i + di;
-    if (!grid.inside[at]) continue;
+  for (let corner = 0; corner < 4; ++corner) {
+    const at = (j + (corner >> 1)) * frame.width + i + (corner & 1);
+    if (!inside[at]) continue;
+    const share = (corner & 1 ? s : 1 - s) * (corner >> 1 ? t : 1 - t);
     u += share * grid.u[at];
     v += share * grid.v[at];
     weight += share;
   }
   const speed = Math.hypot(u, v);
-  return weight > 0.4 && speed > 0 ? [u / speed, v / speed] : null;
+  way[0] = u / speed;
+  way[1] = v / speed;
+  return weight > 0.4 && speed > 0;
 }
 
-function follow(grid: Grid, start: [number, number], way: 1 | -1): [number, number][] {
-  const step = (0.6 * way) / grid.frame.pixels_per_um;
+function follow(grid: Grid, start: [number, number], sense: 1 | -1): [number, number][] {
+  const step = (0.8 * sense) / grid.frame.pixels_per_um;
   const line: [number, number][] = [start];
   let [x, r] = start;
-  for (let k = 0; k < 1500; ++k) {
-    const first = direction(grid, x, r);
-    const middle = first && direction(grid, x + 0.5 * step * first[0], r + 0.5 * step * first[1]);
-    if (!middle) break;
-    x += step * middle[0];
-    r = Math.abs(r + step * middle[1]);
+  for (let k = 0; k < 1000; ++k) {
+    if (!look(grid, x, r) || !look(grid, x + 0.5 * step * grid.way[0], r + 0.5 * step * grid.way[1])) break;
+    x += step * grid.way[0];
+    r = Math.abs(r + step * grid.way[1]);
     if (k % 3 === 2) line.push([x, r]);
   }
   return line;
@@ -99,9 +96,8 @@ export function streamlines(fields: Fields, from_um: number, to_um: number, radi
   const grid = velocityGrid(fields, frame);
   if (!grid) return [];
   return seeds(frame, radius_um).flatMap((seed) => {
-    const here = direction(grid, seed[0], seed[1]);
-    if (!here) return [];
-    const inwards = seed[0] < 0.5 * (from_um + to_um) ? here[0] > 0 : here[0] < 0;
+    if (!look(grid, seed[0], seed[1])) return [];
+    const inwards = seed[0] < 0.5 * (from_um + to_um) === grid.way[0] > 0;
     const points = follow(grid, seed, inwards ? 1 : -1);
     return points.length > 6 ? [withArrow(points, inwards ? 1 : -1)] : [];
   });
