@@ -31,8 +31,10 @@ function eventsOf(count, seed, stiffness) {
   return columns;
 }
 
+const modulusOf = (area, deform) => (deform > 0.004 && area > 30 ? (0.028 * (area / 60)) / (deform + 0.001) : NaN);
+
 function moduliOf({ area_um, deform }) {
-  const emodulus = deform.map((value, i) => (value > 0.004 && area_um[i] > 30 ? 0.028 * (area_um[i] / 60) / (value + 0.001) : NaN));
+  const emodulus = deform.map((value, i) => modulusOf(area_um[i], value));
   const state = emodulus.map((value, i) => (Number.isFinite(value) ? 0 : area_um[i] > 30 ? 4 : 2));
   return { emodulus, state, standard_error: emodulus.map((value) => 0.05 * value) };
 }
@@ -94,7 +96,7 @@ export class MockRecordings {
     const { columns, computed } = this.items[number];
     const features = Object.fromEntries(Object.entries({ ...columns, ...computed }).map(([name, values]) => [name, values[event]]));
     const cell = cellOf(features);
-    const modulus = computed?.emodulus[event] ?? 0.028 * (features.area_um / 60) / (features.deform + 0.001);
+    const modulus = modulusOf(features.area_um, features.deform);
     const has = Number.isFinite(modulus);
     const outline = ring(cell, (angle) => 1 + 0.015 * Math.cos(3 * angle) - 0.01);
     return {

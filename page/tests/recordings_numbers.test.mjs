@@ -66,10 +66,17 @@ test("the interval of replicates is Student's", () => {
   assert.ok(Math.abs(studentPoint(60) - 2.0) < 2e-3); // tables: 2.000
 });
 
-test('ticks are round numbers within the axis', () => {
-  assert.deepEqual(ticksOf('linear', { low: 0, high: 200 }, 5).map((tick) => tick.label), ['0', '50', '100', '150', '200']);
-  assert.deepEqual(ticksOf('linear', { low: -0.02, high: 0.11 }, 4).map((tick) => tick.label), ['−0.02', '0.00', '0.02', '0.04', '0.06', '0.08', '0.10']);
-  assert.deepEqual(ticksOf('linear', { low: 0, high: 1 }, 4).map((tick) => tick.label), ['0.0', '0.2', '0.4', '0.6', '0.8', '1.0']);
+test('ticks are evenly spaced within the axis, and their labels are their places', () => {
+  for (const [low, high] of [[0, 200], [-0.02, 0.11], [0, 1], [1e-6, 9e-6], [-3e7, 2e7]]) {
+    const ticks = ticksOf('linear', { low, high }, 5);
+    assert.ok(ticks.length >= 2 && ticks.length <= 11, `${ticks.length} from ${low} to ${high}`);
+    const step = ticks[1].place - ticks[0].place;
+    ticks.forEach(({ place, label }, k) => {
+      assert.ok(place >= low - 1e-9 * step && place <= high + 1e-9 * step);
+      assert.ok(Math.abs(place - ticks[0].place - k * step) < 1e-9 * (high - low)); // rounding
+      assert.ok(Math.abs(Number(label.replace('\u2212', '-')) - place) < 1e-3 * step, `${label} at ${place}`);
+    });
+  }
 });
 
 test('a logarithmic axis has decades, and plain numbers where it is short', () => {

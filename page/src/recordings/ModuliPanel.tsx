@@ -66,13 +66,14 @@ function Run() {
   const number = useStore(focus);
   const runs = useStore(moduli);
   const all = recordings(useStore(items)).filter((item) => item.state === 'ready');
-  if (number === null) return null;
+  const item = itemOf(number);
+  if (number === null || !item) return null;
   const run = runs[number];
   if (run?.state === 'running')
     return <Progress label={`${Math.round(100 * run.done)} % of the events`} done={run.done} onStop={() => void endModuli(number)} />;
   return (
     <div class="row">
-      <button class="primary" title={titleOf(itemOf(number)!)} onClick={() => void runModuli([number])}>
+      <button class="primary" title={titleOf(item)} onClick={() => void runModuli([number])}>
         Compute moduli
       </button>
       {all.length > 1 && (
@@ -106,7 +107,7 @@ export function ModuliPanel() {
           </ul>
         </details>
       )}
-      {run?.state === 'ready' && run.command && <Command command={run.command} />}
+      {run?.command && <Command command={run.command} />}
     </section>
   );
 }

@@ -44,7 +44,7 @@ function AxisSelect({ plot, features, which }: SelectsProps & { which: 'x' | 'y'
       <button
         class="toggle"
         aria-pressed={axis.scale === 'log'}
-        aria-label={`${title} axis logarithmic`}
+        aria-label={`log, ${title.toLowerCase()} axis`}
         title="Logarithmic axis"
         onClick={() => change({ scale: axis.scale === 'log' ? 'linear' : 'log' })}
       >

@@ -14,6 +14,10 @@ import { readKnownModuli } from './moduli';
 import { RecordingList } from './RecordingList';
 import { ScatterPlot } from './ScatterPlot';
 import { MeasuredSelect, StatisticsTable } from './StatisticsTable';
+import './list.css';
+import './plots.css';
+import './results.css';
+import './event.css';
 import './recordings.css';
 
 const tools: [Tool, string, string][] = [

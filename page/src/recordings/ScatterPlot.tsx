@@ -30,20 +30,19 @@ function useSize() {
 }
 
 /** The wheel zooms; it must not scroll the page, so the listener may not be passive. */
-function useWheel(target: { current: SVGSVGElement | null }, actions: PlotActions | null): void {
+function useWheel(target: { current: HTMLElement | null }, actions: PlotActions | null): void {
   const latest = useRef(actions);
   latest.current = actions;
   useEffect(() => {
-    const svg = target.current;
-    if (!svg) return;
+    const frame = target.current!;
     const turn = (event: WheelEvent) => {
       event.preventDefault();
-      const own = svg.getBoundingClientRect();
+      const own = frame.getBoundingClientRect();
       latest.current?.zoom(Math.exp(-0.0015 * event.deltaY), [event.clientX - own.left, event.clientY - own.top]);
     };
-    svg.addEventListener('wheel', turn, { passive: false });
-    return () => svg.removeEventListener('wheel', turn);
-  }, [target.current]);
+    frame.addEventListener('wheel', turn, { passive: false });
+    return () => frame.removeEventListener('wheel', turn);
+  }, [target]);
 }
 
 function ChosenEvent({ frame, data, item }: { frame: Frame; data: PlotData; item: Item }) {
@@ -97,7 +96,6 @@ function Layers({ plot, item, frame, data, lines, drawing }: LayersProps) {
 
 function Drawn({ plot, item }: { plot: Plot; item: Item }) {
   const { element, width, height } = useSize();
-  const svg = useRef<SVGSVGElement>(null);
   const data = usePlotData(plot, item);
   const lines = useLines(plot, item, useStore(moduliVersion));
   const mode = useStore(tool);
@@ -107,24 +105,24 @@ function Drawn({ plot, item }: { plot: Plot; item: Item }) {
     [plot, item, data, width, height],
   );
   const drawing = useDrawing(actions);
-  useWheel(svg, actions);
+  useWheel(element, actions);
   return (
     <>
-      <div class={`plot-frame tool-${mode}`} ref={element} data-plot={plot.id}>
+      <div
+        class={`plot-frame tool-${mode}`}
+        ref={element}
+        data-plot={plot.id}
+        tabIndex={0}
+        role="application"
+        aria-label={spoken(plot, item)}
+        onPointerDown={drawing.onPointerDown}
+        onPointerMove={drawing.onPointerMove}
+        onPointerUp={drawing.onPointerUp}
+        onKeyDown={drawing.onKeyDown}
+        onDblClick={() => mode === 'look' && actions?.fit()}
+      >
         <PointsCanvas data={data} frame={frame} moving={drawing.moving} />
-        <svg
-          ref={svg}
-          width={width}
-          height={height}
-          tabIndex={0}
-          role="application"
-          aria-label={spoken(plot, item)}
-          onPointerDown={drawing.onPointerDown}
-          onPointerMove={drawing.onPointerMove}
-          onPointerUp={drawing.onPointerUp}
-          onKeyDown={drawing.onKeyDown}
-          onDblClick={() => mode === 'look' && actions?.fit()}
-        >
+        <svg width={width} height={height} aria-hidden="true">
           {width > 0 && <Layers {...{ plot, item, frame, data, lines, drawing }} />}
         </svg>
       </div>

@@ -1,5 +1,5 @@
 // Mouse and keyboard in a plot, with what is half drawn.
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { useStore } from '../shell/store';
 import { tool } from './model';
 import { margins } from './plot_frame';
@@ -46,7 +46,7 @@ export function useDrawing(actions: PlotActions | null): Drawing {
   const mode = useStore(tool);
   const ends = actions ? [actions.frame.x.low, actions.frame.x.high, actions.frame.y.low, actions.frame.y.high] : [];
   const moving = useMoving(...[0, 1, 2, 3].map((k) => ends[k] ?? 0));
-  useEffect(() => setPoints([]), [mode]);
+  useLayoutEffect(() => setPoints([]), [mode]);
 
   /** A corner of the polygon, or of the box; on the first corner the polygon is closed. */
   const corner = (at: Pixel) => {
@@ -73,7 +73,7 @@ export function useDrawing(actions: PlotActions | null): Drawing {
     onPointerDown(event) {
       if (!actions || event.button !== 0) return;
       (event.currentTarget as Element).setPointerCapture(event.pointerId);
-      (event.currentTarget as SVGElement).focus({ preventScroll: true });
+      (event.currentTarget as HTMLElement).focus({ preventScroll: true });
       const at = pixelOf(event);
       setCrosshair(null);
       from.current = { start: at, last: at, dragged: false };

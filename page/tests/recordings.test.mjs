@@ -1,0 +1,173 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { MockRecordings } from '../mock/recordings.mjs';
+import { noBrowser } from './browser.mjs';
+import * as recordings from './recordings_page.mjs';
+import { program } from './target.mjs';
+
+// Against the mock, whose events are known here as well.
+const skip = noBrowser || (program ? 'the program has other recordings; see recordings_program.test.mjs' : false);
+const known = new MockRecordings().items.map((item) => item.columns);
+
+async function inPage(work, options) {
+  const opened = await recordings.openRecordings(options);
+  try {
+    await work(opened.page, opened);
+    assert.deepEqual(opened.failures, []);
+  } finally {
+    await opened.end();
+  }
+}
+
+const within = ({ area_um, deform }, [areaLow, areaHigh], [deformLow, deformHigh]) =>
+  [...area_um.keys()].filter((i) => area_um[i] >= areaLow && area_um[i] <= areaHigh && deform[i] >= deformLow && deform[i] <= deformHigh);
+
+test('The list tells conditions and numbers of events, and in one sentence what is wrong with a damaged recording', { skip }, () =>
+  inPage(async (page) => {
+    const list = page.getByRole('region', { name: 'List of recordings' });
+    assert.match(await list.textContent(), /control_1\.rtdc20 µm · 0\.04 µl\/s · CellCarrier · 23 °C1\u202f000 events/);
+    assert.match(await list.textContent(), /broken\.rtdc is no HDF5 file\./);
+  }),
+);
+
+test('A box gate counts in all recordings; its limits are those of the command', { skip }, () =>
+  inPage(async (page) => {
+    await recordings.drawBox(page, [0.3, 0.35], [0.55, 0.85]);
+    const counts = [0, 1].map(async (item) => recordings.numberIn((await recordings.statisticsOf(page, item)).Events));
+    const [control, treated] = await Promise.all(counts);
+    const [area, deform] = await recordings.gatesOf(page);
+    const limits = [area.values.map(Number), deform.values.map(Number)];
+    assert.equal(area.name, 'Area (µm²)');
+    assert.equal(control, within(known[0], ...limits).length);
+    assert.equal(treated, within(known[1], ...limits).length);
+    assert.ok(control > 100 && control < 1000, String(control));
+    const command = await page.locator('.command code').textContent();
+    assert.equal(command, `rheocyte extract control_1.rtdc --min area_um=${limits[0][0]} --max area_um=${limits[0][1]} --min deform=${limits[1][0]} --max deform=${limits[1][1]}`);
+  }),
+);
+
+test('A polygon gate is drawn by its corners and closed on the first one; both plots show it', { skip }, () =>
+  inPage(async (page) => {
+    await page.getByLabel('Two plots').check();
+    await recordings.drawn(page, 2);
+    await page.getByRole('button', { name: 'Polygon', exact: true }).click();
+    for (const [right, down] of [[0.3, 0.9], [0.6, 0.9], [0.6, 0.4], [0.3, 0.9]]) {
+      const { x, y } = await recordings.pixelIn(page, right, down);
+      await page.mouse.click(x, y);
+    }
+    await page.locator('[data-plot="2"] .gate-shapes path').waitFor();
+    const [gate] = await recordings.gatesOf(page);
+    assert.equal(gate.name, 'Polygon: Area, Deformation');
+    assert.equal(gate.values[0].split(';').length, 3);
+  }),
+);
+
+test('A click on an event shows its image with outline and contour of the model, and its modulus', { skip }, () =>
+  inPage(async (page) => {
+    const { x, y } = await recordings.pixelIn(page, 0.4, 0.65);
+    await page.mouse.click(x, y);
+    await page.locator('.event-image .model-contour').waitFor();
+    await page.locator('.event-image image').waitFor();
+    assert.equal(await page.locator('.event-image .event-outline').count(), 1);
+    assert.match(await page.locator('.modulus').textContent(), /^E \d\.\d+ ± 0\.\d+ kPa/);
+    assert.match(await page.locator('.residual figcaption').textContent(), /rms 0\.050 µm/);
+  }),
+);
+
+test('An event without a modulus says why', { skip }, () =>
+  inPage(async (page) => {
+    const stiff = known[0].deform.findIndex((value) => value <= 0.004);
+    await recordings.plotOf(page).focus();
+    await page.keyboard.press('n');
+    await page.getByLabel('Number of the event').fill(String(stiff + 1));
+    await page.keyboard.press('Enter');
+    await page.getByText('No modulus: too stiff').waitFor();
+    await page.getByText('The event is deformed less than the stiffest cell of the table.').waitFor();
+    assert.equal(await page.locator('.event-image .model-contour').count(), 0);
+  }),
+);
+
+test('"Open in Cell" hands the case of the event to the other workplace', { skip }, () =>
+  inPage(async (page) => {
+    const { x, y } = await recordings.pixelIn(page, 0.4, 0.65);
+    await page.mouse.click(x, y);
+    await page.getByRole('button', { name: 'Open in Cell' }).click();
+    await page.locator('.cell').waitFor();
+    assert.match(new URL(page.url()).hash, /^#cell\?.*cell\.radius_um=5&cell\.bulk\.young_modulus_kPa=/);
+  }),
+);
+
+test('Statistics of the moduli are those of the events within the gates', { skip }, () =>
+  inPage(async (page) => {
+    await recordings.computeModuli(page);
+    await recordings.drawBox(page, [0.3, 0.35], [0.55, 0.85]);
+    const found = await recordings.statisticsOf(page, 0);
+    const [area, deform] = (await recordings.gatesOf(page)).map((gate) => gate.values.map(Number));
+    const values = within(known[0], area, deform)
+      .map((i) => (known[0].deform[i] > 0.004 && known[0].area_um[i] > 30 ? (0.028 * (known[0].area_um[i] / 60)) / (known[0].deform[i] + 0.001) : NaN))
+      .filter(Number.isFinite)
+      .sort((a, b) => a - b);
+    const mean = values.reduce((a, b) => a + b, 0) / values.length;
+    const deviation = Math.sqrt(values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / (values.length - 1));
+    const middle = 0.5 * (values[Math.floor((values.length - 1) / 2)] + values[Math.ceil((values.length - 1) / 2)]);
+    assert.equal(recordings.numberIn(found['With value']), values.length);
+    assert.equal(found.Median, middle.toPrecision(4));
+    assert.equal(found.Mean, mean.toPrecision(4));
+    assert.equal(found.SD, deviation.toPrecision(4));
+    assert.equal(Number(found.SE), Number((deviation / Math.sqrt(values.length)).toPrecision(4)));
+  }),
+);
+
+test('An export of events names those within the gates', { skip }, () =>
+  inPage(async (page) => {
+    await recordings.drawBox(page, [0.3, 0.35], [0.55, 0.85]);
+    const [area, deform] = (await recordings.gatesOf(page)).map((gate) => gate.values.map(Number));
+    const request = await recordings.exportRequest(page, 'Table of events');
+    assert.deepEqual(request, { what: 'events', item: 0, gate: within(known[0], area, deform), name: 'control_1_events.tsv' });
+    await page.getByText('Written: /somewhere/control_1_events.tsv').waitFor();
+  }),
+);
+
+test('A picture of the plot is SVG with the events in it, and PNG', { skip }, () =>
+  inPage(async (page) => {
+    const svg = Buffer.from((await recordings.exportRequest(page, 'Picture, SVG')).data, 'base64').toString();
+    assert.match(svg, /^<svg[^>]*><rect [^>]*\/><image [^>]*href="data:image\/png;base64,/);
+    assert.match(svg, /Deformation<\/text>/);
+    const png = Buffer.from((await recordings.exportRequest(page, 'Picture, PNG')).data, 'base64');
+    assert.deepEqual([...png.subarray(1, 4)], [...Buffer.from('PNG')]);
+  }),
+);
+
+test('A reload restores gates, axes and the event under inspection', { skip }, () =>
+  inPage(async (page) => {
+    await recordings.drawBox(page, [0.3, 0.35], [0.55, 0.85]);
+    await page.getByRole('button', { name: 'log, horizontal axis' }).click();
+    const saved = page.waitForRequest((each) => each.method() === 'PUT' && each.url().endsWith('/api/session') && each.postData().includes('"event":4'));
+    await recordings.plotOf(page).focus();
+    await page.keyboard.press('n');
+    await page.getByLabel('Number of the event').fill('5');
+    await page.keyboard.press('Enter');
+    await saved;
+    const before = await recordings.gatesOf(page);
+    await page.reload();
+    await recordings.drawn(page);
+    assert.deepEqual(await recordings.gatesOf(page), before);
+    assert.equal(await page.getByRole('button', { name: 'log, horizontal axis' }).getAttribute('aria-pressed'), 'true');
+    assert.equal(await page.getByLabel('Number of the event').inputValue(), '5');
+  }),
+);
+
+test('Names of condition and replicate give the distribution its means', { skip }, () =>
+  inPage(async (page) => {
+    await page.getByRole('button', { name: 'Compute the moduli of all 2 recordings' }).click();
+    for (const name of ['control_1.rtdc', 'treated_1.rtdc']) {
+      await page.getByRole('button', { name, exact: true }).click();
+      await page.locator('.recording.focused').getByLabel('Condition').fill('one');
+      await page.keyboard.press('Enter');
+    }
+    await page.getByRole('tab', { name: 'Distributions' }).click();
+    await page.locator('.violin').nth(1).waitFor();
+    await page.getByRole('rowheader', { name: 'one' }).waitFor();
+    assert.match(await page.locator('.conditions tbody').textContent(), /^one2\d\.\d+ kPa\S* to /);
+  }),
+);
