@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "fem/observe.h"
 #include "solve/describe.h"
 #include "solve/partitioned_stepper.h"
 #include "solve/time_stepper.h"
@@ -22,10 +23,11 @@ Subdivision fine_subdivision(int surface_elements) {
   return {front, 2 * front, std::max(1, front / 8), 4};
 }
 
-TimeStepOptions step_options(const TimeRun& run, const std::atomic<bool>* stop) {
+TimeStepOptions step_options(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
   TimeStepOptions options;
   options.accuracy = run.accuracy;
   options.newton.stop = stop;
+  if (problem.wall.is_straight()) options.greatest_step = HUGE_VAL;  // nothing comes that a long step would miss
   return options;
 }
 
@@ -36,7 +38,29 @@ std::unique_ptr<Stepper> make_stepper(const Problem& problem, const TimeRun& run
     return std::make_unique<PartitionedStepper>(problem, run.surface_elements > 0 ? fine : resolution,
                                                 PartitionedOptions{run.step});
   }
-  return std::make_unique<TimeStepper>(problem, resolution, step_options(run, stop));
+  return std::make_unique<TimeStepper>(problem, resolution, step_options(problem, run, stop));
+}
+
+/// Whether a shape no longer changes: its rate falls as r(t) = r0 exp(-t / tau), or so, and what is left of its way,
+/// r tau, is small against what it has gone (docs/theory-time.md, sec. "settling"). Seen by the last levels alone, so
+/// that a run that was continued ends where it would have ended in one go.
+bool has_settled(const Discretisation& space, const std::vector<TimeLevel>& levels) {
+  constexpr double share_left = 1e-4, share_of_noise = 1e-6;
+  constexpr int intervals = 4;
+  if (levels.size() <= intervals) return false;
+  const double gone = largest_displacement(space, levels[0].unknowns);
+  double rate_after = 0, middle_after = 0;
+  for (int i = 0; i < intervals; ++i) {
+    const double step = levels[i].time - levels[i + 1].time, middle = (levels[i].time + levels[i + 1].time) / 2;
+    const double moved = largest_displacement(space, levels[i].unknowns - levels[i + 1].unknowns);
+    const double rate = moved / step;
+    const bool falls = i > 0 && rate > rate_after && rate_after > 0;
+    const double left = falls ? rate * (middle_after - middle) / std::log(rate / rate_after) : HUGE_VAL;
+    if (i > 0 && !(left < share_left * gone) && !(moved < share_of_noise * gone)) return false;
+    rate_after = rate;
+    middle_after = middle;
+  }
+  return true;
 }
 
 class TimeFollower {
@@ -76,7 +100,7 @@ class TimeFollower {
     return stepper_->resume(state), Status::converged;
   }
 
-  bool at_end() const { return stepper_->now().time >= run_.end * (1 - 1e-12); }
+  bool at_end() const { return settled_ || stepper_->now().time >= run_.end * (1 - 1e-12); }
 
   void advance(StationaryState& result) {
     SolveStatistics& statistics = result.statistics;
@@ -92,6 +116,7 @@ class TimeFollower {
       if (report.status != Status::converged) break;
       ++statistics.continuation_steps;
       result.residual = report.residual;
+      settled_ = may_settle() && has_settled(stepper_->space(), stepper_->state().levels);
       show_frames(before);
       if (observer_.step) observer_.step(describe(report), stepper_->state());
     }
@@ -100,6 +125,12 @@ class TimeFollower {
     statistics.assembly_s = work.assembly_s;
     statistics.factorisation_s = work.condensation_s + work.sparse_s;
     statistics.substitution_s = work.solve_s;
+  }
+
+  /// Where nothing changes any more but the cell.
+  bool may_settle() const {
+    return run_.scheme == TimeScheme::monolithic && stepper_->problem().wall.is_straight() &&
+           stepper_->now().time < run_.end * (1 - 1e-12);
   }
 
   DiscreteState state_of(const VectorXd& unknowns) const { return {stepper_->discrete(), stepper_->media(), unknowns}; }
@@ -132,15 +163,15 @@ class TimeFollower {
       show_frame(time, stepper_->unknowns_at(time));
     }
     stepper_->move_walls(now);
-    if (at_end()) show_frame(run_.end, stepper_->now().unknowns);
+    if (at_end()) show_frame(settled_ ? now : run_.end, stepper_->now().unknowns);
   }
 
   std::string explanation(Status status) const {
     if (status == Status::converged)
       return fmt::format(
-          "The cell was followed to the end on one mesh of degree {}, whose error is not estimated: a run with another "
+          "The cell was followed {} on one mesh of degree {}, whose error is not estimated: a run with another "
           "time.degree shows it.",
-          run_.degree);
+          settled_ ? "until it had settled" : "to the end", run_.degree);
     const double share = 100 * stepper_->now().time / run_.end;
     if (status == Status::stopped)
       return fmt::format("Stopped by a signal at {:.4g} % of the time; --continue goes on from there.", share);
@@ -156,6 +187,7 @@ class TimeFollower {
   TimeObserver observer_;
   const std::atomic<bool>* stop_;
   std::unique_ptr<Stepper> stepper_;
+  bool settled_ = false;
 };
 
 }  // namespace

@@ -161,7 +161,8 @@ TEST(LookupTable, TheTextHoldsUprightStaggeredColumnsAndAllParameters) {
 
 TEST(LookupTable, BranchesWithoutStatesGiveFilesWithoutRows) {
   const auto spec = spec_with({});
-  const std::vector<SampledBranch> branches(3, SampledBranch{5, 0, {}, {}, {}, {}, {}, {}, {Status::iteration_limit, "x"}});
+  const std::vector<SampledBranch> branches(
+      3, SampledBranch{5, 0, {}, {}, {}, {}, {}, {}, {Status::iteration_limit, "x"}});
   const auto files = table_files(make_lookup_table(spec, branches, "0"));
   EXPECT_NE(files.front().content.find("\"rows\": 0"), std::string::npos);
   EXPECT_EQ(std::ranges::count(end_of_branch_csv(make_lookup_table(spec, branches, "0")), '\n'), 1);
