@@ -107,6 +107,27 @@ python_environment() {
   fi
 }
 
+# install_node: Node.js 18 or newer and npm, from Debian where none is there.
+install_node() {
+  if command -v npm >/dev/null && node -e 'process.exit(parseInt(process.versions.node) < 18)' 2>/dev/null; then
+    echo "Node.js $(node --version) is there."
+  else
+    install_packages nodejs npm
+  fi
+}
+
+# build_page [<option of npm ci>...]: the page of the view, in page/dist. Without it the program works, without its view.
+build_page() {
+  local packages=page/node_modules/.package-lock.json
+  if [[ ! -s $packages || page/package-lock.json -nt $packages || $# == 0 ]]; then
+    (cd page && npm ci --no-progress "$@") || {
+      echo 'The packages of the page cannot be installed here (no network?): the view is left out.'
+      return
+    }
+  fi
+  (cd page && npm run --silent build) || fail 'the page of the view could not be built; the message above says why.'
+}
+
 # configure <preset> [<option>...]; the current folder is the top of the checkout.
 configure() {
   cmake --preset "$@" || fail "CMake could not configure the preset \"$1\"; its message is above. A build folder that is

@@ -29,6 +29,7 @@ export async function openBrowser(options = {}, more = []) {
     viewport: { width: 1280, height: 800 },
     ...options,
   });
+  context.setDefaultTimeout(60000);  // machines that run other tests at the same time are slow
   const close = async () => {
     await context.close();
     await rm(profile, { recursive: true, force: true });
