@@ -28,6 +28,12 @@ test('quantiles are those of the sorted values, linear between two of them', () 
   assert.deepEqual(quantiles(Float64Array.of(4, 1, 3, 2), [0.25, 0.5, 0.75]), [1.75, 2.5, 3.25]);
 });
 
+test('single outliers do not change which values are the quantiles', () => {
+  const values = numbers(1001).map((value, i) => (i === 500 ? 1e9 : i === 700 ? -1e12 : value));
+  const sorted = values.slice().sort();
+  assert.deepEqual(quantiles(values, [0, 0.25, 0.5, 0.75, 1]), [0, 250, 500, 750, 1000].map((k) => sorted[k]));
+});
+
 test('equal values and few values have quantiles as well', () => {
   assert.deepEqual(quantiles(new Float64Array(50).fill(3), [0.25, 0.5]), [3, 3]);
   assert.deepEqual(quantiles(Float64Array.of(5), [0.25, 0.75]), [5, 5]);

@@ -42,14 +42,20 @@ function useDetail(chosen: Choice | null): Found {
   return { detail, error, stop: () => stop?.abort(), running: stop !== null };
 }
 
+/** "1.860 ± 0.093": two digits of the error, and the value to the same place. */
+function withError(value: number, error: number | null): string {
+  if (error === null || !(error > 0)) return significant(value, 3);
+  const decimals = Math.max(0, 1 - Math.floor(Math.log10(error)));
+  return `${value.toFixed(decimals)} ± ${error.toFixed(decimals)}`;
+}
+
 function Modulus({ detail }: { detail: EventDetail }) {
   const value = detail.young_modulus_kPa;
   return (
     <div class="modulus">
       {value !== null && Number.isFinite(value) ? (
         <p class="large">
-          <span class="symbol">E</span> {significant(value, 3)}
-          {detail.standard_error_kPa !== null && ` ± ${significant(detail.standard_error_kPa, 2)}`} <span class="unit">kPa</span>
+          <span class="symbol">E</span> {withError(value, detail.standard_error_kPa)} <span class="unit">kPa</span>
         </p>
       ) : (
         <p class="large none">No modulus: {detail.state}</p>

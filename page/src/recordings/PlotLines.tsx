@@ -33,19 +33,19 @@ interface TableLinesProps {
 
 export function TableLines({ plot, frame, lines }: TableLinesProps) {
   const { range } = lines;
-  let free = -Infinity;
+  const named: [number, number][] = [];
   return (
     <g class="table-lines">
       {range && <path class="table-range" d={`${pathOf(frame, along(plot, range.x, range.y))}Z`} />}
       {lines.lines.map((line) => {
         const points = along(plot, line.x, line.y);
         const end = endOf(frame, points);
-        const named = end !== null && Math.abs(end[0] + end[1] - free) > 14;
-        if (named) free = end[0] + end[1];
+        const free = end !== null && named.every(([x, y]) => Math.abs(x - end[0]) > 30 || Math.abs(y - end[1]) > 15);
+        if (free) named.push(end);
         return (
           <g key={line.young_modulus_kPa}>
             <path class="isoelastic" d={pathOf(frame, points)} />
-            {named && (
+            {free && (
               <text class="line-number" x={end[0] - 3} y={end[1] - 4} text-anchor="end">
                 {significant(line.young_modulus_kPa, 2)}
               </text>

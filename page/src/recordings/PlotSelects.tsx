@@ -65,7 +65,7 @@ export function AxisSelects(props: SelectsProps) {
 
 export function ColourSelect({ plot, features }: SelectsProps) {
   return (
-    <label class="choice">
+    <label class="choice short" title="Colour of the events">
       <span class="hidden">Colour</span>
       <select value={plot.colour} onChange={({ currentTarget }) => changePlot(plot.id, { colour: currentTarget.value })}>
         <option value={byDensity}>Density of events</option>

@@ -7,6 +7,7 @@ import { counted } from './scale';
 import { nameOf } from './features';
 import { changePlot, choice, focus, gates, itemOf, items, recordings, titleOf, tool, type Plot } from './model';
 import { moduliVersion } from './moduli';
+import { ColourScale } from './ColourScale';
 import { PlotActions } from './plot_actions';
 import { PlotAxes } from './PlotAxes';
 import { useLines, usePlotData, type PlotData } from './plot_data';
@@ -90,6 +91,7 @@ function Layers({ plot, item, frame, data, lines, drawing }: LayersProps) {
         {data && <ChosenEvent frame={frame} data={data} item={item} />}
       </g>
       <PlotAxes frame={frame} x={plot.x} y={plot.y} />
+      {data?.colour && <ColourScale frame={frame} plot={plot.id} feature={plot.colour} range={data.colour.range} />}
     </>
   );
 }
@@ -126,6 +128,9 @@ function Drawn({ plot, item }: { plot: Plot; item: Item }) {
           {width > 0 && <Layers {...{ plot, item, frame, data, lines, drawing }} />}
         </svg>
       </div>
+      <p class="plot-keys" aria-hidden="true">
+        Arrows move, + − zoom, 0 all · Shift + arrows: crosshair, Enter chooses · N, P next, previous · B box, G polygon, C closes
+      </p>
       <p class="plot-note">{plot.lines ? (lines?.sentence ?? (lines?.table ? `Isoelasticity lines in kPa: ${lines.table}` : '')) : ''}</p>
     </>
   );
@@ -135,11 +140,12 @@ export function ScatterPlot({ plot, several }: { plot: Plot; several: boolean })
   const all = recordings(useStore(items));
   const focused = useStore(focus);
   const item = itemOf(plot.item ?? focused);
+  const colour = <ColourSelect plot={plot} features={item?.features ?? []} />;
   return (
     <section class="plot" aria-label={`Plot ${plot.id}`}>
       <div class="plot-head">
         {several && (
-          <label class="choice">
+          <label class="choice short">
             <span class="hidden">Recording</span>
             <select
               value={plot.item === null ? '' : String(plot.item)}
@@ -154,8 +160,9 @@ export function ScatterPlot({ plot, several }: { plot: Plot; several: boolean })
             </select>
           </label>
         )}
+        {several && colour}
         <AxisSelects plot={plot} features={item?.features ?? []} />
-        <ColourSelect plot={plot} features={item?.features ?? []} />
+        {!several && colour}
       </div>
       {item && item.state === 'ready' ? <Drawn plot={plot} item={item} /> : <div class="plot-frame empty">No recording.</div>}
     </section>

@@ -37,7 +37,9 @@ function Row({ item, feature }: { item: Item; feature: string }) {
       <td>{within === undefined ? '–' : counted(within)}</td>
       <td>{found ? counted(found.count) : '–'}</td>
       {(numbers ?? Array(6).fill(NaN)).map((value, k) => (
-        <td key={k}>{significant(value, 4)}</td>
+        <td key={k} title={Number.isFinite(value) ? value.toPrecision(10) : undefined}>
+          {significant(value, 4)}
+        </td>
       ))}
     </tr>
   );

@@ -40,51 +40,46 @@ function applyRange(gate: RangeGate, values: ArrayLike<number>, inside: Uint8Arr
   }
 }
 
-interface Edge {
-  x: number;
-  y: number;
-  slope: number;
-  low: number;
-  high: number;
-}
-
 /** A polygon cut into horizontal slabs, so that a point meets only the few edges of its slab. */
 export class SlabbedPolygon {
   static readonly slabs = 256;
   private readonly low: number;
   private readonly high: number;
   private readonly perUnit: number;
-  private readonly edges: Edge[][] = [];
+  /** Of each edge: x and y of its lower end, dx / dy, y of its upper end; slab k has those from starts[k] to starts[k + 1]. */
+  private readonly edges: Float64Array;
+  private readonly starts = new Uint32Array(SlabbedPolygon.slabs + 1);
 
   constructor(points: [number, number][]) {
     const heights = points.map(([, y]) => y);
     this.low = Math.min(...heights);
     this.high = Math.max(...heights);
     this.perUnit = SlabbedPolygon.slabs / (this.high - this.low || 1);
-    for (let k = 0; k < SlabbedPolygon.slabs; ++k) this.edges.push([]);
-    points.forEach((from, k) => this.add(from, points[(k + 1) % points.length]));
+    const slabs: number[][] = Array.from({ length: SlabbedPolygon.slabs }, () => []);
+    points.forEach((from, k) => {
+      const to = points[(k + 1) % points.length];
+      if (from[1] === to[1]) return;
+      const [a, b] = from[1] < to[1] ? [from, to] : [to, from];
+      const last = this.slabOf(b[1]);
+      for (let slab = this.slabOf(a[1]); slab <= last; ++slab) slabs[slab].push(a[0], a[1], (b[0] - a[0]) / (b[1] - a[1]), b[1]);
+    });
+    this.edges = Float64Array.from(slabs.flat());
+    slabs.forEach((edges, k) => (this.starts[k + 1] = this.starts[k] + edges.length));
   }
 
   private slabOf(y: number): number {
     return Math.min(SlabbedPolygon.slabs - 1, Math.max(0, Math.floor((y - this.low) * this.perUnit)));
   }
 
-  private add(from: [number, number], to: [number, number]): void {
-    if (from[1] === to[1]) return;
-    const [a, b] = from[1] < to[1] ? [from, to] : [to, from];
-    const edge = { x: a[0], y: a[1], slope: (b[0] - a[0]) / (b[1] - a[1]), low: a[1], high: b[1] };
-    for (let k = this.slabOf(a[1]); k <= this.slabOf(b[1]); ++k) this.edges[k].push(edge);
-  }
-
   /** By the number of edges to the right (even-odd); the lower end of an edge belongs to it, the upper one does not. */
   holds(x: number, y: number): boolean {
     if (!(y >= this.low && y <= this.high)) return false;
-    const edges = this.edges[this.slabOf(y)];
+    const { edges, starts } = this;
+    const slab = Math.min(SlabbedPolygon.slabs - 1, ((y - this.low) * this.perUnit) | 0);
+    const end = starts[slab + 1];
     let odd = false;
-    for (let k = 0; k < edges.length; ++k) {
-      const edge = edges[k];
-      if (y >= edge.low && y < edge.high && x < edge.x + edge.slope * (y - edge.y)) odd = !odd;
-    }
+    for (let k = starts[slab]; k < end; k += 4)
+      if (y >= edges[k + 1] && y < edges[k + 3] && x < edges[k] + edges[k + 2] * (y - edges[k + 1])) odd = !odd;
     return odd;
   }
 }

@@ -25,7 +25,7 @@ export function valuesWithin(values: ArrayLike<number>, inside: Uint8Array | nul
 }
 
 /** Puts the value of rank k in its place, smaller ones before it (Hoare's selection); reorders the values. */
-export function select(values: Float64Array, k: number, from = 0): number {
+function select(values: Float64Array, k: number, from = 0): number {
   let low = from;
   let high = values.length - 1;
   while (low < high) {
@@ -48,17 +48,56 @@ export function select(values: Float64Array, k: number, from = 0): number {
   return values[k];
 }
 
-/** Quantiles, linear between two values, for ascending shares; reorders the values. NaN of none. */
+const bins = 4096;
+
+/** Values counted into bins of equal width, so that a rank is sought in its own bin alone. */
+class Ranks {
+  private readonly counts = new Uint32Array(bins);
+  private readonly low: number;
+  private readonly perUnit: number;
+
+  constructor(private readonly values: Float64Array) {
+    let low = Infinity;
+    let high = -Infinity;
+    for (let i = 0; i < values.length; ++i) {
+      if (values[i] < low) low = values[i];
+      if (values[i] > high) high = values[i];
+    }
+    this.low = low;
+    this.perUnit = high > low ? (bins - 1e-6) / (high - low) : 0;
+    for (let i = 0; i < values.length; ++i) ++this.counts[((values[i] - low) * this.perUnit) | 0];
+  }
+
+  /** The values of ranks k and k + 1, counted from 0; the last one twice where there is none beyond. */
+  pair(k: number): [number, number] {
+    let before = 0;
+    let bin = 0;
+    while (before + this.counts[bin] <= k) before += this.counts[bin++];
+    const own = this.inBin(bin);
+    const lower = select(own, k - before);
+    if (k - before + 1 < own.length) return [lower, select(own, k - before + 1, k - before + 1)];
+    do ++bin;
+    while (bin < bins && this.counts[bin] === 0);
+    return [lower, bin < bins ? this.inBin(bin).reduce((a, b) => Math.min(a, b)) : lower];
+  }
+
+  private inBin(bin: number): Float64Array {
+    const found = new Float64Array(this.counts[bin]);
+    let count = 0;
+    for (let i = 0; i < this.values.length && count < found.length; ++i)
+      if ((((this.values[i] - this.low) * this.perUnit) | 0) === bin) found[count++] = this.values[i];
+    return found;
+  }
+}
+
+/** Quantiles, linear between two values. NaN of none. */
 export function quantiles(values: Float64Array, shares: number[]): number[] {
-  let from = 0;
+  if (values.length === 0) return shares.map(() => NaN);
+  const ranks = new Ranks(values);
   return shares.map((share) => {
-    if (values.length === 0) return NaN;
     const place = share * (values.length - 1);
     const below = Math.floor(place);
-    const lower = select(values, below, from);
-    from = below;
-    if (below + 1 >= values.length) return lower;
-    const upper = select(values, below + 1, below + 1);
+    const [lower, upper] = ranks.pair(below);
     return lower + (place - below) * (upper - lower);
   });
 }
@@ -122,9 +161,10 @@ export function medianInterval(values: Float64Array): Interval {
   const reach = 0.98 * Math.sqrt(count);
   const low = Math.floor(count / 2 - reach);
   const high = Math.ceil(count / 2 + reach);
-  const [median] = quantiles(values, [0.5]);
-  if (low < 0 || high > count - 1) return { value: median, low: NaN, high: NaN };
-  return { value: median, low: select(values, low), high: select(values, high) };
+  const ranks = [0.5, low / (count - 1), high / (count - 1)];
+  if (low < 0 || high > count - 1) return { value: quantiles(values, [0.5])[0], low: NaN, high: NaN };
+  const [value, lower, upper] = quantiles(values, ranks);
+  return { value, low: lower, high: upper };
 }
 
 /** Mean of replicates with the 95 % interval by Student's t: what a condition has when its recordings are the sample. */

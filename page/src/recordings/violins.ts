@@ -39,15 +39,14 @@ export function valuesAlong(values: ArrayLike<number>, inside: Uint8Array | null
 }
 
 export function violinOf(values: Float64Array, span: Span): Violin {
-  const own = values.slice();
-  const [firstQuartile, , thirdQuartile] = quantiles(own, [0.25, 0.5, 0.75]);
-  const spread = Math.min(describe(own, null).standardDeviation, (thirdQuartile - firstQuartile) / 1.349 || Infinity);
+  const [firstQuartile, thirdQuartile] = quantiles(values, [0.25, 0.75]);
+  const spread = Math.min(describe(values, null).standardDeviation, (thirdQuartile - firstQuartile) / 1.349 || Infinity);
   return {
-    count: own.length,
-    outline: densityAlong(own, span, Number.isFinite(spread) ? spread : 0),
+    count: values.length,
+    outline: densityAlong(values, span, Number.isFinite(spread) ? spread : 0),
     firstQuartile,
     thirdQuartile,
-    median: medianInterval(own),
+    median: medianInterval(values),
   };
 }
 
