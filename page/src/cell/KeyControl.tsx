@@ -112,7 +112,7 @@ function ChoiceControl({ of, values }: ControlProps) {
   const value = String(values[of.name] ?? of.default ?? of.options![0]);
   const wrong = useWrong(of);
   return (
-    <div class="control choice" data-key={of.name} title={of.sentence}>
+    <div class="control options" data-key={of.name} title={of.sentence}>
       <label for={idOf(of)}>{titleOf(of)}</label>
       <select id={idOf(of)} value={value} onChange={(event) => model.change(of.name, event.currentTarget.value)}>
         {of.options!.map((option) => (

@@ -2,7 +2,8 @@
 // Colours stand in attributes, not in the style sheet, so that an exported picture keeps them.
 import { useMemo } from 'preact/hooks';
 import type { Fields } from '../draw/fields';
-import { shade, tensionMap } from '../draw/colormap';
+import type { Outline } from '../api';
+import { cellMap, liquidMap, shade, tensionMap } from '../draw/colormap';
 import { streamlines } from '../draw/streamlines';
 import { token } from '../shell/theme';
 import type { Scene } from './Channel';
@@ -111,6 +112,16 @@ function Cell({ stage, scene, looks }: LinesProps) {
   );
 }
 
+/** A step in time has no fields: plain liquid and cell in the lightest colours of the maps. */
+function PlainGround({ stage, contour }: { stage: Stage; contour: Outline | null }) {
+  return (
+    <g>
+      <rect width={stage.width} height={stage.height} fill={liquidMap.css[24]} />
+      {contour && <path d={pathOf(stage, wholeOutline(contour))} fill={cellMap.css[60]} />}
+    </g>
+  );
+}
+
 function ScaleBar({ stage }: { stage: Stage }) {
   const length = scaleBar_um(stage);
   const to = stage.width - 16;
@@ -143,6 +154,7 @@ export function Lines(props: LinesProps) {
       font-family="system-ui, sans-serif"
       aria-hidden="true"
     >
+      {!scene.fields && <PlainGround stage={stage} contour={scene.contour} />}
       {looks.streamlines && scene.fields && <Stream stage={stage} scene={scene} />}
       <Walls stage={stage} scene={scene} />
       <Cell {...props} />

@@ -131,7 +131,7 @@ export function Plane() {
           Clear the trace
         </button>
       </header>
-      <div ref={box} class="plot">
+      <div ref={box} class="plane-plot">
         <svg width={size.width} height={size.height} role="img" aria-label={label}>
           <Frame axes={axes} />
           {lines && <Isoelastic axes={axes} lines={lines} />}

@@ -12,8 +12,6 @@ import { Solid } from './Solid';
 import { run } from './time';
 import { TimeLine } from './TimeLine';
 
-const shifted = (outline: Outline, x_um: number): Outline => ({ ...outline, x_um: outline.x_um.map((x) => x + x_um) });
-
 const tubeRadius = (solved: model.Solved) => solved.state.tube_radius_um ?? 0.547 * Number(solved.of['channel.width_um'] ?? 20);
 
 /** Half the height of the picture: the tube's radius, or half the square's width. */
@@ -59,11 +57,10 @@ function timeScene(contour: Outline, x_um: number, values: Record<string, unknow
   const width = Number(values['channel.width_um'] ?? 20);
   const radius_um = profile ? Math.max(...profile) : Number(values['channel.radius_um'] ?? 0.547 * width);
   const wall = profile && places ? { x_um: places.map((x) => x - x_um), r_um: profile } : undefined;
-  const centred = shifted(contour, -middleOf(contour));
   return {
     fields: null,
     paints: [null, null],
-    contour: centred,
+    contour,
     hull: null,
     undeformed_um: Number(values['cell.radius_um']),
     radius_um,
@@ -72,8 +69,6 @@ function timeScene(contour: Outline, x_um: number, values: Record<string, unknow
     wall,
   };
 }
-
-const middleOf = ({ x_um }: Outline) => 0.5 * (Math.min(...x_um) + Math.max(...x_um));
 
 function Switch({ name, title, now }: { name: keyof Looks; title: string; now: Looks }) {
   return (
