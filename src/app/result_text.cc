@@ -6,6 +6,7 @@
 
 #include "app/counted.h"
 #include "app/result.h"
+#include "case/scales.h"
 #include "store/build_info.h"
 
 namespace rheocyte {
@@ -16,6 +17,18 @@ constexpr double um_per_m = 1e6;
 
 std::string line(std::string_view name, const std::string& value, const std::string& remark) {
   return fmt::format("  {:<18} {:<16} {}\n", name, value, remark);
+}
+
+/// Which channel was computed: a width means a square one, for which a tube may stand.
+std::string channel_line(const Case& input) {
+  const Channel& channel = input.channel;
+  if (!channel.width_um) return "";
+  if (channel.section == Section::square)
+    return line("channel", fmt::format("{:.5g} um square", *channel.width_um),
+                channel.camera == Camera::diagonal ? "seen along the diagonal" : "seen from the side");
+  return line("channel", fmt::format("{:.5g} um tube", 2 * tube_radius_um(input)),
+              fmt::format("for the square of {:.5g} um, which channel.section = \"square\" computes itself",
+                          *channel.width_um));
 }
 
 }  // namespace
@@ -67,6 +80,7 @@ std::string summary(const Result& result, const std::string& folder) {
   const auto& scales = result.scales;
   const double R = scales.length_m * um_per_m;
   std::string text = fmt::format("rheocyte {}: {}\n", version, name(state.outcome.status));
+  text += channel_line(result.input);
   text +=
       line("deformation", fmt::format("{:.6f}", shape.deformation), fmt::format("raw {:.6f}", shape.deformation_raw));
   text +=
