@@ -56,7 +56,8 @@ void give_columns(const Json& request, const WorkReply& reply, const TellProgres
   const NumberType type = request.value("type", "") == "float64" ? NumberType::float64 : NumberType::float32;
   std::vector<double> values;
   for (const auto& name : names) columns.read(name, 0, {});
-  reply.give(json_text({{"features", names},
+  // One line: it becomes the value of a header.
+  reply.give(json_line({{"features", names},
                         {"events", columns.events()},
                         {"type", type == NumberType::float64 ? "float64" : "float32"}}));
   for (const auto& name : names)
