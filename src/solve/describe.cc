@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fem/sample_fields.h"
 #include "fem/write_fields.h"
 #include "laws/developed_flow.h"
 #include "solve/surface_stability.h"
@@ -102,6 +103,9 @@ void describe_state(const Problem& problem, const DiscreteState& state, Stationa
   r.statistics.elements = int(space.elements().size());
   r.write_fields = [state](const std::string& path, const Scales& scales) {
     return write_fields(state.discrete->space, state.media, state.unknowns, scales, path);
+  };
+  r.sample_fields = [state](const Scales& scales, int points) {
+    return sample_fields(state.discrete->space, state.media, state.unknowns, scales, points);
   };
 }
 

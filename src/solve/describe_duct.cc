@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "duct/sample_duct_fields.h"
 #include "duct/write_duct_fields.h"
 #include "fem/observe.h"
 
@@ -96,6 +97,13 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
   r.statistics.degree = space.reference().degree();
   r.write_fields = [discrete, media, unknowns](const std::string& path, const Scales& scales) {
     return write_duct_fields(discrete->space, media, unknowns, scales, path);
+  };
+  r.sample_fields = [=, camera = problem.camera](const Scales& scales, int points) {
+    SampledFields fields = sample_duct_fields(discrete->space, media, unknowns, scales, camera, points);
+    const auto place = float(1e6 * scales.length_m * volume.barycentre);
+    fields.point_um.col(0).array() -= place;
+    fields.surface_um.col(0).array() -= place;
+    return fields;
   };
 }
 

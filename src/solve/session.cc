@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "fem/sample_fields.h"
 #include "fem/write_fields.h"
 #include "solve/branch_ends.h"
 #include "solve/describe.h"
@@ -59,11 +60,16 @@ double distance(const Problem& a, const Problem& b) {
        std::abs(a.liquid.reynolds - b.liquid.reynolds)});
 }
 
+/// Whether mesh and spaces differ.
+bool is_elsewhere(const Problem& a, const Problem& b) {
+  return a.radius_ratio != b.radius_ratio || a.liquid.exponent != b.liquid.exponent;
+}
+
 /// Carries a rung over; false if Newton fails or leads too far away.
 bool move_rung(const Problem& from, const Problem& to, NewtonOptions options, ResolvedState& rung,
                SolveStatistics& statistics) {
   Discrete& discrete = *rung.discrete;
-  if (from.radius_ratio != to.radius_ratio || from.liquid.exponent != to.liquid.exponent) {
+  if (is_elsewhere(from, to)) {
     discrete.move_to(to, rung.resolution);
     scale_displacement(discrete.space, to.radius_ratio / from.radius_ratio, rung.branch.unknowns);
   }
@@ -82,12 +88,17 @@ bool move_rung(const Problem& from, const Problem& to, NewtonOptions options, Re
 void describe(const Problem& problem, const ResolvedState& state, StationaryState& r) {
   const Media media = media_at(problem, state.branch.parameter);
   describe_state(problem, {state.discrete, media, state.branch.unknowns}, r);
-  // A writer with a mesh of its own: the session moves on.
-  r.write_fields = [problem, media, resolution = state.resolution, unknowns = state.branch.unknowns](
-                       const std::string& path, const Scales& scales) {
+  // A mesh of its own: the session moves on.
+  const auto with_space = [problem, resolution = state.resolution](const auto& use) {
     const ChannelMesh mesh(ChannelGeometry(problem.radius_ratio, problem.channel_length), resolution.subdivision);
-    const Discretisation space(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive);
-    return write_fields(space, media, unknowns, scales, path);
+    return use(Discretisation(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive));
+  };
+  r.write_fields = [=, unknowns = state.branch.unknowns](const std::string& path, const Scales& scales) {
+    return with_space([&](const Discretisation& space) { return write_fields(space, media, unknowns, scales, path); });
+  };
+  r.sample_fields = [=, unknowns = state.branch.unknowns](const Scales& scales, int points) {
+    return with_space(
+        [&](const Discretisation& space) { return sample_fields(space, media, unknowns, scales, points); });
   };
   r.residual = state.residual;
   r.outcome.reached = state.branch.parameter;
@@ -144,12 +155,22 @@ bool Session::answer_nearby(const Problem& problem, const NewtonOptions& newton,
   Kept kept = std::move(*found);
   kept_.erase(found);
   answer.problem = problem;
-  for (ResolvedState& rung : kept.ladder.rungs) {
-    if (!move_rung(kept.problem, problem, newton, rung, statistics)) return false;
-    answer.ladder.add(std::move(rung));
+  for (const ResolvedState& rung : kept.ladder.rungs) {
+    ResolvedState moved = rung;
+    if (!move_rung(kept.problem, problem, newton, moved, statistics)) {
+      if (newton.stop && *newton.stop) take_back(std::move(kept), problem);
+      return false;
+    }
+    answer.ladder.add(std::move(moved));
     if (is_accurate(answer.ladder, problem)) break;
   }
   return true;
+}
+
+void Session::take_back(Kept kept, const Problem& from) {
+  if (is_elsewhere(from, kept.problem))
+    for (const ResolvedState& rung : kept.ladder.rungs) rung.discrete->move_to(kept.problem, rung.resolution);
+  keep(std::move(kept));
 }
 
 StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress,
@@ -181,15 +202,20 @@ StationaryState Session::solve(const Problem& problem, const ProgressCallback& p
     add_work(state, result.statistics);
   }
   result.outcome.status = state.status;
-  if (state.status == Status::converged && !is_accurate(answer.ladder, problem))
+  if (state.status == Status::converged && !is_accurate(answer.ladder, problem)) {
+    const Ladder before = answer.ladder;
     result.outcome.status = climb(problem, newton, state, answer.ladder, on_rung);
+    if (answer.ladder.rungs.empty()) answer.ladder = before;
+  }
   if (!answer.ladder.rungs.empty()) {
     state = answer.ladder.rungs.back();
     result.estimated_error = answer.ladder.estimated_error;
   }
   if (state.discrete && state.branch.parameter > 0) describe(problem, state, result);
   explain(problem, state, result);
-  if (memory_limit_ > 0 && result.outcome.status == Status::converged) keep(std::move(answer));
+  // Stopped on the way to a finer mesh the ladder is still good to begin from.
+  const bool is_good = result.outcome.status == Status::converged || result.outcome.status == Status::stopped;
+  if (is_good && !answer.ladder.rungs.empty()) keep(std::move(answer));
   result.statistics.total_s = seconds_since(start);
   return result;
 }
@@ -203,6 +229,7 @@ std::size_t Session::memory_bytes() const {
 }
 
 void Session::keep(Kept answer) {
+  if (memory_limit_ == 0) return;
   kept_.push_front(std::move(answer));
   while (!kept_.empty() && memory_bytes() > memory_limit_) kept_.pop_back();
 }

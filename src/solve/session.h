@@ -17,7 +17,8 @@ class Session {
 
   /// The stationary state of a problem, from a kept one nearby or from the unstressed sphere; the answer is the same up
   /// to rounding and the tolerance of Newton's method. Never throws for a numerical failure: the state then holds the
-  /// last converged shape on the branch and the outcome says why it stopped. `stop` is polled once an iteration.
+  /// last converged shape on the branch and the outcome says why it stopped. `stop` is polled once an iteration; what
+  /// was kept before stays.
   StationaryState solve(const Problem&, const ProgressCallback& = {}, const std::atomic<bool>* stop = nullptr);
 
   /// How many answers started from a kept state.
@@ -33,6 +34,8 @@ class Session {
   /// The kept ladder moved to the problem, if one is near enough to be on the same branch.
   bool answer_nearby(const Problem&, const NewtonOptions&, SolveStatistics&, Kept& answer);
   void keep(Kept);
+  /// What was being moved to the problem `from` when a stop was wanted becomes what it was.
+  void take_back(Kept, const Problem& from);
 
   std::size_t memory_limit_;
   std::list<Kept> kept_;  ///< the latest first

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "case/problem.h"
+#include "fem/sampled_fields.h"
 #include "shape/contour.h"
 #include "solve/outcome.h"
 #include "solve/state_measures.h"
@@ -60,6 +61,8 @@ struct StationaryState : StateNumbers {
   /// Writes fields.vtu (velocity, pressure, stress, displacement on the deformed mesh, high-order cells) in
   /// physical units (um, m/s, Pa); false if that failed.
   std::function<bool(const std::string& path, const Scales&)> write_fields;
+  /// The same for a picture, in about so many points; places as in the contour.
+  std::function<SampledFields(const Scales&, int points)> sample_fields;
 };
 
 /// Called after each continuation step.

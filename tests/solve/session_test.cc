@@ -73,15 +73,36 @@ TEST(Session, ItKeepsNoMoreThanItsLimit) {
 }
 
 TEST(Session, ACancelledSolveLeavesTheSessionUsable) {
-  // Stopped before the first iteration, with a state nearby and without.
+  // Stopped before the first iteration, with a state nearby and without; what was kept is still there.
   Session session;
   const std::atomic<bool> stop = true;
   Problem problem = test::problem({6, 4.58, 0}, 1e-3);
   EXPECT_EQ(session.solve(problem, {}, &stop).outcome.status, Status::stopped);
   session.solve(problem);
   problem.bulk.shear_modulus *= 1.02;
+  problem.radius_ratio *= 1.01;
   EXPECT_EQ(session.solve(problem, {}, &stop).outcome.status, Status::stopped);
+  const StationaryState state = session.solve(problem);
+  EXPECT_EQ(state.outcome.status, Status::converged);
+  EXPECT_EQ(session.warm_starts(), 1);
+  EXPECT_NEAR(state.shape.deformation / deformation(problem), 1, 1e-9);
+}
+
+TEST(Session, ASolveCancelledOnTheWayToAFinerMeshLosesNothing) {
+  // A finer accuracy is wanted of a state that is kept, and is given up once its meshes are exhausted.
+  Session session;
+  std::atomic<bool> stop = false;
+  Problem problem = test::problem({6, 4.58, 0}, 1e-3);
+  session.solve(problem);
+  problem.accuracy = 1e-6;
+  EXPECT_EQ(session
+                .solve(
+                    problem, [&](const BranchStep&) { stop = true; }, &stop)
+                .outcome.status,
+            Status::stopped);
+  problem.accuracy = 1e-3;
   EXPECT_EQ(session.solve(problem).outcome.status, Status::converged);
+  EXPECT_EQ(session.warm_starts(), 2);
 }
 
 TEST(Session, TwoThreadsWithASessionEachFindTheSame) {
