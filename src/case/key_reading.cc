@@ -151,7 +151,7 @@ std::string KeyReading::stated(std::string_view key) const { return rheocyte::st
 
 void KeyReading::refuse(std::string_view key, const std::string& reason) const {
   if (const auto* known = given(key)) rheocyte::refuse(*known, reason);
-  throw UserError(fmt::format("{}: {}", file_, reason));
+  throw KeyError(key, fmt::format("{}: {}", file_, reason));
 }
 
 bool KeyReading::is_met(const Condition& condition) const {
@@ -205,8 +205,8 @@ void KeyReading::set_fallback(const KeyDescription& key) {
                       : key.only_for->option.empty()
                           ? " " + condition_text(*key.only_for)
                           : fmt::format(" for {} = \"{}\"", key.only_for->key, chosen(key.only_for->key));
-  throw UserError(fmt::format("{}: the key {}{} is missing{}; it can be {} ({}).", file_, key.name, instead, reason,
-                              allowed_values(key), key.sentence));
+  throw KeyError(key.name, fmt::format("{}: the key {}{} is missing{}; it can be {} ({}).", file_, key.name, instead,
+                                       reason, allowed_values(key), key.sentence));
 }
 
 std::vector<std::string> remarks_on_names(const KeyList& keys, std::span<const GivenKey> given) {

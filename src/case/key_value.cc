@@ -8,7 +8,6 @@
 #include <functional>
 
 #include "case/nearest_name.h"
-#include "case/user_error.h"
 
 namespace rheocyte {
 
@@ -69,7 +68,7 @@ std::string checked_word(const KeyDescription& key, const GivenKey& given) {
 std::span<const std::string_view> spread_parts() { return parts_of_spread; }
 
 void refuse(const GivenKey& given, const std::string& reason) {
-  throw UserError(fmt::format("{}: {}", given.where, reason));
+  throw KeyError(given.key, fmt::format("{}: {}", given.where, reason));
 }
 
 std::string stated(const GivenKey& given) { return fmt::format("{} = {}", one_line(given.key, 80), value_text(given)); }

@@ -7,13 +7,21 @@
 
 #include "case/given_keys.h"
 #include "case/key.h"
+#include "case/user_error.h"
 
 namespace rheocyte {
 
 /// The parts of a spread, as they stand behind its key: ".mean", ".sd", ".distribution".
 std::span<const std::string_view> spread_parts();
 
-/// UserError that begins with the place of the key.
+/// What is wrong with one key.
+class KeyError : public UserError {
+ public:
+  KeyError(std::string_view name, const std::string& sentence) : UserError(sentence), key(name) {}
+  std::string key;  ///< dotted
+};
+
+/// KeyError that begins with the place of the key.
 [[noreturn]] void refuse(const GivenKey&, const std::string& reason);
 
 /// For example: `cell.radius_um = 0.001`, not too long.

@@ -24,7 +24,7 @@ using Target = Eigen::Map<Array>;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kelvin_at_0_celsius = 273.15;
 
-constexpr double exponent_per_kelvin = 0.00223;  // of methyl cellulose, by Buyukurganci
+constexpr double exponent_per_kelvin = 0.00223, activation_in_kelvin = 3379.7;  // of methyl cellulose, by Buyukurganci
 
 constexpr std::array<std::pair<std::string_view, Medium>, 13> names_of_media{{
     {"0.49% mc-pbs", Medium::methyl_cellulose_049},
@@ -54,7 +54,7 @@ std::string in_small_letters(std::string_view text) {
   return small;
 }
 
-/// eta = 1000 K g^(n - 1) with K = factor exp(3379.7 / Tk) and n = 0.00223 Tk + offset.
+/// eta = 1000 K g^(n - 1) with K = factor exp(activation_in_kelvin / Tk) and n = 0.00223 Tk + offset.
 struct PowerLawOfTemperature {
   double factor, offset;
 };
@@ -74,22 +74,29 @@ void buyukurganci_viscosity(Medium medium, const ChannelFlow& flow, const Source
   const Array kelvin = celsius + kelvin_at_0_celsius;
   const Array n = exponent_per_kelvin * kelvin + offset;
   // One exponential for the consistency and the power of the shear rate together.
-  viscosity = 1000 * factor * (3379.7 / kelvin + (n - 1) * (std::log(shear_scale) + (0.6671 + 0.2121 / n).log())).exp();
+  viscosity = 1000 * factor *
+              (activation_in_kelvin / kelvin + (n - 1) * (std::log(shear_scale) + (0.6671 + 0.2121 / n).log())).exp();
 }
 
-double herold_exponent(Medium medium) { return medium == Medium::methyl_cellulose_049 ? 0.677 : 0.634; }
+/// The consistency (Pa s^n) at the reference temperature (degC) falls like its power -0.866.
+struct PowerLawAtReference {
+  double consistency, exponent, reference;
+};
+constexpr double herold_power_of_temperature = -0.866;
+
+PowerLawAtReference herold(Medium medium) {
+  if (medium == Medium::methyl_cellulose_049) return {0.179, 0.677, 23.2};
+  return {0.360, 0.634, 23.6};
+}
 
 void herold_viscosity(Medium medium, const ChannelFlow& flow, const Source& celsius, Target& viscosity) {
-  const bool is_049 = medium == Medium::methyl_cellulose_049;
-  const double consistency = is_049 ? 0.179 : 0.360;
-  const double n = herold_exponent(medium);
-  const double reference = is_049 ? 23.2 : 23.6;
+  const auto [consistency, n, reference] = herold(medium);
   const double width_m = 1e-6 * flow.width_um;
   const double shear = 1.1856 * 6 * (1e-9 * flow.rate_ul_s) / (width_m * width_m * width_m) * 2 / 3;
   // 0.6771 as the field's programs have it, although the shear rate of the other model has 0.6671.
   const double profile = 0.6771 / 0.5928 + 0.2121 / (0.5928 * n);
   const double at_reference = 1000 * consistency * std::pow(shear * profile, n - 1);
-  viscosity = at_reference * (-0.866 * (celsius / reference).log()).exp();
+  viscosity = at_reference * (herold_power_of_temperature * (celsius / reference).log()).exp();
 }
 
 void water_viscosity(const Source& celsius, Target& viscosity) {
@@ -178,8 +185,16 @@ double Buffer::viscosity(const ChannelFlow& flow, double celsius) const {
 
 double Buffer::flow_exponent(double celsius) const {
   if (medium_ == Medium::water) return 1;
-  if (model_ == ViscosityModel::herold_2017) return herold_exponent(medium_);
+  if (model_ == ViscosityModel::herold_2017) return herold(medium_).exponent;
   return exponent_per_kelvin * (celsius + kelvin_at_0_celsius) + buyukurganci(medium_).offset;
+}
+
+double Buffer::consistency_Pa_sn(double celsius) const {
+  if (medium_ == Medium::water) return 1e-3 * viscosity({}, celsius);
+  if (model_ == ViscosityModel::buyukurganci_2022)
+    return buyukurganci(medium_).factor * std::exp(activation_in_kelvin / (celsius + kelvin_at_0_celsius));
+  const auto [consistency, exponent, reference] = herold(medium_);
+  return consistency * std::pow(celsius / reference, herold_power_of_temperature);
 }
 
 }  // namespace rheocyte

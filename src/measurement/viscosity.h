@@ -58,6 +58,8 @@ class Buffer {
 
   /// n of eta ~ (shear rate)^(n - 1) at a temperature (degC); 1 for water.
   double flow_exponent(double celsius) const;
+  /// K of eta = K (shear rate)^(n - 1) in Pa s^n, at a temperature (degC); the viscosity of water.
+  double consistency_Pa_sn(double celsius) const;
 
  private:
   Medium medium_;
