@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "app/time_record.h"
 #include "case/case.h"
+#include "result/time_record.h"
 #include "store/claim.h"
 
 namespace rheocyte {

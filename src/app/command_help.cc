@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/result_reference.h"
 #include "case/key_reference.h"
+#include "result/result_reference.h"
 #include "store/standard_output.h"
 #include "synth/synth_keys.h"
 #include "table/table_keys.h"

@@ -5,16 +5,16 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/counted.h"
 #include "app/exit_codes.h"
 #include "app/finish_result.h"
-#include "app/result.h"
 #include "app/solve_in_time.h"
 #include "case/json_guard.h"
 #include "case/read_case.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
+#include "result/counted.h"
+#include "result/result.h"
 #include "store/build_info.h"
 #include "store/result_folder.h"
 #include "store/standard_error.h"

@@ -8,11 +8,13 @@
 #include <optional>
 
 #include "app/checkpoint.h"
-#include "app/counted.h"
 #include "app/finish_result.h"
-#include "app/stationary_end.h"
 #include "case/scales.h"
 #include "case/user_error.h"
+#include "result/counted.h"
+#include "result/result_in_time.h"
+#include "result/stationary_end.h"
+#include "result/write_result.h"
 #include "store/standard_error.h"
 #include "store/stop_signal.h"
 
@@ -22,7 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double us_per_s = 1e6;
 // The first one at once, later ones less and less often: a run that is killed has lost half of its time at most.
 constexpr std::chrono::duration<double> least_time_between_checkpoints(0.25), greatest_time_between_checkpoints(10);
 constexpr const char* fields_folder = "fields";
@@ -109,19 +110,6 @@ class Recorder {
 
 }  // namespace
 
-TimeRun time_run_of(const Case& c, const Scales& scales) {
-  const double unit_us = scales.time_s() * us_per_s;
-  TimeRun run;
-  run.end = *c.time.end_us / unit_us;
-  run.output_every = *c.time.output_every_us / unit_us;
-  run.accuracy = c.time.accuracy.value_or(run.accuracy);
-  run.degree = int(*c.time.degree);
-  run.scheme = c.time.scheme;
-  run.step = c.time.step_us.value_or(0) / unit_us;
-  run.surface_elements = surface_elements(c);
-  return run;
-}
-
 int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Drawing>& drawing) {
   Result result{c, scales_of(c), problem_of(c), {}};
   std::optional<FoundCheckpoint> from;
@@ -147,9 +135,7 @@ int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Draw
   recorder.write_all();
   compare_with_stationary(result, recorder.record(), stop_wanted());
   refuse_unfinite_numbers(result);
-  auto numbers = to_json(result);
-  numbers["time"] =
-      recorder.record().rows.empty() ? nlohmann::ordered_json() : object_of(time_fields(), recorder.record());
+  const auto numbers = to_json(result, recorder.record());
   return finish_result(result, folder, options, numbers, drawing);
 }
 

@@ -4,13 +4,9 @@
 
 #include "app/solve_case.h"
 #include "case/case.h"
-#include "solve/follow_in_time.h"
 #include "store/python_package.h"
 
 namespace rheocyte {
-
-/// What the section [time] of a case asks for, in the units of its problem.
-TimeRun time_run_of(const Case&, const Scales&);
 
 /// Follows the cell, writes the folder, prints. Returns the exit code; UserError for checkpoints and the disk. Signals
 /// are watched already.

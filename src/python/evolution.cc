@@ -7,14 +7,13 @@
 #include <mutex>
 #include <thread>
 
-#include "app/solve_in_time.h"
-#include "app/time_record.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
 #include "python/result_object.h"
+#include "result/result_in_time.h"
 
 namespace rheocyte {
 

@@ -3,7 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-#include "app/result.h"
+#include "result/result.h"
 
 namespace rheocyte {
 

@@ -25,9 +25,9 @@ struct Request {
 
   std::string method;  ///< "GET", "POST", "PUT", "PATCH" or "DELETE"
   std::string path;    ///< without the query, percent-decoded
-  Names parts;         ///< of the path, by the names in the braces of its pattern
-  Names query;
-  std::string body;                ///< no longer than the route allows
+  Names parts = {};    ///< of the path, by the names in the braces of its pattern
+  Names query = {};
+  std::string body = {};           ///< no longer than the route allows
   const Client* client = nullptr;  ///< while the answer is made; nobody in some tests
 
   bool client_has_left() const { return client && client->has_left(); }
@@ -45,7 +45,7 @@ using TakePiece = std::function<bool(std::string_view)>;
 struct Answer {
   int status = 200;
   std::string type = "application/json";
-  std::string body;
+  std::string body = {};
   std::vector<std::pair<std::string, std::string>> headers = {};  ///< beside those that every answer has
   /// Instead of the body: called once the header is sent, gives one piece after another.
   std::function<void(const TakePiece&)> give_pieces = {};

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <new>
+#include <nlohmann/json.hpp>
 
+#include "case/key_value.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -50,9 +52,9 @@ bool Router::knows(std::string_view path) const {
   return std::ranges::any_of(routes_, [&](const Route& r) { return fits(r.pattern, asked); });
 }
 
-std::size_t Router::body_limit(std::string_view method, std::string_view path) const {
-  const Route* route = method == "GET" ? nullptr : find(method, path, nullptr);
-  return route ? route->body_limit : 0;
+std::optional<std::size_t> Router::body_limit(std::string_view method, std::string_view path) const {
+  const Route* route = find(method, path, nullptr);
+  return route ? std::optional(method == "GET" ? 0 : route->body_limit) : std::nullopt;
 }
 
 Answer Router::answer(Request request) const {
@@ -63,6 +65,8 @@ Answer Router::answer(Request request) const {
     return route->handler(request);
   } catch (const Refused& refused) {
     return refusal(refused.status, refused.reason, refused.what());
+  } catch (const KeyError& error) {
+    return json_answer({{"error", error.what()}, {"reason", "case"}, {"key", error.key}}, 400);
   } catch (const UserError& error) {
     return refusal(400, "input", error.what());
   } catch (const std::bad_alloc&) {

@@ -1,6 +1,7 @@
 // Which function answers which path.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,8 +21,8 @@ class Router {
   /// For example: add("GET", "/api/items/{item}/events/{event}", ...); a part in braces holds no slash.
   void add(std::string_view method, std::string_view pattern, Handler, std::size_t body_limit = usual_body_limit);
 
-  /// 0 where nobody takes a body.
-  std::size_t body_limit(std::string_view method, std::string_view path) const;
+  /// Nothing where nobody answers.
+  std::optional<std::size_t> body_limit(std::string_view method, std::string_view path) const;
 
   /// Never throws: what a handler throws becomes an answer, and an unknown path, or one with another method, too.
   Answer answer(Request) const;

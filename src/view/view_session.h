@@ -22,6 +22,8 @@ struct SessionPart {
 /// For several threads at once.
 class ViewSession {
  public:
+  /// Whether a file begins as those that a view has written.
+  static bool is_session(const std::filesystem::path& file);
   void add(SessionPart);
   /// Restores from session.toml. UserError.
   void read(const std::filesystem::path& file);

@@ -1,4 +1,4 @@
-#include "app/stationary_end.h"
+#include "result/stationary_end.h"
 
 #include <fmt/format.h>
 

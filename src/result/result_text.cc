@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "app/counted.h"
-#include "app/result.h"
 #include "case/scales.h"
+#include "result/counted.h"
+#include "result/result.h"
 #include "store/build_info.h"
 
 namespace rheocyte {

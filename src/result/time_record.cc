@@ -1,4 +1,4 @@
-#include "app/time_record.h"
+#include "result/time_record.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #pragma once
 #include <atomic>
 
-#include "app/result.h"
-#include "app/time_record.h"
+#include "result/result.h"
+#include "result/time_record.h"
 
 namespace rheocyte {
 

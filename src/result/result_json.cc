@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "app/result.h"
 #include "case/scales.h"
 #include "case/write_case.h"
+#include "result/result.h"
 #include "store/build_info.h"
 
 namespace rheocyte {

@@ -1,5 +1,5 @@
 // Every name in the files of a result stands in their reference, and the reference in docs is up to date.
-#include "app/result_reference.h"
+#include "result/result_reference.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <sstream>
 #include <string>
 
-#include "app/result.h"
-#include "app/time_record.h"
 #include "case/read_case.h"
 #include "case/scales.h"
+#include "result/result.h"
+#include "result/time_record.h"
 
 namespace rheocyte {
 namespace {

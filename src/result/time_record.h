@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "app/field.h"
 #include "case/problem.h"
+#include "result/field.h"
 #include "solve/follow_in_time.h"
 
 namespace rheocyte {

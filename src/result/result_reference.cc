@@ -1,11 +1,11 @@
-#include "app/result_reference.h"
+#include "result/result_reference.h"
 
 #include <fmt/format.h>
 
 #include <vector>
 
-#include "app/result.h"
-#include "app/time_record.h"
+#include "result/result.h"
+#include "result/time_record.h"
 
 namespace rheocyte {
 

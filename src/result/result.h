@@ -3,8 +3,8 @@
 #include <span>
 #include <string>
 
-#include "app/field.h"
 #include "case/case.h"
+#include "result/field.h"
 #include "solve/stationary.h"
 
 namespace rheocyte {

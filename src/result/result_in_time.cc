@@ -1,0 +1,34 @@
+#include "result/result_in_time.h"
+
+#include <nlohmann/json.hpp>
+
+#include "case/scales.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double us_per_s = 1e6;
+
+}  // namespace
+
+TimeRun time_run_of(const Case& c, const Scales& scales) {
+  const double unit_us = scales.time_s() * us_per_s;
+  TimeRun run;
+  run.end = *c.time.end_us / unit_us;
+  run.output_every = *c.time.output_every_us / unit_us;
+  run.accuracy = c.time.accuracy.value_or(run.accuracy);
+  run.degree = int(*c.time.degree);
+  run.scheme = c.time.scheme;
+  run.step = c.time.step_us.value_or(0) / unit_us;
+  run.surface_elements = surface_elements(c);
+  return run;
+}
+
+nlohmann::ordered_json to_json(const Result& result, const TimeRecord& record) {
+  auto numbers = to_json(result);
+  numbers["time"] = record.rows.empty() ? nlohmann::ordered_json() : object_of(time_fields(), record);
+  return numbers;
+}
+
+}  // namespace rheocyte

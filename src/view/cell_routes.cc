@@ -1,0 +1,134 @@
+#include "view/cell_routes.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "case/json_guard.h"
+#include "case/read_case.h"
+#include "case/scales.h"
+#include "case/user_error.h"
+#include "case/write_case.h"
+#include "result/write_result.h"
+#include "store/stop_signal.h"
+#include "view/base64.h"
+#include "view/evolve_route.h"
+#include "view/json_member.h"
+#include "view/plane_lines.h"
+#include "view/state_json.h"
+#include "view/stated_case.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool exists(const Result& result) {
+  const Status status = result.state.outcome.status;
+  return status == Status::converged || status == Status::accuracy_not_reached;
+}
+
+/// Why there is none, and the nearest case that has one.
+Answer no_state(const Result& result) {
+  const Outcome& outcome = result.state.outcome;
+  Json json{{"error", outcome.message}, {"reason", "no-state"}, {"status", name(outcome.status)}, {"nearest", nullptr}};
+  if (outcome.reached > 0) json["nearest"] = to_json(nearest_existing(result.input, outcome.reached));
+  json["last"] = {{"deformation", result.state.shape.deformation}, {"reached", outcome.reached}};
+  return json_answer(json, 422);
+}
+
+Result stationary(const Case& c) {
+  if (c.time.scheme != TimeScheme::stationary)
+    throw Refused(400, "time", "The case has a section [time]: ask /api/evolve for its way.");
+  return {c, scales_of(c), problem_of(c), {}};
+}
+
+/// Refused (409) if a later request of the stream has come, (503) if nobody waits any more.
+void solve(SolverThreads& threads, const Request& request,
+           const std::function<void(Session&, const std::atomic<bool>&)>& work) {
+  const JobEnd end = threads.run({request.asked("stream"), request, work});
+  if (end == JobEnd::superseded)
+    throw Refused(409, "superseded", "A later request of the same stream has replaced this one.");
+  if (end == JobEnd::left) throw Refused(503, "left", "The computation was stopped.");
+}
+
+/// The text stands in an object beside other members, without being read again.
+void add_member(std::string& object, std::string_view name, std::string_view json) {
+  object.pop_back();
+  object.append(",\"").append(name).append("\":").append(json).append("}");
+}
+
+Answer state(SolverThreads& threads, const Request& request) {
+  Result result = stationary(stated_case(request.json(), request.asked("accuracy")));
+  solve(threads, request, [&](Session& session, const std::atomic<bool>& stop) {
+    result.state = session.solve(result.problem, {}, &stop);
+    refuse_unfinite_numbers(result);
+  });
+  if (!exists(result)) return no_state(result);
+  Answer answer = json_answer(state_json(result));
+  if (request.asked("fields") == "1") add_member(answer.body, "fields", fields_json(result));
+  return answer;
+}
+
+/// What makes the same numbers elsewhere.
+Json case_as_text(const Case& c) {
+  const bool in_time = c.time.scheme != TimeScheme::stationary;
+  const std::string json = json_text(to_json(c));
+  return {{"toml", to_toml(c)},
+          {"command", "rheocyte solve case.toml -o result"},
+          {"python", in_time ? fmt::format("import rheocyte\n\ncase = {}\nfor frame in rheocyte.evolve(case):\n"
+                                           "    print(frame[\"t_us\"], frame[\"deformation\"])\n",
+                                           json)
+                             : fmt::format("import rheocyte\n\ncase = {}\nstate = rheocyte.solve(case)\n"
+                                           "print(state.deformation)\n",
+                                           json)}};
+}
+
+Answer read_text(const Request& request) {
+  const Json wish = request.json();
+  return json_answer({{"case", to_json(parse_case(text_member(wish, "toml"), "case.toml"))}});
+}
+
+std::filesystem::path export_case(const Json& wish, ExportFolder& folder) {
+  return folder.write(text_member(wish, "name", "case.toml"), to_toml(stated_case(object_member(wish, "case"))));
+}
+
+/// The folder that `rheocyte solve` writes; solved from nothing, so that all its digits are the same.
+std::filesystem::path export_result(const Json& wish, ExportFolder& folder) {
+  Result result = stationary(stated_case(object_member(wish, "case")));
+  const auto path = folder.claim(text_member(wish, "name", "result"));
+  result.state = solve_stationary(result.problem, {}, &stop_wanted());
+  if (result.state.outcome.status == Status::stopped) throw Refused(503, "left", "The computation was stopped.");
+  refuse_unfinite_numbers(result);
+  ResultFolder target(path);
+  write_result(result, target, path, json_text(to_json(result)) + "\n");
+  target.publish();
+  return path;
+}
+
+std::filesystem::path export_picture(const Json& wish, ExportFolder& folder) {
+  const std::string name = text_member(wish, "name"), ending = fmt::format(".{}", text_member(wish, "what"));
+  if (!name.ends_with(ending)) throw Refused(400, "name", fmt::format("The name must end with {}.", ending));
+  std::string bytes;
+  if (!decode_base64(text_member(wish, "data"), bytes) || bytes.empty())
+    throw Refused(400, "data", "\"data\" must be the picture as base64.");
+  return folder.write(name, bytes);
+}
+
+}  // namespace
+
+void add_cell_routes(Router& router, Exports& exports, SolverThreads& threads) {
+  router.add("POST", "/api/state", [&threads](const Request& request) { return state(threads, request); });
+  router.add("POST", "/api/case/text",
+             [](const Request& request) { return json_answer(case_as_text(stated_case(request.json()))); });
+  router.add("POST", "/api/case/read", read_text);
+  add_evolve_route(router);
+  add_plane_lines_route(router);
+  exports.add("case", export_case);
+  exports.add("result", export_result);
+  exports.add("svg", export_picture);
+  exports.add("png", export_picture);
+}
+
+}  // namespace rheocyte

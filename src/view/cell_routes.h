@@ -1,0 +1,12 @@
+// The part of the interface about cells: states, ways in time, cases as text, and what is exported of them.
+#pragma once
+#include "view/export_folder.h"
+#include "view/router.h"
+#include "view/solver_threads.h"
+
+namespace rheocyte {
+
+/// The threads must outlive the router.
+void add_cell_routes(Router&, Exports&, SolverThreads&);
+
+}  // namespace rheocyte

@@ -1,0 +1,9 @@
+// What a page needs to know before anything is computed: GET /api/health, /api/keys and /api/media.
+#pragma once
+#include "view/router.h"
+
+namespace rheocyte {
+
+void add_declaration_routes(Router&);
+
+}  // namespace rheocyte

@@ -1,0 +1,171 @@
+#include "view/evolve_route.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+#include "case/json_guard.h"
+#include "case/scales.h"
+#include "result/result_in_time.h"
+#include "result/stationary_end.h"
+#include "shape/measures.h"
+#include "view/state_json.h"
+#include "view/stated_case.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double um_per_m = 1e6;
+constexpr auto look_for_client = std::chrono::milliseconds(20);
+constexpr int most_at_once = 4;
+
+/// Computes in a thread of its own; lines wait until they are taken.
+class Evolution {
+ public:
+  explicit Evolution(const Case& c) : result_{c, scales_of(c), problem_of(c), {}} {
+    thread_ = std::thread([this] { follow(); });
+  }
+  ~Evolution() {
+    stop_ = true;
+    thread_.join();
+  }
+  Evolution(const Evolution&) = delete;
+  Evolution& operator=(const Evolution&) = delete;
+
+  void supersede() { is_superseded_ = stop_ = true; }
+
+  /// Gives the lines until the end, or until nobody takes them.
+  void give(const TakePiece& take, const Client* client) {
+    std::unique_lock lock(mutex_);
+    for (bool is_last = false; !is_last;) {
+      changed_.wait_for(lock, look_for_client, [this] { return is_over_ || !lines_.empty(); });
+      is_last = is_over_;
+      const std::deque<std::string> lines = std::move(lines_);
+      lines_.clear();
+      lock.unlock();
+      for (const std::string& line : lines) is_last |= !take(line);
+      is_last |= client && client->has_left();
+      lock.lock();
+    }
+  }
+
+ private:
+  /// A contour waits for the end of its step, which tells the place and the velocity.
+  struct Frame {
+    double time, deformation;
+    Json contour;
+  };
+
+  void follow() {
+    try {
+      const TimeObserver observer{[this](const TimeFrame& frame) { add(frame); },
+                                  [this](const TimePoint& point, const TimeState&) { add(point); }};
+      const TimeRun run = time_run_of(result_.input, result_.scales);
+      end_ = run.end;
+      result_.state = follow_in_time(result_.problem, run, observer, nullptr, &stop_);
+      compare_with_stationary(result_, record_, stop_);
+      refuse_unfinite_numbers(result_);
+      add(is_superseded_
+              ? Json{{"error", "A later request of the same stream has replaced this one."}, {"reason", "superseded"}}
+              : Json{{"result", to_json(result_, record_)}});
+    } catch (const std::exception& error) {
+      add(Json{{"error", error.what()}, {"reason", "bug"}});
+    }
+    const std::scoped_lock lock(mutex_);
+    is_over_ = true;
+    changed_.notify_all();
+  }
+
+  void add(const TimeFrame& frame) {
+    record_.frames.push_back(contour_frame(frame, result_.scales));
+    frames_.push_back({frame.time, measure(frame.contour).deformation,
+                       outline_json(frame.contour, um_per_m * result_.scales.length_m)});
+  }
+
+  void add(const TimePoint& point) {
+    const Scales& scales = result_.scales;
+    for (const Frame& frame : frames_) {
+      const double step = point.time - last_.time, share = step > 0 ? (frame.time - last_.time) / step : 1;
+      const auto between = [&](double before, double now) { return before + share * (now - before); };
+      add(Json{
+          {"time_s", scales.time_s() * frame.time},
+          {"x_um", um_per_m * scales.length_m * between(last_.position, point.position)},
+          {"deformation", frame.deformation},
+          {"velocity_m_per_s", scales.velocity_m_per_s * between(last_.state.cell_velocity, point.state.cell_velocity)},
+          {"progress", frame.time / end_},
+          {"contour", frame.contour}});
+    }
+    frames_.clear();
+    record_.rows.push_back(history_row(point, scales));
+    last_ = point;
+  }
+
+  void add(const Json& line) {
+    std::string text = json_line(line) + "\n";
+    const std::scoped_lock lock(mutex_);
+    lines_.push_back(std::move(text));
+    changed_.notify_all();
+  }
+
+  Result result_;
+  TimeRecord record_;
+  std::vector<Frame> frames_;
+  TimePoint last_;
+  double end_ = 1;
+  std::atomic<bool> stop_{false}, is_superseded_{false};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::string> lines_;
+  bool is_over_ = false;
+  std::thread thread_;
+};
+
+/// Those that run, by their streams.
+class Evolutions {
+ public:
+  std::shared_ptr<Evolution> begin(const Case& c, const std::string& stream) {
+    const std::scoped_lock lock(mutex_);
+    std::erase_if(running_, [](const auto& entry) { return entry.second.expired(); });
+    for (auto [at, end] = running_.equal_range(stream); at != end && !stream.empty(); ++at)
+      if (const auto older = at->second.lock()) older->supersede();
+    if (running_.size() >= most_at_once)
+      throw Refused(503, "busy", "Several cells are followed in time already; stop one of them, or wait for its end.");
+    auto evolution = std::make_shared<Evolution>(c);
+    running_.emplace(stream, evolution);
+    return evolution;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::multimap<std::string, std::weak_ptr<Evolution>> running_;
+};
+
+Answer evolve(Evolutions& evolutions, const Request& request) {
+  const Case c = stated_case(request.json());
+  if (c.time.scheme == TimeScheme::stationary)
+    throw Refused(400, "time", "The case has no time.end_us; give it, and cell.viscosity_mPas, or ask /api/state.");
+  Answer answer;
+  answer.type = "application/x-ndjson";
+  answer.give_pieces = [evolution = evolutions.begin(c, request.asked("stream")),
+                        client = request.client](const TakePiece& take) { evolution->give(take, client); };
+  return answer;
+}
+
+}  // namespace
+
+void add_evolve_route(Router& router) {
+  const auto evolutions = std::make_shared<Evolutions>();
+  router.add("POST", "/api/evolve", [evolutions](const Request& request) { return evolve(*evolutions, request); });
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,194 @@
+// The server among clients of all kinds.
+#include "view/http_server.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "../refusal.h"
+#include "served.h"
+
+namespace rheocyte {
+namespace {
+
+using test::ask;
+using test::request_text;
+using test::Served;
+using test::status_of;
+using test::Wire;
+
+Router echo() {
+  Router router;
+  router.add("GET", "/api/ping", [](const Request&) -> Answer { return {.body = "pong"}; });
+  router.add(
+      "POST", "/api/echo", [](const Request& q) -> Answer { return {.body = q.body}; }, 1000);
+  router.add("GET", "/api/pieces", [](const Request&) -> Answer {
+    return {.give_pieces = [](const TakePiece& take) {
+      for (const char* piece : {"one\n", "two\n"}) take(piece);
+    }};
+  });
+  return router;
+}
+
+TEST(HttpServer, AnswersHaveTheHeadersThatKeepOthersOut) {
+  const Router router = echo();
+  const Served served(router);
+  const std::string answer = ask(served, "GET", "/api/ping");
+  EXPECT_EQ(status_of(answer), 200);
+  EXPECT_EQ(test::body_of(answer), "pong");
+  for (const char* header : {"Content-Security-Policy: default-src 'self'", "X-Content-Type-Options: nosniff",
+                             "Referrer-Policy: no-referrer"})
+    EXPECT_NE(answer.find(header), std::string::npos) << header;
+}
+
+TEST(HttpServer, NothingIsAnsweredWithoutToken) {
+  const Router router = echo();
+  const Served served(router);
+  const std::string host = "Host: 127.0.0.1:" + std::to_string(served.port());
+  for (const std::string path : {"/", "/api/ping", "/api/nothing", "/app.js", "/?token=wrong"}) {
+    const Wire wire(served.port());
+    wire.send("GET " + path + " HTTP/1.1\r\n" + host + "\r\nConnection: close\r\n\r\n");
+    EXPECT_EQ(status_of(wire.read_to_end()), 401) << path;
+  }
+}
+
+TEST(HttpServer, BodiesComeThroughUpToTheirLimit) {
+  const Router router = echo();
+  const Served served(router);
+  EXPECT_EQ(test::body_of(ask(served, "POST", "/api/echo", std::string(1000, 'x'))), std::string(1000, 'x'));
+  EXPECT_EQ(status_of(ask(served, "POST", "/api/echo", std::string(1001, 'x'))), 413);
+  EXPECT_EQ(status_of(ask(served, "POST", "/api/echo", std::string(3000000, 'x'))), 413);
+  EXPECT_EQ(status_of(ask(served, "POST", "/api/nothing", "x")), 404);
+  EXPECT_EQ(status_of(ask(served, "POST", "/api/ping", "x")), 405);
+}
+
+TEST(HttpServer, AConnectionServesOneRequestAfterAnother) {
+  const Router router = echo();
+  const Served served(router);
+  Wire wire(served.port());
+  for (int i = 0; i < 20; ++i) {
+    wire.send(request_text(served, "POST", "/api/echo", std::to_string(i), ""));
+    EXPECT_EQ(test::body_of(wire.read_answer()), std::to_string(i));
+  }
+  // Two at once, the second before the first is answered.
+  wire.send(request_text(served, "POST", "/api/echo", "a", "") + request_text(served, "POST", "/api/echo", "b", ""));
+  EXPECT_EQ(test::body_of(wire.read_answer()), "a");
+  EXPECT_EQ(test::body_of(wire.read_answer()), "b");
+}
+
+TEST(HttpServer, PiecesArriveAsTheyAreGiven) {
+  const Router router = echo();
+  const Served served(router);
+  const std::string body = test::body_of(ask(served, "GET", "/api/pieces"));
+  EXPECT_EQ(body, "4\r\none\n\r\n4\r\ntwo\n\r\n0\r\n\r\n");
+}
+
+TEST(HttpServer, AThousandMalformedRequestsDoNotCrashIt) {
+  // Random bytes, and good requests with bytes changed, cut short or stuck together.
+  const Router router = echo();
+  const Served served(router);
+  std::mt19937 random(1);
+  const std::string good = request_text(served, "POST", "/api/echo", "hello") +
+                           request_text(served, "GET", "/api/ping?x=%41&y", {}, "Range: bytes=0-1\r\n");
+  for (int i = 0; i < 1000; ++i) {
+    std::string bytes = i % 4 == 0 ? std::string(random() % 300, '\0') : good;
+    if (i % 4 == 0)
+      for (char& byte : bytes) byte = static_cast<char>(random());
+    else if (i % 4 == 1)
+      for (int k = 0; k < 1 + i % 7; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
+    else if (i % 4 == 2)
+      bytes.resize(random() % bytes.size());
+    else
+      bytes.insert(random() % bytes.size(), std::string(random() % 20, "\r\n: %0"[random() % 6]));
+    Wire wire(served.port());
+    wire.send(bytes);
+    wire.close();
+  }
+  EXPECT_EQ(status_of(ask(served, "GET", "/api/ping")), 200);
+}
+
+TEST(HttpServer, OddHeadsHaveAnAnswer) {
+  const Router router = echo();
+  const Served served(router);
+  const auto status = [&](const std::string& headers, const std::string& body = "x") {
+    const Wire wire(served.port());
+    wire.send(request_text(served, "POST", "/api/echo", {}, headers) + body);
+    return status_of(wire.read_to_end());
+  };
+  EXPECT_EQ(status("Transfer-Encoding: chunked\r\n", "1\r\nx\r\n0\r\n\r\n"), 411);
+  EXPECT_EQ(status("Content-Length: -1\r\n"), 400);
+  EXPECT_EQ(status("Content-Length: 1x\r\n"), 400);
+  EXPECT_EQ(status("Content-Length: 99999999999999999999\r\n"), 400);
+  EXPECT_EQ(status("Content-Length: 1\r\nContent-Length: 1\r\n"), 400);
+  EXPECT_EQ(status("Content-Length: 1\r\nContent-Encoding: gzip\r\n"), 415);
+  const Wire wire(served.port());
+  wire.send(request_text(served, "GET", "/api/ping?" + std::string(5000, 'x')));
+  EXPECT_EQ(status_of(wire.read_to_end()), 414);
+  const Wire endless(served.port());
+  endless.send("GET /" + std::string(200000, 'x'));
+  EXPECT_NE(status_of(endless.read_to_end()), 200);
+}
+
+TEST(HttpServer, FiftyClientsAtOnceAreAnsweredWhileOthersSayNothing) {
+  const Router router = echo();
+  const Served served(router);
+  std::vector<std::unique_ptr<Wire>> silent;
+  for (int i = 0; i < 50; ++i) {
+    silent.push_back(std::make_unique<Wire>(served.port()));
+    silent.back()->send("GET /api/ping HTTP/1.1\r\nHo");
+  }
+  std::atomic<int> good = 0;
+  {
+    std::vector<std::jthread> clients;
+    for (int i = 0; i < 50; ++i)
+      clients.emplace_back([&] { good += status_of(ask(served, "GET", "/api/ping")) == 200 ? 1 : 0; });
+  }
+  EXPECT_EQ(good, 50);
+}
+
+TEST(HttpServer, AClientThatHangsUpIsNoticedWhileItsAnswerIsMade) {
+  // The handler waits for nothing else.
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool has_begun = false, was_noticed = false;
+  Router router;
+  router.add("GET", "/api/long", [&](const Request& request) -> Answer {
+    std::unique_lock lock(mutex);
+    has_begun = true;
+    changed.notify_all();
+    while (!request.client_has_left()) changed.wait_for(lock, std::chrono::milliseconds(1));
+    was_noticed = true;
+    changed.notify_all();
+    return {};
+  });
+  const Served served(router);
+  Wire wire(served.port());
+  wire.send(request_text(served, "GET", "/api/long"));
+  std::unique_lock lock(mutex);
+  changed.wait(lock, [&] { return has_begun; });
+  wire.close();
+  changed.wait(lock, [&] { return was_noticed; });
+  EXPECT_TRUE(was_noticed);
+}
+
+TEST(HttpServer, APortInUseIsOneSentence) {
+  const Router router = echo();
+  const Served served(router);
+  const Assets assets("no-such-folder");
+  const std::string sentence = test::refusal_of([&] {
+    const HttpServer second(router, assets, {"127.0.0.1", served.port()}, "token");
+  });
+  EXPECT_NE(sentence.find("cannot be taken"), std::string::npos) << sentence;
+  EXPECT_NE(test::refusal_of([&] {
+              const HttpServer other(router, assets, {"192.0.2.1", 0}, "token");
+            }).find("no address of this machine"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace rheocyte

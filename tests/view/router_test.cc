@@ -1,0 +1,52 @@
+#include "view/router.h"
+
+#include <gtest/gtest.h>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+namespace {
+
+Router router() {
+  Router r;
+  r.add("GET", "/api/items/{item}",
+        [](const Request& q) -> Answer { return {.body = std::to_string(q.number("item"))}; });
+  r.add("GET", "/api/items/fixed/name", [](const Request&) -> Answer { return {.body = "fixed"}; });
+  r.add("POST", "/api/user", [](const Request&) -> Answer { throw UserError("a sentence"); });
+  r.add(
+      "POST", "/api/bug", [](const Request&) -> Answer { throw std::logic_error("oops"); }, 5);
+  return r;
+}
+
+Answer answer(std::string method, std::string path) {
+  return router().answer({.method = std::move(method), .path = std::move(path)});
+}
+
+TEST(Router, PartsInBracesAreFound) {
+  EXPECT_EQ(answer("GET", "/api/items/12").body, "12");
+  EXPECT_EQ(answer("GET", "/api/items/fixed/name").body, "fixed");
+  for (const char* number : {"x", "-1", "1x", " 1", "99999999999999999999999", "1.5"})
+    EXPECT_EQ(answer("GET", std::string("/api/items/") + number).status, 404) << number;
+}
+
+TEST(Router, UnknownPathsAndMethodsHaveTheirAnswers) {
+  for (const char* path : {"", "/", "/api", "/api/items", "/api/items/", "/api/items/1/", "//api/items/1"})
+    EXPECT_EQ(answer("GET", path).status, 404) << path;
+  EXPECT_EQ(answer("DELETE", "/api/items/1").status, 405);
+}
+
+TEST(Router, WhatIsThrownBecomesAnAnswer) {
+  EXPECT_EQ(answer("POST", "/api/user").status, 400);
+  EXPECT_EQ(answer("POST", "/api/user").body, R"({"error":"a sentence","reason":"input"})");
+  EXPECT_EQ(answer("POST", "/api/bug").status, 500);
+}
+
+TEST(Router, BodiesHaveTheLimitOfTheirRoute) {
+  EXPECT_EQ(router().body_limit("GET", "/api/items/1"), 0u);
+  EXPECT_EQ(router().body_limit("POST", "/api/bug"), 5u);
+  EXPECT_EQ(router().body_limit("POST", "/api/user"), usual_body_limit);
+  EXPECT_FALSE(router().body_limit("POST", "/api/nothing"));
+}
+
+}  // namespace
+}  // namespace rheocyte
