@@ -333,6 +333,11 @@ def main():
     if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
         raise InputError("give the folder of one result: python -m rheocyte.picture DIR.")
     folder = Path(sys.argv[1])
+    if find(read_result(folder / "result.json"), "case", "channel", "section") == "square":
+        from rheocyte import duct_picture
+
+        save_figure(duct_picture.draw(duct_picture.read_story(folder)), folder / "picture", dpi=400)
+        return
     save_figure(draw(read_story(folder)), folder / "picture", dpi=600)
     if (folder / "history.csv").exists():
         from rheocyte import time_picture  # which imports this module

@@ -186,8 +186,10 @@ class Result:
 
     def plot(self):
         """The picture of `rheocyte solve`: cell, flow and stress; a matplotlib figure."""
-        from rheocyte import picture
+        from rheocyte import duct_picture, picture
 
+        if self.case["channel"].get("section") == "square":
+            return duct_picture.draw(duct_picture.story_of(self.to_dict(), self.fields()))
         return picture.draw(picture.story_of(self.to_dict(), self.contour, self.fields(), self._shell_tension()))
 
     def _shell_tension(self):

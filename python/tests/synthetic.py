@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rheocyte.vtu import vtk_position
+from rheocyte.vtu import quadrilateral_position
 
 CHANNEL_UM, CELL_UM, DEGREE = 10.94, 7.66, 4
 MEAN_SPEED, CELL_SPEED = 0.106, 0.125
@@ -69,7 +69,7 @@ def write_vtu(path, x, r, data):
     n, nodes = len(x), x[0].size
     points = np.stack([x, r, np.zeros_like(x)], -1).reshape(-1, 3)
     connectivity = np.empty((n, nodes), dtype="<i8")
-    connectivity[:, vtk_position(x.shape[1] - 1).ravel()] = np.arange(n * nodes).reshape(n, nodes)
+    connectivity[:, quadrilateral_position(x.shape[1] - 1).ravel()] = np.arange(n * nodes).reshape(n, nodes)
     arrays = bytearray()
 
     def array(name, values, components=1):

@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from rheocyte import colours
+from rheocyte.body import seen
 from rheocyte.figures import figure6, paper
-from rheocyte.figures.body import seen
 from rheocyte.figures.cases import Laboratory, Solution, analytic_options, toml
 from rheocyte.files import InputError
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from rheocyte.files import InputError
 from rheocyte.raster import PixelGrid, rasterise, stream_function
-from rheocyte.vtu import read_vtu, vtk_position
+from rheocyte.vtu import read_vtu, quadrilateral_position
 from tests.synthetic import blocks, fields, write_vtu
 
 
@@ -30,12 +30,12 @@ class Vtu(unittest.TestCase):
 
     def test_the_order_of_a_quadratic_quadrilateral_is_that_of_vtk(self):
         # VTK's manual: corners 0 to 3 counter-clockwise, edges 4 bottom, 5 right, 6 top, 7 left, interior 8.
-        np.testing.assert_array_equal(vtk_position(2), [[0, 4, 1], [7, 8, 5], [3, 6, 2]])
+        np.testing.assert_array_equal(quadrilateral_position(2), [[0, 4, 1], [7, 8, 5], [3, 6, 2]])
 
     def test_opposite_edges_of_a_cubic_quadrilateral_run_the_same_way(self):
         # Top and left edges ascend with the first and the second direction, not around the element.
         np.testing.assert_array_equal(
-            vtk_position(3), [[0, 4, 5, 1], [10, 12, 13, 6], [11, 14, 15, 7], [3, 8, 9, 2]])
+            quadrilateral_position(3), [[0, 4, 5, 1], [10, 12, 13, 6], [11, 14, 15, 7], [3, 8, 9, 2]])
 
     def test_damage_is_named_in_one_sentence(self):
         write_vtu(self.path, self.x, self.r, self.data)

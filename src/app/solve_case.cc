@@ -57,8 +57,7 @@ int solve_case(const SolveOptions& options) {
   check_result_folder(options.folder);
   watch_signals();
   std::optional<Drawing> drawing;  // loads while the solver runs
-  // The pictures are drawn from fields with axial symmetry.
-  if (!options.no_picture && c.channel.section == Section::tube) drawing.emplace("picture");
+  if (!options.no_picture) drawing.emplace("picture");
   if (c.time.scheme != TimeScheme::stationary) return solve_in_time(c, options, drawing);
   if (!options.start_from.empty())
     throw UserError("rheocyte: --start is for a case with a [time] section; a stationary one starts by itself.");

@@ -8,7 +8,7 @@ from matplotlib.patches import Rectangle
 from rheocyte import colours
 from rheocyte.contour import bridges, closed, convex_hull, resampled
 from rheocyte.figures import paper, style
-from rheocyte.figures.body import seen
+from rheocyte.body import seen
 
 SOLIDS = [(4.38, 9.16), (7.11, 9.16), (5.69, 2.29)]  # radius in um, Young's modulus in kPa
 SHELLS = [(5.47, 20.9), (7.11, 20.9), (8.37, 20.9)]  # radius in um, E2D in mN/m

@@ -15,8 +15,19 @@ def seen(meridian, azimuth_deg, elevation_deg, half_width, pixels, colormap):
     `meridian` (n, 2) holds x and r >= 0. Azimuth 0 looks at the side, the x axis pointing right; a positive one turns
     the rear towards the eye, a positive elevation lifts the eye. Orthographic, with one light.
     """
+    points, normals = surface(meridian, spacing(half_width, pixels))
+    return image_of(points, normals, (azimuth_deg, elevation_deg), half_width, pixels, colormap)
+
+
+def spacing(half_width, pixels):
+    """The distance between surface points at which each pixel is met at any angle: 0.7 pixels."""
+    return 1.4 * half_width / (FINER * pixels)
+
+
+def image_of(points, normals, angles_deg, half_width, pixels, colormap):
+    """As `seen`, of any surface by its points (n, 3), no farther apart than `spacing`, and outward normals."""
     fine = FINER * pixels
-    points, normals = surface(meridian, 1.4 * half_width / fine)  # 0.7 pixels: each is met at any angle
+    azimuth_deg, elevation_deg = angles_deg
     turn = rotation(np.radians(azimuth_deg), np.radians(elevation_deg))
     points, normals = points @ turn.T, normals @ turn.T
     columns, rows = ((points[:, :2] / half_width + 1) / 2 * fine).astype(int).T

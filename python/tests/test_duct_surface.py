@@ -1,0 +1,57 @@
+"""The surface of a cell in a square channel, from one eighth of it."""
+
+import unittest
+
+import numpy as np
+
+from rheocyte.duct_surface import front_view, refined, silhouettes, surface_faces, whole
+from rheocyte.vtu import Fields, hexahedron_position
+
+SPREAD = np.linspace(0, 1, 7)
+
+
+def sphere_patch():
+    """The sphere of radius 2 over 0 <= z <= y as one face of degree 6, (1, 7, 7, 3)."""
+    along, round_axis = np.meshgrid(SPREAD * np.pi, SPREAD * np.pi / 4)
+    return 2 * np.stack([np.cos(along), np.sin(along) * np.cos(round_axis), np.sin(along) * np.sin(round_axis)], axis=-1)[None]
+
+
+class DuctSurface(unittest.TestCase):
+    def test_every_node_of_a_hexahedron_has_one_place_in_vtks_order(self):
+        for degree in range(1, 8):
+            position = hexahedron_position(degree)
+            self.assertEqual(sorted(position.ravel()), list(range((degree + 1) ** 3)))
+        second = hexahedron_position(2)
+        np.testing.assert_array_equal(second[0, :, :][[0, 0, -1, -1], [0, -1, -1, 0]], [0, 1, 2, 3])
+        np.testing.assert_array_equal([second[1, 1, 0], second[1, 1, 2], second[1, 0, 1], second[1, 2, 1], second[0, 1, 1],
+                                       second[2, 1, 1], second[1, 1, 1]], range(20, 27))
+
+    def test_the_surface_is_what_cell_and_liquid_share(self):
+        nodes = np.stack(np.meshgrid([0.0, 1], [0.0, 1], [0.0, 1], indexing="ij"), axis=-1)[..., ::-1]
+        points = np.concatenate([(nodes + [k, 0, 0]).reshape(-1, 3) for k in range(3)])
+        elements = np.arange(24).reshape(3, 2, 2, 2)
+        fields = Fields(points, elements, {"region": np.repeat([1.0, 1.0, 0.0], 8)})
+        faces = surface_faces(fields)
+        self.assertEqual(faces.shape, (1, 2, 2, 3))
+        np.testing.assert_allclose(faces[..., 0], 2)
+
+    def test_between_the_nodes_the_surface_is_smooth_and_its_normals_point_outward(self):
+        points, normals = refined(sphere_patch(), 40)
+        np.testing.assert_allclose(np.linalg.norm(points, axis=-1), 2, rtol=3e-3)
+        inner = (slice(None), slice(2, -2), slice(2, -2))  # at the poles the face ends in a point
+        np.testing.assert_allclose(normals[inner], points[inner] / 2, atol=0.03)
+
+    def test_eight_images_make_the_cell(self):
+        every = whole(refined(sphere_patch(), 20)[0])
+        for axis in range(3):
+            np.testing.assert_allclose([every[:, axis].min(), every[:, axis].max()], [-2, 2], rtol=1e-2)
+        for meridian in silhouettes(sphere_patch()).values():
+            np.testing.assert_allclose(np.hypot(*meridian.T), 2, rtol=1e-2)
+            np.testing.assert_allclose(meridian[[0, -1]], [[2, 0], [-2, 0]], atol=1e-9)
+        outline = front_view(sphere_patch())
+        np.testing.assert_allclose(np.hypot(*outline.T), 2, rtol=1e-2)
+        np.testing.assert_array_equal(outline[0], outline[-1])
+
+
+if __name__ == "__main__":
+    unittest.main()
