@@ -7,7 +7,7 @@ import { maskOf, statisticsOf } from './analysis';
 import { column, columnsVersion, wantColumns } from './columns';
 import { labelOf, unitOf } from './features';
 import { gates, items, measured, recordings, titleOf } from './model';
-import { spanOf, ticksOf, type ScaleKind, type Span } from './scale';
+import { rangeOf, ticksOf, type ScaleKind, type Span } from './scale';
 import { byCondition, valuesAlong, violinCells, violinOf, type Violin } from './violins';
 
 const slot = 92;
@@ -34,7 +34,7 @@ function useEntries(feature: string, scale: ScaleKind): { entries: Entry[]; span
       if (!values || values.length === 0 || inside === undefined) return [];
       return [{ item, values: valuesAlong(values, inside, scale) }];
     });
-    const spans = entries.filter(({ values }) => values.length > 0).map(({ values }) => spanOf(values.slice().sort()));
+    const spans = entries.filter(({ values }) => values.length > 0).map(({ values }) => rangeOf(values, 'linear'));
     const low = Math.min(...spans.map((span) => span.low));
     const high = Math.max(...spans.map((span) => span.high));
     return { entries, span: spans.length > 0 && high > low ? { low, high } : { low: 0, high: 1 } };
@@ -137,7 +137,7 @@ function Conditions({ entries, feature }: { entries: Entry[]; feature: string })
             <td>
               {significant(mean.value)} {unitOf(feature)}
             </td>
-            <td>{Number.isFinite(mean.low) ? `${significant(mean.low, 3)} to ${significant(mean.high, 3)}` : 'needs two replicates'}</td>
+            <td>{Number.isFinite(mean.low) ? `${significant(mean.low, 3)} to ${significant(mean.high, 3)}` : '–'}</td>
           </tr>
         ))}
       </tbody>
@@ -165,8 +165,8 @@ export function Distributions() {
         </label>
         <Conditions entries={entries} feature={feature} />
         <p class="soft">
-          Dot: median; short lines: its 95 % interval from the ranks; bar: quartiles. Intervals of conditions: Student's t over
-          replicates.
+          Dot: median; short lines: its 95 % interval from the ranks; bar: quartiles. Intervals of conditions: Student's t over their
+          replicates, from two on.
         </p>
       </div>
     </div>

@@ -7,7 +7,7 @@ import { column, columnsVersion, wantColumns } from './columns';
 import { Density } from './density';
 import { byDensity, gates, type Axis, type Plot } from './model';
 import { placesOf, type Places } from './places';
-import { forward, spanOf, type ScaleKind, type Span } from './scale';
+import { rangeOf, type Span } from './scale';
 
 export interface PlotData {
   places: Places;
@@ -18,20 +18,6 @@ export interface PlotData {
   /** The feature that colours the events, and its range; null: by density. */
   colour: { values: Float64Array; range: Span } | null;
 }
-
-/** Sorted places along a scale of at most 20,000 events, evenly taken. */
-function sampled(values: ArrayLike<number>, scale: ScaleKind): Float64Array {
-  const every = Math.max(1, Math.floor(values.length / 20000));
-  const found = new Float64Array(Math.ceil(values.length / every));
-  let count = 0;
-  for (let i = 0; i < values.length; i += every) {
-    const place = forward(scale, values[i]);
-    if (Number.isFinite(place)) found[count++] = place;
-  }
-  return found.subarray(0, count).sort();
-}
-
-const rangeOf = (values: ArrayLike<number>, scale: ScaleKind): Span => spanOf(sampled(values, scale));
 
 /** Of the plot's axes: as chosen, else so that they hold the events. */
 function useSpan(axis: Axis, values: Float64Array | undefined): Span {

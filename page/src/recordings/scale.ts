@@ -82,3 +82,15 @@ export function spanOf(sorted: Float64Array): Span {
   const room = 0.06 * (high - low) || Math.max(0.05 * Math.abs(high), 0.5);
   return { low: low > 0 && low < 0.35 * high ? 0 : low - room, high: high + room };
 }
+
+/** The axis of values that are not sorted, by at most 20,000 of them, evenly taken. */
+export function rangeOf(values: ArrayLike<number>, scale: ScaleKind): Span {
+  const every = Math.max(1, Math.floor(values.length / 20000));
+  const found = new Float64Array(Math.ceil(values.length / every));
+  let count = 0;
+  for (let i = 0; i < values.length; i += every) {
+    const place = forward(scale, values[i]);
+    if (Number.isFinite(place)) found[count++] = place;
+  }
+  return spanOf(found.subarray(0, count).sort());
+}
