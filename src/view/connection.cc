@@ -40,10 +40,7 @@ Connection::Connection(int socket) : socket_(socket) {
   ::setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);  // head and body are two small packets
 }
 
-Connection::~Connection() {
-  drain();
-  ::close(socket_);
-}
+Connection::~Connection() { ::close(socket_); }
 
 bool Connection::wait(short events, Clock::duration time) const {
   pollfd awaited{socket_, events, 0};
@@ -101,7 +98,7 @@ ssize_t Connection::write(const char* from, size_t size) {
   }
 }
 
-void Connection::drain() {
+void Connection::finish() {
   ::shutdown(socket_, SHUT_WR);
   if (!is_last_) return;
   const auto end = Clock::now() + drain_time;

@@ -31,6 +31,9 @@ class Connection final : public httplib::Stream, public Client {
   /// A body that is announced and not read would be taken for the next request: this one is the last.
   void make_last() { is_last_ = true; }
   bool is_last() const { return is_last_; }
+  /// Nothing more is written. What still comes is read away for a moment, so that the last answer reaches a client that
+  /// is sending.
+  void finish();
 
   bool has_left() const override;
 
@@ -51,8 +54,6 @@ class Connection final : public httplib::Stream, public Client {
   /// Whether the socket has one of the events before the time has gone.
   bool wait(short events, Clock::duration) const;
   bool fill();
-  /// What still comes is read away, so that the last answer reaches a client that is sending.
-  void drain();
 
   int socket_;
   bool is_last_ = false;

@@ -164,6 +164,7 @@ class HttpServer::Library final : public httplib::Server {
       connection.begin_head();
       if (!process_request(connection, false, is_closed, leave_to_us)) break;
     }
+    connection.finish();
     const std::scoped_lock lock(mutex_);  // not after the close, when the number may belong to another one
     open_.erase(socket);
   }

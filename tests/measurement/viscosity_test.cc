@@ -72,6 +72,21 @@ TEST(Viscosity, ManyTemperaturesGiveWhatEachGivesAlone) {
   }
 }
 
+TEST(Viscosity, ConsistencyAndExponentInACaseGiveTheSameViscosityAtTheWall) {
+  Case c;
+  c.channel.width_um = 20;
+  c.flow.rate_ul_per_s = 0.04;
+  c.flow.law = LiquidLaw::power_law;
+  for (const auto medium : {Medium::methyl_cellulose_049, Medium::methyl_cellulose_059, Medium::methyl_cellulose_083}) {
+    const Buffer buffer(medium, ViscosityModel::buyukurganci_2022);
+    c.flow.consistency_Pa_sn = buffer.consistency_Pa_sn(24);
+    c.flow.exponent = buffer.flow_exponent(24);
+    expect_near(channel_flow_of(c).viscosity_mPas, buffer.viscosity({20, 0.04}, 24), 1e-12, "rounding of powers");
+  }
+  const Buffer water(Medium::water, ViscosityModel::kestin_1978);
+  expect_near(1e3 * water.consistency_Pa_sn(24), water.viscosity({}, 24), rounding, "water");
+}
+
 TEST(Viscosity, WithoutFlowAThinningLiquidHasNone) {
   const Buffer buffer(Medium::methyl_cellulose_049, ViscosityModel::herold_2017);
   EXPECT_TRUE(std::isnan(buffer.viscosity({20, 0}, 23)));
