@@ -294,6 +294,7 @@ export const stopModuli = (item: number) => request(`/api/items/${item}/moduli`,
 export const readItemLines = (item: number, x: string, y: string) =>
   json<Lines>(`/api/items/${item}/lines?${query({ x, y })}`);
 
-export const exportFile = (what: ExportRequest) => json<{ file: string }>('/api/export', sending('POST', what));
+export const exportFile = (what: ExportRequest, signal?: AbortSignal) =>
+  json<{ file: string }>('/api/export', sending('POST', what, signal));
 export const readSession = () => json<{ page: Record<string, unknown> | null }>('/api/session');
 export const writeSession = (page: Record<string, unknown>) => json<unknown>('/api/session', sending('PUT', { page }));

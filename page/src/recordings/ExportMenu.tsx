@@ -36,27 +36,28 @@ export function ExportMenu() {
   const number = useStore(focus);
   useStore(items);
   const item = itemOf(number);
-  const [running, setRunning] = useState(false);
-  const lasting = useLasting(running);
+  const [running, setRunning] = useState<AbortController | null>(null);
+  const lasting = useLasting(running !== null);
   const write = async (request: (item: Item) => ExportRequest | Promise<ExportRequest>) => {
-    setRunning(true);
+    const control = new AbortController();
+    setRunning(control);
     try {
-      const { file } = await exportFile(await request(item!));
+      const { file } = await exportFile(await request(item!), control.signal);
       notify(`Written: ${file}`);
     } catch (failure) {
       notifyFailure(failure);
     } finally {
-      setRunning(false);
+      setRunning(null);
     }
   };
   return (
     <div class="export">
-      {lasting && <Progress label="Writing" />}
+      {lasting && <Progress label="Writing" onStop={() => running?.abort()} />}
       <label>
         <span class="hidden">Export</span>
         <select
           value=""
-          disabled={!item || running}
+          disabled={!item || running !== null}
           onChange={({ currentTarget }) => {
             const chosen = entries[Number(currentTarget.value)];
             currentTarget.value = '';
