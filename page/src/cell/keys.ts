@@ -64,9 +64,22 @@ export function completed(keys: Keys, values: Case, earlier: Case = {}): Case {
   return next;
 }
 
+// What is set together with a choice: a cortex without tension wrinkles in most flows.
+const companions: Record<string, (values: Case) => Case> = {
+  'cell.cortex.law': (values): Case => (values['cell.cortex.tension_mN_per_m'] ? {} : { 'cell.cortex.tension_ratio': 0.1 }),
+};
+
+function withCompanions(values: Case, name: string): Case {
+  const next = { ...values, ...companions[name]?.(values) };
+  if ('cell.cortex.tension_ratio' in next) delete next['cell.cortex.tension_mN_per_m'];
+  return next;
+}
+
 /** The case with one key changed: its alternative gives way, other keys come and go with the laws. */
 export function withKey(keys: Keys, values: Case, name: string, value: Value, earlier: Case = {}): Case {
-  const next = { ...values, [name]: value };
+  const wasNone = optionOf(keys, values, name) === 'none';
+  const changed = { ...values, [name]: value };
+  const next = wasNone ? withCompanions(changed, name) : changed;
   const other = keys.get(name)?.alternative;
   if (other) delete next[other];
   if (name.startsWith('channel.profile.')) {

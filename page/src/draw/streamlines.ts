@@ -95,10 +95,16 @@ export function streamlines(fields: Fields, from_um: number, to_um: number, radi
   const frame = { width: size(to_um - from_um), height: size(radius_um), left_um: from_um, pixels_per_um };
   const grid = velocityGrid(fields, frame);
   if (!grid) return [];
+  const middle = 0.5 * (from_um + to_um);
   return seeds(frame, radius_um).flatMap((seed) => {
     if (!look(grid, seed[0], seed[1])) return [];
-    const inwards = seed[0] < 0.5 * (from_um + to_um) === grid.way[0] > 0;
-    const points = follow(grid, seed, inwards ? 1 : -1);
-    return points.length > 6 ? [withArrow(points, inwards ? 1 : -1)] : [];
+    const left = seed[0] < middle;
+    const forwards = grid.way[0] > 0;
+    if (left && !forwards) return [];
+    const points = follow(grid, seed, left === forwards ? 1 : -1);
+    // What turns round before the cell is drawn from the core; near the wall only what passes the cell is.
+    const turns = points[points.length - 1][0] > middle;
+    if (points.length < 7 || (!left && !forwards && turns)) return [];
+    return [withArrow(points, left === forwards ? 1 : -1)];
   });
 }
