@@ -220,6 +220,9 @@ export const readMedia = () => json<Medium[]>('/api/media');
 export const readMediumLaw = (medium: string, temperature: number) =>
   json<MediumLaw>(`/api/media/viscosity?${query({ medium, temperature })}`);
 
+/** A stream of this window alone: two windows of one program do not cancel each other. */
+export const streamOf = (name: string) => `${name}-${Math.random().toString(36).slice(2)}`;
+
 export interface StateRequest {
   stream: string;
   accuracy: number;

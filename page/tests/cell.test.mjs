@@ -1,13 +1,15 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import test from 'node:test';
+import { fileURLToPath } from 'node:url';
 import { noBrowser } from './browser.mjs';
 import { field, moveSlider, openCell, settled, shownDeformation, slider, typeNumber } from './cell_page.mjs';
+import { program as underTest } from './target.mjs';
 
 const modulus = 'cell.bulk.young_modulus_kPa';
 
-async function withCell(use, options, hash) {
-  const cell = await openCell(options, hash);
+async function withCell(use, options, hash, items) {
+  const cell = await openCell(options, hash, items);
   try {
     await use(cell);
     assert.deepEqual(cell.failures, [], 'the page reports no error and obeys its content security policy');
@@ -149,4 +151,25 @@ test('The picture is saved as SVG with its colours, legends and numbers', { skip
     const notice = await page.locator('.notice p').textContent();
     const written = /^Written: (.*)/.exec(notice)[1];
     if (target.output) assert.equal(await readFile(written, 'utf8'), svg);
+  }));
+
+test('A case that the program is given is the one that the page shows', { skip: noBrowser || (!underTest && 'no program') }, () => {
+  const file = fileURLToPath(new URL('../../examples/small-linear-cell.toml', import.meta.url));
+  return withCell(
+    async ({ page }) => {
+      assert.equal(await page.locator('[data-key="cell.bulk.law"] select').inputValue(), 'linear');
+    },
+    {},
+    '',
+    [file],
+  );
+});
+
+test('Two windows of one program do not cancel each other', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    const other = await page.context().newPage();
+    await other.goto(page.url());
+    await Promise.all([settled(other), moveSlider(page, modulus, 470)]);
+    assert.ok((await shownDeformation(page)) > (await shownDeformation(other)));
+    await other.close();
   }));

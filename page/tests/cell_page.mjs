@@ -3,8 +3,8 @@ import { openBrowser } from './browser.mjs';
 import { startTarget } from './target.mjs';
 
 /** Opens the workplace and waits for its first state of the wanted accuracy. */
-export async function openCell(options = {}, hash = '') {
-  const target = await startTarget();
+export async function openCell(options = {}, hash = '', items = []) {
+  const target = await startTarget(items);
   const { context, close } = await openBrowser(options);
   const page = context.pages()[0] ?? (await context.newPage());
   const failures = [];

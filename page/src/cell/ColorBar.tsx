@@ -55,12 +55,14 @@ interface ColorBarProps {
   choices: FieldChoice[];
   chosen: string;
   legend: Legend | null;
+  /** what stands in place of the colours where there are none */
+  empty: string;
   choose: (name: string) => void;
 }
 
 const nameOf = ({ title, unit }: FieldChoice) => (unit ? `${title} (${unitText(unit)})` : title);
 
-export function ColorBar({ label, choices, chosen, legend, choose }: ColorBarProps) {
+export function ColorBar({ label, choices, chosen, legend, empty, choose }: ColorBarProps) {
   return (
     <div class="color-bar">
       <select aria-label={label} value={chosen} onChange={(event) => choose(event.currentTarget.value)}>
@@ -73,7 +75,7 @@ export function ColorBar({ label, choices, chosen, legend, choose }: ColorBarPro
       {legend ? (
         <Bar map={legend.map} low={legend.low} high={legend.high} factor={legend.field.factor} />
       ) : (
-        <p class="none">not in this cell</p>
+        <p class="none">{empty}</p>
       )}
     </div>
   );

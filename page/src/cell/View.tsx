@@ -113,6 +113,7 @@ export function View() {
   const solid = solved?.fields?.surface3d ?? null;
   const tension = tensionRange(solved?.fields ?? null);
   const stale = refusal !== null;
+  const empty = solved?.fields ? 'not in this cell' : '';
   return (
     <section class="view" aria-label="The cell in its channel">
       <div class="stage">
@@ -125,8 +126,8 @@ export function View() {
       </div>
       <TimeLine />
       <div class="legends">
-        <ColorBar label="Field in the liquid" choices={liquidFields} chosen={now.liquid} legend={legends[0]} choose={(liquid) => changeLooks({ liquid })} />
-        <ColorBar label="Field in the cell" choices={cellFields} chosen={now.cell} legend={legends[1]} choose={(cell) => changeLooks({ cell })} />
+        <ColorBar label="Field in the liquid" choices={liquidFields} chosen={now.liquid} legend={legends[0]} empty={empty} choose={(liquid) => changeLooks({ liquid })} />
+        <ColorBar label="Field in the cell" choices={cellFields} chosen={now.cell} legend={legends[1]} empty={empty} choose={(cell) => changeLooks({ cell })} />
         <fieldset class="switches">
           <legend class="hidden">Lines</legend>
           <Switch name="streamlines" title="Streamlines" now={now} />

@@ -1,5 +1,5 @@
 // What the workplace "Cell" knows: the case, its state as solved last, the way there, and what can be undone.
-import { caseText, readCaseLines, readKeys, type Case, type Lines, type Refusal, type State, type Value } from '../api';
+import { caseText, readCaseLines, readKeys, streamOf, type Case, type Lines, type Refusal, type State, type Value } from '../api';
 import { decodeFields, type Fields } from '../draw/fields';
 import { place, replacePlace } from '../shell/place';
 import { keepInSession, sessionChanged } from '../shell/session';
@@ -44,7 +44,7 @@ let before: Case | null = null;
 const earlier: Case = {};
 let linesOf = '';
 
-const solver = new LiveSolver('cell', {
+const solver = new LiveSolver(streamOf('cell'), {
   busy: (_, refining) => working.set(refining ? 'refining' : 'solving'),
   idle: () => working.set('idle'),
   answered: take,

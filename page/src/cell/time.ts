@@ -1,5 +1,5 @@
 // A cell followed in time: the steps as they arrive, and which of them is shown.
-import { evolve, type Case, type EvolveLine, type Result, type TimeStep } from '../api';
+import { evolve, streamOf, type Case, type EvolveLine, type Result, type TimeStep } from '../api';
 import { store } from '../shell/store';
 import { sectionsOf } from './case';
 
@@ -14,6 +14,7 @@ export interface Run {
 }
 
 export const run = store<Run | null>(null);
+const stream = streamOf('time');
 let abort: AbortController | null = null;
 let frame = 0;
 
@@ -37,7 +38,7 @@ export async function compute(of: Case): Promise<void> {
   abort = mine;
   run.set({ steps: [], shown: 0, playing: false, running: true, result: null, failure: null });
   const only = (line: EvolveLine) => abort === mine && take(line);
-  const failure = await evolve(sectionsOf(of), 'cell-time', only, mine.signal).then(
+  const failure = await evolve(sectionsOf(of), stream, only, mine.signal).then(
     () => null,
     (problem: Error) => problem.message,
   );

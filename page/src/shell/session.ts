@@ -22,9 +22,10 @@ function saved(): Record<string, unknown> {
   return page;
 }
 
-/** To be called before the first part is kept. A page without a session starts empty. */
-export async function startSession(): Promise<void> {
+/** To be called before the first part is kept; false where there is no session to restore. */
+export async function startSession(): Promise<boolean> {
   restored = (await readSession().catch(() => ({ page: null }))).page ?? {};
+  return Object.keys(restored).length > 0;
 }
 
 export const sendSession = () => writeSession(saved());
