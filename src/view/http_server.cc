@@ -59,7 +59,11 @@ void give(Answer answer, httplib::Response& response) {
   }
   response.set_chunked_content_provider(
       answer.type, [give_pieces = std::move(answer.give_pieces)](std::size_t, httplib::DataSink& sink) {
-        give_pieces([&](std::string_view piece) { return piece.empty() || sink.write(piece.data(), piece.size()); });
+        try {
+          give_pieces([&](std::string_view piece) { return piece.empty() || sink.write(piece.data(), piece.size()); });
+        } catch (const std::exception&) {  // too late for a status: the connection ends without the last piece
+          return false;
+        }
         sink.done();
         return true;
       });

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../refusal.h"
+#include "case/user_error.h"
 #include "served.h"
 
 namespace rheocyte {
@@ -30,6 +31,12 @@ Router echo() {
   router.add("GET", "/api/pieces", [](const Request&) -> Answer {
     return {.give_pieces = [](const TakePiece& take) {
       for (const char* piece : {"one\n", "two\n"}) take(piece);
+    }};
+  });
+  router.add("GET", "/api/broken", [](const Request&) -> Answer {
+    return {.give_pieces = [](const TakePiece& take) {
+      take("one\n");
+      throw UserError("The file has vanished.");
     }};
   });
   return router;
@@ -86,6 +93,13 @@ TEST(HttpServer, PiecesArriveAsTheyAreGiven) {
   const Served served(router);
   const std::string body = test::body_of(ask(served, "GET", "/api/pieces"));
   EXPECT_EQ(body, "4\r\none\n\r\n4\r\ntwo\n\r\n0\r\n\r\n");
+}
+
+TEST(HttpServer, WhatFailsBetweenTwoPiecesEndsTheConnectionNotTheServer) {
+  const Router router = echo();
+  const Served served(router);
+  EXPECT_FALSE(ask(served, "GET", "/api/broken").ends_with("0\r\n\r\n"));
+  EXPECT_EQ(status_of(ask(served, "GET", "/api/ping")), 200);
 }
 
 TEST(HttpServer, AThousandMalformedRequestsDoNotCrashIt) {
