@@ -10,7 +10,8 @@ export async function openCell(options = {}, hash = '', items = []) {
   const failures = [];
   page.on('pageerror', (failure) => failures.push(failure.message));
   page.on('console', (message) => /Content Security Policy/.test(message.text()) && failures.push(message.text()));
-  await page.goto(target.address);
+  // Without an address of its own the page begins with what the program was given.
+  await page.goto(items.length ? target.address : `${target.address}#cell`);
   if (hash) {
     await page.goto(new URL(hash, target.address).href);
     await page.reload();
