@@ -96,7 +96,8 @@ class Evolution {
     const Scales& scales = result_.scales;
     for (const Frame& frame : frames_) {
       const double step = point.time - last_.time, share = step > 0 ? (frame.time - last_.time) / step : 1;
-      const auto between = [&](double before, double now) { return before + share * (now - before); };
+      // At the start there is nothing before.
+      const auto between = [&](double before, double now) { return share < 1 ? before + share * (now - before) : now; };
       add(Json{
           {"time_s", scales.time_s() * frame.time},
           {"x_um", um_per_m * scales.length_m * between(last_.position, point.position)},
