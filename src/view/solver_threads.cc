@@ -73,6 +73,11 @@ void SolverThreads::work(Worker& self) {
     if (is_over_) break;
     Task& task = **found;
     waiting_.erase(found);
+    if (task.job.request.client_has_left()) {
+      task.is_over = task.has_left = true;
+      ended_.notify_all();
+      continue;
+    }
     take_over(task.job.stream, self);
     self.now = &task;
     lock.unlock();
