@@ -106,6 +106,14 @@ TEST(SquareChannelSlow, DeformationsAreThoseOfAnIndependentProgram) {
   EXPECT_NEAR(deformations(newtonian_cell(0.6, 2.5), 5).side / 0.03502, 1, 3e-4);
 }
 
+TEST(SquareChannelSlow, FarTooSoftCellsAreRefusedOnTheCoarseMesh) {
+  // The branch of this size ends at 1.02 kPa, where the surface wrinkles; twice as soft a cell is far from it.
+  const StationaryState state = solve_stationary(newtonian_cell(0.33, 0.55));
+  EXPECT_EQ(state.outcome.status, Status::surface_unstable) << state.outcome.message;
+  EXPECT_NEAR(state.outcome.reached, 0.55 / 1.02, 0.05);
+  EXPECT_EQ(state.statistics.degree, 3);
+}
+
 TEST(SquareChannel, TheCellKeepsItsVolumeAndItsImageDoesNotTell) {
   // The image's body of revolution is 0.2 % smaller at this size; each element keeps its volume.
   Problem problem = power_law_cell(0.6, 1.198);
