@@ -5,7 +5,7 @@ import { extname, join, normalize } from 'node:path';
 import { setTimeout as pause } from 'node:timers/promises';
 import { fileURLToPath } from 'node:url';
 import { readKeys } from './keys.mjs';
-import { recordingRoute } from './recording_routes.mjs';
+import { recordingRoute, resetRecordings } from './recording_routes.mjs';
 import { linesOf, physicsOf, stateOf, stepOf, wrongKey } from './state.mjs';
 
 const dist = fileURLToPath(new URL('../dist/', import.meta.url));
@@ -105,6 +105,7 @@ async function asset(response, path) {
 /** Starts on a free port of the loopback address, or on the given one; resolves to its address and a way to stop it. */
 export async function startMock(port = 0) {
   session = null;
+  resetRecordings();
   const server = createServer((request, response) => {
     const url = new URL(request.url, 'http://localhost');
     const route = routes[`${request.method} ${url.pathname}`] ?? recordingRoute(request.method, url.pathname);

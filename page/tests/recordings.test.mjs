@@ -3,10 +3,9 @@ import test from 'node:test';
 import { MockRecordings } from '../mock/recordings.mjs';
 import { noBrowser } from './browser.mjs';
 import * as recordings from './recordings_page.mjs';
-import { program } from './target.mjs';
 
-// Against the mock, whose events are known here as well.
-const skip = noBrowser || (program ? 'the program has other recordings; see recordings_program.test.mjs' : false);
+// Against the mock, whose events are known here as well; recordings_program.test.mjs compares with the command line.
+const skip = noBrowser;
 const known = new MockRecordings().items.map((item) => item.columns);
 
 async function inPage(work, options) {

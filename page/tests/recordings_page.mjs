@@ -1,11 +1,15 @@
 // The workplace "Recordings" as a person uses it, for the tests.
+import { startMock } from '../mock/serve.mjs';
 import { openBrowser } from './browser.mjs';
 import { startTarget } from './target.mjs';
 
-/** Opens the workplace and waits until the events of the recording in focus are drawn. */
-export async function openRecordings(options = {}, items = [], more = []) {
-  const target = await startTarget(items);
-  const { context, close } = await openBrowser(options, more);
+/**
+ * Opens the workplace and waits until the events of the recording in focus are drawn: in the program with these items, or
+ * in the mock, whose events the tests know.
+ */
+export async function openRecordings(options = {}, items = null) {
+  const target = items ? await startTarget(items) : await startMock();
+  const { context, close } = await openBrowser(options);
   const page = context.pages()[0] ?? (await context.newPage());
   page.setDefaultTimeout(12_000);
   const failures = [];
