@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "case/json_guard.h"
 #include "case/scales.h"
@@ -86,9 +87,12 @@ Json tensions(const Result& result, double origin) {
   return json;
 }
 
+/// In the plane that the camera looks at.
 Json wall(const Result& result, double origin) {
   const double um = um_per_m * result.scales.length_m, half = result.state.channel_length / 2;
-  return {{"x_um", {um * (-half - origin), um * (half - origin)}}, {"r_um", {um, um}}};
+  const bool to_corner = result.problem.section == Section::square && result.problem.camera == Camera::diagonal;
+  const double r = um * (to_corner ? std::numbers::sqrt2 : 1);
+  return {{"x_um", {um * (-half - origin), um * (half - origin)}}, {"r_um", {r, r}}};
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -126,6 +128,28 @@ TEST_F(CellRoutes, TheGreatestShearRateOfTheFieldsIsThatOfTheResult) {
   for (const float rate : floats(state["fields"]["values"]["shear_rate_per_s"]))
     greatest = std::max<double>(greatest, rate);
   EXPECT_NEAR(greatest / state["shear_rate_max_per_s"].get<double>(), 1, 0.03);
+}
+
+TEST_F(CellRoutes, InASquareChannelPlaneSurfaceAndContourAreOfOneCell) {
+  // The diagonal view, in which walls meet in a corner. Places are 32-bit numbers; those of the surface are 5 degrees
+  // apart, so that its widest one is up to 2.5 degrees beside the widest of the contour: 7 um (1 - cos 2.5 degrees).
+  Json square = cell(20);
+  square["channel"]["section"] = "square";
+  square["channel"]["camera"] = "diagonal";
+  const Json state = json("/api/state", square, {{"fields", "1"}, {"accuracy", "1e-2"}});
+  const Json &fields = state["fields"], &diagonal = state["contours"]["diagonal"];
+  EXPECT_EQ(state["contour"]["x_um"].front(), diagonal["x_um"].front());
+  const auto greatest = [](const std::vector<float>& values, std::size_t first, std::size_t step) {
+    float found = values[first];
+    for (std::size_t i = first; i < values.size(); i += step) found = std::max(found, values[i]);
+    return found;
+  };
+  const auto xy = floats(fields["xy_um"]), xyz = floats(fields["surface3d"]["xyz_um"]);
+  EXPECT_NEAR(greatest(xy, 1, 2), fields["wall"]["r_um"][0].get<double>(), 1e-5);
+  EXPECT_NEAR(greatest(xyz, 0, 3), diagonal["x_um"][0].get<double>(), 1e-5);
+  const auto side = state["contours"]["side"]["r_um"].get<std::vector<double>>();
+  EXPECT_NEAR(greatest(xyz, 1, 3), *std::max_element(side.begin(), side.end()), 7e-3);
+  EXPECT_NEAR(greatest(xyz, 1, 3), greatest(xyz, 2, 3), 1e-5);
 }
 
 TEST_F(CellRoutes, WhereThereIsNoStateTheNearestCaseHasOne) {
