@@ -1,6 +1,6 @@
 // Streamlines of the velocity relative to the cell, followed on a coarse grid of it.
 import type { Fields } from './fields';
-import { coverPixels, sampleRegion, type Frame } from './raster';
+import { coverPixels, sampleRegion, type Cover, type Frame } from './raster';
 
 interface Grid {
   frame: Frame;
@@ -13,18 +13,30 @@ interface Grid {
 
 const spacing_um = (radius_um: number) => radius_um / 40;
 
+function component(vectors: Float32Array, d: number): Float32Array {
+  const found = new Float32Array(vectors.length / 2);
+  for (let k = 0; k < found.length; ++k) found[k] = vectors[2 * k + d];
+  return found;
+}
+
+function insideLiquid({ region, triangles }: Fields, { triangle }: Cover): Uint8Array {
+  const inside = new Uint8Array(triangle.length);
+  for (let at = 0; at < triangle.length; ++at) {
+    const id = triangle[at];
+    if (id >= 0 && region[triangles[3 * id]] === 0) inside[at] = 1;
+  }
+  return inside;
+}
+
 function velocityGrid(fields: Fields, frame: Frame): Grid | null {
   const velocity = fields.values.velocity_m_per_s;
   if (!velocity) return null;
-  const points = fields.region.length;
-  const component = (d: number) => Float32Array.from({ length: points }, (_, k) => velocity[2 * k + d]);
   const cover = coverPixels(fields, frame);
-  const inside = Uint8Array.from(cover.triangle, (id) => (id >= 0 && fields.region[fields.triangles[3 * id]] === 0 ? 1 : 0));
   return {
     frame,
-    u: sampleRegion(fields, cover, component(0), 0),
-    v: sampleRegion(fields, cover, component(1), 0),
-    inside,
+    u: sampleRegion(fields, cover, component(velocity, 0), 0),
+    v: sampleRegion(fields, cover, component(velocity, 1), 0),
+    inside: insideLiquid(fields, cover),
     way: new Float64Array(2),
   };
 }
