@@ -4,7 +4,7 @@ import { MockRecordings } from '../mock/recordings.mjs';
 import { noBrowser } from './browser.mjs';
 import * as recordings from './recordings_page.mjs';
 
-// Against the mock, whose events are known here as well; recordings_program.test.mjs compares with the command line.
+// Against the mock, whose events are known here as well.
 const skip = noBrowser;
 const known = new MockRecordings().items.map((item) => item.columns);
 
