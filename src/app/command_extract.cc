@@ -36,11 +36,7 @@ class ExtractJob {
         tasks_(tasks_of(options.batch)),
         summary_file_(summary_file(options.batch)),
         tables_(options.table) {
-    if (options.no_area_correction && !tables_.own())
-      throw UserError(fmt::format(
-          "rheocyte: --no-area-correction and --table {} contradict each other; published tables are used with areas "
-          "as measured always.",
-          one_line(options.table, 200)));
+    check_against_tables(options, tables_);
   }
 
   int run() {

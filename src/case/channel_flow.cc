@@ -9,11 +9,17 @@ namespace rheocyte {
 
 namespace {
 
+// eta / K of eta = K g^(n-1) at the wall's shear rate g (1/s).
+double thinning(double width_um, double rate_ul_s, double n) {
+  const double width_mm = 1e-3 * width_um;
+  const double shear_rate = 8 * rate_ul_s / (width_mm * width_mm * width_mm) * (0.6671 + 0.2121 / n);
+  return std::pow(shear_rate, n - 1);
+}
+
 double effective_viscosity_mPas(const Flow& flow, double channel_width_um) {
   if (flow.law == LiquidLaw::newtonian) return flow.viscosity_mPas.value();
-  const double n = flow.exponent.value(), width_mm = 1e-3 * channel_width_um;
-  const double shear_rate = 8 * flow.rate_ul_per_s.value() / (width_mm * width_mm * width_mm) * (0.6671 + 0.2121 / n);
-  return 1e3 * flow.consistency_Pa_sn.value() * std::pow(shear_rate, n - 1);
+  return 1e3 * flow.consistency_Pa_sn.value() *
+         thinning(channel_width_um, flow.rate_ul_per_s.value(), flow.exponent.value());
 }
 
 }  // namespace
@@ -24,6 +30,10 @@ ChannelFlow channel_flow_of(const Case& c) {
           .rate_ul_s = c.flow.rate_ul_per_s.value(),
           .viscosity_mPas = effective_viscosity_mPas(c.flow, width),
           .exponent = c.flow.law == LiquidLaw::power_law ? c.flow.exponent.value() : 1};
+}
+
+double consistency_Pa_sn(const ChannelFlow& flow) {
+  return 1e-3 * flow.viscosity_mPas / thinning(flow.width_um, flow.rate_ul_s, flow.exponent);
 }
 
 double reynolds_number(double density_kg_per_m3, const ChannelFlow& at) {

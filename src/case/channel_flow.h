@@ -18,6 +18,9 @@ struct ChannelFlow {
 /// g = 8 Q / L^3 (0.6671 + 0.2121 / n), by which RT-DC programs compare buffers and tables.
 ChannelFlow channel_flow_of(const Case&);
 
+/// K of the power-law liquid that has this effective viscosity and exponent (Pa s^n).
+double consistency_Pa_sn(const ChannelFlow&);
+
 /// rho Q / (pi R eta), with the mean speed and the radius R of the tube that stands for the channel.
 double reynolds_number(double density_kg_per_m3, const ChannelFlow&);
 

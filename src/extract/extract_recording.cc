@@ -80,7 +80,10 @@ class Writers {
  public:
   Writers(const ExtractFiles& files, const Recording& recording, const Extraction& extraction)
       : companion_(files.companion(), recording, program()), columns_(own_columns(extraction)) {
-    give_names(recording, columns_);
+    if (files.for_ourselves())
+      for (auto& column : columns_) column.name = column.role;
+    else
+      give_names(recording, columns_);
     describe(companion_, fs::absolute(files.companion()).parent_path(), recording, extraction, columns_);
     for (const char* feature : {"emodulus", "area_um", "deform"}) companion_.add_feature(feature);
     for (const auto& column : columns_)
@@ -141,7 +144,9 @@ class Writers {
 }  // namespace
 
 ExtractFiles::ExtractFiles(const ExtractOutput& output, bool with_events)
-    : place_(output.companion), companion_(output.companion, [place = output.companion] { check_companion(place); }) {
+    : place_(output.companion),
+      for_ourselves_(output.for_ourselves),
+      companion_(output.companion, [place = output.companion] { check_companion(place); }) {
   if (with_events)
     events_.emplace(output.events,
                     [place = output.events] { check_replaceable(place, mark_of_events(place), Foreign::keep); });
@@ -158,6 +163,14 @@ void ExtractFiles::publish() {
   companion_.check();
   if (events_) events_->publish();
   companion_.publish();
+}
+
+void check_against_tables(const ExtractOptions& options, const ModulusTables& tables) {
+  if (options.no_area_correction && !tables.own())
+    throw UserError(fmt::format(
+        "rheocyte: --no-area-correction and --table {} contradict each other; published tables are used with areas "
+        "as measured always.",
+        one_line(options.table, 200)));
 }
 
 ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files, const ExtractOptions& options,

@@ -14,6 +14,9 @@ namespace rheocyte {
 /// Where the results of a recording go.
 struct ExtractOutput {
   std::filesystem::path companion, events;  ///< .rtdc, .tsv
+  /// Columns for which the field's programs have no name have their own in the companion: no place is too small for
+  /// them, but only this program reads them.
+  bool for_ourselves = false;
 };
 
 /// The files of one recording while they are written.
@@ -25,6 +28,7 @@ class ExtractFiles {
   const std::filesystem::path& companion() const { return companion_.scratch(); }
   /// Where the companion will stand.
   const std::filesystem::path& place() const { return place_; }
+  bool for_ourselves() const { return for_ourselves_; }
   /// Nothing if no table of events is wanted.
   std::optional<std::filesystem::path> events() const;
   /// Puts all in their places, unless files that are not ours have come there meanwhile. UserError.
@@ -32,9 +36,13 @@ class ExtractFiles {
 
  private:
   std::filesystem::path place_;
+  bool for_ourselves_;
   WholeFile companion_;
   std::optional<WholeFile> events_;
 };
+
+/// UserError if the options ask for something that the table does not have.
+void check_against_tables(const ExtractOptions& options, const ModulusTables& tables);
 
 /// Works through a recording in blocks, so that memory does not grow with it but for 12 bytes per event, and completes
 /// the files, which the caller publishes. UserError for whatever is wrong with the recording or with writing. Calls

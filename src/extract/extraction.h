@@ -24,6 +24,7 @@ class Extraction {
   Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables);
 
   const ModulusMap& table() const { return table_; }
+  const ExtractSettings& settings() const { return settings_; }
   const EventShapes& event_shapes() const { return event_shapes_; }
   /// The number of events that are best computed at once.
   std::size_t block() const;

@@ -44,6 +44,8 @@ Gates::Gates(const GateOptions& options) {
           fmt::format("rheocyte: --min and --max of {} contradict each other: no number is at least {} and at "
                       "most {}.",
                       one_line(limit.feature, 60), limit.least, limit.greatest));
+  events_ = options.events;
+  if (events_) std::ranges::sort(*events_);
 }
 
 Gates::Limit& Gates::limit_of(const std::string& feature) {
@@ -60,6 +62,7 @@ std::string Gates::description() const {
     text += one_line(feature, 60);
     if (std::isfinite(greatest)) text += fmt::format(" <= {}", greatest);
   }
+  if (events_) text += fmt::format("{}{} chosen events", text.empty() ? "" : ", ", events_->size());
   return text;
 }
 
@@ -71,7 +74,11 @@ void Gates::check(const EventFeatures& features, const std::string& recording) c
 }
 
 void Gates::apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const {
-  std::ranges::fill(inside, char{1});
+  std::ranges::fill(inside, char{events_ ? char{0} : char{1}});
+  if (events_)
+    for (auto event = std::ranges::lower_bound(*events_, first);
+         event != events_->end() && *event < first + inside.size(); ++event)
+      inside[*event - first] = 1;
   std::vector<double> values(inside.size());
   for (const auto& [feature, least, greatest] : limits_) {
     features.read(feature, first, values);

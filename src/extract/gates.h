@@ -1,6 +1,7 @@
 // Which events are taken: those within limits of features.
 #pragma once
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace rheocyte {
 /// Limits as on the command line: "area_ratio=1.05".
 struct GateOptions {
   std::vector<std::string> least, greatest;
+  std::optional<std::vector<std::size_t>> events = {};  ///< the only ones that are taken, counted from 0
 };
 
 class Gates {
@@ -18,8 +20,8 @@ class Gates {
   /// UserError: no FEATURE=NUMBER, or a least value above the greatest.
   explicit Gates(const GateOptions& options);
 
-  bool empty() const { return limits_.empty(); }
-  /// "1 <= area_ratio <= 1.05"
+  bool empty() const { return limits_.empty() && !events_; }
+  /// "1 <= area_ratio <= 1.05", "12 chosen events"
   std::string description() const;
 
   /// UserError naming a feature that the recording does not have.
@@ -34,6 +36,7 @@ class Gates {
   };
   Limit& limit_of(const std::string& feature);
   std::vector<Limit> limits_;
+  std::optional<std::vector<std::size_t>> events_;  ///< ascending
 };
 
 }  // namespace rheocyte

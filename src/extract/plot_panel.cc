@@ -35,29 +35,6 @@ class Pairs {
   std::vector<float> pairs_;
 };
 
-bool is_of_the_reservoir(const Recording& recording) {
-  std::string region = recording.metadata().text("setup:chip region").value_or("channel");
-  std::ranges::transform(region, region.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return region != "channel";
-}
-
-void take_conditions(const Recording& recording, const PlotOptions& options, PlotPanel& panel) {
-  ExtractSettings settings =
-      extract_settings(options.measuring, options.no_pixelation ? PixelUse::ignore : PixelUse::correct, recording);
-  panel.has_conditions = true;
-  panel.conditions = settings.conditions;
-  ChannelFlow& flow = panel.conditions.flow;
-  std::string temperature = fmt::format("{:.3g} °C", settings.temperature_C);
-  if (settings.viscosity_varies()) {
-    flow.viscosity_mPas = settings.buffer->viscosity(flow, settings.temperature_C);
-    temperature = fmt::format("{:.1f} °C", settings.temperature_C);
-  }
-  panel.measured =
-      fmt::format("{:g} µm · {:g} µl/s · {:.2f} mPa s", flow.width_um, flow.rate_ul_s, flow.viscosity_mPas);
-  if (settings.buffer) panel.measured += fmt::format(" ({}, {})", settings.medium_text(), temperature);
-  panel.warnings = settings.warnings;
-}
-
 /// The two axes of a block of events.
 class Axes {
  public:
@@ -104,6 +81,29 @@ class Axes {
 };
 
 }  // namespace
+
+bool is_of_the_reservoir(const Recording& recording) {
+  std::string region = recording.metadata().text("setup:chip region").value_or("channel");
+  std::ranges::transform(region, region.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return region != "channel";
+}
+
+void take_conditions(const Recording& recording, const PlotOptions& options, PlotPanel& panel) {
+  ExtractSettings settings =
+      extract_settings(options.measuring, options.no_pixelation ? PixelUse::ignore : PixelUse::correct, recording);
+  panel.has_conditions = true;
+  panel.conditions = settings.conditions;
+  ChannelFlow& flow = panel.conditions.flow;
+  std::string temperature = fmt::format("{:.3g} °C", settings.temperature_C);
+  if (settings.viscosity_varies()) {
+    flow.viscosity_mPas = settings.buffer->viscosity(flow, settings.temperature_C);
+    temperature = fmt::format("{:.1f} °C", settings.temperature_C);
+  }
+  panel.measured =
+      fmt::format("{:g} µm · {:g} µl/s · {:.2f} mPa s", flow.width_um, flow.rate_ul_s, flow.viscosity_mPas);
+  if (settings.buffer) panel.measured += fmt::format(" ({}, {})", settings.medium_text(), temperature);
+  panel.warnings = settings.warnings;
+}
 
 PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWanted lines, const TakePairs& take_pairs,
                      const TellProgress& on_progress) {

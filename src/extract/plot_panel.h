@@ -9,6 +9,7 @@
 
 #include "extract/plot_options.h"
 #include "infer/modulus_map.h"
+#include "measurement/recording.h"
 #include "store/progress.h"
 
 namespace rheocyte {
@@ -37,6 +38,12 @@ enum class LinesWanted { no, if_possible, yes };
 
 /// Takes the drawable events of a block: the two numbers of each in turn.
 using TakePairs = std::function<void(std::span<const float> pairs)>;
+
+/// Whether the cells are not in the channel, where no isoelasticity lines exist.
+bool is_of_the_reservoir(const Recording& recording);
+
+/// Conditions, what is said of them, and warnings. UserError naming what the recording lacks.
+void take_conditions(const Recording& recording, const PlotOptions& options, PlotPanel& panel);
 
 /// Reads a recording block by block and hands on what stands on the two axes, usually area (um^2) and deformation, of
 /// each drawable event. The conditions of the measurement are found, too, where lines are wanted. UserError.

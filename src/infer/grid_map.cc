@@ -69,17 +69,20 @@ void GridMap::estimate(const MeasuringConditions& conditions, const MeasuredEven
 void GridMap::estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
                              const EstimatedModuli& estimates) const {
   const std::size_t count = block.size.size();
-  const auto rows = static_cast<Eigen::Index>(count);
+  const Eigen::Index rows = whole_packets(count);
   SmoothEvents smooth;
   EventColumn log_deformation, modulus;
   std::array<GridAnswer, block_size> answers;
   remove_pixels(conditions, origin().flow, block, smooth);
   const auto& [log_area, deformation, pixels] = smooth;
   // A deformation below zero is one that is too small, not one that is missing.
-  for (Eigen::Index k = 0; k < rows; ++k) log_deformation[k] = deformation[k] < 0 ? 0 : deformation[k];
+  log_deformation.head(rows) = 1;
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(count); ++k)
+    log_deformation[k] = deformation[k] < 0 ? 0 : deformation[k];
   log_deformation.head(rows) = log_deformation.head(rows).log();
   grid_.answer({log_area.data(), count}, {log_deformation.data(), count}, {answers.data(), count});
   const double factor = factor_per_mPas(conditions);
+  modulus.head(rows) = 0;
   for (std::size_t i = 0; i < count; ++i) modulus[static_cast<Eigen::Index>(i)] = answers[i].log_stiffness;
   modulus.head(rows) = modulus.head(rows).exp();
   for (std::size_t i = 0; i < count; ++i) {

@@ -28,6 +28,9 @@ inline std::string_view name_of(ModulusState state) {
   return names_of_modulus_states.at(static_cast<std::size_t>(state));
 }
 
+/// What is meant, in one sentence; empty for a modulus about which nothing is to be said.
+std::string_view sentence_of(ModulusState state);
+
 /// Whether there is a modulus.
 inline bool has_modulus(ModulusState state) {
   return state == ModulusState::valid || state == ModulusState::regularised || state == ModulusState::inertial;

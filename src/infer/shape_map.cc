@@ -95,13 +95,15 @@ void ShapeMap::estimate(const MeasuringConditions& conditions, const MeasuredEve
 void ShapeMap::estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
                               const MeasuredModes& modes, const EstimatedModuli& estimates) const {
   const std::size_t count = block.size.size();
-  const auto rows = static_cast<Eigen::Index>(count);
+  const Eigen::Index rows = whole_packets(count);
   SmoothEvents smooth;
   EventColumn asymmetry, log_asymmetry, modulus;
   std::array<AsymmetryErrors, event_block_size> pixels{};
   std::array<GridAnswer, event_block_size> answers;
   remove_pixels(conditions, origin_.flow, block, smooth);
   const double log_pixel_area = 2 * std::log(conditions.pixel_size_um);
+  log_asymmetry.head(rows) = 1;
+  modulus.head(rows) = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (conditions.pixel_size_um > 0)
       pixels[i] = asymmetry_errors(std::log(block.size[i]) - log_pixel_area, modes.mode_2[i], modes.mode_3[i]);

@@ -10,8 +10,10 @@ void remove_pixels(const MeasuringConditions& conditions, const ChannelFlow& tab
                    SmoothEvents& smooth) {
   const std::size_t count = block.size.size();
   assert(count <= event_block_size && block.deformation.size() == count);
-  const auto rows = static_cast<Eigen::Index>(count);
-  smooth.log_area.head(rows) = Eigen::Map<const Eigen::ArrayXd>(block.size.data(), rows).log();
+  const Eigen::Index rows = whole_packets(count);
+  smooth.log_area.head(rows) = 1;
+  std::ranges::copy(block.size, smooth.log_area.data());
+  smooth.log_area.head(rows) = smooth.log_area.head(rows).log();
   std::ranges::copy(block.deformation, smooth.deformation.data());
   std::ranges::fill(smooth.pixels, PixelErrors{});
   if (conditions.pixel_size_um > 0) {

@@ -17,10 +17,10 @@ class EventOutlines {
 
   /// NaN where there is no cell. UserError if the data are damaged.
   ShapeVector features(std::size_t event);
-
- private:
+  /// Empty where there is no cell. UserError if the data are damaged.
   PixelContour outline(std::size_t event);
 
+ private:
   const Recording& recording_;
   double pixel_um_;
   std::optional<ImageSize> size_;                  ///< of the masks, if there are no contours

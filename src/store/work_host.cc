@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -28,44 +27,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Word : char { request = 'q', piece = 'd', progress = 'p', done = 'f', sentence = 'e' };
+// Each message is one packet, so that two processes may answer in turn and one that breaks leaves no half message. The
+// first byte says what it is.
+enum class Word : char { request = 'q', request_end = 'r', piece = 'd', progress = 'p', done = 'f', sentence = 'e' };
 
-struct Header {
-  Word word;
-  std::uint32_t length;
-};
-
-constexpr std::size_t longest_piece = std::size_t{1} << 20U, longest_message = std::size_t{1} << 26U;
+constexpr std::size_t longest_piece = std::size_t{1} << 16U;  // packets of this size always fit
 constexpr int patience_ms = 100'000;  // longer than that of contained work, which tells of its end itself
 
-bool send_all(int socket, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (count < 0 && errno != EINTR) return false;
-    if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
-}
-
 bool send_message(int socket, Word word, std::string_view text) {
-  std::string head(sizeof(Header), '\0');
-  const Header header{word, static_cast<std::uint32_t>(text.size())};
-  std::memcpy(head.data(), &header, sizeof header);
-  return send_all(socket, head) && send_all(socket, text);
+  std::string packet(1, static_cast<char>(word));
+  packet += text.substr(0, longest_piece);
+  for (;;) {
+    if (::send(socket, packet.data(), packet.size(), MSG_NOSIGNAL) >= 0) return true;
+    if (errno != EINTR) return false;
+  }
 }
 
-bool receive_all(int socket, char* bytes, std::size_t size) {
-  while (size > 0) {
-    pollfd awaited{socket, POLLIN, 0};
-    const int ready = ::poll(&awaited, 1, patience_ms);
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready <= 0) return false;
-    const ssize_t count = ::recv(socket, bytes, size, 0);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    bytes += count;
-    size -= static_cast<std::size_t>(count);
-  }
+bool send_pieces(int socket, Word word, std::string_view text) {
+  for (std::size_t at = 0; at < text.size(); at += longest_piece)
+    if (!send_message(socket, word, text.substr(at, longest_piece))) return false;
   return true;
 }
 
@@ -74,16 +54,28 @@ struct Message {
   std::string text;
 };
 
-/// Nothing once the other end is closed.
+/// Nothing once the other end is closed, or silent for too long.
 std::optional<Message> receive_message(int socket) {
-  Header header{};
-  char head[sizeof header];
-  if (!receive_all(socket, head, sizeof head)) return std::nullopt;
-  std::memcpy(&header, head, sizeof header);
-  if (header.length > longest_message) return std::nullopt;
-  Message message{header.word, std::string(header.length, '\0')};
-  if (!receive_all(socket, message.text.data(), message.text.size())) return std::nullopt;
-  return message;
+  std::string packet(longest_piece + 1, '\0');
+  for (;;) {
+    pollfd awaited{socket, POLLIN, 0};
+    const int ready = ::poll(&awaited, 1, patience_ms);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0) return std::nullopt;
+    const ssize_t count = ::recv(socket, packet.data(), packet.size(), 0);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return std::nullopt;
+    return Message{static_cast<Word>(packet.front()), packet.substr(1, static_cast<std::size_t>(count) - 1)};
+  }
+}
+
+std::optional<std::string> receive_request(int socket) {
+  std::string request;
+  while (const auto message = receive_message(socket)) {
+    if (message->word == Word::request_end) return request;
+    request += message->text;
+  }
+  return std::nullopt;
 }
 
 union OneDescriptor {
@@ -132,10 +124,10 @@ int take_descriptor(int socket) {
 [[noreturn]] void be_a_worker(int socket, const WorkHost::Work& work) {
   std::signal(SIGCHLD, SIG_DFL);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const auto request = receive_message(socket);
+  const auto request = receive_request(socket);
   if (!request) ::_exit(1);
   try {
-    work(request->text, WorkReply(socket));
+    work(*request, WorkReply(socket));
     send_message(socket, Word::done, {});
   } catch (const UserError& error) {
     send_message(socket, Word::sentence, error.what());
@@ -192,8 +184,7 @@ fs::path new_private_folder() {
 }  // namespace
 
 void WorkReply::give(std::string_view piece) const {
-  for (std::size_t at = 0; at < piece.size(); at += longest_piece)
-    if (!send_message(socket_, Word::piece, piece.substr(at, longest_piece))) ::_exit(1);
+  if (!send_pieces(socket_, Word::piece, piece)) ::_exit(1);
 }
 
 void WorkReply::tell_progress(double fraction) const {
@@ -276,7 +267,7 @@ WorkHost::~WorkHost() {
 
 HostedWork WorkHost::ask(const std::string& request) const {
   int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) refuse_more();
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) refuse_more();
   HostedWork work(ends[0]);
   bool passed = false;
   {
@@ -286,7 +277,7 @@ HostedWork WorkHost::ask(const std::string& request) const {
   ::close(ends[1]);
   if (!passed) refuse_more();
   // A process that ended at once is told of when its answer is read.
-  static_cast<void>(send_message(ends[0], Word::request, request));
+  if (send_pieces(ends[0], Word::request, request)) send_message(ends[0], Word::request_end, {});
   return work;
 }
 

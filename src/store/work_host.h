@@ -19,7 +19,7 @@ class WorkReply {
  public:
   explicit WorkReply(int socket) : socket_(socket) {}
 
-  /// The next piece of the answer; waits as long as it is not taken.
+  /// The next piece of the answer, handed on as pieces of at most 64 KiB; waits as long as they are not taken.
   void give(std::string_view piece) const;
   void tell_progress(double fraction) const;
   /// Whether somebody still waits for the answer.

@@ -13,7 +13,7 @@
 #include "case/write_case.h"
 #include "infer/read_modulus_map.h"
 #include "measurement/shape_source.h"
-#include "view/event_columns.h"
+#include "view/recording_columns.h"
 
 namespace rheocyte {
 
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 Json describe_recording(const fs::path& file) {
   const Recording recording(file);
-  const EventColumns columns(recording);
+  const RecordingColumns columns(recording);
   Json metadata = Json::object();
   for (const auto& [key, value] : recording.metadata().values())
     std::visit([&](const auto& stored) { metadata[key] = stored; }, value);

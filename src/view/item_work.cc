@@ -7,8 +7,13 @@
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
+#include "extract/extract_recording.h"
 #include "view/describe_item.h"
-#include "view/event_columns.h"
+#include "view/event_inspector.h"
+#include "view/moduli_settings.h"
+#include "view/recording_columns.h"
+#include "view/recording_lines.h"
+#include "view/recording_moduli.h"
 
 namespace rheocyte {
 
@@ -45,13 +50,13 @@ void describe(const Json& request, const WorkReply& reply, const TellProgress&) 
 
 void list_columns(const Json& request, const WorkReply& reply, const TellProgress& tell) {
   const OpenRecording open(request, tell);
-  reply.give(json_text(EventColumns(open.recording, open.computed()).names()));
+  reply.give(json_text(RecordingColumns(open.recording, open.computed()).names()));
 }
 
 // First what follows, then the columns one after another.
 void give_columns(const Json& request, const WorkReply& reply, const TellProgress& tell) {
   const OpenRecording open(request, tell);
-  EventColumns columns(open.recording, open.computed());
+  RecordingColumns columns(open.recording, open.computed());
   const auto names = request.at("features").get<std::vector<std::string>>();
   const NumberType type = request.value("type", "") == "float64" ? NumberType::float64 : NumberType::float32;
   std::vector<double> values;
@@ -70,12 +75,58 @@ void give_columns(const Json& request, const WorkReply& reply, const TellProgres
     }
 }
 
+void inspect(const Json& request, const WorkReply& reply, const TellProgress& tell) {
+  const OpenRecording open(request, tell);
+  const ExtractOptions options = options_of_settings(request.at("settings"));
+  const ModulusTables tables(options.table);
+  reply.give(json_text(inspect_event({open.recording, open.computed()}, options, tables, request.at("event"))));
+}
+
+void give_picture(const Json& request, const WorkReply& reply, const TellProgress&) {
+  reply.give(picture_of_event(Recording(path_in(request, "file")), request.at("picture"), request.at("event")));
+}
+
+void give_lines(const Json& request, const WorkReply& reply, const TellProgress&) {
+  reply.give(json_text(recording_lines(Recording(path_in(request, "file")), options_of_settings(request.at("settings")),
+                                       request.at("x"), request.at("y"))));
+}
+
+std::optional<std::vector<std::size_t>> gate_in(const Json& request) {
+  if (!request.contains("gate")) return {};
+  return request["gate"].get<std::vector<std::size_t>>();
+}
+
+// The files are published here, as the command does: the process that reads may break.
+void compute_moduli(const Json& request, const WorkReply& reply) {
+  const fs::path file = path_in(request, "file");
+  ExtractOptions options = options_of_settings(request.at("settings"));
+  options.measuring.gates.events = gate_in(request);
+  const ModulusTables tables(options.table);
+  check_against_tables(options, tables);
+  const ExtractOutput output{path_in(request, "companion"), path_in(request, "events"), request.value("keep", false)};
+  ExtractFiles files(output, !output.events.empty());
+  const auto work = [&](const TellProgress& tell) {
+    Json report = moduli_report(file, extract_recording(file, files, options, tables, tell));
+    report["features"] = Json::array();
+    for (const auto& column : computed_columns(Recording(files.companion()))) report["features"].push_back(column.name);
+    reply.give(json_text(report));
+  };
+  reply.run_contained(file, work);
+  files.publish();
+  if (const fs::path place = path_in(request, "events_of_gate"); !place.empty()) {
+    WholeFile target(place);
+    copy_events_of_gate(output.events, target.scratch(), options.measuring.gates.events.value());
+    target.publish();
+  }
+}
+
 using Contained = void (*)(const Json&, const WorkReply&, const TellProgress&);
 struct Named {
   const char* name;
   Contained work;
 };
-constexpr Named contained_work[]{{"describe", describe}, {"names", list_columns}, {"columns", give_columns}};
+constexpr Named contained_work[]{{"describe", describe}, {"names", list_columns},   {"columns", give_columns},
+                                 {"inspect", inspect},   {"picture", give_picture}, {"lines", give_lines}};
 
 }  // namespace
 
@@ -86,6 +137,7 @@ void do_item_work(const std::string& text, const WorkReply& reply) {
     if (wanted == name)
       return reply.run_contained(path_in(request, "file"),
                                  [&](const TellProgress& tell) { work(request, reply, tell); });
+  if (wanted == "moduli") return compute_moduli(request, reply);
   throw UserError("There is no such work on an item.");
 }
 

@@ -1,10 +1,15 @@
 #include "view/recording_routes.h"
 
+#include <algorithm>
+#include <atomic>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <system_error>
 
 #include "case/json_guard.h"
+#include "case/user_error.h"
+#include "view/moduli_runs.h"
 #include "view/view_items.h"
 
 namespace rheocyte {
@@ -12,6 +17,7 @@ namespace rheocyte {
 namespace {
 
 using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 std::vector<std::string> names_in(const std::string& list) {
   std::vector<std::string> names;
@@ -20,48 +26,193 @@ std::vector<std::string> names_in(const std::string& list) {
   return names;
 }
 
-Answer item(const ViewItems& items, const Request& request) {
-  const std::size_t number = request.number("item");
-  const auto found = items.at(number);
-  Json tree = summary_of(number, found);
-  for (const auto& [key, value] : found.description.items()) tree[key] = value;
-  return json_answer(tree);
-}
+/// A folder for what an export needs on its way.
+class PassingFolder {
+ public:
+  explicit PassingFolder(const WorkHost& host) {
+    static std::atomic<int> made{0};
+    path_ = host.folder() / ("export-" + std::to_string(++made));
+    std::error_code error;
+    if (!fs::create_directory(path_, error))
+      throw UserError("No folder for temporary files can be made; is the disk full?");
+  }
+  ~PassingFolder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  std::string operator/(const char* name) const { return (path_ / name).string(); }
 
-Answer label(ViewItems& items, const Request& request) {
-  items.label(request.number("item"), request.json());
-  return item(items, request);
-}
+ private:
+  fs::path path_;
+};
 
-Answer columns(const ViewItems& items, const Request& request) {
-  constexpr std::size_t most_features = 64;
-  const auto found = items.recording(request.number("item"));
-  const auto features = names_in(request.asked("features"));
-  const std::string type = request.asked("type", "float32");
-  if (features.empty() || features.size() > most_features)
-    throw Refused(400, "input", "features names the columns, one to 64 of them, with commas between them.");
-  if (type != "float32" && type != "float64") throw Refused(400, "input", "type is float32 or float64.");
-  const Json wanted{{"do", "columns"}, {"file", found.place.path.string()}, {"features", features}, {"type", type}};
-  const auto work = std::make_shared<HostedWork>(items.host().ask(json_text(wanted)));
-  std::string head;
-  work->read([&head](std::string_view piece) {
-    head = piece;
-    return false;
-  });
-  Answer answer;
-  answer.type = "application/octet-stream";
-  answer.headers = {{"X-Rheocyte-Columns", head}};
-  answer.give_pieces = [work](const TakePiece& take) { work->read(take); };
-  return answer;
-}
+/// Answers requests about recordings.
+class RecordingAnswers {
+ public:
+  explicit RecordingAnswers(ViewItems& items) : items_(items), runs_(items) {}
+
+  Answer list() {
+    Json all = items_.list();
+    for (Json& one : all)
+      if (const Json counts = runs_.counts(one["item"]); !counts.empty()) one["counts"] = counts;
+    return json_answer(all);
+  }
+
+  Answer item(const Request& request) const {
+    const std::size_t number = request.number("item");
+    const auto found = items_.at(number);
+    Json tree = summary_of(number, found);
+    for (const auto& [key, value] : found.description.items()) tree[key] = value;
+    if (tree.contains("features"))
+      for (const auto& name : runs_.features(number))
+        if (std::ranges::find(tree["features"], name) == tree["features"].end()) tree["features"].push_back(name);
+    return json_answer(tree);
+  }
+
+  Answer label(const Request& request) {
+    items_.label(request.number("item"), request.json());
+    return item(request);
+  }
+
+  Answer columns(const Request& request) const {
+    constexpr std::size_t most_features = 64;
+    const auto features = names_in(request.asked("features"));
+    const std::string type = request.asked("type", "float32");
+    if (features.empty() || features.size() > most_features)
+      throw Refused(400, "input", "features names the columns, one to 64 of them, with commas between them.");
+    if (type != "float32" && type != "float64") throw Refused(400, "input", "type is float32 or float64.");
+    const auto work =
+        std::make_shared<HostedWork>(ask(request, {{"do", "columns"}, {"features", features}, {"type", type}}));
+    std::string head;
+    work->read([&head](std::string_view piece) {
+      head = piece;
+      return false;
+    });
+    Answer answer;
+    answer.type = "application/octet-stream";
+    answer.headers = {{"X-Rheocyte-Columns", head}};
+    answer.give_pieces = [work](const TakePiece& take) { work->read(take); };
+    return answer;
+  }
+
+  Answer event(const Request& request) const {
+    return {.body = ask(request, {{"do", "inspect"}, {"event", request.number("event")}}).all()};
+  }
+
+  Answer picture(const Request& request, const std::string& feature) const {
+    Json pictures = items_.recording(request.number("item")).description.value("pictures", Json({feature}));
+    if (std::ranges::find(pictures, Json(feature)) == pictures.end())
+      throw Refused(404, "unknown", "The recording holds no pictures of the kind " + feature + ".");
+    const Json wanted{{"do", "picture"}, {"event", request.number("event")}, {"picture", feature}};
+    return {.type = "image/png", .body = ask(request, wanted).all()};
+  }
+
+  Answer lines(const Request& request) const {
+    const Json wanted{{"do", "lines"}, {"x", request.asked("x", "area_um")}, {"y", request.asked("y", "deform")}};
+    return {.body = ask(request, wanted).all()};
+  }
+
+  Answer start_moduli(const Request& request) {
+    runs_.start(request.number("item"), request.body.empty() ? Json::object() : request.json());
+    return json_answer(runs_.state(request.number("item")), 202);
+  }
+
+  Answer moduli(const Request& request) const { return json_answer(runs_.state(request.number("item"))); }
+
+  Answer stop_moduli(const Request& request) {
+    runs_.stop(request.number("item"));
+    return moduli(request);
+  }
+
+  /// With the settings of the item's moduli, as `rheocyte extract` writes the file.
+  fs::path write_companion(const Json& request, ExportFolder& folder) const {
+    const Json wanted = export_request(request);
+    const fs::path place = folder.claim(file_name(request, ".rtdc"));
+    write(wanted, {{"companion", place.string()}});
+    return place;
+  }
+
+  fs::path write_events(const Json& request, ExportFolder& folder) const {
+    const Json wanted = export_request(request);
+    const fs::path place = folder.claim(file_name(request, ".tsv"));
+    const PassingFolder passing(items_.host());
+    Json places{{"companion", passing / "companion.rtdc"}};
+    if (wanted.contains("gate")) {
+      places["events"] = passing / "events.tsv";
+      places["events_of_gate"] = place.string();
+    } else {
+      places["events"] = place.string();
+    }
+    write(wanted, places);
+    return place;
+  }
+
+ private:
+  /// The work on the item of a request, with what has been computed from it.
+  HostedWork ask(const Request& request, Json wanted) const {
+    const std::size_t number = request.number("item");
+    wanted["file"] = items_.recording(number).place.path.string();
+    wanted["companion"] = runs_.companion(number).string();
+    wanted["settings"] = runs_.settings(number);
+    return items_.host().ask(json_text(wanted));
+  }
+
+  Json export_request(const Json& request) const {
+    if (!request.contains("item") || !request["item"].is_number_unsigned())
+      throw Refused(400, "input", "item is the number of a recording.");
+    const std::size_t number = request["item"];
+    Json wanted{
+        {"do", "moduli"}, {"file", items_.recording(number).place.path.string()}, {"settings", runs_.settings(number)}};
+    if (!request.contains("gate") || request["gate"].is_null()) return wanted;
+    const Json& gate = request["gate"];
+    if (!gate.is_array() || !std::ranges::all_of(gate, [](const Json& one) { return one.is_number_unsigned(); }))
+      throw Refused(400, "input", "gate is a list of the numbers of events, counted from 0, or null.");
+    wanted["gate"] = gate;
+    return wanted;
+  }
+
+  static std::string file_name(const Json& request, std::string_view ending) {
+    const Json name = request.value("name", Json());
+    if (!name.is_string() || !name.get<std::string>().ends_with(ending))
+      throw Refused(400, "input", "name is that of a file that ends in " + std::string(ending) + ".");
+    return name.get<std::string>();
+  }
+
+  void write(Json wanted, const Json& places) const {
+    wanted.update(places);
+    static_cast<void>(items_.host().ask(json_text(wanted)).all());
+  }
+
+  ViewItems& items_;
+  ModuliRuns runs_;
+};
 
 }  // namespace
 
-void add_recording_routes(Router& router, Exports&, ViewSession& session, ViewItems& items) {
-  router.add("GET", "/api/items", [&items](const Request&) { return json_answer(items.list()); });
-  router.add("GET", "/api/items/{item}", [&items](const Request& request) { return item(items, request); });
-  router.add("PATCH", "/api/items/{item}", [&items](const Request& request) { return label(items, request); });
-  router.add("GET", "/api/items/{item}/events", [&items](const Request& request) { return columns(items, request); });
+void add_recording_routes(Router& router, Exports& exports, ViewSession& session, ViewItems& items) {
+  const auto answers = std::make_shared<RecordingAnswers>(items);
+  const auto add = [&](std::string_view method, std::string_view pattern, auto answer) {
+    router.add(method, pattern, [answers, answer](const Request& request) { return ((*answers).*answer)(request); });
+  };
+  router.add("GET", "/api/items", [answers](const Request&) { return answers->list(); });
+  add("GET", "/api/items/{item}", &RecordingAnswers::item);
+  add("PATCH", "/api/items/{item}", &RecordingAnswers::label);
+  add("GET", "/api/items/{item}/events", &RecordingAnswers::columns);
+  add("GET", "/api/items/{item}/events/{event}", &RecordingAnswers::event);
+  for (const std::string feature : {"image", "mask"})
+    router.add("GET", "/api/items/{item}/events/{event}/" + feature,
+               [answers, feature](const Request& request) { return answers->picture(request, feature); });
+  add("GET", "/api/items/{item}/lines", &RecordingAnswers::lines);
+  add("POST", "/api/items/{item}/moduli", &RecordingAnswers::start_moduli);
+  add("GET", "/api/items/{item}/moduli", &RecordingAnswers::moduli);
+  add("DELETE", "/api/items/{item}/moduli", &RecordingAnswers::stop_moduli);
+  exports.add("companion", [answers](const Json& request, ExportFolder& folder) {
+    return answers->write_companion(request, folder);
+  });
+  exports.add("events",
+              [answers](const Json& request, ExportFolder& folder) { return answers->write_events(request, folder); });
   session.add({"items", [&items] { return items.kept(); }, [&items](const Json& kept) { items.restore(kept); }});
 }
 

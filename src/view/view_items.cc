@@ -124,6 +124,13 @@ ViewItems::Item ViewItems::recording(std::size_t number) const {
   return item;
 }
 
+fs::path ViewItems::table(std::size_t number) const {
+  const Item item = at(number);
+  if (item.place.kind != ItemKind::table || !item.place.error.empty())
+    throw UserError("The setting table names an item that is no table.");
+  return item.place.path;
+}
+
 void ViewItems::label(std::size_t number, const Json& labels) {
   const Item before = at(number);
   const std::string condition = label_in(labels, "condition", before.condition),

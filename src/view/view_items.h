@@ -40,6 +40,8 @@ class ViewItems {
   Item at(std::size_t number) const;
   /// The same of a recording; Refused (409) if the item is something else.
   Item recording(std::size_t number) const;
+  /// The path of a table. UserError if the item is none.
+  std::filesystem::path table(std::size_t number) const;
   /// Condition and replicate, as far as they are given.
   void label(std::size_t number, const nlohmann::ordered_json& labels);
 

@@ -4,13 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <optional>
+#include <sstream>
+#include <thread>
 
 #include "case/json_guard.h"
+#include "extract/extract_recording.h"
 #include "measurement/recording_writer.h"
 #include "view/view_items.h"
+#include "virtual_cells.h"
 
 namespace rheocyte {
 namespace {
@@ -28,9 +35,17 @@ class RecordingRoutes : public testing::Test {
       test::write_usual_metadata(writer);
       fill(writer);
     }
-    const std::array<fs::path, 1> paths{folder_ / name};
+    open(folder_ / name);
+  }
+  void open_virtual_cells(int cells) {
+    test::write_virtual_cells(folder_ / "cells.rtdc", cells);
+    open(folder_ / "cells.rtdc");
+  }
+  void open(const fs::path& file) {
+    const std::array<fs::path, 1> paths{file};
     items_.emplace(paths);
     add_recording_routes(router_, exports_, session_, *items_);
+    exports_.add_route(router_);
   }
 
   Answer ask(const std::string& method, const std::string& path, Request::Names query = {},
@@ -49,6 +64,25 @@ class RecordingRoutes : public testing::Test {
       return true;
     });
     return bytes;
+  }
+
+  Json json(const std::string& method, const std::string& path, const std::string& body = {}) const {
+    return parse_sound_json(ask(method, path, {}, body).body);
+  }
+  /// Once it no longer runs.
+  Json moduli(const Json& settings) const {
+    const Answer started = ask("POST", "/api/items/0/moduli", {}, json_text(settings));
+    EXPECT_EQ(started.status, 202) << started.body;
+    Json state;
+    for (int round = 0; round < 3000; ++round) {
+      state = json("GET", "/api/items/0/moduli");
+      if (state["state"] != "running") break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return state;
+  }
+  Json exported(const std::string& what, const std::string& name, const Json& gate = nullptr) const {
+    return json("POST", "/api/export", json_text({{"what", what}, {"item", 0}, {"name", name}, {"gate", gate}}));
   }
 
   test::ScratchFolder folder_;
@@ -110,6 +144,137 @@ TEST_F(RecordingRoutes, RefuseWhatIsNotThereWithASentence) {
   refusal("/api/items/0/events", {{"features", "area_um"}, {"type", "int"}}, 400, "float64");
   fs::remove(folder_ / "a.rtdc");
   refusal("/api/items/0/events", {{"features", "area_um"}}, 400, "no such file");
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<double> column(const fs::path& file, const std::string& feature) {
+  const Recording recording(file);
+  std::vector<double> values(recording.events());
+  recording.read_scalar(feature, 0, values);
+  return values;
+}
+
+void expect_same(const std::vector<double>& a, const std::vector<double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0) << "to the last bit, NaN included";
+}
+
+/// What `rheocyte extract` writes.
+ExtractSummary extract(const fs::path& file, const ExtractOutput& output, const ExtractOptions& options = {}) {
+  ExtractFiles files(output, true);
+  const auto summary = extract_recording(file, files, options, ModulusTables(options.table), [](double) {});
+  files.publish();
+  return summary;
+}
+
+TEST_F(RecordingRoutes, GiveTheModuliOfExtractAsFeatures) {
+  open_virtual_cells(50);
+  EXPECT_EQ(json("GET", "/api/items/0/moduli")["state"], "none");
+  EXPECT_EQ(ask("GET", "/api/items/0/events", {{"features", "emodulus"}}).status, 400);
+  const Json state = moduli({{"temperature", 23}});
+  ASSERT_EQ(state["state"], "ready") << state;
+  EXPECT_NE(state["command"].get<std::string>().find("--temperature 23"), std::string::npos);
+  ExtractOptions options;
+  options.measuring.temperature = "23";
+  const auto summary = extract(folder_ / "cells.rtdc", {folder_ / "want.rtdc", folder_ / "want.tsv"}, options);
+  EXPECT_EQ(state["summary"]["valid"], summary.counts[0]);
+  EXPECT_EQ(state["lines"][0], in_one_line(summary));
+  const Json item = json("GET", "/api/items/0");
+  for (const char* name : {"emodulus", "state", "standard_error", "young_modulus_asymmetry", "shape_excess"})
+    EXPECT_NE(std::ranges::find(item["features"], name), item["features"].end()) << name;
+  const auto numbers = numbers_in<double>(
+      bytes_of(ask("GET", "/api/items/0/events", {{"features", "emodulus,state"}, {"type", "float64"}})));
+  const auto half = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  expect_same({numbers.begin(), half}, column(folder_ / "want.rtdc", "emodulus"));
+  const Recording want(folder_ / "want.rtdc");
+  const std::string state_feature = want.metadata().text("user:rheocyte state").value();
+  expect_same({half, numbers.end()}, column(folder_ / "want.rtdc", state_feature));
+  EXPECT_EQ(json("DELETE", "/api/items/0/moduli")["state"], "none");
+  EXPECT_EQ(ask("GET", "/api/items/0/events", {{"features", "emodulus"}}).status, 400);
+}
+
+TEST_F(RecordingRoutes, TellWhatIsWrongWithModuli) {
+  open("a.rtdc", [](RecordingWriter& writer) { writer.scalar("area_um", {80, 90}); });
+  const Json state = moduli(Json::object());
+  EXPECT_EQ(state["state"], "failed");
+  EXPECT_NE(state["error"].get<std::string>().find("has neither deform"), std::string::npos) << state;
+  EXPECT_EQ(ask("POST", "/api/items/0/moduli", {}, R"({"table": "/etc/passwd"})").status, 400);
+}
+
+TEST_F(RecordingRoutes, StopModuliWhenTheyAreAskedTo) {
+  open_virtual_cells(400);
+  ASSERT_EQ(ask("POST", "/api/items/0/moduli", {}, "{}").status, 202);
+  EXPECT_EQ(json("DELETE", "/api/items/0/moduli")["state"], "none") << "and it does not wait for them";
+  EXPECT_EQ(moduli(Json::object())["state"], "ready");
+}
+
+TEST_F(RecordingRoutes, GiveEventsPicturesAndLines) {
+  open_virtual_cells(20);
+  const Json event = json("GET", "/api/items/0/events/3");
+  EXPECT_EQ(event["event"], 3);
+  EXPECT_FALSE(event["outline"].is_null());
+  for (const char* picture : {"image", "mask"}) {
+    const Answer answer = ask("GET", std::string("/api/items/0/events/3/") + picture);
+    EXPECT_EQ(answer.type, "image/png");
+    EXPECT_TRUE(answer.body.starts_with("\x89PNG")) << answer.body;
+  }
+  EXPECT_EQ(ask("GET", "/api/items/0/events/20").status, 400);
+  const Json lines = json("GET", "/api/items/0/lines");
+  EXPECT_EQ(lines["lines"].size(), 11u);
+  EXPECT_GT(lines["range"]["x"].size(), 100u);
+  const Answer others = ask("GET", "/api/items/0/lines", {{"x", "area_um"}, {"y", "emodulus"}});
+  EXPECT_TRUE(parse_sound_json(others.body)["lines"].empty());
+}
+
+TEST_F(RecordingRoutes, ExportWhatExtractWrites) {
+  open_virtual_cells(30);
+  extract(folder_ / "cells.rtdc", {folder_ / "want.rtdc", folder_ / "want.tsv"});
+  const Json events = exported("events", "events.tsv"), companion = exported("companion", "cells_rheocyte.rtdc");
+  ASSERT_TRUE(events.contains("file")) << events;
+  EXPECT_EQ(events["file"], (folder_ / "out/events.tsv").string());
+  EXPECT_EQ(content_of(folder_ / "out/events.tsv"), content_of(folder_ / "want.tsv"));
+  ASSERT_TRUE(companion.contains("file")) << companion;
+  for (int k = -1; k < 10; ++k) {
+    const std::string feature = k < 0 ? "emodulus" : "userdef" + std::to_string(k);
+    if (Recording(folder_ / "want.rtdc").has_scalar(feature))
+      expect_same(column(folder_ / "out/cells_rheocyte.rtdc", feature), column(folder_ / "want.rtdc", feature));
+  }
+}
+
+TEST_F(RecordingRoutes, ExportTheEventsOfAGate) {
+  open_virtual_cells(30);
+  exported("events", "all.tsv");
+  ASSERT_TRUE(exported("events", "some.tsv", {7, 3}).contains("file"));
+  std::istringstream some(content_of(folder_ / "out/some.tsv"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(some, line);)
+    if (!line.starts_with('#')) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_TRUE(lines[1].starts_with("4\t")) << "lines count from 1, as in every table of events";
+  EXPECT_NE(content_of(folder_ / "out/all.tsv").find("\n" + lines[2] + "\n"), std::string::npos);
+  ASSERT_TRUE(exported("companion", "some.rtdc", {7, 3}).contains("file"));
+  const auto states = column(folder_ / "out/some.rtdc",
+                             Recording(folder_ / "out/some.rtdc").metadata().text("user:rheocyte state").value());
+  for (std::size_t event = 0; event < states.size(); ++event)
+    EXPECT_EQ(states[event] == static_cast<double>(ModulusState::gated), event != 3 && event != 7);
+}
+
+TEST_F(RecordingRoutes, ExportNothingOutsideTheFolderAndNothingOverOthers) {
+  open_virtual_cells(5);
+  std::ofstream(folder_ / "out/there.tsv") << "somebody's";
+  for (const auto& [name, status] : {std::pair("../x.tsv", 400), std::pair("/tmp/x.tsv", 400), std::pair("x.txt", 400),
+                                     std::pair("there.tsv", 409)}) {
+    const std::string body = json_text({{"what", "events"}, {"item", 0}, {"name", name}});
+    EXPECT_EQ(ask("POST", "/api/export", {}, body).status, status) << name;
+  }
+  EXPECT_EQ(content_of(folder_ / "out/there.tsv"), "somebody's");
+  EXPECT_FALSE(fs::exists(folder_ / "x.tsv"));
+  const std::string body = json_text({{"what", "events"}, {"item", 0}, {"name", "x.tsv"}, {"gate", {-1}}});
+  EXPECT_EQ(ask("POST", "/api/export", {}, body).status, 400);
 }
 
 }  // namespace

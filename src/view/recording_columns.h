@@ -21,10 +21,10 @@ struct ComputedColumn {
 /// young_modulus_asymmetry, standard_error_asymmetry, shape_excess, odd_share.
 std::vector<ComputedColumn> computed_columns(const Recording& companion);
 
-class EventColumns {
+class RecordingColumns {
  public:
   /// Both must outlive it; without a companion nothing has been computed.
-  explicit EventColumns(const Recording& recording, const Recording* companion = nullptr);
+  explicit RecordingColumns(const Recording& recording, const Recording* companion = nullptr);
 
   std::size_t events() const { return recording_.events(); }
   /// In the order of the alphabet, the computed ones at the end.

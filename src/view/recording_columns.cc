@@ -1,4 +1,4 @@
-#include "view/event_columns.h"
+#include "view/recording_columns.h"
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ std::vector<ComputedColumn> computed_columns(const Recording& companion) {
   return columns;
 }
 
-EventColumns::EventColumns(const Recording& recording, const Recording* companion)
+RecordingColumns::RecordingColumns(const Recording& recording, const Recording* companion)
     : recording_(recording), companion_(companion) {
   if (companion) computed_ = computed_columns(*companion);
   try {
@@ -59,7 +59,7 @@ EventColumns::EventColumns(const Recording& recording, const Recording* companio
   }
 }
 
-std::vector<std::string> EventColumns::names() const {
+std::vector<std::string> RecordingColumns::names() const {
   std::vector<std::string> names = recording_.scalar_names();
   for (const char* implied : {"area_um", "deform", "area_ratio"})
     if (features_ && features_->has(implied) && !recording_.has_scalar(implied)) names.emplace_back(implied);
@@ -69,16 +69,16 @@ std::vector<std::string> EventColumns::names() const {
   return names;
 }
 
-bool EventColumns::has(const std::string& name) const {
+bool RecordingColumns::has(const std::string& name) const {
   return computed(name) || (features_ ? features_->has(name) : recording_.has_scalar(name));
 }
 
-const std::string* EventColumns::computed(const std::string& name) const {
+const std::string* RecordingColumns::computed(const std::string& name) const {
   const auto found = std::ranges::find(computed_, name, &ComputedColumn::name);
   return found == computed_.end() ? nullptr : &found->feature;
 }
 
-void EventColumns::read(const std::string& name, std::size_t first, std::span<double> values) {
+void RecordingColumns::read(const std::string& name, std::size_t first, std::span<double> values) {
   if (const std::string* feature = computed(name)) return companion_->read_scalar(*feature, first, values);
   if (!has(name))
     throw UserError(

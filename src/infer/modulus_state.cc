@@ -1,0 +1,23 @@
+#include "infer/modulus_state.h"
+
+namespace rheocyte {
+
+std::string_view sentence_of(ModulusState state) {
+  switch (state) {
+    case ModulusState::valid: return "";
+    case ModulusState::no_data: return "Area, deformation or viscosity of this event is not known.";
+    case ModulusState::too_small: return "The cell is smaller than any cell of the table at this channel width.";
+    case ModulusState::too_large: return "The cell is larger than any cell of the table at this channel width.";
+    case ModulusState::too_stiff: return "The cell is deformed less than the stiffest cell of the table of this area.";
+    case ModulusState::too_soft: return "The cell is deformed more than the softest cell of the table of this area.";
+    case ModulusState::unstable: return "The bare surface of such a soft cell wrinkles: there is no smooth state.";
+    case ModulusState::unresolved:
+      return "The standard error is greater than the modulus, or the table has a gap here.";
+    case ModulusState::regularised: return "The modulus is that of a cell whose surface is held smooth by bending.";
+    case ModulusState::gated: return "The event lies outside the gates.";
+    case ModulusState::inertial: return "The liquid's inertia, which the table does not hold, changes this modulus.";
+  }
+  return "";
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,213 @@
+#include "view/event_inspector.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "case/user_error.h"
+#include "extract/extraction.h"
+#include "measurement/event_outlines.h"
+#include "shape/outline_shape.h"
+#include "view/fitted_cell.h"
+#include "view/grey_png.h"
+#include "view/recording_columns.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json points_json(const Eigen::MatrixX2d& points) {
+  Json x = Json::array(), y = Json::array();
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    x.push_back(points(i, 0));
+    y.push_back(points(i, 1));
+  }
+  return {{"x_um", x}, {"y_um", y}};
+}
+
+void check_event(const Recording& recording, std::size_t event) {
+  if (event >= recording.events())
+    throw UserError(fmt::format("{}: has no event {}; its {} events are counted from 0.",
+                                one_line(recording.file().string(), 300), event, recording.events()));
+}
+
+Json features_of(const InspectedRecording& file, std::size_t event) {
+  RecordingColumns columns(file.recording, file.companion);
+  Json features = Json::object();
+  for (const auto& name : columns.names()) {
+    std::array<double, 1> value{};
+    columns.read(name, event, value);
+    features[name] = number_or_null(value[0]);
+  }
+  return features;
+}
+
+/// The outline through the middles of the outermost pixels, in the frame of the picture; without rows if there is none.
+Eigen::MatrixX2d outline_of(const Recording& recording, std::size_t event, double pixel_um) {
+  if (!ShapeSource::has_outlines(recording) || !(pixel_um > 0)) return {};
+  const PixelContour contour = EventOutlines(recording, pixel_um).outline(event);
+  Eigen::MatrixX2d points(static_cast<Eigen::Index>(contour.size()), 2);
+  Eigen::Index row = 0;
+  for (const PixelPoint& pixel : contour) points.row(row++) << (pixel.x + 0.5) * pixel_um, (pixel.y + 0.5) * pixel_um;
+  return points;
+}
+
+/// Distance of the outline from its centroid, divided by its mean, less the same of the model's: what is left of the
+/// shape once size and place agree.
+class ShapeResidual {
+ public:
+  ShapeResidual(const Eigen::MatrixX2d& model, double mean_radius) : mean_radius_(mean_radius) {
+    for (Eigen::Index i = 0; i < model.rows(); ++i)
+      nodes_.push_back({std::atan2(model(i, 1), model(i, 0)), model.row(i).norm()});
+    std::ranges::sort(nodes_, {}, &Node::angle);
+  }
+
+  double at(double x, double y, double measured_mean_radius) const {
+    const double angle = std::atan2(y, x), radius = std::hypot(x, y);
+    return radius * mean_radius_ / measured_mean_radius - radius_at(angle);
+  }
+
+ private:
+  struct Node {
+    double angle, radius;
+  };
+  double radius_at(double angle) const {
+    const auto above = std::ranges::lower_bound(nodes_, angle, {}, &Node::angle);
+    const Node &b = above == nodes_.end() ? nodes_.front() : *above,
+               &a = above == nodes_.begin() ? nodes_.back() : *std::prev(above);
+    const double whole = std::remainder(b.angle - a.angle, 2 * M_PI), part = std::remainder(angle - a.angle, 2 * M_PI);
+    return whole == 0 ? a.radius : a.radius + (b.radius - a.radius) * part / whole;
+  }
+
+  double mean_radius_;
+  std::vector<Node> nodes_;
+};
+
+Json model_json(const FittedCell& cell, const Eigen::MatrixX2d& outline, int direction, const std::string& table) {
+  const OutlineShape measured = outline_shape(outline);
+  Eigen::MatrixX2d model = cell.outline;
+  if (direction < 0) model.col(0) *= -1;
+  const ShapeResidual residual(model, outline_shape(model).mean_radius);
+  Json residuals = Json::array();
+  double squares = 0;
+  for (Eigen::Index i = 0; i < outline.rows(); ++i) {
+    const double r = residual.at(outline(i, 0) - measured.x, outline(i, 1) - measured.y, measured.mean_radius);
+    residuals.push_back(r);
+    squares += r * r;
+  }
+  model.rowwise() += Eigen::RowVector2d(measured.x, measured.y);
+  Json j = points_json(model);
+  j["cortex"] = nullptr;
+  j["area_um2"] = cell.area_um2;
+  j["deformation"] = cell.deformation;
+  j["residual_um"] = residuals;
+  j["residual_rms_um"] = std::sqrt(squares / static_cast<double>(outline.rows()));
+  j["direction"] = direction < 0 ? -1 : 1;
+  j["source"] = fmt::format("shapes of the table {}: modes c2 to c7 of the outline", table);
+  return j;
+}
+
+/// The live solver's case of this cell; the liquid is that of the table, with the viscosity that it had for the event.
+Json case_json(const FittedCell& cell, const TableOrigin& origin, ChannelFlow flow, double young_modulus_kPa) {
+  flow.exponent = origin.flow.exponent;
+  Json liquid{{"rate_ul_per_s", flow.rate_ul_s}, {"law", flow.exponent == 1 ? "newtonian" : "power-law"}};
+  if (flow.exponent == 1) {
+    liquid["viscosity_mPas"] = flow.viscosity_mPas;
+  } else {
+    liquid["consistency_Pa_sn"] = consistency_Pa_sn(flow);
+    liquid["exponent"] = flow.exponent;
+  }
+  Json bulk{{"young_modulus_kPa", young_modulus_kPa}};
+  if (const auto end = origin.model.find(" solid"); end != std::string::npos) bulk["law"] = origin.model.substr(0, end);
+  return {{"channel", {{"width_um", flow.width_um}}},
+          {"flow", liquid},
+          {"cell", {{"radius_um", cell.radius_um}, {"bulk", bulk}}}};
+}
+
+void add_fit(const Extraction& extraction, const EventBlock& block, const ModulusTables& tables,
+             const Eigen::MatrixX2d& outline, Json& j) {
+  const MeasuringConditions& conditions = extraction.settings().conditions;
+  const ShapeMap* const map = tables.shapes(conditions.flow.exponent);
+  if (!has_modulus(block.state[0])) return;
+  const auto cell = map ? fitted_cell(*map, conditions, block.area_um2[0], block.deformation[0]) : std::nullopt;
+  if (!cell) {
+    j["sentence"] = "No table here says what the model's cell looks like.";
+    return;
+  }
+  ChannelFlow flow = conditions.flow;
+  flow.viscosity_mPas = block.viscosity_mPas[0];
+  j["case"] = case_json(*cell, extraction.table().origin(), flow, block.young_modulus_kPa[0]);
+  if (outline.rows() > 2)
+    j["model"] = model_json(*cell, outline, extraction.event_shapes().direction(), map->origin().identifier);
+}
+
+double first_of(std::span<const double> values) { return values.empty() ? NAN : values[0]; }
+
+void add_modulus(const EventBlock& block, Json& j) {
+  const bool has_shape = !block.shape.empty();
+  j["young_modulus_kPa"] = number_or_null(block.young_modulus_kPa[0]);
+  j["standard_error_kPa"] = number_or_null(first_of(block.standard_error_kPa));
+  j["state"] = name_of(block.state[0]);
+  j["sentence"] = sentence_of(block.state[0]);
+  j["shape_excess"] = number_or_null(has_shape ? block.shape[0].excess : NAN);
+  j["shape_excess_error"] = number_or_null(has_shape ? block.shape[0].error : NAN);
+  j["elongated"] = has_shape && block.shape[0].is_elongated();
+  j["odd_share"] = number_or_null(has_shape ? block.shape[0].odd_share : NAN);
+  j["mode_3"] = number_or_null(first_of(block.mode_3));
+  j["young_modulus_asymmetry_kPa"] = number_or_null(first_of(block.asymmetry_kPa));
+  j["standard_error_asymmetry_kPa"] = number_or_null(first_of(block.asymmetry_error_kPa));
+  j["viscosity_mPas"] = number_or_null(block.viscosity_mPas[0]);
+}
+
+}  // namespace
+
+Json inspect_event(const InspectedRecording& file, const ExtractOptions& options, const ModulusTables& tables,
+                   std::size_t event) {
+  const Recording& recording = file.recording;
+  check_event(recording, event);
+  const double pixel_um =
+      options.measuring.pixel_size_um.value_or(recording.metadata().number("imaging:pixel size").value_or(0));
+  Json j{{"event", event}, {"features", features_of(file, event)}, {"pixel_um", number_or_null(pixel_um)}};
+  for (const char* feature : {"image", "mask"})
+    if (const auto size = recording.image_size(feature))
+      j["image_size"] = {{"width", size->width}, {"height", size->height}};
+  for (const char* key : {"young_modulus_kPa", "standard_error_kPa", "shape_excess", "young_modulus_asymmetry_kPa",
+                          "outline", "model", "case"})
+    j[key] = nullptr;
+  const Eigen::MatrixX2d outline = outline_of(recording, event, pixel_um);
+  if (outline.rows() > 0) j["outline"] = points_json(outline);
+  try {
+    Extraction extraction(recording, options, tables);
+    const EventBlock block = extraction.compute(event, 1);
+    add_modulus(block, j);
+    add_fit(extraction, block, tables, outline, j);
+  } catch (const UserError& missing) {
+    j["state"] = "unknown";
+    j["sentence"] = missing.what();
+  }
+  return j;
+}
+
+std::string picture_of_event(const Recording& recording, const std::string& feature, std::size_t event) {
+  check_event(recording, event);
+  const auto size = recording.image_size(feature);
+  if (!size)
+    throw UserError(fmt::format("{}: holds no pictures of the kind {}.", one_line(recording.file().string(), 300),
+                                one_line(feature, 60)));
+  std::vector<std::uint8_t> pixels(size->pixels());
+  recording.read_images(feature, event, 1, pixels);
+  if (feature == "mask")
+    for (auto& pixel : pixels) pixel = pixel ? 255 : 0;
+  return grey_png(*size, pixels);
+}
+
+}  // namespace rheocyte

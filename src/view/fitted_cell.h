@@ -1,0 +1,28 @@
+// The cell of the model that has the area and the deformation of a measured one: its outline, and its radius at rest.
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+
+#include "infer/modulus_map.h"
+#include "infer/shape_map.h"
+
+namespace rheocyte {
+
+struct FittedCell {
+  double area_um2 = 0, deformation = 0;  ///< without what pixels do to them
+  double radius_um = 0;                  ///< of the sphere of the same volume
+  /// Points (x, y) in um about the centroid of the outline's hull, x along the flow; the first one is not repeated.
+  Eigen::MatrixX2d outline;
+};
+
+/// By the modes c_2 to c_7 of the table's shapes (docs/theory-extract.md, eq:modes), with `points` on the outline. The
+/// table's nearest cell counts beyond the ends of its states; nothing where area or deformation is no number, or not
+/// that of a deformed cell.
+std::optional<FittedCell> fitted_cell(const ShapeMap& map, const MeasuringConditions& conditions, double area_um2,
+                                      double deformation, int points = 180);
+
+/// Volume of the body of revolution about the x-axis of a closed outline that is symmetric about it and starts at an
+/// angle of 0: that of its upper half.
+double volume_of_revolution(const Eigen::MatrixX2d& outline);
+
+}  // namespace rheocyte

@@ -1,0 +1,15 @@
+// Pictures of cells as files that every browser shows.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "measurement/pixel_contour.h"
+
+namespace rheocyte {
+
+/// A PNG of 8 bit grey. The pixels, row by row, are stored as they are: nobody waits for the few kilobytes that a
+/// compression would save on the way within one machine.
+std::string grey_png(const ImageSize& size, std::span<const std::uint8_t> pixels);
+
+}  // namespace rheocyte

@@ -1,0 +1,144 @@
+#include "view/moduli_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <system_error>
+
+#include "case/json_guard.h"
+#include "case/user_error.h"
+#include "view/http.h"
+#include "view/moduli_settings.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+}  // namespace
+
+struct ModuliRuns::Run {
+  ~Run() {
+    thread = {};  // stops and joins
+    std::error_code not_there;
+    fs::remove(companion, not_there);
+  }
+
+  Json settings;
+  std::string command;
+  fs::path companion;
+
+  mutable std::mutex mutex;  ///< of what follows
+  const char* state = "running";
+  double done = 0;
+  Json report = Json::object();
+  std::string error;
+  std::jthread thread;
+};
+
+ModuliRuns::ModuliRuns(const ViewItems& items)
+    : items_(items), free_processors_(std::max<int>(1, static_cast<int>(std::thread::hardware_concurrency()))) {}
+
+ModuliRuns::~ModuliRuns() = default;
+
+void ModuliRuns::start(std::size_t item, const Json& settings) {
+  const auto found = items_.recording(item);
+  const ExtractOptions options = extract_options(settings, [this](std::size_t number) { return items_.table(number); });
+  const auto run = std::make_shared<Run>();
+  run->settings = all_settings(options);
+  run->command = extract_command(options, found.place.path);
+  take_out(item);
+  const std::scoped_lock lock(mutex_);
+  run->companion = items_.host().folder() / fmt::format("item-{}-{}_rheocyte.rtdc", item, ++started_);
+  const Json request{{"do", "moduli"},
+                     {"file", found.place.path.string()},
+                     {"settings", run->settings},
+                     {"companion", run->companion.string()},
+                     {"keep", true}};
+  run->thread =
+      std::jthread([this, &run = *run, request](const std::stop_token& stop) { compute(run, request, stop); });
+  runs_[item] = run;
+}
+
+void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& stop) {
+  while (!free_processors_.try_acquire_for(std::chrono::milliseconds(50)))
+    if (stop.stop_requested()) return;
+  Json report = Json::object();
+  std::string error;
+  try {
+    HostedWork work = items_.host().ask(json_text(request));
+    const std::stop_callback at_end(stop, [&work] { work.stop(); });
+    report = parse_sound_json(work.all([&run](double done) {
+      const std::scoped_lock lock(run.mutex);
+      run.done = std::max(run.done, done);
+    }));
+  } catch (const std::exception& reason) {  // also of a system without memory: a thread has nobody to tell
+    error = reason.what();
+  }
+  free_processors_.release();
+  const std::scoped_lock lock(run.mutex);
+  run.state = error.empty() ? "ready" : "failed";
+  run.error = error;
+  run.report = std::move(report);
+  if (error.empty()) run.done = 1;
+}
+
+std::shared_ptr<ModuliRuns::Run> ModuliRuns::run_of(std::size_t item) const {
+  const std::scoped_lock lock(mutex_);
+  const auto found = runs_.find(item);
+  return found == runs_.end() ? nullptr : found->second;
+}
+
+// What is given back ends outside the lock, for it waits for its thread.
+std::shared_ptr<ModuliRuns::Run> ModuliRuns::take_out(std::size_t item) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = runs_.extract(item);
+  return found.empty() ? nullptr : found.mapped();
+}
+
+void ModuliRuns::stop(std::size_t item) {
+  static_cast<void>(items_.recording(item));
+  take_out(item);
+}
+
+Json ModuliRuns::state(std::size_t item) const {
+  static_cast<void>(items_.recording(item));
+  const auto run = run_of(item);
+  if (!run) return {{"state", "none"}, {"done", 0}};
+  const std::scoped_lock lock(run->mutex);
+  Json state{{"state", run->state}, {"done", run->done}, {"settings", run->settings}, {"command", run->command}};
+  if (!run->error.empty()) state["error"] = run->error;
+  state.update(run->report);
+  return state;
+}
+
+Json ModuliRuns::settings(std::size_t item) const {
+  const auto run = run_of(item);
+  return run ? run->settings : Json::object();
+}
+
+fs::path ModuliRuns::companion(std::size_t item) const {
+  const auto run = run_of(item);
+  if (!run) return {};
+  const std::scoped_lock lock(run->mutex);
+  return std::string_view(run->state) == "ready" ? run->companion : fs::path();
+}
+
+Json ModuliRuns::counts(std::size_t item) const {
+  const auto run = run_of(item);
+  if (!run) return Json::object();
+  const std::scoped_lock lock(run->mutex);
+  return run->report.value("counts", Json::object());
+}
+
+Json ModuliRuns::features(std::size_t item) const {
+  const auto run = run_of(item);
+  if (!run) return Json::array();
+  const std::scoped_lock lock(run->mutex);
+  return run->report.value("features", Json::array());
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,97 @@
+// Work in a process of its own: its answer comes whole, its failures are sentences, and its end is noticed.
+#include "store/work_host.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "case/user_error.h"
+
+namespace rheocyte {
+namespace {
+
+namespace fs = std::filesystem;
+
+void expect_sentence(HostedWork work, const std::string& words) {
+  try {
+    static_cast<void>(work.all());
+    FAIL() << "wanted: " << words;
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+TEST(WorkHost, AnswersEachOfManyThreadsWithWhatItAskedFor) {
+  const WorkHost host([](const std::string& request, const WorkReply& reply) {
+    reply.give(request);
+    reply.tell_progress(0.5);
+    reply.give("!");
+  });
+  std::vector<std::thread> threads;
+  for (char name = 'a'; name < 'i'; ++name)
+    threads.emplace_back([&host, name] {
+      const std::string request(300'000, name);  // several packets
+      double progress = 0;
+      EXPECT_EQ(host.ask(request).all([&progress](double fraction) { progress = fraction; }), request + "!");
+      EXPECT_EQ(progress, 0.5);
+    });
+  for (auto& thread : threads) thread.join();
+}
+
+TEST(WorkHost, TellsWhyWorkHasFailed) {
+  const WorkHost host([](const std::string& request, const WorkReply& reply) {
+    if (request == "user") throw UserError("the file is red");
+    if (request == "own") throw std::logic_error("a bug");
+    if (request == "die") ::_exit(7);
+    reply.run_contained("cells.rtdc", [&](const TellProgress&) {
+      reply.give("half of the answer");
+      std::raise(SIGSEGV);
+    });
+  });
+  expect_sentence(host.ask("user"), "the file is red");
+  expect_sentence(host.ask("own"), "An error of the program");
+  expect_sentence(host.ask("die"), "ended before it had answered");
+  expect_sentence(host.ask("break"), "cells.rtdc: the HDF5 library broke down");
+  expect_sentence(host.ask("user"), "the file is red");
+}
+
+TEST(WorkHost, StopsContainedWorkForWhichNobodyWaits) {
+  fs::path folder;
+  std::string seen;
+  {
+    const WorkHost host([](const std::string&, const WorkReply& reply) {
+      reply.run_contained("cells.rtdc", [&](const TellProgress&) {
+        reply.give(std::to_string(::getpid()));
+        for (;;) ::pause();
+      });
+    });
+    folder = host.folder();
+    EXPECT_TRUE(fs::is_directory(folder));
+    HostedWork work = host.ask("wait");
+    work.read([&seen](std::string_view piece) {
+      seen = piece;
+      return false;
+    });
+  }
+  EXPECT_FALSE(fs::exists("/proc/" + seen)) << "the host ends after all its work";
+  EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST(WorkHost, EndsAReaderFromAnotherThread) {
+  const WorkHost host([](const std::string&, const WorkReply& reply) {
+    reply.run_contained("cells.rtdc", [](const TellProgress&) {
+      for (;;) ::pause();
+    });
+  });
+  HostedWork work = host.ask("wait");
+  std::thread stopper([&work] { work.stop(); });
+  EXPECT_THROW(static_cast<void>(work.all()), UserError);
+  stopper.join();
+}
+
+}  // namespace
+}  // namespace rheocyte

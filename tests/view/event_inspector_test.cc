@@ -1,0 +1,165 @@
+// What is told of one event: the numbers of `rheocyte extract`, and a model cell that lies over the picture.
+#include "view/event_inspector.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "case/user_error.h"
+#include "extract/extract_recording.h"
+#include "measurement/recording_writer.h"
+#include "measurement/reference_files.h"
+#include "shape/outline_shape.h"
+#include "view/fitted_cell.h"
+#include "view/recording_columns.h"
+#include "virtual_cells.h"
+
+namespace rheocyte {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What `rheocyte extract` writes for a recording.
+std::filesystem::path extracted(const std::filesystem::path& file, const test::ScratchFolder& folder,
+                                const ExtractOptions& options, const ModulusTables& tables) {
+  ExtractFiles files({folder / "result.rtdc", folder / "result.tsv"}, false);
+  extract_recording(file, files, options, tables, [](double) {});
+  files.publish();
+  return folder / "result.rtdc";
+}
+
+void expect_equal(const Json& number, double wanted, const std::string& what) {
+  if (std::isfinite(wanted))
+    EXPECT_EQ(number, wanted) << what;
+  else
+    EXPECT_TRUE(number.is_null()) << what << number;
+}
+
+void expect_the_numbers_of_extract(const std::filesystem::path& file, const test::ScratchFolder& folder,
+                                   std::size_t most_events) {
+  const ExtractOptions options;
+  const ModulusTables tables("");
+  const Recording recording(file), companion(extracted(file, folder, options, tables));
+  RecordingColumns columns(recording, &companion);
+  for (std::size_t event = 0; event < std::min(most_events, recording.events()); ++event) {
+    const Json told = inspect_event({recording, &companion}, options, tables, event);
+    const auto in_companion = [&](const std::string& name) {
+      std::array<double, 1> value{};
+      columns.read(name, event, value);
+      return value[0];
+    };
+    for (const auto& [key, name] :
+         {std::pair("young_modulus_kPa", "emodulus"), std::pair("standard_error_kPa", "standard_error"),
+          std::pair("shape_excess", "shape_excess"),
+          std::pair("young_modulus_asymmetry_kPa", "young_modulus_asymmetry")})
+      if (columns.has(name)) {
+        expect_equal(told[key], in_companion(name), key);
+        expect_equal(told["features"][name], in_companion(name), name);
+      }
+    const auto state = static_cast<ModulusState>(in_companion("state"));
+    EXPECT_EQ(told["state"], name_of(state));
+    EXPECT_EQ(told["sentence"].get<std::string>().empty(), state == ModulusState::valid);
+    EXPECT_EQ(told["case"].is_null(), !has_modulus(state));
+  }
+}
+
+TEST(EventInspector, GivesTheNumbersOfExtractForVirtualCells) {
+  const test::ScratchFolder folder;
+  test::write_virtual_cells(folder / "cells.rtdc", 30);
+  expect_the_numbers_of_extract(folder / "cells.rtdc", folder, 30);
+}
+
+TEST(EventInspector, GivesTheNumbersOfExtractForTheFieldsRecordings) {
+  RHEOCYTE_NEED_REFERENCE("rtdc/wide_channel_issue_212.rtdc");
+  const test::ScratchFolder folder;
+  expect_the_numbers_of_extract(test::reference_folder() / "rtdc/wide_channel_issue_212.rtdc", folder, 8);
+}
+
+TEST(EventInspector, LaysTheModelOverTheOutline) {
+  const test::ScratchFolder folder;
+  test::write_virtual_cells(folder / "cells.rtdc", 20);
+  const Recording recording(folder / "cells.rtdc");
+  const ModulusTables tables("");
+  int compared = 0;
+  for (std::size_t event = 0; event < recording.events(); ++event) {
+    const Json told = inspect_event({recording, nullptr}, {}, tables, event);
+    ASSERT_FALSE(told["outline"].is_null());
+    if (told["model"].is_null()) continue;
+    ++compared;
+    EXPECT_LT(told["model"]["residual_rms_um"], 0.34) << "of the shape: within a pixel";
+    const auto middle = [](const Json& curve) {
+      double x = 0, y = 0;
+      for (std::size_t i = 0; i < curve["x_um"].size(); ++i) {
+        x += curve["x_um"][i].get<double>() / static_cast<double>(curve["x_um"].size());
+        y += curve["y_um"][i].get<double>() / static_cast<double>(curve["y_um"].size());
+      }
+      return std::pair(x, y);
+    };
+    const auto [x, y] = middle(told["outline"]);
+    const auto [model_x, model_y] = middle(told["model"]);
+    EXPECT_NEAR(x, model_x, 0.5) << "means of points that lie unevenly";
+    EXPECT_NEAR(y, model_y, 0.5);
+  }
+  EXPECT_GT(compared, 10);
+}
+
+TEST(EventInspector, TellsWhyThereIsNoModulus) {
+  const test::ScratchFolder folder;
+  {
+    test::RecordingWriter writer(folder / "a.rtdc");
+    test::write_usual_metadata(writer);
+    writer.scalar("area_um", {80, 5, NAN});
+    writer.scalar("deform", {0.03, 0.03, 0.03});
+  }
+  {
+    test::RecordingWriter writer(folder / "bare.rtdc");
+    writer.scalar("area_um", {80});
+    writer.scalar("deform", {0.03});
+  }
+  const ModulusTables tables("");
+  const Recording recording(folder / "a.rtdc"), bare(folder / "bare.rtdc");
+  EXPECT_EQ(inspect_event({recording, nullptr}, {}, tables, 0)["state"], "valid");
+  EXPECT_EQ(inspect_event({recording, nullptr}, {}, tables, 1)["state"], "too small");
+  const Json without = inspect_event({recording, nullptr}, {}, tables, 2);
+  EXPECT_EQ(without["state"], "no data");
+  EXPECT_TRUE(without["features"]["area_um"].is_null());
+  EXPECT_TRUE(without["outline"].is_null());
+  const Json unknown = inspect_event({bare, nullptr}, {}, tables, 0);
+  EXPECT_EQ(unknown["state"], "unknown");
+  EXPECT_NE(unknown["sentence"].get<std::string>().find("setup:channel width"), std::string::npos) << unknown;
+  EXPECT_THROW(static_cast<void>(inspect_event({recording, nullptr}, {}, tables, 3)), UserError);
+  EXPECT_THROW(static_cast<void>(picture_of_event(recording, "image", 0)), UserError);
+}
+
+TEST(FittedCell, HasTheAreaTheCentroidAndTheVolumeOfItsSphere) {
+  const ModulusTables tables("");
+  const ShapeMap& map = *tables.shapes(1);
+  const MeasuringConditions conditions{map.origin().flow, 0, true};
+  const auto round = fitted_cell(map, conditions, 80, 1e-4);
+  ASSERT_TRUE(round);
+  // To first order in the deformation a nearly round cell is a sphere.
+  EXPECT_NEAR(round->radius_um, std::sqrt(80 / std::numbers::pi), 2e-3);
+  const auto cell = fitted_cell(map, conditions, 80, 0.05);
+  ASSERT_TRUE(cell);
+  const OutlineShape shape = outline_shape(cell->outline);
+  EXPECT_NEAR(shape.area, 80, 0.1) << "180 points";
+  EXPECT_NEAR(shape.x, 0, 1e-9);
+  EXPECT_NEAR(shape.deformation, 0.05, 2.5e-3) << "4 % are in modes beyond c7";
+  EXPECT_FALSE(fitted_cell(map, conditions, 80, -0.01));
+  EXPECT_FALSE(fitted_cell(map, conditions, NAN, 0.05));
+}
+
+TEST(FittedCell, HasAVolumeOfRevolution) {
+  constexpr int points = 2000;
+  Eigen::MatrixX2d ellipse(points, 2);
+  for (int i = 0; i < points; ++i) {
+    const double angle = 2 * std::numbers::pi * i / points;
+    ellipse.row(i) << 3 * std::cos(angle), 2 * std::sin(angle);
+  }
+  EXPECT_NEAR(volume_of_revolution(ellipse), 4. / 3 * std::numbers::pi * 3 * 2 * 2, 5e-4) << "second order in 1/2000";
+}
+
+}  // namespace
+}  // namespace rheocyte
