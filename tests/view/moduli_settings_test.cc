@@ -40,9 +40,9 @@ TEST(ModuliSettings, BecomeOptionsAndTheCommandWithTheSameNumbers) {
 }
 
 TEST(ModuliSettings, ComeBackFromAProcessOfOurOwn) {
-  const Json settings{{"table", "LE-2D-26"},        {"flow_rate_ul_s", 0.04}, {"pixel_size_um", 0.34},
-                      {"viscosity_mPas", 5.125},    {"min", {"area_um=40"}},  {"max", {"area_um=90"}},
-                      {"no_pixelation", true},      {"no_area_correction", true}};
+  const Json settings{{"table", "LE-2D-26"},     {"flow_rate_ul_s", 0.04},    {"pixel_size_um", 0.34},
+                      {"viscosity_mPas", 5.125}, {"min", {"area_um=40"}},     {"max", {"area_um=90"}},
+                      {"no_pixelation", true},   {"no_area_correction", true}};
   EXPECT_EQ(all_settings(options_of_settings(settings)), settings);
   EXPECT_EQ(all_settings(ExtractOptions()), Json::object());
 }
