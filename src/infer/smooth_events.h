@@ -6,13 +6,12 @@
 
 #include "infer/modulus_map.h"
 #include "measurement/pixel_errors.h"
+#include "numeric/whole_packets.h"
 
 namespace rheocyte {
 
 /// Events that are worked on together: their columns stay in the fastest memory.
 inline constexpr std::size_t event_block_size = 512;
-/// The first of so many that are worked on together: an event's last digit does not depend on who stands beside it.
-inline Eigen::Index whole_packets(std::size_t count) { return static_cast<Eigen::Index>((count + 15) / 16 * 16); }
 using EventColumn = Eigen::Array<double, event_block_size, 1>;
 
 struct SmoothEvents {

@@ -12,14 +12,13 @@
 #include <utility>
 
 #include "case/user_error.h"
+#include "numeric/whole_packets.h"
 
 namespace rheocyte {
 
 namespace {
 
 using Array = Eigen::ArrayXd;
-using Source = Eigen::Map<const Array>;
-using Target = Eigen::Map<Array>;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kelvin_at_0_celsius = 273.15;
@@ -67,7 +66,7 @@ PowerLawOfTemperature buyukurganci(Medium medium) {
   }
 }
 
-void buyukurganci_viscosity(Medium medium, const ChannelFlow& flow, const Source& celsius, Target& viscosity) {
+void buyukurganci_viscosity(Medium medium, const ChannelFlow& flow, const Array& celsius, Array& viscosity) {
   const auto [factor, offset] = buyukurganci(medium);
   const double width_mm = 1e-3 * flow.width_um;
   const double shear_scale = 8 * flow.rate_ul_s / (width_mm * width_mm * width_mm);
@@ -89,7 +88,7 @@ PowerLawAtReference herold(Medium medium) {
   return {0.360, 0.634, 23.6};
 }
 
-void herold_viscosity(Medium medium, const ChannelFlow& flow, const Source& celsius, Target& viscosity) {
+void herold_viscosity(Medium medium, const ChannelFlow& flow, const Array& celsius, Array& viscosity) {
   const auto [consistency, n, reference] = herold(medium);
   const double width_m = 1e-6 * flow.width_um;
   const double shear = 1.1856 * 6 * (1e-9 * flow.rate_ul_s) / (width_m * width_m * width_m) * 2 / 3;
@@ -99,7 +98,7 @@ void herold_viscosity(Medium medium, const ChannelFlow& flow, const Source& cels
   viscosity = at_reference * (herold_power_of_temperature * (celsius / reference).log()).exp();
 }
 
-void water_viscosity(const Source& celsius, Target& viscosity) {
+void water_viscosity(const Array& celsius, Array& viscosity) {
   const Array below_20 = 20 - celsius;
   const Array series = 1.2364 - 1.37e-3 * below_20 + 5.7e-6 * below_20.square();
   viscosity = 1.002 * (std::log(10.0) * below_20 / (celsius + 96) * series).exp();
@@ -162,9 +161,8 @@ TemperatureRange Buffer::measured() const {
 void Buffer::viscosity(const ChannelFlow& flow, std::span<const double> celsius,
                        std::span<double> viscosity_mPas) const {
   assert(celsius.size() == viscosity_mPas.size());
-  const auto size = static_cast<Eigen::Index>(celsius.size());
-  const Source source(celsius.data(), size);
-  Target target(viscosity_mPas.data(), size);
+  Array source = Array::Constant(whole_packets(celsius.size()), 20), target = source;
+  std::ranges::copy(celsius, source.data());
   if (medium_ == Medium::water)
     water_viscosity(source, target);
   else if (!(flow.rate_ul_s > 0) || !(flow.width_um > 0))
@@ -174,7 +172,7 @@ void Buffer::viscosity(const ChannelFlow& flow, std::span<const double> celsius,
   else
     buyukurganci_viscosity(medium_, flow, source, target);
   for (std::size_t i = 0; i < celsius.size(); ++i)
-    if (!std::isfinite(celsius[i])) viscosity_mPas[i] = nan;
+    viscosity_mPas[i] = std::isfinite(celsius[i]) ? target[static_cast<Eigen::Index>(i)] : nan;
 }
 
 double Buffer::viscosity(const ChannelFlow& flow, double celsius) const {

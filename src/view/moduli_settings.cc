@@ -163,7 +163,7 @@ struct ToCommand {
 };
 
 std::string named_table(const Json& table, const TableItem& table_item) {
-  if (table.is_number_unsigned()) return table_item(table.get<std::size_t>()).string();
+  if (table.is_number_integer() && table >= 0) return table_item(table.get<std::size_t>()).string();
   const auto shipped = shipped_tables();
   std::string names;
   for (const auto& [identifier, file] : shipped) names += (names.empty() ? "" : ", ") + identifier;
