@@ -3,7 +3,7 @@ import { readFile } from 'node:fs/promises';
 import test from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { noBrowser } from './browser.mjs';
-import { field, moveSlider, openCell, settled, shownDeformation, slider, typeNumber } from './cell_page.mjs';
+import { field, moveSlider, openCell, settled, shownDeformation, slider, typeNumber, until } from './cell_page.mjs';
 import { program as underTest } from './target.mjs';
 
 const modulus = 'cell.bulk.young_modulus_kPa';
@@ -157,7 +157,8 @@ test('A case that the program is given is the one that the page shows', { skip: 
   const file = fileURLToPath(new URL('../../examples/small-linear-cell.toml', import.meta.url));
   return withCell(
     async ({ page }) => {
-      assert.equal(await page.locator('[data-key="cell.bulk.law"] select').inputValue(), 'linear');
+      const law = page.locator('[data-key="cell.bulk.law"] select');
+      assert.ok(await until(async () => (await law.inputValue()) === 'linear'));
     },
     {},
     '',
@@ -170,6 +171,6 @@ test('Two windows of one program do not cancel each other', { skip: noBrowser },
     const other = await page.context().newPage();
     await other.goto(page.url());
     await Promise.all([settled(other), moveSlider(page, modulus, 470)]);
-    assert.ok((await shownDeformation(page)) > (await shownDeformation(other)));
+    assert.ok(await until(async () => (await shownDeformation(page)) > (await shownDeformation(other))));
     await other.close();
   }));

@@ -29,6 +29,13 @@ export async function settled(page) {
   await page.locator('.cell[data-working="idle"] .numbers .lead').waitFor();
 }
 
+/** Asks until the answer is yes, or the test's patience ends. */
+export async function until(question, patience_ms = 30000) {
+  for (const end = Date.now() + patience_ms; Date.now() < end; await new Promise((next) => setTimeout(next, 50)))
+    if (await question()) return true;
+  return false;
+}
+
 export async function shownDeformation(page) {
   return Number(await page.locator('[data-measure="Deformation"] .value').textContent());
 }
