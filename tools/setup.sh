@@ -109,7 +109,7 @@ python_environment() {
 
 # install_node: Node.js 18 or newer and npm, from Debian where none is there.
 install_node() {
-  if command -v npm >/dev/null && node -e 'process.exit(parseInt(process.versions.node) < 18)' 2>/dev/null; then
+  if command -v npm >/dev/null && node -e 'process.exit(parseInt(process.versions.node) < 18 ? 1 : 0)' 2>/dev/null; then
     echo "Node.js $(node --version) is there."
   else
     install_packages nodejs npm
