@@ -53,7 +53,7 @@ class _Cell:
 
 class _Time:
     scheme: Literal["stationary", "monolithic", "partitioned"]  # stationary: the final shape at once; monolithic: the way to it, in implicit steps of controlled size; partitioned: in the splitting of Mokbel et al. 2017
-    end_us: float | None  # time to follow the cell, which starts as a sphere
+    end_us: float | None  # time to follow the cell, which starts as a sphere; in a straight channel the implicit steps end as soon as its shape has settled
     output_every_us: float | None  # time between contours, fields and frames of the animation
     accuracy: float | None  # wanted accuracy of the surface's positions in each step, relative to the radius
     step_us: float | None  # step of the splitting, which is explicit in the elasticity
