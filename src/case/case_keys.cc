@@ -109,8 +109,7 @@ const std::array table = {
         Choice{{"stationary", "monolithic", "partitioned"}, Implied{"monolithic", "time."}}, 0),
     KEY(time.end_us, "us",
         "time to follow the cell, which starts as a sphere; in a straight channel the implicit steps end as soon as "
-        "its "
-        "shape has settled",
+        "its shape has settled",
         Number{{1e-6, 1e12}}, required, in_time),
     KEY(time.output_every_us, "us", "time between contours, fields and frames of the animation", Number{{1e-6, 1e12}},
         10.0, in_time),

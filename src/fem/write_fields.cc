@@ -1,19 +1,15 @@
 #include "fem/write_fields.h"
 
 #include "fem/nodal_fields.h"
+#include "fem/sampled_fields.h"
 #include "fem/vtu_file.h"
 
 namespace rheocyte {
 
 bool write_fields(const Discretisation& space, const Media& media, const VectorXd& unknowns, const Scales& scales,
                   const std::string& path) {
-  const ReferenceElement<2>& reference = space.reference();
-  const int p = reference.degree(), n = reference.nodes();
-  const MatrixXd basis = reference.lagrange(VectorXd::LinSpaced(p + 1, 0, 1));
-  MatrixXd equidistant(n, n);  // from Gauss-Lobatto nodes to those of VTK
-  for (int k = 0; k < n; ++k) {
-    for (int l = 0; l < n; ++l) equidistant(k, l) = basis(k % (p + 1), l % (p + 1)) * basis(k / (p + 1), l / (p + 1));
-  }
+  const int p = space.reference().degree();
+  const MatrixXd equidistant = sampling_grid(space.reference().lagrange(VectorXd::LinSpaced(p + 1, 0, 1)));
   using Fields = NodalFields;
   const Fields nodal(space, media, unknowns, scales);
   VtuFile file(2, p);

@@ -78,42 +78,40 @@ std::optional<std::string> receive_request(int socket) {
   return std::nullopt;
 }
 
-union OneDescriptor {
-  char bytes[CMSG_SPACE(sizeof(int))];
-  cmsghdr align;
+/// One byte, because nothing cannot be sent, with room for one descriptor.
+struct DescriptorMessage {
+  DescriptorMessage() {
+    header.msg_iov = &content;
+    header.msg_iovlen = 1;
+    header.msg_control = space;
+    header.msg_controllen = sizeof space;
+  }
+  DescriptorMessage(const DescriptorMessage&) = delete;
+  DescriptorMessage& operator=(const DescriptorMessage&) = delete;
+
+  alignas(cmsghdr) char space[CMSG_SPACE(sizeof(int))] = {};
+  char byte = 0;
+  iovec content{&byte, 1};
+  msghdr header{};
 };
 
 bool pass_descriptor(int socket, int descriptor) {
-  OneDescriptor space{};
-  char byte = 0;
-  iovec content{&byte, 1};
-  msghdr message{};
-  message.msg_iov = &content;
-  message.msg_iovlen = 1;
-  message.msg_control = space.bytes;
-  message.msg_controllen = sizeof space.bytes;
-  cmsghdr* const head = CMSG_FIRSTHDR(&message);
+  DescriptorMessage message;
+  cmsghdr* const head = CMSG_FIRSTHDR(&message.header);
   head->cmsg_level = SOL_SOCKET;
   head->cmsg_type = SCM_RIGHTS;
   head->cmsg_len = CMSG_LEN(sizeof descriptor);
   std::memcpy(CMSG_DATA(head), &descriptor, sizeof descriptor);
-  return ::sendmsg(socket, &message, MSG_NOSIGNAL) == 1;
+  return ::sendmsg(socket, &message.header, MSG_NOSIGNAL) == 1;
 }
 
 /// -1 once the other end is closed.
 int take_descriptor(int socket) {
   for (;;) {
-    OneDescriptor space{};
-    char byte = 0;
-    iovec content{&byte, 1};
-    msghdr message{};
-    message.msg_iov = &content;
-    message.msg_iovlen = 1;
-    message.msg_control = space.bytes;
-    message.msg_controllen = sizeof space.bytes;
-    const ssize_t count = ::recvmsg(socket, &message, MSG_CMSG_CLOEXEC);
+    DescriptorMessage message;
+    const ssize_t count = ::recvmsg(socket, &message.header, MSG_CMSG_CLOEXEC);
     if (count < 0 && errno == EINTR) continue;
-    const cmsghdr* const head = count == 1 ? CMSG_FIRSTHDR(&message) : nullptr;
+    const cmsghdr* const head = count == 1 ? CMSG_FIRSTHDR(&message.header) : nullptr;
     if (!head || head->cmsg_type != SCM_RIGHTS) return -1;
     int descriptor = -1;
     std::memcpy(&descriptor, CMSG_DATA(head), sizeof descriptor);
