@@ -37,6 +37,7 @@ class ExtractJob {
         summary_file_(summary_file(options.batch)),
         tables_(options.table) {
     check_against_tables(options, tables_);
+    check_place_of_summary(summary_file_);
   }
 
   int run() {

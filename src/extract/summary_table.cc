@@ -214,6 +214,8 @@ std::string summary_table(std::span<const SummaryLine> lines, std::string_view e
   return text + "\n";
 }
 
+void check_place_of_summary(const fs::path& file) { check_replaceable(file, mark, Foreign::keep); }
+
 void add_to_summary(const fs::path& file, std::span<const SummaryLine> lines) {
   std::error_code error;
   const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path(), error);
@@ -221,7 +223,7 @@ void add_to_summary(const fs::path& file, std::span<const SummaryLine> lines) {
   std::vector<SummaryLine> named(lines.begin(), lines.end());
   for (auto& line : named) line.recording = name_in_summary(line.recording, folder);
   const Claim alone = wait_for_folder(folder);
-  check_replaceable(file, mark, Foreign::keep);
+  check_place_of_summary(file);
   write_own_file(file, summary_table(named, content_of(file)), mark, Foreign::keep);
 }
 

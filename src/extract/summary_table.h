@@ -20,6 +20,9 @@ struct SummaryLine {
 /// the recordings' names. Earlier columns of other names are left out.
 std::string summary_table(std::span<const SummaryLine> lines, std::string_view earlier = {});
 
+/// UserError if a file that is not ours stands where the summary shall be.
+void check_place_of_summary(const std::filesystem::path& file);
+
 /// Adds lines to a file, whose folder is made. Recordings below that folder are named as seen from there, others in
 /// full. UserError, also if a file that is not ours stands there.
 void add_to_summary(const std::filesystem::path& file, std::span<const SummaryLine> lines);

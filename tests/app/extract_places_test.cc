@@ -72,6 +72,14 @@ TEST_F(ExtractPlaces, OneTableTakesTheRecordingsOfAllCallsIntoAFolder) {
   EXPECT_NE(summary.find("\ttest\t2026-01-31\t12:34:56\t1\t\t"), std::string::npos) << summary;
 }
 
+TEST_F(ExtractPlaces, AForeignFileInThePlaceOfTheTableIsNamedBeforeAnythingIsComputed) {
+  write_recording("a.rtdc");
+  test::write_file(folder_ / "rheocyte_summary.tsv", "my own notes");
+  expect_refusal({path("a.rtdc")}, "rheocyte_summary.tsv: is there and was not written by rheocyte");
+  EXPECT_EQ(test::content_of(folder_ / "rheocyte_summary.tsv"), "my own notes");
+  EXPECT_FALSE(fs::exists(folder_ / "a_rheocyte.rtdc"));
+}
+
 TEST_F(ExtractPlaces, WithoutAFolderForResultsTheTableLiesWhereAllRecordingsDo) {
   fs::create_directories(folder_ / "data/day1/early");
   fs::create_directories(folder_ / "data/day2");
