@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "solve/continuation.h"
 #include "solve/describe_duct.h"
+#include "solve/duct_branch.h"
 #include "solve/stationary_duct.h"
 
 namespace rheocyte {
@@ -104,6 +106,49 @@ TEST(SquareChannelSlow, DeformationsAreThoseOfAnIndependentProgram) {
   EXPECT_NEAR(thinning.diagonal / 0.02040, 1, 3e-4);
   EXPECT_NEAR(deformations(newtonian_cell(0.6, 4.0), 5).side / 0.012644, 1, 3e-4);
   EXPECT_NEAR(deformations(newtonian_cell(0.6, 2.5), 5).side / 0.03502, 1, 3e-4);
+}
+
+TEST(SquareChannelSlow, ASmallCellDeformsInTheMeanOfBothViewsAsInTheTubeWhoseFlowIsTheSameNearTheAxis) {
+  // A cell of a tenth of the half width sees the velocity on the axis and the curvature of the profile, which is that
+  // of the pressure gradient: u_max = 2.0963 U and 7.113538 eta U / h^2 in the square, 2 U and 8 eta U / R^2 in a tube.
+  // What the profile has besides is 0.18 (r/h)^2 cos 4phi of the parabola: both views leave the tube's deformation by
+  // a^2 in opposite directions, and their mean does not. The walls change it by the fifth power of the ratio at first.
+  const double axis = 2.0963, gradient = 7.113538;
+  const double R = std::sqrt(4 * axis / gradient), U = axis / 2;
+  Problem square;
+  square.section = Section::square;
+  square.radius_ratio = 0.1;
+  square.bulk.shear_modulus = 2.7;
+  Problem tube = square;
+  tube.section = Section::tube;
+  tube.radius_ratio = 0.1 / R;
+  tube.bulk.shear_modulus = 2.7 * R / U;
+  tube.accuracy = 1e-5;
+  const StationaryState state = solve_stationary(tube);
+  ASSERT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
+  const auto [side, diagonal] = deformations(square, 5);
+  // Degree 5 is good to 1e-4; second order in the difference of the views is 1e-5.
+  EXPECT_NEAR((side + diagonal) / 2 / state.shape.deformation, 1, 2e-4);
+  EXPECT_GT(side, diagonal);
+  EXPECT_NEAR(side / diagonal, 1, 6e-3);  // 2 x 0.18 a^2 by the profile, and somewhat more by the cell's answer
+}
+
+TEST(SquareChannelSlow, StatesOfABranchAreThoseOfTheCellsThemselves) {
+  // The branch is followed for all states at once; both ways end at degree 4 with a Newton residual of 1e-9.
+  Problem problem = newtonian_cell(0.4, 0.15);
+  problem.accuracy = 0.05;
+  const std::vector heights{0.6, 1.0};
+  const DuctBranch branch = follow_in_duct(problem, 0.01, heights);
+  EXPECT_EQ(branch.end, Status::converged);
+  ASSERT_EQ(branch.states.size(), heights.size());
+  EXPECT_NEAR(branch.states[1].shape.deformation / 0.01, 1, 0.1);
+  EXPECT_NEAR(branch.states[0].shape.deformation / branch.states[1].shape.deformation, 0.36, 0.03);
+  Problem one = problem;
+  one.bulk.shear_modulus /= branch.states[0].outcome.reached;
+  const StationaryState state = solve_stationary(one);
+  ASSERT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
+  EXPECT_EQ(state.statistics.degree, branch.states[0].statistics.degree);
+  EXPECT_NEAR(branch.states[0].shape.deformation / state.shape.deformation, 1, 1e-7);
 }
 
 TEST(SquareChannelSlow, FarTooSoftCellsAreRefusedOnTheCoarseMesh) {

@@ -1,0 +1,136 @@
+#include "solve/duct_branch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "solve/duct_solver.h"
+#include "solve/surface_stability.h"
+
+namespace rheocyte {
+namespace {
+
+/// The end found at the first degree is not quite that of the higher ones: the last state stays before it, and steps
+/// back where it is beyond.
+constexpr double share_of_end = 0.97, step_back = 0.94;
+constexpr int greatest_steps_back = 4;
+/// Of the compliance: so closely the end is looked for.
+constexpr double least_step = 0.01;
+
+/// A state of the way at the first degree.
+struct Milestone {
+  double compliance, deformation;
+  VectorXd unknowns;
+};
+
+class DuctBranchFollower {
+ public:
+  DuctBranchFollower(const Problem& problem, double greatest_deformation, const std::atomic<bool>* stop)
+      : problem_(problem), greatest_(greatest_deformation), solver_(problem, nobody_, stop, counts_), stop_(stop) {
+    solver_.keep_systems();
+  }
+
+  DuctBranch follow(std::span<const double> heights) {
+    DuctBranch branch;
+    branch.end = walk();
+    if (way_.empty() || is_stopped()) return branch;
+    double last = std::min(share_of_end * way_.back().deformation, greatest_);
+    std::optional<StationaryState> softest;
+    for (int attempt = 0; !softest && attempt <= greatest_steps_back; ++attempt) {
+      if (attempt > 0) last *= step_back;
+      softest = state_of(last);
+    }
+    for (const double height : heights) {
+      if (!softest || is_stopped()) return {{}, branch.end};
+      auto state = height < 1 ? state_of(height * height * last) : softest;
+      if (!state) return {{}, branch.end};
+      branch.states.push_back(std::move(*state));
+    }
+    return branch;
+  }
+
+ private:
+  bool is_stopped() const { return stop_ && *stop_; }
+
+  /// At the first degree from the sphere on.
+  Status walk() {
+    ContinuationOptions options = solver_.options(false);
+    options.least_step = least_step;
+    options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
+      const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
+      if (duct_stability_margin(space, state.unknowns) < 0) return false;
+      const double d = duct_deformation(space, state.unknowns, problem_.camera);
+      if (d > 1.3 * greatest_) return false;  // rather a nearer one
+      is_covered_ = d > greatest_;
+      way_.push_back({state.parameter, d, state.unknowns});
+      return true;
+    };
+    first_ = solver_.enter(DuctSolver::first_degree);
+    if (first_.status != Status::converged) return first_.status;
+    options.accept(first_.discrete->system, first_.branch);
+    DuctState state = first_;
+    while (state.status == Status::converged && !is_covered_)
+      solver_.advance(state, 1.5 * state.branch.parameter, options);
+    return is_covered_ ? Status::converged : reason(state);
+  }
+
+  Status reason(const DuctState& state) const {
+    if (state.status == Status::stopped) return state.status;
+    if (duct_stability_margin(state.discrete->space, way_.back().unknowns) < small_margin)
+      return Status::surface_unstable;
+    return state.status == Status::iteration_limit ? Status::branch_ended : state.status;
+  }
+
+  /// The state whose deformation is about this at the first degree; nothing if it is not one at the higher ones.
+  std::optional<StationaryState> state_of(double deformation) {
+    StationaryState result;
+    solver_.count_in(result);
+    const Milestone guess = guess_of(deformation);
+    DuctState state = solver_.at_compliance(first_, guess.compliance, guess.unknowns);
+    if (state.status == Status::converged) result.outcome.status = solver_.climb(state);
+    const bool has_state =
+        result.outcome.status == Status::converged || result.outcome.status == Status::accuracy_not_reached;
+    if (!has_state || duct_stability_margin(state.discrete->space, state.branch.unknowns) < 0) return {};
+    describe_duct(problem_, media_at(problem_, guess.compliance), state.discrete, state.branch.unknowns, result);
+    result.write_fields = {};
+    result.outcome.reached = guess.compliance;
+    return result;
+  }
+
+  Milestone guess_of(double deformation) const {
+    const auto beyond = std::ranges::lower_bound(way_, deformation, {}, &Milestone::deformation);
+    if (beyond == way_.end()) return way_.back();
+    if (beyond == way_.begin()) {
+      // d goes with the square of the compliance, displacements with the compliance.
+      Milestone guess{way_.front().compliance * std::sqrt(deformation / way_.front().deformation), deformation,
+                      way_.front().unknowns};
+      first_.discrete->system.scale_displacement(guess.compliance / way_.front().compliance, guess.unknowns);
+      return guess;
+    }
+    const Milestone &a = *(beyond - 1), &b = *beyond;
+    const double share = std::log(deformation / a.deformation) / std::log(b.deformation / a.deformation);
+    const double compliance = a.compliance * std::pow(b.compliance / a.compliance, share);
+    const double way = (compliance - a.compliance) / (b.compliance - a.compliance);
+    return {compliance, deformation, (1 - way) * a.unknowns + way * b.unknowns};
+  }
+
+  const Problem& problem_;
+  double greatest_;
+  StationaryState counts_;
+  ProgressCallback nobody_;
+  DuctSolver solver_;
+  const std::atomic<bool>* stop_;
+  DuctState first_;
+  std::vector<Milestone> way_;
+  bool is_covered_ = false;
+};
+
+}  // namespace
+
+DuctBranch follow_in_duct(const Problem& problem, double greatest_deformation, std::span<const double> heights,
+                          const std::atomic<bool>* stop) {
+  return DuctBranchFollower(problem, greatest_deformation, stop).follow(heights);
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,23 @@
+// Some states of one branch in a square duct (docs/theory-square.md, sec. "States of a table").
+#pragma once
+#include <span>
+#include <vector>
+
+#include "solve/stationary.h"
+
+namespace rheocyte {
+
+/// States from stiff to soft; the moduli of each are those of the problem over its outcome.reached. They write no
+/// fields.
+struct DuctBranch {
+  std::vector<StationaryState> states;
+  Status end = Status::not_started;  ///< why the branch goes no farther; converged: to the greatest deformation
+};
+
+/// The branch is followed from the sphere until its deformation d is the greatest, or to its end. Then it has one state
+/// for each height, a share of sqrt(d) at that last state (ascending, the last one 1; met within some per cent). Each
+/// is as accurate as the problem says. Without states if a height has none, and when it was stopped.
+DuctBranch follow_in_duct(const Problem&, double greatest_deformation, std::span<const double> heights,
+                          const std::atomic<bool>* stop = nullptr);
+
+}  // namespace rheocyte

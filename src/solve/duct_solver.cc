@@ -1,0 +1,141 @@
+#include "solve/duct_solver.h"
+
+#include <array>
+
+#include "solve/ladder.h"
+
+namespace rheocyte {
+namespace {
+
+/// Degrees of the way along the branch.
+constexpr std::array ways = {3, 4, 5};
+constexpr double tolerance_on_the_way = 1e-7, final_tolerance = 1e-9;
+constexpr double least_step_before_refining = 0.03, least_step_at_last = 5e-3;
+
+/// Higher degrees move the end of a branch by a few per cent: where it is farther from the wanted compliance than this,
+/// they are not tried.
+constexpr double hopeful_share = 0.85;
+
+/// A degree more costs three times as much here, and less caution than in the tube has to do (eq:square-error).
+constexpr double share_of_change_before = 0.1;
+
+int degree_of(const DuctState& state) { return state.discrete->space.reference().degree(); }
+
+}  // namespace
+
+DuctState DuctSolver::follow() {
+  DuctState state;
+  for (const int degree : ways) {
+    DuctState next =
+        state.discrete ? at_degree(state, degree, {.tolerance = tolerance_on_the_way, .stop = stop_}) : enter(degree);
+    if (next.status == Status::converged && next.branch.parameter < 1) advance(next, 1, options(degree == ways.back()));
+    if (next.branch.unknowns.size() > 0 && next.branch.parameter >= state.branch.parameter) {
+      state = std::move(next);
+    } else {
+      state.status = next.status;
+    }
+    if (state.status == Status::converged || state.status == Status::stopped) break;
+    if (state.branch.parameter > 0 && state.branch.parameter < hopeful_share) break;
+  }
+  return state;
+}
+
+Status DuctSolver::climb(DuctState& state) {
+  std::vector<double> deformations;
+  for (int degree = std::max(first_degree, degree_of(state)); degree <= last_degree; ++degree) {
+    if (degree > degree_of(state)) {
+      DuctState next = at_degree(state, degree, {.tolerance = final_tolerance, .stop = stop_});
+      if (next.status != Status::converged) return next.status;
+      state = std::move(next);
+    }
+    deformations.push_back(duct_deformation(state.discrete->space, state.branch.unknowns, problem_.camera));
+    report(state.branch, deformations.back(), degree);
+    result_->estimated_error = estimate_error(deformations, share_of_change_before);
+    if (result_->estimated_error <= problem_.accuracy) return Status::converged;
+  }
+  return Status::accuracy_not_reached;
+}
+
+ContinuationOptions DuctSolver::options(bool last) {
+  ContinuationOptions options;
+  options.newton = {.tolerance = tolerance_on_the_way, .iteration_limit = 6, .stop = stop_};
+  options.least_step = last ? least_step_at_last : least_step_before_refining;
+  options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
+    const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
+    if (duct_stability_margin(space, state.unknowns) < 0) return false;
+    report(state, duct_deformation(space, state.unknowns, problem_.camera), space.reference().degree());
+    return true;
+  };
+  return options;
+}
+
+std::shared_ptr<DuctDiscrete> DuctSolver::discrete(int degree) {
+  if (const auto found = discrete_.find(degree); found != discrete_.end()) return found->second;
+  auto made = std::make_shared<DuctDiscrete>(problem_, DuctSubdivision{}, degree);
+  if (keeps_systems_) discrete_[degree] = made;
+  return made;
+}
+
+DuctState DuctSolver::enter(int degree) {
+  DuctState state;
+  state.discrete = discrete(degree);
+  const WorkMeter before = state.discrete->system.work();
+  take(state, start_branch(state.discrete->system, problem_, options(false)));
+  count(state.discrete->system.work() - before);
+  return state;
+}
+
+void DuctSolver::advance(DuctState& state, double compliance, const ContinuationOptions& options) {
+  const WorkMeter before = state.discrete->system.work();
+  Path path = stiffness_path(state.discrete->system, problem_);
+  path.end = compliance;
+  take(state, continue_branch(path, options, state.branch));
+  count(state.discrete->system.work() - before);
+}
+
+DuctState DuctSolver::at_degree(const DuctState& from, int degree, const NewtonOptions& options) {
+  const auto to = discrete(degree);
+  return solved(to, {from.branch.parameter, transfer(from.discrete->space, from.branch.unknowns, to->space), {}, 0},
+                options);
+}
+
+DuctState DuctSolver::at_compliance(const DuctState& near, double compliance, VectorXd guess) {
+  return solved(near.discrete, {compliance, std::move(guess), {}, 0},
+                {.tolerance = tolerance_on_the_way, .stop = stop_});
+}
+
+DuctState DuctSolver::solved(std::shared_ptr<DuctDiscrete> at, BranchState guess, const NewtonOptions& options) {
+  DuctState to{.discrete = std::move(at), .branch = std::move(guess)};
+  DuctSystem& system = to.discrete->system;
+  const WorkMeter before = system.work();
+  const NewtonReport report = newton(system, media_at(problem_, to.branch.parameter), options, to.branch.unknowns);
+  to.status = report.status;
+  to.residual = report.residual;
+  to.branch.newton_iterations = report.iterations;
+  result_->statistics.newton_iterations += report.iterations;
+  count(system.work() - before);
+  return to;
+}
+
+void DuctSolver::take(DuctState& state, const ContinuationReport& report) {
+  state.status = report.status;
+  state.branch = report.last;
+  state.residual = report.residual;
+  result_->statistics.newton_iterations += report.newton_iterations;
+  result_->statistics.continuation_steps += report.steps;
+}
+
+void DuctSolver::count(const WorkMeter& work) {
+  SolveStatistics& statistics = result_->statistics;
+  statistics.factorisations += work.factorisations;
+  statistics.assembly_s += work.assembly_s;
+  statistics.factorisation_s += work.condensation_s + work.sparse_s;
+  statistics.substitution_s += work.solve_s;
+}
+
+void DuctSolver::report(const BranchState& state, double deformation, int degree) {
+  result_->branch.push_back({state.parameter, deformation, state.newton_iterations, degree});
+  if (progress_) progress_(result_->branch.back());
+}
+
+}  // namespace rheocyte

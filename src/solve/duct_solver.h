@@ -1,0 +1,65 @@
+// One case in a square duct on its way: along the branch at low degrees, then to ever higher ones
+// (docs/theory-square.md, sec. accuracy).
+#pragma once
+#include <map>
+
+#include "solve/continuation.h"
+#include "solve/describe_duct.h"
+#include "solve/stationary.h"
+
+namespace rheocyte {
+
+/// A state, how it was resolved, and how the way to it ended.
+struct DuctState {
+  Status status = Status::not_started;
+  std::shared_ptr<DuctDiscrete> discrete;
+  BranchState branch;  ///< its parameter is the compliance relative to the problem's
+  double residual = 0;
+};
+
+/// What steps and work there are is counted in a result, which must outlive the solver as problem, callback and stop
+/// must.
+class DuctSolver {
+ public:
+  DuctSolver(const Problem& problem, const ProgressCallback& progress, const std::atomic<bool>* stop,
+             StationaryState& result)
+      : problem_(problem), progress_(progress), stop_(stop), result_(&result) {}
+
+  static constexpr int first_degree = 3, last_degree = 7;
+
+  /// Systems of all degrees are kept for the next states.
+  void keep_systems() { keeps_systems_ = true; }
+  /// From now on steps, errors and work belong to this result.
+  void count_in(StationaryState& result) { result_ = &result; }
+
+  /// From the sphere to the wanted compliance, or as far as the branch goes.
+  DuctState follow();
+  /// The first state of the branch at a degree.
+  DuctState enter(int degree);
+  /// As far as the branch goes, or to a compliance; `accept` as in ContinuationOptions.
+  void advance(DuctState&, double compliance, const ContinuationOptions&);
+  /// The same state at another degree.
+  DuctState at_degree(const DuctState& from, int degree, const NewtonOptions&);
+  /// Newton at a compliance from a guess at the degree of a state.
+  DuctState at_compliance(const DuctState& near, double compliance, VectorXd guess);
+  /// Raises the degree until the error is small.
+  Status climb(DuctState&);
+  /// Along the branch; the last way looks for its end more closely.
+  ContinuationOptions options(bool last);
+
+ private:
+  std::shared_ptr<DuctDiscrete> discrete(int degree);
+  DuctState solved(std::shared_ptr<DuctDiscrete>, BranchState, const NewtonOptions&);
+  void take(DuctState&, const ContinuationReport&);
+  void count(const WorkMeter&);
+  void report(const BranchState&, double deformation, int degree);
+
+  const Problem& problem_;
+  const ProgressCallback& progress_;
+  const std::atomic<bool>* stop_;
+  StationaryState* result_;
+  std::map<int, std::shared_ptr<DuctDiscrete>> discrete_;  ///< by degree
+  bool keeps_systems_ = false;
+};
+
+}  // namespace rheocyte
