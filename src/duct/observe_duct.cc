@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "shape/curve.h"
 
@@ -114,38 +115,17 @@ struct EdgeOfSurface {
   }
 };
 
-}  // namespace
-
-DuctPoint duct_point(const DuctSpace& space, const VectorXd& unknowns, int node) {
-  DuctPoint x = space.node_points()[node];
-  for (int c = 0; c < 3; ++c) {
-    if (const int unknown = space.displacement(node, c); unknown >= 0) x(c) += unknowns(unknown);
-  }
-  return x;
-}
-
-Contour duct_contour(const DuctSpace& space, const VectorXd& unknowns, Camera camera) {
-  Contour contour;
-  for (const MeridianEdge& edge : meridian_edges(space, camera)) {
-    CurvePiece& piece = contour.pieces.emplace_back(edge.nodes.size(), 2);
-    for (int k = 0; k < piece.rows(); ++k) {
-      const DuctPoint x = duct_point(space, unknowns, edge.nodes[k]);
-      piece.row(k) << x(0), x.tail<2>().norm();
-    }
-  }
-  return contour;
-}
-
-DuctMeridian duct_meridian(const DuctSpace& space, const VectorXd& unknowns, Camera camera, int per_edge) {
+/// At parameters of each edge that lie symmetrically in [0, 1].
+DuctMeridian meridian_at(const VectorXd& parameters, const DuctSpace& space, const VectorXd& unknowns, Camera camera) {
   const auto edges = meridian_edges(space, camera);
-  const Eigen::Index all = per_edge * Eigen::Index(edges.size());
+  const Eigen::Index per_edge = parameters.size(), all = per_edge * Eigen::Index(edges.size());
   DuctMeridian meridian{VectorXd(all), Eigen::MatrixX2d(all, 2), Eigen::MatrixX2d(all, 2), Eigen::MatrixX2d(all, 2)};
   Eigen::Index row = 0;
   for (const MeridianEdge& edge : edges) {
-    VectorXd along = VectorXd::LinSpaced(per_edge, 0, 1);
+    VectorXd along = parameters;
     if (edge.reversed) along.reverseInPlace();
     const EdgeOfSurface patch(space, unknowns, edge, along);
-    for (int q = 0; q < per_edge; ++q, ++row) {
+    for (int q = 0; q < int(per_edge); ++q, ++row) {
       const DuctPoint x = patch.now[0].row(q), X = patch.rest[0].row(q);
       meridian.rest_angle(row) = std::atan2(X.tail<2>().norm(), X(0));
       meridian.point.row(row) << x(0), x.tail<2>().norm();
@@ -156,9 +136,9 @@ DuctMeridian duct_meridian(const DuctSpace& space, const VectorXd& unknowns, Cam
   return meridian;
 }
 
-DuctSurface duct_surface(const DuctSpace& space, const VectorXd& unknowns, int per_edge) {
+/// At products of parameters in [0, 1] on each face.
+DuctSurface surface_at(const VectorXd& at, const DuctSpace& space, const VectorXd& unknowns) {
   const int degree = space.reference().degree();
-  const VectorXd at = VectorXd::LinSpaced(per_edge, 0, 1);
   const MatrixXd value = lagrange_basis(degree, at), slope = lagrange_slopes(degree, at);
   const MatrixXd shape = on_face(value, value), slope1 = on_face(slope, value), slope2 = on_face(value, slope);
   const auto faces = surface_faces(space);
@@ -188,6 +168,49 @@ DuctSurface duct_surface(const DuctSpace& space, const VectorXd& unknowns, int p
     }
   }
   return surface;
+}
+
+}  // namespace
+
+DuctPoint duct_point(const DuctSpace& space, const VectorXd& unknowns, int node) {
+  DuctPoint x = space.node_points()[node];
+  for (int c = 0; c < 3; ++c) {
+    if (const int unknown = space.displacement(node, c); unknown >= 0) x(c) += unknowns(unknown);
+  }
+  return x;
+}
+
+Contour duct_contour(const DuctSpace& space, const VectorXd& unknowns, Camera camera) {
+  Contour contour;
+  for (const MeridianEdge& edge : meridian_edges(space, camera)) {
+    CurvePiece& piece = contour.pieces.emplace_back(edge.nodes.size(), 2);
+    for (int k = 0; k < piece.rows(); ++k) {
+      const DuctPoint x = duct_point(space, unknowns, edge.nodes[k]);
+      piece.row(k) << x(0), x.tail<2>().norm();
+    }
+  }
+  return contour;
+}
+
+DuctMeridian duct_meridian(const DuctSpace& space, const VectorXd& unknowns, Camera camera, int per_edge) {
+  return meridian_at(VectorXd::LinSpaced(per_edge, 0, 1), space, unknowns, camera);
+}
+
+DuctSurface duct_surface(const DuctSpace& space, const VectorXd& unknowns, int per_edge) {
+  return surface_at(VectorXd::LinSpaced(per_edge, 0, 1), space, unknowns);
+}
+
+Eigen::MatrixX2d duct_principal_stretches(const DuctSpace& space, const VectorXd& unknowns) {
+  const VectorXd at = gauss_legendre(space.reference().degree()).points;
+  // In a plane of symmetry the principal directions lie along the meridian and across it.
+  const Eigen::MatrixX2d of_faces = surface_at(at, space, unknowns).stretch,
+                         of_side = meridian_at(at, space, unknowns, Camera::side).stretch,
+                         of_diagonal = meridian_at(at, space, unknowns, Camera::diagonal).stretch;
+  Eigen::MatrixX2d all(of_faces.rows() + of_side.rows() + of_diagonal.rows(), 2);
+  all << of_faces, of_side, of_diagonal;
+  for (auto row : all.rowwise())
+    if (row(0) > row(1)) std::swap(row(0), row(1));
+  return all;
 }
 
 double duct_stretch_change(const DuctSpace& space, const VectorXd& from, const VectorXd& to) {

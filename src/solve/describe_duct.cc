@@ -30,9 +30,9 @@ SurfaceProfile profile(const DuctSpace& space, const VectorXd& unknowns, Camera 
   return profile;
 }
 
-double biot_ratio(const DuctSurface& surface) {
-  // Incompressible: the normal stretch is 1 / (least greatest).
-  return (surface.stretch.col(0).array().square() * surface.stretch.col(1).array()).minCoeff();
+/// Of principal stretches, the least first. Incompressible: the normal stretch is 1 / (least greatest).
+double biot_ratio(const Eigen::MatrixX2d& stretch) {
+  return (stretch.col(0).array().square() * stretch.col(1).array()).minCoeff();
 }
 
 double margin_of(double ratio) { return (ratio - biot_limit) / (1 - biot_limit); }
@@ -61,7 +61,7 @@ double duct_deformation(const DuctSpace& space, const VectorXd& unknowns, Camera
 }
 
 double duct_stability_margin(const DuctSpace& space, const VectorXd& unknowns) {
-  return margin_of(biot_ratio(duct_surface(space, unknowns, 2 * space.reference().degree() + 1)));
+  return margin_of(biot_ratio(duct_principal_stretches(space, unknowns)));
 }
 
 void describe_duct(const Problem& problem, const Media& media, const std::shared_ptr<DuctDiscrete>& discrete,
@@ -87,9 +87,9 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
   const double a = space.mesh().geometry().radius();
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
   read_flow(problem, media, *discrete, unknowns, r);
-  const DuctSurface surface = duct_surface(space, unknowns, 2 * space.reference().degree() + 1);
-  r.least_meridional_stretch = surface.stretch.col(0).minCoeff();
-  r.biot_ratio = biot_ratio(surface);
+  const Eigen::MatrixX2d stretch = duct_principal_stretches(space, unknowns);
+  r.least_meridional_stretch = stretch.col(0).minCoeff();
+  r.biot_ratio = biot_ratio(stretch);
   r.stability_margin = margin_of(r.biot_ratio);
   r.least_tension = 0;
   r.statistics.unknowns = space.unknowns();
