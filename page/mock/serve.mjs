@@ -6,7 +6,7 @@ import { setTimeout as pause } from 'node:timers/promises';
 import { fileURLToPath } from 'node:url';
 import { readKeys } from './keys.mjs';
 import { recordingRoute, resetRecordings } from './recording_routes.mjs';
-import { linesOf, physicsOf, stateOf, stepOf, wrongKey } from './state.mjs';
+import { fieldsOf, linesOf, physicsOf, stateOf, stepOf, wrongKey } from './state.mjs';
 
 const dist = fileURLToPath(new URL('../dist/', import.meta.url));
 const types = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css' };
@@ -47,7 +47,9 @@ async function state({ request, response, url }) {
     const last = { deformation: 0.14, reached: 0.9 };
     return refuse(response, 422, 'no-state', 'The surface of the rear shoulder wrinkles: no smooth shape exists.', { nearest, last });
   }
-  answer(response, 200, stateOf(physics, Number(url.searchParams.get('accuracy')), url.searchParams.get('fields') === '1'));
+  response.writeHead(200, { 'Content-Type': 'application/octet-stream', 'Content-Security-Policy': policy });
+  response.write(`${JSON.stringify(stateOf(physics, Number(url.searchParams.get('accuracy'))))}\n`);
+  response.end(fieldsOf(physics));
 }
 
 async function evolve({ request, response }) {
@@ -57,7 +59,7 @@ async function evolve({ request, response }) {
     response.write(`${JSON.stringify(stepOf(physics, k / 40))}\n`);
     await pause(5);
   }
-  response.end(`${JSON.stringify({ result: stateOf(physics, 1e-4, false) })}\n`);
+  response.end(`${JSON.stringify({ result: stateOf(physics, 1e-4) })}\n`);
 }
 
 async function text({ request, response }) {

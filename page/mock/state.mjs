@@ -2,7 +2,6 @@
 const points = 41; // along the half contour
 const layers = 14; // from the surface to the walls, and from the middle to the surface
 
-const base64 = (array) => Buffer.from(array.buffer).toString('base64');
 const at = (object, path) => path.split('.').reduce((now, name) => now?.[name], object);
 
 /** Case in sections -> the few numbers that the made-up physics needs. */
@@ -70,7 +69,8 @@ function layerTriangles(offset) {
   return triangles;
 }
 
-function fieldsOf(physics) {
+/** Fields as they follow the numbers: a line, then the arrays. */
+export function fieldsOf(physics) {
   const liquid = layerPoints(physics, 0);
   const cell = layerPoints(physics, 1);
   const all = [...liquid, ...cell];
@@ -91,17 +91,25 @@ function fieldsOf(physics) {
     stretch: all.map((_, k) => 1 + stress[k] / 1e4),
     displacement_um: all.flatMap(([x, r], k) => (region[k] === 1 ? [2 * deformation * x, -deformation * r] : [0, 0])),
   };
-  return {
+  const arrays = {
+    xy_um: Float32Array.from(all.flatMap(([x, r]) => [x, r])),
+    index: Uint32Array.from([...layerTriangles(0), ...layerTriangles(liquid.length)]),
+    ...Object.fromEntries(Object.entries(values).map(([name, list]) => [`values/${name}`, Float32Array.from(list)])),
+    ...solidOf(physics),
+    region,
+  };
+  const head = {
     points: all.length,
     triangles: 4 * layers * points,
-    xy_um: base64(Float32Array.from(all.flatMap(([x, r]) => [x, r]))),
-    index: base64(Uint32Array.from([...layerTriangles(0), ...layerTriangles(liquid.length)])),
-    region: base64(region),
-    values: Object.fromEntries(Object.entries(values).map(([name, list]) => [name, base64(Float32Array.from(list))])),
-    wall: { x_um: [-3 * wall, 3 * wall], r_um: [wall, wall] },
-    ...solidOf(physics),
     surface: surfaceOf(physics),
+    wall: { x_um: [-3 * wall, 3 * wall], r_um: [wall, wall] },
+    arrays: Object.entries(arrays).map(([name, array]) => ({
+      name,
+      type: array.constructor.name.replace('Array', '').toLowerCase(),
+      count: array.length,
+    })),
   };
+  return Buffer.concat([Buffer.from(`${JSON.stringify(head)}\n`), ...Object.values(arrays).map((array) => Buffer.from(array.buffer))]);
 }
 
 function surfaceOf(physics) {
@@ -125,10 +133,10 @@ function solidOf(physics) {
       if (k < points && j < points) index.push(a, a + points + 1, a + 1, a + 1, a + points + 1, a + points + 2);
     }
   }
-  return { surface3d: { xyz_um: base64(Float32Array.from(xyz)), index: base64(Uint32Array.from(index)) } };
+  return { 'surface3d/xyz_um': Float32Array.from(xyz), 'surface3d/index': Uint32Array.from(index) };
 }
 
-export function stateOf(physics, accuracy, withFields) {
+export function stateOf(physics, accuracy) {
   const { deformation, radius, speed, wall, sections } = physics;
   const contour = contourOf(physics);
   return {
@@ -147,7 +155,6 @@ export function stateOf(physics, accuracy, withFields) {
     case: sections,
     contour,
     hull: contour,
-    ...(withFields ? { fields: fieldsOf(physics) } : {}),
   };
 }
 

@@ -41,17 +41,19 @@ export interface Outline {
   r_um: number[];
 }
 
-/** Fields on a triangle mesh of the half plane r >= 0; arrays are base64 of little-endian numbers. */
-export interface EncodedFields {
+/** What stands before the numbers of fields on a triangle mesh of the half plane r >= 0. */
+export interface FieldsHead {
   points: number;
   triangles: number;
-  xy_um: string;
-  index: string;
-  region: string;
-  values: Record<string, string>;
+  /** in the order in which they follow, little endian; "values/stress_Pa" is "stress_Pa" among the values */
+  arrays: { name: string; type: 'float32' | 'uint32' | 'uint8'; count: number }[];
   surface?: { x_um: number[]; r_um: number[]; tension_mN_per_m?: number[] };
   wall?: Outline;
-  surface3d?: { xyz_um: string; index: string };
+}
+
+export interface EncodedFields {
+  head: FieldsHead;
+  bytes: ArrayBuffer;
 }
 
 /** The keys of result.json that the page reads by name; there are more. */
@@ -74,7 +76,6 @@ export interface State extends Result {
   contour: Outline;
   hull: Outline;
   contours?: { side: Outline; diagonal: Outline };
-  fields?: EncodedFields;
 }
 
 export interface TimeStep {
@@ -223,15 +224,85 @@ export const readMediumLaw = (medium: string, temperature: number) =>
 /** A stream of this window alone: two windows of one program do not cancel each other. */
 export const streamOf = (name: string) => `${name}-${Math.random().toString(36).slice(2)}`;
 
+/** An answer that is read as it arrives: lines first, then bytes. */
+class Parts {
+  private readonly reader: ReadableStreamDefaultReader<Uint8Array>;
+  private rest: Uint8Array = new Uint8Array(0);
+
+  constructor(answer: Response) {
+    this.reader = answer.body!.getReader();
+  }
+
+  /** Adds what arrives next; false at the end. */
+  private async more(): Promise<boolean> {
+    const { value, done } = await this.reader.read();
+    if (done) return false;
+    const both = new Uint8Array(this.rest.length + value.length);
+    both.set(this.rest);
+    both.set(value, this.rest.length);
+    this.rest = both;
+    return true;
+  }
+
+  /** The next line without its end; null if there is none. */
+  async line(): Promise<string | null> {
+    let end = this.rest.indexOf(10);
+    while (end < 0) {
+      if (!(await this.more())) return null;
+      end = this.rest.indexOf(10);
+    }
+    const text = new TextDecoder().decode(this.rest.subarray(0, end));
+    this.rest = this.rest.subarray(end + 1);
+    return text;
+  }
+
+  /** The next bytes in a buffer of their own; fewer of them if the answer ends before. */
+  async bytes(count: number): Promise<ArrayBuffer> {
+    const found = new Uint8Array(count);
+    let filled = 0;
+    const take = (piece: Uint8Array) => {
+      found.set(piece.subarray(0, count - filled), filled);
+      filled += piece.length;
+    };
+    take(this.rest);
+    while (filled < count) {
+      const { value, done } = await this.reader.read();
+      if (done) return found.buffer.slice(0, filled);
+      take(value);
+    }
+    void this.reader.cancel().catch(() => undefined);
+    return found.buffer;
+  }
+}
+
 export interface StateRequest {
   stream: string;
   accuracy: number;
-  fields: boolean;
 }
 
-export function solveState(sections: Sections, want: StateRequest, signal?: AbortSignal): Promise<State> {
-  const path = `/api/state?${query({ stream: want.stream, accuracy: want.accuracy, fields: want.fields ? 1 : 0 })}`;
-  return json<State>(path, sending('POST', sections, signal));
+/** The numbers of a state, and its fields, which come later. */
+export interface Solution {
+  state: State;
+  fields: Promise<EncodedFields | null>;
+}
+
+const sizes = { float32: 4, uint32: 4, uint8: 1 };
+
+async function readFields(parts: Parts): Promise<EncodedFields | null> {
+  const line = await parts.line();
+  if (line === null) return null;
+  const head = JSON.parse(line) as FieldsHead;
+  const wanted = head.arrays.reduce((sum, { type, count }) => sum + sizes[type] * count, 0);
+  const bytes = await parts.bytes(wanted);
+  return bytes.byteLength === wanted ? { head, bytes } : null;
+}
+
+export async function solveState(sections: Sections, want: StateRequest, signal?: AbortSignal): Promise<Solution> {
+  const path = `/api/state?${query({ stream: want.stream, accuracy: want.accuracy, fields: 'after' })}`;
+  const parts = new Parts(await request(path, sending('POST', sections, signal)));
+  const line = await parts.line().catch(() => null);
+  if (line === null) throw new Refusal(0, 'stopped', 'Stopped.');
+  return { state: JSON.parse(line) as State, fields: readFields(parts).catch(() => null) };
 }
 
 export type EvolveLine = TimeStep | { result: Result } | { error: string };

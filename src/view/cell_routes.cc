@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "case/json_guard.h"
@@ -59,6 +60,15 @@ void add_member(std::string& object, std::string_view name, std::string_view jso
   object.append(",\"").append(name).append("\":").append(json).append("}");
 }
 
+/// The numbers are sent at once, the fields when they are sampled.
+Answer with_fields_after(const std::shared_ptr<const ShownState>& shown) {
+  Answer answer{.type = "application/octet-stream"};
+  answer.give_pieces = [shown, numbers = json_line(shown->numbers()) + "\n"](const TakePiece& take) {
+    if (take(numbers)) shown->give_fields(take);
+  };
+  return answer;
+}
+
 Answer state(SolverThreads& threads, const Request& request) {
   Result result = stationary(stated_case(request.json(), request.asked("accuracy")));
   solve(threads, request, [&](Session& session, const std::atomic<bool>& stop) {
@@ -66,8 +76,10 @@ Answer state(SolverThreads& threads, const Request& request) {
     refuse_unfinite_numbers(result);
   });
   if (!exists(result)) return no_state(result);
-  Answer answer = json_answer(state_json(result));
-  if (request.asked("fields") == "1") add_member(answer.body, "fields", fields_json(result));
+  const auto shown = std::make_shared<const ShownState>(std::move(result));
+  if (request.asked("fields") == "after") return with_fields_after(shown);
+  Answer answer = json_answer(shown->numbers());
+  if (request.asked("fields") == "1") add_member(answer.body, "fields", shown->fields());
   return answer;
 }
 

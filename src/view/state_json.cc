@@ -5,6 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "case/json_guard.h"
 #include "case/scales.h"
@@ -70,12 +74,27 @@ Json curve(const Eigen::MatrixX2d& points, double um, double origin) {
   return {{"x_um", numbers(um * (points.col(0).array() - origin))}, {"r_um", numbers(um * points.col(1).array())}};
 }
 
-template <class Column>
-Json packed(const Column& column) {
-  return base64_of(column.data(), std::size_t(column.size()));
-}
+template <class Number>
+constexpr const char* type_name = "uint8";
+template <>
+constexpr const char* type_name<float> = "float32";
+template <>
+constexpr const char* type_name<std::uint32_t> = "uint32";
 
-double origin_of(const Result& result) { return centroid(outline_of(result.state.contour)); }
+/// Numbers of one name; within an object its name stands before a slash.
+struct FieldArray {
+  template <class Column>
+  FieldArray(const char* n, const Column& column)
+      : name(n),
+        type(type_name<std::remove_cvref_t<decltype(*column.data())>>),
+        count(std::size_t(column.size())),
+        bytes(reinterpret_cast<const std::uint8_t*>(column.data()), count * sizeof(*column.data())) {}
+
+  const char* name;
+  const char* type;
+  std::size_t count;
+  std::span<const std::uint8_t> bytes;
+};
 
 Json tensions(const Result& result, double origin) {
   const SurfaceProfile& surface = result.state.surface;
@@ -102,48 +121,86 @@ Json outline_json(const Contour& contour, double um) {
   return curve(outline, um, centroid(outline));
 }
 
-Json state_json(const Result& result) {
-  Json json = to_json(result);
-  const Contour& contour = result.state.contour;
-  if (contour.pieces.empty()) return json;
-  const double um = um_per_m * result.scales.length_m;
-  const Eigen::MatrixX2d outline = outline_of(contour);
-  const double origin = centroid(outline);
-  json["contour"] = curve(outline, um, origin);
-  const auto hull = hull_of(contour);
-  json["hull"] = hull ? curve(*hull, um, origin) : Json(nullptr);
-  if (result.problem.section == Section::square)
+ShownState::ShownState(Result result) : result_(std::move(result)), um_(um_per_m * result_.scales.length_m) {
+  if (result_.state.contour.pieces.empty()) return;
+  outline_ = outline_of(result_.state.contour);
+  origin_ = centroid(outline_);
+}
+
+Json ShownState::numbers() const {
+  Json json = to_json(result_);
+  if (outline_.rows() == 0) return json;
+  json["contour"] = curve(outline_, um_, origin_);
+  const auto hull = hull_of(result_.state.contour);
+  json["hull"] = hull ? curve(*hull, um_, origin_) : Json(nullptr);
+  if (result_.problem.section == Section::square)
     for (const auto& [name, camera] : {std::pair{"side", Camera::side}, std::pair{"diagonal", Camera::diagonal}})
-      json["contours"][name] = curve(closed({result.state.views[std::size_t(camera)].point}), um, origin);
+      json["contours"][name] = curve(closed({result_.state.views[std::size_t(camera)].point}), um_, origin_);
   return json;
 }
 
-std::string fields_json(const Result& result) {
-  if (!result.state.sample_fields || result.state.contour.pieces.empty()) return {};
-  SampledFields s = result.state.sample_fields(result.scales, points_in_sample);
-  const double origin = origin_of(result);
-  const auto shift = float(um_per_m * result.scales.length_m * origin);
-  s.point_um.col(0).array() -= shift;
-  if (s.surface_um.rows() > 0) s.surface_um.col(0).array() -= shift;
-  const Eigen::VectorXf speed = s.velocity_m_per_s.rowwise().norm();
-  Json json{{"points", s.point_um.rows()},
-            {"triangles", s.triangles.size() / 3},
-            {"xy_um", packed(s.point_um)},
-            {"index", packed(s.triangles)},
-            {"region", packed(s.in_cell)},
-            {"values",
-             {{"speed_m_per_s", packed(speed)},
-              {"velocity_m_per_s", packed(s.velocity_m_per_s)},
-              {"pressure_Pa", packed(s.pressure_Pa)},
-              {"shear_rate_per_s", packed(s.shear_rate_per_s)},
-              {"stress_Pa", packed(s.stress_Pa)},
-              {"stretch", packed(s.stretch)},
-              {"displacement_um", packed(s.displacement_um)}}},
-            {"surface", tensions(result, origin)},
-            {"wall", wall(result, origin)}};
-  if (s.surface_um.rows() > 0)
-    json["surface3d"] = {{"xyz_um", packed(s.surface_um)}, {"index", packed(s.surface_triangles)}};
+/// What the sampled fields say beside their numbers, and their numbers.
+struct ShownState::Fields {
+  explicit Fields(const ShownState&);
+  /// Those of four bytes come first, so that each begins at a multiple of its size.
+  std::vector<FieldArray> arrays() const;
+
+  SampledFields sampled;
+  Eigen::VectorXf speed;
+  Json about;
+};
+
+ShownState::Fields::Fields(const ShownState& shown)
+    : sampled(shown.result_.state.sample_fields(shown.result_.scales, points_in_sample)),
+      speed(sampled.velocity_m_per_s.rowwise().norm()),
+      about{{"points", sampled.point_um.rows()},
+            {"triangles", sampled.triangles.size() / 3},
+            {"surface", tensions(shown.result_, shown.origin_)},
+            {"wall", wall(shown.result_, shown.origin_)}} {
+  const auto shift = float(shown.um_ * shown.origin_);
+  sampled.point_um.col(0).array() -= shift;
+  if (sampled.surface_um.rows() > 0) sampled.surface_um.col(0).array() -= shift;
+}
+
+std::vector<FieldArray> ShownState::Fields::arrays() const {
+  std::vector<FieldArray> all{{"xy_um", sampled.point_um},
+                              {"index", sampled.triangles},
+                              {"values/speed_m_per_s", speed},
+                              {"values/velocity_m_per_s", sampled.velocity_m_per_s},
+                              {"values/pressure_Pa", sampled.pressure_Pa},
+                              {"values/shear_rate_per_s", sampled.shear_rate_per_s},
+                              {"values/stress_Pa", sampled.stress_Pa},
+                              {"values/stretch", sampled.stretch},
+                              {"values/displacement_um", sampled.displacement_um}};
+  if (sampled.surface_um.rows() > 0) {
+    all.emplace_back("surface3d/xyz_um", sampled.surface_um);
+    all.emplace_back("surface3d/index", sampled.surface_triangles);
+  }
+  all.emplace_back("region", sampled.in_cell);
+  return all;
+}
+
+std::string ShownState::fields() const {
+  if (!has_fields()) return {};
+  const Fields fields(*this);
+  Json json = fields.about;
+  for (const FieldArray& array : fields.arrays())
+    json[Json::json_pointer(std::string("/") + array.name)] = base64(array.bytes);
   return json_line(json);
 }
+
+void ShownState::give_fields(const TakePiece& take) const {
+  if (!has_fields()) return;
+  const Fields fields(*this);
+  Json head = fields.about;
+  std::string bytes;
+  for (const FieldArray& array : fields.arrays()) {
+    head["arrays"].push_back({{"name", array.name}, {"type", array.type}, {"count", array.count}});
+    bytes.append(reinterpret_cast<const char*>(array.bytes.data()), array.bytes.size());
+  }
+  if (take(json_line(head) + "\n")) take(bytes);
+}
+
+bool ShownState::has_fields() const { return result_.state.sample_fields && outline_.rows() > 0; }
 
 }  // namespace rheocyte

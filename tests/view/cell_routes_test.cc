@@ -16,6 +16,7 @@
 #include "solve/stationary.h"
 #include "store/own_file.h"
 #include "view/base64.h"
+#include "view/state_json.h"
 #include "view/stated_case.h"
 #include "view/view_session.h"
 
@@ -119,6 +120,43 @@ TEST_F(CellRoutes, OutlinesAreClosedAboutTheirCentroidAndFieldsFitToThem) {
   }
   EXPECT_NEAR(front, state["contour"]["x_um"][0].get<double>(), 1e-4);  // 32-bit numbers
   EXPECT_GT(greatest, 1);
+}
+
+TEST(ShownState, FieldsWithoutBase64AreTheSameBytes) {
+  const Case c = stated_case(cell());
+  const ShownState shown({c, scales_of(c), problem_of(c), solve_stationary(problem_of(c))});
+  std::string body;
+  shown.give_fields([&](std::string_view piece) {
+    body += piece;
+    return true;
+  });
+  const std::size_t head_end = body.find('\n') + 1;
+  const Json head = Json::parse(body.substr(0, head_end)), wanted = Json::parse(shown.fields());
+  EXPECT_EQ(head["wall"], wanted["wall"]);
+  std::size_t at = head_end;
+  for (const Json& array : head["arrays"]) {
+    std::string bytes;
+    const Json::json_pointer place("/" + array["name"].get<std::string>());
+    ASSERT_TRUE(decode_base64(wanted[place].get<std::string>(), bytes));
+    const std::size_t size = array["type"] == "uint8" ? 1 : 4;
+    ASSERT_EQ(bytes.size(), size * array["count"].get<std::size_t>()) << array["name"];
+    EXPECT_EQ((at - head_end) % size, 0U) << array["name"];
+    EXPECT_TRUE(body.substr(at, bytes.size()) == bytes) << array["name"];
+    at += bytes.size();
+  }
+  EXPECT_EQ(at, body.size());
+}
+
+TEST_F(CellRoutes, TheNumbersOfAStateDoNotWaitForItsFields) {
+  const Answer answer = post("/api/state", cell(), {{"fields", "after"}});
+  std::vector<std::string> pieces;
+  answer.give_pieces([&](std::string_view piece) { return pieces.emplace_back(piece), true; });
+  ASSERT_EQ(pieces.size(), 3U);  // numbers, names of the arrays, arrays
+  EXPECT_TRUE(Json::parse(pieces[0]).contains("contour"));
+  EXPECT_TRUE(Json::parse(pieces[1]).contains("arrays"));
+  std::size_t sampled = 0;
+  answer.give_pieces([&](std::string_view) { return ++sampled, false; });
+  EXPECT_EQ(sampled, 1U);  // nothing is sampled for a client that has left
 }
 
 TEST_F(CellRoutes, TheGreatestShearRateOfTheFieldsIsThatOfTheResult) {

@@ -1,4 +1,5 @@
 // The workplace "Cell": controls, the picture, the numbers, and the plane of area and deformation.
+import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { notifyFailure } from '../shell/notices';
 import { useStore } from '../shell/store';
@@ -9,17 +10,26 @@ import { Plane } from './Plane';
 import { View } from './View';
 import '../look/cell.css';
 
-export function CellWorkplace() {
+/** Its parts are not drawn again when only the work changes. */
+function Frame({ children }: { children: ComponentChildren }) {
   const working = useStore(model.working);
-  useEffect(() => void model.startCell().catch(notifyFailure), []);
   return (
     <div class="cell" data-working={working}>
+      {children}
+    </div>
+  );
+}
+
+export function CellWorkplace() {
+  useEffect(() => void model.startCell().catch(notifyFailure), []);
+  return (
+    <Frame>
       <Controls />
       <View />
       <aside class="side" aria-label="Numbers">
         <Numbers />
       </aside>
       <Plane />
-    </div>
+    </Frame>
   );
 }

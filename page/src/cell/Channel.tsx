@@ -49,45 +49,54 @@ function useSize(): [{ current: HTMLDivElement | null }, { width: number; height
   return [box, size];
 }
 
-/** Paints the upper half and mirrors it; returns which triangle covers which pixel. */
-function paint(canvas: HTMLCanvasElement, stage: Stage, fields: Fields, paints: (Paint | null)[]): Cover {
+/** Paints the upper half and mirrors it. */
+function paint(canvas: HTMLCanvasElement, stage: Stage, fields: Fields, paints: (Paint | null)[]): void {
   const frame = halfFrame(stage, density());
-  const cover = coverPixels(fields, frame);
   canvas.width = frame.width;
   canvas.height = Math.round(stage.height * density());
   const context = canvas.getContext('2d')!;
   const image = context.createImageData(frame.width, 2 * frame.height);
   const pixels = new Uint32Array(image.data.buffer);
-  paintPixels(fields, cover, paints, pixels);
+  paintPixels(fields, frame, paints, pixels);
   for (let row = 0; row < frame.height; ++row) {
     const from = (frame.height - 1 - row) * frame.width;
     pixels.copyWithin((frame.height + row) * frame.width, from, from + frame.width);
   }
   context.putImageData(image, 0, Math.round(stage.axis * density()) - frame.height);
-  return cover;
 }
 
-/** No fields, no values under the pointer. */
-function clear(canvas: HTMLCanvasElement): null {
-  canvas.width = canvas.height = 1;
-  return null;
+/** Which triangle covers which pixel: found out when a value is asked for, and then kept. */
+function coverOnDemand(stage: Stage, fields: Fields): () => Cover {
+  let cover: Cover | null = null;
+  return () => (cover ??= coverPixels(fields, halfFrame(stage, density())));
+}
+
+/** The same stage as long as its numbers are the same: what depends on it alone need not be drawn again. */
+function useStage(size: { width: number; height: number }, { radius_um, fields }: Scene): Stage | null {
+  const found = useMemo(
+    () => (size.width ? stageOf(size.width, size.height, radius_um, fields) : null),
+    [size, radius_um, fields],
+  );
+  const kept = useRef(found);
+  if (JSON.stringify(found) !== JSON.stringify(kept.current)) kept.current = found;
+  return kept.current;
 }
 
 export function Channel({ scene, looks, stale }: ChannelProps) {
   const [box, size] = useSize();
   const canvas = useRef<HTMLCanvasElement | null>(null);
-  const cover = useRef<Cover | null>(null);
   const shownTheme = useStore(theme);
-  const stage = useMemo(
-    () => (size.width ? stageOf(size.width, size.height, scene.radius_um, scene.fields) : null),
-    [size, scene],
-  );
+  const stage = useStage(size, scene);
+  const { fields, paints } = scene;
   useLayoutEffect(() => {
     if (!stage || !canvas.current) return;
-    if (scene.fields) cover.current = paint(canvas.current, stage, scene.fields, scene.paints);
-    else cover.current = clear(canvas.current);
-    box.current!.dataset.shown = String(scene.revision);
-  }, [stage, scene, looks]);
+    if (fields) paint(canvas.current, stage, fields, paints);
+    else canvas.current.width = canvas.current.height = 1;
+  }, [stage, fields, paints]);
+  useLayoutEffect(() => {
+    if (stage) box.current!.dataset.shown = String(scene.revision);
+  }, [stage, scene]);
+  const cover = useMemo(() => (stage && fields ? coverOnDemand(stage, fields) : null), [stage, fields]);
   const probe = useProbe(stage, scene, cover);
   return (
     <div

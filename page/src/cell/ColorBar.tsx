@@ -1,4 +1,5 @@
 // A colour bar: the choice of the field is its title.
+import { useMemo } from 'preact/hooks';
 import { tensionMap } from '../draw/colormap';
 import { significant, tickLabels, ticks, unitText } from '../draw/numbers';
 import type { FieldChoice, Legend } from './looks';
@@ -9,13 +10,14 @@ const width = 220;
 /** The map as a row of coloured pieces; a gradient of few stops would not keep equal steps. */
 function Strip({ map }: { map: ColorMap }) {
   const pieces = 64;
-  return (
-    <g shape-rendering="crispEdges">
-      {Array.from({ length: pieces }, (_, k) => (
+  const drawn = useMemo(
+    () =>
+      Array.from({ length: pieces }, (_, k) => (
         <rect key={k} x={(k * width) / pieces} y={0} width={width / pieces + 0.5} height={10} fill={map.css[Math.round((k / (pieces - 1)) * 255)]} />
-      ))}
-    </g>
+      )),
+    [map],
   );
+  return <g shape-rendering="crispEdges">{drawn}</g>;
 }
 
 export function Bar({ map, low, high, factor }: { map: ColorMap; low: number; high: number; factor: number }) {

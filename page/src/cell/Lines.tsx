@@ -1,5 +1,6 @@
 // The lines of the picture, as SVG: walls, streamlines, undeformed circle, contour, hull, tension, scale bar.
 // Colours stand in attributes, not in the style sheet, so that an exported picture keeps them.
+import { cloneElement } from 'preact';
 import { useMemo } from 'preact/hooks';
 import type { Fields } from '../draw/fields';
 import type { Outline } from '../api';
@@ -31,68 +32,79 @@ function Walls({ stage, scene }: { stage: Stage; scene: Scene }) {
   );
 }
 
-function Stream({ stage, scene }: { stage: Stage; scene: Scene }) {
-  const found = useMemo(
-    () => (scene.fields ? streamlines(scene.fields, leftOf(stage), rightOf(stage), scene.radius_um) : []),
-    [scene, stage],
+/** The lower half is the upper one, mirrored at the axis. */
+const mirrored = (stage: Stage) => `matrix(1 0 0 -1 0 ${2 * stage.axis})`;
+
+function Stream({ stage, fields, radius_um }: { stage: Stage; fields: Fields; radius_um: number }) {
+  const found = streamlines(fields, leftOf(stage), rightOf(stage), radius_um);
+  const paths = found.map(({ points }) => pathOf(stage, { x_um: points.map(([x]) => x), r_um: points.map(([, r]) => r) }, false)).join('');
+  const half = (
+    <>
+      <path d={paths} />
+      {found.map(
+        ({ arrow }, k) =>
+          arrow && (
+            <path
+              key={k}
+              d="M-4 -3.2L4 0L-4 3.2Z"
+              fill={overMap}
+              fill-opacity={0.7}
+              stroke="none"
+              transform={`translate(${xOf(stage, arrow.x)} ${yOf(stage, arrow.r)}) rotate(${(-arrow.angle * 180) / Math.PI})`}
+            />
+          ),
+      )}
+    </>
   );
-  const both = found.flatMap(({ points }) =>
-    [1, -1].map((side) => pathOf(stage, { x_um: points.map(([x]) => x), r_um: points.map(([, r]) => side * r) }, false)),
-  );
-  const arrows = found.flatMap(({ arrow }) => (arrow ? [1, -1].map((side) => ({ ...arrow, side })) : []));
   return (
     <g fill="none" stroke={overMap} stroke-opacity={0.42} stroke-width={1}>
-      <path d={both.join('')} />
-      {arrows.map(({ x, r, angle, side }, k) => (
-        <path
-          key={k}
-          d="M-4 -3.2L4 0L-4 3.2Z"
-          fill={overMap}
-          fill-opacity={0.7}
-          stroke="none"
-          transform={`translate(${xOf(stage, x)} ${yOf(stage, side * r)}) rotate(${(-side * angle * 180) / Math.PI})`}
-        />
-      ))}
+      <g>{half}</g>
+      <g transform={mirrored(stage)}>{cloneElement(half, {})}</g>
     </g>
   );
 }
 
 /** Least and greatest tension of the cortex in mN/m; null where there is none. */
-export function tensionRange(fields: Fields | null): [number, number] | null {
-  const tension = fields?.surface?.tension_mN_per_m;
+export function tensionRange(surface: Fields['surface']): [number, number] | null {
+  const tension = surface?.tension_mN_per_m;
   if (!tension?.length) return null;
   const [low, high] = [Math.min(...tension), Math.max(...tension)];
   return high > 0 || low < 0 ? [low, high] : null;
 }
 
-/** The cortex, coloured by its tension, thick along the contour. */
-function Tension({ stage, scene }: { stage: Stage; scene: Scene }) {
-  const surface = scene.fields?.surface;
-  const tension = surface?.tension_mN_per_m;
-  if (!surface || !tension?.length) return null;
-  const range = tensionRange(scene.fields);
-  if (!range) return null;
-  const [low, high] = range;
-  const every = Math.max(1, Math.floor(tension.length / 120));
-  const pieces = [];
-  for (let k = 0; k + every < tension.length; k += every) pieces.push([k, k + every]);
+/** The colour of the cortex changes in so many steps from its least to its greatest tension. */
+const tensionSteps = 48;
+
+/** The cortex, coloured by its tension, thick along the contour; neighbours of one colour are one line. */
+function Tension({ stage, surface }: { stage: Stage; surface: NonNullable<Fields['surface']> }) {
+  const tension = surface.tension_mN_per_m;
+  const range = tensionRange(surface);
+  if (!tension || !range) return null;
+  const step = (k: number) => Math.round((tensionSteps * shade(0.5 * (tension[k] + tension[k + 1]), ...range)) / 255);
+  const pieces: [number, number][] = [];
+  for (let k = 0; k + 1 < tension.length; ++k) {
+    if (k > 0 && step(k) === step(k - 1)) pieces[pieces.length - 1][1] = k + 1;
+    else pieces.push([k, k + 1]);
+  }
+  const half = pieces.map(([a, b]) => (
+    <path
+      key={a}
+      d={pathOf(stage, { x_um: surface.x_um.slice(a, b + 1), r_um: surface.r_um.slice(a, b + 1) }, false)}
+      stroke={tensionMap.css[Math.round((255 * step(a)) / tensionSteps)]}
+    />
+  ));
   return (
-    <g fill="none" stroke-width={7} stroke-linecap="round">
-      {pieces.flatMap(([a, b]) =>
-        [1, -1].map((side) => (
-          <path
-            key={`${a} ${side}`}
-            d={pathOf(stage, { x_um: [surface.x_um[a], surface.x_um[b]], r_um: [side * surface.r_um[a], side * surface.r_um[b]] }, false)}
-            stroke={tensionMap.css[shade(0.5 * (tension[a] + tension[b]), low, high)]}
-          />
-        )),
-      )}
+    <g fill="none" stroke-width={7} stroke-linecap="round" stroke-linejoin="round">
+      <g>{half}</g>
+      <g transform={mirrored(stage)}>{half.map((piece) => cloneElement(piece, {}))}</g>
     </g>
   );
 }
 
-function Cell({ stage, scene, looks }: LinesProps) {
+function Cell({ stage, scene, looks, theme }: LinesProps) {
   const { contour, hull } = scene;
+  const surface = scene.fields?.surface;
+  const cortex = useMemo(() => (surface && looks.tension ? <Tension stage={stage} surface={surface} /> : null), [stage, surface, looks.tension, theme]);
   return (
     <g fill="none" stroke={overMap}>
       {looks.undeformed && (
@@ -105,7 +117,7 @@ function Cell({ stage, scene, looks }: LinesProps) {
           stroke-linecap="round"
         />
       )}
-      {looks.tension && <Tension stage={stage} scene={scene} />}
+      {cortex}
       {looks.hull && hull && <path d={pathOf(stage, wholeOutline(hull))} stroke-width={1.5} stroke-dasharray="7 4" />}
       {contour && <path class="contour" d={pathOf(stage, wholeOutline(contour))} stroke-width={looks.tension ? 2 : 3} stroke-linejoin="round" />}
     </g>
@@ -144,6 +156,12 @@ function ScaleBar({ stage }: { stage: Stage }) {
 
 export function Lines(props: LinesProps) {
   const { stage, scene, looks, mark } = props;
+  const { fields, radius_um } = scene;
+  // Neither a new contour nor the pointer changes the streamlines: they wait for new fields.
+  const stream = useMemo(
+    () => (looks.streamlines && fields ? <Stream stage={stage} fields={fields} radius_um={radius_um} /> : null),
+    [stage, fields, radius_um, looks.streamlines],
+  );
   return (
     <svg
       class="lines"
@@ -154,8 +172,8 @@ export function Lines(props: LinesProps) {
       font-family="system-ui, sans-serif"
       aria-hidden="true"
     >
-      {!scene.fields && <PlainGround stage={stage} contour={scene.contour} />}
-      {looks.streamlines && scene.fields && <Stream stage={stage} scene={scene} />}
+      {!fields && <PlainGround stage={stage} contour={scene.contour} />}
+      {stream}
       <Walls stage={stage} scene={scene} />
       <Cell {...props} />
       <ScaleBar stage={stage} />

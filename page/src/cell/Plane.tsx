@@ -1,5 +1,5 @@
 // The plane of area and deformation: isoelasticity lines of this channel and flow, the cell, and its trace.
-import { useLayoutEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
 import type { Lines } from '../api';
 import { plain, tickLabels, ticks } from '../draw/numbers';
 import { useStore } from '../shell/store';
@@ -119,8 +119,18 @@ export function Plane() {
   const lines = useStore(model.lines);
   const points = useStore(model.trace);
   const stale = useStore(model.refused) !== null;
-  const axes = axesOf(size.width, size.height, lines, points);
   const last = points[points.length - 1];
+  const found = axesOf(size.width, size.height, lines, points);
+  const axes = useMemo(() => found, [found.width, found.height, found.area, found.deformation]);
+  const ground = useMemo(
+    () => (
+      <>
+        <Frame axes={axes} />
+        {lines && <Isoelastic axes={axes} lines={lines} />}
+      </>
+    ),
+    [axes, lines],
+  );
   const label = last ? `Area ${last.area_um2.toFixed(1)} µm², deformation ${last.deformation.toFixed(4)}` : 'No state yet';
   return (
     <section class="plane" aria-label="Area and deformation">
@@ -133,8 +143,7 @@ export function Plane() {
       </header>
       <div ref={box} class="plane-plot">
         <svg width={size.width} height={size.height} role="img" aria-label={label}>
-          <Frame axes={axes} />
-          {lines && <Isoelastic axes={axes} lines={lines} />}
+          {ground}
           <Way axes={axes} points={points} stale={stale} />
         </svg>
       </div>

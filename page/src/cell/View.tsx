@@ -41,7 +41,8 @@ function useScene(): [Scene | null, Painted] {
   const values = useStore(model.values);
   const now = useStore(looks);
   const time = useStore(run);
-  const painted = useMemo(() => (solved?.fields ? paintsOf(solved.fields, now) : nothing), [solved, now]);
+  const fields = solved?.fields ?? null;
+  const painted = useMemo(() => (fields ? paintsOf(fields, now) : nothing), [fields, now]);
   const step = time?.steps[time.shown];
   const scene = useMemo((): Scene | null => {
     if (step) return timeScene(step.contour, step.x_um, values, solved);
@@ -111,7 +112,7 @@ export function View() {
   const solved = useStore(model.solved);
   const [scene, { legends }] = useScene();
   const solid = solved?.fields?.surface3d ?? null;
-  const tension = tensionRange(solved?.fields ?? null);
+  const tension = useMemo(() => tensionRange(solved?.fields?.surface), [solved?.fields]);
   const stale = refusal !== null;
   const empty = solved?.fields ? 'not in this cell' : '';
   return (

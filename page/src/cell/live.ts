@@ -1,16 +1,21 @@
 // The live solver: one request at a time, the newest case wins. First an answer good enough to look at, then the wanted one.
-import { Refusal, solveState, type Sections, type State } from '../api';
+// The numbers and the contour of an answer are shown before its fields, which meanwhile are sampled, sent and painted.
+import { Refusal, solveState, type EncodedFields, type Sections, type Solution, type State } from '../api';
 
 export interface Answer {
   revision: number;
   state: State;
   /** false: display accuracy, the wanted one follows */
   final: boolean;
+  /** counts the answers */
+  order: number;
 }
 
 export interface Listener {
   busy(revision: number, refining: boolean): void;
   answered(answer: Answer): void;
+  /** the fields of an answer, some time after it */
+  sampled(order: number, fields: EncodedFields): void;
   refused(revision: number, refusal: Refusal): void;
   idle(): void;
 }
@@ -26,10 +31,18 @@ const displayAccuracy = 1e-3;
 const patience_ms = 120;
 const pause_ms = 200;
 
+/** After the next picture of the page; where none is drawn because the page is hidden, after a moment. */
+const nextPicture = () =>
+  new Promise<void>((drawn) => {
+    window.requestAnimationFrame(() => window.setTimeout(drawn));
+    window.setTimeout(drawn, 100);
+  });
+
 export class LiveSolver {
   private wanted: Wanted | null = null;
   private running: { revision: number; final: boolean; since: number; abort: AbortController } | null = null;
   private timer: number | undefined;
+  private answers = 0;
 
   constructor(
     private readonly stream: string,
@@ -70,18 +83,26 @@ export class LiveSolver {
     const run = { revision: wanted.revision, final, since: performance.now(), abort: new AbortController() };
     this.running = run;
     this.listener.busy(run.revision, final);
-    solveState(wanted.sections, { stream: this.stream, accuracy, fields: true }, run.abort.signal).then(
-      (state) => this.running === run && this.finish(run.revision, state, final || accuracy === wanted.accuracy),
+    solveState(wanted.sections, { stream: this.stream, accuracy }, run.abort.signal).then(
+      (solution) => this.running === run && this.finish(run.revision, solution, final || accuracy === wanted.accuracy),
       (failure) => this.running === run && this.fail(run.revision, failure as Refusal),
     );
   }
 
-  private finish(revision: number, state: State, final: boolean): void {
+  private finish(revision: number, { state, fields }: Solution, final: boolean): void {
     this.running = null;
-    this.listener.answered({ revision, state, final });
+    const order = ++this.answers;
+    this.listener.answered({ revision, state, final, order });
+    // The contour is on the screen before the processor paints.
+    const painted = Promise.all([fields, nextPicture()]).then(([found]) => found && this.listener.sampled(order, found));
     if (this.wanted && this.wanted.revision !== revision) this.start(false);
-    else if (final) this.listener.idle();
+    else if (final) void painted.then(() => this.rest(revision));
     else this.timer = window.setTimeout(() => this.start(true), pause_ms);
+  }
+
+  /** Nothing is left to do, unless something has been wanted meanwhile. */
+  private rest(revision: number): void {
+    if (!this.running && this.wanted?.revision === revision) this.listener.idle();
   }
 
   private fail(revision: number, refusal: Refusal): void {

@@ -1,5 +1,5 @@
 // What the workplace "Cell" knows: the case, its state as solved last, the way there, and what can be undone.
-import { caseText, readCaseLines, readKeys, streamOf, type Case, type Lines, type Refusal, type State, type Value } from '../api';
+import { caseText, readCaseLines, readKeys, streamOf, type Case, type EncodedFields, type Lines, type Refusal, type State, type Value } from '../api';
 import { decodeFields, type Fields } from '../draw/fields';
 import { place, replacePlace } from '../shell/place';
 import { keepInSession, sessionChanged } from '../shell/session';
@@ -15,6 +15,7 @@ export interface Solved {
   revision: number;
   of: Case;
   state: State;
+  /** of this state, or of the one before until they are there */
   fields: Fields | null;
   final: boolean;
   /** the same case at display accuracy, once the final answer is there */
@@ -43,11 +44,14 @@ let before: Case | null = null;
 /** Values of keys that lost their effect, to come back with it. */
 const earlier: Case = {};
 let linesOf = '';
+/** The answer whose fields are shown. */
+let sampled = 0;
 
 const solver = new LiveSolver(streamOf('cell'), {
   busy: (_, refining) => working.set(refining ? 'refining' : 'solving'),
   idle: () => working.set('idle'),
   answered: take,
+  sampled: takeFields,
   refused: (_, refusal) => refused.set(refusal),
 });
 
@@ -58,13 +62,20 @@ export const isInTime = (of: Case) => (optionOf(keys.get(), of, 'time.scheme') ?
 function take({ revision: answered, state, final }: Answer): void {
   const of = cases.get(answered) ?? values.get();
   for (const old of [...cases.keys()]) if (old < answered) cases.delete(old);
-  const fields = state.fields ? decodeFields(state.fields) : null;
   refused.set(null);
   const former = solved.get();
   const coarse = final && former?.revision === answered && !former.final ? former.state : null;
-  solved.set({ revision: answered, of, state, fields, final, coarse });
+  solved.set({ revision: answered, of, state, fields: former?.fields ?? null, final, coarse });
   const point = { area_um2: state.area_um2, deformation: state.deformation };
   trace.update((points) => [...points.slice(-400), point]);
+}
+
+/** Fields may come after those of a later answer: then they are in vain. */
+function takeFields(order: number, encoded: EncodedFields): void {
+  if (order < sampled) return;
+  sampled = order;
+  const fields = decodeFields(encoded);
+  solved.update((now) => now && { ...now, fields });
 }
 
 /** Solves the current case; a case in time is played on demand instead. */

@@ -46,7 +46,7 @@ function Readout({ stage, spot, sentences }: { stage: Stage; spot: Spot; sentenc
   );
 }
 
-export function useProbe(stage: Stage | null, scene: Scene, cover: { current: Cover | null }) {
+export function useProbe(stage: Stage | null, scene: Scene, cover: (() => Cover) | null) {
   const [spot, setSpot] = useState<Spot | null>(null);
   const pointed = (event: PointerEvent) => {
     if (!stage) return;
@@ -66,7 +66,7 @@ export function useProbe(stage: Stage | null, scene: Scene, cover: { current: Co
       byKey: true,
     }));
   };
-  const sentences = spot && cover.current && scene.fields ? valuesAt(scene, cover.current, spot) : [];
+  const sentences = spot && cover && scene.fields ? valuesAt(scene, cover(), spot) : [];
   return {
     handlers: { onPointerMove: pointed, onPointerLeave: () => setSpot(null), onKeyDown: pressed, onBlur: () => setSpot(null) },
     mark: spot?.byKey ? spot : null,

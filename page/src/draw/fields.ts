@@ -1,5 +1,5 @@
 // The fields of an answer as arrays: a triangle mesh of the half plane and values at its points.
-import type { EncodedFields } from '../api';
+import type { EncodedFields, FieldsHead } from '../api';
 
 export interface Fields {
   /** x, r of each point, um */
@@ -8,32 +8,30 @@ export interface Fields {
   /** per point: 0 liquid, 1 cell */
   region: Uint8Array;
   values: Record<string, Float32Array>;
-  surface: EncodedFields['surface'];
-  wall: EncodedFields['wall'];
+  surface: FieldsHead['surface'];
+  wall: FieldsHead['wall'];
   surface3d: { places: Float32Array; triangles: Uint32Array } | null;
 }
 
-function bytes(base64: string): ArrayBuffer {
-  const text = window.atob(base64);
-  const found = new Uint8Array(text.length);
-  for (let k = 0; k < text.length; ++k) found[k] = text.charCodeAt(k);
-  return found.buffer;
-}
-
-const floats = (base64: string) => new Float32Array(bytes(base64));
-const indices = (base64: string) => new Uint32Array(bytes(base64));
-
-export function decodeFields(encoded: EncodedFields): Fields {
-  const values = Object.entries(encoded.values).map(([name, text]) => [name, floats(text)] as const);
-  const solid = encoded.surface3d;
+export function decodeFields({ head, bytes }: EncodedFields): Fields {
+  const kinds = { float32: Float32Array, uint32: Uint32Array, uint8: Uint8Array };
+  const found = new Map<string, Float32Array | Uint32Array | Uint8Array>();
+  let at = 0;
+  for (const { name, type, count } of head.arrays) {
+    const array = new kinds[type](bytes, at, count);
+    found.set(name, array);
+    at += array.byteLength;
+  }
+  const values = [...found].filter(([name]) => name.startsWith('values/')).map(([name, array]) => [name.slice(7), array]);
+  const solid = found.get('surface3d/xyz_um') as Float32Array | undefined;
   return {
-    places: floats(encoded.xy_um),
-    triangles: indices(encoded.index),
-    region: new Uint8Array(bytes(encoded.region)),
-    values: Object.fromEntries(values),
-    surface: encoded.surface,
-    wall: encoded.wall,
-    surface3d: solid ? { places: floats(solid.xyz_um), triangles: indices(solid.index) } : null,
+    places: found.get('xy_um') as Float32Array,
+    triangles: found.get('index') as Uint32Array,
+    region: found.get('region') as Uint8Array,
+    values: Object.fromEntries(values) as Record<string, Float32Array>,
+    surface: head.surface,
+    wall: head.wall,
+    surface3d: solid ? { places: solid, triangles: found.get('surface3d/index') as Uint32Array } : null,
   };
 }
 

@@ -20,7 +20,12 @@ export interface Cover {
   y: Float64Array;
 }
 
-function placePoints(fields: Fields, frame: Frame): Cover {
+interface Placed {
+  x: Float64Array;
+  y: Float64Array;
+}
+
+function placePoints(fields: Fields, frame: Frame): Placed {
   const points = fields.region.length;
   const x = new Float64Array(points);
   const y = new Float64Array(points);
@@ -28,38 +33,60 @@ function placePoints(fields: Fields, frame: Frame): Cover {
     x[k] = (fields.places[2 * k] - frame.left_um) * frame.pixels_per_um;
     y[k] = frame.height - fields.places[2 * k + 1] * frame.pixels_per_um;
   }
-  return { frame, triangle: new Int32Array(frame.width * frame.height).fill(-1), x, y };
+  return { x, y };
 }
 
-/** Fills the rows of one triangle whose corners a, b, c are sorted by y. */
-function fillTriangle({ frame, triangle, x, y }: Cover, id: number, a: number, b: number, c: number): void {
+/** Calls `fill` for each row of one triangle whose corners a, b, c are sorted by y: the row, its first and last column. */
+function eachRow({ x, y }: Placed, frame: Frame, a: number, b: number, c: number, fill: (row: number, first: number, last: number) => void): void {
   const { width, height } = frame;
   const from = Math.max(0, Math.ceil(y[a] - 0.5));
   const to = Math.min(height - 1, Math.ceil(y[c] - 0.5) - 1);
+  const along = (x[c] - x[a]) / (y[c] - y[a]);
   for (let row = from; row <= to; ++row) {
     const level = row + 0.5;
-    const long = x[a] + ((level - y[a]) / (y[c] - y[a])) * (x[c] - x[a]);
-    const [p, q] = level < y[b] ? [a, b] : [b, c];
+    const p = level < y[b] ? a : b;
+    const q = level < y[b] ? b : c;
+    const long = x[a] + (level - y[a]) * along;
     const short = x[p] + ((level - y[p]) / (y[q] - y[p])) * (x[q] - x[p]);
     const first = Math.max(0, Math.ceil((long < short ? long : short) - 0.501));
     const last = Math.min(width - 1, Math.floor((long < short ? short : long) - 0.499));
-    for (let at = row * width + first; at <= row * width + last; ++at) triangle[at] = id;
+    if (first <= last) fill(row, first, last);
+  }
+}
+
+/** All triangles in the frame, each announced by `begin`, which says whether it is wanted, and then row by row. */
+function eachTriangle(
+  fields: Fields,
+  frame: Frame,
+  placed: Placed,
+  begin: (id: number) => boolean,
+  fill: (row: number, first: number, last: number) => void,
+): void {
+  const { x, y } = placed;
+  const { triangles } = fields;
+  for (let t = 0; t < triangles.length; t += 3) {
+    let a = triangles[t];
+    let b = triangles[t + 1];
+    let c = triangles[t + 2];
+    if ((x[a] < 0 && x[b] < 0 && x[c] < 0) || (x[a] > frame.width && x[b] > frame.width && x[c] > frame.width)) continue;
+    if (!begin(t / 3)) continue;
+    if (y[a] > y[b]) [a, b] = [b, a];
+    if (y[b] > y[c]) [b, c] = [c, b];
+    if (y[a] > y[b]) [a, b] = [b, a];
+    eachRow(placed, frame, a, b, c, fill);
   }
 }
 
 export function coverPixels(fields: Fields, frame: Frame): Cover {
-  const cover = placePoints(fields, frame);
-  const { x, y } = cover;
-  const { triangles } = fields;
-  for (let t = 0; t < triangles.length; t += 3) {
-    let [a, b, c] = [triangles[t], triangles[t + 1], triangles[t + 2]];
-    if ((x[a] < 0 && x[b] < 0 && x[c] < 0) || (x[a] > frame.width && x[b] > frame.width && x[c] > frame.width)) continue;
-    if (y[a] > y[b]) [a, b] = [b, a];
-    if (y[b] > y[c]) [b, c] = [c, b];
-    if (y[a] > y[b]) [a, b] = [b, a];
-    fillTriangle(cover, t / 3, a, b, c);
-  }
-  return cover;
+  const placed = placePoints(fields, frame);
+  const triangle = new Int32Array(frame.width * frame.height).fill(-1);
+  let now = -1;
+  const begin = (id: number) => ((now = id), true);
+  eachTriangle(fields, frame, placed, begin, (row, first, last) => {
+    const end = row * frame.width + last;
+    for (let at = row * frame.width + first; at <= end; ++at) triangle[at] = now;
+  });
+  return { frame, triangle, ...placed };
 }
 
 /** value = at + along x + up y in pixels of the frame, over one triangle. */
@@ -69,8 +96,7 @@ interface Plane {
   y: number;
 }
 
-function putPlane(plane: Plane, fields: Fields, cover: Cover, values: Float32Array, id: number): void {
-  const { x, y } = cover;
+function putPlane(plane: Plane, fields: Fields, { x, y }: Placed, values: Float32Array, id: number): void {
   const a = fields.triangles[3 * id];
   const b = fields.triangles[3 * id + 1];
   const c = fields.triangles[3 * id + 2];
@@ -90,26 +116,29 @@ export interface Paint {
 }
 
 /** Colours of the half picture; liquid and cell have a paint of their own, null leaves the ground. */
-export function paintPixels(fields: Fields, cover: Cover, paints: (Paint | null)[], pixels: Uint32Array): void {
-  const { frame, triangle } = cover;
+export function paintPixels(fields: Fields, frame: Frame, paints: (Paint | null)[], pixels: Uint32Array): void {
+  const placed = placePoints(fields, frame);
   const plane: Plane = { at: 0, x: 0, y: 0 };
-  let last = -1;
-  let paint: Paint | null = null;
-  for (let row = 0, at = 0; row < frame.height; ++row) {
-    for (let column = 0; column < frame.width; ++column, ++at) {
-      const id = triangle[at];
-      if (id < 0) continue;
-      if (id !== last) {
-        last = id;
-        paint = paints[fields.region[fields.triangles[3 * id]]];
-        if (paint) putPlane(plane, fields, cover, paint.values, id);
-      }
-      if (!paint) continue;
-      const value = plane.at + plane.x * (column + 0.5) + plane.y * (row + 0.5);
-      const place = (255 * (value - paint.low)) / (paint.high - paint.low) + 0.5;
-      pixels[at] = paint.map.pixels[place < 0 ? 0 : place > 255 ? 255 : place | 0];
-    }
-  }
+  let colours: Uint32Array = new Uint32Array(0);
+  // The plane becomes one of places in the map, so that each pixel takes one addition.
+  const begin = (id: number): boolean => {
+    const paint = paints[fields.region[fields.triangles[3 * id]]];
+    if (!paint) return false;
+    putPlane(plane, fields, placed, paint.values, id);
+    const scale = 255 / (paint.high - paint.low);
+    plane.at = (plane.at - paint.low) * scale + 0.5;
+    plane.x *= scale;
+    plane.y *= scale;
+    colours = paint.map.pixels;
+    return true;
+  };
+  eachTriangle(fields, frame, placed, begin, (row, first, last) => {
+    const step = plane.x;
+    let place = plane.at + step * (first + 0.5) + plane.y * (row + 0.5);
+    const end = row * frame.width + last;
+    for (let at = row * frame.width + first; at <= end; ++at, place += step)
+      pixels[at] = colours[place < 0 ? 0 : place > 255 ? 255 : place | 0];
+  });
 }
 
 /** Values of a field at the pixels of one region; zero elsewhere. */

@@ -48,7 +48,7 @@ function look(grid: Grid, x: number, r: number): boolean {
   const row = frame.height - r * frame.pixels_per_um - 0.5;
   const i = Math.min(frame.width - 2, Math.floor(column));
   const j = Math.min(frame.height - 2, Math.floor(row));
-  if (i < 0 || j < 0) return false;
+  if (i < 0 || j < 0 || column > frame.width - 0.5) return false;
   const s = column - i;
   const t = Math.min(1, row - j);
   let [u, v, weight] = [0, 0, 0];
