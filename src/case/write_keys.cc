@@ -49,9 +49,10 @@ KeyValues with_effect(KeyValues values) {
 
 nlohmann::ordered_json to_json(const KeyValues& values) {
   auto json = nlohmann::ordered_json::object();
-  for (const auto& [key, value] : values)
-    visit_value(*key, value,
-                [&](const auto& plain) { json[nlohmann::ordered_json::json_pointer(pointer_of(key->name))] = plain; });
+  for (const auto& [key, value] : values) {
+    auto& place = json[nlohmann::ordered_json::json_pointer(pointer_of(key->name))];
+    visit_value(*key, value, [&](const auto& plain) { place = plain; });
+  }
   return json;
 }
 
@@ -64,9 +65,9 @@ std::string to_toml(const KeyValues& values, std::span<const std::string_view> l
     const auto section = key->name.substr(0, dot);
     if (section != open_section) text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
     open_section = section;
-    visit_value(*key, value, [&](const auto& plain) {
-      text += fmt::format("{} = {}\n", key->name.substr(dot + 1), toml_value(plain));
-    });
+    text.append(key->name.substr(dot + 1)).append(" = ");
+    visit_value(*key, value, [&](const auto& plain) { text += toml_value(plain); });
+    text += '\n';
   }
   return text;
 }

@@ -48,11 +48,7 @@ CoupledSystem::Condensed::Condensed(const ElementUnknowns& element, int outer_un
 }
 
 CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnknowns> elements)
-    : space_(space),
-      elements_(std::move(elements)),
-      surface_(space),
-      inlet_load_(inlet_load(space)),
-      outlet_load_(outlet_load(space)) {
+    : space_(space), elements_(std::move(elements)), surface_(space) {
   std::vector<std::pair<int, int>> entries;
   for (const ElementUnknowns& element : elements_) {
     const Condensed& c = condensed_.emplace_back(element, space.outer_unknowns());
@@ -61,8 +57,9 @@ CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnk
     }
   }
   for (int i = 0; i < space.outer_unknowns(); ++i) entries.emplace_back(i, i);
-  for (int i = 0; i < inlet_load_.size(); ++i) {
-    if (inlet_load_(i) != 0) inlet_equation_.push_back(i);
+  const VectorXd inlet = inlet_load(space);
+  for (int i = 0; i < inlet.size(); ++i) {
+    if (inlet(i) != 0) inlet_equation_.push_back(i);
   }
   for (const int i : inlet_equation_) entries.emplace_back(i, space.cell_velocity());
   for (const SurfacePatch& patch : surface_.patches()) {
@@ -89,7 +86,6 @@ CoupledSystem::~CoupledSystem() = default;
 void CoupledSystem::follow_space(std::vector<ElementUnknowns> elements) {
   elements_ = std::move(elements);
   surface_ = SurfaceIntegrals(space_);
-  inlet_load_ = inlet_load(space_);
 }
 
 std::size_t CoupledSystem::memory_bytes() const {
@@ -179,13 +175,15 @@ CoupledSystem::InletPressure CoupledSystem::inlet_pressure(const Media& media) c
 }
 
 void CoupledSystem::add_ends(const Media& media, const VectorXd& unknowns, Want want, VectorXd& residual) {
-  residual -= undisturbed_pressure(media.liquid) * outlet_load_;
+  // Loads are those of this moment: the ends of a channel with walls that are not straight change their size.
+  residual -= undisturbed_pressure(media.liquid) * outlet_load(space_);
   if (!space_.has_open_inlet()) return;
   const InletPressure pressure = inlet_pressure(media);
-  residual += (pressure.fixed + pressure.slope * unknowns(space_.cell_velocity())) * inlet_load_;
+  const VectorXd load = inlet_load(space_);
+  residual += (pressure.fixed + pressure.slope * unknowns(space_.cell_velocity())) * load;
   if (want == Want::residual) return;
   for (std::size_t k = 0; k < inlet_equation_.size(); ++k) {
-    matrix_->value[inlet_position_[k]] += pressure.slope * inlet_load_(inlet_equation_[k]);
+    matrix_->value[inlet_position_[k]] += pressure.slope * load(inlet_equation_[k]);
   }
 }
 
@@ -260,7 +258,8 @@ VectorXd CoupledSystem::apply_tangent(const Media& media, const VectorXd& unknow
       if (element.rows[i] >= 0) product(element.rows[i]) += change(i);
     }
   }
-  if (space_.has_open_inlet()) product += inlet_pressure(media).slope * direction(space_.cell_velocity()) * inlet_load_;
+  if (space_.has_open_inlet())
+    product += inlet_pressure(media).slope * direction(space_.cell_velocity()) * inlet_load(space_);
   for (int k = 0; k < surface_.active(media.cortex); ++k) {
     surface_.integrate(k, media.cortex, unknowns, Want::residual_and_tangent, element_);
     const auto& rows = surface_.patches()[k].unknowns;

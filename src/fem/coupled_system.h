@@ -68,9 +68,8 @@ class CoupledSystem : public NonlinearSystem {
   SurfaceIntegrals surface_;
   std::vector<Condensed> condensed_;
   std::vector<std::vector<int>> surface_position_;  ///< in the sparse matrix, patch by patch: unknowns x unknowns
-  VectorXd inlet_load_, outlet_load_;               ///< per pressure; zero where the inlet is not open
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
-  std::vector<int> inlet_equation_;  ///< where it is not zero
+  std::vector<int> inlet_equation_;  ///< where the load of an open inlet is not zero
   std::vector<int> inlet_position_;  ///< of these equations' entries for v_cell in the sparse matrix
   std::unique_ptr<SparseMatrix> matrix_;
   std::unique_ptr<SparseLU> lu_;

@@ -9,7 +9,7 @@ namespace rheocyte {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) : unknowns_(unknowns) {
+NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
   std::vector<int> place(unknowns, -1);
   for (const Subdomain& subdomain : nested_order(unknowns, elements)) {
     Front& front = fronts_.emplace_back();

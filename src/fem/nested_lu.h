@@ -49,7 +49,6 @@ class NestedLU {
   void eliminate(Front&, Eigen::MatrixXd& matrix);
 
   std::vector<Front> fronts_;  ///< elements first, each after its parts, the whole last
-  int unknowns_;
   double flops_ = 0;
 };
 

@@ -238,7 +238,6 @@ ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgr
 
 std::string sentence_for(const std::filesystem::path& recording, const ContainedEnd& end, double patience_s) {
   const std::string name = one_line(recording.string(), 300);
-  using Kind = ContainedEnd::Kind;
   switch (end.kind) {
     case Kind::user_error: return end.text;
     case Kind::no_memory:
