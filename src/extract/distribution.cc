@@ -12,7 +12,6 @@ namespace rheocyte {
 Distribution distribution_of(std::span<double> values) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   if (values.empty()) return {nan, nan, nan, nan, nan};
-  std::ranges::sort(values);
   const auto count = static_cast<double>(values.size());
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
   double squares = 0;

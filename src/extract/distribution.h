@@ -9,7 +9,7 @@ struct Distribution {
   double median = 0, first_quartile = 0, third_quartile = 0, mean = 0, standard_deviation = 0;
 };
 
-/// Sorts the values. Quartiles between two values are interpolated linearly.
+/// Reorders the values. Quartiles between two values are interpolated linearly.
 Distribution distribution_of(std::span<double> values);
 
 }  // namespace rheocyte

@@ -18,21 +18,15 @@ constexpr double normal_deviations_per_quartile = 0.6745;
 constexpr std::size_t fewest_for_a_verdict = 5, fewest_for_a_trend = 20;  // events
 constexpr double least_length_um = 15;                                    // of what a recording sees, for a trend
 
-std::vector<double> ascending(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values;
-}
-
-double robust_deviation(std::span<const double> sorted) {
-  return (quantile(sorted, 0.75) - quantile(sorted, 0.25)) / (2 * normal_deviations_per_quartile);
+double robust_deviation(std::span<double> values) {
+  return (quantile(values, 0.75) - quantile(values, 0.25)) / (2 * normal_deviations_per_quartile);
 }
 
 Median median_with_error(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty()) return {nan, nan};
-  const auto sorted = ascending(std::move(values));
-  const double error = 1.25 * robust_deviation(sorted) / std::sqrt(static_cast<double>(sorted.size()));
-  return {quantile(sorted, 0.5), sorted.size() > 1 ? error : nan};
+  const double error = 1.25 * robust_deviation(values) / std::sqrt(static_cast<double>(values.size()));
+  return {quantile(values, 0.5), values.size() > 1 ? error : nan};
 }
 
 /// Least squares over the places, without what lies four robust deviations from the median.
@@ -41,8 +35,7 @@ Trend trend_of(std::span<const double> x, std::span<const double> y, double leng
   for (const double v : y)
     if (std::isfinite(v)) finite.push_back(v);
   if (finite.size() < fewest_for_a_trend || !(length >= least_length_um)) return {nan, nan, nan};
-  const auto sorted = ascending(std::move(finite));
-  const double middle = quantile(sorted, 0.5), widest = 4 * robust_deviation(sorted);
+  const double middle = quantile(finite, 0.5), widest = 4 * robust_deviation(finite);
   double n = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!std::isfinite(x[i]) || !(std::abs(y[i] - middle) <= widest)) continue;
@@ -106,7 +99,6 @@ ShapeVerdict ShapeTally::verdict() const {
   const auto x = column(&Event::x);
   auto places = x;
   std::erase_if(places, [](double place) { return !std::isfinite(place); });
-  std::ranges::sort(places);
   v.seen_um = places.empty() ? nan : quantile(places, 0.95) - quantile(places, 0.05);
   v.inertia_ratio_trend = trend_of(x, column(&Event::inertia_ratio), v.seen_um);
   v.deformation_trend = trend_of(x, column(&Event::deformation), v.seen_um);

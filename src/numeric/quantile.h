@@ -7,12 +7,14 @@
 
 namespace rheocyte {
 
-/// Of ascending numbers, at least one, linear between them.
-inline double quantile(std::span<const double> sorted, double fraction) {
-  const double place = fraction * static_cast<double>(sorted.size() - 1);
+/// Linear between two of the numbers, at least one; reorders them. As fast as reading them some times: none is sorted.
+inline double quantile(std::span<double> values, double fraction) {
+  const double place = fraction * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+  const auto lower = values.begin() + static_cast<std::ptrdiff_t>(below);
+  std::ranges::nth_element(values, lower);
+  const double above = lower + 1 == values.end() ? *lower : *std::min_element(lower + 1, values.end());
+  return *lower + (place - static_cast<double>(below)) * (above - *lower);
 }
 
 /// The middle one, of an even number the upper one of the two; reorders the numbers. NaN of none.
