@@ -69,6 +69,10 @@ std::optional<Message> receive_message(int socket) {
   }
 }
 
+void send_request(int socket, const std::string& request) {
+  if (send_pieces(socket, Word::request, request)) send_message(socket, Word::request_end, {});
+}
+
 std::optional<std::string> receive_request(int socket) {
   std::string request;
   while (const auto message = receive_message(socket)) {
@@ -194,6 +198,17 @@ bool WorkReply::is_wanted() const {
   return ::poll(&asker, 1, 0) <= 0;
 }
 
+void WorkReply::end_answer() const {
+  if (!send_message(socket_, Word::done, {})) ::_exit(1);
+}
+
+std::optional<std::string> WorkReply::next_request() const {
+  pollfd awaited{socket_, POLLIN, 0};
+  while (::poll(&awaited, 1, -1) < 0 && errno == EINTR) {
+  }
+  return receive_request(socket_);
+}
+
 void WorkReply::run_contained(const fs::path& file, const std::function<void(const TellProgress&)>& work,
                               Containment limits) const {
   limits.is_wanted = [this] { return is_wanted(); };
@@ -213,6 +228,9 @@ HostedWork::~HostedWork() {
 }
 
 void HostedWork::stop() const { ::shutdown(socket_, SHUT_RDWR); }
+
+// A process that has ended is told of when its answer is read.
+void HostedWork::ask(const std::string& request) const { send_request(socket_, request); }
 
 void HostedWork::read(const Take& take, const TellProgress& on_progress) {
   while (auto message = receive_message(socket_)) {
@@ -274,8 +292,7 @@ HostedWork WorkHost::ask(const std::string& request) const {
   }
   ::close(ends[1]);
   if (!passed) refuse_more();
-  // A process that ended at once is told of when its answer is read.
-  if (send_pieces(ends[0], Word::request, request)) send_message(ends[0], Word::request_end, {});
+  work.ask(request);
   return work;
 }
 

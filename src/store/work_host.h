@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,10 @@ class WorkReply {
   void tell_progress(double fraction) const;
   /// Whether somebody still waits for the answer.
   bool is_wanted() const;
+  /// For work that stays: what was given so far is a whole answer.
+  void end_answer() const;
+  /// What is asked next (HostedWork::ask), however long that takes; nothing once nobody listens any more.
+  std::optional<std::string> next_request() const;
 
   /// What may break its process, in another one (run_contained_bytes): it gives pieces itself and tells its progress.
   /// `file` is what it reads, for the sentence. UserError.
@@ -41,6 +46,9 @@ class HostedWork {
   ~HostedWork();
   HostedWork(HostedWork&& other) noexcept;
   HostedWork& operator=(HostedWork&&) = delete;
+
+  /// Asks work that stays for another answer, once the one before has been read.
+  void ask(const std::string& request) const;
 
   /// Hands on all pieces, until the work is done or `take` returns false. UserError with the sentence of the work, or
   /// because its process broke down.

@@ -40,27 +40,6 @@ void check_event(const Recording& recording, std::size_t event) {
                                 one_line(recording.file().string(), 300), event, recording.events()));
 }
 
-Json features_of(const InspectedRecording& file, std::size_t event) {
-  RecordingColumns columns(file.recording, file.companion);
-  Json features = Json::object();
-  for (const auto& name : columns.names()) {
-    std::array<double, 1> value{};
-    columns.read(name, event, value);
-    features[name] = number_or_null(value[0]);
-  }
-  return features;
-}
-
-/// The outline through the middles of the outermost pixels, in the frame of the picture; without rows if there is none.
-Eigen::MatrixX2d outline_of(const Recording& recording, std::size_t event, double pixel_um) {
-  if (!ShapeSource::has_outlines(recording) || !(pixel_um > 0)) return {};
-  const PixelContour contour = EventOutlines(recording, pixel_um).outline(event);
-  Eigen::MatrixX2d points(static_cast<Eigen::Index>(contour.size()), 2);
-  Eigen::Index row = 0;
-  for (const PixelPoint& pixel : contour) points.row(row++) << (pixel.x + 0.5) * pixel_um, (pixel.y + 0.5) * pixel_um;
-  return points;
-}
-
 /// Distance of the outline from its centroid, divided by its mean, less the same of the model's: what is left of the
 /// shape once size and place agree.
 class ShapeResidual {
@@ -170,26 +149,59 @@ void add_modulus(const EventBlock& block, Json& j) {
 
 }  // namespace
 
-Json inspect_event(const InspectedRecording& file, const ExtractOptions& options, const ModulusTables& tables,
-                   std::size_t event) {
-  const Recording& recording = file.recording;
-  check_event(recording, event);
-  const double pixel_um =
-      options.measuring.pixel_size_um.value_or(recording.metadata().number("imaging:pixel size").value_or(0));
-  Json j{{"event", event}, {"features", features_of(file, event)}, {"pixel_um", number_or_null(pixel_um)}};
+EventInspector::EventInspector(const InspectedRecording& file, const ExtractOptions& options,
+                               const ModulusTables& tables)
+    : recording_(file.recording),
+      tables_(tables),
+      columns_(file.recording, file.companion),
+      pixel_um_(
+          options.measuring.pixel_size_um.value_or(recording_.metadata().number("imaging:pixel size").value_or(0))) {
+  if (ShapeSource::has_outlines(recording_) && pixel_um_ > 0) outlines_.emplace(recording_, pixel_um_);
+  try {
+    extraction_ = std::make_unique<Extraction>(recording_, options, tables);
+  } catch (const UserError& missing) {
+    missing_ = missing.what();
+  }
+}
+
+EventInspector::~EventInspector() = default;
+
+Json EventInspector::features(std::size_t event) {
+  Json features = Json::object();
+  for (const auto& name : columns_.names()) {
+    std::array<double, 1> value{};
+    columns_.read(name, event, value);
+    features[name] = number_or_null(value[0]);
+  }
+  return features;
+}
+
+/// The outline through the middles of the outermost pixels, in the frame of the picture; without rows if there is none.
+Eigen::MatrixX2d EventInspector::outline(std::size_t event) {
+  if (!outlines_) return {};
+  const PixelContour contour = outlines_->outline(event);
+  Eigen::MatrixX2d points(static_cast<Eigen::Index>(contour.size()), 2);
+  Eigen::Index row = 0;
+  for (const PixelPoint& pixel : contour) points.row(row++) << (pixel.x + 0.5) * pixel_um_, (pixel.y + 0.5) * pixel_um_;
+  return points;
+}
+
+Json EventInspector::inspect(std::size_t event) {
+  check_event(recording_, event);
+  Json j{{"event", event}, {"features", features(event)}, {"pixel_um", number_or_null(pixel_um_)}};
   for (const char* feature : {"image", "mask"})
-    if (const auto size = recording.image_size(feature))
+    if (const auto size = recording_.image_size(feature))
       j["image_size"] = {{"width", size->width}, {"height", size->height}};
   for (const char* key : {"young_modulus_kPa", "standard_error_kPa", "shape_excess", "young_modulus_asymmetry_kPa",
                           "outline", "model", "case"})
     j[key] = nullptr;
-  const Eigen::MatrixX2d outline = outline_of(recording, event, pixel_um);
-  if (outline.rows() > 0) j["outline"] = points_json(outline);
+  const Eigen::MatrixX2d points = outline(event);
+  if (points.rows() > 0) j["outline"] = points_json(points);
   try {
-    Extraction extraction(recording, options, tables);
-    const EventBlock block = extraction.compute(event, 1);
+    if (!extraction_) throw UserError(missing_);
+    const EventBlock block = extraction_->compute(event, 1);
     add_modulus(block, j);
-    add_fit(extraction, block, tables, outline, j);
+    add_fit(*extraction_, block, tables_, points, j);
   } catch (const UserError& missing) {
     j["state"] = "unknown";
     j["sentence"] = missing.what();

@@ -75,11 +75,16 @@ void give_columns(const Json& request, const WorkReply& reply, const TellProgres
     }
 }
 
-void inspect(const Json& request, const WorkReply& reply, const TellProgress& tell) {
+/// Stays with its recording, tables and settings until nobody asks for an event any more.
+void inspect_events(const Json& request, const WorkReply& reply, const TellProgress& tell) {
   const OpenRecording open(request, tell);
   const ExtractOptions options = options_of_settings(request.at("settings"));
   const ModulusTables tables(options.table);
-  reply.give(json_text(inspect_event({open.recording, open.computed()}, options, tables, request.at("event"))));
+  EventInspector inspector({open.recording, open.computed()}, options, tables);
+  while (const auto event = reply.next_request()) {
+    reply.give(json_text(inspector.inspect(std::stoul(*event))));
+    reply.end_answer();
+  }
 }
 
 void give_picture(const Json& request, const WorkReply& reply, const TellProgress&) {
@@ -124,19 +129,23 @@ using Contained = void (*)(const Json&, const WorkReply&, const TellProgress&);
 struct Named {
   const char* name;
   Contained work;
+  Containment limits = {};
 };
-constexpr Named contained_work[]{{"describe", describe}, {"names", list_columns},   {"columns", give_columns},
-                                 {"inspect", inspect},   {"picture", give_picture}, {"lines", give_lines}};
+/// Who waits for the next question is silent: the one who asks loses patience with an answer.
+const Containment stays{.patience_s = 1e9};
+const Named contained_work[]{{"describe", describe},    {"names", list_columns},
+                             {"columns", give_columns}, {"inspect", inspect_events, stays},
+                             {"picture", give_picture}, {"lines", give_lines}};
 
 }  // namespace
 
 void do_item_work(const std::string& text, const WorkReply& reply) {
   const Json request = parse_sound_json(text);
   const std::string wanted = request.value("do", "");
-  for (const auto& [name, work] : contained_work)
+  for (const auto& [name, work, limits] : contained_work)
     if (wanted == name)
-      return reply.run_contained(path_in(request, "file"),
-                                 [&](const TellProgress& tell) { work(request, reply, tell); });
+      return reply.run_contained(
+          path_in(request, "file"), [&](const TellProgress& tell) { work(request, reply, tell); }, limits);
   if (wanted == "moduli") return compute_moduli(request, reply);
   throw UserError("There is no such work on an item.");
 }

@@ -45,8 +45,12 @@ ModuliRuns::ModuliRuns(const ViewItems& items)
 ModuliRuns::~ModuliRuns() = default;
 
 void ModuliRuns::start(std::size_t item, const Json& settings) {
+  static_cast<void>(items_.recording(item));
+  begin(item, extract_options(settings, [this](std::size_t number) { return items_.table(number); }));
+}
+
+void ModuliRuns::begin(std::size_t item, const ExtractOptions& options) {
   const auto found = items_.recording(item);
-  const ExtractOptions options = extract_options(settings, [this](std::size_t number) { return items_.table(number); });
   const auto run = std::make_shared<Run>();
   run->settings = all_settings(options);
   run->command = extract_command(options, found.place.path);
@@ -84,6 +88,27 @@ void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& s
   run.error = error;
   run.report = std::move(report);
   if (error.empty()) run.done = 1;
+}
+
+Json ModuliRuns::kept() const {
+  Json all = Json::array();
+  for (std::size_t item = 0; item < items_.count(); ++item)
+    if (const auto run = run_of(item))
+      all.push_back({{"path", items_.at(item).place.path.string()}, {"settings", run->settings}});
+  return all;
+}
+
+void ModuliRuns::restore(const Json& kept) {
+  if (!kept.is_array()) throw UserError("The moduli of the session are no list.");
+  for (const Json& one : kept) {
+    if (!one.is_object() || !one.contains("path") || !one["path"].is_string() || !one.contains("settings"))
+      throw UserError("Moduli of the session have no path or no settings.");
+    for (std::size_t item = 0; item < items_.count(); ++item) {
+      const ItemPlace place = items_.at(item).place;
+      if (place.path == one["path"].get<std::string>() && place.kind == ItemKind::recording && place.error.empty())
+        begin(item, options_of_settings(one["settings"]));
+    }
+  }
 }
 
 std::shared_ptr<ModuliRuns::Run> ModuliRuns::run_of(std::size_t item) const {

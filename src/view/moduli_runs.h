@@ -14,6 +14,8 @@
 
 namespace rheocyte {
 
+struct ExtractOptions;
+
 class ModuliRuns {
  public:
   /// The items must outlive it.
@@ -24,6 +26,9 @@ class ModuliRuns {
 
   /// Starts over with these settings (see extract_options). UserError about the settings, Refused about the item.
   void start(std::size_t item, const nlohmann::ordered_json& settings);
+  /// For the session: of each run its recording and its settings; restored they start over.
+  nlohmann::ordered_json kept() const;
+  void restore(const nlohmann::ordered_json& kept);
   /// Nothing is left of a run.
   void stop(std::size_t item);
   /// {"state": "none|running|ready|failed", "done": 0..1, "settings", "command"}, then "summary", "lines", "features",
@@ -41,6 +46,7 @@ class ModuliRuns {
 
  private:
   struct Run;
+  void begin(std::size_t item, const ExtractOptions& options);
   std::shared_ptr<Run> run_of(std::size_t item) const;
   std::shared_ptr<Run> take_out(std::size_t item);
   void compute(Run& run, const nlohmann::ordered_json& request, const std::stop_token& stop);

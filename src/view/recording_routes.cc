@@ -97,8 +97,8 @@ class RecordingAnswers {
     return answer;
   }
 
-  Answer event(const Request& request) const {
-    return {.body = ask(request, {{"do", "inspect"}, {"event", request.number("event")}}).all()};
+  Answer event(const Request& request) {
+    return {.body = items_.inspectors().inspect(recording_in(request), request.number("event"))};
   }
 
   Answer picture(const Request& request, const std::string& feature) const {
@@ -126,6 +126,9 @@ class RecordingAnswers {
     return moduli(request);
   }
 
+  Json kept_moduli() const { return runs_.kept(); }
+  void restore_moduli(const Json& kept) { runs_.restore(kept); }
+
   /// With the settings of the item's moduli, as `rheocyte extract` writes the file.
   fs::path write_companion(const Json& request, ExportFolder& folder) const {
     const Json wanted = export_request(request);
@@ -152,11 +155,15 @@ class RecordingAnswers {
  private:
   /// The work on the item of a request, with what has been computed from it.
   HostedWork ask(const Request& request, Json wanted) const {
-    const std::size_t number = request.number("item");
-    wanted["file"] = items_.recording(number).place.path.string();
-    wanted["companion"] = runs_.companion(number).string();
-    wanted["settings"] = runs_.settings(number);
+    wanted.update(recording_in(request));
     return items_.host().ask(json_text(wanted));
+  }
+
+  Json recording_in(const Request& request) const {
+    const std::size_t number = request.number("item");
+    return {{"file", items_.recording(number).place.path.string()},
+            {"companion", runs_.companion(number).string()},
+            {"settings", runs_.settings(number)}};
   }
 
   Json export_request(const Json& request) const {
@@ -214,6 +221,8 @@ void add_recording_routes(Router& router, Exports& exports, ViewSession& session
   exports.add("events",
               [answers](const Json& request, ExportFolder& folder) { return answers->write_events(request, folder); });
   session.add({"items", [&items] { return items.kept(); }, [&items](const Json& kept) { items.restore(kept); }});
+  session.add({"moduli", [answers] { return answers->kept_moduli(); },
+               [answers](const Json& kept) { answers->restore_moduli(kept); }});
 }
 
 }  // namespace rheocyte

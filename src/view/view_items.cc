@@ -102,6 +102,14 @@ std::size_t ViewItems::count() const {
   return items_.size();
 }
 
+std::vector<std::string> ViewItems::missing() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<std::string> sentences;
+  for (const Item& item : items_)
+    if (!item.place.error.empty()) sentences.push_back(item.place.error);
+  return sentences;
+}
+
 Json ViewItems::list() {
   Json all = Json::array();
   for (std::size_t number = 0; number < count(); ++number) {

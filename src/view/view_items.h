@@ -12,6 +12,7 @@
 
 #include "store/work_host.h"
 #include "view/item_places.h"
+#include "view/kept_inspectors.h"
 
 namespace rheocyte {
 
@@ -36,6 +37,8 @@ class ViewItems {
   /// Items that have vanished, or come back, are noticed here.
   nlohmann::ordered_json list();
   std::size_t count() const;
+  /// What is wrong with places that cannot be read, one sentence each.
+  std::vector<std::string> missing() const;
   /// A copy. Refused (404) if there is none of this number.
   Item at(std::size_t number) const;
   /// The same of a recording; Refused (409) if the item is something else.
@@ -50,6 +53,7 @@ class ViewItems {
   void restore(const nlohmann::ordered_json& kept);
 
   const WorkHost& host() const { return host_; }
+  KeptInspectors& inspectors() { return inspectors_; }
 
  private:
   void describe_all(const std::stop_token& stop);
@@ -57,6 +61,7 @@ class ViewItems {
   void look_after(std::size_t number);
 
   WorkHost host_;
+  KeptInspectors inspectors_{host_};
   mutable std::mutex mutex_;
   std::condition_variable_any added_;
   std::vector<Item> items_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <thread>
@@ -79,6 +80,30 @@ TEST(WorkHost, StopsContainedWorkForWhichNobodyWaits) {
   }
   EXPECT_FALSE(fs::exists("/proc/" + seen)) << "the host ends after all its work";
   EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST(WorkHost, HasWorkThatStaysUntilNobodyAsksAnyMore) {
+  const WorkHost host([](const std::string& request, const WorkReply& reply) {
+    reply.run_contained("cells.rtdc", [&](const TellProgress&) {
+      int asked = 0;
+      while (const auto next = reply.next_request()) {
+        reply.give(request + *next + std::to_string(++asked) + " " + std::to_string(::getpid()));
+        reply.end_answer();
+      }
+    });
+  });
+  std::string process;
+  {
+    HostedWork work = host.ask("a");
+    for (const std::string answer : {"ab1 ", "ab2 ", "ab3 "}) {
+      work.ask("b");
+      const std::string text = work.all();
+      EXPECT_EQ(text.substr(0, answer.size()), answer);
+      process = text.substr(answer.size());
+    }
+  }
+  // It ends by itself; nothing but its end ends this loop.
+  while (fs::exists("/proc/" + process)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 TEST(WorkHost, EndsAReaderFromAnotherThread) {

@@ -43,8 +43,9 @@ void expect_the_numbers_of_extract(const std::filesystem::path& file, const test
   const ModulusTables tables("");
   const Recording recording(file), companion(extracted(file, folder, options, tables));
   RecordingColumns columns(recording, &companion);
+  EventInspector inspector({recording, &companion}, options, tables);
   for (std::size_t event = 0; event < std::min(most_events, recording.events()); ++event) {
-    const Json told = inspect_event({recording, &companion}, options, tables, event);
+    const Json told = inspector.inspect(event);
     const auto in_companion = [&](const std::string& name) {
       std::array<double, 1> value{};
       columns.read(name, event, value);
@@ -84,7 +85,7 @@ TEST(EventInspector, LaysTheModelOverTheOutline) {
   const ModulusTables tables("");
   int compared = 0;
   for (std::size_t event = 0; event < recording.events(); ++event) {
-    const Json told = inspect_event({recording, nullptr}, {}, tables, event);
+    const Json told = EventInspector({recording, nullptr}, ExtractOptions{}, tables).inspect(event);
     ASSERT_FALSE(told["outline"].is_null());
     if (told["model"].is_null()) continue;
     ++compared;
@@ -120,16 +121,16 @@ TEST(EventInspector, TellsWhyThereIsNoModulus) {
   }
   const ModulusTables tables("");
   const Recording recording(folder / "a.rtdc"), bare(folder / "bare.rtdc");
-  EXPECT_EQ(inspect_event({recording, nullptr}, {}, tables, 0)["state"], "valid");
-  EXPECT_EQ(inspect_event({recording, nullptr}, {}, tables, 1)["state"], "too small");
-  const Json without = inspect_event({recording, nullptr}, {}, tables, 2);
+  EXPECT_EQ(EventInspector({recording, nullptr}, ExtractOptions{}, tables).inspect(0)["state"], "valid");
+  EXPECT_EQ(EventInspector({recording, nullptr}, ExtractOptions{}, tables).inspect(1)["state"], "too small");
+  const Json without = EventInspector({recording, nullptr}, ExtractOptions{}, tables).inspect(2);
   EXPECT_EQ(without["state"], "no data");
   EXPECT_TRUE(without["features"]["area_um"].is_null());
   EXPECT_TRUE(without["outline"].is_null());
-  const Json unknown = inspect_event({bare, nullptr}, {}, tables, 0);
+  const Json unknown = EventInspector({bare, nullptr}, ExtractOptions{}, tables).inspect(0);
   EXPECT_EQ(unknown["state"], "unknown");
   EXPECT_NE(unknown["sentence"].get<std::string>().find("setup:channel width"), std::string::npos) << unknown;
-  EXPECT_THROW(static_cast<void>(inspect_event({recording, nullptr}, {}, tables, 3)), UserError);
+  EXPECT_THROW(static_cast<void>(EventInspector({recording, nullptr}, ExtractOptions{}, tables).inspect(3)), UserError);
   EXPECT_THROW(static_cast<void>(picture_of_event(recording, "image", 0)), UserError);
 }
 

@@ -230,6 +230,34 @@ TEST_F(RecordingRoutes, GiveEventsPicturesAndLines) {
   EXPECT_TRUE(parse_sound_json(others.body)["lines"].empty());
 }
 
+TEST_F(RecordingRoutes, TellAnEventFromTheFileAndTheModuliAsTheyAreNow) {
+  open_virtual_cells(20);
+  const Json before = json("GET", "/api/items/0/events/3");
+  EXPECT_EQ(json("GET", "/api/items/0/events/3"), before);
+  ASSERT_EQ(moduli({{"viscosity_mPas", 30}})["state"], "ready");
+  const Json after = json("GET", "/api/items/0/events/3");
+  EXPECT_GT(after["young_modulus_kPa"].get<double>(), before["young_modulus_kPa"].get<double>());
+  EXPECT_EQ(after["features"]["emodulus"], after["young_modulus_kPa"]);
+  test::write_virtual_cells(folder_ / "cells.rtdc", 10);
+  fs::last_write_time(folder_ / "cells.rtdc", fs::file_time_type::clock::now() + std::chrono::seconds(10));
+  EXPECT_EQ(ask("GET", "/api/items/0/events/15").status, 400);
+}
+
+TEST_F(RecordingRoutes, ASessionComputesItsModuliAgain) {
+  open_virtual_cells(20);
+  const Json first = moduli({{"viscosity_mPas", 30}});
+  ASSERT_EQ(first["state"], "ready") << first;
+  const fs::path file = folder_ / "session.toml";
+  std::ofstream(file) << session_.text();
+  ASSERT_EQ(ask("DELETE", "/api/items/0/moduli").status, 200);
+  session_.read(file);
+  Json again;
+  do again = json("GET", "/api/items/0/moduli");
+  while (again["state"] == "running");
+  EXPECT_EQ(again["summary"], first["summary"]);
+  EXPECT_EQ(again["command"], first["command"]);
+}
+
 TEST_F(RecordingRoutes, ExportWhatExtractWrites) {
   open_virtual_cells(30);
   extract(folder_ / "cells.rtdc", {folder_ / "want.rtdc", folder_ / "want.tsv"});

@@ -7,7 +7,7 @@ import { Progress, useLasting } from '../shell/Progress';
 import { useStore } from '../shell/store';
 import { nameOf, unitOf } from './features';
 import { EventImage } from './EventImage';
-import { choice, itemOf, titleOf, type Choice } from './model';
+import { choice, focus, itemOf, items, titleOf, type Choice } from './model';
 import { moduliVersion } from './moduli';
 import { ResidualPlot } from './ResidualPlot';
 import { counted } from './scale';
@@ -128,7 +128,20 @@ function Detail({ chosen, detail }: { chosen: Choice; detail: EventDetail }) {
   );
 }
 
+/** Recording and tables are read before the first event is chosen: that takes longer than all that follows. */
+function useReadiness(): void {
+  useStore(items);
+  const number = useStore(focus);
+  const version = useStore(moduliVersion);
+  const item = itemOf(number);
+  const ready = item?.state === 'ready' && (item.events ?? 0) > 0;
+  useEffect(() => {
+    if (ready) void readEvent(number!, 0).catch(() => undefined);
+  }, [number, ready, version]);
+}
+
 export function Inspector() {
+  useReadiness();
   const chosen = useStore(choice);
   const { detail, error, stop, running } = useDetail(chosen);
   const lasting = useLasting(running);

@@ -1,0 +1,78 @@
+#include "view/kept_inspectors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "case/json_guard.h"
+#include "case/user_error.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// Of different recordings; each holds its tables in memory.
+constexpr std::size_t most_kept = 2;
+
+/// What the process was begun with, and when the file was changed last.
+std::string key_of(const Json& recording) {
+  std::error_code error;
+  const fs::path file = recording.value("file", std::string());
+  const auto changed = fs::last_write_time(file, error).time_since_epoch().count();
+  return fmt::format("{} {} {}", changed, fs::file_size(file, error), json_text(recording));
+}
+
+}  // namespace
+
+std::string KeptInspectors::inspect(const Json& recording, std::size_t event) {
+  const std::string key = key_of(recording);
+  const auto ask = [&](Kept& kept) {
+    const std::scoped_lock lock(kept.alone);
+    kept.work.ask(std::to_string(event));
+    return kept.work.all();
+  };
+  if (const auto known = take(key)) try {
+      return ask(*known);
+    } catch (
+        const UserError&) {  // the system may have ended it meanwhile: another one tells the reason, if there is one
+      drop(known);
+    }
+  const auto fresh = begin(recording, key);
+  try {
+    return ask(*fresh);
+  } catch (const UserError&) {
+    drop(fresh);
+    throw;
+  }
+}
+
+std::shared_ptr<KeptInspectors::Kept> KeptInspectors::take(const std::string& key) const {
+  const std::scoped_lock lock(mutex_);
+  const auto found = std::ranges::find_if(kept_, [&](const auto& kept) { return kept->key == key; });
+  return found == kept_.end() ? nullptr : *found;
+}
+
+std::shared_ptr<KeptInspectors::Kept> KeptInspectors::begin(const Json& recording, const std::string& key) {
+  Json request = recording;
+  request["do"] = "inspect";
+  const std::string file = recording.value("file", std::string());
+  const auto fresh = std::make_shared<Kept>(file, key, host_.ask(json_text(request)));
+  const std::scoped_lock lock(mutex_);
+  std::erase_if(kept_, [&](const auto& kept) { return kept->file == file; });
+  kept_.push_front(fresh);
+  if (kept_.size() > most_kept) kept_.pop_back();
+  return fresh;
+}
+
+void KeptInspectors::drop(const std::shared_ptr<Kept>& kept) {
+  const std::scoped_lock lock(mutex_);
+  kept_.remove(kept);
+}
+
+}  // namespace rheocyte
