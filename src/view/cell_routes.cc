@@ -88,7 +88,7 @@ Json case_as_text(const Case& c) {
   const bool in_time = c.time.scheme != TimeScheme::stationary;
   const std::string json = json_text(to_json(c));
   return {{"toml", to_toml(c)},
-          {"command", "rheocyte solve case.toml -o result"},
+          {"command", fmt::format("rheocyte solve /dev/stdin -o result <<'END'\n{}END", to_toml(c))},
           {"python", in_time ? fmt::format("import rheocyte\n\ncase = {}\nfor frame in rheocyte.evolve(case):\n"
                                            "    print(frame[\"t_us\"], frame[\"deformation\"])\n",
                                            json)

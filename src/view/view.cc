@@ -67,6 +67,7 @@ void serve_view(const ViewOptions& options) {
   const Assets assets(Assets::usual_folder());
   HttpServer server(router, assets, options.place, new_token());
   watch_signals();
+  for (const auto& sentence : items.missing()) tell("rheocyte view: " + sentence);
   std::thread thread([&] { server.run(); });
   announce(server, options);
   while (!stop_wanted()) std::this_thread::sleep_for(look_for_signals);

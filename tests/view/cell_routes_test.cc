@@ -122,6 +122,16 @@ TEST_F(CellRoutes, OutlinesAreClosedAboutTheirCentroidAndFieldsFitToThem) {
   EXPECT_GT(greatest, 1);
 }
 
+TEST_F(CellRoutes, TheCommandOfACaseHoldsTheCase) {
+  const std::string command = json("/api/case/text", cell())["command"];
+  const std::size_t begin = command.find('\n') + 1;
+  EXPECT_EQ(command.substr(0, begin), "rheocyte solve /dev/stdin -o result <<'END'\n");
+  ASSERT_TRUE(command.ends_with("\nEND"));
+  const std::string toml = command.substr(begin, command.size() - begin - 3);
+  const Json read = json("/api/case/read", {{"toml", toml}});
+  EXPECT_EQ(read["case"], json("/api/state", cell())["case"]);
+}
+
 TEST(ShownState, FieldsWithoutBase64AreTheSameBytes) {
   const Case c = stated_case(cell());
   const ShownState shown({c, scales_of(c), problem_of(c), solve_stationary(problem_of(c))});

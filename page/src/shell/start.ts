@@ -2,6 +2,7 @@
 import { readItem, readItems, type Item } from '../api';
 import { caseOf } from '../cell/case';
 import { openCase } from '../cell/model';
+import { notify } from './notices';
 import { replacePlace } from './place';
 
 const attempts = 10;
@@ -12,7 +13,7 @@ async function openItem(item: number): Promise<void> {
   for (let k = 0; k < attempts; ++k) {
     const found = await readItem(item);
     if (found.case) return openCase(caseOf(found.case));
-    if (found.state === 'failed') return;
+    if (found.state === 'failed') return notify(found.error ?? `${found.name} cannot be read.`, 'failed');
     await pause(100);
   }
 }
