@@ -1,6 +1,7 @@
 // The live solver: one request at a time, the newest case wins. First an answer good enough to look at, then the wanted one.
 // The numbers and the contour of an answer are shown before its fields, which meanwhile are sampled, sent and painted.
 import { Refusal, solveState, type EncodedFields, type Sections, type Solution, type State } from '../api';
+import { nextPicture } from '../shell/next_picture';
 
 export interface Answer {
   revision: number;
@@ -24,19 +25,13 @@ interface Wanted {
   revision: number;
   sections: Sections;
   accuracy: number;
+  /** good enough to look at while a slider moves */
+  displayAccuracy: number;
 }
 
-const displayAccuracy = 1e-3;
 /** Work younger than this is let finish when the next case is there: a moving slider shows every answer it can get. */
 const patience_ms = 120;
 const pause_ms = 200;
-
-/** After the next picture of the page; where none is drawn because the page is hidden, after a moment. */
-const nextPicture = () =>
-  new Promise<void>((drawn) => {
-    window.requestAnimationFrame(() => window.setTimeout(drawn));
-    window.setTimeout(drawn, 100);
-  });
 
 export class LiveSolver {
   private wanted: Wanted | null = null;
@@ -50,8 +45,8 @@ export class LiveSolver {
   ) {}
 
   /** The newest case. What is under way for an older one is finished if it is young, else cancelled. */
-  want(revision: number, sections: Sections, accuracy: number): void {
-    this.wanted = { revision, sections, accuracy };
+  want(wanted: Wanted): void {
+    this.wanted = wanted;
     window.clearTimeout(this.timer);
     const now = this.running;
     if (!now) return this.start(false);
@@ -79,7 +74,7 @@ export class LiveSolver {
     window.clearTimeout(this.timer);
     const wanted = this.wanted;
     if (!wanted) return;
-    const accuracy = final ? wanted.accuracy : Math.max(displayAccuracy, wanted.accuracy);
+    const accuracy = final ? wanted.accuracy : Math.max(wanted.displayAccuracy, wanted.accuracy);
     const run = { revision: wanted.revision, final, since: performance.now(), abort: new AbortController() };
     this.running = run;
     this.listener.busy(run.revision, final);

@@ -6,7 +6,7 @@ import { useStore } from '../shell/store';
 import { maskOf, statisticsOf } from './analysis';
 import { column, columnsVersion, wantColumns } from './columns';
 import { labelOf, unitOf } from './features';
-import { gates, items, measured, recordings, titleOf } from './model';
+import { gates, items, measured, paintedGates, recordings, titleOf } from './model';
 import { rangeOf, ticksOf, type ScaleKind, type Span } from './scale';
 import { byCondition, valuesAlong, violinCells, violinOf, type Violin } from './violins';
 
@@ -22,7 +22,7 @@ interface Entry {
 
 function useEntries(feature: string, scale: ScaleKind): { entries: Entry[]; span: Span } {
   const version = useStore(columnsVersion);
-  const active = useStore(gates);
+  const active = useStore(paintedGates);
   const all = useStore(items);
   return useMemo(() => {
     const ready = recordings(all).filter((item) => item.state === 'ready');

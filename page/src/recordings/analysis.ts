@@ -10,7 +10,8 @@ interface Mask {
   inside: Uint8Array | null;
 }
 
-const masks = new Map<number, Mask>();
+/** Two of each recording, the latest first: numbers follow new gates at once, plots a picture later. */
+const masks = new Map<number, Mask[]>();
 const same = <T>(a: T[], b: T[]) => a.length === b.length && a.every((value, k) => value === b[k]);
 
 /** Which events of a recording count; undefined while columns are still on their way. */
@@ -20,14 +21,15 @@ export function maskOf(item: Item, gates: Gate[]): Uint8Array | null | undefined
   const columns = features.map((feature) => column(item.item, feature));
   const offered = new Set(item.features ?? []);
   if (features.some((feature, k) => offered.has(feature) && columns[k] === undefined)) return undefined;
-  const before = masks.get(item.item);
-  if (before && before.gates === gates && same(before.columns, columns)) return before.inside;
+  const known = masks.get(item.item) ?? [];
+  const before = known.find((mask) => mask.gates === gates && same(mask.columns, columns));
+  if (before) return before.inside;
   const filled = (feature: string) => {
     const values = column(item.item, feature);
     return values && values.length > 0 ? values : undefined;
   };
   const inside = applyGates(gates, item.events ?? 0, filled);
-  masks.set(item.item, { gates, columns, inside });
+  masks.set(item.item, [{ gates, columns, inside }, ...known.slice(0, 1)]);
   return inside;
 }
 

@@ -1,6 +1,7 @@
 // What the workplace shows and keeps in the session: recordings, plots, gates, the event under inspection.
 import { changeItem, readItem, readItems, type Item } from '../api';
 import { notifyFailure } from '../shell/notices';
+import { nextPicture } from '../shell/next_picture';
 import { keepInSession, sessionChanged } from '../shell/session';
 import { store } from '../shell/store';
 import { youngModulus } from './features';
@@ -50,6 +51,9 @@ export const items = store<Item[] | null>(null);
 export const focus = store<number | null>(null);
 export const plots = store<Plot[]>([newPlot(1)]);
 export const gates = store<Gate[]>([]);
+/** The gates of the plots: numbers follow at once, plots of many events with the next picture. */
+export const paintedGates = store<Gate[]>([]);
+gates.subscribe((latest) => void nextPicture().then(() => latest === gates.get() && paintedGates.set(latest)));
 export const choice = store<Choice | null>(null);
 export const tool = store<Tool>('look');
 export const panel = store<Panel>('statistics');

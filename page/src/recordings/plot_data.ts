@@ -5,7 +5,7 @@ import { useStore } from '../shell/store';
 import { maskOf } from './analysis';
 import { column, columnsVersion, wantColumns } from './columns';
 import { Density } from './density';
-import { byDensity, gates, type Axis, type Plot } from './model';
+import { byDensity, paintedGates, type Axis, type Plot } from './model';
 import { placesOf, type Places } from './places';
 import { rangeOf, type Span } from './scale';
 
@@ -50,7 +50,7 @@ const filled = (values: Float64Array | undefined) => (values && values.length > 
 /** null while columns are on their way, or if the recording does not have them. */
 export function usePlotData(plot: Plot, item: Item | undefined): PlotData | null {
   useStore(columnsVersion);
-  const active = useStore(gates);
+  const active = useStore(paintedGates);
   const coloured = plot.colour === byDensity ? [] : [plot.colour];
   if (item) wantColumns(item, [plot.x.feature, plot.y.feature, ...coloured]);
   const get = (feature: string) => (item ? filled(column(item.item, feature)) : undefined);
