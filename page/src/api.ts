@@ -75,7 +75,7 @@ export interface Result {
 export interface State extends Result {
   contour: Outline;
   hull: Outline;
-  contours?: { side: Outline; diagonal: Outline };
+  contours?: { side: Outline; diagonal?: Outline };
 }
 
 export interface TimeStep {

@@ -1,13 +1,14 @@
-"""The cell's surface in a square channel, from the fields of one eighth of it."""
+"""The cell's surface in a square channel or a rectangle, from the fields of the part that was computed."""
 
 import numpy as np
 
 # (layer, row, column) of the faces of a hexahedron.
 FACES = [(slice(None), slice(None), 0), (slice(None), slice(None), -1), (slice(None), 0, slice(None)),
          (slice(None), -1, slice(None)), (0, slice(None), slice(None)), (-1, slice(None), slice(None))]
-# The square's symmetries: what they do to (y, z).
-IMAGES = [np.array([[a, 0], [0, b]]) @ swap for a in (1, -1) for b in (1, -1)
-          for swap in (np.eye(2), np.array([[0, 1], [1, 0]]))]
+# What the symmetries of the section do to (y, z); the part that is computed is an eighth of a square, or a quarter.
+SIGNS = [np.diag([a, b]) for a in (1, -1) for b in (1, -1)]
+IMAGES = {"square": [sign @ swap for sign in SIGNS for swap in (np.eye(2), np.array([[0, 1], [1, 0]]))],
+          "rectangle": SIGNS}
 
 
 def surface_faces(fields):
@@ -41,30 +42,34 @@ def refined(faces, count):
     return points, normals
 
 
-def whole(points):
-    """All eight images of an eighth, (8 n, 3)."""
+def whole(points, section):
+    """All images of the computed part, (8 n or 4 n, 3)."""
     flat = points.reshape(-1, 3)
-    return np.concatenate([np.column_stack([flat[:, 0], flat[:, 1:] @ image.T]) for image in IMAGES])
+    return np.concatenate([np.column_stack([flat[:, 0], flat[:, 1:] @ image.T]) for image in IMAGES[section]])
 
 
-def silhouettes(faces):
-    """Meridians (n, 2) of x and the distance from the axis, front pole first: seen from the side and along the diagonal."""
-    points = refined(faces, 24)[0].reshape(-1, 3)
-    x, y, z = points.T
-    distance, middle = np.hypot(y, z), (x.min() + x.max()) / 2
-    tolerance = 1e-9 * np.ptp(x)
+def silhouettes(faces, section, camera_degree=None):
+    """Outlines (n, 2) of x and the place across the flow: from the side, of a square along the diagonal, from the camera."""
+    seen = {"side": 0} | ({"diagonal": 45} if section == "square" else {})
+    if camera_degree is not None and camera_degree not in seen.values():
+        seen[f"{camera_degree:g}°"] = camera_degree
+    points = whole(refined(faces, 24)[0], section)
 
-    def meridian(chosen):
-        order = np.argsort(np.arctan2(distance[chosen], x[chosen] - middle), kind="stable")
-        return np.stack([x[chosen], distance[chosen]], axis=1)[order]
+    def outline(degrees):
+        across = points[:, 1:] @ [np.cos(np.radians(degrees)), np.sin(np.radians(degrees))]
+        return ring(np.column_stack([points[:, 0], across]))
 
-    return {"side": meridian(np.abs(z) < tolerance), "diagonal": meridian(np.abs(y - z) < tolerance)}
+    return {name: outline(degrees) for name, degrees in seen.items()}
 
 
-def front_view(faces):
-    """Outline (n, 2) in y and z of the cell seen along the channel; convex, as such cells are."""
+def front_view(faces, section):
+    """Outline (n, 2) in y and z of the cell seen along the channel."""
+    return ring(whole(refined(faces, 24)[0], section)[:, 1:])
+
+
+def ring(points):
+    """The closed convex outline, as cameras see such cells."""
     from rheocyte.contour import convex_hull
 
-    points = whole(refined(faces, 24)[0])[:, 1:]
     outline = points[convex_hull(points)]
     return np.concatenate([outline, outline[:1]])

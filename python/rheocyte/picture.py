@@ -333,7 +333,7 @@ def main():
     if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
         raise InputError("give the folder of one result: python -m rheocyte.picture DIR.")
     folder = Path(sys.argv[1])
-    if find(read_result(folder / "result.json"), "case", "channel", "section") == "square":
+    if find(read_result(folder / "result.json"), "case", "channel", "section") in ("square", "rectangle"):
         from rheocyte import duct_picture
 
         save_figure(duct_picture.draw(duct_picture.read_story(folder)), folder / "picture", dpi=400)

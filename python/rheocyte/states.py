@@ -188,7 +188,7 @@ class Result:
         """The picture of `rheocyte solve`: cell, flow and stress; a matplotlib figure."""
         from rheocyte import duct_picture, picture
 
-        if self.case["channel"].get("section") == "square":
+        if self.case["channel"].get("section") in ("square", "rectangle"):
             return duct_picture.draw(duct_picture.story_of(self.to_dict(), self.fields()))
         return picture.draw(picture.story_of(self.to_dict(), self.contour, self.fields(), self._shell_tension()))
 

@@ -41,16 +41,22 @@ class DuctSurface(unittest.TestCase):
         inner = (slice(None), slice(2, -2), slice(2, -2))  # at the poles the face ends in a point
         np.testing.assert_allclose(normals[inner], points[inner] / 2, atol=0.03)
 
-    def test_eight_images_make_the_cell(self):
-        every = whole(refined(sphere_patch(), 20)[0])
-        for axis in range(3):
-            np.testing.assert_allclose([every[:, axis].min(), every[:, axis].max()], [-2, 2], rtol=1e-2)
-        for meridian in silhouettes(sphere_patch()).values():
-            np.testing.assert_allclose(np.hypot(*meridian.T), 2, rtol=1e-2)
-            np.testing.assert_allclose(meridian[[0, -1]], [[2, 0], [-2, 0]], atol=1e-9)
-        outline = front_view(sphere_patch())
-        np.testing.assert_allclose(np.hypot(*outline.T), 2, rtol=1e-2)
-        np.testing.assert_array_equal(outline[0], outline[-1])
+    def test_the_images_of_a_part_make_the_cell_and_every_camera_sees_a_circle(self):
+        eighth, quarter = sphere_patch(), np.concatenate([sphere_patch(), sphere_patch()[..., [0, 2, 1]]])
+        for section, faces in (("square", eighth), ("rectangle", quarter)):
+            every = whole(refined(faces, 20)[0], section)
+            self.assertEqual(len(every), 8 * 20 * 20)
+            for axis in range(3):
+                np.testing.assert_allclose([every[:, axis].min(), every[:, axis].max()], [-2, 2], rtol=1e-2)
+            for outline in [*silhouettes(faces, section, 11).values(), front_view(faces, section)]:
+                np.testing.assert_allclose(np.hypot(*outline.T), 2, rtol=1e-2)
+                np.testing.assert_array_equal(outline[0], outline[-1])
+
+    def test_a_square_has_two_silhouettes_a_rectangle_one_and_a_turned_camera_its_own(self):
+        self.assertEqual(list(silhouettes(sphere_patch(), "square")), ["side", "diagonal"])
+        self.assertEqual(list(silhouettes(sphere_patch(), "square", 45)), ["side", "diagonal"])
+        self.assertEqual(list(silhouettes(sphere_patch(), "square", 11)), ["side", "diagonal", "11°"])
+        self.assertEqual(list(silhouettes(sphere_patch(), "rectangle")), ["side"])
 
 
 if __name__ == "__main__":

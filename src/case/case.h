@@ -12,14 +12,24 @@ struct ChannelProfile {
   std::vector<double> x_um, R_um;
 };
 
+/// From where a duct is seen; any angle stands in camera_degree.
+enum class View { side, diagonal };
+
 /// The tube, or the square channel that is mapped to it, or the profile; exactly one of the three is given.
 struct Channel {
   Section section = Section::tube;
   std::optional<double> width_um, radius_um;
+  std::optional<double> height_um = {};  ///< only of a rectangle
   std::optional<double> length_um = {};  ///< only where the pressure drop is given
   ChannelProfile profile = {};
-  std::optional<Camera> camera = {};  ///< only where the section is square
+  std::optional<View> camera = {};  ///< only in a duct, if not as an angle
+  std::optional<double> camera_degree = {};
 };
+
+inline Camera camera_of(const Channel& channel) {
+  if (channel.camera_degree) return {*channel.camera_degree};
+  return channel.camera == View::diagonal ? Camera::diagonal : Camera::side;
+}
 
 /// The liquid and how much of it flows. Empty: the key has no effect for this law.
 struct Flow {

@@ -10,9 +10,9 @@ constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "p
     carreau{"flow.law", "carreau"}, shear_thinning{"flow.law", "newtonian", true},
     mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
     has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
-    square{"channel.section", "square"}, monolithic{"time.scheme", "monolithic"},
-    partitioned{"time.scheme", "partitioned"}, has_rate{"flow.drive", "pressure-drop", true},
-    has_pressure_drop{"flow.drive", "pressure-drop"};
+    in_duct{"channel.section", "tube", true}, rectangle{"channel.section", "rectangle"},
+    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
+    has_rate{"flow.drive", "pressure-drop", true}, has_pressure_drop{"flow.drive", "pressure-drop"};
 
 // The member of a case is the name of its key; behind it stand the other parts of its KeyDescription in their order.
 #define FIELD(member) \
@@ -24,14 +24,21 @@ constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "p
 const std::array table = {
     KEY(channel.section, "",
         "cross-section that is computed: a tube, which also stands for the square channel of the same pressure drop, "
-        "or the square itself in three dimensions",
-        Choice{{"tube", "square"}}, 0),
+        "or the square or a rectangle itself in three dimensions",
+        Choice{{"tube", "square", "rectangle"}}, 0),
     KEY(channel.camera, "",
-        "from where a square channel is seen, side: at right angles to a wall, diagonal: along the section's diagonal",
-        Choice{{"side", "diagonal"}}, 0, square),
+        "from where a square channel is seen, side: at right angles to a wall, diagonal: along the section's diagonal; "
+        "a rectangle is seen along its height",
+        Choice{{"side", "diagonal"}}, 0, in_duct, "channel.camera_degree"),
+    KEY(channel.camera_degree, "degree",
+        "from where a square channel or a rectangle is seen, 0: along the height, 45: along the diagonal of a square",
+        Number{{0, 90}}, absent, in_duct, "channel.camera"),
     KEY(channel.width_um, "um",
-        "width of the square channel, mapped to a tube of radius 0.547 x width unless channel.section is \"square\"",
+        "width of the channel; of a square one it is mapped to a tube of radius 0.547 x width unless channel.section "
+        "is \"square\"",
         Number{{1, 10000}}, required, {}, "channel.radius_um", "--channel-width-um", "--channel-width"),
+    KEY(channel.height_um, "um", "height of the channel, along which the camera looks", Number{{1, 10000}}, required,
+        rectangle),
     KEY(channel.radius_um, "um", "radius of the tube", Number{{0.5, 5000}}, required, {}, "channel.width_um",
         "--tube-radius-um"),
     KEY(channel.length_um, "um", "length of the channel over which the given pressure drops", Number{{1, 1e6}},
@@ -79,7 +86,7 @@ const std::array table = {
         1000.0),
 
     KEY(cell.radius_um, "um",
-        "radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the width",
+        "radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the lesser width",
         Number{{0.01, 5000}}, required, {}, {}, "--radius-um"),
     KEY(cell.viscosity_mPas, "mPa s", "viscosity of the cell's interior; a stationary shape does not depend on it",
         Number{{1e-3, 1e9}}, required, in_time),

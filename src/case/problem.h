@@ -3,6 +3,8 @@
 // Lengths are measured in the tube radius R, velocities in the mean speed U = Q / (pi R^2), and stresses in
 // S = eta U / R, where eta is the viscosity at the shear rate U / R (docs/theory.md, eq:scales).
 #pragma once
+#include <algorithm>
+
 #include "laws/media.h"
 #include "laws/wall_profile.h"
 
@@ -12,10 +14,25 @@ namespace rheocyte {
 enum class TimeScheme { stationary, monolithic, partitioned };
 
 /// The channel's cross-section. A tube also stands for the square channel of the same pressure drop.
-enum class Section { tube, square };
+enum class Section { tube, square, rectangle };
 
-/// From where the camera looks at a cell in a square channel: onto a wall, or along the section's diagonal.
-enum class Camera { side, diagonal };
+/// Half the width and half the height of a rectangle, in h, which is the lesser one.
+struct Extent {
+  double width = 1, height = 1;
+};
+
+/// Whether the channel is computed in three dimensions.
+inline bool is_duct(Section section) { return section != Section::tube; }
+
+/// From where the camera looks at a cell in a duct: so far round the flow from the direction of the height. `side`
+/// looks at right angles onto a wall, `diagonal` along the diagonal of a square.
+struct Camera {
+  double degrees = 0;
+
+  static const Camera side, diagonal;
+  bool operator==(const Camera&) const = default;
+};
+inline constexpr Camera Camera::side{0}, Camera::diagonal{45};
 
 /// What drives the liquid: a given flow rate, a given pressure drop over the channel, or a pressure drop that is
 /// adapted in each step in time until the flow rate is the wanted one (Mokbel et al. 2017).
@@ -28,8 +45,18 @@ inline double disturbed_half_length(double radius_ratio) { return 1.4 * radius_r
 /// through the undisturbed part to the end and back is damped by exp(-8.9 * 2) = 2e-8.
 inline double least_half_length(double radius_ratio) { return disturbed_half_length(radius_ratio) + 2.0; }
 
-/// Physical size of the dimensionless units, SI. In a square channel of half width h they are h, U = Q / (4 h^2) and
-/// S = eta(U/h) U / h (docs/theory-square.md, eq:square-scales).
+/// The same in a duct (in h). The slowest mode of a square decays as in a tube of radius 1.1, that of a wide slit like
+/// exp(-pi x/h) with half its width as h.
+inline double disturbed_half_length(double radius_ratio, const Extent& extent) {
+  return disturbed_half_length(radius_ratio) + 0.5 * (std::max(extent.width, extent.height) - 1);
+}
+inline double least_half_length(double radius_ratio, const Extent& extent) {
+  const double wide = std::max(extent.width, extent.height);
+  return disturbed_half_length(radius_ratio, extent) + wide * (1.1 + 0.33 * (1 - 1 / wide)) * 2.0;
+}
+
+/// Physical size of the dimensionless units, SI. In a duct of area A they are h, half the lesser of width and height,
+/// U = Q / A and S = eta(U/h) U / h (docs/theory-square.md, eq:square-scales).
 struct Scales {
   double length_m = 1;          ///< tube radius R, or h
   double velocity_m_per_s = 1;  ///< mean speed U = Q / (pi R^2), undisturbed if the pressure drop is given
@@ -41,9 +68,11 @@ struct Scales {
 /// One case, dimensionless: the media and the channel that they are in.
 struct Problem : Media {
   Section section = Section::tube;
-  Camera camera = Camera::side;  ///< where the channel is square
+  Extent extent = {};
+  Camera camera = Camera::side;  ///< in a duct
   double radius_ratio = 0.5;     ///< r0 / R, in (0, 0.95)
   Drive drive = Drive::rate;     ///< the given rate is 1; the given pressure drop that of the undisturbed flow
+  double pressure_gradient = 0;  ///< in a duct the given one, in S/h, where U is a nominal speed
   double channel_length = 0;     ///< simulated, in R; 0: the shortest, 2 least_half_length()
   WallTable wall;                ///< the way of the cell; acts in time only
   double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation

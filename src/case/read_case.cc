@@ -70,16 +70,28 @@ void check_profile(const Case& c, const KeyReading& keys) {
                                  keys.stated(drive)));
 }
 
+constexpr double most_unequal_sides = 4;
+
+void check_rectangle(const Case& c, const KeyReading& keys) {
+  if (c.channel.section != Section::rectangle) return;
+  const double width = *c.channel.width_um, height = *c.channel.height_um;
+  if (std::max(width, height) > most_unequal_sides * std::min(width, height))
+    keys.refuse("channel.height_um",
+                fmt::format("{} is outside its range {:.4g} .. {:.4g} um, a quarter to four times channel.width_um.",
+                            keys.stated("channel.height_um"), width / most_unequal_sides, width * most_unequal_sides));
+  if (c.channel.camera == View::diagonal)
+    keys.refuse("channel.camera",
+                fmt::format("{} is for squares; give the angle channel.camera_degree.", keys.stated("channel.camera")));
+}
+
 // What is computed in tubes alone.
-void check_square(const Case& c, const KeyReading& keys) {
-  if (c.channel.section != Section::square) return;
+void check_duct(const Case& c, const KeyReading& keys) {
+  if (!is_duct(c.channel.section)) return;
   const auto refuse = [&](std::string_view key, std::string_view reason) {
     keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
   };
   if (!c.channel.width_um || has_profile(keys))
     refuse("channel.section", "needs channel.width_um, not a radius or a profile");
-  if (c.flow.drive != Drive::rate)
-    refuse("channel.section", "is for a given flow rate; give flow.rate_ul_per_s, or take the tube");
   if (c.time.scheme != TimeScheme::stationary)
     refuse("channel.section", "is for stationary shapes; leave [time] out, or take the tube");
   if (c.cell.bulk.law == BulkLaw::none || c.cell.cortex.law != CortexLaw::none ||
@@ -99,7 +111,9 @@ void check_cell_in_tube(const Case& c, const KeyReading& keys) {
                     profile_R, R, r0, r0 / greatest_radius_ratio));
   if (r0 >= least_radius_ratio * R && r0 <= greatest_radius_ratio * R) return;
   constexpr std::string_view key = "cell.radius_um";
-  const auto what = c.channel.section == Section::square ? "half width of the square" : "tube radius";
+  const auto what = c.channel.section == Section::square      ? "half width of the square"
+                    : c.channel.section == Section::rectangle ? "lesser half width of the rectangle"
+                                                              : "tube radius";
   keys.refuse(key, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the {} {:.6g} um.",
                                keys.stated(key), least_radius_ratio * R, greatest_radius_ratio * R, least_radius_ratio,
                                greatest_radius_ratio, what, R));
@@ -108,7 +122,9 @@ void check_cell_in_tube(const Case& c, const KeyReading& keys) {
 // The ends of the channel must not see the cell.
 void check_length(const Case& c, const KeyReading& keys) {
   if (!c.channel.length_um) return;
-  const double R = tube_radius_um(c), least = 2 * R * least_half_length(c.cell.radius_um / R);
+  const double R = unit_length_um(c), ratio = c.cell.radius_um / R;
+  const double half = is_duct(c.channel.section) ? least_half_length(ratio, extent_of(c)) : least_half_length(ratio);
+  const double least = 2 * R * half;
   if (*c.channel.length_um >= least) return;
   constexpr std::string_view key = "channel.length_um";
   keys.refuse(key, fmt::format("{} is too short for the flow round the cell; it must be at least {:.4g} um, give the "
@@ -172,7 +188,8 @@ Case complete_case(KeyReading& keys, std::vector<std::string_view> left_open) {
   keys.complete(left_open);
   Case c;
   keys.fill(c, case_keys());
-  check_square(c, keys);
+  check_duct(c, keys);
+  check_rectangle(c, keys);
   check_profile(c, keys);
   if (has_radius) {
     check_cell_in_tube(c, keys);

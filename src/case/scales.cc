@@ -12,6 +12,25 @@ namespace {
 
 constexpr double m_per_um = 1e-6, m3_per_ul = 1e-9, Pas_per_mPas = 1e-3, Pa_per_kPa = 1e3, N_per_mN = 1e-3;
 
+/// Radius, in h, of the tube through which a Newtonian liquid flows as fast as through a duct at the same pressure
+/// gradient: the Fourier series of the duct's flow.
+double radius_of_equal_flow(const Extent& extent) {
+  const double wide = std::max(extent.width, extent.height);
+  double sum = 0;
+  for (int i = 1; i < 200; i += 2) sum += std::tanh(i * std::numbers::pi * wide / 2) / std::pow(i, 5);
+  const double flow = 4.0 / 3 * wide * (1 - 192 / std::pow(std::numbers::pi, 5) / wide * sum);
+  return std::pow(8 * flow / std::numbers::pi, 0.25);
+}
+
+double given_gradient(const Case& c) { return *c.flow.pressure_drop_Pa / (*c.channel.length_um * m_per_um); }
+
+/// U / R at the given pressure drop. The area is in units of R^2.
+double undisturbed_rate(const Case& c, const Liquid& liquid, double area) {
+  const double tube = is_duct(c.channel.section) ? radius_of_equal_flow(extent_of(c)) : 1;
+  const double radius_m = tube * unit_length_um(c) * m_per_um;
+  return undisturbed_mean_speed(liquid, given_gradient(c) * radius_m) * tube * tube * tube * std::numbers::pi / area;
+}
+
 }  // namespace
 
 double tube_radius_um(const Case& c) {
@@ -20,7 +39,15 @@ double tube_radius_um(const Case& c) {
 }
 
 double unit_length_um(const Case& c) {
-  return c.channel.section == Section::square ? c.channel.width_um.value() / 2 : tube_radius_um(c);
+  if (!is_duct(c.channel.section)) return tube_radius_um(c);
+  const double width = c.channel.width_um.value();
+  return std::min(width, c.channel.height_um.value_or(width)) / 2;
+}
+
+Extent extent_of(const Case& c) {
+  if (c.channel.section != Section::rectangle) return {};
+  const double h = unit_length_um(c);
+  return {c.channel.width_um.value() / (2 * h), c.channel.height_um.value() / (2 * h)};
 }
 
 int surface_elements(const Case& c) {
@@ -37,11 +64,9 @@ double tension_mN_per_m(const Case& c) {
 Scales scales_of(const Case& c) {
   const Liquid liquid = liquid_of(c.flow);
   const double R = unit_length_um(c) * m_per_um;
-  const double area = (c.channel.section == Section::square ? 4 : std::numbers::pi) * R * R;
-  const double rate =
-      c.flow.drive == Drive::pressure_drop
-          ? undisturbed_mean_speed(liquid, *c.flow.pressure_drop_Pa * R / (*c.channel.length_um * m_per_um))
-          : *c.flow.rate_ul_per_s * m3_per_ul / (area * R);
+  const double area = is_duct(c.channel.section) ? 4 * extent_of(c).width * extent_of(c).height : std::numbers::pi;
+  const double rate = c.flow.drive == Drive::pressure_drop ? undisturbed_rate(c, liquid, area)
+                                                           : *c.flow.rate_ul_per_s * m3_per_ul / (area * R * R * R);
   return {R, rate * R, stress_at_rate(liquid, rate)};
 }
 
@@ -67,10 +92,12 @@ Problem problem_of(const Case& c) {
                     .tension = tension_mN_per_m(c) * N_per_mN / (S * R),
                     .bending = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R)};
   problem.section = c.channel.section;
-  problem.camera = c.channel.camera.value_or(Camera::side);
+  problem.extent = extent_of(c);
+  problem.camera = camera_of(c.channel);
   problem.radius_ratio = c.cell.radius_um / unit_length_um(c);
   problem.drive = c.flow.drive;
-  problem.channel_length = c.channel.length_um.value_or(0) / tube_radius_um(c);
+  if (c.flow.drive == Drive::pressure_drop) problem.pressure_gradient = given_gradient(c) * R / S;
+  problem.channel_length = c.channel.length_um.value_or(0) / unit_length_um(c);
   problem.wall = {c.channel.profile.x_um, c.channel.profile.R_um};
   for (auto* column : {&problem.wall.x, &problem.wall.radius})
     for (double& value : *column) value /= tube_radius_um(c);

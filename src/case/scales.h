@@ -20,11 +20,15 @@ int surface_elements(const Case&);
 /// Radius of the tube in um: given, mapped from the width of the square channel, or the least one of the profile.
 double tube_radius_um(const Case&);
 
-/// The unit of lengths: the tube's radius, or half the width where the square itself is computed.
+/// The unit of lengths: the tube's radius, or half the lesser of width and height where the duct itself is computed.
 double unit_length_um(const Case&);
 
+/// Of the channel, in units of this length.
+Extent extent_of(const Case&);
+
 /// R, U = Q / (pi R^2), and S, the stress of the liquid at the shear rate U / R, in SI units. Where the pressure drop
-/// is given, U is the mean speed of the liquid without the cell. In a square h, U = Q / (4 h^2) and eta(U/h) U/h.
+/// is given, U is the mean speed of the liquid without the cell. In a duct of area A they are h, U = Q / A and
+/// eta(U/h) U/h, and where the pressure drop is given, Q is that of the tube that lets the same Newtonian flow pass.
 Scales scales_of(const Case&);
 
 /// pi R^2 U, the unit of flow rates.

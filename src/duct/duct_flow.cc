@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "laws/developed_flow.h"
 #include "laws/tensor.h"
 
 namespace rheocyte {
@@ -16,10 +17,6 @@ constexpr double thinning_step = 0.2, least_thinning_step = 1e-3;
 constexpr int iteration_limit = 25;
 constexpr double tolerance = 1e-12;
 
-FacePoint bilinear(const std::array<FacePoint, 4>& corners, double s, double t) {
-  return DuctElement{Part::end, Face::front, corners, {0, 1}}.on_face(s, t);
-}
-
 /// Shear stress of the velocity's gradient.
 template <class T>
 Components<T, 2> shear_stress(const Liquid& liquid, const Components<T, 2>& gradient) {
@@ -28,13 +25,12 @@ Components<T, 2> shear_stress(const Liquid& liquid, const Components<T, 2>& grad
 
 }  // namespace
 
-CrossSection::CrossSection(const DuctGeometry& geometry, int degree) : reference_(degree) {
+CrossSection::CrossSection(const DuctGeometry& geometry, int degree, Symmetry symmetry) : reference_(degree) {
   const VectorXd& s = reference_.nodes_1d;
   const int n = degree + 1;
-  const auto quadrilaterals = triangle_quadrilaterals();
+  const auto quadrilaterals = section_elements(symmetry);
   const auto point = [&](int e, int k) -> Eigen::Vector2d {
-    const FacePoint at = bilinear(quadrilaterals[e], s(k % n), s(k / n));
-    return geometry.map(Part::end, Face::front, at, 1).tail<2>();
+    return geometry.map(Part::end, quadrilaterals[e].on_cube(s(k % n), s(k / n), 1), 1).tail<2>();
   };
   const NodeNumbers numbers = number_nodes<2>(int(quadrilaterals.size()), reference_.nodes(), point);
   points_.resize(numbers.count);
@@ -139,6 +135,11 @@ DuctFlow CrossSection::flow(const Liquid& liquid) const {
     }
   }
   return flow;
+}
+
+double CrossSection::gradient_at(const Liquid& liquid, double mean_speed) const {
+  // In units of that speed, in which the flow has mean speed 1.
+  return stress_at_rate(liquid, mean_speed) * flow(in_units_of_rate(liquid, mean_speed)).pressure_gradient;
 }
 
 }  // namespace rheocyte

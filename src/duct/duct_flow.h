@@ -16,11 +16,16 @@ struct DuctFlow {
 
 class CrossSection {
  public:
-  CrossSection(const DuctGeometry&, int degree);
+  CrossSection(const DuctGeometry& geometry, int degree)
+      : CrossSection(geometry, degree, symmetry_of(geometry.section())) {}
+  CrossSection(const DuctGeometry&, int degree, Symmetry);
 
   /// Newton's method; a shear-thinning liquid is approached from the Newtonian one. The pressure gradient is not a
   /// number if that fails.
   DuctFlow flow(const Liquid&) const;
+
+  /// The pressure gradient at another mean speed.
+  double gradient_at(const Liquid&, double mean_speed) const;
 
   const std::vector<Eigen::Vector2d>& nodes() const { return points_; }
   /// Number of the node at (y, z).

@@ -1,6 +1,8 @@
 #include "duct/duct_geometry.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace rheocyte {
 namespace {
@@ -8,8 +10,6 @@ namespace {
 constexpr double tiny = 1e-10;
 /// Size of the core relative to the cell, and how far its faces bulge from the cube (0) to the ball (1).
 constexpr double core_size = 0.5, core_bulge = 0.55;
-/// Radius of the tube in which the slowest disturbance of the square decays as fast, in h.
-constexpr double radius_of_equal_decay = 1.1;
 
 /// The cube [-1, 1]^3 onto the unit ball.
 DuctPoint ball(const DuctPoint& c) {
@@ -20,48 +20,43 @@ DuctPoint ball(const DuctPoint& c) {
   return {stretched(0, 1, 2), stretched(1, 2, 0), stretched(2, 0, 1)};
 }
 
-DuctPoint on_cube(Face face, const FacePoint& at) {
-  if (face == Face::side) return {at(1), 1, at(0)};
-  return {face == Face::front ? 1.0 : -1.0, at(0), at(1)};
-}
-
 }  // namespace
 
-DuctGeometry::DuctGeometry(Section section, double radius_ratio)
-    : section_(section), radius_(radius_ratio), box_(disturbed_half_length(radius_ratio)) {
-  const double rest = least_half_length(radius_ratio) - box_;
-  half_length_ = box_ + (section == Section::square ? radius_of_equal_decay : 1.0) * rest;
+DuctGeometry::DuctGeometry(const DuctShape& shape)
+    : shape_(shape),
+      box_(disturbed_half_length(shape.radius, shape.extent)),
+      least_length_(shape.section == Section::tube ? least_half_length(shape.radius)
+                                                   : least_half_length(shape.radius, shape.extent)),
+      half_length_(std::max(least_length_, shape.length / 2)) {}
+
+double DuctGeometry::area() const {
+  return shape_.section == Section::tube ? std::numbers::pi : 4 * shape_.extent.width * shape_.extent.height;
 }
 
-DuctPoint DuctGeometry::surface(Face face, const FacePoint& at) const { return radius_ * ball(on_cube(face, at)); }
+DuctPoint DuctGeometry::surface(const DuctPoint& cube) const {
+  return shape_.radius * ball(cube) + DuctPoint(0, shape_.offset, 0);
+}
 
 DuctPoint DuctGeometry::core(const DuctPoint& cube) const {
-  return radius_ * core_size * (core_bulge * ball(cube) + (1 - core_bulge) / std::sqrt(3.0) * cube);
+  return shape_.radius * core_size * (core_bulge * ball(cube) + (1 - core_bulge) / std::sqrt(3.0) * cube) +
+         DuctPoint(0, shape_.offset, 0);
 }
 
-Eigen::Vector2d DuctGeometry::across(double Y, double Z) const {
-  if (section_ == Section::square) return {Y, Z};
-  return {Y * std::sqrt(1 - Z * Z / 2), Z * std::sqrt(1 - Y * Y / 2)};
-}
-
-DuctPoint DuctGeometry::box_side(Face face, const FacePoint& at) const {
-  if (face != Face::side) {
-    const Eigen::Vector2d yz = across(at(0), at(1));
-    return {face == Face::front ? box_ : -box_, yz(0), yz(1)};
-  }
+DuctPoint DuctGeometry::box_side(const DuctPoint& cube) const {
   // Denser spokes opposite the equator, where the gap is narrow.
-  const double X = at(1), centre_slope = 1 - 0.45 * radius_;
-  const Eigen::Vector2d yz = across(1, at(0));
-  return {box_ * (centre_slope * X + (1 - centre_slope) * X * X * X), yz(0), yz(1)};
+  const double X = cube(0), Y = cube(1), Z = cube(2), centre_slope = 1 - 0.45 * shape_.radius;
+  const double x = box_ * (centre_slope * X + (1 - centre_slope) * X * X * X);
+  if (shape_.section == Section::tube) return {x, Y * std::sqrt(1 - Z * Z / 2), Z * std::sqrt(1 - Y * Y / 2)};
+  return {x, shape_.extent.width * Y, shape_.extent.height * Z};
 }
 
-DuctPoint DuctGeometry::map(Part part, Face face, const FacePoint& at, double outward) const {
+DuctPoint DuctGeometry::map(Part part, const DuctPoint& cube, double outward) const {
   switch (part) {
-    case Part::core: return core({outward, at(0), at(1)});
-    case Part::ring: return (1 - outward) * core(on_cube(face, at)) + outward * surface(face, at);
-    case Part::layers: return (1 - outward) * surface(face, at) + outward * box_side(face, at);
+    case Part::core: return core(cube);
+    case Part::ring: return (1 - outward) * core(cube) + outward * surface(cube);
+    case Part::layers: return (1 - outward) * surface(cube) + outward * box_side(cube);
     case Part::end: {
-      DuctPoint x = box_side(face, at);
+      DuctPoint x = box_side(cube);
       x(0) *= 1 + outward * (half_length_ / box_ - 1);
       return x;
     }
@@ -70,9 +65,10 @@ DuctPoint DuctGeometry::map(Part part, Face face, const FacePoint& at, double ou
 }
 
 bool DuctGeometry::is_wall(const DuctPoint& x) const {
-  return (section_ == Section::square ? x(1) : x.tail<2>().norm()) > 1 - tiny;
+  if (shape_.section == Section::tube) return x.tail<2>().norm() > 1 - tiny;
+  return std::abs(x(1)) > shape_.extent.width - tiny || std::abs(x(2)) > shape_.extent.height - tiny;
 }
 
-double wall_slide(Face face, const FacePoint& at) { return face == Face::side ? 1 - std::pow(at(1), 4) : 0; }
+double wall_slide(const DuctPoint& cube) { return 1 - std::pow(cube(0), 4); }
 
 }  // namespace rheocyte

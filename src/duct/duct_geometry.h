@@ -1,54 +1,62 @@
-// One eighth of a straight duct with a centred cell, 0 <= z <= y, as a few smooth blocks (docs/theory-square.md, sec.
-// mesh). The cell is a ball; its surface is the surface of the cube [-1, 1]^3 under a smooth map, of which the front
-// face X = 1, the rear face X = -1 and the side Y = 1 lie in this eighth.
+// A straight duct with a cell, as a few smooth blocks (docs/theory-square.md, sec. mesh). The cell is a ball; its
+// surface is the surface of the cube [-1, 1]^3 under a smooth map, and the cube's faces X = 1, X = -1 look along the
+// flow.
 //
-// Lengths in the duct's half width h, of a tube in its radius; x along the flow.
+// Lengths in the duct's half width h (in a rectangle half the lesser of width and height, in a tube the radius); x
+// along the flow, y along the width, z along the height.
 #pragma once
 #include <Eigen/Core>
 
 #include "case/problem.h"
+#include "duct/duct_symmetry.h"
 
 namespace rheocyte {
-
-/// Face of the cube that a block's outward direction crosses.
-enum class Face { front, side, rear };
 
 /// The cell's core, the ring round it, the liquid that follows its surface, and the liquid beyond.
 enum class Part { core, ring, layers, end };
 
-/// Points of the duct, and of the faces by two coordinates in [-1, 1]: (Y, Z) in front and rear, (Z, X) on the side.
-using DuctPoint = Eigen::Vector3d;
-using FacePoint = Eigen::Vector2d;
+/// A duct and the cell in it.
+struct DuctShape {
+  Section section = Section::square;
+  double radius = 0.5;  ///< of the cell
+  Extent extent = {};   ///< of a rectangle
+  double length = 0;    ///< of the duct; 0: the shortest
+  double offset = 0;    ///< of the cell's centre in y
+};
 
 class DuctGeometry {
  public:
-  DuctGeometry(Section, double radius_ratio);
+  explicit DuctGeometry(const DuctShape&);
+  DuctGeometry(Section section, double radius_ratio) : DuctGeometry(DuctShape{section, radius_ratio}) {}
 
   /// Where a part's point lies whose coordinate `outward` runs from 0 to 1: in the ring from the core to the surface,
-  /// in the layers from there to the box or the wall, in the ends from the box to the channel's end. In the core, where
-  /// `face` does not matter, the coordinates are (Y, Z) and X.
-  DuctPoint map(Part, Face, const FacePoint&, double outward) const;
+  /// in the layers from there to the box or the wall, in the ends from the box to the channel's end. `cube` is the
+  /// point of the cube's surface that it belongs to, in the core the point in the cube.
+  DuctPoint map(Part, const DuctPoint& cube, double outward) const;
 
   bool is_wall(const DuctPoint&) const;
-  Section section() const { return section_; }
-  double radius() const { return radius_; }
+  const DuctShape& shape() const { return shape_; }
+  Section section() const { return shape_.section; }
+  double radius() const { return shape_.radius; }
+  /// Of the cross-section.
+  double area() const;
   /// Half-length of the box whose faces the spokes of front and rear end at.
   double box() const { return box_; }
+  /// Half-length of the shortest duct of this section, and of this one.
+  double least_length() const { return least_length_; }
   double half_length() const { return half_length_; }
 
  private:
-  DuctPoint surface(Face, const FacePoint&) const;
+  DuctPoint surface(const DuctPoint& cube) const;
   DuctPoint core(const DuctPoint& cube) const;
-  DuctPoint box_side(Face, const FacePoint&) const;
-  /// A point of the cross-section from coordinates 0 <= Z <= Y <= 1.
-  Eigen::Vector2d across(double Y, double Z) const;
+  DuctPoint box_side(const DuctPoint& cube) const;
 
-  Section section_;
-  double radius_, box_, half_length_;
+  DuctShape shape_;
+  double box_, least_length_, half_length_;
 };
 
 /// How much of the surface's axial displacement the wall's points take over, as the mesh of the tube has it
-/// (docs/theory.md, eq:spokes).
-double wall_slide(Face, const FacePoint&);
+/// (docs/theory.md, eq:spokes); 0 in front and rear.
+double wall_slide(const DuctPoint& cube);
 
 }  // namespace rheocyte

@@ -22,9 +22,14 @@ std::vector<double> breaks(int n, double from, double to, double ratio = 1) {
 }
 
 /// The same seen from behind.
-std::vector<Quadrilateral> mirrored(std::vector<Quadrilateral> quadrilaterals) {
+void mirror(std::vector<Quadrilateral>& quadrilaterals) {
   for (Quadrilateral& q : quadrilaterals) std::swap(q[1], q[2]);
-  return quadrilaterals;
+}
+
+/// Of the triangle 0 <= Z <= Y <= 1, counterclockwise in (Y, Z).
+std::vector<Quadrilateral> triangle() {
+  const FacePoint a(0, 0), b(1, 0), c(1, 1), ab(0.5, 0), bc(1, 0.5), ca(0.5, 0.5), centre(2.0 / 3, 1.0 / 3);
+  return {{a, ab, ca, centre}, {b, bc, ab, centre}, {c, ca, bc, centre}};
 }
 
 /// Of the side in (Z, X).
@@ -38,11 +43,22 @@ std::vector<Quadrilateral> strip(int along) {
   return quadrilaterals;
 }
 
+/// Of a face of a wedge's image, such that all elements are right-handed.
+std::vector<Quadrilateral> quadrilaterals(Face face, const Image& image, int along) {
+  auto result = face == Face::side ? strip(along) : triangle();
+  if ((face == Face::rear) != image.mirrors()) mirror(result);
+  return result;
+}
+
 }  // namespace
 
-std::vector<Quadrilateral> triangle_quadrilaterals() {
-  const FacePoint a(0, 0), b(1, 0), c(1, 1), ab(0.5, 0), bc(1, 0.5), ca(0.5, 0.5), centre(2.0 / 3, 1.0 / 3);
-  return {{a, ab, ca, centre}, {b, bc, ab, centre}, {c, ca, bc, centre}};
+std::vector<DuctElement> section_elements(Symmetry symmetry) {
+  std::vector<DuctElement> elements;
+  for (const Image& image : wedges_of(symmetry)) {
+    for (const Quadrilateral& corners : quadrilaterals(Face::front, image, 0))
+      elements.push_back({Part::end, Face::front, image, corners, {0, 1}});
+  }
+  return elements;
 }
 
 int duct_layers_for(const DuctGeometry& geometry, const DuctSubdivision& n) {
@@ -52,37 +68,42 @@ int duct_layers_for(const DuctGeometry& geometry, const DuctSubdivision& n) {
   return std::max(1, int(std::lround(std::log2(1 + 1 / first))));
 }
 
-FacePoint DuctElement::on_face(double s, double t) const {
-  return (1 - s) * (1 - t) * corners[0] + s * (1 - t) * corners[1] + (1 - s) * t * corners[2] + s * t * corners[3];
+DuctPoint DuctElement::on_cube(double s, double t, double xi3) const {
+  const FacePoint at =
+      (1 - s) * (1 - t) * corners[0] + s * (1 - t) * corners[1] + (1 - s) * t * corners[2] + s * t * corners[3];
+  if (part == Part::core) return image({outward_at(xi3), at(0), at(1)});
+  if (face == Face::side) return image({at(1), 1, at(0)});
+  return image({face == Face::front ? 1.0 : -1.0, at(0), at(1)});
 }
 
-DuctMesh::DuctMesh(const DuctGeometry& geometry, const DuctSubdivision& subdivision)
-    : geometry_(geometry), subdivision_(subdivision) {
-  const auto front = triangle_quadrilaterals(), rear = mirrored(front), side = strip(subdivision.along);
+DuctMesh::DuctMesh(const DuctGeometry& geometry, const DuctSubdivision& subdivision, Symmetry symmetry)
+    : geometry_(geometry), subdivision_(subdivision), symmetry_(symmetry) {
   const int count = subdivision.layers > 0 ? subdivision.layers : duct_layers_for(geometry, subdivision);
-  const auto layers = breaks(count, 0, 1, std::pow(2.0, count)), ends = breaks(subdivision.axial, 0, 1, 1.3);
-  add(Part::core, Face::front, front, breaks(subdivision.along, -1, 1));
-  for (const auto& [part, outward] : {std::pair{Part::ring, breaks(1, 0, 1)}, std::pair{Part::layers, layers}}) {
-    add(part, Face::front, front, outward);
-    add(part, Face::side, side, outward);
-    add(part, Face::rear, rear, outward);
+  const auto layers = breaks(count, 0, 1, std::pow(2.0, count));
+  const double near = (geometry.least_length() - geometry.box()) / (geometry.half_length() - geometry.box());
+  auto ends = breaks(subdivision.axial, 0, std::min(1.0, near), 1.3);
+  if (near < 1) ends.push_back(1);  // where nothing is disturbed
+  for (const Image& image : wedges_of(symmetry)) {
+    add(Part::core, Face::front, image, breaks(subdivision.along, -1, 1));
+    for (const auto& [part, outward] : {std::pair{Part::ring, breaks(1, 0, 1)}, std::pair{Part::layers, layers}}) {
+      for (const Face face : {Face::front, Face::side, Face::rear}) add(part, face, image, outward);
+    }
+    add(Part::end, Face::front, image, ends);
+    add(Part::end, Face::rear, image, ends);
   }
-  add(Part::end, Face::front, front, ends);
-  add(Part::end, Face::rear, rear, ends);
 }
 
-void DuctMesh::add(Part part, Face face, const std::vector<Quadrilateral>& quadrilaterals,
-                   const std::vector<double>& outward) {
-  for (const Quadrilateral& corners : quadrilaterals) {
+void DuctMesh::add(Part part, Face face, const Image& image, const std::vector<double>& outward) {
+  for (const Quadrilateral& corners : quadrilaterals(face, image, subdivision_.along)) {
     const int foot = part == Part::layers ? int(elements_.size()) : -1;
     for (std::size_t i = 0; i + 1 < outward.size(); ++i)
-      elements_.push_back({part, face, corners, {outward[i], outward[i + 1]}, foot});
+      elements_.push_back({part, face, image, corners, {outward[i], outward[i + 1]}, foot});
   }
 }
 
 DuctPoint DuctMesh::point(int element, const Eigen::Vector3d& xi) const {
   const DuctElement& self = elements_[element];
-  return geometry_.map(self.part, self.face, self.on_face(xi(0), xi(1)), self.outward_at(xi(2)));
+  return geometry_.map(self.part, self.on_cube(xi(0), xi(1), xi(2)), self.outward_at(xi(2)));
 }
 
 NodeNumbers DuctMesh::number_nodes(int degree) const {

@@ -1,4 +1,4 @@
-// The mesh of one eighth of cell and duct: hexahedra that subdivide the parts of the geometry.
+// The mesh of cell and duct, or of one part of them by symmetry: hexahedra that subdivide the parts of the geometry.
 #pragma once
 #include <array>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace rheocyte {
 
-/// How finely the eighth is divided. Across the flow each face in front and rear is a triangle of three quadrilaterals.
+/// How finely a wedge is divided. Across the flow its faces in front and rear are triangles of three quadrilaterals.
 struct DuctSubdivision {
   int along = 3;   ///< elements along the side of the cell
   int layers = 0;  ///< of liquid from the surface to the box, each twice as high as the one below; 0: duct_layers_for()
@@ -19,26 +19,36 @@ struct DuctSubdivision {
 /// As many layers as make the first one half as high as the surface's elements are wide (docs/theory.md, sec. mesh).
 int duct_layers_for(const DuctGeometry&, const DuctSubdivision&);
 
+/// Face of the cube that a block's outward direction crosses, in the wedge: X = 1, Y = 1, X = -1.
+enum class Face { front, side, rear };
+
+/// Points of the wedge's faces by two coordinates: (Y, Z) in front and rear, (Z, X) on the side.
+using FacePoint = Eigen::Vector2d;
+
 /// One hexahedron. The first two element coordinates run over a quadrilateral of the face, the third outward (along the
 /// flow in the core).
 struct DuctElement {
   Part part;
   Face face;
+  Image image;                       ///< of the wedge
   std::array<FacePoint, 4> corners;  ///< at (0,0), (1,0), (0,1), (1,1)
   std::array<double, 2> outward;
   int foot = -1;  ///< in the layers: the element between the same spokes that touches the cell
 
   bool in_cell() const { return part == Part::core || part == Part::ring; }
-  /// Coordinates on the face, and outward, of element coordinates in [0, 1]^3.
-  FacePoint on_face(double xi1, double xi2) const;
   double outward_at(double xi3) const { return outward[0] + xi3 * (outward[1] - outward[0]); }
+  /// The cube's point of element coordinates in [0, 1]^3, outside the core on its surface.
+  DuctPoint on_cube(double xi1, double xi2, double xi3) const;
 };
 
 class DuctMesh {
  public:
-  DuctMesh(const DuctGeometry&, const DuctSubdivision&);
+  DuctMesh(const DuctGeometry& geometry, const DuctSubdivision& subdivision)
+      : DuctMesh(geometry, subdivision, symmetry_of(geometry.section())) {}
+  DuctMesh(const DuctGeometry&, const DuctSubdivision&, Symmetry);
 
   const DuctGeometry& geometry() const { return geometry_; }
+  Symmetry symmetry() const { return symmetry_; }
   const DuctSubdivision& subdivision() const { return subdivision_; }
   const std::vector<DuctElement>& elements() const { return elements_; }
   /// Point of the undeformed mesh for element coordinates in [0, 1]^3.
@@ -47,14 +57,15 @@ class DuctMesh {
   NodeNumbers number_nodes(int degree) const;
 
  private:
-  void add(Part, Face, const std::vector<std::array<FacePoint, 4>>& quadrilaterals, const std::vector<double>& outward);
+  void add(Part, Face, const Image&, const std::vector<double>& outward);
 
   DuctGeometry geometry_;
   DuctSubdivision subdivision_;
+  Symmetry symmetry_;
   std::vector<DuctElement> elements_;
 };
 
-/// Quadrilaterals of the triangle 0 <= Z <= Y <= 1, corners as those of an element, counterclockwise in (Y, Z).
-std::vector<std::array<FacePoint, 4>> triangle_quadrilaterals();
+/// Elements at the duct's end, whose first two coordinates run over its cross-section.
+std::vector<DuctElement> section_elements(Symmetry);
 
 }  // namespace rheocyte

@@ -9,10 +9,11 @@ constexpr double tiny = 1e-10;
 
 }  // namespace
 
-DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid)
+DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid, Drive drive)
     : mesh_(mesh),
+      open_inlet_(drive != Drive::rate),
       reference_(degree),
-      section_(mesh.geometry(), degree),
+      section_(mesh.geometry(), degree, mesh.symmetry()),
       nodes_(mesh.number_nodes(degree)),
       points_(nodes_.count) {
   const VectorXd& s = reference_.nodes_1d;
@@ -26,11 +27,12 @@ DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid)
   for (int e = 0; e < int(mesh.elements().size()); ++e) elements_.push_back(unknowns_of(e));
 }
 
-/// The node on the axis that is nearest to the cell's centre.
+/// The node on the cell's axis that is nearest to its centre.
 void DuctSpace::find_held_node() {
   double nearest = mesh_.geometry().radius();
+  const Eigen::Vector2d centre(mesh_.geometry().shape().offset, 0);
   for (int i = 0; i < nodes_.count; ++i) {
-    if (points_[i].tail<2>().norm() > tiny || std::abs(points_[i](0)) >= nearest - tiny) continue;
+    if ((points_[i].tail<2>() - centre).norm() > tiny || std::abs(points_[i](0)) >= nearest - tiny) continue;
     held_node_ = i;
     nearest = std::abs(points_[i](0));
   }
@@ -41,44 +43,41 @@ std::vector<DuctSpace::NodeFlags> DuctSpace::flag_nodes() const {
   const double end = mesh_.geometry().half_length();
   for (int i = 0; i < nodes_.count; ++i) {
     const DuctPoint& x = points_[i];
-    flags[i].side_plane = x(2) < tiny;
-    flags[i].diagonal = x(1) - x(2) < tiny;
+    flags[i].across = across_at(mesh_.symmetry(), x);
     flags[i].wall = mesh_.geometry().is_wall(x);
     flags[i].inlet = x(0) < -end + tiny;
     flags[i].outlet = x(0) > end - tiny;
   }
   for (std::size_t e = 0; e < nodes_.of_element.size(); ++e) {
-    for (const int node : nodes_.of_element[e])
-      (mesh_.elements()[e].in_cell() ? flags[node].cell : flags[node].liquid) = true;
+    for (const int node : nodes_.of_element[e]) flags[node].cell |= mesh_.elements()[e].in_cell();
   }
   return flags;
 }
 
 void DuctSpace::number_unknowns(const std::vector<NodeFlags>& flags, const Liquid& liquid) {
-  const DuctFlow inflow = section_.flow(liquid);
+  const DuctFlow inflow = open_inlet_ ? DuctFlow{} : section_.flow(liquid);
   displacement_.assign(3 * nodes_.count, -1);
   velocity_.assign(3 * nodes_.count, Slot{});
   cell_velocity_ = unknowns_++;
   for (int i = 0; i < nodes_.count; ++i) {
     const NodeFlags& f = flags[i];
-    const bool on_axis = f.side_plane && f.diagonal;
     // Numbers of the components y and z of a node that may move across the flow.
     const auto number_across = [&](auto&& at) {
-      if (!on_axis) at(1) = unknowns_++;
-      if (!f.side_plane) at(2) = f.diagonal ? at(1) : unknowns_++;
+      if (!f.across.holds_y) at(1) = unknowns_++;
+      if (!f.across.holds_z) at(2) = f.across.ties ? at(1) : unknowns_++;
     };
     if (f.cell) {
       if (i != held_node_) displacement_[3 * i] = unknowns_++;
       number_across([&](int c) -> int& { return displacement_[3 * i + c]; });
       continue;
     }
-    if (f.wall || f.inlet) {  // they move backwards past the cell
+    if (f.wall || (f.inlet && !open_inlet_)) {  // they move backwards past the cell
       velocity_[3 * i] = {cell_velocity_, -1, 0};
-      if (f.inlet) velocity_[3 * i].constant = inflow.velocity(section_.node_at(points_[i].tail<2>()));
+      if (f.inlet && !open_inlet_) velocity_[3 * i].constant = inflow.velocity(section_.node_at(points_[i].tail<2>()));
       continue;
     }
     velocity_[3 * i].unknown = unknowns_++;
-    if (!f.outlet) number_across([&](int c) -> int& { return velocity_[3 * i + c].unknown; });
+    if (!f.outlet && !f.inlet) number_across([&](int c) -> int& { return velocity_[3 * i + c].unknown; });
   }
   pressure_.resize(nodes_.of_element.size() * std::size_t(reference_.pressures()));
   for (int& unknown : pressure_) unknown = unknowns_++;
@@ -115,7 +114,7 @@ void DuctSpace::add_displacements(int element, HexahedronUnknowns& unknowns) con
       }
       const VectorXd& s = reference_.nodes_1d;
       const double outward = self.outward_at(s(k / (n * n)));
-      const double slide = c == 0 ? wall_slide(self.face, self.on_face(s(k % n), s(k / n % n))) : 0;
+      const double slide = c == 0 ? wall_slide(self.on_cube(s(k % n), s(k / n % n), 1)) : 0;
       const int foot = nodes_.of_element[self.foot][k % (n * n)];
       unknowns.displacement.push_back({displacement(foot, c), 1 - outward * (1 - slide)});
     }

@@ -1,8 +1,9 @@
-// Unknowns of the stationary problem in one eighth of a duct, and where each hexahedron finds its own.
+// Unknowns of the stationary problem in a duct, or in one part of it by symmetry, and where each hexahedron finds its
+// own.
 //
 // As in the tube (fem/discretisation.h): displacements of the cell's nodes, velocities of the liquid's nodes relative
 // to the cell, discontinuous pressures, the cell's velocity v_cell. The planes of symmetry are known to the table of
-// slots alone: in z = 0 the components along z vanish, and in y = z the components y and z of a node are one unknown,
+// slots alone: across a mirror plane components vanish, and in y = z the components y and z of a node are one unknown,
 // to whose equation the tests of both belong (docs/theory-square.md, eq:tie).
 #pragma once
 #include "duct/duct_flow.h"
@@ -23,8 +24,8 @@ struct HexahedronUnknowns {
 
 class DuctSpace {
  public:
-  /// The liquid's undisturbed flow enters.
-  DuctSpace(const DuctMesh&, int degree, const Liquid&);
+  /// The liquid's undisturbed flow enters, or, where the pressure drop is given, what flows through an open inlet.
+  DuctSpace(const DuctMesh&, int degree, const Liquid&, Drive = Drive::rate);
 
   const DuctMesh& mesh() const { return mesh_; }
   const ReferenceElement<3>& reference() const { return reference_; }
@@ -32,6 +33,7 @@ class DuctSpace {
   const NodeNumbers& nodes() const { return nodes_; }
   const std::vector<DuctPoint>& node_points() const { return points_; }
   const CrossSection& section() const { return section_; }
+  bool has_open_inlet() const { return open_inlet_; }
 
   int unknowns() const { return unknowns_; }
   int cell_velocity() const { return cell_velocity_; }
@@ -44,8 +46,8 @@ class DuctSpace {
 
  private:
   struct NodeFlags {
-    bool cell = false, liquid = false, side_plane = false, diagonal = false, wall = false, inlet = false,
-         outlet = false;
+    bool cell = false, wall = false, inlet = false, outlet = false;
+    Across across;
   };
   std::vector<NodeFlags> flag_nodes() const;
   void number_unknowns(const std::vector<NodeFlags>&, const Liquid&);
@@ -55,6 +57,7 @@ class DuctSpace {
   std::vector<PointMap<double, 3>> undeformed_maps(int element) const;
 
   DuctMesh mesh_;
+  bool open_inlet_;
   ReferenceElement<3> reference_;
   CrossSection section_;
   NodeNumbers nodes_;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "duct/duct_ends.h"
 #include "duct/observe_duct.h"
 
 namespace rheocyte {
@@ -40,36 +41,16 @@ std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space) {
   return coupled;
 }
 
-/// Area of each axial test function on the outlet.
-VectorXd outlet_load(const DuctSpace& space) {
-  VectorXd load = VectorXd::Zero(space.unknowns());
-  const ReferenceElement<2> face(space.reference().degree());
-  const double end = space.mesh().geometry().half_length();
-  for (std::size_t e = 0; e < space.elements().size(); ++e) {
-    const auto& nodes = space.nodes().of_element[e];
-    const auto last = std::vector<int>(nodes.end() - face.nodes(), nodes.end());
-    if (space.node_points()[last.front()](0) < end - 1e-10) continue;
-    Eigen::MatrixX2d X(face.nodes(), 2);
-    for (int k = 0; k < face.nodes(); ++k) X.row(k) = space.node_points()[last[k]].tail<2>().transpose();
-    const Eigen::MatrixX2d G1 = face.shape.slope[0] * X, G2 = face.shape.slope[1] * X;
-    const Eigen::ArrayXd area = (G1.col(0).array() * G2.col(1).array() - G1.col(1).array() * G2.col(0).array()).abs();
-    const VectorXd weights = face.shape.value.transpose() * (face.weights.array() * area).matrix();
-    for (int k = 0; k < face.nodes(); ++k) {
-      const Slot& slot = space.velocity(last[k], 0);
-      if (slot.unknown >= 0 && slot.unknown != space.cell_velocity()) load(slot.unknown) += weights(k);
-    }
-  }
-  return load;
-}
-
 }  // namespace
 
-DuctSystem::DuctSystem(const DuctSpace& space)
+DuctSystem::DuctSystem(const DuctSpace& space, double drop)
     : space_(space),
+      drop_(drop),
       element_(space.reference().degree()),
       tangent_(element_, space.reference()),
       lu_(space.unknowns(), coupled_unknowns(space)),
-      outlet_load_(outlet_load(space)),
+      outlet_load_(duct_end_load(space, Face::front)),
+      inlet_load_(duct_end_load(space, Face::rear)),
       place_(space.unknowns(), -1) {}
 
 VectorXd DuctSystem::sphere() const {
@@ -86,8 +67,9 @@ double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
 
 VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, Want want, double& least_det) {
   // The undisturbed pressure vanishes at the cell.
-  const double outlet_pressure = -undisturbed_gradient(media.liquid) * space_.mesh().geometry().half_length();
-  VectorXd total = outlet_pressure * outlet_load_;
+  const double end_pressure = drop_ * undisturbed_gradient(media.liquid) * space_.mesh().geometry().half_length();
+  VectorXd total = -end_pressure * outlet_load_;
+  if (space_.has_open_inlet()) total -= end_pressure * inlet_load_;
   least_det = std::numeric_limits<double>::infinity();
   for (int e = 0; e < int(space_.elements().size()); ++e) {
     const HexahedronUnknowns& self = space_.elements()[e];

@@ -1,4 +1,4 @@
-// The nonlinear system of cell and liquid in one eighth of a duct: residual, exact tangent, and its factorisation
+// The nonlinear system of cell and liquid in a duct: residual, exact tangent, and its factorisation
 // subdomain by subdomain (docs/theory-square.md).
 #pragma once
 #include <memory>
@@ -12,8 +12,9 @@ namespace rheocyte {
 
 class DuctSystem final : public NonlinearSystem {
  public:
-  /// The space must outlive this object. Media with a cortex are not for this system.
-  explicit DuctSystem(const DuctSpace&);
+  /// The space must outlive this object. Where the pressure drop is given, it is `drop` times that of the undisturbed
+  /// flow at mean speed 1. Media with a cortex are not for this system.
+  explicit DuctSystem(const DuctSpace&, double drop = 1);
 
   const DuctSpace& space() const { return space_; }
   const TensorElement& element() const { return element_; }
@@ -27,6 +28,7 @@ class DuctSystem final : public NonlinearSystem {
   void scale_displacement(double factor, VectorXd& unknowns) const override;
   double stretch_change(const VectorXd& from, const VectorXd& to) const override;
 
+  double drop() const { return drop_; }
   /// Pressure gradient of the liquid's undisturbed flow at mean speed 1.
   double undisturbed_gradient(const Liquid&) const;
   /// Of one factorisation of the linear system, and of the entries of its factors.
@@ -37,10 +39,11 @@ class DuctSystem final : public NonlinearSystem {
   VectorXd assemble(const Media&, const VectorXd& unknowns, Want, double& least_det);
 
   const DuctSpace& space_;
+  double drop_;
   TensorElement element_;
   HexahedronTangent tangent_;
   NestedLU lu_;
-  VectorXd outlet_load_;
+  VectorXd outlet_load_, inlet_load_;
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
   HexahedronPoints points_;
   MatrixXd matrix_;

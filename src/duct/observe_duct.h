@@ -1,23 +1,9 @@
-// What one reads off a state in the duct: both silhouettes, the stretch of the surface, the volume, transfer to another
-// degree.
+// What one reads off a state in the duct: the stretch of the surface, the volume, transfer to another degree.
 #pragma once
 #include "duct/duct_integrals.h"
-#include "shape/contour.h"
+#include "duct/duct_silhouette.h"
 
 namespace rheocyte {
-
-/// The silhouette as a meridian from front to rear pole, lengths in h, its place along the flow as in the mesh: the
-/// meridian in the plane z = 0 seen from the side, that in y = z seen along the other diagonal.
-Contour duct_contour(const DuctSpace&, const VectorXd& unknowns, Camera);
-
-/// The surface at equidistant points of each edge of that meridian, front pole first; columns: meridional, across.
-struct DuctMeridian {
-  VectorXd rest_angle;     ///< of the undeformed point, from the flow direction
-  Eigen::MatrixX2d point;  ///< (x, distance to the axis)
-  Eigen::MatrixX2d stretch;
-  Eigen::MatrixX2d curvature;
-};
-DuctMeridian duct_meridian(const DuctSpace&, const VectorXd& unknowns, Camera, int per_edge);
 
 /// The surface at equidistant points of its faces, ends included.
 struct DuctSurface {
@@ -44,13 +30,7 @@ CellVolume cell_volume(const DuctSpace&, const TensorElement&, const VectorXd& u
 /// The greatest shear rate sqrt(2 D:D) of the liquid between the planes across the duct through the cell's poles.
 double greatest_shear_rate(const DuctSpace&, const TensorElement&, const VectorXd& unknowns);
 
-/// Mean pressure over the inlet, in S.
-double duct_inlet_pressure(const DuctSpace&, const VectorXd& unknowns);
-
 /// The same fields in the unknowns of another degree on a mesh with the same elements.
 VectorXd transfer(const DuctSpace& from, const VectorXd& unknowns, const DuctSpace& to);
-
-/// Current point of a node of the cell.
-DuctPoint duct_point(const DuctSpace&, const VectorXd& unknowns, int node);
 
 }  // namespace rheocyte

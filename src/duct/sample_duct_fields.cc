@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "duct/duct_nodal_fields.h"
 #include "duct/observe_duct.h"
@@ -34,15 +35,15 @@ std::vector<int> nodes_of_face(int per_edge, int direction, bool far) {
   return nodes;
 }
 
-/// Faces in a plane of symmetry.
-std::vector<PlaneFace> plane_faces(const DuctSpace& space, Camera camera) {
+/// Faces in the plane of symmetry that a camera looks at.
+std::vector<PlaneFace> plane_faces(const DuctSpace& space, const Eigen::Vector2d& across) {
   const int per_edge = space.reference().degree() + 1;
   std::vector<PlaneFace> faces;
   for (int e = 0; e < int(space.elements().size()); ++e) {
     const auto& nodes = space.nodes().of_element[e];
     const auto in_plane = [&](int k) {
       const DuctPoint& X = space.node_points()[nodes[k]];
-      return std::abs(camera == Camera::side ? X(2) : X(1) - X(2)) < tiny;
+      return std::abs(across(0) * X(2) - across(1) * X(1)) < tiny;
     };
     for (int side = 0; side < 6; ++side) {
       std::vector<int> face = nodes_of_face(per_edge, side / 2, side % 2 == 1);
@@ -52,26 +53,25 @@ std::vector<PlaneFace> plane_faces(const DuctSpace& space, Camera camera) {
   return faces;
 }
 
-/// The eight images of the surface's eighth under the symmetries of the square.
+/// The whole surface: all images of the part that was computed.
 void add_surface(const DuctSpace& space, const VectorXd& unknowns, double um, SampledFields& s) {
   const int per_edge = surface_divisions + 1;
-  const Eigen::MatrixX3d eighth = um * duct_surface(space, unknowns, per_edge).point;
-  const Eigen::Index points = eighth.rows(), faces = points / (per_edge * per_edge);
+  const Eigen::MatrixX3d part = um * duct_surface(space, unknowns, per_edge).point;
+  const Eigen::Index points = part.rows(), faces = points / (per_edge * per_edge);
   std::vector<std::uint32_t> triangles;
   for (Eigen::Index f = 0; f < faces; ++f)
     add_grid_triangles(std::uint32_t(f * per_edge * per_edge), surface_divisions, triangles);
-  s.surface_um.resize(8 * points, 3);
-  for (int image = 0; image < 8; ++image) {
-    const double y = image & 1 ? -1 : 1, z = image & 2 ? -1 : 1;
-    const bool swaps = (image & 4) != 0, mirrors = swaps != (y * z < 0);
-    auto block = s.surface_um.middleRows(image * points, points);
-    block.col(0) = eighth.col(0).cast<float>();
-    block.col(1) = (y * eighth.col(swaps ? 2 : 1)).cast<float>();
-    block.col(2) = (z * eighth.col(swaps ? 1 : 2)).cast<float>();
+  const std::vector<Image> copies = copies_of(space.mesh().symmetry());
+  s.surface_um.resize(Eigen::Index(copies.size()) * points, 3);
+  for (std::size_t copy = 0; copy < copies.size(); ++copy) {
+    const Image& image = copies[copy];
+    const Eigen::Index start = Eigen::Index(copy) * points;
+    for (Eigen::Index i = 0; i < points; ++i)
+      s.surface_um.row(start + i) = image(part.row(i).transpose()).transpose().cast<float>();
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
-      const std::uint32_t first = std::uint32_t(image * points);
+      const auto first = std::uint32_t(start);
       const std::uint32_t a = first + triangles[i], b = first + triangles[i + 1], c = first + triangles[i + 2];
-      s.surface_triangles.insert(s.surface_triangles.end(), {a, mirrors ? c : b, mirrors ? b : c});
+      s.surface_triangles.insert(s.surface_triangles.end(), {a, image.mirrors() ? c : b, image.mirrors() ? b : c});
     }
   }
 }
@@ -81,11 +81,12 @@ void add_surface(const DuctSpace& space, const VectorXd& unknowns, double um, Sa
 SampledFields sample_duct_fields(const DuctSpace& space, const Media& media, const VectorXd& unknowns,
                                  const Scales& scales, Camera camera, int points) {
   using Fields = DuctNodalFields;
-  const std::vector<PlaneFace> faces = plane_faces(space, camera);
+  const double angle = nearest_mirror(space.mesh().symmetry(), camera).degrees * std::numbers::pi / 180;
+  const Eigen::Vector2d across(std::cos(angle), std::sin(angle));
+  const std::vector<PlaneFace> faces = plane_faces(space, across);
   const int divisions = sampling_divisions(points, faces.size());
   const MatrixXd grid = sampling_grid(space.reference().lagrange(VectorXd::LinSpaced(divisions + 1, 0, 1)));
   const Eigen::Index of_face = grid.rows(), all = of_face * Eigen::Index(faces.size());
-  const double across = camera == Camera::side ? 0 : std::sqrt(0.5), along = camera == Camera::side ? 1 : across;
   const Fields nodal(space, media, unknowns, scales);
   SampledFields s;
   for (auto* vectors : {&s.point_um, &s.velocity_m_per_s, &s.displacement_um}) vectors->resize(all, 2);
@@ -95,7 +96,7 @@ SampledFields sample_duct_fields(const DuctSpace& space, const Media& media, con
     const MatrixXd f = grid * nodal.of_element(faces[i].element)(faces[i].nodes, Eigen::all);
     const auto in_plane = [&](int column, SampledFields::Vectors& to) {
       to.block(first, 0, of_face, 1) = f.col(column).cast<float>();
-      to.block(first, 1, of_face, 1) = (along * f.col(column + 1) + across * f.col(column + 2)).cast<float>();
+      to.block(first, 1, of_face, 1) = (across(0) * f.col(column + 1) + across(1) * f.col(column + 2)).cast<float>();
     };
     in_plane(Fields::x, s.point_um);
     in_plane(Fields::w, s.velocity_m_per_s);

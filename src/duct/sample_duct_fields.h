@@ -6,7 +6,8 @@
 
 namespace rheocyte {
 
-/// About so many points of the plane through the axis whose outline the camera sees. Places are those of the mesh.
+/// About so many points of the mirror plane that the camera looks at, or of the nearest to it. Places are those of the
+/// mesh.
 SampledFields sample_duct_fields(const DuctSpace&, const Media&, const VectorXd& unknowns, const Scales&, Camera,
                                  int points);
 

@@ -19,13 +19,21 @@ std::string line(std::string_view name, const std::string& value, const std::str
   return fmt::format("  {:<18} {:<16} {}\n", name, value, remark);
 }
 
+std::string seen_from(const Channel& channel) {
+  if (channel.camera_degree) return fmt::format("seen at {:g} degrees", *channel.camera_degree);
+  if (channel.section == Section::rectangle) return "seen along the height";
+  return channel.camera == View::diagonal ? "seen along the diagonal" : "seen from the side";
+}
+
 /// Which channel was computed: a width means a square one, for which a tube may stand.
 std::string channel_line(const Case& input) {
   const Channel& channel = input.channel;
   if (!channel.width_um) return "";
+  if (channel.section == Section::rectangle)
+    return line("channel", fmt::format("{:.5g} x {:.5g} um", *channel.width_um, *channel.height_um),
+                seen_from(channel));
   if (channel.section == Section::square)
-    return line("channel", fmt::format("{:.5g} um square", *channel.width_um),
-                channel.camera == Camera::diagonal ? "seen along the diagonal" : "seen from the side");
+    return line("channel", fmt::format("{:.5g} um square", *channel.width_um), seen_from(channel));
   return line("channel", fmt::format("{:.5g} um tube", 2 * tube_radius_um(input)),
               fmt::format("for the square of {:.5g} um, which channel.section = \"square\" computes itself",
                           *channel.width_um));

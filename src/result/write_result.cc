@@ -42,10 +42,8 @@ void write_result(const Result& result, ResultFolder& folder, const fs::path& wa
                   std::string_view result_json) {
   folder.write("case.toml", to_toml(result.input));
   folder.write("contour.csv", contour_csv(result.state.surface, result.scales));
-  if (result.problem.section == Section::square) {
-    folder.write("contour_side.csv", contour_csv(result.state.views[0], result.scales));
-    folder.write("contour_diagonal.csv", contour_csv(result.state.views[1], result.scales));
-  }
+  for (const auto& [name, surface] : result.state.views)
+    folder.write(fmt::format("contour_{}.csv", name), contour_csv(surface, result.scales));
   if (result.state.write_fields)  // else stopped or failed before there was any state
     write_field_file(result.state.write_fields, result.scales, folder.scratch() / "fields.vtu", wanted_folder);
   folder.write("result.json", result_json);

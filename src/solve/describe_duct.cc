@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "duct/duct_ends.h"
 #include "duct/sample_duct_fields.h"
 #include "duct/write_duct_fields.h"
 #include "fem/observe.h"
@@ -10,20 +11,22 @@
 namespace rheocyte {
 namespace {
 
-/// Area of the section over the square of its half width, or of the radius.
-double area_of(Section section) { return section == Section::square ? 4 : std::numbers::pi; }
+/// Cameras whose silhouettes are told of every state.
+std::vector<std::pair<std::string_view, Camera>> views_of(Section section) {
+  std::vector<std::pair<std::string_view, Camera>> views{{"side", Camera::side}};
+  if (section != Section::rectangle) views.emplace_back("diagonal", Camera::diagonal);
+  return views;
+}
 
 /// Moves along the flow.
 void shift(double by, Contour& contour) {
   for (CurvePiece& piece : contour.pieces) piece.col(0).array() += by;
-  // Round-off must not put a pole beyond the axis.
-  contour.pieces.front()(0, 1) = 0;
-  contour.pieces.back()(contour.pieces.back().rows() - 1, 1) = 0;
 }
 
 /// The surface along a silhouette; without a cortex there is no tension.
 SurfaceProfile profile(const DuctSpace& space, const VectorXd& unknowns, Camera camera, double barycentre) {
-  const DuctMeridian meridian = duct_meridian(space, unknowns, camera, SurfaceProfile::points_per_piece);
+  const DuctMeridian meridian =
+      duct_meridian(space, unknowns, camera, VectorXd::LinSpaced(SurfaceProfile::points_per_piece, 0, 1));
   SurfaceProfile profile{meridian.rest_angle, meridian.point, meridian.stretch,
                          Eigen::MatrixX2d::Zero(meridian.point.rows(), 2), meridian.curvature};
   profile.point.col(0).array() -= barycentre;
@@ -37,17 +40,20 @@ double biot_ratio(const Eigen::MatrixX2d& stretch) {
 
 double margin_of(double ratio) { return (ratio - biot_limit) / (1 - biot_limit); }
 
-void read_flow(const Problem& problem, const Media& media, DuctDiscrete& discrete, const VectorXd& unknowns,
-               StateNumbers& r) {
-  const double half = discrete.space.mesh().geometry().half_length();
-  const double gradient = discrete.system.undisturbed_gradient(media.liquid);
+void read_flow(const Media& media, DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
+  const DuctGeometry& geometry = discrete.space.mesh().geometry();
+  const double half = geometry.half_length(),
+               outlet = -discrete.system.drop() * half * discrete.system.undisturbed_gradient(media.liquid);
   r.cell_velocity = unknowns(discrete.space.cell_velocity());
   r.reynolds = media.liquid.reynolds * r.cell_velocity;
   r.channel_length = 2 * half;
-  r.pressure_drop = duct_inlet_pressure(discrete.space, unknowns) + gradient * half;
-  r.additional_pressure_drop = r.pressure_drop - 2 * gradient * half;
-  r.flow_rate = 1;
-  r.volume_flow = area_of(problem.section);
+  r.pressure_drop = duct_inlet_pressure(discrete.space, unknowns) - outlet;
+  r.flow_rate = duct_flow_rate(discrete.space, unknowns);
+  r.volume_flow = r.flow_rate * geometry.area();
+  const double undisturbed = discrete.space.has_open_inlet()
+                                 ? discrete.space.section().gradient_at(media.liquid, r.flow_rate)
+                                 : discrete.system.undisturbed_gradient(media.liquid);
+  r.additional_pressure_drop = r.pressure_drop - 2 * half * undisturbed;
   r.tube_radius = no_value;
   r.shear_rate_max = greatest_shear_rate(discrete.space, discrete.system.element(), unknowns);
 }
@@ -55,9 +61,7 @@ void read_flow(const Problem& problem, const Media& media, DuctDiscrete& discret
 }  // namespace
 
 double duct_deformation(const DuctSpace& space, const VectorXd& unknowns, Camera camera) {
-  Contour contour = duct_contour(space, unknowns, camera);
-  shift(0, contour);
-  return measure(contour).deformation;
+  return measure(duct_contour(space, unknowns, camera)).deformation;
 }
 
 double duct_stability_margin(const DuctSpace& space, const VectorXd& unknowns) {
@@ -68,25 +72,24 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
                    const VectorXd& unknowns, StationaryState& r) {
   const DuctSpace& space = discrete->space;
   const CellVolume volume = cell_volume(space, discrete->system.element(), unknowns);
-  for (const Camera camera : {Camera::side, Camera::diagonal})
-    r.views[std::size_t(camera)] = profile(space, unknowns, camera, volume.barycentre);
-  r.surface = r.views[std::size_t(problem.camera)];
+  for (const auto& [name, camera] : views_of(problem.section))
+    r.views.push_back({name, profile(space, unknowns, camera, volume.barycentre)});
+  r.surface = profile(space, unknowns, problem.camera, volume.barycentre);
   const auto contour_at = [&](Camera camera) {
     Contour contour = duct_contour(space, unknowns, camera);
     shift(-volume.barycentre, contour);
     return contour;
   };
-  const auto deformation_at = [&](Camera camera) { return measure(contour_at(camera)).deformation; };
   r.contour = contour_at(problem.camera);
 
   r.shape = measure(r.contour);
   r.volume_of_revolution = r.shape.volume;
   r.shape.volume = volume.volume;
-  r.deformation_side = deformation_at(Camera::side);
-  r.deformation_diagonal = deformation_at(Camera::diagonal);
+  r.deformation_side = measure(contour_at(Camera::side)).deformation;
+  if (problem.section != Section::rectangle) r.deformation_diagonal = measure(contour_at(Camera::diagonal)).deformation;
   const double a = space.mesh().geometry().radius();
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
-  read_flow(problem, media, *discrete, unknowns, r);
+  read_flow(media, *discrete, unknowns, r);
   const Eigen::MatrixX2d stretch = duct_principal_stretches(space, unknowns);
   r.least_meridional_stretch = stretch.col(0).minCoeff();
   r.biot_ratio = biot_ratio(stretch);

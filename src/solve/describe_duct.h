@@ -1,4 +1,4 @@
-// What is told of a stationary state in a square duct.
+// What is told of a stationary state in a duct.
 #pragma once
 #include <memory>
 
@@ -8,11 +8,19 @@
 
 namespace rheocyte {
 
+inline DuctShape shape_of(const Problem& problem) {
+  return {problem.section, problem.radius_ratio, problem.extent, problem.channel_length};
+}
+
 /// Space and system of one resolution; they stay together.
 struct DuctDiscrete {
   DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree)
-      : space(DuctMesh(DuctGeometry(problem.section, problem.radius_ratio), subdivision), degree, problem.liquid),
-        system(space) {}
+      : DuctDiscrete(problem, subdivision, degree, symmetry_of(problem.section)) {}
+  DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree, Symmetry symmetry)
+      : space(DuctMesh(DuctGeometry(shape_of(problem)), subdivision, symmetry), degree, problem.liquid, problem.drive),
+        system(space, problem.drive == Drive::rate
+                          ? 1
+                          : problem.pressure_gradient / space.section().flow(problem.liquid).pressure_gradient) {}
   DuctSpace space;
   DuctSystem system;
 };

@@ -175,7 +175,7 @@ void Session::take_back(Kept kept, const Problem& from) {
 
 StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress,
                                const std::atomic<bool>* stop) {
-  if (problem.section == Section::square) return solve_in_duct(problem, progress, stop);
+  if (is_duct(problem.section)) return solve_in_duct(problem, progress, stop);
   const auto start = std::chrono::steady_clock::now();
   StationaryState result;
   result.shape = measure(Contour{});  // not a number until there is a shape

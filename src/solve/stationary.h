@@ -1,10 +1,10 @@
 // The stationary shape of one cell: from the sphere to the wanted state by itself (docs/theory.md, sec. 4).
 #pragma once
-#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "case/problem.h"
@@ -48,14 +48,20 @@ struct SurfaceProfile {
   Eigen::MatrixX2d curvature;  ///< in 1/R; both 1/a for a sphere of radius a
 };
 
+/// What one sees of a cell in a duct from one of the directions of its symmetry.
+struct DuctView {
+  std::string_view name;  ///< "side" or "diagonal"
+  SurfaceProfile surface;
+};
+
 /// Everything that is known of a stationary state; dimensionless, in the units of case/problem.h.
 struct StationaryState : StateNumbers {
   Outcome outcome;
-  Contour contour;  ///< barycentre at x = 0; in a square channel the silhouette that the camera sees
+  Contour contour;  ///< barycentre at x = 0; in a duct the silhouette that the camera sees
   SurfaceProfile surface;
-  std::array<SurfaceProfile, 2> views;  ///< in a square channel: the surface along both silhouettes, by Camera
-  double residual = no_value;           ///< of the last Newton iteration, relative to the driving forces
-  double estimated_error = no_value;    ///< relative, of the deformation
+  std::vector<DuctView> views;        ///< in a square channel both, in a rectangle the one along the height
+  double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
+  double estimated_error = no_value;  ///< relative, of the deformation
   SolveStatistics statistics;
   std::vector<BranchStep> branch;
   /// Writes fields.vtu (velocity, pressure, stress, displacement on the deformed mesh, high-order cells) in

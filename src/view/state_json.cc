@@ -12,6 +12,7 @@
 
 #include "case/json_guard.h"
 #include "case/scales.h"
+#include "duct/duct_symmetry.h"
 #include "shape/convex_hull.h"
 #include "shape/curve.h"
 #include "view/base64.h"
@@ -106,11 +107,18 @@ Json tensions(const Result& result, double origin) {
   return json;
 }
 
+/// Distance of the wall from the axis in the plane in which the fields are shown, in R.
+double wall_distance(const Problem& problem) {
+  if (!is_duct(problem.section)) return 1;
+  const Camera shown = nearest_mirror(symmetry_of(problem.section), problem.camera);
+  if (shown == Camera::diagonal) return std::numbers::sqrt2;
+  return shown == Camera::side ? problem.extent.width : problem.extent.height;
+}
+
 /// In the plane that the camera looks at.
 Json wall(const Result& result, double origin) {
   const double um = um_per_m * result.scales.length_m, half = result.state.channel_length / 2;
-  const bool to_corner = result.problem.section == Section::square && result.problem.camera == Camera::diagonal;
-  const double r = um * (to_corner ? std::numbers::sqrt2 : 1);
+  const double r = um * wall_distance(result.problem);
   return {{"x_um", {um * (-half - origin), um * (half - origin)}}, {"r_um", {r, r}}};
 }
 
@@ -133,9 +141,8 @@ Json ShownState::numbers() const {
   json["contour"] = curve(outline_, um_, origin_);
   const auto hull = hull_of(result_.state.contour);
   json["hull"] = hull ? curve(*hull, um_, origin_) : Json(nullptr);
-  if (result_.problem.section == Section::square)
-    for (const auto& [name, camera] : {std::pair{"side", Camera::side}, std::pair{"diagonal", Camera::diagonal}})
-      json["contours"][name] = curve(closed({result_.state.views[std::size_t(camera)].point}), um_, origin_);
+  for (const auto& [name, surface] : result_.state.views)
+    json["contours"][name] = curve(closed({surface.point}), um_, origin_);
   return json;
 }
 

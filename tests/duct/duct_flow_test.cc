@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "laws/developed_flow.h"
 
@@ -18,6 +19,31 @@ TEST(DuctFlow, NewtonianFlowThroughASquareIsThatOfTheSeries) {
   EXPECT_NEAR(flow.pressure_gradient, 7.113538, 1e-6);
   EXPECT_NEAR(flow.velocity(section.node_at({0, 0})), 2.0962, 1e-4);  // of which the last digit was cut
   EXPECT_NEAR(section.mean(flow.velocity), 1, 1e-12);
+}
+
+/// The Fourier series of the flow through a rectangle with sides 2 and 2 wide.
+double series(double wide) {
+  double sum = 0;
+  for (int i = 1; i < 400; i += 2) sum += std::tanh(i * std::numbers::pi * wide / 2) / std::pow(i, 5);
+  return 3 / (1 - 192 / std::pow(std::numbers::pi, 5) / wide * sum);
+}
+
+TEST(DuctFlow, NewtonianFlowThroughRectanglesIsThatOfTheSeries) {
+  for (const double wide : {1.0, 1.5, 3.0, 4.0}) {
+    for (const Extent& extent : {Extent{wide, 1}, Extent{1, wide}}) {
+      const CrossSection section(DuctGeometry({Section::rectangle, 0.5, extent}), 10);
+      EXPECT_NEAR(section.flow({}).pressure_gradient / series(wide), 1, 1e-6) << wide;
+    }
+  }
+}
+
+TEST(DuctFlow, AnotherSpeedTakesTheGradientOfThatSpeed) {
+  const CrossSection section(square, 5);
+  const Liquid power_law{.law = LiquidLaw::power_law, .exponent = 0.6, .shear_rate_floor = 1e-3};
+  EXPECT_NEAR(section.gradient_at({.viscosity = 3}, 2), 6 * section.flow({}).pressure_gradient, 1e-9);
+  // The floor is at another share of the speed: 1e-5 of the stress.
+  EXPECT_NEAR(section.gradient_at(power_law, 2) / (std::pow(2, 0.6) * section.flow(power_law).pressure_gradient), 1,
+              2e-5);
 }
 
 TEST(DuctFlow, PowerLawsThroughASquareHaveThePublishedFrictionFactors) {

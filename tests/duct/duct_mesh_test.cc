@@ -55,6 +55,27 @@ TEST(DuctMesh, AnEighthOfCellAndDuctIsFilledWithoutFolds) {
   }
 }
 
+TEST(DuctMesh, PartsOfARectangleAreFilledWithoutFolds) {
+  constexpr double pi = std::numbers::pi;
+  for (const Extent& extent : {Extent{1, 1}, Extent{2, 1}, Extent{1, 4}}) {
+    for (const Symmetry symmetry : {Symmetry::quarter, Symmetry::half}) {
+      const DuctGeometry geometry({Section::rectangle, 0.7, extent});
+      const Volumes v = volumes(DuctMesh(geometry, {}, symmetry), 5);
+      const double share = 1.0 / double(copies_of(symmetry).size());
+      EXPECT_NEAR(v.cell / (share * 4 * pi / 3 * 0.343), 1, 1e-5);
+      EXPECT_NEAR(v.all / (share * 2 * geometry.half_length() * geometry.area()), 1, 1e-5);
+      EXPECT_GT(v.least_det, 0);
+    }
+  }
+}
+
+TEST(DuctMesh, ALongDuctEndsWithOneElementMore) {
+  const DuctGeometry shortest(Section::square, 0.5), longer({.radius = 0.5, .length = 20});
+  EXPECT_EQ(longer.half_length(), 10);
+  EXPECT_EQ(DuctMesh(longer, {}).elements().size(), DuctMesh(shortest, {}).elements().size() + 2 * 3);
+  EXPECT_NEAR(volumes(DuctMesh(longer, {}), 4).all, 10, 1e-4);
+}
+
 TEST(DuctMesh, NeighboursShareTheirNodes) {
   // Euler's count of the mesh of 57 hexahedra at degree 1: vertices of the cell, the liquid and the ends.
   const DuctMesh mesh(DuctGeometry(Section::square, 0.6), {.along = 3, .layers = 2, .axial = 2});

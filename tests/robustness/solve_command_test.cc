@@ -49,6 +49,20 @@ TEST_F(SolveCommand, ASquareChannelHasBothViewsAndTheCamerasOne) {
   EXPECT_NEAR(number("flow_rate_ul_per_s"), 0.04, 1e-12);
 }
 
+TEST_F(SolveCommand, ARectangleIsSeenFromAnyAngle) {
+  const Command command{{RHEOCYTE, "solve", std::string(EXAMPLES) + "/rectangle.toml", "-o", result(), "--set",
+                         "numerics.accuracy=0.05"}};
+  const auto ended = run(command);
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(fs::exists(result() / "contour_side.csv"));
+  EXPECT_FALSE(fs::exists(result() / "contour_diagonal.csv"));
+  EXPECT_TRUE(fs::exists(result() / "picture.png"));
+  EXPECT_TRUE(numbers()["deformation_diagonal"].is_null());
+  // Seen 11 degrees off the side, not the same and not much else.
+  EXPECT_NE(number("deformation"), number("deformation_side"));
+  EXPECT_NEAR(number("deformation") / number("deformation_side"), 1, 0.2);
+}
+
 TEST_F(SolveCommand, WritesEveryFileAndEveryNumber) {
   const auto ended = run(solve("", {"--no-picture"}));
   EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -2,6 +2,7 @@
 // independently with the same method by another program.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -170,6 +171,56 @@ TEST(SquareChannelSlow, OnTheCoarsestMeshTheSurfaceIsAsFarFromItsLimitAsOnFineOn
   problem.bulk.law = BulkLaw::linear;
   const auto [discrete, unknowns] = coarse_state(problem);
   EXPECT_NEAR(biot_limit + (1 - biot_limit) * duct_stability_margin(discrete->space, unknowns), 0.358, 0.02);
+}
+
+/// Side and diagonal, or for a rectangle along height and width, and the cell's velocity, on a coarse mesh.
+std::array<double, 3> views_and_velocity(const Problem& problem, Symmetry symmetry, Camera second) {
+  DuctDiscrete discrete(problem, {.along = 2, .layers = 1, .axial = 1}, 3, symmetry);
+  VectorXd state = discrete.system.sphere();
+  EXPECT_EQ(newton(discrete.system, problem, {.tolerance = 1e-12}, state).status, Status::converged);
+  return {duct_deformation(discrete.space, state, Camera::side), duct_deformation(discrete.space, state, second),
+          state(discrete.space.cell_velocity())};
+}
+
+TEST(SquareChannel, AQuarterIsTwoEighths) {
+  // The same elements and nodes, so that only rounding and the outline's pieces along the diagonal differ.
+  const Problem problem = newtonian_cell(0.6, 12);
+  const auto eighth = views_and_velocity(problem, Symmetry::eighth, Camera::side),
+             quarter = views_and_velocity(problem, Symmetry::quarter, {90});
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(quarter[i] / eighth[i], 1, 1e-8);
+}
+
+TEST(SquareChannel, ARectangleWithEqualSidesIsTheSquareAndTurnsWithItsSides) {
+  Problem square = newtonian_cell(0.6, 12), rectangle = square;
+  rectangle.section = Section::rectangle;
+  const auto one = views_and_velocity(square, Symmetry::eighth, Camera::side),
+             other = views_and_velocity(rectangle, Symmetry::quarter, {90});
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(other[i] / one[i], 1, 1e-8);
+  rectangle.extent = {1.5, 1};
+  const auto wide = views_and_velocity(rectangle, Symmetry::quarter, {90});
+  rectangle.extent = {1, 1.5};
+  const auto high = views_and_velocity(rectangle, Symmetry::quarter, {90});
+  EXPECT_NEAR(wide[0] / high[1], 1, 1e-8);
+  EXPECT_NEAR(wide[1] / high[0], 1, 1e-8);
+  EXPECT_NEAR(wide[2] / high[2], 1, 1e-8);
+  EXPECT_GT(std::abs(wide[0] / wide[1] - 1), 0.05);
+}
+
+TEST(SquareChannel, APressureDropGivesTheFlowThatNeedsIt) {
+  // The state of a given rate, again from the pressure drop that it has over the same length.
+  Problem given = power_law_cell(0.6, 8);
+  given.channel_length = 16;
+  given.accuracy = 0.05;
+  const StationaryState rate = solve_stationary(given);
+  Problem again = given;
+  again.drive = Drive::pressure_drop;
+  again.pressure_gradient = rate.pressure_drop / rate.channel_length;
+  const StationaryState drop = solve_stationary(again);
+  ASSERT_EQ(drop.outcome.status, Status::converged) << drop.outcome.message;
+  // Inlet pressures are means of a polynomial that meets the given one to the error of the mesh.
+  EXPECT_NEAR(drop.flow_rate, 1, 1e-4);
+  EXPECT_NEAR(drop.shape.deformation / rate.shape.deformation, 1, 1e-3);
+  EXPECT_NEAR(drop.additional_pressure_drop / rate.additional_pressure_drop, 1, 2e-2);
 }
 
 TEST(SquareChannelSlow, FarTooSoftCellsAreRefusedOnTheCoarseMesh) {

@@ -1,4 +1,4 @@
-// The shape in three dimensions of a cell in a square channel; three.js is loaded when it is first shown.
+// The shape in three dimensions of a cell in a duct; three.js is loaded when it is first shown.
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Fields } from '../draw/fields';
 import { theme } from '../shell/theme';
@@ -33,7 +33,9 @@ export function Solid({ solid, solved, stale }: SolidProps) {
   }, []);
   useEffect(() => {
     const width_um = Number(solved.of['channel.width_um'] ?? 20);
-    view?.show({ ...solid, width_um, diagonal: solved.of['channel.camera'] === 'diagonal' });
+    const height_um = Number(solved.of['channel.height_um'] ?? width_um);
+    const camera_degree = Number(solved.of['channel.camera_degree'] ?? (solved.of['channel.camera'] === 'diagonal' ? 45 : 0));
+    view?.show({ ...solid, width_um, height_um, camera_degree });
   }, [view, solid, solved, shownTheme]);
   return (
     <div

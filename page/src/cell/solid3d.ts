@@ -1,4 +1,4 @@
-// The cell of a square channel with three.js: its surface, the channel's edges, and the camera that sees it in RT-DC.
+// The cell of a duct with three.js: its surface, the channel's edges, and the camera that sees it in RT-DC.
 import {
   AmbientLight,
   BoxGeometry,
@@ -25,7 +25,9 @@ export interface Solid {
   places: Float32Array;
   triangles: Uint32Array;
   width_um: number;
-  diagonal: boolean;
+  height_um: number;
+  /** Round the flow, 0: along the height. */
+  camera_degree: number;
 }
 
 const turn = 0.12;
@@ -38,17 +40,19 @@ function surfaceOf({ places, triangles }: Solid): Mesh {
   return new Mesh(geometry, new MeshStandardMaterial({ color: new Color('#e5703a'), roughness: 0.55, side: 2 }));
 }
 
-function channelOf({ width_um }: Solid): LineSegments {
-  const edges = new EdgesGeometry(new BoxGeometry(2.4 * width_um, width_um, width_um));
+function channelOf({ width_um, height_um }: Solid): LineSegments {
+  const edges = new EdgesGeometry(new BoxGeometry(2.4 * Math.min(width_um, height_um), width_um, height_um));
   return new LineSegments(edges, new LineBasicMaterial({ color: new Color(token('--line-strong')) }));
 }
 
 /** A camera as a pyramid at its place outside the channel, and its line of sight. */
-function cameraMark({ width_um, diagonal }: Solid): Group {
+function cameraMark({ width_um, height_um, camera_degree }: Solid): Group {
   const group = new Group();
   const ink = new Color(token('--accent'));
-  const towards = new Vector3(0, diagonal ? 1 : 0, 1).normalize();
-  const away = width_um * (diagonal ? 1 : 0.85);
+  const turned = (camera_degree * Math.PI) / 180;
+  const towards = new Vector3(0, Math.sin(turned), Math.cos(turned));
+  const wall = 1 / Math.max((2 * towards.y) / width_um, (2 * towards.z) / height_um);
+  const away = wall + 0.3 * width_um;
   const body = new Mesh(new ConeGeometry(0.11 * width_um, 0.16 * width_um, 4, 1, true), new MeshStandardMaterial({ color: ink, side: 2 }));
   body.position.copy(towards).multiplyScalar(away);
   body.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), towards);

@@ -1,0 +1,75 @@
+#include "duct/duct_ends.h"
+
+#include <cmath>
+
+namespace rheocyte {
+namespace {
+
+/// A face of an element on one of the ends.
+struct EndFace {
+  int element;
+  std::vector<int> nodes;
+  VectorXd area;  ///< of the quadrature points
+};
+
+std::vector<EndFace> end_faces(const DuctSpace& space, Face end, const ReferenceElement<2>& face) {
+  std::vector<EndFace> faces;
+  for (int e = 0; e < int(space.elements().size()); ++e) {
+    const DuctElement& element = space.mesh().elements()[e];
+    if (element.part != Part::end || element.face != end || element.outward[1] != 1) continue;
+    const auto& nodes = space.nodes().of_element[e];
+    EndFace& found = faces.emplace_back(EndFace{e, {nodes.end() - face.nodes(), nodes.end()}, {}});
+    Eigen::MatrixX2d X(face.nodes(), 2);
+    for (int k = 0; k < face.nodes(); ++k) X.row(k) = space.node_points()[found.nodes[k]].tail<2>().transpose();
+    const Eigen::MatrixX2d G1 = face.shape.slope[0] * X, G2 = face.shape.slope[1] * X;
+    const auto det = G1.col(0).array() * G2.col(1).array() - G1.col(1).array() * G2.col(0).array();
+    found.area = face.weights.array() * det.abs();
+  }
+  return faces;
+}
+
+}  // namespace
+
+VectorXd duct_end_load(const DuctSpace& space, Face end) {
+  const ReferenceElement<2> face(space.reference().degree());
+  VectorXd load = VectorXd::Zero(space.unknowns());
+  for (const EndFace& self : end_faces(space, end, face)) {
+    const VectorXd weights = face.shape.value.transpose() * self.area;
+    for (int k = 0; k < weights.size(); ++k) {
+      const Slot& slot = space.velocity(self.nodes[k], 0);
+      if (slot.unknown >= 0 && slot.unknown != space.cell_velocity()) load(slot.unknown) += weights(k);
+    }
+  }
+  return load;
+}
+
+double duct_inlet_pressure(const DuctSpace& space, const VectorXd& unknowns) {
+  const ReferenceElement<2> face(space.reference().degree());
+  const int points_1d = int(face.points_1d.size());
+  double force = 0, area = 0;
+  for (const EndFace& self : end_faces(space, Face::rear, face)) {
+    for (int q = 0; q < face.points(); ++q) {
+      const VectorXd modes =
+          space.reference().pressure_modes({face.points_1d(q % points_1d), face.points_1d(q / points_1d), 1});
+      for (int k = 0; k < modes.size(); ++k)
+        force += self.area(q) * modes(k) * unknowns(space.pressure(self.element, k));
+    }
+    area += self.area.sum();
+  }
+  return force / area;
+}
+
+double duct_flow_rate(const DuctSpace& space, const VectorXd& unknowns) {
+  if (!space.has_open_inlet()) return 1;
+  const ReferenceElement<2> face(space.reference().degree());
+  double flow = 0, area = 0;
+  for (const EndFace& self : end_faces(space, Face::rear, face)) {
+    VectorXd w(face.nodes());
+    for (int k = 0; k < face.nodes(); ++k) w(k) = space.velocity(self.nodes[k], 0).value(unknowns);
+    flow += self.area.dot(face.shape.value * w);
+    area += self.area.sum();
+  }
+  return flow / area + unknowns(space.cell_velocity());
+}
+
+}  // namespace rheocyte
