@@ -37,7 +37,7 @@ VectorXd duct_end_load(const DuctSpace& space, Face end) {
     const VectorXd weights = face.shape.value.transpose() * self.area;
     for (int k = 0; k < weights.size(); ++k) {
       const Slot& slot = space.velocity(self.nodes[k], 0);
-      if (slot.unknown >= 0 && slot.unknown != space.cell_velocity()) load(slot.unknown) += weights(k);
+      if (slot.unknown >= 0 && !space.is_motion(slot.unknown)) load(slot.unknown) += weights(k);
     }
   }
   return load;

@@ -25,10 +25,11 @@ Components<T, 2> shear_stress(const Liquid& liquid, const Components<T, 2>& grad
 
 }  // namespace
 
-CrossSection::CrossSection(const DuctGeometry& geometry, int degree, Symmetry symmetry) : reference_(degree) {
+CrossSection::CrossSection(const DuctGeometry& geometry, int degree, Symmetry symmetry, int across)
+    : reference_(degree) {
   const VectorXd& s = reference_.nodes_1d;
   const int n = degree + 1;
-  const auto quadrilaterals = section_elements(symmetry);
+  const auto quadrilaterals = section_elements(symmetry, across);
   const auto point = [&](int e, int k) -> Eigen::Vector2d {
     return geometry.map(Part::end, quadrilaterals[e].on_cube(s(k % n), s(k / n), 1), 1).tail<2>();
   };

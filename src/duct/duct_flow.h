@@ -18,7 +18,8 @@ class CrossSection {
  public:
   CrossSection(const DuctGeometry& geometry, int degree)
       : CrossSection(geometry, degree, symmetry_of(geometry.section())) {}
-  CrossSection(const DuctGeometry&, int degree, Symmetry);
+  /// `across` as in DuctSubdivision.
+  CrossSection(const DuctGeometry&, int degree, Symmetry, int across = 0);
 
   /// Newton's method; a shear-thinning liquid is approached from the Newtonian one. The pressure gradient is not a
   /// number if that fails.

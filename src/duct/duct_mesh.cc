@@ -1,6 +1,7 @@
 #include "duct/duct_mesh.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -32,31 +33,59 @@ std::vector<Quadrilateral> triangle() {
   return {{a, ab, ca, centre}, {b, bc, ab, centre}, {c, ca, bc, centre}};
 }
 
-/// Of the side in (Z, X).
-std::vector<Quadrilateral> strip(int along) {
+std::vector<Quadrilateral> grid(const std::vector<double>& first, const std::vector<double>& second) {
   std::vector<Quadrilateral> quadrilaterals;
-  const std::vector<double> x = breaks(along, -1, 1);
-  for (int i = 0; i < along; ++i) {
-    for (const double z : {0.0, 0.5})
-      quadrilaterals.push_back({{{z, x[i]}, {z + 0.5, x[i]}, {z, x[i + 1]}, {z + 0.5, x[i + 1]}}});
+  for (std::size_t j = 0; j + 1 < second.size(); ++j) {
+    for (std::size_t i = 0; i + 1 < first.size(); ++i) {
+      const double a = first[i], b = first[i + 1], c = second[j], d = second[j + 1];
+      quadrilaterals.push_back({{{a, c}, {b, c}, {a, d}, {b, d}}});
+    }
   }
   return quadrilaterals;
 }
 
-/// Of a face of a wedge's image, such that all elements are right-handed.
-std::vector<Quadrilateral> quadrilaterals(Face face, const Image& image, int along) {
-  auto result = face == Face::side ? strip(along) : triangle();
-  if ((face == Face::rear) != image.mirrors()) mirror(result);
-  return result;
+}  // namespace
+
+/// What of a face of the cube lies in the part that is meshed, such that all elements are right-handed.
+struct CubeFace {
+  CubeFace(Face which, const Image& of_wedge, std::vector<Quadrilateral> counterclockwise)
+      : face(which), image(of_wedge), quadrilaterals(std::move(counterclockwise)) {
+    if ((face == Face::rear) != image.mirrors()) mirror(quadrilaterals);
+  }
+  Face face;
+  Image image;
+  std::vector<Quadrilateral> quadrilaterals;
+};
+
+namespace {
+
+std::vector<CubeFace> cube_faces(Symmetry symmetry, int along, int across) {
+  std::vector<CubeFace> faces;
+  const auto x = breaks(along, -1, 1);
+  if (across == 0) {
+    for (const Image& image : wedges_of(symmetry)) {
+      faces.emplace_back(Face::front, image, triangle());
+      faces.emplace_back(Face::side, image, grid({0, 0.5, 1}, x));
+      faces.emplace_back(Face::rear, image, triangle());
+    }
+    return faces;
+  }
+  assert(symmetry == Symmetry::half && across % 2 == 0);
+  const auto whole = breaks(across, -1, 1), half = breaks(across / 2, 0, 1);
+  for (const Face face : {Face::front, Face::rear}) faces.emplace_back(face, Image{}, grid(whole, half));
+  for (const double y : {1.0, -1.0}) faces.emplace_back(Face::side, Image{false, y}, grid(half, x));
+  faces.emplace_back(Face::side, Image{true}, grid(whole, x));
+  return faces;
 }
 
 }  // namespace
 
-std::vector<DuctElement> section_elements(Symmetry symmetry) {
+std::vector<DuctElement> section_elements(Symmetry symmetry, int across) {
   std::vector<DuctElement> elements;
-  for (const Image& image : wedges_of(symmetry)) {
-    for (const Quadrilateral& corners : quadrilaterals(Face::front, image, 0))
-      elements.push_back({Part::end, Face::front, image, corners, {0, 1}});
+  for (const CubeFace& face : cube_faces(symmetry, 1, across)) {
+    if (face.face != Face::front) continue;
+    for (const Quadrilateral& corners : face.quadrilaterals)
+      elements.push_back({Part::end, Face::front, face.image, corners, {0, 1}});
   }
   return elements;
 }
@@ -83,21 +112,19 @@ DuctMesh::DuctMesh(const DuctGeometry& geometry, const DuctSubdivision& subdivis
   const double near = (geometry.least_length() - geometry.box()) / (geometry.half_length() - geometry.box());
   auto ends = breaks(subdivision.axial, 0, std::min(1.0, near), 1.3);
   if (near < 1) ends.push_back(1);  // where nothing is disturbed
-  for (const Image& image : wedges_of(symmetry)) {
-    add(Part::core, Face::front, image, breaks(subdivision.along, -1, 1));
-    for (const auto& [part, outward] : {std::pair{Part::ring, breaks(1, 0, 1)}, std::pair{Part::layers, layers}}) {
-      for (const Face face : {Face::front, Face::side, Face::rear}) add(part, face, image, outward);
-    }
-    add(Part::end, Face::front, image, ends);
-    add(Part::end, Face::rear, image, ends);
+  for (const CubeFace& face : cube_faces(symmetry, subdivision.along, subdivision.across)) {
+    if (face.face == Face::front) add(Part::core, face, breaks(subdivision.along, -1, 1));
+    add(Part::ring, face, {0, 1});
+    add(Part::layers, face, layers);
+    if (face.face != Face::side) add(Part::end, face, ends);
   }
 }
 
-void DuctMesh::add(Part part, Face face, const Image& image, const std::vector<double>& outward) {
-  for (const Quadrilateral& corners : quadrilaterals(face, image, subdivision_.along)) {
+void DuctMesh::add(Part part, const CubeFace& face, const std::vector<double>& outward) {
+  for (const Quadrilateral& corners : face.quadrilaterals) {
     const int foot = part == Part::layers ? int(elements_.size()) : -1;
     for (std::size_t i = 0; i + 1 < outward.size(); ++i)
-      elements_.push_back({part, face, image, corners, {outward[i], outward[i + 1]}, foot});
+      elements_.push_back({part, face.face, face.image, corners, {outward[i], outward[i + 1]}, foot});
   }
 }
 

@@ -13,6 +13,7 @@ struct DuctSubdivision {
   int along = 3;   ///< elements along the side of the cell
   int layers = 0;  ///< of liquid from the surface to the box, each twice as high as the one below; 0: duct_layers_for()
   int axial = 2;   ///< elements from the box to each end
+  int across = 0;  ///< of the half: its faces across the flow are grids of across x across / 2; 0: triangles
   bool operator==(const DuctSubdivision&) const = default;
 };
 
@@ -41,6 +42,8 @@ struct DuctElement {
   DuctPoint on_cube(double xi1, double xi2, double xi3) const;
 };
 
+struct CubeFace;
+
 class DuctMesh {
  public:
   DuctMesh(const DuctGeometry& geometry, const DuctSubdivision& subdivision)
@@ -57,7 +60,7 @@ class DuctMesh {
   NodeNumbers number_nodes(int degree) const;
 
  private:
-  void add(Part, Face, const Image&, const std::vector<double>& outward);
+  void add(Part, const CubeFace&, const std::vector<double>& outward);
 
   DuctGeometry geometry_;
   DuctSubdivision subdivision_;
@@ -66,6 +69,6 @@ class DuctMesh {
 };
 
 /// Elements at the duct's end, whose first two coordinates run over its cross-section.
-std::vector<DuctElement> section_elements(Symmetry);
+std::vector<DuctElement> section_elements(Symmetry, int across);
 
 }  // namespace rheocyte

@@ -6,12 +6,15 @@
 #include <numbers>
 #include <optional>
 
+#include "duct/farthest_place.h"
 #include "numeric/roots.h"
 
 namespace rheocyte {
 namespace {
 
 constexpr double tiny = 1e-10, right_angle = std::numbers::pi / 2;
+/// Of an outline that is no line of the mesh.
+constexpr int off_axis_pieces = 48;
 
 /// Axes of a camera.
 struct View {
@@ -147,7 +150,50 @@ class Envelope {
   double last_angle_;
 };
 
+/// Direction of the outline's normal in the image plane, 0 in front.
+DuctPoint direction_at(const View& view, double angle) {
+  return std::cos(angle) * DuctPoint::UnitX() + std::sin(angle) * view.across;
+}
+
+/// Of a cell off the axis: the places that lie farthest in the directions from front to rear.
+Pieces farthest_places(const DuctSurfaceMap& surface, const View& view, const VectorXd& along) {
+  const FarthestPlace farthest(surface);
+  Pieces result(off_axis_pieces);
+  for (int i = 0; i < off_axis_pieces; ++i) {
+    for (const double u : along)
+      result[i].push_back(farthest(direction_at(view, std::numbers::pi * (i + u) / off_axis_pieces)));
+  }
+  return result;
+}
+
+/// Their outline: parabolas with the tangents that are known at the places. Where faces of the surface meet in an edge,
+/// however blunt, neighbouring directions have the same place, and nothing lies between them.
+Contour off_axis_contour(const DuctSurfaceMap& surface, const View& view) {
+  const FarthestPlace farthest(surface);
+  const auto point = [&](const SurfacePlace& place) {
+    const DuctPoint x = surface.now(place).x;
+    return Eigen::Vector2d(x(0), view.across.dot(x));
+  };
+  Contour contour;
+  Eigen::Vector2d from = point(farthest(DuctPoint::UnitX()));
+  from(1) = 0;
+  for (int i = 1; i <= off_axis_pieces; ++i) {
+    const double step = std::numbers::pi / off_axis_pieces, angle = i * step;
+    Eigen::Vector2d to = point(farthest(direction_at(view, angle)));
+    if (i == off_axis_pieces) to(1) = 0;
+    const Eigen::Vector2d way = to - from, along(-std::sin(angle - step), std::cos(angle - step)),
+                          normal(std::cos(angle), std::sin(angle));
+    if (way.norm() < tiny) continue;
+    const Eigen::Vector2d corner = from + along * (way.dot(normal) / along.dot(normal));
+    CurvePiece& piece = contour.pieces.emplace_back(3, 2);
+    piece << from.transpose(), (from + 2 * corner + to).transpose() / 4, to.transpose();
+    from = to;
+  }
+  return contour;
+}
+
 Pieces silhouette(const DuctSurfaceMap& surface, const View& view, const VectorXd& along) {
+  if (surface.space().turns()) return farthest_places(surface, view, along);
   const std::vector<Camera> mirrors = mirror_cameras(surface.space().mesh().symmetry());
   if (std::ranges::find(mirrors, view.camera) == mirrors.end()) return Envelope(surface, view).pieces(along);
   return meridian(meridian_edges(surface, view), along);
@@ -179,6 +225,7 @@ Eigen::Vector2d curvatures(const SurfaceJet& now, const DuctPoint& sight) {
 Contour duct_contour(const DuctSpace& space, const VectorXd& unknowns, Camera camera) {
   const DuctSurfaceMap surface(space, unknowns);
   const View view = view_of(space, camera);
+  if (space.turns()) return off_axis_contour(surface, view);
   Contour contour;
   for (const auto& places : silhouette(surface, view, space.reference().nodes_1d)) {
     CurvePiece& piece = contour.pieces.emplace_back(places.size(), 2);

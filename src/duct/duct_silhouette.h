@@ -8,7 +8,8 @@ namespace rheocyte {
 
 /// The silhouette as a meridian from front to rear pole, lengths in h, its place along the flow as in the mesh. In a
 /// plane of symmetry it is the meridian there; for other cameras the points whose normals are at right angles to the
-/// view. Half of an outline that is symmetric about the axis, as the cell keeps its shape under half a turn about it.
+/// view. Of a cell off the axis, seen along its offset (from 90 degrees in the mesh), the convex outline.
+/// Half of an outline that is symmetric about the axis, as the cell keeps its shape under half a turn about it.
 Contour duct_contour(const DuctSpace&, const VectorXd& unknowns, Camera);
 
 /// The surface along the silhouette at parameters in [0, 1] of each piece, front pole first; columns: along it, across.

@@ -9,11 +9,10 @@ constexpr double tiny = 1e-10;
 
 }  // namespace
 
-DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid, Drive drive)
+DuctSpace::DuctSpace(const DuctMesh& mesh, int degree)
     : mesh_(mesh),
-      open_inlet_(drive != Drive::rate),
       reference_(degree),
-      section_(mesh.geometry(), degree, mesh.symmetry()),
+      section_(mesh.geometry(), degree, mesh.symmetry(), mesh.subdivision().across),
       nodes_(mesh.number_nodes(degree)),
       points_(nodes_.count) {
   const VectorXd& s = reference_.nodes_1d;
@@ -22,17 +21,30 @@ DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid, Dri
     for (int k = 0; k < reference_.nodes(); ++k)
       points_[nodes_.of_element[e][k]] = mesh.point(e, {s(k % n), s(k / n % n), s(k / (n * n))});
   }
-  find_held_node();
-  number_unknowns(flag_nodes(), liquid);
-  for (int e = 0; e < int(mesh.elements().size()); ++e) elements_.push_back(unknowns_of(e));
+  find_held_nodes();
 }
 
-/// The node on the cell's axis that is nearest to its centre.
-void DuctSpace::find_held_node() {
+DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid, Drive drive) : DuctSpace(mesh, degree) {
+  open_inlet_ = drive != Drive::rate;
+  const DuctFlow inflow = open_inlet_ ? DuctFlow{} : section_.flow(liquid);
+  number_unknowns([&](const Eigen::Vector2d& at) {
+    return mesh.geometry().is_wall({0, at(0), at(1)}) ? 0.0 : inflow.velocity(section_.node_at(at));
+  });
+}
+
+DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const GivenFlow& flow) : DuctSpace(mesh, degree) {
+  given_flow_ = true;
+  number_unknowns(flow.velocity);
+}
+
+/// The node on the cell's axis that is nearest to its centre, and the one at its front pole.
+void DuctSpace::find_held_nodes() {
   double nearest = mesh_.geometry().radius();
   const Eigen::Vector2d centre(mesh_.geometry().shape().offset, 0);
   for (int i = 0; i < nodes_.count; ++i) {
-    if ((points_[i].tail<2>() - centre).norm() > tiny || std::abs(points_[i](0)) >= nearest - tiny) continue;
+    if ((points_[i].tail<2>() - centre).norm() > tiny) continue;
+    if (std::abs(points_[i](0) - mesh_.geometry().radius()) < tiny) held_pole_ = i;
+    if (std::abs(points_[i](0)) >= nearest - tiny) continue;
     held_node_ = i;
     nearest = std::abs(points_[i](0));
   }
@@ -49,38 +61,57 @@ std::vector<DuctSpace::NodeFlags> DuctSpace::flag_nodes() const {
     flags[i].outlet = x(0) > end - tiny;
   }
   for (std::size_t e = 0; e < nodes_.of_element.size(); ++e) {
-    for (const int node : nodes_.of_element[e]) flags[node].cell |= mesh_.elements()[e].in_cell();
+    for (const int node : nodes_.of_element[e])
+      (mesh_.elements()[e].in_cell() ? flags[node].cell : flags[node].liquid) = true;
   }
   return flags;
 }
 
-void DuctSpace::number_unknowns(const std::vector<NodeFlags>& flags, const Liquid& liquid) {
-  const DuctFlow inflow = open_inlet_ ? DuctFlow{} : section_.flow(liquid);
+void DuctSpace::number_unknowns(const std::function<double(const Eigen::Vector2d&)>& inflow) {
+  const std::vector<NodeFlags> flags = flag_nodes();
   displacement_.assign(3 * nodes_.count, -1);
   velocity_.assign(3 * nodes_.count, Slot{});
   cell_velocity_ = unknowns_++;
+  if (turns()) {
+    drift_ = unknowns_++;
+    spin_ = unknowns_++;
+  }
   for (int i = 0; i < nodes_.count; ++i) {
     const NodeFlags& f = flags[i];
     // Numbers of the components y and z of a node that may move across the flow.
-    const auto number_across = [&](auto&& at) {
-      if (!f.across.holds_y) at(1) = unknowns_++;
+    const auto number_across = [&](bool holds_y, auto&& at) {
+      if (!holds_y) at(1) = unknowns_++;
       if (!f.across.holds_z) at(2) = f.across.ties ? at(1) : unknowns_++;
     };
     if (f.cell) {
       if (i != held_node_) displacement_[3 * i] = unknowns_++;
-      number_across([&](int c) -> int& { return displacement_[3 * i + c]; });
-      continue;
+      const bool is_held = f.across.holds_y || (turns() && (i == held_node_ || i == held_pole_));
+      number_across(is_held, [&](int c) -> int& { return displacement_[3 * i + c]; });
+      if (!(turns() && f.liquid)) continue;
     }
-    if (f.wall || (f.inlet && !open_inlet_)) {  // they move backwards past the cell
-      velocity_[3 * i] = {cell_velocity_, -1, 0};
-      if (f.inlet && !open_inlet_) velocity_[3 * i].constant = inflow.velocity(section_.node_at(points_[i].tail<2>()));
+    // What does not move across the duct moves backwards past the cell, and so do walls and inlet along it.
+    const bool fixed = f.wall || (f.inlet && !open_inlet_);
+    if (turns() && (fixed || f.inlet || f.outlet)) velocity_[3 * i + 1] = {drift_, -1, 0};
+    if (fixed) {
+      velocity_[3 * i] = {cell_velocity_, -1, inflow(points_[i].tail<2>())};
       continue;
     }
     velocity_[3 * i].unknown = unknowns_++;
-    if (!f.outlet && !f.inlet) number_across([&](int c) -> int& { return velocity_[3 * i + c].unknown; });
+    if (!f.outlet && !f.inlet)
+      number_across(f.across.holds_y, [&](int c) -> int& { return velocity_[3 * i + c].unknown; });
   }
   pressure_.resize(nodes_.of_element.size() * std::size_t(reference_.pressures()));
   for (int& unknown : pressure_) unknown = unknowns_++;
+  for (int e = 0; e < int(mesh_.elements().size()); ++e) elements_.push_back(unknowns_of(e));
+}
+
+/// Unknown to whose equation the momentum of a node of the cell belongs: where a displacement is held, a velocity of
+/// the whole cell.
+int DuctSpace::momentum_row(int node, int c) const {
+  if (node == held_node_ && c == 0) return cell_velocity_;
+  if (turns() && node == held_node_ && c == 1) return drift_;
+  if (turns() && node == held_pole_ && c == 1) return spin_;
+  return displacement(node, c);
 }
 
 std::vector<PointMap<double, 3>> DuctSpace::undeformed_maps(int element) const {
@@ -129,13 +160,12 @@ HexahedronUnknowns DuctSpace::unknowns_of(int element) const {
   add_displacements(element, unknowns);
   for (int c = 0; c < 3; ++c) {
     for (const int node : nodes) {
-      // The momentum of the held node belongs to v_cell. On the surface the relative velocity vanishes, and the
-      // liquid's momentum is added to the cell's equation.
+      // On the surface the liquid's momentum is added to the cell's equation. The relative velocity vanishes there, or
+      // is that of the turning surface.
       const bool in_cell = displacement(node, 0) >= 0 || node == held_node_;
-      if (unknowns.liquid) unknowns.velocity.push_back(in_cell ? Slot{} : velocity(node, c));
-      const int own = velocity(node, c).unknown == cell_velocity_ ? -1 : velocity(node, c).unknown;
-      const int held = node == held_node_ && c == 0 ? cell_velocity_ : displacement(node, c);
-      unknowns.rows.push_back(in_cell ? held : own);
+      if (unknowns.liquid) unknowns.velocity.push_back(velocity(node, c));
+      const int own = is_motion(velocity(node, c).unknown) ? -1 : velocity(node, c).unknown;
+      unknowns.rows.push_back(in_cell ? momentum_row(node, c) : own);
     }
   }
   for (int k = 0; k < reference_.pressures(); ++k) {

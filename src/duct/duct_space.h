@@ -6,6 +6,9 @@
 // slots alone: across a mirror plane components vanish, and in y = z the components y and z of a node are one unknown,
 // to whose equation the tests of both belong (docs/theory-square.md, eq:tie).
 #pragma once
+#include <functional>
+#include <utility>
+
 #include "duct/duct_flow.h"
 #include "fem/discretisation.h"
 #include "laws/cartesian.h"
@@ -22,10 +25,18 @@ struct HexahedronUnknowns {
   std::vector<int> rows;  ///< unknown whose equation the row belongs to, or -1
 };
 
+/// A velocity along x, of (y, z).
+struct GivenFlow {
+  explicit GivenFlow(std::function<double(const Eigen::Vector2d&)> given) : velocity(std::move(given)) {}
+  std::function<double(const Eigen::Vector2d&)> velocity;
+};
+
 class DuctSpace {
  public:
   /// The liquid's undisturbed flow enters, or, where the pressure drop is given, what flows through an open inlet.
   DuctSpace(const DuctMesh&, int degree, const Liquid&, Drive = Drive::rate);
+  /// A given velocity along x enters, and the walls move with it.
+  DuctSpace(const DuctMesh&, int degree, const GivenFlow&);
 
   const DuctMesh& mesh() const { return mesh_; }
   const ReferenceElement<3>& reference() const { return reference_; }
@@ -34,9 +45,18 @@ class DuctSpace {
   const std::vector<DuctPoint>& node_points() const { return points_; }
   const CrossSection& section() const { return section_; }
   bool has_open_inlet() const { return open_inlet_; }
+  bool has_given_flow() const { return given_flow_; }
 
   int unknowns() const { return unknowns_; }
   int cell_velocity() const { return cell_velocity_; }
+  /// Of a cell off the axis: its velocity along y, and the rate at which its material turns about z; else -1.
+  int drift() const { return drift_; }
+  int spin() const { return spin_; }
+  bool turns() const { return mesh_.symmetry() == Symmetry::half; }
+  /// Whether an unknown is one of these velocities of the whole cell.
+  bool is_motion(int unknown) const {
+    return unknown >= 0 && (unknown == cell_velocity_ || unknown == drift_ || unknown == spin_);
+  }
   /// Unknown of a component of a node's displacement, -1 if fixed or not in the cell.
   int displacement(int node, int c) const { return displacement_[3 * node + c]; }
   const Slot& velocity(int node, int c) const { return velocity_[3 * node + c]; }
@@ -46,25 +66,27 @@ class DuctSpace {
 
  private:
   struct NodeFlags {
-    bool cell = false, wall = false, inlet = false, outlet = false;
+    bool cell = false, liquid = false, wall = false, inlet = false, outlet = false;
     Across across;
   };
   std::vector<NodeFlags> flag_nodes() const;
-  void number_unknowns(const std::vector<NodeFlags>&, const Liquid&);
-  void find_held_node();
+  DuctSpace(const DuctMesh&, int degree);
+  void number_unknowns(const std::function<double(const Eigen::Vector2d&)>& inflow);
+  void find_held_nodes();
+  int momentum_row(int node, int c) const;
   HexahedronUnknowns unknowns_of(int element) const;
   void add_displacements(int element, HexahedronUnknowns&) const;
   std::vector<PointMap<double, 3>> undeformed_maps(int element) const;
 
   DuctMesh mesh_;
-  bool open_inlet_;
+  bool open_inlet_ = false, given_flow_ = false;
   ReferenceElement<3> reference_;
   CrossSection section_;
   NodeNumbers nodes_;
   std::vector<DuctPoint> points_;
   std::vector<int> displacement_, pressure_;
   std::vector<Slot> velocity_;
-  int unknowns_ = 0, cell_velocity_ = -1, held_node_ = -1;
+  int unknowns_ = 0, cell_velocity_ = -1, drift_ = -1, spin_ = -1, held_node_ = -1, held_pole_ = -1;
   std::vector<HexahedronUnknowns> elements_;
 };
 

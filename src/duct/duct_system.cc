@@ -19,6 +19,7 @@ std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space) {
     for (const auto* slots : {&elements[e].displacement, &elements[e].velocity}) {
       for (const Slot& slot : *slots) unknowns.insert(slot.unknown);
     }
+    if (space.turns() && touches_cell(space.mesh().elements()[e])) unknowns.insert(space.spin());
     unknowns.erase(-1);
     coupled[e].unknowns.assign(unknowns.begin(), unknowns.end());
     coupled[e].pressure = elements[e].pressure[0].unknown;
@@ -51,6 +52,7 @@ DuctSystem::DuctSystem(const DuctSpace& space, double drop)
       lu_(space.unknowns(), coupled_unknowns(space)),
       outlet_load_(duct_end_load(space, Face::front)),
       inlet_load_(duct_end_load(space, Face::rear)),
+      turning_(space),
       place_(space.unknowns(), -1) {}
 
 VectorXd DuctSystem::sphere() const {
@@ -61,7 +63,7 @@ VectorXd DuctSystem::sphere() const {
 
 double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
   if (!(undisturbed_ && undisturbed_->first == liquid))
-    undisturbed_ = {liquid, space_.section().flow(liquid).pressure_gradient};
+    undisturbed_ = {liquid, space_.has_given_flow() ? 0 : space_.section().flow(liquid).pressure_gradient};
   return undisturbed_->second;
 }
 
@@ -85,10 +87,12 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, Want
       for (int i = 0; i < int(order.size()); ++i) place_[order[i]] = i;
       matrix_.setZero(Eigen::Index(order.size()), Eigen::Index(order.size()));
       tangent_.add(self, media.liquid.reynolds != 0, points_, place_, matrix_);
+      turning_.add_tangent(e, unknowns, place_, matrix_);
     }
     const Stopwatch watch(work_.condensation_s);
     lu_.condense(e, matrix_);
   }
+  turning_.add_residual(unknowns, total);
   return total;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "duct/duct_integrals.h"
+#include "duct/turning_surface.h"
 #include "fem/nested_lu.h"
 #include "fem/nonlinear_system.h"
 
@@ -45,6 +46,7 @@ class DuctSystem final : public NonlinearSystem {
   NestedLU lu_;
   VectorXd outlet_load_, inlet_load_;
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
+  TurningSurface turning_;
   HexahedronPoints points_;
   MatrixXd matrix_;
   std::vector<int> place_;  ///< of each unknown in the matrix of an element

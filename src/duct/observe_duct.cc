@@ -67,7 +67,7 @@ Eigen::MatrixX2d duct_principal_stretches(const DuctSpace& space, const VectorXd
   std::vector<Eigen::MatrixX2d> parts{surface_at(at, space, unknowns).stretch};
   // In a plane of symmetry the principal directions lie along the meridian and across it.
   for (const Camera camera : mirror_cameras(space.mesh().symmetry()))
-    parts.push_back(duct_meridian(space, unknowns, camera, at).stretch);
+    if (!space.turns()) parts.push_back(duct_meridian(space, unknowns, camera, at).stretch);
   Eigen::Index rows = 0;
   for (const auto& part : parts) rows += part.rows();
   Eigen::MatrixX2d all(rows, 2);
@@ -112,6 +112,10 @@ VectorXd transfer(const DuctSpace& from, const VectorXd& unknowns, const DuctSpa
   const MatrixXd basis = source.lagrange(target.nodes_1d);
   VectorXd result = VectorXd::Zero(to.unknowns());
   result(to.cell_velocity()) = unknowns(from.cell_velocity());
+  if (to.turns()) {
+    result(to.drift()) = unknowns(from.drift());
+    result(to.spin()) = unknowns(from.spin());
+  }
   double shift = 0;  // of the node that is held there
   for (int e = 0; e < int(to.elements().size()); ++e) {
     const auto &nodes = from.nodes().of_element[e], &nodes_to = to.nodes().of_element[e];
@@ -128,7 +132,7 @@ VectorXd transfer(const DuctSpace& from, const VectorXd& unknowns, const DuctSpa
       if (!liquid && nodes_to[k] == to.held_node()) shift = values(k, 0);
       for (int c = 0; c < 3; ++c) {
         const int unknown = liquid ? to.velocity(nodes_to[k], c).unknown : to.displacement(nodes_to[k], c);
-        if (unknown >= 0 && unknown != to.cell_velocity()) result(unknown) = values(k, c);
+        if (unknown >= 0 && !to.is_motion(unknown)) result(unknown) = values(k, c);
       }
     }
     // The modes are orthonormal, and those of a degree begin with those of lower ones.
