@@ -14,10 +14,11 @@ import { TimeLine } from './TimeLine';
 
 const tubeRadius = (solved: model.Solved) => solved.state.tube_radius_um ?? 0.547 * Number(solved.of['channel.width_um'] ?? 20);
 
-/** Half the height of the picture: the tube's radius, or half the square's width. */
+/** Half the height of the picture: the tube's radius, or half of what the camera sees of a duct across the flow. */
 function wallOf(solved: model.Solved): number {
-  const square = solved.of['channel.section'] === 'square';
-  return square && 'channel.width_um' in solved.of ? 0.5 * Number(solved.of['channel.width_um']) : tubeRadius(solved);
+  if ((solved.of['channel.section'] ?? 'tube') === 'tube') return tubeRadius(solved);
+  const turned = solved.of['channel.section'] === 'rectangle' && Number(solved.of['channel.camera_degree'] ?? 0) > 45;
+  return 0.5 * Number(solved.of[turned ? 'channel.height_um' : 'channel.width_um'] ?? 20);
 }
 
 export type Painted = ReturnType<typeof paintsOf>;

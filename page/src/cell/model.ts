@@ -39,7 +39,7 @@ export const steps = store<{ canUndo: boolean; canRedo: boolean }>({ canUndo: fa
 const history = new History<Case>();
 const cases = new Map<number, Case>();
 /** In a square channel the first estimate of the error costs a sixth of that at 1e-3, and its true error is a tenth of it. */
-const displayAccuracies = { tube: 1e-3, square: 3e-2 };
+const displayAccuracies = { tube: 1e-3, duct: 3e-2 };
 let revision = 0;
 /** The case before the slider began to move; null while none moves. */
 let before: Case | null = null;
@@ -87,8 +87,8 @@ function solve(): void {
   if (isInTime(now)) return solver.stop();
   cases.set(++revision, now);
   const accuracy = Number(optionOf(keys.get(), now, 'numerics.accuracy') ?? 1e-4);
-  const isSquare = optionOf(keys.get(), now, 'channel.section') === 'square';
-  solver.want({ revision, sections: sectionsOf(now), accuracy, displayAccuracy: isSquare ? displayAccuracies.square : displayAccuracies.tube });
+  const isDuct = (optionOf(keys.get(), now, 'channel.section') ?? 'tube') !== 'tube';
+  solver.want({ revision, sections: sectionsOf(now), accuracy, displayAccuracy: isDuct ? displayAccuracies.duct : displayAccuracies.tube });
 }
 
 function show(next: Case): void {
