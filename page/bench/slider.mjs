@@ -25,7 +25,7 @@ async function measure({ count, drags }) {
     const drawn = shown(picture.dataset.shown);
     const late = new Promise((_, fail) => setTimeout(() => fail(new Error(`move ${k} was not drawn within 10 s`)), 10000));
     const start = performance.now();
-    slider.value = String(drags ? 404 + Math.abs(((k * 8) % 192) - 96) : 470 + ((k * 37 + 11) % 97));
+    slider.value = String(drags ? 470 + Math.abs((((k + 1) * 8) % 192) - 96) : 470 + ((k * 37 + 11) % 97));
     slider.dispatchEvent(new Event('input', { bubbles: true }));
     await Promise.race([drawn, late]);
     await frame();
