@@ -8,6 +8,7 @@ def case_keys() -> list[dict[str, Any]]: ...
 class _ChannelProfile:
     x_um: list[float] | None  # places along a channel that is not straight, in place of its width or radius; the cell starts at 0
     R_um: list[float] | None  # radii of the wall at these places, smooth and monotonic in between, constant beyond the ends
+    width_um: list[float] | None  # widths at these places of a channel whose height is the least of them, linear in between, in place of radii; mapped to the tube that has the same mean speed everywhere
 
 class _Channel:
     section: Literal["tube", "square"]  # cross-section that is computed: a tube, which also stands for the square channel of the same pressure drop, or the square itself in three dimensions
@@ -47,18 +48,24 @@ class _CellCortex:
 class _Cell:
     radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the width
     viscosity_mPas: float | None  # viscosity of the cell's interior; a stationary shape does not depend on it
+    viscoelasticity: Literal["kelvin-voigt", "maxwell", "standard-linear-solid"] | None  # what the viscosity is to the elastic interior, kelvin-voigt: beside it; maxwell: in series with it; standard-linear-solid: in series with a spring of its own, both beside it
+    branch_modulus_kPa: float | None  # Young's modulus of the spring in series with the viscosity
     density_kg_per_m3: float | None  # density of the cell
     bulk: _CellBulk
     cortex: _CellCortex
 
 class _Time:
     scheme: Literal["stationary", "monolithic", "partitioned"]  # stationary: the final shape at once; monolithic: the way to it, in implicit steps of controlled size; partitioned: in the splitting of Mokbel et al. 2017
-    end_us: float | None  # time to follow the cell, which starts as a sphere; in a straight channel the implicit steps end as soon as its shape has settled
-    output_every_us: float | None  # time between contours, fields and frames of the animation
+    end_us: float | None  # time to follow the cell, which starts as a sphere; in a straight channel, or behind the last change of the wall, the implicit steps end as soon as its shape has settled
+    end_um: float | None  # way along the channel to follow the cell, in place of the time
+    output_every_us: float | None  # time between measures, contours, fields and frames of the animation
+    output_every_um: float | None  # way of the cell between them, in place of the time
     accuracy: float | None  # wanted accuracy of the surface's positions in each step, relative to the radius
     step_us: float | None  # step of the splitting, which is explicit in the elasticity
     grid_um: float | None  # size of the elements along the cell's surface, 0.2 in Mokbel et al. 2017; 0: the mesh of the implicit steps
-    degree: float | None  # polynomial degree of the spaces
+    start_stretch: float | None  # stretch along the flow with which the cell starts, all of it alike; its unstressed state is the sphere
+    mesh_accuracy: float | None  # wanted accuracy of the deformation as far as it depends on the mesh, relative; mesh and degree are chosen for it
+    degree: float | None  # polynomial degree of the spaces on a mesh of 48 or more elements, in place of the accuracy
 
 class _Numerics:
     accuracy: float | None  # wanted relative accuracy of the deformation, mesh and degree are chosen for it

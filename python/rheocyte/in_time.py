@@ -9,11 +9,11 @@ from rheocyte.states import Result
 
 
 def evolve(case=None, **overrides):
-    """Follows a cell from the sphere in time; the case needs time.end_us and cell.viscosity_mPas.
+    """Follows a cell from the sphere in time; the case needs time.end_us (or end_um) and cell.viscosity_mPas.
 
     case    a Case, the path of a case file, a dictionary or None; keywords replace its keys as for Case
 
-    Returns an Evolution, an iterator of the states at 0, time.output_every_us, ..., time.end_us. It computes in a thread
+    Returns an Evolution, an iterator of the states at 0, time.output_every_us (or _um), ..., the end. It computes in a thread
     of its own, ahead of the loop. Equations and schemes stand in docs/theory-time.md.
 
     >>> for state in rheocyte.evolve("examples/paper-cell-in-time.toml"):
@@ -25,9 +25,9 @@ def evolve(case=None, **overrides):
 
 
 class State:
-    """A cell at a time of output: t_us, contour (array (n, 2) of x and r in um), deformation, area_um2, ...
+    """A cell at an output: t_us, position_um, contour (array (n, 2) of x and r in um), deformation, area_um2, ...
 
-    The numbers are those of the shape, with the names of result.json.
+    The numbers have the names of result.json.
     """
 
     def __init__(self, numbers):

@@ -24,7 +24,16 @@ template <>
 struct FieldsOf<TimeLevel> {
   template <class Self>
   static auto fields(Self& l) {
-    return std::tie(l.time, l.frame_acceleration, l.position, l.outward, l.unknowns, l.velocities);
+    return std::tie(l.time, l.frame_acceleration, l.position, l.outward, l.branch, l.unknowns, l.velocities);
+  }
+};
+
+template <>
+struct FieldsOf<Resolution> {
+  template <class Self>
+  static auto fields(Self& r) {
+    auto& [front, top, ring, axial, layers] = r.subdivision;
+    return std::tie(front, top, ring, axial, layers, r.degree);
   }
 };
 
@@ -32,7 +41,7 @@ template <>
 struct FieldsOf<TimeState> {
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.order, s.steps_at_order, s.next_step, s.traction, s.inlet_pressure, s.levels);
+    return std::tie(s.order, s.steps_at_order, s.next_step, s.traction, s.inlet_pressure, s.resolution, s.levels);
   }
 };
 
@@ -87,9 +96,14 @@ class CheckpointSearch {
   FoundCheckpoint latest(const fs::path& wanted) && {
     if (!latest_ && failure_) throw *failure_;
     if (!latest_) refuse(wanted, "holds no checkpoint; --continue takes the folder of a result with a [time] section.");
-    if (const double reached = reached_us(latest_->checkpoint); reached > *case_.time.end_us * (1 + 1e-12))
-      refuse(wanted, fmt::format("has reached {:g} us already, time.end_us = {:g} lies before it.", reached,
-                                 *case_.time.end_us));
+    const HistoryRow& reached = latest_->checkpoint.record.rows.back();
+    const auto refuse_beyond = [&](double at, const std::optional<double>& end, const char* unit) {
+      if (end && at > *end * (1 + 1e-8))
+        refuse(wanted,
+               fmt::format("has reached {:g} {} already, time.end_{} = {:g} lies before it.", at, unit, unit, *end));
+    };
+    refuse_beyond(reached.t_us, case_.time.end_us, "us");
+    refuse_beyond(reached.position_um, case_.time.end_um, "um");
     return std::move(*latest_);
   }
 
@@ -104,6 +118,7 @@ class CheckpointSearch {
 std::string time_case_hash(const Case& c) {
   Case same = c;
   same.time.end_us = 1;
+  same.time.end_um.reset();
   return case_hash(same);
 }
 
@@ -127,7 +142,7 @@ Checkpoint decode_checkpoint(const std::string& content, const Case& c, const fs
   if (body.substr(magic.size(), version_length) != padded(version, version_length))
     refuse(file, "is of another version of rheocyte; start anew without --continue.");
   if (body.substr(magic.size() + version_length, hash.size()) != hash)
-    refuse(file, "is of another case; only time.end_us may differ from the case that it continues.");
+    refuse(file, "is of another case; only time.end_us or time.end_um may differ from the case that it continues.");
   auto checkpoint = from_bytes<Checkpoint>(body.substr(head));
   if (!checkpoint || checkpoint->state.levels.empty() || checkpoint->record.rows.empty())
     refuse(file, "is damaged, its content is incomplete; start anew without --continue.");
@@ -158,10 +173,13 @@ TimeStart read_start(const fs::path& folder, const Case& c) {
   if (!implicit || !straight)
     refuse(folder, "cannot be a start: that is for time.scheme = \"monolithic\" in straight channels, here and there.");
   if (tube_radius_um(c) != tube_radius_um(other) || c.cell.radius_um != other.cell.radius_um ||
-      c.time.degree != other.time.degree || c.flow.drive != other.flow.drive ||
+      c.time.degree.value_or(other.time.degree.value_or(0)) != other.time.degree.value_or(c.time.degree.value_or(0)) ||
+      c.cell.viscoelasticity != other.cell.viscoelasticity || c.flow.drive != other.flow.drive ||
       c.channel.length_um != other.channel.length_um)
     refuse(folder,
-           "is of another size; cell.radius_um, the channel, flow.drive and time.degree must be those of the start.");
+           "is of another kind; cell.radius_um, the channel, flow.drive, cell.viscoelasticity and time.degree must be "
+           "those of "
+           "the start.");
   const Scales now = scales_of(c), then = scales_of(other);
   return {read_checkpoint(folder, other).state,
           UnitChange{then.velocity_m_per_s / now.velocity_m_per_s, then.stress_Pa / now.stress_Pa}};

@@ -41,8 +41,8 @@ struct FoundCheckpoint {
 /// As read_checkpoint, for going on: also what killed computations for this folder have left.
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const Case&);
 
-/// The later one of the checkpoints of a result that can be read. UserError if there is none, or if the time that it
-/// has reached lies beyond the end of the case.
+/// The later one of the checkpoints of a result that can be read. UserError if there is none, or if the time or
+/// the place that it has reached lies beyond the end of the case.
 Checkpoint read_checkpoint(const std::filesystem::path& folder, const Case&);
 
 /// The last state of a result in time, of implicit steps in a straight channel, as the start of a case on the same

@@ -12,8 +12,8 @@
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "result/counted.h"
+#include "result/judge_end.h"
 #include "result/result_in_time.h"
-#include "result/stationary_end.h"
 #include "result/write_result.h"
 #include "store/standard_error.h"
 #include "store/stop_signal.h"
@@ -61,6 +61,7 @@ class Recorder {
   void write_all() {
     if (last_state_) write_checkpoint();
     folder_.write("history.csv", history_csv(record_));
+    folder_.write("outputs.csv", outputs_csv(record_));
     folder_.write("contours.csv", contours_csv(record_));
     folder_.write("fields.pvd", field_collection(record_, fields_folder));
     if (const WallTable& wall = result_.problem.wall; !wall.is_straight())
@@ -133,7 +134,7 @@ int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Draw
   result.state = follow_in_time(result.problem, time_run_of(c, result.scales), recorder.observer(),
                                 start ? &*start : nullptr, &stop_wanted());
   recorder.write_all();
-  compare_with_stationary(result, recorder.record(), stop_wanted());
+  judge_end(result, recorder.record(), stop_wanted());
   refuse_unfinite_numbers(result);
   const auto numbers = to_json(result, recorder.record());
   return finish_result(result, folder, options, numbers, drawing);

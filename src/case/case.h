@@ -7,9 +7,10 @@
 
 namespace rheocyte {
 
-/// Radii of a channel that is not straight; both empty for a straight one.
+/// A channel that is not straight, by its radii or by the widths of a chip of constant height; empty for a straight
+/// one.
 struct ChannelProfile {
-  std::vector<double> x_um, R_um;
+  std::vector<double> x_um, R_um, width_um;
 };
 
 /// From where a duct is seen; any angle stands in camera_degree.
@@ -81,12 +82,15 @@ struct Cell {
   BulkCase bulk;
   CortexCase cortex;
   std::optional<double> viscosity_mPas, density_kg_per_m3;  ///< only in time
+  std::optional<Viscoelasticity> viscoelasticity = {};      ///< likewise
+  std::optional<double> branch_modulus_kPa = {};            ///< only of a standard linear solid
 };
 
 /// The way of the cell in time; all but the scheme empty for a stationary case.
 struct TimeCase {
   TimeScheme scheme = TimeScheme::stationary;
-  std::optional<double> end_us, output_every_us, accuracy, step_us, grid_um, degree;
+  std::optional<double> end_us, end_um, output_every_us, output_every_um, accuracy, step_us, grid_um, mesh_accuracy,
+      degree, start_stretch;
 };
 
 struct Numerics {

@@ -12,7 +12,8 @@ constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "p
     has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
     in_duct{"channel.section", "tube", true}, rectangle{"channel.section", "rectangle"},
     monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
-    has_rate{"flow.drive", "pressure-drop", true}, has_pressure_drop{"flow.drive", "pressure-drop"};
+    linear_solid{"cell.viscoelasticity", "standard-linear-solid"}, has_rate{"flow.drive", "pressure-drop", true},
+    has_pressure_drop{"flow.drive", "pressure-drop"};
 
 // The member of a case is the name of its key; behind it stand the other parts of its KeyDescription in their order.
 #define FIELD(member) \
@@ -48,7 +49,11 @@ const std::array table = {
         List{{-1e6, 1e6}}, absent, monolithic),
     KEY(channel.profile.R_um, "um",
         "radii of the wall at these places, smooth and monotonic in between, constant beyond the ends",
-        List{{0.5, 5000}}, absent, monolithic),
+        List{{0.5, 5000}}, absent, monolithic, "channel.profile.width_um"),
+    KEY(channel.profile.width_um, "um",
+        "widths at these places of a channel whose height is the least of them, linear in between, in place of radii; "
+        "mapped to the tube that has the same mean speed everywhere",
+        List{{1, 10000}}, absent, monolithic, "channel.profile.R_um"),
 
     KEY(flow.drive, "",
         "what is given: the flow rate; the pressure drop, with the flow rate as a result; the flow rate, reached "
@@ -90,6 +95,12 @@ const std::array table = {
         Number{{0.01, 5000}}, required, {}, {}, "--radius-um"),
     KEY(cell.viscosity_mPas, "mPa s", "viscosity of the cell's interior; a stationary shape does not depend on it",
         Number{{1e-3, 1e9}}, required, in_time),
+    KEY(cell.viscoelasticity, "",
+        "what the viscosity is to the elastic interior, kelvin-voigt: beside it; maxwell: in series with it; "
+        "standard-linear-solid: in series with a spring of its own, both beside it",
+        Choice{{"kelvin-voigt", "maxwell", "standard-linear-solid"}}, 0, monolithic),
+    KEY(cell.branch_modulus_kPa, "kPa", "Young's modulus of the spring in series with the viscosity",
+        Number{{1e-6, 1e9}}, required, linear_solid),
     KEY(cell.density_kg_per_m3, "kg/m3", "density of the cell", Number{{0, 1e6}}, 1000.0, in_time),
     KEY(cell.bulk.law, "", "elastic law of the cell's interior, none: a liquid, which makes the cell a shell",
         Choice{{"linear", "neo-hookean", "mooney-rivlin", "none"}}, 1),
@@ -115,11 +126,15 @@ const std::array table = {
         "partitioned: in the splitting of Mokbel et al. 2017",
         Choice{{"stationary", "monolithic", "partitioned"}, Implied{"monolithic", "time."}}, 0),
     KEY(time.end_us, "us",
-        "time to follow the cell, which starts as a sphere; in a straight channel the implicit steps end as soon as "
-        "its shape has settled",
-        Number{{1e-6, 1e12}}, required, in_time),
-    KEY(time.output_every_us, "us", "time between contours, fields and frames of the animation", Number{{1e-6, 1e12}},
-        10.0, in_time),
+        "time to follow the cell, which starts as a sphere; in a straight channel, or behind the last change of the "
+        "wall, the implicit steps end as soon as its shape has settled",
+        Number{{1e-6, 1e12}}, required, in_time, "time.end_um"),
+    KEY(time.end_um, "um", "way along the channel to follow the cell, in place of the time", Number{{1e-6, 1e12}},
+        required, in_time, "time.end_us"),
+    KEY(time.output_every_us, "us", "time between measures, contours, fields and frames of the animation",
+        Number{{1e-6, 1e12}}, 10.0, in_time, "time.output_every_um"),
+    KEY(time.output_every_um, "um", "way of the cell between them, in place of the time", Number{{1e-6, 1e12}}, absent,
+        in_time, "time.output_every_us"),
     KEY(time.accuracy, "", "wanted accuracy of the surface's positions in each step, relative to the radius",
         Number{{1e-9, 1e-2}}, 1e-5, monolithic),
     KEY(time.step_us, "us", "step of the splitting, which is explicit in the elasticity", Number{{1e-6, 1e6}}, 0.2,
@@ -127,7 +142,15 @@ const std::array table = {
     KEY(time.grid_um, "um",
         "size of the elements along the cell's surface, 0.2 in Mokbel et al. 2017; 0: the mesh of the implicit steps",
         Number{{0, 1000}}, 0.0, partitioned),
-    KEY(time.degree, "", "polynomial degree of the spaces", Number{{2, 10}, true}, 6.0, in_time),
+    KEY(time.start_stretch, "",
+        "stretch along the flow with which the cell starts, all of it alike; its unstressed state is the sphere",
+        Number{{0.5, 2}}, 1.0, monolithic),
+    KEY(time.mesh_accuracy, "",
+        "wanted accuracy of the deformation as far as it depends on the mesh, relative; mesh and degree are chosen for "
+        "it",
+        Number{{1e-6, 1e-1}}, 1e-3, monolithic, "time.degree"),
+    KEY(time.degree, "", "polynomial degree of the spaces on a mesh of 48 or more elements, in place of the accuracy",
+        Number{{2, 10}, true}, absent, in_time, "time.mesh_accuracy"),
 
     KEY(numerics.accuracy, "", "wanted relative accuracy of the deformation, mesh and degree are chosen for it",
         Number{{1e-7, 1e-1}}, 1e-4),

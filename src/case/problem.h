@@ -13,6 +13,10 @@ namespace rheocyte {
 /// How a case is computed: the stationary shape at once, or the way to it (docs/theory-time.md).
 enum class TimeScheme { stationary, monolithic, partitioned };
 
+/// What the viscosity of the interior is to its elasticity: beside it, in series with it, or in series with a spring of
+/// its own, both beside it.
+enum class Viscoelasticity { kelvin_voigt, maxwell, standard_linear_solid };
+
 /// The channel's cross-section. A tube also stands for the square channel of the same pressure drop.
 enum class Section { tube, square, rectangle };
 
@@ -75,6 +79,7 @@ struct Problem : Media {
   double pressure_gradient = 0;  ///< in a duct the given one, in S/h, where U is a nominal speed
   double channel_length = 0;     ///< simulated, in R; 0: the shortest, 2 least_half_length()
   WallTable wall;                ///< the way of the cell; acts in time only
+  double start_stretch = 1;      ///< of the cell along the flow when it starts in time
   double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation
 };
 

@@ -11,45 +11,62 @@
 #include "case/case_text.h"
 #include "case/key_reading.h"
 #include "case/scales.h"
+#include "laws/wall_profile.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr std::string_view profile_x = "channel.profile.x_um", profile_R = "channel.profile.R_um";
+constexpr std::string_view profile_x = "channel.profile.x_um", profile_R = "channel.profile.R_um",
+                           profile_width = "channel.profile.width_um";
 
-bool has_profile(const KeyReading& keys) { return keys.has(profile_x) || keys.has(profile_R); }
+bool has_profile(const KeyReading& keys) {
+  return keys.has(profile_x) || keys.has(profile_R) || keys.has(profile_width);
+}
+
+/// Of the walls' radii: as given, or as they follow from widths.
+std::string radii_text(const KeyReading& keys) {
+  return keys.has(profile_width) ? "the radius of the tube for channel.profile.width_um" : std::string(profile_R);
+}
+
+/// That of the wall.
+std::string_view wall_key(const KeyReading& keys) { return keys.has(profile_width) ? profile_width : profile_R; }
 
 // The mesh follows the wall along straight spokes and has elements as wide as the tube.
 constexpr double steepest_wall = 0.5, greatest_widening = 5;
 constexpr std::size_t most_places = 1000;
 
-void check_wall(const ChannelProfile& wall, const KeyReading& keys) {
-  const std::size_t n = wall.x_um.size();
-  if (wall.R_um.size() != n)
-    keys.refuse(profile_R, fmt::format("{} has {} numbers and {} has {}; give one radius for each place.", profile_R,
-                                       wall.R_um.size(), profile_x, n));
+void check_places(const ChannelProfile& wall, const KeyReading& keys) {
+  const std::size_t n = wall.x_um.size(), given = wall.width_um.empty() ? wall.R_um.size() : wall.width_um.size();
+  const std::string_view key = wall_key(keys);
+  if (given != n)
+    keys.refuse(key, fmt::format("{} has {} numbers and {} has {}; give one {} for each place.", key, given, profile_x,
+                                 n, key == profile_R ? "radius" : "width"));
   if (n < 2 || n > most_places)
     keys.refuse(profile_x, fmt::format("{} has {} places; a profile needs 2 .. {}, before and behind the contraction.",
                                        profile_x, n, most_places));
-  for (std::size_t i = 1; i < n; ++i) {
-    const double length = wall.x_um[i] - wall.x_um[i - 1], change = std::abs(wall.R_um[i] - wall.R_um[i - 1]);
-    if (!(length > 0))
+  for (std::size_t i = 1; i < n; ++i)
+    if (!(wall.x_um[i] > wall.x_um[i - 1]))
       keys.refuse(profile_x,
                   fmt::format("{} does not increase from {} to {}; give the places in the order of the flow.",
                               profile_x, wall.x_um[i - 1], wall.x_um[i]));
-    if (change > steepest_wall * length)
-      keys.refuse(
-          profile_R,
-          fmt::format("{} changes by {:.4g} um between x = {} and {} um, which is too short and too steep for the "
-                      "mesh; give this change a length of {:.4g} um.",
-                      profile_R, change, wall.x_um[i - 1], wall.x_um[i], change / steepest_wall));
+}
+
+void check_slopes(const WallTable& wall, const KeyReading& keys) {
+  for (std::size_t i = 1; i < wall.x.size(); ++i) {
+    const double length = wall.x[i] - wall.x[i - 1], change = std::abs(wall.radius[i] - wall.radius[i - 1]);
+    if (change <= steepest_wall * length) continue;
+    keys.refuse(wall_key(keys),
+                fmt::format("{} changes by {:.4g} um between x = {:.4g} and {:.4g} um, which is too "
+                            "short and too steep for the mesh; give this change a length of {:.4g} um.",
+                            radii_text(keys), change, wall.x[i - 1], wall.x[i], change / steepest_wall));
   }
 }
 
 void check_profile(const Case& c, const KeyReading& keys) {
   if (!has_profile(keys)) return;
-  for (const auto& [one, other] : {std::pair{profile_x, profile_R}, std::pair{profile_R, profile_x}})
+  const std::string_view wall = wall_key(keys);
+  for (const auto& [one, other] : {std::pair{profile_x, wall}, std::pair{wall, profile_x}})
     if (!keys.has(one))
       keys.refuse(other, fmt::format("{} is given without {}; give both, or channel.radius_um for a straight channel.",
                                      other, one));
@@ -58,12 +75,14 @@ void check_profile(const Case& c, const KeyReading& keys) {
       keys.refuse(straight, fmt::format("{} and the section [channel.profile] exclude each other; give exactly one of "
                                         "them.",
                                         keys.stated(straight)));
-  check_wall(c.channel.profile, keys);
-  const double least = tube_radius_um(c), widest = *std::ranges::max_element(c.channel.profile.R_um);
+  check_places(c.channel.profile, keys);
+  const WallTable wall_radii = wall_um(c.channel.profile);
+  check_slopes(wall_radii, keys);
+  const double least = tube_radius_um(c), widest = *std::ranges::max_element(wall_radii.radius);
   if (widest > greatest_widening * least)
-    keys.refuse(profile_R, fmt::format("{} goes from {:g} to {:g} um; the widest part may be {:g} times as wide as the "
-                                       "narrowest one.",
-                                       profile_R, least, widest, greatest_widening));
+    keys.refuse(wall, fmt::format("{} goes from {:g} to {:g} um; the widest part may be {:g} times as "
+                                  "wide as the narrowest one.",
+                                  radii_text(keys), least, widest, greatest_widening));
   if (c.flow.drive == Drive::rate) return;
   const std::string_view drive = keys.has("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa";
   keys.refuse(drive, fmt::format("{} is for straight channels; give flow.rate_ul_per_s with [channel.profile].",
@@ -104,11 +123,9 @@ void check_duct(const Case& c, const KeyReading& keys) {
 void check_cell_in_tube(const Case& c, const KeyReading& keys) {
   const double R = unit_length_um(c), r0 = c.cell.radius_um;
   if (has_profile(keys) && r0 > greatest_radius_ratio * R)
-    keys.refuse(
-        profile_R,
-        fmt::format("{} falls to {:g} um, which is narrower than the cell of cell.radius_um = {:g} can pass; at least "
-                    "{:.4g} um are needed.",
-                    profile_R, R, r0, r0 / greatest_radius_ratio));
+    keys.refuse(wall_key(keys), fmt::format("{} falls to {:g} um, which is narrower than the cell of cell.radius_um = "
+                                            "{:g} can pass; at least {:.4g} um are needed.",
+                                            radii_text(keys), R, r0, r0 / greatest_radius_ratio));
   if (r0 >= least_radius_ratio * R && r0 <= greatest_radius_ratio * R) return;
   constexpr std::string_view key = "cell.radius_um";
   const auto what = c.channel.section == Section::square      ? "half width of the square"
@@ -158,10 +175,48 @@ void check_grid(const Case& c, const KeyReading& keys) {
                 fmt::format("{} makes {} elements along the surface; at most {} are possible, a size of {:.3g} um.",
                             keys.stated(key), surface_elements(c), most_surface_elements,
                             std::numbers::pi * c.cell.radius_um / most_surface_elements));
-  if (*c.time.degree > greatest_grid_degree)
+  const double degree = c.time.degree.value_or(greatest_grid_degree + 1);
+  if (degree > greatest_grid_degree)
+    keys.refuse(key, fmt::format("{} is for low degrees; choose time.degree = 2 as in the paper, at most {:g}.",
+                                 keys.stated(key), greatest_grid_degree));
+}
+
+void check_start(const Case& c, const KeyReading& keys) {
+  const double stretch = c.time.start_stretch.value_or(1);
+  const WallTable wall = wall_um(c.channel.profile);
+  const double R = wall.is_straight() ? tube_radius_um(c) : WallProfile(wall).radius(0);
+  const double widest = c.cell.radius_um / std::sqrt(stretch);
+  if (widest <= greatest_radius_ratio * R || stretch >= 1) return;
+  constexpr std::string_view key = "time.start_stretch";
+  keys.refuse(key,
+              fmt::format("{} widens the cell to a radius of {:.4g} um in a tube of {:.4g} um; take at least {:.3g}.",
+                          keys.stated(key), widest, R, std::pow(c.cell.radius_um / (greatest_radius_ratio * R), 2)));
+}
+
+void check_viscoelasticity(const Case& c, const KeyReading& keys) {
+  constexpr std::string_view key = "cell.viscoelasticity";
+  const auto kind = c.cell.viscoelasticity.value_or(Viscoelasticity::kelvin_voigt);
+  if (kind == Viscoelasticity::kelvin_voigt) return;
+  if (c.cell.bulk.law == BulkLaw::none)
+    keys.refuse(key, fmt::format("{} is for an elastic interior, and cell.bulk.law is \"none\"; leave it out.",
+                                 keys.stated(key)));
+  if (kind == Viscoelasticity::maxwell && c.cell.bulk.law != BulkLaw::neo_hookean)
     keys.refuse(key,
-                fmt::format("{} is for low degrees, and time.degree is {:g}; choose time.degree = 2 as in the paper.",
-                            keys.stated(key), *c.time.degree));
+                fmt::format("{} has a neo-Hookean spring; choose cell.bulk.law = \"neo-hookean\".", keys.stated(key)));
+}
+
+void check_outputs(const Case& c, const KeyReading& keys) {
+  const bool ends_at_place = c.time.end_um.has_value(), by_place = c.time.output_every_um.has_value();
+  // An undisturbed liquid needs that long for the way, or goes as far in that time: right within a factor of a few.
+  const double speed_um_per_us = scales_of(c).velocity_m_per_s;
+  double end = ends_at_place ? *c.time.end_um : *c.time.end_us;
+  if (ends_at_place && !by_place) end /= speed_um_per_us;
+  if (!ends_at_place && by_place) end *= speed_um_per_us;
+  const double every = by_place ? *c.time.output_every_um : *c.time.output_every_us, outputs = end / every;
+  if (outputs <= greatest_outputs) return;
+  const auto* key = ends_at_place ? "time.end_um" : "time.end_us";
+  keys.refuse(key, fmt::format("{} and time.output_every_{} = {:g} ask for {:.3g} outputs; at most {:g} are possible.",
+                               keys.stated(key), by_place ? "um" : "us", every, outputs, greatest_outputs));
 }
 
 void check_time(const Case& c, const KeyReading& keys) {
@@ -173,11 +228,9 @@ void check_time(const Case& c, const KeyReading& keys) {
                     keys.stated("flow.drive")));
   if (c.time.scheme == TimeScheme::stationary) return;
   check_grid(c, keys);
-  const double end = *c.time.end_us, outputs = end / *c.time.output_every_us;
-  if (outputs > greatest_outputs)
-    keys.refuse("time.end_us",
-                fmt::format("{} and time.output_every_us = {:g} ask for {:.3g} outputs; at most {:g} are possible.",
-                            keys.stated("time.end_us"), *c.time.output_every_us, outputs, greatest_outputs));
+  check_outputs(c, keys);
+  check_viscoelasticity(c, keys);
+  check_start(c, keys);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "laws/developed_flow.h"
 
@@ -34,8 +35,26 @@ double undisturbed_rate(const Case& c, const Liquid& liquid, double area) {
 }  // namespace
 
 double tube_radius_um(const Case& c) {
-  if (const auto& radii = c.channel.profile.R_um; !radii.empty()) return *std::ranges::min_element(radii);
+  if (const WallTable wall = wall_um(c.channel.profile); !wall.is_straight())
+    return *std::ranges::min_element(wall.radius);
   return c.channel.radius_um ? *c.channel.radius_um : tube_radius_per_channel_width * c.channel.width_um.value();
+}
+
+WallTable wall_um(const ChannelProfile& profile) {
+  if (profile.width_um.empty()) return {profile.x_um, profile.R_um};
+  constexpr int parts = 8;  // of a linear change of width, whose radius is no cubic
+  const auto& [x, unused, width] = profile;
+  const double least = *std::ranges::min_element(width);
+  WallTable wall;
+  const auto add = [&](double at, double w) {
+    wall.x.push_back(at);
+    wall.radius.push_back(tube_radius_per_channel_width * std::sqrt(w * least));
+  };
+  for (std::size_t i = 0; i + 1 < x.size(); ++i)
+    for (int k = 0; k < parts; ++k)
+      add(std::lerp(x[i], x[i + 1], double(k) / parts), std::lerp(width[i], width[i + 1], double(k) / parts));
+  add(x.back(), width.back());
+  return wall;
 }
 
 double unit_length_um(const Case& c) {
@@ -87,6 +106,11 @@ Problem problem_of(const Case& c) {
                   .mooney_share = c.cell.bulk.mooney_share.value_or(1),
                   .viscosity = c.cell.viscosity_mPas.value_or(0) * Pas_per_mPas * U / (S * R),
                   .reynolds = c.cell.density_kg_per_m3.value_or(0) * U * U / S};
+  if (const auto kind = c.cell.viscoelasticity; kind == Viscoelasticity::maxwell) {
+    problem.bulk.branch_modulus = std::exchange(problem.bulk.shear_modulus, 0);
+  } else if (kind == Viscoelasticity::standard_linear_solid) {
+    problem.bulk.branch_modulus = c.cell.branch_modulus_kPa.value() * Pa_per_kPa / (3 * S);
+  }
   problem.cortex = {.law = c.cell.cortex.law,
                     .modulus = c.cell.cortex.modulus_mN_per_m.value_or(0) * N_per_mN / (S * R),
                     .tension = tension_mN_per_m(c) * N_per_mN / (S * R),
@@ -98,7 +122,8 @@ Problem problem_of(const Case& c) {
   problem.drive = c.flow.drive;
   if (c.flow.drive == Drive::pressure_drop) problem.pressure_gradient = given_gradient(c) * R / S;
   problem.channel_length = c.channel.length_um.value_or(0) / unit_length_um(c);
-  problem.wall = {c.channel.profile.x_um, c.channel.profile.R_um};
+  problem.start_stretch = c.time.start_stretch.value_or(1);
+  problem.wall = wall_um(c.channel.profile);
   for (auto* column : {&problem.wall.x, &problem.wall.radius})
     for (double& value : *column) value /= tube_radius_um(c);
   problem.accuracy = c.numerics.accuracy;

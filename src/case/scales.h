@@ -20,6 +20,9 @@ int surface_elements(const Case&);
 /// Radius of the tube in um: given, mapped from the width of the square channel, or the least one of the profile.
 double tube_radius_um(const Case&);
 
+/// The wall that the cell passes, in um: as given, or the tube of the widths' speeds (docs/theory-time.md, eq:funnel).
+WallTable wall_um(const ChannelProfile&);
+
 /// The unit of lengths: the tube's radius, or half the lesser of width and height where the duct itself is computed.
 double unit_length_um(const Case&);
 

@@ -27,6 +27,15 @@ std::vector<ElementUnknowns> moving_elements(const Discretisation& space) {
   return elements;
 }
 
+/// The numbers of a symmetric tensor in axial symmetry: xx, xr, rr, hoop.
+Eigen::Vector4d components(const Tensor<double>& A) { return {A(0, 0), A(0, 1), A(1, 1), A(2, 2)}; }
+
+Tensor<double> from_components(const Eigen::Vector4d& a) {
+  Tensor<double> A;
+  A << a(0), a(1), 0, a(1), a(2), 0, 0, 0, a(3);
+  return A;
+}
+
 }  // namespace
 
 MovingSystem::MovingSystem(const Discretisation& space)
@@ -48,6 +57,7 @@ void MovingSystem::set_motion(const Motion& motion) {
       set_cell_history(e);
     }
   }
+  if (motion_.branch.size() > 0) set_branch_history();
 }
 
 void MovingSystem::follow_nodes(int e) {
@@ -115,6 +125,40 @@ void MovingSystem::set_cell_history(int e) {
       history.acceleration(c) = velocity(q);
     }
   }
+}
+
+void MovingSystem::set_branch_history() {
+  Eigen::Index i = 0;
+  for (auto& of_element : cell_history_) {
+    for (CellHistory& history : of_element) {
+      history.branch = from_components(motion_.branch.segment<4>(i));
+      i += 4;
+    }
+  }
+}
+
+VectorXd MovingSystem::branch_metric(const Bulk& bulk, const VectorXd& unknowns) const {
+  VectorXd metric(unstressed_branch().size());
+  Eigen::Index i = 0;
+  for (int e = 0; e < int(elements().size()); ++e) {
+    if (elements()[e].liquid) continue;
+    int q = 0;
+    for (const auto& fields : fields_at_points<MapFields<double, 2>>(space(), e, unknowns)) {
+      const Tensor<double> F = deformation_gradient(PointMap<double, 2>(fields), elements()[e].undeformed[q]);
+      const Tensor<double> inverse_C = inverse(Tensor<double>(F.transpose() * F));
+      metric.segment<4>(i) =
+          components(rheocyte::branch_metric(bulk, inverse_C, motion_.rate, cell_history_[e][q].branch));
+      ++q;
+      i += 4;
+    }
+  }
+  return metric;
+}
+
+VectorXd MovingSystem::unstressed_branch() const {
+  Eigen::Index points = 0;
+  for (const auto& of_element : cell_history_) points += Eigen::Index(of_element.size());
+  return components(Tensor<double>::Identity()).replicate(points, 1);
 }
 
 void MovingSystem::integrate(int e, const Media& media, const VectorXd& unknowns, Want want,

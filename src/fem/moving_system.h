@@ -13,6 +13,7 @@ struct Motion {
   /// Rates at which a wall that is not straight moves the nodes outward; empty: straight. The space has its nodes
   /// there.
   VectorXd outward = {};
+  VectorXd branch = {};  ///< histories of the branch's metric (eq:branch); empty: there is none
 };
 
 /// Cell and liquid on their way. The cell's velocities are the derivatives of its displacements, in a frame that moves
@@ -28,6 +29,11 @@ class MovingSystem final : public CoupledSystem {
   /// Velocities relative to the frame, (x, r) node by node, of a state at the end of the step.
   VectorXd node_velocities(const VectorXd& unknowns) const;
 
+  /// The branch's metric of a state at the end of the step, at the quadrature points of the cell in turn, as its
+  /// components xx, xr, rr and hoop; and that of the unstressed branch.
+  VectorXd branch_metric(const Bulk&, const VectorXd& unknowns) const;
+  VectorXd unstressed_branch() const;
+
  private:
   void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const override;
   InletPressure inlet_pressure(const Media&) const override;
@@ -35,6 +41,7 @@ class MovingSystem final : public CoupledSystem {
   void move_surface_columns(int element);
   void set_liquid_history(int element);
   void set_cell_history(int element);
+  void set_branch_history();
 
   Motion motion_;
   ShapeTable<2> ones_;                                      ///< of a column that is constant in space

@@ -12,6 +12,7 @@ struct Bulk {
   double shear_modulus = 10;  ///< mu / S = E / (3 S)
   double mooney_share = 0.5;  ///< of the neo-Hookean member in the Mooney-Rivlin law
   double viscosity = 0;       ///< eta1 U / (R S); acts only while the cell moves
+  double branch_modulus = 0;  ///< over S, of a spring in series with the viscosity; 0: none, it acts beside the solid
   double reynolds = 0;        ///< of the cell's density, rho1 U^2 / S; likewise
 };
 
@@ -38,6 +39,27 @@ Tensor elastic_stress(const Bulk& bulk, const Tensor& F) {
   Tensor tau = B * T(mu * a);
   if (a != 1) tau += (B * B.trace() - B * B) * T(mu * (1 - a));
   for (int i = 0; i < 3; ++i) tau(i, i) -= T(mu * (2 - a));
+  return tau;
+}
+
+/// A Maxwell branch at a material point. Its natural metric G, the inverse of C in its unstressed state, follows
+/// dG/dt = (C^-1 - G) / tau with tau = viscosity / branch_modulus; within a step dG/dt = rate G + history
+/// (docs/theory-time.md, eq:branch).
+template <class Tensor, class History>
+Tensor branch_metric(const Bulk& bulk, const Tensor& inverse_C, double rate, const History& history) {
+  using T = typename Tensor::Scalar;
+  const double relaxation = bulk.branch_modulus / bulk.viscosity;
+  return (inverse_C * T(relaxation) - history.template cast<T>()) * T(1 / (rate + relaxation));
+}
+
+/// Its extra Kirchhoff stress mu1 (F G F^T - I) with the G at the end of the step: the upper-convected Maxwell law.
+template <class Tensor, class History>
+Tensor branch_stress(const Bulk& bulk, const Tensor& F, double rate, const History& history) {
+  using T = typename Tensor::Scalar;
+  const double relaxation = bulk.branch_modulus / bulk.viscosity, scale = bulk.branch_modulus / (rate + relaxation);
+  const Tensor carried = F * history.template cast<T>() * F.transpose();
+  Tensor tau = carried * T(-scale);
+  for (int i = 0; i < 3; ++i) tau(i, i) += T(scale * relaxation - bulk.branch_modulus);
   return tau;
 }
 

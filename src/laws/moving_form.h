@@ -67,6 +67,7 @@ struct CellHistory {
   Components<double, 2> velocity = Components<double, 2>::Zero();  ///< from (u_x, r)
   Slopes<double, 2> velocity_slope = Slopes<double, 2>::Zero();    ///< from G
   Components<double, 2> acceleration = Components<double, 2>::Zero();
+  Tensor<double> branch = Tensor<double>::Zero();  ///< of the branch's metric
 };
 
 struct MovingCellPoint {
@@ -80,7 +81,8 @@ struct MovingCellPoint {
   CellHistory history = {};
   double frame_history = 0;  ///< of the acceleration of the frame, from v_cell
 
-  /// Adds the viscous stress 2 eta1 D and the inertia of the cell; its mass stays with its points.
+  /// Adds the viscous stress, 2 eta1 D or that of the branch, and the inertia of the cell; its mass stays with its
+  /// points.
   template <class T>
   Flux<T, 2> operator()(const MovingCellFields<T>& f) const {
     Flux<T, 2> flux = CellPoint<2>{law, undeformed}(f);
@@ -89,8 +91,7 @@ struct MovingCellPoint {
     for (int i = 0; i < 4; ++i)
       v_xi(i / 2, i % 2) = T(rate) * map.G(i / 2, i % 2) + T(history.velocity_slope(i / 2, i % 2));
     const Components<T, 2> v(T(rate) * f.u_x + T(history.velocity(0)), T(rate) * map.r + T(history.velocity(1)));
-    const Tensor<T> L = gradient(map, v, v_xi);
-    const Flux<T, 2> viscous = pull_back(map, Tensor<T>((L + L.transpose()) * T(law.viscosity)));
+    const Flux<T, 2> viscous = pull_back(map, viscous_stress(map, v, v_xi));
     const double mass = undeformed.volume();
     flux.value(0) += (T(rate) * f.v_cell + T(frame_history)) * T(excess_reynolds * mass);
     for (int c = 0; c < 2; ++c) {
@@ -99,6 +100,17 @@ struct MovingCellPoint {
       for (int k = 0; k < 2; ++k) flux.slope(c, k) += viscous.slope(c, k);
     }
     return flux;
+  }
+
+ private:
+  template <class T>
+  Tensor<T> viscous_stress(const PointMap<T, 2>& map, const Components<T, 2>& v, const Slopes<T, 2>& v_xi) const {
+    if (law.branch_modulus > 0) {
+      const T J = map.volume() / T(undeformed.volume());
+      return branch_stress(law, deformation_gradient(map, undeformed), rate, history.branch) / J;
+    }
+    const Tensor<T> L = gradient(map, v, v_xi);
+    return (L + L.transpose()) * T(law.viscosity);
   }
 };
 

@@ -24,7 +24,7 @@ namespace {
 /// What is told of a time of output.
 struct SeenFrame {
   ContourFrame contour;
-  ShapeMeasures shape;
+  StateNumbers numbers;
 };
 
 /// Computes in a thread of its own; frames wait until they are asked for.
@@ -32,7 +32,8 @@ class Evolution {
  public:
   explicit Evolution(const Case& c) : result_{c, scales_of(c), problem_of(c), {}} {
     if (c.time.scheme == TimeScheme::stationary)
-      throw UserError("rheocyte.evolve: the case has no time.end_us; give it, and cell.viscosity_mPas.");
+      throw UserError(
+          "rheocyte.evolve: the case has neither time.end_us nor time.end_um; give one, and cell.viscosity_mPas.");
     thread_ = std::thread([this] { follow(); });
   }
   ~Evolution() {
@@ -103,7 +104,7 @@ class Evolution {
   }
 
   void add(const TimeFrame& frame) {
-    SeenFrame seen{contour_frame(frame, result_.scales), measure(frame.contour)};
+    SeenFrame seen{contour_frame(frame, result_.scales), frame.state};
     const std::scoped_lock lock(mutex_);
     frames_.push_back(std::move(seen));
     changed_.notify_all();
@@ -118,11 +119,9 @@ class Evolution {
     py::dict d;
     d["t_us"] = frame.contour.t_us;
     d["contour"] = array_of(frame.contour.point_um);
-    StateNumbers numbers;
-    numbers.shape = frame.shape;
+    d["position_um"] = frame.contour.position_um;
     for (const auto& measure : state_measures)
-      if (std::holds_alternative<double ShapeMeasures::*>(measure.member))
-        d[py::str(measure.name)] = measure.physical(numbers, result_.scales);
+      d[py::str(measure.name)] = measure.physical(frame.numbers, result_.scales);
     return d;
   }
 

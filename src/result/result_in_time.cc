@@ -8,17 +8,21 @@ namespace rheocyte {
 
 namespace {
 
-constexpr double us_per_s = 1e6;
+constexpr double us_per_s = 1e6, um_per_m = 1e6;
 
 }  // namespace
 
 TimeRun time_run_of(const Case& c, const Scales& scales) {
-  const double unit_us = scales.time_s() * us_per_s;
+  const double unit_us = scales.time_s() * us_per_s, unit_um = scales.length_m * um_per_m;
   TimeRun run;
-  run.end = *c.time.end_us / unit_us;
-  run.output_every = *c.time.output_every_us / unit_us;
+  run.end = c.time.end_us ? *c.time.end_us / unit_us : HUGE_VAL;
+  run.end_position = c.time.end_um ? *c.time.end_um / unit_um : HUGE_VAL;
+  run.outputs_by_place = c.time.output_every_um.has_value();
+  run.output_every = run.outputs_by_place ? *c.time.output_every_um / unit_um : *c.time.output_every_us / unit_us;
   run.accuracy = c.time.accuracy.value_or(run.accuracy);
-  run.degree = int(*c.time.degree);
+  run.degree = int(c.time.degree.value_or(0));
+  run.mesh_accuracy = c.time.mesh_accuracy.value_or(run.mesh_accuracy);
+  run.estimates_error = c.time.scheme == TimeScheme::monolithic;
   run.scheme = c.time.scheme;
   run.step = c.time.step_us.value_or(0) / unit_us;
   run.surface_elements = surface_elements(c);

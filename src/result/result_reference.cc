@@ -45,6 +45,12 @@ std::vector<Row> rows_of_history() {
   return rows;
 }
 
+std::vector<Row> rows_of_outputs() {
+  std::vector<Row> rows{{"t_us", "time since the start"}, {"position_um", "as in history.csv"}};
+  for (const auto& row : rows_of(history_measures)) rows.push_back({row.name, "as in result.json"});
+  return rows;
+}
+
 std::vector<Section> sections() {
   return {{"result.json", "How the computation ended, and for which moduli:", rows_of(outcome_fields())},
           {"Measures in result.json", "Of the state, or of the last one on the way to it:", rows_of_measures()},
@@ -54,6 +60,7 @@ std::vector<Section> sections() {
           {"threads in result.json", "Of the machine:", rows_of(thread_fields())},
           {"time in result.json", "Of a case in time:", rows_of(time_fields())},
           {"history.csv", "Of a case in time, one line for each step:", rows_of_history()},
+          {"outputs.csv", "Of a case in time, one line for each output, between steps:", rows_of_outputs()},
           {"contour.csv",
            "The surface from the front pole to the rear one, in a square channel or a rectangle along the silhouette "
            "that the camera sees "

@@ -16,6 +16,18 @@ namespace {
 
 constexpr double um_per_m = 1e6, us_per_s = 1e6;
 
+std::array<double, history_measures.size()> in_history(const StateNumbers& state, const Scales& scales) {
+  std::array<double, history_measures.size()> measures;
+  std::ranges::transform(history_measures, measures.begin(),
+                         [&](const StateMeasure& measure) { return measure.physical(state, scales); });
+  return measures;
+}
+
+std::string_view name(TimeEnd end) {
+  constexpr std::string_view names[] = {"time", "place", "settled", "failure"};
+  return names[std::size_t(end)];
+}
+
 }  // namespace
 
 std::span<const Field<HistoryRow>> history_fields() {
@@ -31,9 +43,21 @@ std::span<const Field<HistoryRow>> history_fields() {
   return fields;
 }
 
+const HistoryRow& least_tension(const TimeRecord& record) {
+  return *std::ranges::min_element(record.rows, {},
+                                   [](const HistoryRow& row) { return row.measure("least_tension_mN_per_m"); });
+}
+
 std::span<const Field<TimeRecord, Json>> time_fields() {
   static constexpr Field<TimeRecord, Json> fields[] = {
       {"t_us", "time that was reached", [](const TimeRecord& r) -> Json { return r.rows.back().t_us; }},
+      {"position_um", "place that was reached, from the start of the cell",
+       [](const TimeRecord& r) -> Json { return r.rows.back().position_um; }},
+      {"ended_by", "time, place: what the case asks for; settled: nothing came any more; failure: see status",
+       [](const TimeRecord& r) -> Json { return name(r.end); }},
+      {"least_tension_mN_per_m",
+       "least meridional tension of the surface on the way; a shell wrinkles where it is negative",
+       [](const TimeRecord& r) -> Json { return least_tension(r).measure("least_tension_mN_per_m"); }},
       {"steps", "steps in time", [](const TimeRecord& r) -> Json { return r.rows.size() - 1; }},
       {"frames", "contours and files of fields", [](const TimeRecord& r) -> Json { return r.frames.size(); }},
       {"greatest_relative_volume_change", "greatest magnitude on the way",
@@ -56,25 +80,23 @@ double HistoryRow::measure(std::string_view name) const {
 
 HistoryRow history_row(const TimePoint& point, const Scales& scales) {
   const double um = scales.length_m * um_per_m, us = scales.time_s() * us_per_s;
-  HistoryRow row{us * point.time,
-                 us * point.step,
-                 double(point.order),
-                 double(point.newton_iterations),
-                 double(point.refused_steps),
-                 um * point.position,
-                 {}};
-  std::ranges::transform(history_measures, row.measures.begin(),
-                         [&](const StateMeasure& measure) { return measure.physical(point.state, scales); });
-  return row;
+  return {us * point.time,
+          us * point.step,
+          double(point.order),
+          double(point.newton_iterations),
+          double(point.refused_steps),
+          um * point.position,
+          in_history(point.state, scales)};
 }
 
 ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
   Eigen::Index rows = 1;
   for (const CurvePiece& piece : frame.contour.pieces) rows += piece.rows() - 1;
-  ContourFrame result{scales.time_s() * us_per_s * frame.time, Eigen::MatrixX2d(rows, 2)};
+  const double um = scales.length_m * um_per_m, us = scales.time_s() * us_per_s;
+  ContourFrame result{us * frame.time, um * frame.position, Eigen::MatrixX2d(rows, 2), in_history(frame.state, scales)};
   Eigen::Index row = 0;
   for (const CurvePiece& piece : frame.contour.pieces) {  // a piece begins where the one before ends
-    result.point_um.middleRows(row, piece.rows()) = scales.length_m * um_per_m * piece;
+    result.point_um.middleRows(row, piece.rows()) = um * piece;
     row += piece.rows() - 1;
   }
   return result;
@@ -88,6 +110,16 @@ std::string history_csv(const TimeRecord& record) {
     text += fmt::format("\n{:.12g}", row.t_us);
     for (const double value : row.measures) text += fmt::format(",{:.12g}", value);
     for (const auto& field : history_fields()) text += fmt::format(",{:.10g}", field.value(row));
+  }
+  return text + "\n";
+}
+
+std::string outputs_csv(const TimeRecord& record) {
+  std::string text = "t_us,position_um";
+  for (const auto& measure : history_measures) text += fmt::format(",{}", measure.name);
+  for (const ContourFrame& frame : record.frames) {
+    text += fmt::format("\n{:.12g},{:.12g}", frame.t_us, frame.position_um);
+    for (const double value : frame.measures) text += fmt::format(",{:.12g}", value);
   }
   return text + "\n";
 }

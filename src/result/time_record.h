@@ -23,20 +23,26 @@ struct HistoryRow {
   double measure(std::string_view name) const;
 };
 
+/// A row of outputs.csv, and a contour.
 struct ContourFrame {
-  double t_us = 0;
-  Eigen::MatrixX2d point_um;  ///< (x, r), front pole first
+  double t_us = 0, position_um = 0;
+  Eigen::MatrixX2d point_um;                                  ///< (x, r), front pole first
+  std::array<double, history_measures.size()> measures = {};  ///< in the order of history_measures
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& f) {
-    return std::tie(f.t_us, f.point_um);
+    return std::tie(f.t_us, f.position_um, f.point_um, f.measures);
   }
 };
+
+/// Why a run in time has ended.
+enum class TimeEnd { time, place, settled, failure };
 
 struct TimeRecord {
   std::vector<HistoryRow> rows;
   std::vector<ContourFrame> frames;
+  TimeEnd end = TimeEnd::failure;
   /// Of the same cell, at the end of the run; NaN if there is none, or none to compare with.
   double stationary_deformation = std::numeric_limits<double>::quiet_NaN();
 
@@ -47,12 +53,18 @@ struct TimeRecord {
   }
 };
 
+/// The row of the least meridional tension of the surface; there must be a row.
+const HistoryRow& least_tension(const TimeRecord&);
+
 HistoryRow history_row(const TimePoint&, const Scales&);
 ContourFrame contour_frame(const TimeFrame&, const Scales&);
 
 /// Time, measures of the state, and these columns.
 std::string history_csv(const TimeRecord&);
 std::span<const Field<HistoryRow>> history_fields();
+
+/// The same numbers at the outputs: time, place, measures of the state.
+std::string outputs_csv(const TimeRecord&);
 
 /// What result.json tells of the way, under "time"; there must be a row.
 std::span<const Field<TimeRecord, nlohmann::ordered_json>> time_fields();

@@ -8,14 +8,11 @@
 #include "fem/observe.h"
 #include "solve/describe.h"
 #include "solve/partitioned_stepper.h"
+#include "solve/time_resolution.h"
 #include "solve/time_stepper.h"
 
 namespace rheocyte {
 namespace {
-
-/// Resolves the stationary states of the paper's cells to 1e-5 of the deformation at degree 6
-/// (docs/verification.md, sec. 9).
-constexpr Subdivision subdivision = {2, 4, 1, 2};
 
 /// So many elements along the surface, and as large ones as fit to them elsewhere.
 Subdivision fine_subdivision(int surface_elements) {
@@ -23,31 +20,38 @@ Subdivision fine_subdivision(int surface_elements) {
   return {front, 2 * front, std::max(1, front / 8), 4};
 }
 
-TimeStepOptions step_options(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
+TimeStepOptions step_options(const TimeRun& run, const std::atomic<bool>* stop) {
   TimeStepOptions options;
   options.accuracy = run.accuracy;
   options.newton.stop = stop;
-  if (problem.wall.is_straight()) options.greatest_step = HUGE_VAL;  // nothing comes that a long step would miss
   return options;
 }
 
-std::unique_ptr<Stepper> make_stepper(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
-  const Resolution resolution{subdivision, run.degree};
-  if (run.scheme == TimeScheme::partitioned) {
-    const Resolution fine{fine_subdivision(run.surface_elements), run.degree};
-    return std::make_unique<PartitionedStepper>(problem, run.surface_elements > 0 ? fine : resolution,
-                                                PartitionedOptions{run.step});
-  }
-  return std::make_unique<TimeStepper>(problem, resolution, step_options(problem, run, stop));
+Resolution resolution_of(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
+  Resolution resolution = usual_time_resolution;
+  if (run.degree > 0) resolution.degree = run.degree;
+  if (run.scheme == TimeScheme::partitioned && run.surface_elements > 0)
+    resolution.subdivision = fine_subdivision(run.surface_elements);
+  const bool is_chosen = run.degree == 0 && run.scheme == TimeScheme::monolithic;
+  return is_chosen ? resolution_in_time(problem, run.mesh_accuracy, stop) : resolution;
+}
+
+std::unique_ptr<Stepper> make_stepper(const Problem& problem, const TimeRun& run, const Resolution& resolution,
+                                      const std::atomic<bool>* stop) {
+  if (run.scheme == TimeScheme::partitioned)
+    return std::make_unique<PartitionedStepper>(problem, resolution, PartitionedOptions{run.step});
+  return std::make_unique<TimeStepper>(problem, resolution, step_options(run, stop));
 }
 
 /// Whether a shape no longer changes: its rate falls as r(t) = r0 exp(-t / tau), or so, and what is left of its way,
 /// r tau, is small against what it has gone (docs/theory-time.md, sec. "settling"). Seen by the last levels alone, so
 /// that a run that was continued ends where it would have ended in one go.
-bool has_settled(const Discretisation& space, const std::vector<TimeLevel>& levels) {
+bool has_settled(const Stepper& stepper) {
   constexpr double share_left = 1e-4, share_of_noise = 1e-6;
   constexpr int intervals = 4;
-  if (levels.size() <= intervals) return false;
+  const Discretisation& space = stepper.space();
+  const std::vector<TimeLevel>& levels = stepper.state().levels;
+  if (levels.size() <= intervals || !stepper.has_passed_walls(levels[intervals])) return false;
   const double gone = largest_displacement(space, levels[0].unknowns);
   double rate_after = 0, middle_after = 0;
   for (int i = 0; i < intervals; ++i) {
@@ -65,8 +69,15 @@ bool has_settled(const Discretisation& space, const std::vector<TimeLevel>& leve
 
 class TimeFollower {
  public:
-  TimeFollower(const Problem& problem, const TimeRun& run, const TimeObserver& observer, const std::atomic<bool>* stop)
-      : run_(run), observer_(observer), stop_(stop), stepper_(make_stepper(problem, run, stop)) {}
+  TimeFollower(const Problem& problem, const TimeRun& run, const Resolution& resolution, const TimeObserver& observer,
+               const std::atomic<bool>* stop)
+      : run_(run),
+        degree_(resolution.degree),
+        observer_(observer),
+        stop_(stop),
+        stepper_(make_stepper(problem, run, resolution, stop)) {}
+
+  bool has_settled() const { return settled_; }
 
   StationaryState follow(const TimeStart* from) {
     const auto start = std::chrono::steady_clock::now();
@@ -75,16 +86,15 @@ class TimeFollower {
     outcome.status = from ? resume(*from) : stepper_->start();
     if (outcome.status != Status::converged) return outcome.message = start_failed, result;
     if (!from || from->units) {
-      show_frame(0, stepper_->now().unknowns);
+      show_frame(stepper_->now());
       if (observer_.step) observer_.step(describe(TimeStepReport{}), stepper_->state());
     }
     advance(result);
     stepper_->move_walls(stepper_->now().time);  // a step that failed has moved them
-    describe_state(stepper_->problem(), state_of(stepper_->now().unknowns), result);
-    result.pressure_drop = describe(TimeStepReport{}).state.pressure_drop;
+    describe_level(stepper_->now(), result);
     outcome.reached = 1;
     outcome.message = explanation(outcome.status);
-    result.statistics.degree = run_.degree;
+    result.statistics.degree = degree_;
     result.statistics.total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
   }
@@ -100,7 +110,11 @@ class TimeFollower {
     return stepper_->resume(state), Status::converged;
   }
 
-  bool at_end() const { return settled_ || stepper_->now().time >= run_.end * (1 - 1e-12); }
+  bool is_arrived() const {
+    const TimeLevel& now = stepper_->now();
+    return now.time >= run_.end * (1 - 1e-12) || now.position >= run_.end_position * (1 - 1e-9);
+  }
+  bool at_end() const { return settled_ || is_arrived(); }
 
   void advance(StationaryState& result) {
     SolveStatistics& statistics = result.statistics;
@@ -109,14 +123,15 @@ class TimeFollower {
         result.outcome.status = Status::stopped;
         break;
       }
-      const double before = stepper_->now().time;
-      const TimeStepReport report = stepper_->step(run_.end);
+      const double before = progress(stepper_->now());
+      const double arrival = std::isfinite(run_.end_position) ? stepper_->time_at(run_.end_position) : HUGE_VAL;
+      const TimeStepReport report = stepper_->step(std::min(run_.end, arrival));
       result.outcome.status = report.status;
       statistics.newton_iterations += report.newton_iterations;
       if (report.status != Status::converged) break;
       ++statistics.continuation_steps;
       result.residual = report.residual;
-      settled_ = may_settle() && has_settled(stepper_->space(), stepper_->state().levels);
+      settled_ = run_.scheme == TimeScheme::monolithic && !is_arrived() && rheocyte::has_settled(*stepper_);
       show_frames(before);
       if (observer_.step) observer_.step(describe(report), stepper_->state());
     }
@@ -127,74 +142,116 @@ class TimeFollower {
     statistics.substitution_s = work.solve_s;
   }
 
-  /// Where nothing changes any more but the cell.
-  bool may_settle() const {
-    return run_.scheme == TimeScheme::monolithic && stepper_->problem().wall.is_straight() &&
-           stepper_->now().time < run_.end * (1 - 1e-12);
-  }
-
-  DiscreteState state_of(const VectorXd& unknowns) const { return {stepper_->discrete(), stepper_->media(), unknowns}; }
-
   TimePoint describe(const TimeStepReport& report) const {
     StationaryState state;
     const TimeLevel& now = stepper_->now();
-    describe_state(stepper_->problem(), state_of(now.unknowns), state);
-    // In the accelerated frame the solver's pressure contains that of the inertial force (eq:frame-pressure); the
-    // splitting scheme solves in the laboratory.
-    const double inertia = run_.scheme == TimeScheme::monolithic ? stepper_->media().liquid.reynolds : 0;
-    state.pressure_drop += inertia * now.frame_acceleration * state.channel_length;
+    describe_level(now, state);
     return {now.time, report.step, report.order, report.newton_iterations, report.refused, now.position, state};
   }
 
-  void show_frame(double time, const VectorXd& unknowns) const {
+  /// The walls must be where they are at that time.
+  void describe_level(const TimeLevel& level, StationaryState& state) const {
+    describe_state(stepper_->problem(), {stepper_->discrete(), stepper_->media(), level.unknowns}, state);
+    // In the accelerated frame the solver's pressure contains that of the inertial force (eq:frame-pressure); the
+    // splitting scheme solves in the laboratory.
+    const double inertia = run_.scheme == TimeScheme::monolithic ? stepper_->media().liquid.reynolds : 0;
+    state.pressure_drop += inertia * level.frame_acceleration * state.channel_length;
+  }
+
+  void show_frame(const TimeLevel& level) const {
     if (!observer_.frame) return;
     StationaryState state;
-    describe_state(stepper_->problem(), state_of(unknowns), state);
-    observer_.frame({time, state.contour, state.write_fields});
+    describe_level(level, state);
+    observer_.frame({level.time, level.position, state, state.contour, state.write_fields});
   }
+
+  /// Time or place of a level, whichever the outputs follow.
+  double progress(const TimeLevel& level) const { return run_.outputs_by_place ? level.position : level.time; }
 
   /// Those between the last step and the one before.
   void show_frames(double before) const {
-    const double now = stepper_->now().time;
+    const double now = progress(stepper_->now());
     for (long i = std::lround(std::floor(before / run_.output_every * (1 + 1e-12))) + 1;; ++i) {
-      const double time = i * run_.output_every;
-      if (time > now * (1 + 1e-12) || time > run_.end * (1 - 1e-9)) break;
+      const double output = i * run_.output_every;
+      if (output > now * (1 + 1e-12) || (at_end() && output > now * (1 - 1e-9))) break;
+      const double time = run_.outputs_by_place ? stepper_->time_at(std::min(output, now)) : output;
       stepper_->move_walls(time);
-      show_frame(time, stepper_->unknowns_at(time));
+      show_frame(stepper_->level_at(time));
     }
-    stepper_->move_walls(now);
-    if (at_end()) show_frame(settled_ ? now : run_.end, stepper_->now().unknowns);
+    stepper_->move_walls(stepper_->now().time);
+    if (at_end()) show_frame(stepper_->now());
   }
 
   std::string explanation(Status status) const {
     if (status == Status::converged)
-      return fmt::format(
-          "The cell was followed {} on one mesh of degree {}, whose error is not estimated: a run with another "
-          "time.degree shows it.",
-          settled_ ? "until it had settled" : "to the end", run_.degree);
-    const double share = 100 * stepper_->now().time / run_.end;
+      return fmt::format("The cell was followed {} on a mesh of degree {}.",
+                         settled_ ? "until it had settled" : "to the end", degree_);
+    const TimeLevel& now = stepper_->now();
+    const bool by_place = std::isfinite(run_.end_position);
+    const double share = 100 * (by_place ? now.position / run_.end_position : now.time / run_.end);
+    const char* what = by_place ? "way" : "time";
     if (status == Status::stopped)
-      return fmt::format("Stopped by a signal at {:.4g} % of the time; --continue goes on from there.", share);
+      return fmt::format("Stopped by a signal at {:.4g} % of the {}; --continue goes on from there.", share, what);
     const char* why = run_.scheme == TimeScheme::partitioned
                           ? "the step is too large for elasticity that is explicit, lower time.step_us, or the cell is "
                             "drawn out or wrinkles"
                           : "the cell is drawn out or wrinkles, raise its moduli or lower flow rate or viscosity";
-    return fmt::format("No step in time succeeds beyond {:.4g} % of the time ({}): {}; the last good state is kept.",
-                       share, name(status), why);
+    return fmt::format("No step in time succeeds beyond {:.4g} % of the {} ({}): {}; the last good state is kept.",
+                       share, what, name(status), why);
   }
 
   TimeRun run_;
+  int degree_;
   TimeObserver observer_;
   const std::atomic<bool>* stop_;
   std::unique_ptr<Stepper> stepper_;
   bool settled_ = false;
 };
 
+using Deformations = std::vector<double>;  // output by output
+
+TimeObserver noting(Deformations& deformations, const TimeObserver& observer) {
+  const auto note = [&deformations, observer](const TimeFrame& frame) {
+    deformations.push_back(frame.state.shape.deformation);
+    if (observer.frame) observer.frame(frame);
+  };
+  return {note, observer.step};
+}
+
+/// From a second run, on a mesh that is a degree coarser: the change is the error of that one, and that of the first
+/// run is smaller.
+void estimate_error(const Problem& problem, const TimeRun& run, const Resolution& resolution,
+                    const Deformations& deformations, const std::atomic<bool>* stop, StationaryState& result) {
+  const Resolution other = to_compare_with(resolution);
+  Deformations compared;
+  const TimeObserver observer = noting(compared, {});
+  const StationaryState end = TimeFollower(problem, run, other, observer, stop).follow(nullptr);
+  if (end.outcome.status != Status::converged) return;
+  double greatest = 0, difference = 0;
+  for (std::size_t i = 0; i < std::min(deformations.size(), compared.size()); ++i) {
+    greatest = std::max(greatest, deformations[i]);
+    difference = std::max(difference, std::abs(deformations[i] - compared[i]));
+  }
+  const double at_end = std::abs(end.shape.deformation - result.shape.deformation);
+  result.estimated_error = at_end / result.shape.deformation;
+  result.outcome.message += fmt::format(
+      " A mesh of degree {} changes its last deformation by {:.2g} %, and none by more than {:.2g} % of the "
+      "greatest.",
+      other.degree, 100 * result.estimated_error, 100 * difference / greatest);
+}
+
 }  // namespace
 
 StationaryState follow_in_time(const Problem& problem, const TimeRun& run, const TimeObserver& observer,
                                const TimeStart* from, const std::atomic<bool>* stop) {
-  return TimeFollower(problem, run, observer, stop).follow(from);
+  const Resolution resolution = from ? from->state.resolution : resolution_of(problem, run, stop);
+  const bool estimates = run.estimates_error && !from;
+  Deformations deformations;
+  TimeFollower follower(problem, run, resolution, estimates ? noting(deformations, observer) : observer, stop);
+  StationaryState result = follower.follow(from);
+  if (estimates && result.outcome.status == Status::converged && !follower.has_settled())
+    estimate_error(problem, run, resolution, deformations, stop, result);
+  return result;
 }
 
 }  // namespace rheocyte

@@ -43,6 +43,7 @@ Status PartitionedStepper::start() {
   const double v_cell = level.unknowns(space().cell_velocity());
   for (int node = 0; node < space().nodes().count; ++node) level.velocities(2 * node) += v_cell;
   state_ = {};
+  state_.resolution = resolution_;
   state_.levels = {level};
   state_.next_step = options_.step;
   return Status::converged;
@@ -81,11 +82,20 @@ double PartitionedStepper::controlled_pressure(const VectorXd& unknowns) const {
   return drop / (controller_inertia + (1 - controller_inertia) * rate) - 2 * at_ends;
 }
 
-VectorXd PartitionedStepper::unknowns_at(double time) const {
-  if (state_.levels.size() < 2) return now().unknowns;
+TimeLevel PartitionedStepper::level_at(double time) const {
+  if (state_.levels.size() < 2) return now();
   const TimeLevel& before = state_.levels[1];
   const double share = (time - before.time) / (now().time - before.time);
-  return share * now().unknowns + (1 - share) * before.unknowns;
+  TimeLevel level;
+  level.time = time;
+  level.unknowns = share * now().unknowns + (1 - share) * before.unknowns;
+  level.position = share * now().position + (1 - share) * before.position;
+  level.frame_acceleration = now().frame_acceleration;  // that of the step
+  return level;
+}
+
+double PartitionedStepper::next_position(double time) const {
+  return now().position + (time - now().time) * now().unknowns(space().cell_velocity());
 }
 
 WorkMeter PartitionedStepper::work() const {

@@ -18,7 +18,8 @@ class PartitionedStepper final : public Stepper {
   Status start() override;
   TimeStepReport step(double limit) override;
   /// Linear between the last two levels.
-  VectorXd unknowns_at(double time) const override;
+  TimeLevel level_at(double time) const override;
+  double next_position(double time) const override;
   WorkMeter work() const override;
 
  private:

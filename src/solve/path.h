@@ -5,6 +5,7 @@
 
 #include "case/problem.h"
 #include "fem/stationary_system.h"
+#include "solve/resolution.h"
 
 namespace rheocyte {
 
@@ -12,12 +13,6 @@ namespace rheocyte {
 inline Interior interior_of(const Problem& problem) {
   return problem.bulk.law == BulkLaw::none ? Interior::liquid : Interior::elastic;
 }
-
-/// How finely a state is resolved.
-struct Resolution {
-  Subdivision subdivision;
-  int degree = 4;
-};
 
 /// Mesh, spaces and system of one resolution; they refer to each other and stay together.
 struct Discrete {

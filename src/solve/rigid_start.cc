@@ -22,6 +22,14 @@ Problem with_elastic_interior(Problem problem) {
   return problem;
 }
 
+void stretch_sphere(const Discretisation& space, double stretch, VectorXd& unknowns) {
+  const double factors[] = {stretch, 1 / std::sqrt(stretch)};
+  for (int i = 0; i < 2 * space.nodes().count; ++i) {
+    const int u = space.displacement(i / 2, i % 2);
+    if (u >= 0) unknowns(u) = (factors[i % 2] - 1) * space.node_points()[i / 2](i % 2);
+  }
+}
+
 Status flow_round_sphere(MovingSystem& system, const Media& media, const NewtonOptions& options, VectorXd& unknowns) {
   unknowns = system.sphere();
   Media rigid = media;

@@ -94,8 +94,7 @@ inline constexpr StateMeasure state_measures[] = {
      "the flow",
      &ShapeMeasures::moment_ratio, AlsoIn::tables},
     {"moment_ratio_raw", "the same of the contour", &ShapeMeasures::moment_ratio_raw, AlsoIn::tables},
-    {"inertia_ratio", "1 / sqrt(moment_ratio), as RT-DC programs have it", &ShapeMeasures::inertia_ratio,
-     AlsoIn::tables},
+    {"inertia_ratio", "1 / sqrt(moment_ratio), as RT-DC programs have it", &ShapeMeasures::inertia_ratio, AlsoIn::both},
     {"mode_2",
      "cosine mode c_2 of the radius of the convex hull about its centroid, over the mean radius: r = 1 + sum c_k "
      "cos(k theta), theta = 0 along the flow",
@@ -150,9 +149,9 @@ inline constexpr StateMeasure state_measures[] = {
     {"stability_margin",
      "distance of the surface from short wrinkles: 1 for the sphere or where bending stiffness or tension hold the "
      "surface, 0 at the limit",
-     &StateNumbers::stability_margin, AlsoIn::tables},
+     &StateNumbers::stability_margin, AlsoIn::both},
     {"least_tension_mN_per_m", "least meridional tension of the surface; a shell wrinkles where it is negative",
-     &StateNumbers::least_tension}};
+     &StateNumbers::least_tension, AlsoIn::history}};
 
 /// Those that are columns of a file, in their order.
 template <bool (StateMeasure::*is_column)() const>

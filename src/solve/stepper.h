@@ -27,12 +27,19 @@ class Stepper {
   /// One accepted step, shortened if it would pass `limit`. If the report is not `converged`, the state is the last
   /// good one.
   virtual TimeStepReport step(double limit) = 0;
-  /// Unknowns at a time within the last step.
-  virtual VectorXd unknowns_at(double time) const = 0;
+  /// Time, unknowns, position and the frame's acceleration at a time within the last step.
+  virtual TimeLevel level_at(double time) const = 0;
+  /// Where the next step takes the cell if it ends at `time`.
+  virtual double next_position(double time) const = 0;
+  /// When the cell is at a place within the last step, or at one that it reaches in the next; HUGE_VAL: later.
+  double time_at(double position) const;
   /// Moves the mesh to where the walls are at a time within the last step; for looking at the unknowns of that time.
   virtual void move_walls(double) {}
   /// Of all steps so far.
   virtual WorkMeter work() const = 0;
+
+  /// Whether all of the simulated channel lies behind the walls that are not straight.
+  bool has_passed_walls(const TimeLevel&) const;
 
   /// Goes on from a state of the same problem and resolution.
   void resume(TimeState state) { state_ = std::move(state); }
@@ -48,6 +55,7 @@ class Stepper {
   Stepper(const Problem&, const Resolution&);
 
   Problem problem_;
+  Resolution resolution_;
   std::shared_ptr<Discrete> discrete_;
   Media media_;
   TimeState state_;

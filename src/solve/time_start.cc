@@ -14,6 +14,7 @@ TimeState at_time_zero(const Discretisation& space, const TimeState& state, cons
   }
   TimeState start;
   start.levels = {level};
+  start.resolution = state.resolution;
   return start;
 }
 

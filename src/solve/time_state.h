@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "solve/resolution.h"
+
 namespace rheocyte {
 
 /// A state at a time, in R/U. Velocities are those of the nodes, (x, r) node by node, relative to the frame;
@@ -13,6 +15,7 @@ struct TimeLevel {
   double frame_acceleration = 0;  ///< d(v_cell)/dt, in U^2/R
   double position = 0;            ///< of the cell's barycentre along the channel, from its start, in R
   Eigen::VectorXd outward = {};   ///< where a wall that is not straight moves the mesh's nodes; empty: straight
+  Eigen::VectorXd branch = {};    ///< metric of the Maxwell branch (fem/moving_system.h); empty: there is none
 };
 
 /// All that the next step depends on.
@@ -23,6 +26,7 @@ struct TimeState {
   double next_step = 0;
   Eigen::VectorXd traction;   ///< on the cell, of the splitting scheme only (fem/split_system.h)
   double inlet_pressure = 0;  ///< beyond that of the undisturbed flow; only where it is controlled
+  Resolution resolution = {};
 };
 
 }  // namespace rheocyte

@@ -39,8 +39,11 @@ Status TimeStepper::start() {
   }
   const Status status = flow_round_sphere(system_, media_, options_.newton, level.unknowns);
   if (status != Status::converged) return status;
+  if (problem_.start_stretch != 1) stretch_sphere(space(), problem_.start_stretch, level.unknowns);
   level.velocities = system_.node_velocities(level.unknowns);
+  if (media_.bulk.branch_modulus > 0) level.branch = system_.unstressed_branch();
   state_ = {};
+  state_.resolution = resolution_;
   state_.levels = {level};
   state_.next_step = options_.fixed_step > 0 ? options_.fixed_step : options_.first_step;
   return Status::converged;
@@ -57,6 +60,12 @@ VectorXd TimeStepper::combine(const VectorXd& weights, VectorXd TimeLevel::*fiel
   return result;
 }
 
+double TimeStepper::combine(const VectorXd& weights, double TimeLevel::*field) const {
+  double result = 0;
+  for (int i = 0; i < weights.size(); ++i) result += weights(i) * (state_.levels[i].*field);
+  return result;
+}
+
 VectorXd TimeStepper::meet_walls(double position, const VectorXd& unknowns) {
   const auto wall = [&](double x) { return wall_->radius(position + x); };
   const VectorXd outward = space().wall_motion(wall, unknowns);
@@ -66,14 +75,35 @@ VectorXd TimeStepper::meet_walls(double position, const VectorXd& unknowns) {
 
 void TimeStepper::move_walls(double time) {
   if (!wall_) return;
-  const std::vector<double> past = times(state_);
-  const int levels = std::min<int>(state_.order + 1, int(past.size()));
-  const VectorXd weights = extrapolation_weights(std::span<const double>(past).first(levels), time);
-  discrete_->space.move_nodes(combine(weights, &TimeLevel::outward));
+  discrete_->space.move_nodes(combine(weights_at(time), &TimeLevel::outward));
 }
 
-VectorXd TimeStepper::unknowns_at(double time) const {
-  return extrapolate(std::min<int>(state_.order + 1, int(state_.levels.size())), time);
+VectorXd TimeStepper::weights_at(double time) const {
+  const std::vector<double> past = times(state_);
+  const int levels = std::min<int>(state_.order + 1, int(past.size()));
+  return extrapolation_weights(std::span<const double>(past).first(levels), time);
+}
+
+TimeLevel TimeStepper::level_at(double time) const {
+  const VectorXd weights = weights_at(time);
+  TimeLevel level;
+  level.time = time;
+  level.unknowns = combine(weights, &TimeLevel::unknowns);
+  level.position = combine(weights, &TimeLevel::position);
+  level.frame_acceleration = combine(weights, &TimeLevel::frame_acceleration);
+  return level;
+}
+
+double TimeStepper::position_after(const BdfFormula& formula, double velocity) const {
+  return (velocity - combine(formula.weights, &TimeLevel::position)) / formula.rate;
+}
+
+double TimeStepper::next_position(double time) const {
+  if (!(time > now().time)) return now().position;
+  const VectorXd weights = weights_at(time);
+  double velocity = 0;
+  for (int i = 0; i < weights.size(); ++i) velocity += weights(i) * state_.levels[i].unknowns(space().cell_velocity());
+  return position_after(bdf_formula(times(state_), state_.order, time), velocity);
 }
 
 double TimeStepper::surface_change(const VectorXd& difference) const {
@@ -97,18 +127,18 @@ TimeStepper::Trial TimeStepper::attempt(double step, int order) {
   const int v = space().cell_velocity(), levels = std::min<int>(order + 1, int(past.size()));
   const VectorXd guess = extrapolate(levels, trial.level.time), weights = trial.formula.weights.head(order);
   Motion motion{trial.formula.rate, combine(weights, &TimeLevel::unknowns), combine(weights, &TimeLevel::velocities)};
-  double position = 0;  // history
-  for (int i = 0; i < order; ++i) position += weights(i) * state_.levels[i].position;
-  trial.level.position = (guess(v) - position) / motion.rate;
+  trial.level.position = position_after(trial.formula, guess(v));
   if (wall_) {
     trial.level.outward = meet_walls(trial.level.position, guess);
     motion.outward = motion.rate * trial.level.outward + combine(weights, &TimeLevel::outward);
   }
+  motion.branch = combine(weights, &TimeLevel::branch);
   system_.set_motion(motion);
   trial.level.unknowns = guess;
   trial.newton = newton(system_, media_, options_.newton, trial.level.unknowns);
   if (trial.newton.status != Status::converged) return trial;
   trial.level.velocities = system_.node_velocities(trial.level.unknowns);
+  if (media_.bulk.branch_modulus > 0) trial.level.branch = system_.branch_metric(media_.bulk, trial.level.unknowns);
   trial.level.frame_acceleration = motion.rate * trial.level.unknowns(v) + motion.unknowns(v);
   const double share = levels > order ? trial.formula.error_share : 0.5;  // the first step has nothing to compare with
   trial.error = share * surface_change(trial.level.unknowns - guess);
@@ -136,7 +166,9 @@ void TimeStepper::accept(const Trial& trial, int order) {
     const StepChoice choice = choose_step(order, errors(trial, order));
     state_.steps_at_order = choice.order == order ? state_.steps_at_order + 1 : 0;
     state_.order = choice.order;
-    state_.next_step = std::min(choice.factor * step, options_.greatest_step);
+    // Where nothing comes any more that a long step would miss, steps have no limit.
+    const double greatest = has_passed_walls(trial.level) ? HUGE_VAL : options_.greatest_step;
+    state_.next_step = std::min(choice.factor * step, greatest);
   }
   state_.levels.insert(state_.levels.begin(), trial.level);
   if (int(state_.levels.size()) > options_.greatest_order + 2) state_.levels.pop_back();

@@ -14,7 +14,7 @@ struct TimeStepOptions {
   double accuracy = 1e-5;    ///< of the surface's positions in each step, in r0
   double first_step = 1e-3;  ///< in R/U
   double least_step = 1e-13;
-  double greatest_step = 1;
+  double greatest_step = 1;  ///< before and between walls that are not straight
   int greatest_order = greatest_bdf_order;
   double fixed_step = 0;  ///< > 0: all steps have this size and, as soon as there are enough levels, the greatest order
   NewtonOptions newton = {1e-9};
@@ -27,7 +27,8 @@ class TimeStepper final : public Stepper {
   Status start() override;
   TimeStepReport step(double limit) override;
   /// By the polynomial of the formula.
-  VectorXd unknowns_at(double time) const override;
+  TimeLevel level_at(double time) const override;
+  double next_position(double time) const override;
   void move_walls(double time) override;
   WorkMeter work() const override { return system_.work(); }
 
@@ -39,6 +40,11 @@ class TimeStepper final : public Stepper {
   void accept(const Trial&, int order);
   VectorXd extrapolate(int levels, double time) const;
   VectorXd combine(const VectorXd& weights, VectorXd TimeLevel::*field) const;
+  double combine(const VectorXd& weights, double TimeLevel::*field) const;
+  /// Of the levels that the formula's polynomial goes through, at a time within the last or the next step.
+  VectorXd weights_at(double time) const;
+  /// Of the cell after a step with the formula, its velocity extrapolated.
+  double position_after(const BdfFormula&, double velocity) const;
   /// Where the walls move the nodes with the cell at `position`; moves them.
   VectorXd meet_walls(double position, const VectorXd& unknowns);
 

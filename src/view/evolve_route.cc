@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <map>
@@ -13,9 +14,8 @@
 
 #include "case/json_guard.h"
 #include "case/scales.h"
+#include "result/judge_end.h"
 #include "result/result_in_time.h"
-#include "result/stationary_end.h"
-#include "shape/measures.h"
 #include "view/state_json.h"
 #include "view/stated_case.h"
 
@@ -60,20 +60,13 @@ class Evolution {
   }
 
  private:
-  /// A contour waits for the end of its step, which tells the place and the velocity.
-  struct Frame {
-    double time, deformation;
-    Json contour;
-  };
-
   void follow() {
     try {
       const TimeObserver observer{[this](const TimeFrame& frame) { add(frame); },
                                   [this](const TimePoint& point, const TimeState&) { add(point); }};
-      const TimeRun run = time_run_of(result_.input, result_.scales);
-      end_ = run.end;
-      result_.state = follow_in_time(result_.problem, run, observer, nullptr, &stop_);
-      compare_with_stationary(result_, record_, stop_);
+      run_ = time_run_of(result_.input, result_.scales);
+      result_.state = follow_in_time(result_.problem, run_, observer, nullptr, &stop_);
+      judge_end(result_, record_, stop_);
       refuse_unfinite_numbers(result_);
       add(is_superseded_
               ? Json{{"error", "A later request of the same stream has replaced this one."}, {"reason", "superseded"}}
@@ -88,28 +81,17 @@ class Evolution {
 
   void add(const TimeFrame& frame) {
     record_.frames.push_back(contour_frame(frame, result_.scales));
-    frames_.push_back({frame.time, measure(frame.contour).deformation,
-                       outline_json(frame.contour, um_per_m * result_.scales.length_m)});
+    const ContourFrame& seen = record_.frames.back();
+    const double um = um_per_m * result_.scales.length_m;
+    add(Json{{"time_s", result_.scales.time_s() * frame.time},
+             {"x_um", seen.position_um},
+             {"deformation", frame.state.shape.deformation},
+             {"velocity_m_per_s", result_.scales.velocity_m_per_s * frame.state.cell_velocity},
+             {"progress", std::isfinite(run_.end) ? frame.time / run_.end : frame.position / run_.end_position},
+             {"contour", outline_json(frame.contour, um)}});
   }
 
-  void add(const TimePoint& point) {
-    const Scales& scales = result_.scales;
-    for (const Frame& frame : frames_) {
-      const double step = point.time - last_.time, share = step > 0 ? (frame.time - last_.time) / step : 1;
-      // At the start there is nothing before.
-      const auto between = [&](double before, double now) { return share < 1 ? before + share * (now - before) : now; };
-      add(Json{
-          {"time_s", scales.time_s() * frame.time},
-          {"x_um", um_per_m * scales.length_m * between(last_.position, point.position)},
-          {"deformation", frame.deformation},
-          {"velocity_m_per_s", scales.velocity_m_per_s * between(last_.state.cell_velocity, point.state.cell_velocity)},
-          {"progress", frame.time / end_},
-          {"contour", frame.contour}});
-    }
-    frames_.clear();
-    record_.rows.push_back(history_row(point, scales));
-    last_ = point;
-  }
+  void add(const TimePoint& point) { record_.rows.push_back(history_row(point, result_.scales)); }
 
   void add(const Json& line) {
     std::string text = json_line(line) + "\n";
@@ -120,9 +102,7 @@ class Evolution {
 
   Result result_;
   TimeRecord record_;
-  std::vector<Frame> frames_;
-  TimePoint last_;
-  double end_ = 1;
+  TimeRun run_;
   std::atomic<bool> stop_{false}, is_superseded_{false};
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -154,7 +134,9 @@ class Evolutions {
 Answer evolve(Evolutions& evolutions, const Request& request) {
   const Case c = stated_case(request.json());
   if (c.time.scheme == TimeScheme::stationary)
-    throw Refused(400, "time", "The case has no time.end_us; give it, and cell.viscosity_mPas, or ask /api/state.");
+    throw Refused(
+        400, "time",
+        "The case has neither time.end_us nor time.end_um; give one, and cell.viscosity_mPas, or ask /api/state.");
   Answer answer;
   answer.type = "application/x-ndjson";
   answer.give_pieces = [evolution = evolutions.begin(c, request.asked("stream")),

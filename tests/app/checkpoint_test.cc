@@ -34,7 +34,7 @@ Checkpoint some_checkpoint(double t_us = 12.5) {
   checkpoint.state.inlet_pressure = -0.125;
   checkpoint.record.rows = {{0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11},
                             {t_us, 0.1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}};
-  checkpoint.record.frames = {{0, Eigen::MatrixX2d::Constant(5, 2, 1.0 / 3)}};
+  checkpoint.record.frames = {{0, 0, Eigen::MatrixX2d::Constant(5, 2, 1.0 / 3)}};
   return checkpoint;
 }
 

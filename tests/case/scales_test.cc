@@ -127,5 +127,18 @@ TEST(Scales, LinearAndNeoHookeanAreTheEndsOfMooneyRivlin) {
   EXPECT_EQ(neo_hookean_share(problem_of(c).bulk), 0.25);
 }
 
+TEST(Scales, AFunnelBecomesTheTubeWithItsMeanSpeeds) {
+  // Width x height over the least of it is R^2 over its least at every place; the narrow part is the square channel's
+  // tube.
+  const WallTable wall = wall_um({{60, 100, 140}, {}, {80, 20, 40}});
+  EXPECT_EQ(wall.x.front(), 60);
+  EXPECT_EQ(wall.x.back(), 140);
+  for (std::size_t i = 0; i < wall.x.size(); ++i) {
+    const double x = wall.x[i], width = x < 100 ? 80 - 60 * (x - 60) / 40 : 20 + (x - 100) / 2;
+    EXPECT_NEAR(wall.radius[i] * wall.radius[i] / (10.94 * 10.94), width / 20, 1e-12);
+  }
+  EXPECT_TRUE(wall_um({}).is_straight());
+}
+
 }  // namespace
 }  // namespace rheocyte

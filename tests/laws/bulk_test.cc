@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include "derivative_error.h"
 #include "random_states.h"
 
@@ -157,6 +159,44 @@ TEST(Bulk, UniaxialTensionHasTheTextbookStress) {
       EXPECT_NEAR(tau(1, 1), tau(2, 2), rounding);
     }
   }
+}
+
+constexpr Bulk maxwell{.shear_modulus = 0, .viscosity = 0.4, .branch_modulus = mu};
+
+TEST(MaxwellBranch, ASuddenStrainFindsASpring) {
+  // In a step from rest that is far shorter than the relaxation time: mu (B - I), within the share of the step.
+  RandomStates random;
+  constexpr double rate = 1e9;
+  for (int i = 0; i < states; ++i) {
+    const Tensor<double> F = random.deformation_gradient(), history = -rate * I;  // G = I before
+    const Tensor<double> spring = mu * (F * F.transpose() - I);
+    EXPECT_LT((branch_stress(maxwell, F, rate, history) - spring).norm(), 1e-7 * (1 + spring.norm()));
+  }
+}
+
+TEST(MaxwellBranch, ASustainedStrainLeavesNoStress) {
+  // At rest G is C^-1.
+  RandomStates random;
+  for (int i = 0; i < states; ++i) {
+    const Tensor<double> F = random.deformation_gradient();
+    EXPECT_LT(branch_stress(maxwell, F, 0, Tensor<double>(Tensor<double>::Zero())).norm(), rounding);
+  }
+}
+
+TEST(MaxwellBranch, SlowShearFindsAViscosity) {
+  // A steady velocity gradient L for long: 2 eta D within the square of the Weissenberg number, 1e-4.
+  RandomStates random;
+  constexpr double size = 1e-4, step = 0.05;
+  const Tensor<double> L = random.trace_free(size * mu / maxwell.viscosity), D = (L + L.transpose()) / 2;
+  Tensor<double> F = I, G = I, stress;
+  for (int k = 0; k < 400; ++k) {
+    F = (I - L * step).inverse() * F;
+    const Tensor<double> history = -G / step, C = F.transpose() * F;
+    stress = branch_stress(maxwell, F, 1 / step, history);
+    G = branch_metric(maxwell, Tensor<double>(C.inverse()), 1 / step, history);
+    EXPECT_LT((stress - mu * (F * G * F.transpose() - I)).norm(), rounding);
+  }
+  EXPECT_LT((stress - 2 * maxwell.viscosity * D).norm(), 10 * size * maxwell.viscosity * D.norm());
 }
 
 }  // namespace

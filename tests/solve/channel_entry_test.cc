@@ -114,6 +114,40 @@ TEST(ChannelEntry, ARigidSphereMovesAsInTheStraightChannelOfItsPlace) {
   EXPECT_NEAR(velocity() / at_start, 1, 0.01);
 }
 
+TEST(ChannelEntry, EndsAndOutputsByPlaceAreMet) {
+  // Outputs at every R and the end at 2.5 R, to rounding of the place; the way between them is that of the run by time:
+  // the place, interpolated there at the time of an output, is the output's within the error of the steps.
+  const Problem problem = entering_cell();
+  std::vector<double> times, places;
+  const auto see = [&](const TimeFrame& frame) {
+    times.push_back(frame.time);
+    places.push_back(frame.position);
+  };
+  TimeRun run{HUGE_VAL, 1, 1e-3, 3};
+  run.end_position = 2.5;
+  run.outputs_by_place = true;
+  ASSERT_EQ(follow_in_time(problem, run, {see, {}}).outcome.status, Status::converged);
+  ASSERT_EQ(places.size(), 4u);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(places[i], std::min(1.0 * i, 2.5), 1e-9);
+  const double end = times.back();
+  ASSERT_EQ(follow_in_time(problem, {end, 1e9, 1e-3, 3}, {see, {}}).outcome.status, Status::converged);
+  EXPECT_NEAR(places.back(), 2.5, 1e-6);
+}
+
+TEST(ChannelEntry, ARunEndsWhenTheCellHasSettledBehindTheWalls) {
+  // Long before the time is over; at no place before the walls, where the sphere hardly changes either.
+  Problem problem = entering_cell();
+  double end = 0, position = 0;
+  const auto see = [&](const TimePoint& point, const TimeState&) { end = point.time, position = point.position; };
+  const StationaryState state = follow_in_time(problem, {500, 1e9, 1e-3, 3}, {{}, see});
+  ASSERT_EQ(state.outcome.status, Status::converged);
+  EXPECT_LT(end, 400);
+  EXPECT_GT(position, 8);
+  problem.wall = {};
+  // The mesh is coarse (degree 3): 1 %.
+  EXPECT_NEAR(state.shape.deformation / solve_stationary(problem).shape.deformation, 1, 0.01);
+}
+
 TEST(ChannelEntry, AFailedRunKeepsItsLastGoodStateAndItsHistory) {
   // A soft cell is drawn out in the contraction until no step succeeds: a named status, a sentence, and finite numbers
   // of the last state with the walls where they were.

@@ -24,7 +24,7 @@ Problem moving_cell() {
 const Resolution resolution{{2, 4, 1, 2}, 3};
 
 ShapeMeasures shape_at(const Stepper& stepper, double time) {
-  return measure(contour(stepper.space(), stepper.unknowns_at(time)));
+  return measure(contour(stepper.space(), stepper.level_at(time).unknowns));
 }
 
 TEST(PartitionedStepper, AgreesWithTheImplicitStepsAtAllTimes) {

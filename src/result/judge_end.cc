@@ -1,0 +1,110 @@
+#include "result/judge_end.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "case/scales.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr double share_of_time = 0.1, share_of_distance = 0.1;
+constexpr double um_per_m = 1e6;
+
+TimeEnd end_of(const TimeRecord& record, const Result& result) {
+  if (result.state.outcome.status != Status::converged) return TimeEnd::failure;
+  const TimeCase& asked = result.input.time;
+  const HistoryRow& last = record.rows.back();
+  if (asked.end_um && last.position_um >= (1 - 1e-8) * *asked.end_um) return TimeEnd::place;
+  if (asked.end_us && last.t_us >= (1 - 1e-9) * *asked.end_us) return TimeEnd::time;
+  return TimeEnd::settled;
+}
+
+std::string told(double deformation, double distance, bool settled) {
+  const std::string text = fmt::format(" The stationary shape has the deformation {:.5f}; the run ended {:.2g} % {} it",
+                                       deformation, 100 * std::abs(distance), distance < 0 ? "below" : "above");
+  return text + (settled ? ": the cell has settled, and that is the error of the mesh." : ": it has not settled.");
+}
+
+/// Where the surface was compressed, and whether anything held it.
+std::string told_of_surface(const TimeRecord& record, const Problem& problem) {
+  constexpr double share_of_rounding = 1e-6;
+  const HistoryRow& slack = least_tension(record);
+  const HistoryRow& unstable =
+      *std::ranges::min_element(record.rows, {}, [](const HistoryRow& row) { return row.measure("stability_margin"); });
+  const double margin = unstable.measure("stability_margin"), tension = slack.measure("least_tension_mN_per_m");
+  const auto when = [](const HistoryRow& row) {
+    return fmt::format("at {:.4g} us, after {:.4g} um", row.t_us, row.position_um);
+  };
+  if (margin < 0)
+    return fmt::format(
+        " On the way the surface was beyond its limit against short wrinkles, which the model does not follow "
+        "(stability_margin {:.2g}, least tension {:.3g} mN/m, {}).",
+        margin, unstable.measure("least_tension_mN_per_m"), when(unstable));
+  const double greatest = std::ranges::max(record.rows, {}, [](const HistoryRow& row) {
+                            return std::abs(row.measure("least_tension_mN_per_m"));
+                          }).measure("least_tension_mN_per_m");
+  if (tension >= -share_of_rounding * std::abs(greatest)) return "";
+  const bool bends = surface_kind(problem) == SurfaceKind::held;
+  return fmt::format(" On the way the surface was compressed (least tension {:.3g} mN/m, {}); {} it against wrinkles.",
+                     tension, when(slack), bends ? "its bending stiffness holds" : "the interior holds");
+}
+
+/// The straight channel behind the cell's way, if all of the simulated one lies in it and the cell keeps a shape there.
+std::optional<Problem> straight_from_here(const Result& result, const TimeRecord& record) {
+  if (result.input.cell.viscoelasticity == Viscoelasticity::maxwell) return {};
+  if (result.problem.wall.is_straight()) return result.problem;
+  const double half_um = um_per_m * result.scales.length_m * result.state.channel_length / 2;
+  const WallTable wall = wall_um(result.input.channel.profile);
+  if (record.rows.back().position_um - half_um < wall.x.back()) return {};
+  Case straight = result.input;
+  straight.channel.profile = {};
+  straight.channel.radius_um = wall.radius.back();
+  const Problem problem = problem_of(straight);
+  if (problem.radius_ratio < least_radius_ratio) return {};
+  return problem;
+}
+
+void compare_with_stationary(Result& result, TimeRecord& record, const Problem& problem,
+                             const std::atomic<bool>& stop) {
+  Outcome& outcome = result.state.outcome;
+  const StationaryState stationary = solve_stationary(problem, {}, &stop);
+  if (stationary.outcome.status == Status::stopped) return;
+  if (stationary.outcome.status != Status::converged) {
+    outcome.message += " There is no stationary shape of this cell (" + std::string(name(stationary.outcome.status)) +
+                       "): what seems to settle is held by the mesh.";
+    return;
+  }
+  record.stationary_deformation = stationary.shape.deformation;
+  const double distance = result.state.shape.deformation / stationary.shape.deformation - 1;
+  const bool settled =
+      record.end == TimeEnd::settled || has_settled(record, std::abs(distance), result.problem.accuracy);
+  if (settled) result.state.estimated_error = std::abs(distance) + stationary.estimated_error;
+  outcome.message += told(stationary.shape.deformation, distance, settled);
+}
+
+}  // namespace
+
+bool has_settled(const TimeRecord& record, double distance, double accuracy) {
+  const double end = record.rows.back().t_us, d = record.rows.back().measure("deformation");
+  double before = record.rows.front().measure("deformation");  // at the last step before the last tenth
+  for (const HistoryRow& row : record.rows)
+    if (row.t_us <= (1 - share_of_time) * end) before = row.measure("deformation");
+  const double change = std::abs(d - before);
+  return change < std::max(share_of_distance * distance, accuracy) * std::abs(d);
+}
+
+void judge_end(Result& result, TimeRecord& record, const std::atomic<bool>& stop) {
+  if (record.rows.empty()) return;
+  record.end = end_of(record, result);
+  if (record.end != TimeEnd::failure)
+    if (const auto problem = straight_from_here(result, record))
+      compare_with_stationary(result, record, *problem, stop);
+  result.state.outcome.message += told_of_surface(record, result.problem);
+}
+
+}  // namespace rheocyte

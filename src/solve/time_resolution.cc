@@ -1,0 +1,44 @@
+#include "solve/time_resolution.h"
+
+#include <cmath>
+
+#include "solve/branch_ends.h"
+#include "solve/ladder.h"
+
+namespace rheocyte {
+namespace {
+
+/// Of the ladder that the coarse resolutions are judged by, in the wanted accuracy.
+constexpr double share_of_reference = 0.1;
+/// Of the wanted accuracy that the stationary shape may use up: the way to it is not as smooth.
+constexpr double share_of_stationary = 0.5;
+
+}  // namespace
+
+Resolution resolution_in_time(const Problem& problem, double accuracy, const std::atomic<bool>* stop) {
+  Problem straight = problem;
+  straight.wall = {};
+  straight.accuracy = share_of_reference * accuracy;
+  if (problem.bulk.shear_modulus == 0 && problem.bulk.branch_modulus > 0) return usual_time_resolution;
+  if (is_far_too_soft(straight)) return usual_time_resolution;
+  const NewtonOptions newton{.tolerance = 1e-10, .stop = stop};
+  const ResolvedState start = follow_branch(
+      straight, newton, [](const auto&, const auto&) {}, Search::hopeful);
+  if (start.status != Status::converged) return usual_time_resolution;
+  Ladder ladder{.keeps_systems = false};
+  climb(straight, newton, start, ladder, [](const auto&, const auto*) {});
+  if (ladder.rungs.empty()) return usual_time_resolution;
+  const double best = ladder.deformations.back();
+  for (std::size_t i = 0; i + 1 < ladder.rungs.size(); ++i) {
+    const double error = std::abs(ladder.deformations[i] / best - 1) + ladder.estimated_error;
+    if (error <= share_of_stationary * accuracy) return ladder.rungs[i].resolution;
+  }
+  return ladder.rungs.back().resolution;
+}
+
+Resolution to_compare_with(const Resolution& resolution) {
+  constexpr int least_degree = 2;
+  return {resolution.subdivision, resolution.degree > least_degree ? resolution.degree - 1 : resolution.degree + 1};
+}
+
+}  // namespace rheocyte

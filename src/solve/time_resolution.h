@@ -1,0 +1,20 @@
+// The mesh on which a cell is followed in time (docs/theory-time.md, sec. "the mesh").
+#pragma once
+#include <atomic>
+
+#include "case/problem.h"
+#include "solve/resolution.h"
+
+namespace rheocyte {
+
+/// Resolves the stationary states of the paper's cells to 1e-5 of the deformation (docs/verification.md, sec. 9).
+inline constexpr Resolution usual_time_resolution = {{2, 4, 1, 2}, 6};
+
+/// The coarsest resolution on which the stationary deformation of the same cell, in the narrowest part of its channel,
+/// is right within half of the accuracy (relative). The usual one where there is no such shape.
+Resolution resolution_in_time(const Problem&, double accuracy, const std::atomic<bool>* stop);
+
+/// One that is a degree coarser (finer where there is no coarser one), to compare with.
+Resolution to_compare_with(const Resolution&);
+
+}  // namespace rheocyte
