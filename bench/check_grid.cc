@@ -38,7 +38,7 @@ void print_differences(const char* what, std::vector<double>& all) {
 int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("check_grid DIR [GRID]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
-  const auto branches = TableFolder(argv[1], spec).read_all();
+  const auto branches = TableFolder(argv[1], spec).all_branches();
   const auto start = std::chrono::steady_clock::now();
   const auto content = make_stiffness_grid(spec, branches, "check");
   if (!content) return fmt::print("the table has too few states for a grid\n"), 1;

@@ -36,7 +36,7 @@ double guess_stiffness(const std::vector<SampledBranch>& branches, double radius
 int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("check_table DIR [POINTS]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
-  auto branches = TableFolder(argv[1], spec).read_all();
+  auto branches = TableFolder(argv[1], spec).all_branches();
   std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
   const TableInterpolation table(spec, branches);
   const int points = argc > 2 ? std::atoi(argv[2]) : 200;

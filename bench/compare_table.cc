@@ -32,7 +32,7 @@ void print_distribution(const char* name, std::vector<double> differences) {
 int rheocyte::measure(int argc, char** argv) {
   if (argc < 3) return fmt::print("compare_table DIR PUBLISHED.txt [POINTS.csv]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
-  const auto branches = TableFolder(argv[1], spec).read_all();
+  const auto branches = TableFolder(argv[1], spec).all_branches();
   const TableInterpolation table(spec, branches);
   std::ifstream published(argv[2]);
   std::ofstream points(argc > 3 ? argv[3] : "/dev/null");

@@ -154,7 +154,7 @@ int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("pixel_errors DIR [SHAPES [PLACES]]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
   const ChannelFlow flow = channel_flow_of(spec.base);
-  auto branches = TableFolder(argv[1], spec).read_all();
+  auto branches = TableFolder(argv[1], spec).all_branches();
   std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
   const BranchShapes shapes(std::move(branches), {flow, flow, false});
   const int count = argc > 2 ? std::atoi(argv[2]) : 1500, places = argc > 3 ? std::atoi(argv[3]) : 300;

@@ -18,11 +18,14 @@ _UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "youn
           "odd_share": "", "mode_3": "", "young_modulus_asymmetry_kPa": "kPa", "standard_error_asymmetry_kPa": "kPa"}
 
 
-def extract(recording, *, table="", pixelation=True, correct_area=True, asymmetry=True, progress=None, **measuring):
+def extract(
+    recording, *, table="", section="tube", pixelation=True, correct_area=True, asymmetry=True, progress=None, **measuring
+):
     """Young's modulus of each event of a recording, as `rheocyte extract` gives it.
 
     recording       path of an .rtdc file, or an open dclab dataset of one
     table           name or path of a table, as for Table; "": the shipped one that fits the medium
+    section         of the shipped tables: "tube", of equal pressure drop, or "square", the channel itself
     pixelation      whether pixels are corrected for; correct_area: whether areas are, too
     asymmetry       whether contours or masks are read for the modulus from the asymmetry of the outlines
     progress        called with the share that is done; True: a bar of tqdm where it is installed
@@ -45,6 +48,10 @@ def extract(recording, *, table="", pixelation=True, correct_area=True, asymmetr
     options = native.ExtractOptions()
     options.measuring = _measuring(measuring, "extract")
     options.table = place_of_table(table)
+    if section not in ("tube", "square") or (table and section != "tube"):
+        raise UserError(f"extract: section = {section!r}: \"tube\" or \"square\", and only without a table.")
+    if section == "square":
+        options.set_square()
     options.no_pixelation, options.no_area_correction = not pixelation, not correct_area
     options.no_asymmetry = not asymmetry
     with progress_bar(progress) as tell:

@@ -35,7 +35,7 @@ class ExtractJob {
       : options_(options),
         tasks_(tasks_of(options.batch)),
         summary_file_(summary_file(options.batch)),
-        tables_(options.table) {
+        tables_(options.table, options.section) {
     check_against_tables(options, tables_);
     check_place_of_summary(summary_file_);
   }

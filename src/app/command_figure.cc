@@ -45,10 +45,10 @@ void add_figure_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("figure", "remake a figure of Mokbel et al. 2017, solving what is missing for it");
   auto options = std::make_shared<FigureOptions>();
   command
-      ->add_option(
-          "N", options->number,
-          "number of the figure in the paper; entry: a cell enters a narrow channel; real-cells: whether the cells "
-          "of recordings have the shapes of the model")
+      ->add_option("N", options->number,
+                   "number of the figure in the paper; entry: a cell enters a narrow channel; square: what the tube "
+                   "does to cells in a square channel; real-cells: whether the cells of recordings have the shapes of "
+                   "the model")
       ->required();
   command->add_option("FILES", options->recordings, "recordings (.rtdc), for real-cells");
   command->add_option("--viscosity-mPas", options->viscosity_mPas, "of the liquid, for recordings that do not tell it")

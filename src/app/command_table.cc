@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "case/user_error.h"
+#include "extract/tube_table.h"
 #include "store/build_info.h"
 #include "store/progress.h"
 #include "store/python_package.h"
@@ -39,6 +40,7 @@ void draw(const TableFolder& folder) {
 /// False if a signal has ended it.
 bool compute(const TableFolder& folder, int jobs, bool quiet) {
   watch_signals();
+  provide_tube_table(folder);
   folder.take_over();
   Progress progress("branches", folder.branches(), folder.done(), quiet);
   const TableObserver observer{[&](int done) { progress.show(done); },

@@ -1,6 +1,8 @@
 #include "app/extract_options.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "app/key_option.h"
@@ -51,6 +53,17 @@ void declare_measuring_options(CLI::App& command, MeasuringOptions& options) {
                      "give a recording up when nothing was read from it for so many seconds (60)");
 }
 
+void declare_section_option(CLI::App& command, Section& section) {
+  static const std::map<std::string, Section> sections{{"tube", Section::tube}, {"square", Section::square}};
+  command
+      .add_option("--section", section,
+                  "which of the program's own tables: tube, of equal pressure drop (default), or square, the channel "
+                  "itself in three dimensions")
+      ->type_name("tube|square")
+      ->transform(CLI::CheckedTransformer(sections).description(""))
+      ->excludes("--table");
+}
+
 void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run) {
   declare_batch_options(command, options.batch);
   command
@@ -59,6 +72,7 @@ void declare_extract_options(CLI::App& command, ExtractOptions& options, std::fu
           "look-up table in place of the program's own: a folder of `rheocyte table`, a file (grid_*.cbor, or in "
           "dclab's format), or an identifier of the program's tables or of an installed dclab's")
       ->type_name("TABLE");
+  declare_section_option(command, options.section);
   declare_measuring_options(command, options.measuring);
   command.add_flag("--no-pixelation", options.no_pixelation, "correct nothing for the pixels");
   command.add_flag("--no-area-correction", options.no_area_correction,

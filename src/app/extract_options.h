@@ -20,4 +20,7 @@ void declare_measuring_options(CLI::App& command, MeasuringOptions& options);
 /// Declares all options on the command; `run` is called when they are complete. UserError if they contradict.
 void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run);
 
+/// --section, for which the program's own tables are.
+void declare_section_option(CLI::App& command, Section& section);
+
 }  // namespace rheocyte

@@ -74,6 +74,7 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
                   "look-up table for isoelasticity lines and the shaded region, as for extract; default: the "
                   "program's own")
       ->type_name("TABLE");
+  declare_section_option(command, options.section);
   command.add_option("--lines", options.lines, "isoelasticity lines in dclab's format, in place of the table's own")
       ->type_name("FILE");
   command.add_option("--x", options.x, "feature on the axis to the right; default: area_um")->type_name("FEATURE");

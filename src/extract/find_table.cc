@@ -80,7 +80,7 @@ std::map<std::string, fs::path> installed_tables() {
 
 }  // namespace
 
-fs::path find_table(const std::string& wanted) {
+fs::path find_table(const std::string& wanted, const std::string& asked_by) {
   std::error_code error;
   if (fs::exists(wanted, error)) return wanted;
   auto tables = shipped_tables();
@@ -92,7 +92,7 @@ fs::path find_table(const std::string& wanted) {
     names.push_back(name);
     all += (all.empty() ? "" : ", ") + name;
   }
-  const std::string place = fmt::format("rheocyte: --table {}: there is neither such a file nor such a table{}",
+  const std::string place = fmt::format("rheocyte: {} {}: there is neither such a file nor such a table{}", asked_by,
                                         one_line(wanted, 200), did_you_mean(wanted, names));
   const bool has_published =
       std::ranges::any_of(tables, [](const auto& table) { return table.second.extension() == ".txt"; });

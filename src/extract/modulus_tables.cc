@@ -1,5 +1,7 @@
 #include "extract/modulus_tables.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
@@ -12,8 +14,13 @@ namespace rheocyte {
 
 namespace {
 
-// Of several tables of Newtonian liquids the one that counts.
-constexpr std::string_view standard_table = "LE-2D-26";
+// Of several tables of Newtonian liquids the one that counts. In the square channel the surface of linear solids loses
+// its stability early, so that their table ends at half the deformation.
+constexpr std::string_view standard_tube_table = "LE-2D-26", standard_square_table = "HE-3D-26";
+
+std::string_view standard_table(Section section) {
+  return section == Section::square ? standard_square_table : standard_tube_table;
+}
 
 }  // namespace
 
@@ -22,27 +29,35 @@ const ModulusMap& ModulusTables::Table::ready() const {
   return *map;
 }
 
-ModulusTables::ModulusTables(const std::string& name) : given_(!name.empty()) {
+ModulusTables::ModulusTables(const std::string& name, Section section) : section_(section), given_(!name.empty()) {
   if (given_) {
     const auto file = find_table(name);
     auto map = read_modulus_map(file);
     const TableOrigin& origin = map->origin();
+    section_ = origin.section;
     tables_.push_back({file, origin.identifier, origin.flow.exponent, std::move(map)});
   }
-  if (own())
-    for (const auto& [identifier, file] : shipped_tables())
-      if (!given_ || identifier != tables_.front().identifier)
-        tables_.push_back({file, identifier, read_flow_exponent(file).value_or(1)});
+  if (own()) add_shipped();
   if (tables_.empty())
-    throw UserError(
-        "rheocyte: the tables that come with the program are missing; give one with --table, or name their folder in "
-        "RHEOCYTE_TABLES.");
+    throw UserError(fmt::format(
+        "rheocyte: the tables{} that come with the program are missing; give one with --table, or name their folder in "
+        "RHEOCYTE_TABLES.",
+        section_ == Section::square ? " of the square channel" : ""));
+}
+
+// Of one section alone: moduli of the tube and of the square are not mixed.
+void ModulusTables::add_shipped() {
+  for (const auto& [identifier, file] : shipped_tables()) {
+    if (given_ && identifier == tables_.front().identifier) continue;
+    const GridHead head = read_grid_head(file).value_or(GridHead{});
+    if (head.section == section_) tables_.push_back({file, identifier, head.flow_exponent});
+  }
 }
 
 const ModulusTables::Table* ModulusTables::newtonian() const {
   const Table* found = nullptr;
   for (const auto& table : tables_)
-    if (table.flow_exponent == 1 && (!found || table.identifier == standard_table)) found = &table;
+    if (table.flow_exponent == 1 && (!found || table.identifier == standard_table(section_))) found = &table;
   return found;
 }
 
@@ -78,7 +93,7 @@ const ShapeMap* ModulusTables::shapes(double flow_exponent) const {
   if (table.shapes()) return table.shapes();
   if (!standard_) {
     const auto shipped = shipped_tables();
-    const auto found = shipped.find(std::string(standard_table));
+    const auto found = shipped.find(std::string(standard_table(section_)));
     if (found == shipped.end()) return nullptr;
     standard_ = read_modulus_map(found->second);
   }

@@ -15,9 +15,9 @@ inline constexpr double flow_exponent_tolerance = 0.035;
 /// Tables that come with the program are chosen by their metadata, and read when they are needed.
 class ModulusTables {
  public:
-  /// The table that the user names (as in find_table); if the name is empty those that come with the program, of which
-  /// there is at least one, else UserError.
-  explicit ModulusTables(const std::string& name);
+  /// The table that the user names (as in find_table); if the name is empty those for a section that come with the
+  /// program, of which there is at least one, else UserError.
+  explicit ModulusTables(const std::string& name, Section section = Section::tube);
 
   /// For a medium with eta ~ (shear rate)^(n - 1) that thins the table whose liquid has its exponent n, if there is
   /// one; else the one of a Newtonian liquid, with the effective viscosity. A table that the user names is used always.
@@ -42,6 +42,7 @@ class ModulusTables {
 
     const ModulusMap& ready() const;
   };
+  void add_shipped();
   struct Choice {
     const Table *used, *other;
   };
@@ -49,6 +50,7 @@ class ModulusTables {
   const Table* newtonian() const;
   const Table* matching(double flow_exponent) const;
 
+  Section section_;
   std::vector<Table> tables_;
   mutable std::unique_ptr<const ModulusMap> standard_;  ///< once its shapes are needed
   bool given_ = false;                                  ///< the first one is the user's choice

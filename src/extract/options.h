@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "case/problem.h"
 #include "extract/gates.h"
 
 namespace rheocyte {
@@ -30,6 +31,7 @@ struct ExtractOptions {
   BatchOptions batch;
   MeasuringOptions measuring;
   std::string table;  ///< a file, a folder of a table, or an identifier; empty: the tables that come with the program
+  Section section = Section::tube;  ///< of these
   bool no_pixelation = false, no_area_correction = false, no_tsv = false;
   bool no_asymmetry = false;  ///< contours and masks are not read where areas and deformations are stored
 };

@@ -32,7 +32,7 @@ PlotLines::PlotLines(const PlotOptions& options) : options_(options) {
   const bool has_table = !options.table.empty(), has_file = !options.lines.empty();
   const bool has_own = !has_file && !options.no_lines && has_usual_axes(options) && !shipped_tables().empty();
   if (has_file) given_lines_ = read_isoelasticity_lines(options.lines);
-  if (has_table || has_own) tables_.emplace(options.table);
+  if (has_table || has_own) tables_.emplace(options.table, options.section);
   if (has_table || has_file)
     wanted_ = LinesWanted::yes;
   else if (has_own)

@@ -59,12 +59,12 @@ std::unique_ptr<const ModulusMap> read_modulus_map(const fs::path& path) {
   return std::make_unique<PublishedMap>(std::move(table));
 }
 
-std::optional<double> read_flow_exponent(const fs::path& grid_file) {
+std::optional<GridHead> read_grid_head(const fs::path& grid_file) {
   std::string head(grid_head_bytes, '\0');
   std::ifstream file(grid_file, std::ios::binary);
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(file.gcount()));
-  return grid_flow_exponent(head);
+  return grid_head(head);
 }
 
 }  // namespace rheocyte

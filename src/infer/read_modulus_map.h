@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "infer/modulus_map.h"
+#include "table/stiffness_grid.h"
 
 namespace rheocyte {
 
@@ -12,7 +13,7 @@ namespace rheocyte {
 /// UserError.
 std::unique_ptr<const ModulusMap> read_modulus_map(const std::filesystem::path& path);
 
-/// The exponent of the liquid of a grid, without reading its numbers; nothing if the file is no grid.
-std::optional<double> read_flow_exponent(const std::filesystem::path& grid_file);
+/// What a grid is for, without reading its numbers; nothing if the file is no grid.
+std::optional<GridHead> read_grid_head(const std::filesystem::path& grid_file);
 
 }  // namespace rheocyte

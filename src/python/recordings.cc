@@ -71,7 +71,7 @@ struct Events {
 
 Events events_of(const std::filesystem::path& file, const ExtractOptions& options, const Progress& progress,
                  const std::atomic<bool>& stop) {
-  const ModulusTables tables(options.table);
+  const ModulusTables tables(options.table, options.section);
   const Recording recording(file);
   Extraction extraction(recording, options, tables);
   Events events;
@@ -215,6 +215,7 @@ void bind_options(py::module_& module) {
       .def(py::init<>())
       .def_readwrite("measuring", &ExtractOptions::measuring)
       .def_readwrite("table", &ExtractOptions::table)
+      .def("set_square", [](ExtractOptions& o) { o.section = Section::square; })
       .def_readwrite("no_pixelation", &ExtractOptions::no_pixelation)
       .def_readwrite("no_asymmetry", &ExtractOptions::no_asymmetry)
       .def_readwrite("no_area_correction", &ExtractOptions::no_area_correction);

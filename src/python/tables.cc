@@ -13,6 +13,7 @@
 #include "extract/find_table.h"
 #include "extract/modulus_tables.h"
 #include "extract/shipped_tables.h"
+#include "extract/tube_table.h"
 #include "infer/isoelasticity_lines.h"
 #include "infer/read_modulus_map.h"
 #include "measurement/viscosity.h"
@@ -154,6 +155,7 @@ std::vector<std::string> compute_table(const std::string& text, const std::strin
   const TableSpec spec = parse_table_spec(text, name, settings);
   return interruptible([&](const std::atomic<bool>& stop) -> std::vector<std::string> {
     const TableFolder folder(place, spec);
+    provide_tube_table(folder);
     folder.take_over();
     const auto tell = [&](int done) {
       if (!progress) return;

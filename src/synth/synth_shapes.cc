@@ -74,7 +74,7 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   if (spec.kind != (is_shell ? CellKind::shell : CellKind::solid))
     refuse(spec, fmt::format("its cells differ by {}, so cell.kind must be \"{}\".", folder.spec().stiffness_key,
                              is_shell ? "shell" : "solid"));
-  auto branches = finished_branches(folder);
+  auto branches = folder.spec().is_square() ? folder.all_branches() : finished_branches(folder);
   std::set<double> radii;
   for (const auto& branch : branches) radii.insert(branch.radius_um);
   if (radii.size() < 2) refuse(spec, "has fewer than two finished branches; let `rheocyte table` go on.");

@@ -33,7 +33,7 @@ std::vector<std::string> write_simple(const TableFolder& folder, const std::vect
 
 std::vector<std::string> finish_table(const TableFolder& folder, std::span<const double> levels,
                                       std::string_view version) {
-  const auto branches = folder.read_all();
+  const auto branches = folder.all_branches();
   std::vector<std::string> sentences;
   if (folder.spec().is_combined())
     write_combined(folder, branches);

@@ -189,8 +189,9 @@ class PatchMaker {
 
 TableOrigin origin_of(const TableSpec& spec, std::string_view version) {
   const Case& c = spec.base;
-  return {spec.identifier, model_text(c),      fmt::format("rheocyte {}", version),
-          to_toml(spec),   channel_flow_of(c), stiffness_unit(spec) != "kPa"};
+  return {spec.identifier,  model_text(c),      fmt::format("rheocyte {}", version),
+          to_toml(spec),    channel_flow_of(c), stiffness_unit(spec) != "kPa",
+          c.channel.section};
 }
 
 // Bending makes cells stiffer: moduli drop by some percent where it takes over, and nobody knows the bending of a cell.

@@ -1,5 +1,7 @@
 #include "table/measured_state.h"
 
+#include <algorithm>
+
 #include "shape/curve.h"
 #include "solve/describe.h"
 
@@ -9,16 +11,30 @@ namespace {
 constexpr double um_per_m = 1e6;
 constexpr int intervals_per_sector = 64;  // of front and rear, twice as many on top
 
-/// Points at parameters of the sectors front, top, rear that are the same on all meshes.
-Eigen::MatrixX2d resampled(const Contour& contour) {
-  const int edges = int(contour.pieces.size()), quarter = edges / 4;  // a top has as many as front and rear together
+/// Points at parameters of the sectors front, top, rear that are the same on all meshes: the front has so many edges,
+/// the rear as many.
+Eigen::MatrixX2d resampled(const Contour& contour, int front) {
+  const int edges = int(contour.pieces.size()), top = edges - 2 * front;
   Eigen::MatrixX2d points(4 * intervals_per_sector + 1, 2);
   for (int i = 0; i < points.rows(); ++i) {
-    const double along = double(i) / intervals_per_sector * quarter;
+    const double sectors = double(i) / intervals_per_sector;
+    const double along = front * std::min(sectors, 1.0) + top * std::clamp((sectors - 1) / 2, 0.0, 1.0) +
+                         front * std::max(sectors - 3, 0.0);
     const int edge = std::min(int(along), edges - 1);
     points.row(i) = evaluate(contour.pieces[edge], along - edge).transpose();
   }
   return points;
+}
+
+/// A top of the tube's mesh has as many edges as front and rear together.
+int front_edges(const Contour& contour) { return int(contour.pieces.size()) / 4; }
+/// Two quadrilaterals of the duct's mesh lie along the edge of a triangle.
+constexpr int front_edges_in_duct = 2;
+
+Eigen::VectorXd physical(const StateNumbers& numbers, const Scales& scales) {
+  Eigen::VectorXd value(measure_count);
+  for (int m = 0; m < measure_count; ++m) value(m) = table_measures[std::size_t(m)].physical(numbers, scales);
+  return value;
 }
 
 }  // namespace
@@ -28,11 +44,13 @@ MeasuredState measure_state(const Discretisation& space, const Problem& problem,
   const Contour curve = contour(space, unknowns);
   const SurfaceState surface = surface_state(space, unknowns, 4 * space.reference().degree() + 1);
   const StateNumbers numbers = numbers_of({problem, problem, space, unknowns}, curve, surface);
-  MeasuredState state;
-  state.value.resize(measure_count);
-  for (int m = 0; m < measure_count; ++m) state.value(m) = table_measures[std::size_t(m)].physical(numbers, scales);
-  state.contour = scales.length_m * um_per_m * resampled(curve);
-  return state;
+  return {physical(numbers, scales), scales.length_m * um_per_m * resampled(curve, front_edges(curve))};
+}
+
+MeasuredState measure_state(const StationaryState& state, const Scales& scales) {
+  StateNumbers numbers = state;
+  numbers.shape.volume = state.volume_of_revolution;
+  return {physical(numbers, scales), scales.length_m * um_per_m * resampled(state.contour, front_edges_in_duct)};
 }
 
 }  // namespace rheocyte

@@ -1,6 +1,7 @@
 // The measures of a state and their slopes along the branch.
 #pragma once
 #include "solve/path.h"
+#include "solve/stationary.h"
 #include "table/branch.h"
 
 namespace rheocyte {
@@ -12,5 +13,9 @@ struct MeasuredState {
 };
 
 MeasuredState measure_state(const Discretisation&, const Problem&, const Scales&, const VectorXd& unknowns);
+
+/// Of a state in a square channel, whose silhouette has its pieces in front, on the side, and in the rear. The volume
+/// is that of the body of revolution of the silhouette, as programs compute it from images.
+MeasuredState measure_state(const StationaryState&, const Scales&);
 
 }  // namespace rheocyte

@@ -50,7 +50,7 @@ bool RadiusPlan::settle(bool held) {
 
 std::vector<int> RadiusPlan::places_at_first() const {
   const int count = static_cast<int>(places_.size());
-  if (!spec_.is_combined()) return first_places(count);
+  if (!spec_.is_combined() && !spec_.is_square()) return first_places(count);
   std::vector<int> all(places_.size());
   std::iota(all.begin(), all.end(), 0);
   return all;

@@ -19,7 +19,7 @@ struct BranchTask {
 
 /// First some radii, denser towards both ends; then, round by round, those in the middle of neighbours between which
 /// polynomials are not accurate. The choice depends on finished records alone: whoever takes part makes the same one.
-/// Of combined cells all branches are computed.
+/// Of combined cells, and in a square channel, all branches are computed.
 class RadiusPlan {
  public:
   using Branch = std::shared_ptr<const SampledBranch>;

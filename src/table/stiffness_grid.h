@@ -19,7 +19,8 @@ struct TableOrigin {
   std::string program;     ///< name and version
   std::string spec;        ///< the complete spec of the table
   ChannelFlow flow;
-  bool is_shell = false;  ///< the stiffness is the modulus of a cortex (mN/m), not Young's modulus (kPa)
+  bool is_shell = false;            ///< the stiffness is the modulus of a cortex (mN/m), not Young's modulus (kPa)
+  Section section = Section::tube;  ///< of the channel
 
   /// In one line.
   std::string description() const;
@@ -102,9 +103,13 @@ class StiffnessGrid {
 std::string to_bytes(const GridContent&);
 /// UserError naming `name` if the bytes are damaged or no grid.
 GridContent grid_from_bytes(std::string_view bytes, const std::string& name);
-/// The exponent of the liquid from the beginning of a grid's file, of which grid_head_bytes are enough; nothing if
-/// that is none.
-std::optional<double> grid_flow_exponent(std::string_view head);
+/// What tells which recordings a grid is for, from the beginning of its file, of which grid_head_bytes are enough;
+/// nothing if that is none.
+struct GridHead {
+  double flow_exponent = 1;
+  Section section = Section::tube;
+};
+std::optional<GridHead> grid_head(std::string_view head);
 inline constexpr std::size_t grid_head_bytes = 4096;
 
 /// Name of the file beside the other files of a table: grid_<identifier>.cbor.

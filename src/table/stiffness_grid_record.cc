@@ -18,6 +18,8 @@ using nlohmann::json;
 constexpr RecordKind kind{"rheocyte grid", "1", "grid of a table",
                           "`rheocyte table` with the table's spec writes it anew"};
 constexpr int greatest_side = 10000;
+/// Only in grids of square channels; keys of a record stand in the order of their letters, and this one comes first.
+constexpr const char *section_key = "channel_section", *square_section = "square";
 
 json record_of(const GridPatch& patch) {
   return {{"regularised", patch.regularised},
@@ -61,6 +63,7 @@ json record_of(const GridContent& grid) {
                  {"column_step", grid.column_step},
                  {"columns", grid.columns},
                  {"patches", std::move(patches)}};
+  if (o.section == Section::square) record[section_key] = square_section;
   if (grid.shapes) record["shapes"] = record_of(*grid.shapes);
   return record;
 }
@@ -140,6 +143,10 @@ GridContent content_of(const json& record) {
   o.flow.viscosity_mPas = positive(record, "viscosity_mPas");
   o.flow.exponent = positive(record, "flow_exponent");
   o.is_shell = record.at("is_shell");
+  if (record.contains(section_key)) {
+    check(record.at(section_key) == square_section, "a section is unknown");
+    o.section = Section::square;
+  }
   grid.least_log_area = record.at("least_log_area");
   check(std::isfinite(grid.least_log_area), "a number is out of range");
   grid.column_step = positive(record, "column_step");
@@ -164,14 +171,16 @@ std::string to_bytes(const GridContent& grid) {
 }
 
 // Keys of a record stand in the order of their letters, so the numbers come behind it.
-std::optional<double> grid_flow_exponent(std::string_view head) {
+std::optional<GridHead> grid_head(std::string_view head) {
   constexpr std::string_view key = "flow_exponent";
-  const auto place = head.substr(0, grid_head_bytes).find(key);
+  head = head.substr(0, grid_head_bytes);
+  const auto place = head.find(key);
   if (place == std::string_view::npos) return {};
   constexpr std::size_t longest_number = 9;  // bytes of CBOR; more would let the reader nest
   const auto value = head.substr(place + key.size(), longest_number);
   const json number = json::from_cbor(value.begin(), value.end(), false, false);
-  return number.is_number() ? std::optional(number.get<double>()) : std::nullopt;
+  if (!number.is_number()) return {};
+  return GridHead{number.get<double>(), head.find(section_key) != head.npos ? Section::square : Section::tube};
 }
 
 GridContent grid_from_bytes(std::string_view bytes, const std::string& name) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "case/case_keys.h"
 #include "case/scales.h"
@@ -39,22 +40,34 @@ double bending_kBT(double ratio, double radius_um, double stiffness_kPa) {
   return ratio * stiffness * radius * radius * radius / thermal_energy_J;
 }
 
+std::pair<double, double> first_and_last_radius_um(const TableSpec& spec) {
+  const double R = unit_length_um(spec.base);
+  return {std::max(std::sqrt(least_share_of_sphere * spec.least_area_um2 / std::numbers::pi), least_radius_ratio * R),
+          std::min(std::sqrt(spec.greatest_area_um2 / std::numbers::pi), greatest_radius_ratio * R)};
+}
+
 }  // namespace
 
 std::vector<double> sweep_radii_um(const TableSpec& spec) {
-  const double R = tube_radius_um(spec.base);
-  const double first =
-      std::max(std::sqrt(least_share_of_sphere * spec.least_area_um2 / std::numbers::pi), least_radius_ratio * R);
-  const double last = std::min(std::sqrt(spec.greatest_area_um2 / std::numbers::pi), greatest_radius_ratio * R);
+  const auto [first, last] = first_and_last_radius_um(spec);
   std::vector<double> radii;
   for (int i = 0; i < spec.radii; ++i) radii.push_back(first + (last - first) * i / (spec.radii - 1));
   radii.back() = last;
   return radii;
 }
 
+std::vector<double> computed_radii_um(const TableSpec& spec) {
+  const auto [first, last] = first_and_last_radius_um(spec);
+  const int count = spec.computed_radii.value();
+  std::vector<double> radii;
+  for (int i = 0; i < count; ++i)
+    radii.push_back((first + last) / 2 - (last - first) / 2 * std::cos(std::numbers::pi * i / (count - 1)));
+  return radii;
+}
+
 std::vector<BranchPlace> sweep_places(const TableSpec& spec) {
   std::vector<BranchPlace> places;
-  const auto radii = sweep_radii_um(spec);
+  const auto radii = spec.is_square() ? computed_radii_um(spec) : sweep_radii_um(spec);
   const auto add = [&](double share, double ratio) {
     for (const double radius : radii) places.push_back({radius, share, ratio});
   };

@@ -18,6 +18,7 @@
 #include "numeric/fingerprint.h"
 #include "store/build_info.h"
 #include "store/whole_file.h"
+#include "table/square_branches.h"
 
 namespace rheocyte {
 
@@ -197,6 +198,24 @@ std::vector<SampledBranch> TableFolder::read_all() const {
     if (wants_held()) all.push_back(branch(i, true));
   }
   return all;
+}
+
+bool TableFolder::lacks_tube() const {
+  std::error_code error;
+  return spec_.tube_table && !fs::exists(folder_ / tube_table_file, error);
+}
+
+std::optional<GridContent> TableFolder::tube() const {
+  if (!spec_.tube_table) return {};
+  const fs::path file = folder_ / tube_table_file;
+  return grid_from_bytes(content_of(file), file.string());
+}
+
+std::vector<SampledBranch> TableFolder::all_branches() const {
+  auto branches = read_all();
+  if (!spec_.is_square()) return branches;
+  const auto tube_table = tube();
+  return square_branches(spec_, branches, tube_table ? &*tube_table : nullptr);
 }
 
 void TableFolder::tidy() const {

@@ -3,17 +3,21 @@
 #pragma once
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "store/claim.h"
 #include "table/radius_plan.h"
+#include "table/stiffness_grid.h"
 #include "table/table_spec.h"
 
 namespace rheocyte {
 
 class TableFolder {
  public:
+  static constexpr const char* tube_table_file = "tube-table.cbor";
+
   /// Makes the folder, or goes on in one that was begun with the same spec by a program that wants the same records;
   /// several processes may come at once. UserError if it belongs to another one, holds other files, or cannot be
   /// written.
@@ -50,6 +54,12 @@ class TableFolder {
   std::vector<SampledBranch> read_all() const;
   /// Removes what claims and interrupted writes have left.
   void tidy() const;
+  /// Where the spec names the tube's table: its grid's file is kept in the folder, so that the table can be finished
+  /// and read without it. UserError if a file that is there is damaged.
+  bool lacks_tube() const;
+  std::optional<GridContent> tube() const;
+  /// All branches of the table itself: those of read_all, in a square channel dense ones between them.
+  std::vector<SampledBranch> all_branches() const;
   /// A finished file beside the spec, whole or not at all.
   void publish(const std::string& name, std::string_view content) const;
 

@@ -12,7 +12,7 @@ Key<TableSpec> key(KeyDescription description) {
 }
 
 using Spec = TableSpec;
-constexpr Condition combined{"table.cortex_share", ""};
+constexpr Condition combined{"table.cortex_share", ""}, square{"channel.section", "square"};
 
 const std::array table = {
     key<&Spec::identifier>({"table.identifier", "", "name of the table: letters, digits and hyphens", Word{}}),
@@ -51,6 +51,14 @@ const std::array table = {
                                           "deformation of the contour itself, with the dent that the hull hides, at "
                                           "which combined branches end",
                                           Number{{1e-7, 1}}, 1.0, combined}),
+    key<&Spec::computed_radii>({"table.computed_radii", "", "branches that are computed; all others lie between them",
+                                Number{{4, 30}, true}, 8.0, square}),
+    key<&Spec::computed_states>(
+        {"table.computed_states", "", "states that are computed on each of them", Number{{4, 20}, true}, 6.0, square}),
+    key<&Spec::tube_table>({"table.tube_table", "",
+                            "table of the tube, by whose ratio states are interpolated: an identifier of those that "
+                            "come with the program, or a file grid_*.cbor",
+                            Word{}, absent, square}),
 };
 
 }  // namespace

@@ -38,16 +38,20 @@ std::string model_text(const Case& c) {
   if (c.cell.bulk.law != BulkLaw::none) solid = fmt::format("{} solid", chosen_option(c, "cell.bulk.law"));
   if (c.cell.cortex.law != CortexLaw::none)
     solid += fmt::format("{}{} shell", solid.empty() ? "" : " with ", chosen_option(c, "cell.cortex.law"));
-  return fmt::format("{} / {} fluid", solid, chosen_option(c, "flow.law"));
+  return fmt::format("{} / {} fluid{}", solid, chosen_option(c, "flow.law"),
+                     c.channel.section == Section::square
+                         ? fmt::format(" / square channel, {} view", chosen_option(c, "channel.camera"))
+                         : "");
 }
 
 ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
   const Case& c = spec.base;
   const ChannelFlow flow = channel_flow_of(c);
+  const bool square = spec.is_square();
   ordered_json metadata{{"authors", "rheocyte"},
                         {"channel_width", flow.width_um},
                         {"channel_width_unit", "um"},
-                        {"dimensionality", "2Daxis"},
+                        {"dimensionality", square ? "3D" : "2Daxis"},
                         {"flow_rate", flow.rate_ul_s},
                         {"flow_rate_unit", "uL/s"},
                         {"fluid_density", c.flow.density_kg_per_m3},
@@ -59,7 +63,7 @@ ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
   metadata["method"] = "stationary FEM, monolithic Newton, high order";
   metadata["model"] = model_text(c);
   metadata["software"] = fmt::format("rheocyte {}", version);
-  metadata["summary"] = fmt::format("2D-axis-symmetric stationary states, {}", model_text(c));
+  metadata["summary"] = fmt::format("{} stationary states, {}", square ? "3D" : "2D-axis-symmetric", model_text(c));
   metadata["stiffness"] = spec.stiffness_key;
   metadata["stiffness_unit"] = stiffness_unit(spec);
   metadata["accuracy"] = spec.accuracy;

@@ -114,8 +114,7 @@ void refuse_swept_keys(const TableSpec& spec, const KeyReading& keys) {
     refuse(key,
            "must not be given, because a table sweeps it; choose table.least_deformation and "
            "table.greatest_deformation");
-  if (spec.base.channel.section != Section::tube)
-    refuse("channel.section", "is not for tables, which are computed in tubes; leave it out");
+  refuse("channel.camera_degree", "is not for tables; choose channel.camera");
   for (const auto key : {drive_key, std::string_view("flow.pressure_drop_Pa")})
     refuse(key, "must not be given, because a table is that of one flow rate; choose flow.rate_ul_per_s");
 }
@@ -147,15 +146,16 @@ void check_order(const TableSpec& spec, const KeyReading& keys) {
 double sphere_area(double radius) { return std::numbers::pi * radius * radius; }
 
 void check_areas(const TableSpec& spec, const KeyReading& keys) {
-  const double R = tube_radius_um(spec.base);
+  const double R = unit_length_um(spec.base);
   const Range possible{sphere_area(least_radius_ratio * R), sphere_area(greatest_radius_ratio * R)};
   for (const auto& [key, area] : {std::pair("table.least_area_um2", spec.least_area_um2),
                                   std::pair("table.greatest_area_um2", spec.greatest_area_um2)})
     if (!possible.contains(area))
-      keys.refuse(
-          key, fmt::format("{} = {:g} um2 is an area that no cell of this channel can have; cells of {} .. {} of "
-                           "the tube radius {:.6g} um have {:.3g} .. {:.4g} um2.",
-                           key, area, least_radius_ratio, greatest_radius_ratio, R, possible.least, possible.greatest));
+      keys.refuse(key,
+                  fmt::format("{} = {:g} um2 is an area that no cell of this channel can have; cells of {} .. {} of "
+                              "the {} {:.6g} um have {:.3g} .. {:.4g} um2.",
+                              key, area, least_radius_ratio, greatest_radius_ratio,
+                              spec.is_square() ? "half width" : "tube radius", R, possible.least, possible.greatest));
 }
 
 void check_bending(const TableSpec& spec, const KeyReading& keys) {
@@ -167,6 +167,22 @@ void check_bending(const TableSpec& spec, const KeyReading& keys) {
                          spec.bending_beyond_kBT, bending_key, own));
 }
 
+void check_square_table(const TableSpec& spec, const KeyReading& keys) {
+  if (!spec.is_square()) return;
+  constexpr std::string_view beyond = "table.bending_beyond_kBT";
+  if (spec.bending_beyond_kBT > 0)
+    keys.refuse(beyond, fmt::format("{} is for tubes; in a square channel branches end where the bare surface does. "
+                                    "Leave it out.",
+                                    keys.stated(beyond)));
+}
+
+void check_section(const Case& c, const KeyReading& keys) {
+  constexpr std::string_view key = "channel.section";
+  if (c.channel.section == Section::rectangle)
+    keys.refuse(
+        key, fmt::format("{} is not for tables, which are those of tubes and of square channels.", keys.stated(key)));
+}
+
 void check_liquid(const Case& c, const KeyReading& keys) {
   if (is_power_law(c.flow.law)) return;
   keys.refuse("flow.law",
@@ -176,7 +192,7 @@ void check_liquid(const Case& c, const KeyReading& keys) {
 
 // Any cell of the sweep, so that the base is a complete case.
 BranchPlace middle_of(const TableSpec& spec) {
-  BranchPlace place{tube_radius_um(spec.base) / 2};
+  BranchPlace place{unit_length_um(spec.base) / 2};
   if (spec.is_combined()) place = {place.radius_um, 0.5, spec.tension_ratios.front()};
   return place;
 }
@@ -190,6 +206,7 @@ TableSpec parse_table_spec(std::string_view text, const std::string& name, std::
   choose_stiffness(spec, keys);
   refuse_swept_keys(spec, keys);
   spec.base = complete_case(keys, swept_keys(spec));
+  check_section(spec.base, keys);
   check_liquid(spec.base, keys);
   keys.fill(spec, table_keys());
   check_identifier(spec.identifier, keys);
@@ -197,6 +214,7 @@ TableSpec parse_table_spec(std::string_view text, const std::string& name, std::
   spec.base = case_at(spec, middle_of(spec), 1);
   check_areas(spec, keys);
   check_bending(spec, keys);
+  check_square_table(spec, keys);
   return spec;
 }
 

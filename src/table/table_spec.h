@@ -36,9 +36,14 @@ struct TableSpec {
   std::vector<double> cortex_shares, tension_ratios;  ///< of combined cells, ascending; else empty
   double bending_ratio = 0;             ///< c_b / (S r0^3) of combined cells; 0: the base's bending stiffness for all
   double greatest_deformation_raw = 1;  ///< of the contour itself, dent included: where branches of combined cells end
+  /// In a square channel: branches and states on each that are computed, between which the others lie, and the tube's
+  /// table by whose ratio they are interpolated, as the user names it; without one the moduli themselves are.
+  std::optional<int> computed_radii, computed_states;
+  std::optional<std::string> tube_table;
 
   bool is_combined() const { return stiffness_key == combined_stiffness; }
   bool sweeps_cortex() const { return stiffness_key == "cell.cortex.modulus_mN_per_m"; }
+  bool is_square() const { return base.channel.section == Section::square; }
 };
 
 /// Reads a spec: the keys of a case and those of the section [table]. UserError as read_case.
@@ -52,6 +57,8 @@ std::string spec_hash(const TableSpec&);
 
 /// The spheres of the sweep, in um, ascending.
 std::vector<double> sweep_radii_um(const TableSpec&);
+/// Those that are computed in a square channel, denser towards both ends (Chebyshev).
+std::vector<double> computed_radii_um(const TableSpec&);
 
 /// All branches of the sweep: radius by radius within each share, share by share within each tension. Cells without a
 /// cortex have no tension: they stand once, with the first one.

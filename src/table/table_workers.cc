@@ -15,6 +15,7 @@
 
 #include "solve/outcome.h"
 #include "table/sample_branch.h"
+#include "table/sample_square_branch.h"
 
 namespace rheocyte {
 
@@ -91,7 +92,8 @@ class Workers {
   void sample(const BranchTask& task) {
     const TableSpec& spec = folder_.spec();
     const SampledBranch branch = task.held ? sample_held_branch(spec, folder_.branch(task.place, false), &stop_)
-                                           : sample_branch(spec, folder_.place(task.place), &stop_);
+                                 : spec.is_square() ? sample_square_branch(spec, folder_.place(task.place), &stop_)
+                                                    : sample_branch(spec, folder_.place(task.place), &stop_);
     if (!is_stopped(branch)) folder_.keep(task.place, branch, task.held);
   }
 

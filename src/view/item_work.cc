@@ -79,7 +79,7 @@ void give_columns(const Json& request, const WorkReply& reply, const TellProgres
 void inspect_events(const Json& request, const WorkReply& reply, const TellProgress& tell) {
   const OpenRecording open(request, tell);
   const ExtractOptions options = options_of_settings(request.at("settings"));
-  const ModulusTables tables(options.table);
+  const ModulusTables tables(options.table, options.section);
   EventInspector inspector({open.recording, open.computed()}, options, tables);
   while (const auto event = reply.next_request()) {
     reply.give(json_text(inspector.inspect(std::stoul(*event))));
@@ -106,7 +106,7 @@ void compute_moduli(const Json& request, const WorkReply& reply) {
   const fs::path file = path_in(request, "file");
   ExtractOptions options = options_of_settings(request.at("settings"));
   options.measuring.gates.events = gate_in(request);
-  const ModulusTables tables(options.table);
+  const ModulusTables tables(options.table, options.section);
   check_against_tables(options, tables);
   const ExtractOutput output{path_in(request, "companion"), path_in(request, "events"), request.value("keep", false)};
   ExtractFiles files(output, !output.events.empty());

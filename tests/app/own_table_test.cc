@@ -227,6 +227,34 @@ TEST_F(OwnTable, AShearThinningMediumGetsTheTableOfItsLiquid) {
   EXPECT_EQ(extract({"--viscosity-mPas", "5"}).err, "") << "of a viscosity alone nothing is known";
 }
 
+TEST_F(OwnTable, TablesOfTheSquareChannelAreThereForWhoAsksForThem) {
+  write_recording("a.rtdc");
+  write_closed_table("table");
+  auto grid = grid_from_bytes(test::content_of(folder_ / "table/grid_CLOSED.cbor"), "grid");
+  fs::create_directories(folder_ / "shipped");
+  const auto extract = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"extract", path("a.rtdc"), "--viscosity-mPas", "5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments, {{"RHEOCYTE_TABLES", path("shipped")}});
+  };
+  const auto ship = [&](const std::string& identifier, Section section) {
+    grid.origin.identifier = identifier;
+    grid.origin.section = section;
+    test::write_file(folder_ / ("shipped/" + grid_file_name(identifier)), to_bytes(grid));
+  };
+  ship("TUBE", Section::tube);
+  EXPECT_NE(extract({"--section", "square"}).err.find("tables of the square channel"), std::string::npos);
+  for (double& value : grid.patches[0].log_stiffness) value += std::log(1.05);
+  ship("SQUARE", Section::square);
+  ASSERT_EQ(extract().exit_code, 0);
+  const double tube = column(folder_ / "a_rheocyte.rtdc", "emodulus")[0];
+  ASSERT_EQ(extract({"--section", "square"}).exit_code, 0);
+  EXPECT_NEAR(column(folder_ / "a_rheocyte.rtdc", "emodulus")[0], 1.05 * tube, 1e-9);
+  EXPECT_NE(test::content_of(folder_ / "rheocyte_summary.tsv").find("\tSQUARE\t"), std::string::npos);
+  EXPECT_EQ(extract({"--section", "square", "--table", "TUBE"}).exit_code, 2) << "a table that is named is used";
+  EXPECT_EQ(extract({"--section", "round"}).exit_code, 2);
+}
+
 TEST_F(OwnTable, EachMediumGetsItsOwnAtEveryTemperature) {
   // Over the temperatures for which the media were measured, 22 to 37 degC; water does not thin.
   write_recording("a.rtdc");

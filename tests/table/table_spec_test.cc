@@ -171,7 +171,7 @@ TEST(TableSpec, EveryReadySpecIsAGoodOne) {
     EXPECT_EQ(to_toml(parse_table_spec(to_toml(spec), "again")), to_toml(spec)) << entry.path();
     ++specs;
   }
-  EXPECT_EQ(specs, 8);
+  EXPECT_EQ(specs, 10);
 }
 
 }  // namespace

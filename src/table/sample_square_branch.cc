@@ -1,0 +1,63 @@
+#include "table/sample_square_branch.h"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "case/scales.h"
+#include "solve/duct_branch.h"
+#include "table/measured_state.h"
+#include "table/square_branches.h"
+
+namespace rheocyte {
+namespace {
+
+/// Shares of sqrt(d) at the last state: the points of Chebyshev's polynomials between the least one and 1.
+std::vector<double> heights(int count) {
+  constexpr double least = 0.05;
+  std::vector<double> all;
+  for (int i = 0; i < count; ++i)
+    all.push_back((1 + least) / 2 - (1 - least) / 2 * std::cos(std::numbers::pi * i / (count - 1)));
+  all.back() = 1;
+  return all;
+}
+
+BranchEnd end_of(Status end) {
+  switch (end) {
+    case Status::converged: return {Status::covered, "The branch leaves the table's ranges."};
+    case Status::surface_unstable: return {end, "the surface loses stability against short wrinkles"};
+    case Status::stopped: return {end, "stopped by a signal"};
+    default: return {end, std::string("the branch was lost: ") + name(end)};
+  }
+}
+
+}  // namespace
+
+SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop) {
+  const auto start = std::chrono::steady_clock::now();
+  // Any stiffness: that of the liquid's stress makes the first states of the branch stiffer by a factor of 10 to 100.
+  const Scales scales = scales_of(case_at(spec, place, 1));
+  const double stiffness_kPa = 1e-3 * scales.stress_Pa;
+  const Problem problem = problem_of(case_at(spec, place, stiffness_kPa));
+  const auto found = follow_in_duct(problem, spec.greatest_deformation, heights(spec.computed_states.value()), stop);
+
+  SampledBranch branch;
+  branch.radius_um = place.radius_um;
+  branch.end = end_of(stop && *stop ? Status::stopped : found.end);
+  branch.value.resize(std::ssize(found.states), measure_count);
+  for (const StationaryState& state : found.states) {
+    MeasuredState measured = measure_state(state, scales);
+    branch.value.row(branch.samples()) = measured.value.transpose();
+    branch.stiffness.push_back(stiffness_kPa / state.outcome.reached);
+    branch.contour.push_back(std::move(measured.contour));
+    branch.error.push_back(state.estimated_error);
+    branch.newton_iterations += state.statistics.newton_iterations;
+    branch.factorisation_seconds += state.statistics.factorisation_s;
+  }
+  branch.solves = branch.samples();
+  set_slopes(branch);
+  branch.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return branch;
+}
+
+}  // namespace rheocyte

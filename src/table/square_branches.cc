@@ -1,0 +1,308 @@
+#include "table/square_branches.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "case/channel_flow.h"
+#include "case/user_error.h"
+#include "numeric/lagrange.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr std::size_t fewest_radii = 4;
+/// Samples of a branch in equal ratios of sqrt(d); cubics between them are good to 1e-6.
+constexpr int dense_samples = 48;
+/// Of the miss of polynomials that leave a node out: between nodes that they have, they miss a tenth.
+constexpr double share_of_miss = 0.1;
+constexpr double greatest_exponent_difference = 0.01;
+
+double sqrt_deformation(const SampledBranch& branch, int sample) {
+  return std::sqrt(branch.at(sample, Measure::deformation));
+}
+
+/// A measure as q in value = base + s^power q with s = sqrt(d): q is smooth and has no zero at s = 0.
+struct Scaling {
+  double base = 0;
+  int power = 0;
+};
+
+Scaling scaling_of(int measure) {
+  const std::string_view name = table_measures[std::size_t(measure)].name;
+  if (name.starts_with("deformation")) return {0, 2};
+  if (name.starts_with("moment_ratio") || name == "inertia_ratio") return {1, 2};
+  if (name.starts_with("mode_")) return {0, (name[5] - '0') % 2 == 0 ? 2 : 1};
+  return {};
+}
+
+/// ln(E) as a function of ln(area) and ln(d) that takes most of its changes away: the tube's table, continued in
+/// straight lines beyond its rims, or -ln(d) / 2.
+class Reference {
+ public:
+  Reference(const TableSpec& spec, const GridContent* tube) {
+    if (!tube) return;
+    const ChannelFlow flow = channel_flow_of(spec.base);
+    if (std::abs(flow.exponent - tube->origin.flow.exponent) > greatest_exponent_difference ||
+        tube->origin.section != Section::tube || tube->origin.is_shell)
+      throw UserError(
+          fmt::format("table.tube_table = {}: is no table of solids in the tube in a liquid of exponent {:.4g}, "
+                      "as the spec is for; name another one, or leave it out.",
+                      tube->origin.identifier, flow.exponent));
+    const ScaleFactors factors = scale_factors(tube->origin.flow, flow);
+    log_area_factor_ = std::log(factors.area);
+    log_modulus_factor_ = std::log(factors.modulus);
+    grid_.emplace(*tube);
+  }
+
+  struct Value {
+    double log_stiffness, by_log_area, by_log_deformation;
+  };
+  Value operator()(double log_area, double log_deformation) const {
+    if (!grid_) return {-log_deformation / 2, 0, -0.5};
+    constexpr double rim = 1e-6;
+    const GridContent& content = grid_->content();
+    const double first = content.least_log_area, last = first + content.column_step * (content.columns - 1);
+    const double x = std::clamp(log_area - log_area_factor_, first + rim, last - rim);
+    const auto range = *grid_->smooth_range(std::exp(x));
+    const double y = std::clamp(log_deformation, range.lower + rim, range.upper - rim);
+    const GridAnswer at = grid_->answer(std::exp(x), std::exp(y));
+    const double beyond =
+        (log_area - log_area_factor_ - x) * at.by_log_area + (log_deformation - y) * at.by_log_deformation;
+    return {log_modulus_factor_ + at.log_stiffness + beyond, at.by_log_area, at.by_log_deformation};
+  }
+
+ private:
+  std::optional<StiffnessGrid> grid_;
+  double log_area_factor_ = 0, log_modulus_factor_ = 0;
+};
+
+/// The polynomials along one computed branch over t in (0, 1].
+class Curve {
+ public:
+  Curve(const SampledBranch& branch, const Reference& reference) : branch_(&branch) {
+    const int samples = branch.samples();
+    last_ = sqrt_deformation(branch, samples - 1);
+    for (int k = 0; k < samples; ++k) t_.push_back(sqrt_deformation(branch, k) / last_);
+    numbers_.resize(samples, measure_count + 1);
+    for (int k = 0; k < samples; ++k) {
+      const double s = t_[std::size_t(k)] * last_;
+      for (int m = 0; m < measure_count; ++m) {
+        const Scaling scaling = scaling_of(m);
+        numbers_(k, m) = (branch.value(k, m) - scaling.base) / std::pow(s, scaling.power);
+      }
+      const double log_area = std::log(branch.at(k, Measure::area_um2));
+      numbers_(k, measure_count) =
+          std::log(branch.stiffness[std::size_t(k)]) - reference(log_area, 2 * std::log(s)).log_stiffness;
+    }
+  }
+
+  const SampledBranch& branch() const { return *branch_; }
+  double last() const { return last_; }
+  const std::vector<double>& t() const { return t_; }
+
+  /// Measures as `Scaling` has them, and ln(E) less that of the reference.
+  Eigen::VectorXd numbers(const std::vector<double>& weights) const {
+    return numbers_.transpose() * Eigen::Map<const Eigen::VectorXd>(weights.data(), std::ssize(weights));
+  }
+  Eigen::MatrixX2d contour(const std::vector<double>& weights) const {
+    Eigen::MatrixX2d sum = weights[0] * branch_->contour[0];
+    for (std::size_t k = 1; k < weights.size(); ++k) sum += weights[k] * branch_->contour[k];
+    return sum;
+  }
+  double log_ratio(int sample) const { return numbers_(sample, measure_count); }
+  /// ln(E) over the reference at a sample by the others.
+  double log_ratio_without(int sample) const {
+    std::vector<double> nodes, values;
+    for (int k = 0; k < branch_->samples(); ++k) {
+      if (k == sample) continue;
+      nodes.push_back(t_[std::size_t(k)]);
+      values.push_back(log_ratio(k));
+    }
+    const auto weights = lagrange_weights(nodes, t_[std::size_t(sample)]).value;
+    double sum = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] * values[k];
+    return sum;
+  }
+
+ private:
+  const SampledBranch* branch_;
+  double last_ = 0;
+  std::vector<double> t_;
+  Eigen::MatrixXd numbers_;  ///< samples x (measures, ln of the ratio)
+};
+
+/// One state between the computed ones.
+struct DenseState {
+  double stiffness = 0;
+  Eigen::VectorXd value, slope;
+  Eigen::MatrixX2d contour, contour_slope;
+};
+
+class Surface {
+ public:
+  Surface(const TableSpec& spec, std::span<const SampledBranch> computed, const GridContent* tube)
+      : reference_(spec, tube) {
+    for (const auto& branch : computed)
+      if (branch.samples() > 2) curves_.emplace_back(branch, reference_);
+    if (curves_.size() < fewest_radii)
+      throw UserError(
+          fmt::format("only {} of {} computed branches have states; a table needs {}. Choose smaller cells or "
+                      "a lower table.greatest_deformation.",
+                      curves_.size(), computed.size(), fewest_radii));
+  }
+
+  const std::vector<Curve>& curves() const { return curves_; }
+
+  /// sqrt(d) where the branch of a radius ends.
+  double last(double radius_um) const {
+    const auto weights = across(radius_um);
+    double sum = 0;
+    for (std::size_t i = 0; i < curves_.size(); ++i) sum += weights[i] * curves_[i].last();
+    return sum;
+  }
+
+  DenseState at(double radius_um, double t) const {
+    const auto weights = across(radius_um);
+    Eigen::VectorXd q = Eigen::VectorXd::Zero(measure_count + 1), by_t = q;
+    const Eigen::Index points = curves_.front().branch().contour.front().rows();
+    DenseState state;
+    state.contour = state.contour_slope = Eigen::MatrixX2d::Zero(points, 2);
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+      const auto along = lagrange_weights(curves_[i].t(), t);
+      q += weights[i] * curves_[i].numbers(along.value);
+      by_t += weights[i] * curves_[i].numbers(along.slope);
+      state.contour += weights[i] * curves_[i].contour(along.value);
+      state.contour_slope += weights[i] * curves_[i].contour(along.slope);
+    }
+    finish(last(radius_um) * t, t, q, by_t, state);
+    return state;
+  }
+
+  /// ln(E) over the reference at a share of a branch by the branches of all other radii.
+  double log_ratio_without(std::size_t left_out, double t) const {
+    std::vector<double> radii, values;
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+      if (i == left_out) continue;
+      radii.push_back(curves_[i].branch().radius_um);
+      values.push_back(curves_[i].numbers(lagrange_weights(curves_[i].t(), t).value)(measure_count));
+    }
+    const auto weights = lagrange_weights(radii, curves_[left_out].branch().radius_um).value;
+    double sum = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) sum += weights[i] * values[i];
+    return sum;
+  }
+
+ private:
+  std::vector<double> across(double radius_um) const {
+    std::vector<double> radii;
+    for (const Curve& curve : curves_) radii.push_back(curve.branch().radius_um);
+    return lagrange_weights(radii, radius_um).value;
+  }
+
+  /// From scaled numbers and their derivatives with t to values and derivatives with ln(E).
+  void finish(double s, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& by_t, DenseState& state) const {
+    state.value.resize(measure_count);
+    state.slope.resize(measure_count);
+    for (int m = 0; m < measure_count; ++m) {
+      const auto [base, power] = scaling_of(m);
+      const double factor = std::pow(s, power);
+      state.value(m) = base + factor * q(m);
+      state.slope(m) = factor * (power / t * q(m) + by_t(m));
+    }
+    const auto area = int(Measure::area_um2);
+    const auto reference = reference_(std::log(state.value(area)), 2 * std::log(s));
+    state.stiffness = std::exp(reference.log_stiffness + q(measure_count));
+    const double by_log_stiffness =
+        1 / (by_t(measure_count) + reference.by_log_area * state.slope(area) / state.value(area) +
+             reference.by_log_deformation * 2 / t);
+    state.slope *= by_log_stiffness;
+    state.contour_slope *= by_log_stiffness;
+  }
+
+  Reference reference_;
+  std::vector<Curve> curves_;
+};
+
+LeftOut left_out(const Surface& surface) {
+  LeftOut miss;
+  const auto& curves = surface.curves();
+  for (std::size_t i = 1; i + 1 < curves.size(); ++i)
+    for (int k = 0; k < curves[i].branch().samples(); ++k)
+      miss.radius = std::max(
+          miss.radius, std::abs(surface.log_ratio_without(i, curves[i].t()[std::size_t(k)]) - curves[i].log_ratio(k)));
+  for (const Curve& curve : curves)
+    for (int k = 1; k + 1 < curve.branch().samples(); ++k)
+      miss.state = std::max(miss.state, std::abs(curve.log_ratio_without(k) - curve.log_ratio(k)));
+  return miss;
+}
+
+const SampledBranch& nearest(const std::vector<Curve>& curves, double radius_um) {
+  return std::ranges::min_element(curves, {},
+                                  [&](const Curve& curve) { return std::abs(curve.branch().radius_um - radius_um); })
+      ->branch();
+}
+
+SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double radius_um, double miss) {
+  const SampledBranch& near = nearest(surface.curves(), radius_um);
+  SampledBranch branch;
+  branch.radius_um = radius_um;
+  branch.end = near.end;
+  branch.value.resize(dense_samples, measure_count);
+  branch.slope.resize(dense_samples, measure_count);
+  const double first = 0.98 * std::sqrt(spec.least_deformation) / surface.last(radius_um);
+  const double worst = *std::ranges::max_element(near.error);
+  for (int k = 0; k < dense_samples; ++k) {
+    DenseState state = surface.at(radius_um, std::pow(first, 1 - double(k) / (dense_samples - 1)));
+    branch.value.row(k) = state.value.transpose();
+    branch.slope.row(k) = state.slope.transpose();
+    branch.stiffness.push_back(state.stiffness);
+    branch.contour.push_back(std::move(state.contour));
+    branch.contour_slope.push_back(std::move(state.contour_slope));
+    const double response = std::abs(branch.slope(k, 0) / branch.value(k, 0));  // d ln(d) / d ln(E)
+    branch.error.push_back(worst + miss * response);
+  }
+  return branch;
+}
+
+}  // namespace
+
+void set_slopes(SampledBranch& branch) {
+  const int n = branch.samples();
+  branch.slope = Eigen::MatrixXd::Zero(n, measure_count);
+  branch.contour_slope.assign(std::size_t(n), {});
+  std::vector<double> s;
+  for (int k = 0; k < n; ++k) s.push_back(sqrt_deformation(branch, k));
+  for (int k = 0; k < n; ++k) {
+    const auto weights = lagrange_weights(s, s[std::size_t(k)]).slope;
+    double of_log_stiffness = -1 / s[std::size_t(k)];  // E sqrt(d) is nearly constant
+    auto& contour = branch.contour_slope[std::size_t(k)] = Eigen::MatrixX2d::Zero(branch.contour.front().rows(), 2);
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      of_log_stiffness += weights[j] * std::log(branch.stiffness[j] * s[j]);
+      branch.slope.row(k) += weights[j] * branch.value.row(Eigen::Index(j));
+      contour += weights[j] * branch.contour[j];
+    }
+    branch.slope.row(k) /= of_log_stiffness;
+    contour /= of_log_stiffness;
+  }
+}
+
+std::vector<SampledBranch> square_branches(const TableSpec& spec, std::span<const SampledBranch> computed,
+                                           const GridContent* tube) {
+  const Surface surface(spec, computed, tube);
+  const LeftOut miss = left_out(surface);
+  std::vector<SampledBranch> branches;
+  for (const double radius : sweep_radii_um(spec))
+    branches.push_back(dense_branch(spec, surface, radius, share_of_miss * std::max(miss.radius, miss.state)));
+  return branches;
+}
+
+LeftOut left_out(const TableSpec& spec, std::span<const SampledBranch> computed, const GridContent* tube) {
+  return left_out(Surface(spec, computed, tube));
+}
+
+}  // namespace rheocyte
