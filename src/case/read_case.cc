@@ -113,11 +113,10 @@ void check_duct(const Case& c, const KeyReading& keys) {
     refuse("channel.section", "needs channel.width_um, not a radius or a profile");
   if (c.time.scheme != TimeScheme::stationary)
     refuse("channel.section", "is for stationary shapes; leave [time] out, or take the tube");
-  if (c.cell.bulk.law == BulkLaw::none || c.cell.cortex.law != CortexLaw::none ||
-      c.cell.cortex.tension_mN_per_m.value_or(0) > 0 || c.cell.cortex.bending_kBT > 0)
+  if (c.cell.bulk.law == BulkLaw::none || c.cell.cortex.bending_kBT > 0)
     refuse("channel.section",
-           "is for an elastic interior without a cortex, tension or bending stiffness; leave them out, or take the "
-           "tube");
+           "is for an elastic interior, with or without a shell and tension, but without bending stiffness; choose "
+           "cell.bulk.law and leave cell.cortex.bending_kBT out, or take the tube");
 }
 
 void check_cell_in_tube(const Case& c, const KeyReading& keys) {

@@ -209,6 +209,16 @@ Eigen::Vector2d stretches(const SurfaceJet& now, const SurfaceJet& rest, const D
   return {stretch, now.area() / rest.area() / stretch};
 }
 
+/// The least first: squares are the eigenvalues of rest^-1 now.
+Eigen::RowVector2d principal_stretches(const SurfaceJet& now, const SurfaceJet& rest) {
+  const double E = rest.s.squaredNorm(), F = rest.s.dot(rest.t), G = rest.t.squaredNorm(), det = E * G - F * F;
+  const double squares = (G * now.s.squaredNorm() - 2 * F * now.s.dot(now.t) + E * now.t.squaredNorm()) / det;
+  const double product = now.area() / rest.area(),
+               gap = std::sqrt(std::max(0.0, squares * squares / 4 - product * product));
+  const double greatest = std::sqrt(squares / 2 + gap);
+  return {product / greatest, greatest};
+}
+
 /// Of the outline in the image, and along the line of sight; both 1/a for a sphere of radius a. The first is Gauss'
 /// curvature over the second (Koenderink 1984).
 Eigen::Vector2d curvatures(const SurfaceJet& now, const DuctPoint& sight) {
@@ -246,7 +256,8 @@ DuctMeridian duct_meridian(const DuctSpace& space, const VectorXd& unknowns, Cam
   const View view = view_of(space, camera);
   const Pieces pieces = silhouette(surface, view, parameters);
   const Eigen::Index all = parameters.size() * Eigen::Index(pieces.size());
-  DuctMeridian meridian{VectorXd(all), Eigen::MatrixX2d(all, 2), Eigen::MatrixX2d(all, 2), Eigen::MatrixX2d(all, 2)};
+  DuctMeridian meridian{VectorXd(all), Eigen::MatrixX2d(all, 2), Eigen::MatrixX2d(all, 2), Eigen::MatrixX2d(all, 2),
+                        Eigen::MatrixX2d(all, 2)};
   Eigen::Index row = 0;
   for (const auto& piece : pieces) {
     for (const SurfacePlace& place : piece) {
@@ -255,6 +266,7 @@ DuctMeridian duct_meridian(const DuctSpace& space, const VectorXd& unknowns, Cam
       meridian.point.row(row) << now.x(0), view.across.dot(now.x);
       meridian.stretch.row(row) = stretches(now, rest, view.sight).transpose();
       meridian.curvature.row(row) = curvatures(now, view.sight).transpose();
+      meridian.principal.row(row) = principal_stretches(now, rest);
       ++row;
     }
   }

@@ -18,6 +18,7 @@ struct DuctMeridian {
   Eigen::MatrixX2d point;  ///< (x, distance to the axis)
   Eigen::MatrixX2d stretch;
   Eigen::MatrixX2d curvature;
+  Eigen::MatrixX2d principal;  ///< stretches, the least first
 };
 DuctMeridian duct_meridian(const DuctSpace&, const VectorXd& unknowns, Camera, const VectorXd& parameters);
 

@@ -49,6 +49,7 @@ DuctSystem::DuctSystem(const DuctSpace& space, double drop)
       drop_(drop),
       element_(space.reference().degree()),
       tangent_(element_, space.reference()),
+      cortex_(space),
       lu_(space.unknowns(), coupled_unknowns(space)),
       outlet_load_(duct_end_load(space, Face::front)),
       inlet_load_(duct_end_load(space, Face::rear)),
@@ -82,18 +83,37 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, Want
       for (int i = 0; i < residual.size(); ++i) {
         if (self.rows[i] >= 0) total(self.rows[i]) += residual(i);
       }
-      if (want == Want::residual) continue;
+      if (want == Want::residual) {
+        add_cortex(e, media.cortex, unknowns, want, total);
+        continue;
+      }
       const std::vector<int>& order = lu_.order(e);
       for (int i = 0; i < int(order.size()); ++i) place_[order[i]] = i;
       matrix_.setZero(Eigen::Index(order.size()), Eigen::Index(order.size()));
       tangent_.add(self, media.liquid.reynolds != 0, points_, place_, matrix_);
       turning_.add_tangent(e, unknowns, place_, matrix_);
+      add_cortex(e, media.cortex, unknowns, want, total);
     }
     const Stopwatch watch(work_.condensation_s);
     lu_.condense(e, matrix_);
   }
   turning_.add_residual(unknowns, total);
   return total;
+}
+
+void DuctSystem::add_cortex(int element, const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& total) {
+  const int face = cortex_.face_of(element);
+  if (face < 0 || (cortex.law == CortexLaw::none && cortex.tension == 0)) return;
+  cortex_.integrate(face, cortex, unknowns, want, face_);
+  const std::vector<int> rows = cortex_.unknowns_of(face);
+  for (int j = 0; j < int(rows.size()); ++j) {
+    if (rows[j] < 0) continue;
+    total(rows[j]) += face_.residual(j);
+    if (want == Want::residual) continue;
+    for (int i = 0; i < int(rows.size()); ++i) {
+      if (rows[i] >= 0) matrix_(place_[rows[i]], place_[rows[j]]) += face_.tangent(i, j);
+    }
+  }
 }
 
 VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, double& least_det) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "duct/duct_cortex.h"
 #include "duct/duct_integrals.h"
 #include "duct/turning_surface.h"
 #include "fem/nested_lu.h"
@@ -14,7 +15,7 @@ namespace rheocyte {
 class DuctSystem final : public NonlinearSystem {
  public:
   /// The space must outlive this object. Where the pressure drop is given, it is `drop` times that of the undisturbed
-  /// flow at mean speed 1. Media with a cortex are not for this system.
+  /// flow at mean speed 1. Bending stiffness is not for this system.
   explicit DuctSystem(const DuctSpace&, double drop = 1);
 
   const DuctSpace& space() const { return space_; }
@@ -38,16 +39,20 @@ class DuctSystem final : public NonlinearSystem {
 
  private:
   VectorXd assemble(const Media&, const VectorXd& unknowns, Want, double& least_det);
+  /// Of the face that an element shares with the cell.
+  void add_cortex(int element, const Cortex&, const VectorXd& unknowns, Want, VectorXd& total);
 
   const DuctSpace& space_;
   double drop_;
   TensorElement element_;
   HexahedronTangent tangent_;
+  DuctCortex cortex_;
   NestedLU lu_;
   VectorXd outlet_load_, inlet_load_;
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
   TurningSurface turning_;
   HexahedronPoints points_;
+  FaceSystem face_;
   MatrixXd matrix_;
   std::vector<int> place_;  ///< of each unknown in the matrix of an element
 };

@@ -18,23 +18,30 @@ struct Cortex {
   double bending = 0;  ///< stiffness c_b / (S R^3)
 };
 
-/// Elastic energy of the shell per CURRENT area, zero at rest. Poisson's ratio 1/2, K = 4/3 E2D.
-/// linear: the energy whose tensions are eq. 19 of Mokbel et al. 2017 (there is one for this Poisson's ratio alone);
-/// thin_shell, neo_hookean: their eqs. 8a and 8b; neo_hookean_reference: the membrane law, energy per reference area.
+/// Elastic energy of the shell per CURRENT area, zero at rest, of two invariants: the sum of the principal stretches
+/// and their product, the stretch of the area. Poisson's ratio 1/2, K = 4/3 E2D. linear: the energy whose tensions are
+/// eq. 19 of Mokbel et al. 2017 (there is one for this Poisson's ratio alone); thin_shell, neo_hookean: their eqs. 8a
+/// and 8b; neo_hookean_reference: the membrane law, energy per reference area.
 template <class T>
-T shell_energy(const Cortex& cortex, const T& l1, const T& l2) {
+T shell_energy_of(const Cortex& cortex, const T& sum, const T& area) {
   const double E2D = cortex.modulus, K = 4.0 / 3 * E2D;
-  const T e1 = l1 - constant<T>(1), e2 = l2 - constant<T>(1), area = l1 * l2;
+  const T e = sum - constant<T>(2);                     // e1 + e2
+  const T squares = sum * sum - constant<T>(2) * area;  // l1^2 + l2^2
+  const T incompressible = squares + constant<T>(1) / (area * area) - constant<T>(3);
   switch (cortex.law) {
     case CortexLaw::none: return constant<T>(0);
-    case CortexLaw::linear: return constant<T>(K / 2) * (e1 + e2 - constant<T>(1) + constant<T>(1) / area);
-    case CortexLaw::thin_shell: return constant<T>(K / 2) * (e1 * e1 + e2 * e2 + e1 * e2);
-    case CortexLaw::neo_hookean:
-      return constant<T>(E2D / 6) * (l1 * l1 + l2 * l2 + constant<T>(1) / (area * area) - constant<T>(3));
-    case CortexLaw::neo_hookean_reference:
-      return constant<T>(E2D / 6) * (l1 * l1 + l2 * l2 + constant<T>(1) / (area * area) - constant<T>(3)) / area;
+    case CortexLaw::linear: return constant<T>(K / 2) * (e - constant<T>(1) + constant<T>(1) / area);
+    case CortexLaw::thin_shell: return constant<T>(K / 2) * (e * e - (area - sum + constant<T>(1)));
+    case CortexLaw::neo_hookean: return constant<T>(E2D / 6) * incompressible;
+    case CortexLaw::neo_hookean_reference: return constant<T>(E2D / 6) * incompressible / area;
   }
   return constant<T>(0);
+}
+
+/// The same of the principal stretches.
+template <class T>
+T shell_energy(const Cortex& cortex, const T& l1, const T& l2) {
+  return shell_energy_of(cortex, T(l1 + l2), T(l1 * l2));
 }
 
 /// Bending energy per current area of the total curvature kappa (twice the mean curvature): c_b/8 kappa^2.

@@ -1,12 +1,16 @@
 #include "solve/describe_duct.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "duct/duct_ends.h"
 #include "duct/sample_duct_fields.h"
 #include "duct/write_duct_fields.h"
-#include "fem/observe.h"
+#include "laws/surface_form.h"
+#include "solve/surface_stability.h"
 
 namespace rheocyte {
 namespace {
@@ -23,22 +27,48 @@ void shift(double by, Contour& contour) {
   for (CurvePiece& piece : contour.pieces) piece.col(0).array() += by;
 }
 
-/// The surface along a silhouette; without a cortex there is no tension.
-SurfaceProfile profile(const DuctSpace& space, const VectorXd& unknowns, Camera camera, double barycentre) {
+/// Tensions along and across a silhouette, whose stretches are given, from the principal ones.
+std::array<double, 2> tensions(const Cortex& cortex, double along, const Eigen::RowVector2d& principal) {
+  const auto [T1, T2] = principal_tensions<double>(cortex, principal(0), principal(1));
+  const auto inverse_square = [](double stretch) { return 1 / (stretch * stretch); };
+  const double whole = inverse_square(principal(0)) - inverse_square(principal(1));
+  // Squared cosine of the angle between the silhouette and the first principal direction.
+  const double share =
+      whole == 0 ? 1 : std::clamp((inverse_square(along) - inverse_square(principal(1))) / whole, 0.0, 1.0);
+  return {share * T1 + (1 - share) * T2, share * T2 + (1 - share) * T1};
+}
+
+/// The surface along a silhouette.
+SurfaceProfile profile(const DuctSpace& space, const VectorXd& unknowns, const Cortex& cortex, Camera camera,
+                       double barycentre) {
   const DuctMeridian meridian =
       duct_meridian(space, unknowns, camera, VectorXd::LinSpaced(SurfaceProfile::points_per_piece, 0, 1));
   SurfaceProfile profile{meridian.rest_angle, meridian.point, meridian.stretch,
                          Eigen::MatrixX2d::Zero(meridian.point.rows(), 2), meridian.curvature};
+  for (Eigen::Index i = 0; i < profile.tension.rows(); ++i) {
+    const auto [along, across] = tensions(cortex, meridian.stretch(i, 0), meridian.principal.row(i));
+    profile.tension.row(i) << along, across;
+  }
   profile.point.col(0).array() -= barycentre;
   return profile;
 }
 
-/// Of principal stretches, the least first. Incompressible: the normal stretch is 1 / (least greatest).
-double biot_ratio(const Eigen::MatrixX2d& stretch) {
-  return (stretch.col(0).array().square() * stretch.col(1).array()).minCoeff();
-}
+/// What decides of the surface's stability.
+struct SurfaceExtremes {
+  double least_stretch, biot_ratio, least_tension;
+};
 
-double margin_of(double ratio) { return (ratio - biot_limit) / (1 - biot_limit); }
+SurfaceExtremes surface_extremes(const Cortex& cortex, const DuctSpace& space, const VectorXd& unknowns) {
+  const Eigen::MatrixX2d stretch = duct_principal_stretches(space, unknowns);
+  double least_tension = std::numeric_limits<double>::infinity();
+  for (const auto& row : stretch.rowwise()) {
+    const auto [T1, T2] = principal_tensions<double>(cortex, row(0), row(1));
+    least_tension = std::min({least_tension, T1, T2});
+  }
+  // Incompressible: the normal stretch is 1 / (least greatest).
+  return {stretch.col(0).minCoeff(), (stretch.col(0).array().square() * stretch.col(1).array()).minCoeff(),
+          least_tension};
+}
 
 void read_flow(const Media& media, DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
   const DuctGeometry& geometry = discrete.space.mesh().geometry();
@@ -64,8 +94,9 @@ double duct_deformation(const DuctSpace& space, const VectorXd& unknowns, Camera
   return measure(duct_contour(space, unknowns, camera)).deformation;
 }
 
-double duct_stability_margin(const DuctSpace& space, const VectorXd& unknowns) {
-  return margin_of(biot_ratio(duct_principal_stretches(space, unknowns)));
+double duct_stability_margin(const Problem& problem, const DuctSpace& space, const VectorXd& unknowns) {
+  const SurfaceExtremes surface = surface_extremes(problem.cortex, space, unknowns);
+  return stability_margin(problem, surface.biot_ratio, surface.least_tension);
 }
 
 void describe_duct(const Problem& problem, const Media& media, const std::shared_ptr<DuctDiscrete>& discrete,
@@ -73,8 +104,8 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
   const DuctSpace& space = discrete->space;
   const CellVolume volume = cell_volume(space, discrete->system.element(), unknowns);
   for (const auto& [name, camera] : views_of(problem.section))
-    r.views.push_back({name, profile(space, unknowns, camera, volume.barycentre)});
-  r.surface = profile(space, unknowns, problem.camera, volume.barycentre);
+    r.views.push_back({name, profile(space, unknowns, media.cortex, camera, volume.barycentre)});
+  r.surface = profile(space, unknowns, media.cortex, problem.camera, volume.barycentre);
   const auto contour_at = [&](Camera camera) {
     Contour contour = duct_contour(space, unknowns, camera);
     shift(-volume.barycentre, contour);
@@ -90,11 +121,11 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
   const double a = space.mesh().geometry().radius();
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
   read_flow(media, *discrete, unknowns, r);
-  const Eigen::MatrixX2d stretch = duct_principal_stretches(space, unknowns);
-  r.least_meridional_stretch = stretch.col(0).minCoeff();
-  r.biot_ratio = biot_ratio(stretch);
-  r.stability_margin = margin_of(r.biot_ratio);
-  r.least_tension = 0;
+  const SurfaceExtremes surface = surface_extremes(media.cortex, space, unknowns);
+  r.least_meridional_stretch = surface.least_stretch;
+  r.biot_ratio = surface.biot_ratio;
+  r.stability_margin = duct_stability_margin(problem, space, unknowns);
+  r.least_tension = surface.least_tension;
   r.statistics.unknowns = space.unknowns();
   r.statistics.elements = int(space.elements().size());
   r.statistics.degree = space.reference().degree();

@@ -28,9 +28,9 @@ struct DuctDiscrete {
 /// Deformation of the silhouette that the camera sees.
 double duct_deformation(const DuctSpace&, const VectorXd& unknowns, Camera);
 
-/// Distance of the surface from short wrinkles, 1 for the sphere, 0 at Biot's limit for waves along the direction of
-/// the least stretch (docs/theory-square.md, eq:square-biot).
-double duct_stability_margin(const DuctSpace&, const VectorXd& unknowns);
+/// Distance of the surface from short wrinkles, as in the tube, by the least principal stretch and tension anywhere
+/// (docs/theory-square.md, eq:square-biot).
+double duct_stability_margin(const Problem&, const DuctSpace&, const VectorXd& unknowns);
 
 /// Fills in contours, surface, numbers, sizes and the writer of fields; outcome, errors and counts of work are left
 /// alone.

@@ -59,7 +59,7 @@ class DuctBranchFollower {
     options.least_step = least_step;
     options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
       const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
-      if (duct_stability_margin(space, state.unknowns) < 0) return false;
+      if (duct_stability_margin(problem_, space, state.unknowns) < 0) return false;
       const double d = duct_deformation(space, state.unknowns, problem_.camera);
       if (d > 1.3 * greatest_) return false;  // rather a nearer one
       is_covered_ = d > greatest_;
@@ -77,7 +77,7 @@ class DuctBranchFollower {
 
   Status reason(const DuctState& state) const {
     if (state.status == Status::stopped) return state.status;
-    if (duct_stability_margin(state.discrete->space, way_.back().unknowns) < small_margin)
+    if (duct_stability_margin(problem_, state.discrete->space, way_.back().unknowns) < small_margin)
       return Status::surface_unstable;
     return state.status == Status::iteration_limit ? Status::branch_ended : state.status;
   }
@@ -91,7 +91,7 @@ class DuctBranchFollower {
     if (state.status == Status::converged) result.outcome.status = solver_.climb(state);
     const bool has_state =
         result.outcome.status == Status::converged || result.outcome.status == Status::accuracy_not_reached;
-    if (!has_state || duct_stability_margin(state.discrete->space, state.branch.unknowns) < 0) return {};
+    if (!has_state || duct_stability_margin(problem_, state.discrete->space, state.branch.unknowns) < 0) return {};
     describe_duct(problem_, media_at(problem_, guess.compliance), state.discrete, state.branch.unknowns, result);
     result.write_fields = {};
     result.outcome.reached = guess.compliance;

@@ -62,7 +62,7 @@ ContinuationOptions DuctSolver::options(bool last) {
   options.least_step = last ? least_step_at_last : least_step_before_refining;
   options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
     const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
-    if (duct_stability_margin(space, state.unknowns) < 0) return false;
+    if (duct_stability_margin(problem_, space, state.unknowns) < 0) return false;
     report(state, duct_deformation(space, state.unknowns, problem_.camera), space.reference().degree());
     return true;
   };

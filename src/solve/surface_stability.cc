@@ -15,14 +15,18 @@ constexpr double shortest_wave = 0.05;
 }  // namespace
 
 double stability_margin(const Problem& problem, const SurfaceState& surface) {
+  return stability_margin(problem, least_biot_ratio(surface),
+                          surface_tensions(problem.cortex, surface).col(0).minCoeff());
+}
+
+double stability_margin(const Problem& problem, double biot_ratio, double least_tension) {
   switch (surface_kind(problem)) {
-    case SurfaceKind::bare: return (least_biot_ratio(surface) - biot_limit) / (1 - biot_limit);
+    case SurfaceKind::bare: return (biot_ratio - biot_limit) / (1 - biot_limit);
     case SurfaceKind::membrane: {
       const Cortex& cortex = problem.cortex;
       const double support = problem.bulk.shear_modulus * shortest_wave * problem.radius_ratio / std::numbers::pi;
-      const double least = surface_tensions(cortex, surface).col(0).minCoeff();
       // Tensions of the order of the modulus are as far as 1 from the limit.
-      return (least + support) / (cortex.modulus + cortex.tension + support);
+      return (least_tension + support) / (cortex.modulus + cortex.tension + support);
     }
     case SurfaceKind::held: return 1;
   }

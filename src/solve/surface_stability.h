@@ -10,6 +10,8 @@ namespace rheocyte {
 /// Distance from the limit of stability against short waves: stable above 0, 1 without deformation; 1 throughout where
 /// the surface is held.
 double stability_margin(const Problem&, const SurfaceState&);
+/// The same of the least ratio of a tangential to the normal stretch, and of the least principal tension.
+double stability_margin(const Problem&, double biot_ratio, double least_tension);
 double stability_margin(const Problem&, const Discretisation&, const VectorXd& unknowns);
 
 /// So close to the limit the surface is the reason if Newton fails: no mesh resolves the last stretch.

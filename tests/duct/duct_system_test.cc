@@ -44,9 +44,11 @@ TEST(DuctSystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
   // d = K^-1 g for some g, so that residual(x + h d) - residual(x) - h g falls with h^2.
   const Liquid newtonian{.reynolds = 0.7},
       power_law{.law = LiquidLaw::power_law, .exponent = 0.6, .shear_rate_floor = 0.3};
-  for (const Liquid& liquid : {newtonian, power_law}) {
+  const Cortex none, shell{CortexLaw::neo_hookean, 2, 0.3, 0};
+  for (const auto& [liquid, cortex] : {std::pair{newtonian, none}, {power_law, none}, {newtonian, shell}}) {
     SmallDuct duct(liquid);
-    const Media law = media(liquid);
+    Media law = media(liquid);
+    law.cortex = cortex;
     const VectorXd x = deformed_state(duct.system, law);
     double det = 0;
     bool factorised = false;

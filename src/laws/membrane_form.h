@@ -1,0 +1,64 @@
+// The weak form of the cell's surface in three dimensions at a point of a face (docs/theory-square.md, eq:membrane).
+// The laws are those of the meridian (laws/cortex.h), on the invariants of the deformation of the surface.
+#pragma once
+#include <array>
+
+#include "laws/cortex.h"
+#include "laws/derivative.h"
+#include "laws/fields.h"
+
+namespace rheocyte {
+
+/// First fundamental form of a surface with respect to the coordinates s and t of its face.
+template <class T>
+struct SurfaceMetric {
+  T ss, st, tt;
+
+  T det() const { return ss * tt - st * st; }
+};
+
+/// Positions differentiated with respect to s and t.
+template <class T>
+struct MembraneFields {
+  Components<T, 3> s, t;
+
+  static constexpr int count = 6;
+  template <class Visitor>
+  void visit(const Visitor& on) {
+    visit_vector(on, Source::position, s, 1);
+    visit_vector(on, Source::position, t, 2);
+  }
+  SurfaceMetric<T> metric() const {
+    const auto product = [](const Components<T, 3>& a, const Components<T, 3>& b) {
+      return T(a(0) * b(0) + a(1) * b(1) + a(2) * b(2));
+    };
+    return {product(s, s), product(s, t), product(t, t)};
+  }
+};
+
+/// Elastic energy and surface tension.
+struct MembranePoint {
+  Cortex law;
+  SurfaceMetric<double> rest;
+
+  /// Energy per d(s) d(t).
+  template <class T>
+  T operator()(const MembraneFields<T>& f) const {
+    using std::sqrt;
+    const SurfaceMetric<T> now = f.metric();
+    const T area = sqrt(now.det()), stretch = area / constant<T>(sqrt(rest.det()));
+    // l1^2 + l2^2 is the trace of rest^-1 now.
+    const T squares =
+        (constant<T>(rest.tt) * now.ss - constant<T>(2 * rest.st) * now.st + constant<T>(rest.ss) * now.tt) /
+        constant<T>(rest.det());
+    const T sum = sqrt(squares + constant<T>(2) * stretch);
+    return (shell_energy_of(law, sum, stretch) + constant<T>(law.tension)) * area;
+  }
+  /// The same of the numbers of the fields.
+  template <class T>
+  T operator()(const std::array<T, MembraneFields<T>::count>& numbers) const {
+    return (*this)(read_fields<MembraneFields<T>>([&](int i) { return numbers[i]; }));
+  }
+};
+
+}  // namespace rheocyte
