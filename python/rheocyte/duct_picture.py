@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.patches import Polygon, Rectangle
 
 from rheocyte import body, colours, page
-from rheocyte.duct_surface import front_view, refined, silhouettes, surface_faces, whole
+from rheocyte.duct_surface import front_view, images_of, refined, silhouettes, surface_faces, whole
 from rheocyte.files import read_result
 from rheocyte.page import WIDTH_IN
 from rheocyte.vtu import read_vtu
@@ -32,8 +32,13 @@ class DuctStory:
     silhouettes: dict  # "side", "diagonal", the camera's angle: (n, 2), x and place across the flow
 
     @property
-    def section(self):
-        return self.result["case"]["channel"]["section"]
+    def images(self):
+        return images_of(self.result["case"])
+
+    @property
+    def offset(self):
+        """Place of the cell, (along the width, along the height)."""
+        return self.result["case"]["cell"].get("offset_um") or (0, 0)
 
 
 def read_story(folder):
@@ -48,7 +53,7 @@ def story_of(result, fields):
     faces = faces - [middle, 0, 0]
     channel = result["case"]["channel"]
     halves = (channel["width_um"] / 2, channel.get("height_um", channel["width_um"]) / 2)
-    return DuctStory(result, halves, faces, silhouettes(faces, channel["section"], channel.get("camera_degree")))
+    return DuctStory(result, halves, faces, silhouettes(faces, images_of(result["case"]), channel.get("camera_degree")))
 
 
 def draw(story):
@@ -104,8 +109,8 @@ def draw_in_space(axes, story):
         axes.plot(*seen(section).T, color=colours.INK, linewidth=0.5, alpha=0.6, zorder=1)
     edge = 1.15 * np.abs(story.faces).max()
     widest = np.linalg.norm(np.diff(story.faces, axis=2), axis=-1).sum(axis=2).max()  # of all faces
-    points, normals = refined(story.faces, int(1.2 * widest / body.spacing(edge, PIXELS)) + 2)
-    image = body.image_of(whole(points, story.section), whole(normals, story.section), ANGLES_DEG, edge, PIXELS, colours.CELL)
+    points, normals = refined(story.faces, int(1.2 * widest / body.spacing(edge, PIXELS)) + 2, sum(story.offset))
+    image = body.image_of(whole(points, story.images), whole(normals, story.images), ANGLES_DEG, edge, PIXELS, colours.CELL)
     axes.imshow(image, origin="lower", extent=(-edge, edge, -edge, edge), interpolation="antialiased", zorder=2)
     corners = seen([(x, y, z) for x in (-length, length) for y in (-a, a) for z in (-b, b)])
     (left, low), (right, high) = corners.min(axis=0), corners.max(axis=0)
@@ -121,11 +126,11 @@ def draw_along_the_flow(axes, story):
     """The outline in the duct, and the directions of the cameras."""
     (a, b), wide = story.halves, max(story.halves)
     draw_section(axes, a, b)
-    axes.fill(*front_view(story.faces, story.section).T, facecolor=CELL, edgecolor=colours.INK, linewidth=1.1, zorder=3)
+    axes.fill(*front_view(story.faces, story.images).T, facecolor=CELL, edgecolor=colours.INK, linewidth=1.1, zorder=3)
     rest = story.result["case"]["cell"]["radius_um"]
     angle = np.linspace(0, 2 * np.pi, 361)
-    axes.plot(rest * np.cos(angle), rest * np.sin(angle), color=colours.INK, linewidth=0.6, linestyle=(0, (0.6, 2.2)),
-              dash_capstyle="round", zorder=4)
+    axes.plot(story.offset[0] + rest * np.cos(angle), story.offset[1] + rest * np.sin(angle), color=colours.INK, linewidth=0.6,
+              linestyle=(0, (0.6, 2.2)), dash_capstyle="round", zorder=4)
     for colour, name in zip(COLOURS, story.silhouettes):
         turn = np.radians({"side": 0, "diagonal": 45}[name] if name in ("side", "diagonal") else float(name[:-1]))
         place = -np.array([np.sin(turn), np.cos(turn)])
@@ -148,7 +153,7 @@ def draw_section(axes, a, b):
 
 def draw_silhouettes(axes, story):
     """Over each other between the walls of the side's view, and the sphere at rest."""
-    h, side = story.halves[0], story.silhouettes["side"]
+    h, side = story.halves["side" not in story.silhouettes], next(iter(story.silhouettes.values()))
     half = max(1.12 * np.abs(side[:, 0]).max(), 1.35 * h)
     axes.add_patch(Rectangle((-half, -h), 2 * half, 2 * h, facecolor=LIQUID, linewidth=0, zorder=0))
     for sign in (1, -1):
@@ -160,7 +165,9 @@ def draw_silhouettes(axes, story):
     for place, ((name, outline), colour) in enumerate(zip(story.silhouettes.items(), COLOURS)):
         x = (2 * place + 1) / count - 1
         axes.plot(*outline.T, color=colour, linewidth=1.1, zorder=4, solid_joinstyle="round")
-        number = story.result.get(f"deformation_{name}", story.result.get("deformation") if name[-1] == "°" else None)
+        number = story.result.get(f"deformation_{name}")
+        if number is None and (name[-1] == "°" or count == 1):
+            number = story.result.get("deformation")
         if number is not None:
             axes.text(x * half, (1 + WALL / 2) * h, f"{name} $d$ = {number:.4f}", color=colour, ha="center",
                       va="center_baseline", zorder=5)

@@ -7,8 +7,22 @@ FACES = [(slice(None), slice(None), 0), (slice(None), slice(None), -1), (slice(N
          (slice(None), -1, slice(None)), (0, slice(None), slice(None)), (-1, slice(None), slice(None))]
 # What the symmetries of the section do to (y, z); the part that is computed is an eighth of a square, or a quarter.
 SIGNS = [np.diag([a, b]) for a in (1, -1) for b in (1, -1)]
-IMAGES = {"square": [sign @ swap for sign in SIGNS for swap in (np.eye(2), np.array([[0, 1], [1, 0]]))],
-          "rectangle": SIGNS}
+SWAP = np.array([[0, 1], [1, 0]])
+IMAGES = {"square": [sign @ swap for sign in SIGNS for swap in (np.eye(2), SWAP)], "rectangle": SIGNS}
+
+
+def images_of(case):
+    """What makes the whole cell, in width and height, from the part that was computed: matrices of its (y, z)."""
+    width, height = case["cell"].get("offset_um") or (0, 0)
+    if width == 0 and height == 0:
+        return IMAGES[case["channel"]["section"]]
+    # The half of a cell off the axis lies along y, its mirror plane is z = 0.
+    return [(SWAP if height else np.eye(2)) @ np.diag([1, sign]) for sign in (1, -1)]
+
+
+def is_off_axis(images):
+    """Whether these are those of a cell off the axis."""
+    return len(images) == 2
 
 
 def surface_faces(fields):
@@ -25,8 +39,8 @@ def surface_faces(fields):
     return np.array([face for middle, face in middles(nodes[in_cell]) if middle in wet])
 
 
-def refined(faces, count):
-    """Points and outward normals (m, count, count, 3) of the polynomial faces."""
+def refined(faces, count, middle=0.0):
+    """Points and outward normals (m, count, count, 3) of the polynomial faces of a cell whose middle has this y."""
     degree = faces.shape[1] - 1
     equidistant, fine = np.linspace(0, 1, degree + 1), np.linspace(0, 1, count)
     powers = np.arange(degree + 1)
@@ -36,24 +50,29 @@ def refined(faces, count):
     points = np.einsum("ai,bj,mijc->mabc", value, value, faces)
     normals = np.cross(np.einsum("ai,bj,mijc->mabc", value, slope, faces), np.einsum("ai,bj,mijc->mabc", slope, value, faces))
     normals /= np.maximum(np.linalg.norm(normals, axis=-1, keepdims=True), 1e-30)
-    centre = np.array([(faces[..., 0].min() + faces[..., 0].max()) / 2, 0, 0])
+    centre = np.array([(faces[..., 0].min() + faces[..., 0].max()) / 2, middle, 0])
     inward = np.einsum("mabc,mabc->m", normals, points - centre) < 0
     normals[inward] *= -1
     return points, normals
 
 
-def whole(points, section):
-    """All images of the computed part, (8 n or 4 n, 3)."""
+def whole(points, images):
+    """All images of the computed part, (n times their number, 3)."""
     flat = points.reshape(-1, 3)
-    return np.concatenate([np.column_stack([flat[:, 0], flat[:, 1:] @ image.T]) for image in IMAGES[section]])
+    return np.concatenate([np.column_stack([flat[:, 0], flat[:, 1:] @ image.T]) for image in images])
 
 
-def silhouettes(faces, section, camera_degree=None):
-    """Outlines (n, 2) of x and the place across the flow: from the side, of a square along the diagonal, from the camera."""
-    seen = {"side": 0} | ({"diagonal": 45} if section == "square" else {})
+def silhouettes(faces, images, camera_degree=None):
+    """Outlines (n, 2) of x and the place across the flow: from the side, of a square along the diagonal, from the camera.
+
+    Cells off the axis are seen along their offset alone.
+    """
+    seen = {"side": 0} | ({"diagonal": 45} if len(images) == len(IMAGES["square"]) else {})
+    if is_off_axis(images) and camera_degree:
+        seen = {}
     if camera_degree is not None and camera_degree not in seen.values():
         seen[f"{camera_degree:g}°"] = camera_degree
-    points = whole(refined(faces, 24)[0], section)
+    points = whole(refined(faces, 24)[0], images)
 
     def outline(degrees):
         across = points[:, 1:] @ [np.cos(np.radians(degrees)), np.sin(np.radians(degrees))]
@@ -62,9 +81,9 @@ def silhouettes(faces, section, camera_degree=None):
     return {name: outline(degrees) for name, degrees in seen.items()}
 
 
-def front_view(faces, section):
+def front_view(faces, images):
     """Outline (n, 2) in y and z of the cell seen along the channel."""
-    return ring(whole(refined(faces, 24)[0], section)[:, 1:])
+    return ring(whole(refined(faces, 24)[0], images)[:, 1:])
 
 
 def ring(points):

@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from rheocyte.duct_surface import front_view, refined, silhouettes, surface_faces, whole
+from rheocyte.duct_surface import IMAGES, front_view, images_of, refined, silhouettes, surface_faces, whole
 from rheocyte.vtu import Fields, hexahedron_position
 
 SPREAD = np.linspace(0, 1, 7)
@@ -44,19 +44,32 @@ class DuctSurface(unittest.TestCase):
     def test_the_images_of_a_part_make_the_cell_and_every_camera_sees_a_circle(self):
         eighth, quarter = sphere_patch(), np.concatenate([sphere_patch(), sphere_patch()[..., [0, 2, 1]]])
         for section, faces in (("square", eighth), ("rectangle", quarter)):
-            every = whole(refined(faces, 20)[0], section)
+            every = whole(refined(faces, 20)[0], IMAGES[section])
             self.assertEqual(len(every), 8 * 20 * 20)
             for axis in range(3):
                 np.testing.assert_allclose([every[:, axis].min(), every[:, axis].max()], [-2, 2], rtol=1e-2)
-            for outline in [*silhouettes(faces, section, 11).values(), front_view(faces, section)]:
+            for outline in [*silhouettes(faces, IMAGES[section], 11).values(), front_view(faces, IMAGES[section])]:
                 np.testing.assert_allclose(np.hypot(*outline.T), 2, rtol=1e-2)
                 np.testing.assert_array_equal(outline[0], outline[-1])
 
     def test_a_square_has_two_silhouettes_a_rectangle_one_and_a_turned_camera_its_own(self):
-        self.assertEqual(list(silhouettes(sphere_patch(), "square")), ["side", "diagonal"])
-        self.assertEqual(list(silhouettes(sphere_patch(), "square", 45)), ["side", "diagonal"])
-        self.assertEqual(list(silhouettes(sphere_patch(), "square", 11)), ["side", "diagonal", "11°"])
-        self.assertEqual(list(silhouettes(sphere_patch(), "rectangle")), ["side"])
+        self.assertEqual(list(silhouettes(sphere_patch(), IMAGES["square"])), ["side", "diagonal"])
+        self.assertEqual(list(silhouettes(sphere_patch(), IMAGES["square"], 45)), ["side", "diagonal"])
+        self.assertEqual(list(silhouettes(sphere_patch(), IMAGES["square"], 11)), ["side", "diagonal", "11°"])
+        self.assertEqual(list(silhouettes(sphere_patch(), IMAGES["rectangle"])), ["side"])
+
+    def test_a_cell_off_the_axis_has_one_image_and_keeps_its_place(self):
+        quarter = np.concatenate([sphere_patch(), sphere_patch()[..., [0, 2, 1]]])
+        half = np.concatenate([quarter, quarter * [1, -1, 1]]) + [0, 5, 0]
+        for offset, place, seen, camera in (((0, 5), (0, 5), "side", None), ((5, 0), (5, 0), "90°", 90)):
+            images = images_of({"channel": {"section": "square"}, "cell": {"offset_um": offset}})
+            points, normals = refined(half, 20, 5)
+            inner = (slice(None), slice(2, -2), slice(2, -2))  # at the poles the faces end in a point
+            np.testing.assert_allclose(normals[inner], (points[inner] - [0, 5, 0]) / 2, atol=0.03)
+            np.testing.assert_allclose(np.hypot(*(front_view(half, images) - place).T), 2, rtol=1e-2)
+            outlines = silhouettes(half, images, camera)
+            self.assertEqual(list(outlines), [seen])
+            np.testing.assert_allclose(np.hypot(*outlines[seen].T), 2, rtol=1e-2)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 // One case as the user states it, in physical units. Keys, ranges and meanings stand in case_keys.cc only.
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -84,7 +85,13 @@ struct Cell {
   std::optional<double> viscosity_mPas, density_kg_per_m3;  ///< only in time
   std::optional<Viscoelasticity> viscoelasticity = {};      ///< likewise
   std::optional<double> branch_modulus_kPa = {};            ///< only of a standard linear solid
+  std::vector<double> offset_um = {};                       ///< in a duct: along width and height; empty: centred
 };
+
+/// Whether the cell is on the axis of the channel.
+inline bool is_centred(const Cell& cell) {
+  return std::ranges::all_of(cell.offset_um, [](double offset) { return offset == 0; });
+}
 
 /// The way of the cell in time; all but the scheme empty for a stationary case.
 struct TimeCase {

@@ -93,6 +93,10 @@ const std::array table = {
     KEY(cell.radius_um, "um",
         "radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the lesser width",
         Number{{0.01, 5000}}, required, {}, {}, "--radius-um"),
+    KEY(cell.offset_um, "um",
+        "place of a cell off the axis of a duct, [along the width, along the height]; one of the two is 0, and the "
+        "camera looks along the other",
+        List{{-5000, 5000}}, absent, in_duct),
     KEY(cell.viscosity_mPas, "mPa s", "viscosity of the cell's interior; a stationary shape does not depend on it",
         Number{{1e-3, 1e9}}, required, in_time),
     KEY(cell.viscoelasticity, "",

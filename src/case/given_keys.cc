@@ -132,11 +132,23 @@ std::vector<GivenKey> given_keys(std::string_view text, const std::string& name,
   return keys;
 }
 
+namespace {
+
+std::string list_text(const std::vector<double>& list) {
+  constexpr std::size_t longest_list = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(list.size(), longest_list); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", list[i]);
+  return "[" + text + (list.size() > longest_list ? ", ...]" : "]");
+}
+
+}  // namespace
+
 std::string value_text(const GivenKey& given) {
   if (const auto* number = std::get_if<double>(&given.value)) return fmt::format("{}", *number);
   if (const auto* text = std::get_if<std::string>(&given.value))
     return fmt::format("\"{}\"", one_line(*text, longest_value));
-  if (std::holds_alternative<std::vector<double>>(given.value)) return "an array";
+  if (const auto* list = std::get_if<std::vector<double>>(&given.value)) return list_text(*list);
   return std::get<Unusable>(given.value).what;
 }
 

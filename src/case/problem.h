@@ -75,6 +75,7 @@ struct Problem : Media {
   Extent extent = {};
   Camera camera = Camera::side;  ///< in a duct
   double radius_ratio = 0.5;     ///< r0 / R, in (0, 0.95)
+  double offset = 0;             ///< in a duct: of the cell from the axis, towards the camera, in h
   Drive drive = Drive::rate;     ///< the given rate is 1; the given pressure drop that of the undisturbed flow
   double pressure_gradient = 0;  ///< in a duct the given one, in S/h, where U is a nominal speed
   double channel_length = 0;     ///< simulated, in R; 0: the shortest, 2 least_half_length()

@@ -119,6 +119,33 @@ void check_duct(const Case& c, const KeyReading& keys) {
            "cell.bulk.law and leave cell.cortex.bending_kBT out, or take the tube");
 }
 
+// One mirror plane is left to a cell off the axis; seen along its offset its outline is symmetric.
+void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
+  const std::vector<double>& offset = c.cell.offset_um;
+  if (offset.empty()) return;
+  constexpr std::string_view key = "cell.offset_um";
+  const auto refuse = [&](std::string_view reason) {
+    keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
+  };
+  if (offset.size() != 2) refuse("must be two numbers, along the width and along the height");
+  if (offset[0] != 0 && offset[1] != 0)
+    refuse("is off the axis in both directions, where no symmetry is left; one of the two numbers must be 0");
+  if (is_centred(c.cell)) return;
+  if (!has_radius) refuse("is for single cells; leave it out of tables");
+  if (camera_of(c.channel).degrees != (offset[0] != 0 ? 90 : 0))
+    refuse(offset[0] != 0 ? "is along the width, along which the camera must look: give channel.camera_degree = 90"
+                          : "is along the height, along which the camera must look: leave channel.camera out");
+  if (c.flow.drive != Drive::rate) refuse("is for a given flow rate; give flow.rate_ul_per_s");
+  if (keys.has("cell.cortex.law") || keys.has("cell.cortex.tension_mN_per_m"))
+    refuse("is for cells without a cortex; leave [cell.cortex] out");
+  const Extent extent = extent_of(c);
+  const double half = unit_length_um(c) * (offset[0] != 0 ? extent.width : extent.height);
+  const double most = greatest_radius_ratio * half - c.cell.radius_um;
+  if (std::abs(offset[0] + offset[1]) > most)
+    refuse(fmt::format("is too near to the wall for cell.radius_um = {:g}; at most {:.4g} um are possible",
+                       c.cell.radius_um, most));
+}
+
 void check_cell_in_tube(const Case& c, const KeyReading& keys) {
   const double R = unit_length_um(c), r0 = c.cell.radius_um;
   if (has_profile(keys) && r0 > greatest_radius_ratio * R)
@@ -247,6 +274,7 @@ Case complete_case(KeyReading& keys, std::vector<std::string_view> left_open) {
     check_cell_in_tube(c, keys);
     check_length(c, keys);
   }
+  check_offset(c, keys, has_radius);
   check_cell_is_elastic(c, keys);
   check_time(c, keys);
   return c;

@@ -1,5 +1,5 @@
 // Where a cell's surface reaches farthest in a direction: the outline of a cell off the axis is no line of the mesh,
-// but made of such places (docs/theory-square.md, sec. 5).
+// but made of such places (docs/theory-square.md, sec. "Cells off the axis").
 #pragma once
 #include "duct/duct_surface.h"
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "duct/cell_moments.h"
 #include "duct/duct_ends.h"
 #include "duct/sample_duct_fields.h"
 #include "duct/write_duct_fields.h"
@@ -15,10 +16,11 @@
 namespace rheocyte {
 namespace {
 
-/// Cameras whose silhouettes are told of every state.
-std::vector<std::pair<std::string_view, Camera>> views_of(Section section) {
+/// Cameras whose silhouettes are told of every state with a centred cell.
+std::vector<std::pair<std::string_view, Camera>> views_of(const Problem& problem) {
+  if (problem.offset != 0) return {};
   std::vector<std::pair<std::string_view, Camera>> views{{"side", Camera::side}};
-  if (section != Section::rectangle) views.emplace_back("diagonal", Camera::diagonal);
+  if (problem.section != Section::rectangle) views.emplace_back("diagonal", Camera::diagonal);
   return views;
 }
 
@@ -88,7 +90,35 @@ void read_flow(const Media& media, DuctDiscrete& discrete, const VectorXd& unkno
   r.shear_rate_max = greatest_shear_rate(discrete.space, discrete.system.element(), unknowns);
 }
 
+/// Numbers of a cell off the axis.
+void read_turning(const DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
+  const DuctSpace& space = discrete.space;
+  if (!space.turns()) return;
+  r.drift_velocity = unknowns(space.drift());
+  r.spin = unknowns(space.spin());
+  r.offset = cell_moments(space, discrete.system.element(), unknowns).barycentre(1);
+}
+
 }  // namespace
+
+DuctShape shape_of(const Problem& problem) {
+  DuctShape shape{problem.section, problem.radius_ratio, problem.extent, problem.channel_length};
+  if (problem.offset == 0) return shape;
+  shape.offset = problem.offset;
+  if (problem.camera == Camera::side) std::swap(shape.extent.width, shape.extent.height);
+  return shape;
+}
+
+Symmetry symmetry_of(const Problem& problem) {
+  return problem.offset == 0 ? symmetry_of(problem.section) : Symmetry::half;
+}
+
+Camera camera_in_mesh(const Problem& problem) { return problem.offset == 0 ? problem.camera : Camera{90}; }
+
+DuctSubdivision subdivision_of(const Problem& problem) {
+  if (problem.offset == 0) return {};
+  return {.along = 2, .across = 2};
+}
 
 double duct_deformation(const DuctSpace& space, const VectorXd& unknowns, Camera camera) {
   return measure(duct_contour(space, unknowns, camera)).deformation;
@@ -103,21 +133,23 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
                    const VectorXd& unknowns, StationaryState& r) {
   const DuctSpace& space = discrete->space;
   const CellVolume volume = cell_volume(space, discrete->system.element(), unknowns);
-  for (const auto& [name, camera] : views_of(problem.section))
+  for (const auto& [name, camera] : views_of(problem))
     r.views.push_back({name, profile(space, unknowns, media.cortex, camera, volume.barycentre)});
-  r.surface = profile(space, unknowns, media.cortex, problem.camera, volume.barycentre);
+  const Camera seen_from = camera_in_mesh(problem);
+  r.surface = profile(space, unknowns, media.cortex, seen_from, volume.barycentre);
   const auto contour_at = [&](Camera camera) {
     Contour contour = duct_contour(space, unknowns, camera);
     shift(-volume.barycentre, contour);
     return contour;
   };
-  r.contour = contour_at(problem.camera);
+  r.contour = contour_at(seen_from);
 
   r.shape = measure(r.contour);
   r.volume_of_revolution = r.shape.volume;
   r.shape.volume = volume.volume;
-  r.deformation_side = measure(contour_at(Camera::side)).deformation;
-  if (problem.section != Section::rectangle) r.deformation_diagonal = measure(contour_at(Camera::diagonal)).deformation;
+  if (problem.offset == 0) r.deformation_side = measure(contour_at(Camera::side)).deformation;
+  if (problem.offset == 0 && problem.section != Section::rectangle)
+    r.deformation_diagonal = measure(contour_at(Camera::diagonal)).deformation;
   const double a = space.mesh().geometry().radius();
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
   read_flow(media, *discrete, unknowns, r);
@@ -132,6 +164,8 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
   r.write_fields = [discrete, media, unknowns](const std::string& path, const Scales& scales) {
     return write_duct_fields(discrete->space, media, unknowns, scales, path);
   };
+  read_turning(*discrete, unknowns, r);
+  if (space.turns()) return;  // pictures show halves of planes through the axis
   r.sample_fields = [=, camera = problem.camera](const Scales& scales, int points) {
     SampledFields fields = sample_duct_fields(discrete->space, media, unknowns, scales, camera, points);
     const auto place = float(1e6 * scales.length_m * volume.barycentre);

@@ -8,14 +8,16 @@
 
 namespace rheocyte {
 
-inline DuctShape shape_of(const Problem& problem) {
-  return {problem.section, problem.radius_ratio, problem.extent, problem.channel_length};
-}
+/// The duct as the mesh has it: a cell off the axis is so along y, which the camera's direction becomes.
+DuctShape shape_of(const Problem&);
+Symmetry symmetry_of(const Problem&);
+Camera camera_in_mesh(const Problem&);
+DuctSubdivision subdivision_of(const Problem&);
 
 /// Space and system of one resolution; they stay together.
 struct DuctDiscrete {
   DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree)
-      : DuctDiscrete(problem, subdivision, degree, symmetry_of(problem.section)) {}
+      : DuctDiscrete(problem, subdivision, degree, symmetry_of(problem)) {}
   DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree, Symmetry symmetry)
       : space(DuctMesh(DuctGeometry(shape_of(problem)), subdivision, symmetry), degree, problem.liquid, problem.drive),
         system(space, problem.drive == Drive::rate

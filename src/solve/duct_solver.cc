@@ -19,6 +19,12 @@ constexpr double hopeful_share = 0.85;
 /// A degree more costs three times as much here, and less caution than in the tube has to do (eq:square-error).
 constexpr double share_of_change_before = 0.1;
 
+/// The half of a cell off the axis has four times the unknowns of the eighth.
+constexpr int last_degree_off_axis = 6;
+int last_degree_of(const Problem& problem) {
+  return problem.offset == 0 ? DuctSolver::last_degree : last_degree_off_axis;
+}
+
 int degree_of(const DuctState& state) { return state.discrete->space.reference().degree(); }
 
 }  // namespace
@@ -42,13 +48,13 @@ DuctState DuctSolver::follow() {
 
 Status DuctSolver::climb(DuctState& state) {
   std::vector<double> deformations;
-  for (int degree = std::max(first_degree, degree_of(state)); degree <= last_degree; ++degree) {
+  for (int degree = std::max(first_degree, degree_of(state)); degree <= last_degree_of(problem_); ++degree) {
     if (degree > degree_of(state)) {
       DuctState next = at_degree(state, degree, {.tolerance = final_tolerance, .stop = stop_});
       if (next.status != Status::converged) return next.status;
       state = std::move(next);
     }
-    deformations.push_back(duct_deformation(state.discrete->space, state.branch.unknowns, problem_.camera));
+    deformations.push_back(duct_deformation(state.discrete->space, state.branch.unknowns, camera_in_mesh(problem_)));
     report(state.branch, deformations.back(), degree);
     result_->estimated_error = estimate_error(deformations, share_of_change_before);
     if (result_->estimated_error <= problem_.accuracy) return Status::converged;
@@ -63,7 +69,7 @@ ContinuationOptions DuctSolver::options(bool last) {
   options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
     const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
     if (duct_stability_margin(problem_, space, state.unknowns) < 0) return false;
-    report(state, duct_deformation(space, state.unknowns, problem_.camera), space.reference().degree());
+    report(state, duct_deformation(space, state.unknowns, camera_in_mesh(problem_)), space.reference().degree());
     return true;
   };
   return options;
@@ -71,7 +77,7 @@ ContinuationOptions DuctSolver::options(bool last) {
 
 std::shared_ptr<DuctDiscrete> DuctSolver::discrete(int degree) {
   if (const auto found = discrete_.find(degree); found != discrete_.end()) return found->second;
-  auto made = std::make_shared<DuctDiscrete>(problem_, DuctSubdivision{}, degree);
+  auto made = std::make_shared<DuctDiscrete>(problem_, subdivision_of(problem_), degree);
   if (keeps_systems_) discrete_[degree] = made;
   return made;
 }

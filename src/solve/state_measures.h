@@ -24,6 +24,9 @@ struct StateNumbers {
   double volume_of_revolution = no_value;  ///< of the contour; in a tube that of the cell
   double relative_volume_change = no_value;
   double cell_velocity = no_value;             ///< in U
+  double drift_velocity = no_value;            ///< of a cell off the axis, along its offset, in U
+  double spin = no_value;                      ///< rate at which its material turns, in U/R
+  double offset = no_value;                    ///< of its barycentre, in R
   double flow_rate = no_value;                 ///< mean velocity in U
   double volume_flow = no_value;               ///< in R^2 U
   double pressure_drop = no_value;             ///< over the simulated channel, in S
@@ -76,9 +79,9 @@ inline constexpr StateMeasure state_measures[] = {
      &ShapeMeasures::deformation, AlsoIn::both},
     {"deformation_raw", "the same of the contour itself", &ShapeMeasures::deformation_raw, AlsoIn::both},
     {"deformation_side", "the same of the silhouette seen at right angles to a wall, in a rectangle along its height",
-     &StateNumbers::deformation_side, AlsoIn::none, "in a tube"},
+     &StateNumbers::deformation_side, AlsoIn::none, "in a tube, or for a cell off the axis"},
     {"deformation_diagonal", "the same of the silhouette seen along the diagonal of the channel",
-     &StateNumbers::deformation_diagonal, AlsoIn::none, "in a tube or a rectangle"},
+     &StateNumbers::deformation_diagonal, AlsoIn::none, "in a tube or a rectangle, or for a cell off the axis"},
     {"area_um2", "area of the contour's convex hull", &ShapeMeasures::area, AlsoIn::both},
     {"area_raw_um2", "area within the contour", &ShapeMeasures::area_raw, AlsoIn::tables},
     {"perimeter_um", "perimeter of the convex hull", &ShapeMeasures::perimeter, AlsoIn::tables},
@@ -117,6 +120,14 @@ inline constexpr StateMeasure state_measures[] = {
     {"mode_7_raw", "c_7 of the contour itself about its centroid", ShapeMode{&ShapeMeasures::modes_raw, 7},
      AlsoIn::tables},
     {"cell_velocity_m_per_s", "velocity of the cell along the channel", &StateNumbers::cell_velocity, AlsoIn::both},
+    {"drift_velocity_m_per_s",
+     "velocity of a cell off the axis along its offset; negative: towards the axis where the "
+     "offset is positive",
+     &StateNumbers::drift_velocity, AlsoIn::none, "for a cell on the axis"},
+    {"rotation_rate_per_s", "angular velocity at which the material of a cell off the axis turns through its shape",
+     &StateNumbers::spin, AlsoIn::none, "for a cell on the axis"},
+    {"offset_um", "place of its barycentre off the axis", &StateNumbers::offset, AlsoIn::none,
+     "for a cell on the axis"},
     {"mean_velocity_m_per_s", "flow rate over the area of the channel", &StateNumbers::flow_rate},
     {.name = "flow_rate_ul_per_s",
      .sentence = "flow rate through the channel; the given one unless the pressure drop is given",

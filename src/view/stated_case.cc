@@ -34,7 +34,11 @@ Case stated_case(const nlohmann::ordered_json& tree, const std::string& accuracy
   std::vector<GivenKey> given = keys_in_json(tree, name);
   if (!accuracy.empty()) given.push_back({"numerics.accuracy", "accuracy", number_in(accuracy), true});
   KeyReading keys(key_list(case_keys()), std::move(given), name, "case");
-  return complete_case(keys);
+  Case c = complete_case(keys);
+  constexpr std::string_view off_axis = "cell.offset_um";
+  if (!is_centred(c.cell))
+    keys.refuse(off_axis, keys.stated(off_axis) + " is computed by rheocyte solve; the view shows cells on the axis.");
+  return c;
 }
 
 Case nearest_existing(Case c, double reached) {

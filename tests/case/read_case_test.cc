@@ -84,6 +84,22 @@ TEST(ReadCase, TheCellMustFitIntoTheTubeThatIsMeant) {
   EXPECT_EQ(refusal(shortest, {"cell.radius_um=10.40", "channel.width_um=30"}), "accepted");
 }
 
+TEST(ReadCase, ACellOffTheAxisIsSeenAlongItsOffsetAndDoesNotTouchTheWall) {
+  const std::string square = "[channel]\nsection = \"square\"" + shortest.substr(shortest.find("]") + 1);
+  EXPECT_TRUE(is_centred(read(square).cell));
+  EXPECT_TRUE(is_centred(read(square, {"cell.offset_um=[0, 0]"}).cell));
+  EXPECT_EQ(read(square, {"cell.offset_um=[0, -1.5]"}).cell.offset_um[1], -1.5);
+  EXPECT_EQ(refusal(square, {"cell.offset_um=[1.5, 0]", "channel.camera_degree=90"}), "accepted");
+  for (const auto& [settings, reason] :
+       {std::pair<std::vector<std::string>, std::string>{{"cell.offset_um=[1.5, 0]"}, "channel.camera_degree = 90"},
+        {{"cell.offset_um=[0, 1.5]", "channel.camera=diagonal"}, "leave channel.camera out"},
+        {{"cell.offset_um=[1, 1]"}, "no symmetry is left"},
+        {{"cell.offset_um=[1]"}, "two numbers"},
+        {{"cell.offset_um=[0, 1.9]"}, "at most 1.84 um"}})
+    EXPECT_NE(refusal(square, settings).find(reason), std::string::npos) << refusal(square, settings);
+  EXPECT_NE(refusal(shortest, {"cell.offset_um=[0, 1]"}).find("has no effect"), std::string::npos);
+}
+
 TEST(ReadCase, ARefusalIsOneLineHoweverLongTheInput) {
   const auto text =
       refusal(shortest + "\"" + std::string(100000, 'k') + "\\n\" = \"" + std::string(100000, 'v') + "\"\n");

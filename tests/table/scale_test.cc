@@ -72,7 +72,7 @@ TEST(Scale, KeepsTheDimensionlessGroups) {
 Case full_case() {
   Case c;
   c.channel.radius_um = 11;
-  c.channel.profile = {{-50, 60}, {20, 11}};
+  c.channel.profile = {{-50, 60}, {20, 11}, {}};
   c.flow.rate_ul_per_s = 0.04;
   c.flow.viscosity_mPas = 15;
   c.flow.density_kg_per_m3 = 0;

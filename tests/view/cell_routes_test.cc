@@ -222,6 +222,10 @@ TEST_F(CellRoutes, AWrongCaseIsRefusedWithItsKey) {
   wrong["flow"]["viscosity_mPas"] = true;
   EXPECT_EQ(json("/api/state", wrong)["key"], "flow.viscosity_mPas");
   EXPECT_EQ(router_.answer({.method = "POST", .path = "/api/state", .body = "[1,"}).status, 400);
+  Json off_axis = cell();
+  off_axis["channel"]["section"] = "square";
+  off_axis["cell"]["offset_um"] = {0, 1};
+  EXPECT_EQ(json("/api/state", off_axis)["key"], "cell.offset_um");
   Json in_time = cell();
   in_time["time"]["end_us"] = 100;
   in_time["cell"]["viscosity_mPas"] = 15;

@@ -6,7 +6,7 @@ from matplotlib.patches import Circle
 from rheocyte import colours, duct_picture
 from rheocyte.contour import closed
 from rheocyte.duct_picture import CELL, DIAGONAL, LIQUID, SIDE, TUBE, WALL, WALL_FACE
-from rheocyte.duct_surface import front_view, surface_faces
+from rheocyte.duct_surface import IMAGES, front_view, surface_faces
 from rheocyte.figures import style
 from rheocyte.files import read_contour
 from rheocyte.vtu import read_vtu
@@ -168,7 +168,7 @@ def draw_along_the_flow(axes, pair):
     axes.add_patch(Circle((0, 0), TUBE_UM, fill=False, edgecolor=TUBE, linewidth=0.7, zorder=2))
     if pair.converged:
         faces = surface_faces(read_vtu(pair.square.folder / "fields.vtu", ["region"]))
-        axes.fill(*front_view(faces).T, facecolor=CELL, edgecolor=SIDE, linewidth=0.9, zorder=3)
+        axes.fill(*front_view(faces, IMAGES["square"]).T, facecolor=CELL, edgecolor=SIDE, linewidth=0.9, zorder=3)
         axes.add_patch(Circle((0, 0), pair.tube.contour()[:, 1].max(), fill=False, edgecolor=TUBE, linewidth=0.9, zorder=4))
     axes.text(0, 1.4 * TUBE_UM, f"along the flow, $r_0$ = {pair.radius:g} µm", ha="center", va="center", fontsize=6)
     half = 13.2
