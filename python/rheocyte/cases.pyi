@@ -11,9 +11,11 @@ class _ChannelProfile:
     width_um: list[float] | None  # widths at these places of a channel whose height is the least of them, linear in between, in place of radii; mapped to the tube that has the same mean speed everywhere
 
 class _Channel:
-    section: Literal["tube", "square"]  # cross-section that is computed: a tube, which also stands for the square channel of the same pressure drop, or the square itself in three dimensions
-    camera: Literal["side", "diagonal"] | None  # from where a square channel is seen, side: at right angles to a wall, diagonal: along the section's diagonal
-    width_um: float | None  # width of the square channel, mapped to a tube of radius 0.547 x width unless channel.section is "square"
+    section: Literal["tube", "square", "rectangle"]  # cross-section that is computed: a tube, which also stands for the square channel of the same pressure drop, or the square or a rectangle itself in three dimensions
+    camera: Literal["side", "diagonal"] | None  # from where a square channel is seen, side: at right angles to a wall, diagonal: along the section's diagonal; a rectangle is seen along its height
+    camera_degree: float | None  # from where a square channel or a rectangle is seen, 0: along the height, 45: along the diagonal of a square
+    width_um: float | None  # width of the channel; of a square one it is mapped to a tube of radius 0.547 x width unless channel.section is "square"
+    height_um: float | None  # height of the channel, along which the camera looks
     radius_um: float | None  # radius of the tube
     length_um: float | None  # length of the channel over which the given pressure drops
     profile: _ChannelProfile
@@ -46,7 +48,7 @@ class _CellCortex:
     bending_kBT: float | None  # bending stiffness c_b of the cell's surface in units of k_B T at 25 degrees C (4.116e-21 J)
 
 class _Cell:
-    radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the width
+    radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the lesser width
     offset_um: list[float] | None  # place of a cell off the axis of a duct, [along the width, along the height]; one of the two is 0, and the camera looks along the other
     viscosity_mPas: float | None  # viscosity of the cell's interior; a stationary shape does not depend on it
     viscoelasticity: Literal["kelvin-voigt", "maxwell", "standard-linear-solid"] | None  # what the viscosity is to the elastic interior, kelvin-voigt: beside it; maxwell: in series with it; standard-linear-solid: in series with a spring of its own, both beside it
