@@ -62,7 +62,7 @@ constexpr BulkLaw linear = BulkLaw::linear, neo_hookean = BulkLaw::neo_hookean;
 
 TEST(TimeEndStates, APaperCellAndACellWithACortexEndAsTheStationaryOnes) {
   expect_stationary_end({{7.66, 3.437, neo_hookean}});
-  expect_stationary_end({{6, 1, neo_hookean}, {5, 0.5, 0, CortexLaw::linear}});
+  expect_stationary_end({{6, 3, neo_hookean}, {15, 1.5, 0, CortexLaw::linear}});
 }
 
 TEST(TimeEndStatesSlow, TwentyCellsEndAsTheStationaryOnes) {
