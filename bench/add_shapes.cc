@@ -42,7 +42,7 @@ void compare(const ShapeGrid& fine, const ShapeGrid& coarse) {
     for (double log_d = n.lower.front(); log_d < std::log(0.06); log_d += 0.1) {
       const auto c = std::size_t(column);
       if (log_d > n.upper[c] || log_d > n.upper[std::min(c + 1, n.upper.size() - 1)]) continue;
-      const double area = n.least_log_area + column * n.column_step, d = std::exp(log_d);
+      const double area = n.min_log_area + column * n.column_step, d = std::exp(log_d);
       const double by_ratio = std::abs(fine.inertia_ratio(area, d) - coarse.inertia_ratio(area, d));
       const double by_mode = std::abs(coarse.mode(3, area, d) / fine.mode(3, area, d) - 1);
       if (by_ratio > ratio) ratio = by_ratio, at_ratio = d;

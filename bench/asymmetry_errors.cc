@@ -23,8 +23,8 @@ namespace {
 
 using namespace rheocyte;
 
-constexpr double least_deformation = 3e-4, greatest_deformation = 0.1, greatest_ellipse = 0.25,
-                 greatest_deviation = 1;  // in s^2
+constexpr double min_deformation = 3e-4, max_deformation = 0.1, max_ellipse = 0.25,
+                 max_deviation = 1;  // in s^2
 constexpr int second_mode = int(ShapeFeature::first_mode), third_mode = second_mode + 1;
 
 /// One shape in one size of pixels; modes as measured, on average.
@@ -70,14 +70,14 @@ std::vector<Seen> look_at_shapes(const CellShapes& shapes, const TableSpec& spec
     const double radius = radii.front() + random.uniform() * (radii.back() - radii.front());
     const auto shape = shapes.shape({radius, log_uniform(0.5, 60), channel_flow_of(spec.base).viscosity_mPas});
     const auto* const found = std::get_if<CellShape>(&shape);
-    if (!found || found->deformation < least_deformation || found->deformation > greatest_deformation) continue;
-    const double ellipse = random.uniform() < 0.5 ? 0 : greatest_ellipse * random.uniform();
-    const double area_px = log_uniform(least_fitted_area_px, greatest_fitted_area_px);
+    if (!found || found->deformation < min_deformation || found->deformation > max_deformation) continue;
+    const double ellipse = random.uniform() < 0.5 ? 0 : max_ellipse * random.uniform();
+    const double area_px = log_uniform(min_fitted_area_px, max_fitted_area_px);
     const auto outline = with_ellipse(silhouette(found->meridian), ellipse) * std::sqrt(area_px / found->area_um2);
     const ShapeErrors errors = errors_in_pixels(outline, 1, places, random);
     const ShapeVector truth = shape_vector(outline_shape(outline));
     const double deviation = std::sqrt(errors.covariance(third_mode, third_mode));
-    if (!(deviation <= greatest_deviation * std::exp(-2 * truth(0) / 3))) continue;  // dents that come and go
+    if (!(deviation <= max_deviation * std::exp(-2 * truth(0) / 3))) continue;  // dents that come and go
     all.push_back({truth(0) + errors.bias(0), truth(second_mode) + errors.bias(second_mode),
                    truth(third_mode) + errors.bias(third_mode), errors.bias(third_mode), deviation});
   }

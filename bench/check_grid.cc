@@ -57,8 +57,8 @@ int rheocyte::measure(int argc, char** argv) {
   const StiffnessGrid grid(*content);
   const TableInterpolation table(spec, branches);
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> area(std::log(spec.least_area_um2), std::log(spec.greatest_area_um2)),
-      deformation(std::log(spec.least_deformation), std::log(spec.greatest_deformation));
+  std::uniform_real_distribution<double> area(std::log(spec.min_area_um2), std::log(spec.max_area_um2)),
+      deformation(std::log(spec.min_deformation), std::log(spec.max_deformation));
   std::vector<double> bare, held, usual;
   std::map<std::pair<std::string, std::string>, int> disagreements;
   double worst = 0, worst_held = 0;

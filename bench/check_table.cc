@@ -46,8 +46,7 @@ int rheocyte::measure(int argc, char** argv) {
   int beyond = 0;
   for (int tries = 0; int(differences.size()) < points && tries < 5 * points; ++tries) {
     const double radius = random(branches.front().radius_um, branches.back().radius_um);
-    const double deformation =
-        std::exp(random(std::log(2 * spec.least_deformation), std::log(spec.greatest_deformation)));
+    const double deformation = std::exp(random(std::log(2 * spec.min_deformation), std::log(spec.max_deformation)));
     const double stiffness = guess_stiffness(branches, radius, deformation);
     if (stiffness == 0) continue;
     const Case cell = case_at(spec, {radius}, stiffness);

@@ -117,8 +117,8 @@ def compare_states(name, text, programs, folder):
 def make_table(program, folder):
     folder.mkdir(parents=True)
     spec = folder / "table.toml"
-    spec.write_text(NEWTONIAN + '[cell.bulk]\nlaw = "linear"\n[table]\nidentifier = "compared"\nleast_area_um2 = 50.0\n'
-                    "greatest_area_um2 = 150.0\nleast_deformation = 1e-3\ngreatest_deformation = 0.06\nradii = 8\n"
+    spec.write_text(NEWTONIAN + '[cell.bulk]\nlaw = "linear"\n[table]\nidentifier = "compared"\nmin_area_um2 = 50.0\n'
+                    "max_area_um2 = 150.0\nmin_deformation = 1e-3\nmax_deformation = 0.06\nradii = 8\n"
                     "rows_per_radius = 60\naccuracy = 1e-4\n")
     made = run(program, "table", spec, "-o", folder / "table", "--quiet")
     if made.returncode:

@@ -25,7 +25,7 @@ namespace {
 using namespace rheocyte;
 
 constexpr int powers_of_deformation = 4, powers_of_size = 3, terms = powers_of_deformation * powers_of_size;
-constexpr double least_area_px = 50, greatest_area_px = 9000, least_deformation = 3e-4;
+constexpr double min_area_px = 50, max_area_px = 9000, min_deformation = 3e-4;
 
 /// A shape seen at many places. "Log ratio": ln(smooth area / measured area); excess: measured - smooth deformation.
 struct Seen {
@@ -126,8 +126,8 @@ std::vector<Seen> look_at_shapes(const CellShapes& shapes, const TableSpec& spec
     const double radius = radii.front() + unit(random) * (radii.back() - radii.front());
     const auto shape = shapes.shape({radius, log_uniform(0.5, 100), channel_flow_of(spec.base).viscosity_mPas});
     const auto* const found = std::get_if<CellShape>(&shape);
-    if (!found || found->deformation < least_deformation) continue;
-    all.push_back(camera.look(*found, log_uniform(least_area_px, greatest_area_px), places));
+    if (!found || found->deformation < min_deformation) continue;
+    all.push_back(camera.look(*found, log_uniform(min_area_px, max_area_px), places));
   }
   return all;
 }

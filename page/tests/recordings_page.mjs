@@ -11,7 +11,7 @@ export async function openRecordings(options = {}, items = null) {
   const target = items ? await startTarget(items) : await startMock();
   const { context, close } = await openBrowser(options);
   const page = context.pages()[0] ?? (await context.newPage());
-  page.setDefaultTimeout(12_000);
+  page.setDefaultTimeout(60_000);  // machines that run other tests at the same time are slow
   const failures = [];
   page.on('pageerror', (failure) => failures.push(failure.message));
   page.on('console', (message) => /Content Security Policy/.test(message.text()) && failures.push(message.text()));

@@ -32,13 +32,13 @@ std::vector<std::vector<IsoelasticityPoint>> isoelasticity_lines(const Isoelasti
     auto& line = lines.emplace_back();
     for (const CellInTube& cell : cells) {
       const IsoelasticityPoint next = point(cell, strain);
-      if (next.deformation <= grid.greatest_deformation) {
+      if (next.deformation <= grid.max_deformation) {
         line.push_back(next);
         continue;
       }
       // NaN, a shape without an inside, cannot be bracketed.
       if (!line.empty() && std::isfinite(next.deformation))
-        line.push_back(point_at(grid.greatest_deformation, strain, line.back(), next));
+        line.push_back(point_at(grid.max_deformation, strain, line.back(), next));
       break;
     }
   }

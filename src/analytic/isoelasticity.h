@@ -10,7 +10,7 @@ namespace rheocyte {
 struct IsoelasticityGrid {
   std::vector<double> radii;              ///< r0 / R, ascending
   std::vector<double> capillary_numbers;  ///< eta Q / (R^3 E), one line for each
-  double greatest_deformation = greatest_solid_deformation;
+  double max_deformation = max_solid_deformation;
   Duct duct = Duct::tube;
 };
 

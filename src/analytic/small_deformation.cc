@@ -100,7 +100,7 @@ Eigen::MatrixX2d surface_points(const CellInTube& cell, double strain, const Eig
 }
 
 Contour contour(const CellInTube& cell, double strain) {
-  constexpr int degree = greatest_curve_degree;
+  constexpr int degree = max_curve_degree;
   // At least 2 nodes per half wave of the highest mode, which is 1e-10 of the lowest.
   const int pieces = 10 + cell.displacement.size() / 4;
   Contour meridian;

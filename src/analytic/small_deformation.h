@@ -11,8 +11,8 @@ namespace rheocyte {
 
 /// Up to these deformations and this ratio r0 / R the deformation is within 10 % of the laws `linear` for finite
 /// strain, and a modulus derived from it within 5 %. (Neo-Hookean solids: within 17 %.)
-inline constexpr double greatest_solid_deformation = 0.02, greatest_shell_deformation = 0.001;
-inline constexpr double greatest_ratio_of_agreement = 0.8;
+inline constexpr double max_solid_deformation = 0.02, max_shell_deformation = 0.001;
+inline constexpr double max_ratio_of_agreement = 0.8;
 
 /// Which velocity on the axis belongs to a flow rate Q (eq:peak-velocity): that of the tube, or that of the square duct
 /// of width L = R / 0.547, as in the published analytical tables.

@@ -13,7 +13,7 @@ using Eigen::ArrayXd;
 
 // All spheres share the wall; its largest reflection costs two milliseconds.
 const WallReflection& shared_reflection() {
-  static const WallReflection reflection = wall_reflection(functions_for(greatest_sphere_in_tube));
+  static const WallReflection reflection = wall_reflection(functions_for(max_sphere_in_tube));
   return reflection;
 }
 
@@ -79,15 +79,15 @@ double pressure_drop(const SurfaceModes& t, double lambda) {
 // The modes fall like q^n, q = tan(asin(lambda) / 2), with a power of n that the ten more cover (measured).
 int functions_for(double lambda) {
   const double q = (1 - std::sqrt(1 - lambda * lambda)) / lambda;
-  const int greatest_n = static_cast<int>(std::ceil(std::log(1e-10) / std::log(q))) + 10;
-  return (greatest_n + 1) / 2;
+  const int max_n = static_cast<int>(std::ceil(std::log(1e-10) / std::log(q))) + 10;
+  return (max_n + 1) / 2;
 }
 
 SphereInTube sphere_in_tube(double lambda) { return sphere_in_tube(lambda, functions_for(lambda)); }
 
 SphereInTube sphere_in_tube(double lambda, int functions) {
-  assert(lambda > 0 && lambda <= greatest_sphere_in_tube);
-  assert(functions >= 2 && functions <= functions_for(greatest_sphere_in_tube));
+  assert(lambda > 0 && lambda <= max_sphere_in_tube);
+  assert(functions >= 2 && functions <= functions_for(max_sphere_in_tube));
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(2 * functions, 2 * functions);
   const Eigen::MatrixX2d x = (identity - echo(lambda, functions)).partialPivLu().solve(incident(lambda, functions));
   const auto flow_of = [&](const Eigen::VectorXd& regular) {

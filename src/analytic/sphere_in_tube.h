@@ -6,7 +6,7 @@
 namespace rheocyte {
 
 /// Radii of the sphere, in tube radii, for which the series below are good to 1e-10.
-inline constexpr double greatest_sphere_in_tube = 0.95;
+inline constexpr double max_sphere_in_tube = 0.95;
 
 /// Lengths in R, velocities in u_max, the velocity of the undisturbed flow on the axis, stresses in eta u_max / R.
 struct SphereInTube {
@@ -24,10 +24,10 @@ struct SphereInTube {
 /// The number of even functions n = 2, 4, ... that makes the traction good to 1e-10 for a sphere of this radius.
 int functions_for(double lambda);
 
-/// Solves eq:reflection with no slip on the sphere; 0 < lambda <= greatest_sphere_in_tube.
+/// Solves eq:reflection with no slip on the sphere; 0 < lambda <= max_sphere_in_tube.
 SphereInTube sphere_in_tube(double lambda);
 
-/// The same with a chosen number of functions, 2 .. functions_for(greatest_sphere_in_tube).
+/// The same with a chosen number of functions, 2 .. functions_for(max_sphere_in_tube).
 SphereInTube sphere_in_tube(double lambda, int functions);
 
 }  // namespace rheocyte

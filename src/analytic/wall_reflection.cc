@@ -73,9 +73,9 @@ class ReflectionEntry {
 
 }  // namespace
 
-WallMoments wall_moments(int greatest_p) {
-  assert(greatest_p >= 2 && greatest_p <= 400 && greatest_p % 2 == 0);
-  WallMoments moments{Eigen::ArrayXd::Zero(greatest_p / 2), Eigen::ArrayXd::Zero(greatest_p / 2), 0};
+WallMoments wall_moments(int max_p) {
+  assert(max_p >= 2 && max_p <= 400 && max_p % 2 == 0);
+  WallMoments moments{Eigen::ArrayXd::Zero(max_p / 2), Eigen::ArrayXd::Zero(max_p / 2), 0};
   const int nodes = static_cast<int>((last_t - first_t) / step) + 1;
   for (int i = 0; i < nodes; ++i) {
     const double t = first_t + i * step, k = std::exp(t - std::exp(-t));
@@ -83,7 +83,7 @@ WallMoments wall_moments(int greatest_p) {
     const auto [W, twice_minus_one] = wall_factor(k);
     moments.lambda_0 += weight * twice_minus_one;
     double scaled = weight * k * k * 32 / 24 / (2 * pi);  // weight k^p / c_p at p = 2
-    for (int p = 2; p <= greatest_p; p += 2) {
+    for (int p = 2; p <= max_p; p += 2) {
       moments.m(p / 2 - 1) += scaled;
       moments.v(p / 2 - 1) += scaled * W;
       scaled *= 4 * k * k / ((p + 3.0) * (p + 4.0));

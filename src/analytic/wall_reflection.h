@@ -12,8 +12,8 @@ struct WallMoments {
   double lambda_0 = 0;  ///< int (2 W - 1) / Delta dk; -1.5 lambda_0 / pi is the wall coefficient of a small sphere
 };
 
-/// Moments for p = 2, 4, ..., up to `greatest_p` (even, 2 .. 400); good to 1e-13.
-WallMoments wall_moments(int greatest_p);
+/// Moments for p = 2, 4, ..., up to `max_p` (even, 2 .. 400); good to 1e-13.
+WallMoments wall_moments(int max_p);
 
 /// Coefficients C_m, D_m of the regular flow that the wall adds to unit coefficients A_n, B_n (eq:reflection), all in
 /// units of the tube radius. Row i belongs to m = 2 (i + 1), column j to n = 2 (j + 1).

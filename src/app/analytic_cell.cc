@@ -39,11 +39,11 @@ double additional_pressure_drop_Pa(const AnalyticCell& cell) {
 }  // namespace
 
 std::string AnalyticCell::remark() const {
-  const double greatest = is_solid() ? greatest_solid_deformation : greatest_shell_deformation;
-  if (state.shape.deformation <= greatest && cell.sphere.lambda <= greatest_ratio_of_agreement) return {};
+  const double greatest = is_solid() ? max_solid_deformation : max_shell_deformation;
+  if (state.shape.deformation <= greatest && cell.sphere.lambda <= max_ratio_of_agreement) return {};
   return fmt::format(
       "beyond the model (d up to {}, r0 up to {} tube radii), which can be off by over 10 %; see `rheocyte solve`",
-      greatest, greatest_ratio_of_agreement);
+      greatest, max_ratio_of_agreement);
 }
 
 AnalyticCell analytic_cell(const AnalyticCellInput& input) {

@@ -52,12 +52,12 @@ double elastic_scale_kPa(const AnalyticConditions& conditions) {
 }
 
 double checked_radius_ratio(const AnalyticConditions& conditions, double radius_um, std::string_view option) {
-  static_assert(greatest_radius_ratio <= greatest_sphere_in_tube);
+  static_assert(max_radius_ratio <= max_sphere_in_tube);
   const double R = tube_radius_um(conditions.input), ratio = radius_um / R;
-  if (!(ratio >= least_radius_ratio && ratio <= greatest_radius_ratio))
-    throw UserError(fmt::format(
-        "rheocyte: {} {:g} is outside {:.4g} .. {:.4g} um, {} .. {} of the tube radius {:g} um.", option, radius_um,
-        least_radius_ratio * R, greatest_radius_ratio * R, least_radius_ratio, greatest_radius_ratio, R));
+  if (!(ratio >= min_radius_ratio && ratio <= max_radius_ratio))
+    throw UserError(
+        fmt::format("rheocyte: {} {:g} is outside {:.4g} .. {:.4g} um, {} .. {} of the tube radius {:g} um.", option,
+                    radius_um, min_radius_ratio * R, max_radius_ratio * R, min_radius_ratio, max_radius_ratio, R));
   return ratio;
 }
 

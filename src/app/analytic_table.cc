@@ -19,11 +19,11 @@ namespace rheocyte {
 namespace {
 
 // Share of the tube's radius where the published lines begin.
-constexpr double least_default_ratio = 0.1;
+constexpr double min_default_ratio = 0.1;
 
 // Under standard conditions (20 um, 0.04 ul/s, 15 mPa s): the range of moduli, and the levels of the published lines.
 constexpr double standard_scale_kPa = 15e-3 * 0.04e-9 / (10.94e-6 * 10.94e-6 * 10.94e-6) / 1e3;
-constexpr double least_standard_kPa = 0.5, greatest_standard_kPa = 30;
+constexpr double min_standard_kPa = 0.5, max_standard_kPa = 30;
 constexpr std::array standard_levels_kPa{0.93, 1.16, 1.40, 1.67, 1.99, 2.40, 2.93, 3.67, 4.84, 6.94, 12.13};
 
 std::vector<double> evenly_spaced_powers(double first, double last, int count, double power) {
@@ -48,8 +48,8 @@ void check_order(double least, double greatest, std::string_view what) {
 
 std::vector<double> radius_ratios(const AnalyticTableInput& input) {
   const double R = tube_radius_um(input.conditions.input);
-  const double least = input.least_radius_um.value_or(least_default_ratio * R);
-  const double greatest = input.greatest_radius_um.value_or(greatest_ratio_of_agreement * R);
+  const double least = input.min_radius_um.value_or(min_default_ratio * R);
+  const double greatest = input.max_radius_um.value_or(max_ratio_of_agreement * R);
   const double first = checked_radius_ratio(input.conditions, least, "--least-radius-um");
   const double last = checked_radius_ratio(input.conditions, greatest, "--greatest-radius-um");
   check_order(least, greatest, "radius-um");
@@ -61,8 +61,8 @@ constexpr int digits_of_modulus = 6;
 
 std::vector<double> moduli_kPa(const AnalyticTableInput& input) {
   const double scale = elastic_scale_kPa(input.conditions) / standard_scale_kPa;
-  const double least = input.least_modulus_kPa.value_or(rounded(least_standard_kPa * scale, 3));
-  const double greatest = input.greatest_modulus_kPa.value_or(rounded(greatest_standard_kPa * scale, 3));
+  const double least = input.min_modulus_kPa.value_or(rounded(min_standard_kPa * scale, 3));
+  const double greatest = input.max_modulus_kPa.value_or(rounded(max_standard_kPa * scale, 3));
   check_order(least, greatest, "modulus-kPa");
   auto moduli = evenly_spaced_powers(least, greatest, input.moduli, -0.5);
   for (double& modulus : moduli) modulus = rounded(modulus, digits_of_modulus);
@@ -85,9 +85,9 @@ std::vector<double> levels_kPa(const AnalyticTableInput& input) {
 // CLI11's own ranges let NaN pass.
 void check_numbers(const AnalyticTableInput& input) {
   const Range deformations{1e-6, 0.2};
-  if (!deformations.contains(input.greatest_deformation))
-    throw UserError(fmt::format("rheocyte: --greatest-deformation {:g} is outside its range {:g} .. {:g}.",
-                                input.greatest_deformation, deformations.least, deformations.greatest));
+  if (!deformations.contains(input.max_deformation))
+    throw UserError(fmt::format("rheocyte: --max-deformation {:g} is outside its range {:g} .. {:g}.",
+                                input.max_deformation, deformations.least, deformations.greatest));
   const auto& modulus = case_key("cell.bulk.young_modulus_kPa");
   for (const double level : input.levels_kPa)
     if (!std::get<Number>(modulus.kind).range.contains(level))
@@ -113,7 +113,7 @@ TableText empty_table(const AnalyticTableInput& input, const char* identifier_ke
           tube_radius_um(input.conditions.input)),
       fmt::format("of the {}. Area and deformation are those of the convex contour, without any pixelation.",
                   input.conditions.square_duct ? "square duct" : "tube"),
-      fmt::format("Deformations up to {:g}.", input.greatest_deformation), ""};
+      fmt::format("Deformations up to {:g}.", input.max_deformation), ""};
   table.metadata = {
       {"authors", "rheocyte"},
       {"channel_width", input.conditions.input.channel.width_um.value()},
@@ -133,7 +133,7 @@ TableText empty_table(const AnalyticTableInput& input, const char* identifier_ke
 }
 
 TextFile text_of(const AnalyticTableInput& input, const std::vector<double>& moduli, TableText table) {
-  IsoelasticityGrid grid{radius_ratios(input), {}, input.greatest_deformation, input.conditions.duct()};
+  IsoelasticityGrid grid{radius_ratios(input), {}, input.max_deformation, input.conditions.duct()};
   for (const double modulus : moduli) grid.capillary_numbers.push_back(elastic_scale_kPa(input.conditions) / modulus);
   const auto lines = isoelasticity_lines(grid);
   const double R = tube_radius_um(input.conditions.input);
@@ -142,8 +142,8 @@ TextFile text_of(const AnalyticTableInput& input, const std::vector<double>& mod
   if (table.rows.empty())
     throw UserError(
         fmt::format("rheocyte: all of these cells deform by more than {:g}; give greater moduli or a "
-                    "greater --greatest-deformation.",
-                    input.greatest_deformation));
+                    "greater --max-deformation.",
+                    input.max_deformation));
   return {{}, to_text(table), int(table.rows.size())};
 }
 

@@ -12,12 +12,12 @@ namespace rheocyte {
 /// the channel and the flow.
 struct AnalyticTableInput {
   AnalyticConditions conditions;
-  std::optional<double> least_radius_um, greatest_radius_um;
+  std::optional<double> min_radius_um, max_radius_um;
   int radii = 100;
-  std::optional<double> least_modulus_kPa, greatest_modulus_kPa;
+  std::optional<double> min_modulus_kPa, max_modulus_kPa;
   int moduli = 60;
   std::vector<double> levels_kPa;  ///< of lines, instead of the range of moduli
-  double greatest_deformation = greatest_solid_deformation;
+  double max_deformation = max_solid_deformation;
   std::string identifier;
 };
 

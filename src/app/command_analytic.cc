@@ -89,14 +89,16 @@ void declare_table_options(CLI::App& command, TableOptions& options) {
   const auto& radius = case_key("cell.radius_um");
   add_key_option(command, radius, "--least-radius-um",
                  "radius of the smallest cell; default: 0.1 of the tube's, 0.0547 channel widths",
-                 [&](double value) { input.least_radius_um = value; });
+                 [&](double value) { input.min_radius_um = value; });
   add_key_option(command, radius, "--greatest-radius-um",
                  "radius of the largest cell; default: 0.8 of the tube's, 0.4376 channel widths",
-                 [&](double value) { input.greatest_radius_um = value; });
+                 [&](double value) { input.max_radius_um = value; });
   command.add_option("--radii", input.radii, "number of radii, by equal steps of their square")
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();
-  command.add_option("--greatest-deformation", input.greatest_deformation, "where a line of equal stiffness ends")
+  command
+      .add_option("--max-deformation,--greatest-deformation", input.max_deformation,
+                  "where a line of equal stiffness ends")
       ->capture_default_str();
   command
       .add_option("--identifier", input.identifier,
@@ -122,10 +124,10 @@ void add_table_command(CLI::App& analytic) {
   add_key_option(*command, modulus, "--least-modulus-kPa",
                  "Young's modulus of the softest cell; default: 0.5 kPa under standard conditions, else in proportion "
                  "to viscosity x flow rate / width^3",
-                 [&](double value) { input.least_modulus_kPa = value; });
+                 [&](double value) { input.min_modulus_kPa = value; });
   add_key_option(*command, modulus, "--greatest-modulus-kPa",
                  "Young's modulus of the stiffest cell; default: 30 kPa under standard conditions",
-                 [&](double value) { input.greatest_modulus_kPa = value; });
+                 [&](double value) { input.max_modulus_kPa = value; });
   command->add_option("--moduli", input.moduli, "number of moduli, by equal steps of their inverse square root")
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t greatest_number_of_panels = 24, greatest_number_of_levels = 50;
+constexpr std::size_t max_number_of_panels = 24, max_number_of_levels = 50;
 
 void check(const PlotOptions& options) {
   check_measuring_options(options.measuring);
   const auto& recordings = options.inputs;
-  if (recordings.size() > greatest_number_of_panels)
+  if (recordings.size() > max_number_of_panels)
     throw UserError(fmt::format("rheocyte: {} recordings do not fit into one picture; give at most {}.",
-                                recordings.size(), greatest_number_of_panels));
+                                recordings.size(), max_number_of_panels));
   std::error_code error;
   for (const auto& file : recordings)
     if (fs::is_directory(file, error))
@@ -47,8 +47,8 @@ void check(const PlotOptions& options) {
   if (options.levels_kPa.empty()) return;
   if (has_lines)
     throw UserError("rheocyte: --levels and --lines contradict each other; levels are for the lines of a table.");
-  if (options.levels_kPa.size() > greatest_number_of_levels)
-    throw UserError(fmt::format("rheocyte: --levels: give at most {} moduli.", greatest_number_of_levels));
+  if (options.levels_kPa.size() > max_number_of_levels)
+    throw UserError(fmt::format("rheocyte: --levels: give at most {} moduli.", max_number_of_levels));
   for (const double level : options.levels_kPa)
     if (!(level > 0 && std::isfinite(level)))
       throw UserError("rheocyte: --levels must be positive moduli (kPa), separated by commas.");

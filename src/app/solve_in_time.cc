@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // The first one at once, later ones less and less often: a run that is killed has lost half of its time at most.
-constexpr std::chrono::duration<double> least_time_between_checkpoints(0.25), greatest_time_between_checkpoints(10);
+constexpr std::chrono::duration<double> min_time_between_checkpoints(0.25), max_time_between_checkpoints(10);
 constexpr const char* fields_folder = "fields";
 
 /// Keeps the record of a computation and writes what must not be lost.
@@ -89,8 +89,7 @@ class Recorder {
     const auto now = std::chrono::steady_clock::now();
     if (now - last_checkpoint_ < until_checkpoint_) return;
     last_checkpoint_ = now;
-    until_checkpoint_ =
-        std::clamp(2 * until_checkpoint_, least_time_between_checkpoints, greatest_time_between_checkpoints);
+    until_checkpoint_ = std::clamp(2 * until_checkpoint_, min_time_between_checkpoints, max_time_between_checkpoints);
     write_checkpoint();
   }
 

@@ -28,7 +28,7 @@ young_modulus_kPa = 3.437
           "of the tube's. Whole numbers may stand for real ones. A key that has no effect for the chosen law is an\n"
           "error. `--set key=value` replaces a key of the file; keys of the file that lose their effect through it\n"
           "are dropped.\n",
-          tube_radius_per_channel_width, least_radius_ratio, greatest_radius_ratio),
+          tube_radius_per_channel_width, min_radius_ratio, max_radius_ratio),
       .keys = key_list(case_keys())};
 }
 

@@ -35,7 +35,7 @@ class LexicalScan {
     while (at_ < text_.size()) {
       if (is_beyond_ascii(text_[at_])) return Finding::not_ascii;
       step();
-      if (depth_ > greatest_nesting || dots_ >= greatest_nesting) return Finding::too_deep;
+      if (depth_ > max_nesting || dots_ >= max_nesting) return Finding::too_deep;
     }
     return Finding::none;
   }
@@ -96,18 +96,18 @@ std::string read_case_text(const fs::path& file) {
   if (fs::is_directory(status)) refuse(name, "is a folder; give the case file itself, for example case.toml.");
   if (!fs::is_regular_file(status)) refuse(name, "is not a regular file; write the case to a file first.");
   const auto too_large = [&] {
-    refuse(name, fmt::format("the case file is larger than {} KiB; a case has some twenty lines.",
-                             greatest_case_bytes / 1024));
+    refuse(name,
+           fmt::format("the case file is larger than {} KiB; a case has some twenty lines.", max_case_bytes / 1024));
   };
-  if (fs::file_size(file, error) > greatest_case_bytes || error) too_large();
+  if (fs::file_size(file, error) > max_case_bytes || error) too_large();
 
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuse(name, fmt::format("cannot read the case file ({}).", std::strerror(errno)));
-  std::string text(greatest_case_bytes + 1, '\0');
+  std::string text(max_case_bytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) refuse(name, "reading the case file failed.");
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > greatest_case_bytes) too_large();  // it has grown since the first look
+  if (text.size() > max_case_bytes) too_large();  // it has grown since the first look
   return text;
 }
 
@@ -122,7 +122,7 @@ void check_case_text(std::string_view text, const std::string& name) {
   const auto finding = scan.run();
   const auto place = fmt::format("{}:{}", name, line_of(text, scan.position()));
   if (finding == LexicalScan::Finding::too_deep)
-    refuse(place, fmt::format("nested deeper than {} levels; a case needs three.", greatest_nesting));
+    refuse(place, fmt::format("nested deeper than {} levels; a case needs three.", max_nesting));
   if (finding == LexicalScan::Finding::not_ascii)
     refuse(place, fmt::format("the character {} can only stand in a comment.",
                               text.substr(scan.position(), sequence_length(text[scan.position()]))));

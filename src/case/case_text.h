@@ -7,12 +7,12 @@
 namespace rheocyte {
 
 /// A case has some twenty lines; more than this is a mistake or an attack.
-inline constexpr std::size_t greatest_case_bytes = 1 << 20;
+inline constexpr std::size_t max_case_bytes = 1 << 20;
 
 /// Brackets inside brackets, and parts of a dotted key. toml++ 3.3 recurses on both without a safe bound.
-inline constexpr int greatest_nesting = 16;
+inline constexpr int max_nesting = 16;
 
-/// Reads a regular file of at most greatest_case_bytes. UserError: missing, folder, pipe, unreadable, too large.
+/// Reads a regular file of at most max_case_bytes. UserError: missing, folder, pipe, unreadable, too large.
 std::string read_case_text(const std::filesystem::path&);
 
 /// UserError if the text is empty, no UTF-8, holds a zero byte, nests too deep, or has a character beyond ASCII outside

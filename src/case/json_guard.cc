@@ -16,9 +16,9 @@ class NestingGuard : public nlohmann::json_sax<json> {
   bool string(json::string_t&) override { return true; }
   bool binary(json::binary_t&) override { return true; }
   bool key(json::string_t&) override { return true; }
-  bool start_object(std::size_t) override { return ++depth_ <= greatest_json_nesting; }
+  bool start_object(std::size_t) override { return ++depth_ <= max_json_nesting; }
   bool end_object() override { return --depth_ >= 0; }
-  bool start_array(std::size_t) override { return ++depth_ <= greatest_json_nesting; }
+  bool start_array(std::size_t) override { return ++depth_ <= max_json_nesting; }
   bool end_array() override { return --depth_ >= 0; }
   bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
 

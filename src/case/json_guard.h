@@ -6,7 +6,7 @@
 namespace rheocyte {
 
 /// Files of the field and of this program nest four levels deep.
-inline constexpr int greatest_json_nesting = 32;
+inline constexpr int max_json_nesting = 32;
 
 /// Whether the bytes are well-formed and nest no deeper: nlohmann's reader of CBOR, its output and its copies recurse.
 bool is_sound_json(std::string_view bytes,

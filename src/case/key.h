@@ -84,6 +84,12 @@ struct KeyDescription {
   std::string_view former_name = {};    ///< likewise
 };
 
+/// The key of a name that was another one in the version before.
+inline KeyDescription renamed(KeyDescription key, std::string_view former_name) {
+  key.former_name = former_name;
+  return key;
+}
+
 /// A key of an `Owner`, for example a case.
 template <class Owner>
 struct Key : KeyDescription {

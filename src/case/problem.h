@@ -47,14 +47,14 @@ inline double disturbed_half_length(double radius_ratio) { return 1.4 * radius_r
 
 /// Least half-length (in R) of a simulated channel. The slowest Stokes mode decays like exp(-4.47 x/R): its round trip
 /// through the undisturbed part to the end and back is damped by exp(-8.9 * 2) = 2e-8.
-inline double least_half_length(double radius_ratio) { return disturbed_half_length(radius_ratio) + 2.0; }
+inline double min_half_length(double radius_ratio) { return disturbed_half_length(radius_ratio) + 2.0; }
 
 /// The same in a duct (in h). The slowest mode of a square decays as in a tube of radius 1.1, that of a wide slit like
 /// exp(-pi x/h) with half its width as h.
 inline double disturbed_half_length(double radius_ratio, const Extent& extent) {
   return disturbed_half_length(radius_ratio) + 0.5 * (std::max(extent.width, extent.height) - 1);
 }
-inline double least_half_length(double radius_ratio, const Extent& extent) {
+inline double min_half_length(double radius_ratio, const Extent& extent) {
   const double wide = std::max(extent.width, extent.height);
   return disturbed_half_length(radius_ratio, extent) + wide * (1.1 + 0.33 * (1 - 1 / wide)) * 2.0;
 }
@@ -78,7 +78,7 @@ struct Problem : Media {
   double offset = 0;             ///< in a duct: of the cell from the axis, towards the camera, in h
   Drive drive = Drive::rate;     ///< the given rate is 1; the given pressure drop that of the undisturbed flow
   double pressure_gradient = 0;  ///< in a duct the given one, in S/h, where U is a nominal speed
-  double channel_length = 0;     ///< simulated, in R; 0: the shortest, 2 least_half_length()
+  double channel_length = 0;     ///< simulated, in R; 0: the shortest, 2 min_half_length()
   WallTable wall;                ///< the way of the cell; acts in time only
   double start_stretch = 1;      ///< of the cell along the flow when it starts in time
   double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation

@@ -33,7 +33,7 @@ std::string radii_text(const KeyReading& keys) {
 std::string_view wall_key(const KeyReading& keys) { return keys.has(profile_width) ? profile_width : profile_R; }
 
 // The mesh follows the wall along straight spokes and has elements as wide as the tube.
-constexpr double steepest_wall = 0.5, greatest_widening = 5;
+constexpr double steepest_wall = 0.5, max_widening = 5;
 constexpr std::size_t most_places = 1000;
 
 void check_places(const ChannelProfile& wall, const KeyReading& keys) {
@@ -79,10 +79,10 @@ void check_profile(const Case& c, const KeyReading& keys) {
   const WallTable wall_radii = wall_um(c.channel.profile);
   check_slopes(wall_radii, keys);
   const double least = tube_radius_um(c), widest = *std::ranges::max_element(wall_radii.radius);
-  if (widest > greatest_widening * least)
+  if (widest > max_widening * least)
     keys.refuse(wall, fmt::format("{} goes from {:g} to {:g} um; the widest part may be {:g} times as "
                                   "wide as the narrowest one.",
-                                  radii_text(keys), least, widest, greatest_widening));
+                                  radii_text(keys), least, widest, max_widening));
   if (c.flow.drive == Drive::rate) return;
   const std::string_view drive = keys.has("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa";
   keys.refuse(drive, fmt::format("{} is for straight channels; give flow.rate_ul_per_s with [channel.profile].",
@@ -140,7 +140,7 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
     refuse("is for cells without a cortex; leave [cell.cortex] out");
   const Extent extent = extent_of(c);
   const double half = unit_length_um(c) * (offset[0] != 0 ? extent.width : extent.height);
-  const double most = greatest_radius_ratio * half - c.cell.radius_um;
+  const double most = max_radius_ratio * half - c.cell.radius_um;
   if (std::abs(offset[0] + offset[1]) > most)
     refuse(fmt::format("is too near to the wall for cell.radius_um = {:g}; at most {:.4g} um are possible",
                        c.cell.radius_um, most));
@@ -148,25 +148,25 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
 
 void check_cell_in_tube(const Case& c, const KeyReading& keys) {
   const double R = unit_length_um(c), r0 = c.cell.radius_um;
-  if (has_profile(keys) && r0 > greatest_radius_ratio * R)
+  if (has_profile(keys) && r0 > max_radius_ratio * R)
     keys.refuse(wall_key(keys), fmt::format("{} falls to {:g} um, which is narrower than the cell of cell.radius_um = "
                                             "{:g} can pass; at least {:.4g} um are needed.",
-                                            radii_text(keys), R, r0, r0 / greatest_radius_ratio));
-  if (r0 >= least_radius_ratio * R && r0 <= greatest_radius_ratio * R) return;
+                                            radii_text(keys), R, r0, r0 / max_radius_ratio));
+  if (r0 >= min_radius_ratio * R && r0 <= max_radius_ratio * R) return;
   constexpr std::string_view key = "cell.radius_um";
   const auto what = c.channel.section == Section::square      ? "half width of the square"
                     : c.channel.section == Section::rectangle ? "lesser half width of the rectangle"
                                                               : "tube radius";
-  keys.refuse(key, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the {} {:.6g} um.",
-                               keys.stated(key), least_radius_ratio * R, greatest_radius_ratio * R, least_radius_ratio,
-                               greatest_radius_ratio, what, R));
+  keys.refuse(
+      key, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the {} {:.6g} um.", keys.stated(key),
+                       min_radius_ratio * R, max_radius_ratio * R, min_radius_ratio, max_radius_ratio, what, R));
 }
 
 // The ends of the channel must not see the cell.
 void check_length(const Case& c, const KeyReading& keys) {
   if (!c.channel.length_um) return;
   const double R = unit_length_um(c), ratio = c.cell.radius_um / R;
-  const double half = is_duct(c.channel.section) ? least_half_length(ratio, extent_of(c)) : least_half_length(ratio);
+  const double half = is_duct(c.channel.section) ? min_half_length(ratio, extent_of(c)) : min_half_length(ratio);
   const double least = 2 * R * half;
   if (*c.channel.length_um >= least) return;
   constexpr std::string_view key = "channel.length_um";
@@ -187,11 +187,11 @@ void check_cell_is_elastic(const Case& c, const KeyReading& keys) {
 }
 
 // Frames are kept in memory and drawn one by one.
-constexpr double greatest_outputs = 10000;
+constexpr double max_outputs = 10000;
 
 // Such grids are for the low degrees of the paper; the cell has about a tenth of the square of these elements.
 constexpr int most_surface_elements = 400;
-constexpr double greatest_grid_degree = 3;
+constexpr double max_grid_degree = 3;
 
 void check_grid(const Case& c, const KeyReading& keys) {
   if (c.time.grid_um.value_or(0) == 0) return;
@@ -201,10 +201,10 @@ void check_grid(const Case& c, const KeyReading& keys) {
                 fmt::format("{} makes {} elements along the surface; at most {} are possible, a size of {:.3g} um.",
                             keys.stated(key), surface_elements(c), most_surface_elements,
                             std::numbers::pi * c.cell.radius_um / most_surface_elements));
-  const double degree = c.time.degree.value_or(greatest_grid_degree + 1);
-  if (degree > greatest_grid_degree)
+  const double degree = c.time.degree.value_or(max_grid_degree + 1);
+  if (degree > max_grid_degree)
     keys.refuse(key, fmt::format("{} is for low degrees; choose time.degree = 2 as in the paper, at most {:g}.",
-                                 keys.stated(key), greatest_grid_degree));
+                                 keys.stated(key), max_grid_degree));
 }
 
 void check_start(const Case& c, const KeyReading& keys) {
@@ -212,11 +212,11 @@ void check_start(const Case& c, const KeyReading& keys) {
   const WallTable wall = wall_um(c.channel.profile);
   const double R = wall.is_straight() ? tube_radius_um(c) : WallProfile(wall).radius(0);
   const double widest = c.cell.radius_um / std::sqrt(stretch);
-  if (widest <= greatest_radius_ratio * R || stretch >= 1) return;
+  if (widest <= max_radius_ratio * R || stretch >= 1) return;
   constexpr std::string_view key = "time.start_stretch";
   keys.refuse(key,
               fmt::format("{} widens the cell to a radius of {:.4g} um in a tube of {:.4g} um; take at least {:.3g}.",
-                          keys.stated(key), widest, R, std::pow(c.cell.radius_um / (greatest_radius_ratio * R), 2)));
+                          keys.stated(key), widest, R, std::pow(c.cell.radius_um / (max_radius_ratio * R), 2)));
 }
 
 void check_viscoelasticity(const Case& c, const KeyReading& keys) {
@@ -239,10 +239,10 @@ void check_outputs(const Case& c, const KeyReading& keys) {
   if (ends_at_place && !by_place) end /= speed_um_per_us;
   if (!ends_at_place && by_place) end *= speed_um_per_us;
   const double every = by_place ? *c.time.output_every_um : *c.time.output_every_us, outputs = end / every;
-  if (outputs <= greatest_outputs) return;
+  if (outputs <= max_outputs) return;
   const auto* key = ends_at_place ? "time.end_um" : "time.end_us";
   keys.refuse(key, fmt::format("{} and time.output_every_{} = {:g} ask for {:.3g} outputs; at most {:g} are possible.",
-                               keys.stated(key), by_place ? "um" : "us", every, outputs, greatest_outputs));
+                               keys.stated(key), by_place ? "um" : "us", every, outputs, max_outputs));
 }
 
 void check_time(const Case& c, const KeyReading& keys) {

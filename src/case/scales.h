@@ -9,7 +9,7 @@ namespace rheocyte {
 inline constexpr double tube_radius_per_channel_width = 0.547;
 
 /// The cell's radius must lie between these shares of the tube's.
-inline constexpr double least_radius_ratio = 0.05, greatest_radius_ratio = 0.95;
+inline constexpr double min_radius_ratio = 0.05, max_radius_ratio = 0.95;
 
 /// Surface tension of the cell, given or a share of the modulus of its cortex.
 double tension_mN_per_m(const Case&);

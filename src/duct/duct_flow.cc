@@ -13,7 +13,7 @@ namespace {
 
 constexpr double same_point = 1e-9;
 /// Change of the liquid's thinning in one step, and the least one.
-constexpr double thinning_step = 0.2, least_thinning_step = 1e-3;
+constexpr double thinning_step = 0.2, min_thinning_step = 1e-3;
 constexpr int iteration_limit = 25;
 constexpr double tolerance = 1e-12;
 
@@ -130,7 +130,7 @@ DuctFlow CrossSection::flow(const Liquid& liquid) const {
     if (improve(share == 1 ? liquid : at_thinning(liquid, share), trial)) {
       flow = trial;
       reached = share;
-    } else if ((step /= 2) * way < least_thinning_step) {
+    } else if ((step /= 2) * way < min_thinning_step) {
       flow.pressure_gradient = std::numeric_limits<double>::quiet_NaN();
       return flow;
     }

@@ -25,9 +25,9 @@ DuctPoint ball(const DuctPoint& c) {
 DuctGeometry::DuctGeometry(const DuctShape& shape)
     : shape_(shape),
       box_(disturbed_half_length(shape.radius, shape.extent)),
-      least_length_(shape.section == Section::tube ? least_half_length(shape.radius)
-                                                   : least_half_length(shape.radius, shape.extent)),
-      half_length_(std::max(least_length_, shape.length / 2)) {}
+      min_length_(shape.section == Section::tube ? min_half_length(shape.radius)
+                                                 : min_half_length(shape.radius, shape.extent)),
+      half_length_(std::max(min_length_, shape.length / 2)) {}
 
 double DuctGeometry::area() const {
   return shape_.section == Section::tube ? std::numbers::pi : 4 * shape_.extent.width * shape_.extent.height;

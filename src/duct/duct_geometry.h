@@ -43,7 +43,7 @@ class DuctGeometry {
   /// Half-length of the box whose faces the spokes of front and rear end at.
   double box() const { return box_; }
   /// Half-length of the shortest duct of this section, and of this one.
-  double least_length() const { return least_length_; }
+  double min_length() const { return min_length_; }
   double half_length() const { return half_length_; }
 
  private:
@@ -52,7 +52,7 @@ class DuctGeometry {
   DuctPoint box_side(const DuctPoint& cube) const;
 
   DuctShape shape_;
-  double box_, least_length_, half_length_;
+  double box_, min_length_, half_length_;
 };
 
 /// How much of the surface's axial displacement the wall's points take over, as the mesh of the tube has it

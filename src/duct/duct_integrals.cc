@@ -100,7 +100,7 @@ VectorXd integrate_hexahedron(const DuctSpace& space, const TensorElement& eleme
         },
         want, system);
   }
-  system.least_det = least_relative_det(self.undeformed, points.numbers);
+  system.min_det = min_relative_det(self.undeformed, points.numbers);
   const int n = reference.nodes(), m = reference.pressures();
   VectorXd residual = VectorXd::Zero(3 * n + m);
   for (int k = 0; k <= 3; ++k) {

@@ -109,7 +109,7 @@ DuctMesh::DuctMesh(const DuctGeometry& geometry, const DuctSubdivision& subdivis
     : geometry_(geometry), subdivision_(subdivision), symmetry_(symmetry) {
   const int count = subdivision.layers > 0 ? subdivision.layers : duct_layers_for(geometry, subdivision);
   const auto layers = breaks(count, 0, 1, std::pow(2.0, count));
-  const double near = (geometry.least_length() - geometry.box()) / (geometry.half_length() - geometry.box());
+  const double near = (geometry.min_length() - geometry.box()) / (geometry.half_length() - geometry.box());
   auto ends = breaks(subdivision.axial, 0, std::min(1.0, near), 1.3);
   if (near < 1) ends.push_back(1);  // where nothing is disturbed
   for (const CubeFace& face : cube_faces(symmetry, subdivision.along, subdivision.across)) {

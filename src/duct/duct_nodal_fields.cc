@@ -43,7 +43,7 @@ void DuctNodalFields::add_cell_stress(int e, MatrixXd& fields) const {
     const PointMap<double, 3> map(fields_at<Fields>(numbers, q));
     const Tensor<double> F = deformation_gradient(map, space_.elements()[e].undeformed[q]);
     norm(q) = von_mises(elastic_stress(media_.bulk, F));
-    stretches(q) = greatest_stretch(F);
+    stretches(q) = max_stretch(F);
   }
   fields.col(stress) = scales_.stress_Pa * at_nodes(norm);
   fields.col(stretch) = at_nodes(stretches);

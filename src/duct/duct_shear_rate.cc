@@ -9,7 +9,7 @@
 namespace rheocyte {
 
 /// As in the tube: the polynomials that fit 2 D:D best at the quadrature points are looked at up to the faces.
-double greatest_shear_rate(const DuctSpace& space, const TensorElement& element, const VectorXd& unknowns) {
+double max_shear_rate(const DuctSpace& space, const TensorElement& element, const VectorXd& unknowns) {
   using Fields = LiquidFields<double, 3>;
   const ReferenceElement<3>& reference = space.reference();
   const VectorXd grid = VectorXd::LinSpaced(2 * reference.degree() + 1, 0, 1);

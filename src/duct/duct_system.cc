@@ -68,18 +68,18 @@ double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
   return undisturbed_->second;
 }
 
-VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, Want want, double& least_det) {
+VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, Want want, double& min_det) {
   // The undisturbed pressure vanishes at the cell.
   const double end_pressure = drop_ * undisturbed_gradient(media.liquid) * space_.mesh().geometry().half_length();
   VectorXd total = -end_pressure * outlet_load_;
   if (space_.has_open_inlet()) total -= end_pressure * inlet_load_;
-  least_det = std::numeric_limits<double>::infinity();
+  min_det = std::numeric_limits<double>::infinity();
   for (int e = 0; e < int(space_.elements().size()); ++e) {
     const HexahedronUnknowns& self = space_.elements()[e];
     {
       const Stopwatch watch(work_.assembly_s);
       const VectorXd residual = integrate_hexahedron(space_, element_, e, media, unknowns, want, points_);
-      least_det = std::min(least_det, points_.fluxes.least_det);
+      min_det = std::min(min_det, points_.fluxes.min_det);
       for (int i = 0; i < residual.size(); ++i) {
         if (self.rows[i] >= 0) total(self.rows[i]) += residual(i);
       }
@@ -116,12 +116,12 @@ void DuctSystem::add_cortex(int element, const Cortex& cortex, const VectorXd& u
   }
 }
 
-VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, double& least_det) {
-  return assemble(media, unknowns, Want::residual, least_det);
+VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, double& min_det) {
+  return assemble(media, unknowns, Want::residual, min_det);
 }
 
-VectorXd DuctSystem::linearise(const Media& media, const VectorXd& unknowns, double& least_det, bool& factorised) {
-  VectorXd total = assemble(media, unknowns, Want::residual_and_tangent, least_det);
+VectorXd DuctSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
+  VectorXd total = assemble(media, unknowns, Want::residual_and_tangent, min_det);
   const Stopwatch watch(work_.sparse_s);
   factorised = total.allFinite() && lu_.factorise();
   ++work_.factorisations;

@@ -22,8 +22,8 @@ class DuctSystem final : public NonlinearSystem {
   const TensorElement& element() const { return element_; }
 
   VectorXd sphere() const override;
-  VectorXd residual(const Media&, const VectorXd& unknowns, double& least_det) override;
-  VectorXd linearise(const Media&, const VectorXd& unknowns, double& least_det, bool& factorised) override;
+  VectorXd residual(const Media&, const VectorXd& unknowns, double& min_det) override;
+  VectorXd linearise(const Media&, const VectorXd& unknowns, double& min_det, bool& factorised) override;
   VectorXd solve(const VectorXd& rhs) override;
   double cell_radius() const override { return space_.mesh().geometry().radius(); }
   double largest_displacement(const VectorXd& unknowns) const override;
@@ -38,7 +38,7 @@ class DuctSystem final : public NonlinearSystem {
   double factor_entries() const { return lu_.entries(); }
 
  private:
-  VectorXd assemble(const Media&, const VectorXd& unknowns, Want, double& least_det);
+  VectorXd assemble(const Media&, const VectorXd& unknowns, Want, double& min_det);
   /// Of the face that an element shares with the cell.
   void add_cortex(int element, const Cortex&, const VectorXd& unknowns, Want, VectorXd& total);
 

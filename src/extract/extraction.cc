@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t block_of_scalars = 1 << 17;   // 1 MiB per column, a chunk of what is written
 constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible when every event takes microseconds
 
-constexpr double greatest_relative_standard_error = 1;
+constexpr double max_relative_standard_error = 1;
 
 PixelUse pixel_use(const ExtractOptions& options) {
   if (options.no_pixelation) return PixelUse::ignore;
@@ -111,7 +111,7 @@ ExtractSummary Extraction::summary() {
   s.warnings = recording_.remarks();
   s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
   if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
-  if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, greatest_reynolds_number_));
+  if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
   if (other_table_) s.warnings.push_back(comparison());
   if (recording_.has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
@@ -163,7 +163,7 @@ void Extraction::count_inertial(double viscosity_mPas) {
   ChannelFlow flow = settings_.conditions.flow;
   flow.viscosity_mPas = viscosity_mPas;
   ++inertial_;
-  greatest_reynolds_number_ = std::max(greatest_reynolds_number_, reynolds_number(buffer_density_kg_per_m3, flow));
+  max_reynolds_number_ = std::max(max_reynolds_number_, reynolds_number(buffer_density_kg_per_m3, flow));
 }
 
 // What is known of it counts as an error of the modulus; events beyond that are flagged.
@@ -176,7 +176,7 @@ void Extraction::take_account_of_inertia(const Moduli& moduli) {
     const double reynolds = at_1_mPas / columns_.viscosity[i];
     moduli.standard_error_kPa[i] =
         std::hypot(moduli.standard_error_kPa[i], modulus_per_reynolds * reynolds * moduli.kPa[i]);
-    if (reynolds <= greatest_reynolds_number) continue;
+    if (reynolds <= max_reynolds_number) continue;
     moduli.states[i] = ModulusState::inertial;
   }
 }
@@ -184,8 +184,7 @@ void Extraction::take_account_of_inertia(const Moduli& moduli) {
 // Where the deformation or the asymmetry is lost in the scatter by pixels, the modulus could be any above some value.
 void Extraction::set_aside_unresolved(const Moduli& moduli) {
   for (std::size_t i = 0; i < moduli.states.size(); ++i) {
-    if (!has_modulus(moduli.states[i]) ||
-        moduli.standard_error_kPa[i] <= greatest_relative_standard_error * moduli.kPa[i])
+    if (!has_modulus(moduli.states[i]) || moduli.standard_error_kPa[i] <= max_relative_standard_error * moduli.kPa[i])
       continue;
     moduli.kPa[i] = moduli.standard_error_kPa[i] = std::numeric_limits<double>::quiet_NaN();
     moduli.states[i] = ModulusState::unresolved;

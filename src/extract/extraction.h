@@ -74,7 +74,7 @@ class Extraction {
   std::vector<float> standard_errors_;
   double viscosity_sum_ = 0, log_ratios_ = 0;
   std::size_t viscosities_ = 0, compared_ = 0, outside_temperature_ = 0, inertial_ = 0;
-  double greatest_reynolds_number_ = 0;
+  double max_reynolds_number_ = 0;
 };
 
 }  // namespace rheocyte

@@ -108,7 +108,7 @@ class Fits {
     s.warnings = recording_.remarks();
     s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
     if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
-    if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, greatest_reynolds_number_));
+    if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
     if (std::abs(settings_.conditions.flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
       s.warnings.push_back(fmt::format(
           "the medium is shear-thinning with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at the "
@@ -156,9 +156,9 @@ class Fits {
     for (const double viscosity_mPas : viscosity_) {
       flow.viscosity_mPas = viscosity_mPas;
       const double reynolds = reynolds_number(buffer_density_kg_per_m3, flow);
-      if (!(reynolds > greatest_reynolds_number)) continue;
+      if (!(reynolds > max_reynolds_number)) continue;
       ++inertial_;
-      greatest_reynolds_number_ = std::max(greatest_reynolds_number_, reynolds);
+      max_reynolds_number_ = std::max(max_reynolds_number_, reynolds);
     }
   }
 
@@ -184,7 +184,7 @@ class Fits {
   std::vector<ShapeExcess> excess_;
   std::vector<double> solid_kPa_, solid_error_kPa_;  ///< by the asymmetry, as if the cells were solids
   std::size_t outside_temperature_ = 0, inertial_ = 0;
-  double greatest_reynolds_number_ = 0;
+  double max_reynolds_number_ = 0;
   ModuliTally tally_;
 };
 

@@ -13,7 +13,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr double least_viscosity_mPas = 0.2;  // water has 0.28 where it boils
+constexpr double min_viscosity_mPas = 0.2;  // water has 0.28 where it boils
 constexpr double rate_tolerance = 0.01, area_tolerance = 0.02;
 constexpr std::size_t looked_at = 4096;  // events
 
@@ -50,7 +50,7 @@ void add_pixel(const Recording& recording, double pixel_size_um, std::vector<std
 }  // namespace
 
 void check_viscosity(double mPas, const std::string& name) {
-  if (mPas >= least_viscosity_mPas) return;
+  if (mPas >= min_viscosity_mPas) return;
   throw UserError(
       fmt::format("{}: {:g} mPa s is less than the viscosity of any liquid that cells live in (water at 37 degC has "
                   "0.69 mPa s); {:g} Pa s are {:g} mPa s.",
@@ -70,7 +70,7 @@ std::string inertia_text(std::size_t events, double greatest) {
       "changes "
       "moduli by about {:.1f} % for each unit up to 8 and by an unknown amount beyond; are flow rate and viscosity "
       "right?",
-      events, greatest_reynolds_number, greatest, 100 * modulus_per_reynolds);
+      events, max_reynolds_number, greatest, 100 * modulus_per_reynolds);
 }
 
 }  // namespace rheocyte

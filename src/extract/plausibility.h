@@ -10,7 +10,7 @@ namespace rheocyte {
 /// Buffers have about the density of water.
 inline constexpr double buffer_density_kg_per_m3 = 1000;
 /// Up to here the liquid's inertia, which the tables do not hold, changes moduli by at most about 3 %.
-inline constexpr double greatest_reynolds_number = 3;
+inline constexpr double max_reynolds_number = 3;
 /// Of the modulus, for each unit of the Reynolds number: between the 0.3 % of stiff and the 1.1 % of soft large cells
 /// (docs/theory-extract.md, sec. "Own tables").
 inline constexpr double modulus_per_reynolds = 0.007;

@@ -16,7 +16,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double of_the_model = 0.02, still_doubtful = 0.05;  // medians of the excess
 constexpr double normal_deviations_per_quartile = 0.6745;
 constexpr std::size_t fewest_for_a_verdict = 5, fewest_for_a_trend = 20;  // events
-constexpr double least_length_um = 15;                                    // of what a recording sees, for a trend
+constexpr double min_length_um = 15;                                      // of what a recording sees, for a trend
 
 double robust_deviation(std::span<double> values) {
   return (quantile(values, 0.75) - quantile(values, 0.25)) / (2 * normal_deviations_per_quartile);
@@ -34,7 +34,7 @@ Trend trend_of(std::span<const double> x, std::span<const double> y, double leng
   std::vector<double> finite;
   for (const double v : y)
     if (std::isfinite(v)) finite.push_back(v);
-  if (finite.size() < fewest_for_a_trend || !(length >= least_length_um)) return {nan, nan, nan};
+  if (finite.size() < fewest_for_a_trend || !(length >= min_length_um)) return {nan, nan, nan};
   const double middle = quantile(finite, 0.5), widest = 4 * robust_deviation(finite);
   double n = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -67,7 +67,7 @@ void ShapeTally::take(const JudgedEvents& e) {
   for (std::size_t i = 0; i < e.excess.size(); ++i) {
     const ShapeExcess& excess = e.excess[i];
     if (!std::isfinite(excess.excess)) continue;
-    if (e.inertia_ratio[i] > greatest_inertia_ratio_of_cells) {
+    if (e.inertia_ratio[i] > max_inertia_ratio_of_cells) {
       ++red_cells_;
       continue;
     }
@@ -150,7 +150,7 @@ std::string ShapeVerdict::text() const {
 std::string ShapeVerdict::trend_text() const {
   if (judged == 0) return {};
   if (!std::isfinite(seen_um)) return "no pos_x: whether the shapes still change along the channel is unknown.";
-  if (seen_um < least_length_um)
+  if (seen_um < min_length_um)
     return fmt::format("the cells are seen at one place ({:.2g} um): whether they still change is unknown.", seen_um);
   if (judged < fewest_for_a_trend || !std::isfinite(deformation_trend.change))
     return fmt::format("too few events for a trend along the channel ({}).", judged);
@@ -174,7 +174,7 @@ std::vector<std::string> shape_lines(const ShapeVerdict& v) {
   if (v.red_cells > 0)
     lines.push_back(fmt::format("{} {} above {:g}, as of red cells; {} not count here.", v.red_cells,
                                 v.red_cells == 1 ? "event has an inertia ratio" : "events have inertia ratios",
-                                greatest_inertia_ratio_of_cells, v.red_cells == 1 ? "it does" : "they do"));
+                                max_inertia_ratio_of_cells, v.red_cells == 1 ? "it does" : "they do"));
   return lines;
 }
 

@@ -88,6 +88,6 @@ class ShapeTally {
   std::size_t elongated_ = 0, red_cells_ = 0;
 };
 
-inline constexpr double greatest_inertia_ratio_of_cells = 2;  ///< red cells rest in a longer shape
+inline constexpr double max_inertia_ratio_of_cells = 2;  ///< red cells rest in a longer shape
 
 }  // namespace rheocyte

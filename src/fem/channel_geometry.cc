@@ -18,7 +18,7 @@ constexpr double core_size = 0.5, core_bulge = 0.55;
 ChannelGeometry::ChannelGeometry(double radius_ratio, double length)
     : radius_(radius_ratio),
       box_(disturbed_half_length(radius_ratio)),
-      half_length_(std::max(least_half_length(radius_ratio), length / 2)),
+      half_length_(std::max(min_half_length(radius_ratio), length / 2)),
       front_corner_(0.25 * pi),
       rear_corner_(0.75 * pi) {}
 

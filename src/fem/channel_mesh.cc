@@ -26,7 +26,7 @@ std::vector<double> graded(int n, double ratio) {
 /// From the box to the end of the channel: one element more where it is longer than it need be.
 std::vector<double> axial_breaks(const ChannelGeometry& geometry, int n) {
   std::vector<double> breaks = graded(n, 1.3);
-  const double box = geometry.box(), end = geometry.half_length(), least = least_half_length(geometry.radius());
+  const double box = geometry.box(), end = geometry.half_length(), least = min_half_length(geometry.radius());
   if (end <= least) return breaks;
   for (double& b : breaks) b *= (least - box) / (end - box);
   breaks.push_back(1);

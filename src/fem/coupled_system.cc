@@ -120,14 +120,14 @@ double CoupledSystem::stretch_change(const VectorXd& from, const VectorXd& to) c
   return rheocyte::stretch_change(space_, from, to);
 }
 
-VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, double& least_det) {
+VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, double& min_det) {
   const Stopwatch watch(work_.assembly_s);
   VectorXd total = VectorXd::Zero(space_.unknowns());
-  least_det = std::numeric_limits<double>::infinity();
+  min_det = std::numeric_limits<double>::infinity();
   for (int e = 0; e < int(condensed_.size()); ++e) {
     if (elements_[e].is_empty()) continue;
     integrate(e, media, unknowns, Want::residual, element_);
-    least_det = std::min(least_det, element_.least_det);
+    min_det = std::min(min_det, element_.min_det);
     const auto& rows = elements_[e].rows;
     for (int i = 0; i < int(rows.size()); ++i) {
       if (rows[i] >= 0) total(rows[i]) += element_.residual(i);
@@ -138,17 +138,17 @@ VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, d
   return total;
 }
 
-VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, double& least_det, bool& factorised) {
+VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
   VectorXd total = VectorXd::Zero(space_.unknowns());
   std::fill(matrix_->value.begin(), matrix_->value.end(), 0.0);
-  least_det = std::numeric_limits<double>::infinity();
+  min_det = std::numeric_limits<double>::infinity();
   for (int e = 0; e < int(condensed_.size()); ++e) {
     if (elements_[e].is_empty()) continue;
     {
       const Stopwatch watch(work_.assembly_s);
       integrate(e, media, unknowns, Want::residual_and_tangent, element_);
     }
-    least_det = std::min(least_det, element_.least_det);
+    min_det = std::min(min_det, element_.min_det);
     const auto& rows = elements_[e].rows;
     for (int i = 0; i < int(rows.size()); ++i) {
       if (rows[i] >= 0) total(rows[i]) += element_.residual(i);

@@ -19,8 +19,8 @@ class CoupledSystem : public NonlinearSystem {
   const Discretisation& space() const { return space_; }
 
   VectorXd sphere() const override;
-  VectorXd residual(const Media&, const VectorXd& unknowns, double& least_det) override;
-  VectorXd linearise(const Media&, const VectorXd& unknowns, double& least_det, bool& factorised) override;
+  VectorXd residual(const Media&, const VectorXd& unknowns, double& min_det) override;
+  VectorXd linearise(const Media&, const VectorXd& unknowns, double& min_det, bool& factorised) override;
   VectorXd solve(const VectorXd& rhs) override;
   double cell_radius() const override;
   double largest_displacement(const VectorXd& unknowns) const override;

@@ -11,7 +11,7 @@ namespace rheocyte {
 struct ElementSystem {
   VectorXd residual;
   MatrixXd tangent;
-  double least_det = 0;  ///< least det of the element map relative to the undeformed one; <= 0: folded
+  double min_det = 0;  ///< least det of the element map relative to the undeformed one; <= 0: folded
   // scratch
   MatrixXd fluxes, flux_slopes, weighted;
 };

@@ -171,7 +171,7 @@ void test_tangent(const ReferenceElement<dim>& reference, const std::vector<Colu
 
 /// Least det of the map at the points relative to the undeformed one.
 template <int dim>
-double least_relative_det(const std::vector<PointMap<double, dim>>& undeformed, const MatrixXd& numbers) {
+double min_relative_det(const std::vector<PointMap<double, dim>>& undeformed, const MatrixXd& numbers) {
   double least = std::numeric_limits<double>::infinity();
   for (int q = 0; q < int(undeformed.size()); ++q) {
     const PointMap<double, dim> map(fields_at<MapFields<double, dim>>(numbers, q));
@@ -187,7 +187,7 @@ void integrate_form(const ElementQuadrature<dim>& quadrature, const MatrixXd& nu
                     Want want, ElementSystem& system) {
   const auto& [reference, undeformed, groups] = quadrature;
   using Fields = typename Form::template Fields<double>;
-  if constexpr (requires(Fields f) { f.map; }) system.least_det = least_relative_det(undeformed, numbers);
+  if constexpr (requires(Fields f) { f.map; }) system.min_det = min_relative_det(undeformed, numbers);
   evaluate_points<Form>(numbers, reference.weights, form_at, want, system);
   test_residual(reference, system);
   if (want == Want::residual_and_tangent) test_tangent<Form>(reference, groups, system);

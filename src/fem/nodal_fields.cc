@@ -47,7 +47,7 @@ double von_mises(Tensor<double> sigma) {
   return std::sqrt(1.5) * sigma.norm();
 }
 
-double greatest_stretch(const Tensor<double>& F) {
+double max_stretch(const Tensor<double>& F) {
   Eigen::SelfAdjointEigenSolver<Tensor<double>> squares;
   squares.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly);
   return std::sqrt(squares.eigenvalues()(2));
@@ -83,7 +83,7 @@ void NodalFields::add_cell_stress(int e, MatrixXd& fields) const {
   for (const auto& f : fields_at_points<MapFields<double, 2>>(space_, e, unknowns_)) {
     const Tensor<double> F = deformation_gradient(PointMap<double, 2>(f), element.undeformed[q]);
     norm(q) = von_mises(elastic_stress(media_.bulk, F));
-    stretches(q++) = greatest_stretch(F);
+    stretches(q++) = max_stretch(F);
   }
   fields.col(stress) = scales_.stress_Pa * at_nodes(norm);
   fields.col(stretch) = at_nodes(stretches);

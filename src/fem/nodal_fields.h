@@ -10,7 +10,7 @@ namespace rheocyte {
 /// Of an elastic stress.
 double von_mises(Tensor<double> sigma);
 /// Greatest principal stretch of a deformation gradient.
-double greatest_stretch(const Tensor<double>& F);
+double max_stretch(const Tensor<double>& F);
 /// sqrt(2 D:D) of a velocity gradient.
 double shear_rate(const Tensor<double>& L);
 

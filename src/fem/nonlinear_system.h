@@ -17,10 +17,10 @@ class NonlinearSystem {
   /// The unstressed sphere in a liquid at rest, moving with the mean speed of the flow.
   virtual Eigen::VectorXd sphere() const = 0;
 
-  /// Residual of all equations; `least_det` is set to the least relative det of the mesh.
-  virtual Eigen::VectorXd residual(const Media&, const Eigen::VectorXd& unknowns, double& least_det) = 0;
+  /// Residual of all equations; `min_det` is set to the least relative det of the mesh.
+  virtual Eigen::VectorXd residual(const Media&, const Eigen::VectorXd& unknowns, double& min_det) = 0;
   /// The same, and the tangent factorised. False in `factorised` if the tangent is singular or not finite.
-  virtual Eigen::VectorXd linearise(const Media&, const Eigen::VectorXd& unknowns, double& least_det,
+  virtual Eigen::VectorXd linearise(const Media&, const Eigen::VectorXd& unknowns, double& min_det,
                                     bool& factorised) = 0;
   /// Solves with the tangent of the last `linearise`.
   virtual Eigen::VectorXd solve(const Eigen::VectorXd& rhs) = 0;

@@ -124,7 +124,7 @@ Eigen::MatrixX2d surface_tensions(const Cortex& cortex, const SurfaceState& stat
   return tensions;
 }
 
-double least_biot_ratio(const SurfaceState& state) {
+double min_biot_ratio(const SurfaceState& state) {
   // Incompressible: the normal stretch is 1 / (meridional hoop).
   return (state.stretch.col(0).array().square() * state.stretch.col(1).array()).minCoeff();
 }

@@ -26,7 +26,7 @@ Eigen::MatrixX2d surface_tensions(const Cortex&, const SurfaceState&);
 /// Least ratio of meridional to normal stretch along the surface. A free surface of any incompressible
 /// Mooney-Rivlin solid loses stability against short meridional wrinkles below `biot_limit` (Biot 1963;
 /// docs/theory.md, eq:biot); the boundary value problem is then ill-posed and results depend on the mesh.
-double least_biot_ratio(const SurfaceState&);
+double min_biot_ratio(const SurfaceState&);
 /// Real root of x^3 + x^2 + 3 x = 1.
 inline constexpr double biot_limit = 0.29559774252208477;
 

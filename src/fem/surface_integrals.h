@@ -21,7 +21,7 @@ class SurfaceIntegrals {
   const std::vector<SurfacePatch>& patches() const { return patches_; }
   /// The first patches, those that have anything to integrate: without bending the vertices have nothing.
   int active(const Cortex&) const;
-  /// Residual and tangent of a patch, rows and columns as its unknowns; `least_det` is left alone.
+  /// Residual and tangent of a patch, rows and columns as its unknowns; `min_det` is left alone.
   void integrate(int patch, const Cortex&, const VectorXd& unknowns, Want, ElementSystem&) const;
 
  private:

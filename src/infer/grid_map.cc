@@ -101,8 +101,8 @@ void GridMap::estimate_block(const MeasuringConditions& conditions, const Measur
 ModulusMap::Interval GridMap::areas() const {
   constexpr double rim = 1.0 / 800;  // of the width
   const GridContent& grid = grid_.content();
-  const double least = std::exp(grid.least_log_area),
-               greatest = std::exp(grid.least_log_area + grid.column_step * (grid.columns - 1));
+  const double least = std::exp(grid.min_log_area),
+               greatest = std::exp(grid.min_log_area + grid.column_step * (grid.columns - 1));
   return {least + rim * (greatest - least), greatest - rim * (greatest - least)};
 }
 

@@ -120,8 +120,8 @@ ModulusState PublishedMap::state(const MeasuringConditions& conditions, double s
   double corrected = 0;
   correct(conditions.pixel_size_um, {&size, 1}, {&deformation, 1}, {&corrected, 1});
   const double x = size * size_scale(conditions), y = corrected / max_deformation_;
-  if (x < triangulation_.least_x()) return ModulusState::too_small;
-  if (x > triangulation_.greatest_x()) return ModulusState::too_large;
+  if (x < triangulation_.min_x()) return ModulusState::too_small;
+  if (x > triangulation_.max_x()) return ModulusState::too_large;
   const auto border = triangulation_.border_at(x);
   if (y < 0.5 * (border.lower + border.upper))
     return y > border.lower ? ModulusState::no_data : ModulusState::too_stiff;
@@ -129,11 +129,11 @@ ModulusState PublishedMap::state(const MeasuringConditions& conditions, double s
 }
 
 ModulusMap::Interval PublishedMap::areas() const {
-  return {triangulation_.least_x() * max_size_, triangulation_.greatest_x() * max_size_};
+  return {triangulation_.min_x() * max_size_, triangulation_.max_x() * max_size_};
 }
 
 ModulusMap::Interval PublishedMap::deformations(double area_um2) const {
-  const double x = std::clamp(area_um2 / max_size_, triangulation_.least_x(), triangulation_.greatest_x());  // rounding
+  const double x = std::clamp(area_um2 / max_size_, triangulation_.min_x(), triangulation_.max_x());  // rounding
   const auto border = triangulation_.border_at(x);
   return {border.lower * max_deformation_, border.upper * max_deformation_};
 }

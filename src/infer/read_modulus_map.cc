@@ -36,14 +36,14 @@ fs::path grid_in(const fs::path& folder) {
 }
 
 std::string content_of(const fs::path& path) {
-  constexpr std::uintmax_t greatest_file = 64 << 20;
+  constexpr std::uintmax_t max_file = 64 << 20;
   std::error_code error;
   const auto size = fs::file_size(path, error);
   std::ifstream file(path, std::ios::binary);
-  if (error || !file || size > greatest_file)
-    throw UserError(fmt::format("{}: {}", one_line(path.string(), 300),
-                                !error && size > greatest_file ? "is too large for a grid of a table."
-                                                               : "cannot be read; check its permissions."));
+  if (error || !file || size > max_file)
+    throw UserError(fmt::format(
+        "{}: {}", one_line(path.string(), 300),
+        !error && size > max_file ? "is too large for a grid of a table." : "cannot be read; check its permissions."));
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -11,7 +11,7 @@ namespace rheocyte {
 namespace {
 
 // Stiffer cells are round for a camera.
-constexpr double least_deformation = 1e-3;
+constexpr double min_deformation = 1e-3;
 constexpr int outline_points = 400;
 
 std::array<double, mode_count> modes_of(const CombinedState& state) {
@@ -25,7 +25,7 @@ std::array<double, mode_count> modes_of(const CombinedState& state) {
 RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, int draws)
     : box_(table.box()) {
   double& least = box_.least(int(CellCoordinate::log_deformation));
-  least = std::max(least, std::log(least_deformation));
+  least = std::max(least, std::log(min_deformation));
   std::uint64_t number = 0;
   for (int i = 0; i < nodes[0]; ++i)
     for (int j = 0; j < nodes[1]; ++j)

@@ -200,9 +200,9 @@ std::vector<int> features_of_figure() {
 }
 
 std::vector<int> features_of_contour(int last) {
-  assert(last >= least_mode && last <= greatest_mode);
+  assert(last >= min_mode && last <= max_mode);
   std::vector<int> features{int(ShapeFeature::area_um2)};
-  for (int k = least_mode; k <= last; ++k) features.push_back(int(ShapeFeature::first_mode) + k - least_mode);
+  for (int k = min_mode; k <= last; ++k) features.push_back(int(ShapeFeature::first_mode) + k - min_mode);
   return features;
 }
 
@@ -321,7 +321,7 @@ ModuliEstimate SeveralModuli::estimate_of(const MeasuredShape& shape, const Cand
       const double value = moduli_at(other.cell, table_.at(other.cell)).value(int(m));
       return value >= e.value(m) / 2 && value <= e.value(m) * 2;
     };
-    const bool known = e.error(m) <= greatest_relative_error * e.value(m) && std::ranges::all_of(others, is_near);
+    const bool known = e.error(m) <= max_relative_error * e.value(m) && std::ranges::all_of(others, is_near);
     e.is_known[std::size_t(m)] = known;
     if (m != Modulus::tension || options_.free_tension) all_known = all_known && known;
   }

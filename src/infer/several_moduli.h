@@ -33,7 +33,7 @@ struct ModuliEstimate {
   /// Young's modulus (kPa), E2D (mN/m), tension (mN/m), and their covariance.
   Eigen::Vector3d modulus = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  std::array<bool, modulus_count> is_known{};  ///< standard error below `greatest_relative_error`
+  std::array<bool, modulus_count> is_known{};  ///< standard error below `max_relative_error`
   double stiffness_kPa = std::numeric_limits<double>::quiet_NaN(),
          stiffness_error_kPa = stiffness_kPa;      ///< E + E2D / r0
   CellCoordinates cell = CellCoordinates::Zero();  ///< in the table's channel
@@ -44,7 +44,7 @@ struct ModuliEstimate {
   double error(Modulus m) const;
 };
 /// 90 % of the estimates lie between half and twice the value.
-inline constexpr double greatest_relative_error = 0.42;
+inline constexpr double max_relative_error = 0.42;
 
 /// One plain sentence for the user.
 std::string sentence(const ModuliEstimate& estimate);
@@ -62,7 +62,7 @@ struct FitOptions {
 };
 /// Area, deformation, Lambda1 / Lambda2: the two measures of figure 9 of Mokbel et al. 2017 and a size.
 std::vector<int> features_of_figure();
-/// Area and the modes up to `last`, 2 <= last <= greatest_mode: the whole contour.
+/// Area and the modes up to `last`, 2 <= last <= max_mode: the whole contour.
 std::vector<int> features_of_contour(int last = 6);
 
 /// The table's interpolation must outlive it.

@@ -18,7 +18,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double sign_of(const ShapeGrid& shapes) {
   const ShapeNodes& nodes = shapes.nodes();
-  return shapes.mode(3, nodes.least_log_area, std::exp(nodes.lower.front())) < 0 ? -1 : 1;
+  return shapes.mode(3, nodes.min_log_area, std::exp(nodes.lower.front())) < 0 ? -1 : 1;
 }
 
 template <class Take>

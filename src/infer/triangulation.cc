@@ -137,9 +137,9 @@ std::int32_t Triangulation::start_for(double x, double y) const {
 // Walks across the edge behind which the point lies farthest. In a Delaunay triangulation this ends; rounding in
 // slivers could let it go round, then every triangle is tried.
 std::int32_t Triangulation::locate(double x, double y, std::int32_t start, std::array<double, 3>& weights) const {
-  constexpr int greatest_steps = 4096;
+  constexpr int max_steps = 4096;
   std::int32_t at = start;
-  for (int step = 0; step < greatest_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const Triangle& t = triangles_[at];
     const double dx = x - t.last.x, dy = y - t.last.y;
     weights[0] = t.to_barycentric[0] * dx + t.to_barycentric[1] * dy;

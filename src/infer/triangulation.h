@@ -29,8 +29,8 @@ class Triangulation {
   };
   Border border_at(double x) const;
 
-  double least_x() const { return lower_border_.front().x; }
-  double greatest_x() const { return lower_border_.back().x; }
+  double min_x() const { return lower_border_.front().x; }
+  double max_x() const { return lower_border_.back().x; }
   std::size_t triangles() const { return triangles_.size(); }
 
  private:

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::size_t greatest_number_of_paths = 64;
+constexpr std::size_t max_number_of_paths = 64;
 
 json parsed(const std::string& json_text) {
   const std::string text = escapes_as_stand_ins(json_text);
@@ -33,7 +33,7 @@ std::string text_at(const json& definition, const char* key) {
 std::vector<std::string> texts_in(const json& list) {
   std::vector<std::string> texts;
   for (const auto& entry : list)
-    if (entry.is_string() && texts.size() < greatest_number_of_paths)
+    if (entry.is_string() && texts.size() < max_number_of_paths)
       texts.push_back(without_stand_ins(entry.get<std::string>()));
   return texts;
 }

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t greatest_attribute = 1 << 20;
+constexpr std::size_t max_attribute = 1 << 20;
 constexpr const char* version_key = "setup:software version";
 constexpr const char* count_key = "experiment:event count";
 
@@ -47,7 +47,7 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* tar
   const Hdf5Handle type(::H5Tcopy(file_type.get()));
   const hssize_t count = ::H5Sget_simple_extent_npoints(space.get());
   const std::size_t size = type ? ::H5Tget_size(type.get()) : 0;
-  if (count < 1 || size == 0 || static_cast<std::size_t>(count) > greatest_attribute / size) return 0;
+  if (count < 1 || size == 0 || static_cast<std::size_t>(count) > max_attribute / size) return 0;
   std::vector<unsigned char> values(static_cast<std::size_t>(count) * size);
   if (::H5Aread(source.get(), type.get(), values.data()) < 0) return 0;
   const Hdf5Handle copy(

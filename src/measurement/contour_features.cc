@@ -85,8 +85,8 @@ std::span<const PixelPoint> ContourMeasurer::hull_of(std::span<const PixelPoint>
   columns_.assign(static_cast<std::size_t>(right.x - left.x + 1), {none, -none});
   for (const PixelPoint& point : contour) {
     Column& column = columns_[static_cast<std::size_t>(point.x - left.x)];
-    column.least_y = std::min(column.least_y, point.y);
-    column.greatest_y = std::max(column.greatest_y, point.y);
+    column.min_y = std::min(column.min_y, point.y);
+    column.max_y = std::max(column.max_y, point.y);
   }
   hull_.clear();
   std::size_t bottom = 0;
@@ -95,12 +95,12 @@ std::span<const PixelPoint> ContourMeasurer::hull_of(std::span<const PixelPoint>
     hull_.push_back(point);
   };
   for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (columns_[i].least_y != none) push({left.x + static_cast<std::int32_t>(i), columns_[i].least_y});
-  const PixelPoint turn{right.x, columns_.back().greatest_y};
+    if (columns_[i].min_y != none) push({left.x + static_cast<std::int32_t>(i), columns_[i].min_y});
+  const PixelPoint turn{right.x, columns_.back().max_y};
   if (!(turn == hull_.back())) hull_.push_back(turn);
   bottom = hull_.size() - 1;
   for (std::size_t i = columns_.size() - 1; i-- > 0;)
-    if (columns_[i].least_y != none) push({left.x + static_cast<std::int32_t>(i), columns_[i].greatest_y});
+    if (columns_[i].min_y != none) push({left.x + static_cast<std::int32_t>(i), columns_[i].max_y});
   if (hull_.size() > 1 && hull_.back() == hull_.front()) hull_.pop_back();
   return hull_;
 }

@@ -41,7 +41,7 @@ class ContourMeasurer {
   std::span<const PixelPoint> hull_of(std::span<const PixelPoint> contour);
 
   struct Column {
-    std::int32_t least_y, greatest_y;
+    std::int32_t min_y, max_y;
   };
   std::vector<Column> columns_;
   std::vector<PixelPoint> hull_;

@@ -212,7 +212,7 @@ std::optional<DatasetShape> numeric_shape(hid_t dataset, std::uintmax_t file_byt
   const auto bytes = [&](const std::vector<hsize_t>& sides) {
     return std::accumulate(sides.begin(), sides.end(), size, [](double a, hsize_t b) { return a * double(b); });
   };
-  if (bytes(extent) > reading_limits.greatest_compression * static_cast<double>(file_bytes)) return std::nullopt;
+  if (bytes(extent) > reading_limits.max_compression * static_cast<double>(file_bytes)) return std::nullopt;
   const bool single_precision = ::H5Tget_class(type.get()) == H5T_FLOAT && ::H5Tget_size(type.get()) == 4;
   DatasetShape shape{{extent.begin(), extent.end()}, 0, single_precision};
   if (::H5Pget_layout(properties.get()) != H5D_CHUNKED) return shape;

@@ -125,7 +125,7 @@ std::optional<std::vector<std::string>> read_lines(hid_t dataset, std::uintmax_t
   if (!space || !type || ::H5Tget_class(type.get()) != H5T_STRING) return std::nullopt;
   const double bytes =
       static_cast<double>(::H5Sget_simple_extent_npoints(space.get())) * static_cast<double>(::H5Tget_size(type.get()));
-  if (bytes > reading_limits.greatest_compression * static_cast<double>(file_bytes)) return std::nullopt;
+  if (bytes > reading_limits.max_compression * static_cast<double>(file_bytes)) return std::nullopt;
   return texts(type.get(), space.get(), [&](hid_t memory_type, void* buffer) {
     return ::H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer) >= 0;
   });

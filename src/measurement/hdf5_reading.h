@@ -20,7 +20,7 @@ struct ReadingLimits {
   std::size_t chunk_bytes = 1 << 30;     ///< decompressed
   std::size_t image_side = 1 << 14;      ///< pixels
   std::size_t contour_points = 1 << 20;  ///< of one event
-  double greatest_compression = 5e4;     ///< bytes of data per byte of file
+  double max_compression = 5e4;          ///< bytes of data per byte of file
   double events_per_byte = 10;           ///< of the file and its basins; true ones have less than 1
 };
 inline constexpr ReadingLimits reading_limits;

@@ -41,10 +41,10 @@ using AsymmetryLaw = std::array<double, powers_of_mode * powers_of_mode * powers
 constexpr AsymmetryLaw asymmetry_law{-4.51305, 12.1154,  36.1538, -116.452, -188.857, 841.275,
                                      -425.781, 1271.94,  5513.51, -17071.7, -17293.2, 51575.5,
                                      1113.81,  -3272.11, -14040,  41639.7,  39400,    -102179};
-constexpr double least_fitted_mode_2 = -0.02, greatest_fitted_mode_2 = 0.28, greatest_fitted_mode_3 = 0.15;
+constexpr double min_fitted_mode_2 = -0.02, max_fitted_mode_2 = 0.28, max_fitted_mode_3 = 0.15;
 
 // Below what masks show; for shapes that few pixels cannot have.
-constexpr double least_area_deviation = 0.2, least_deformation_deviation = 0.05, least_asymmetry_deviation = 0.15,
+constexpr double min_area_deviation = 0.2, min_deformation_deviation = 0.05, min_asymmetry_deviation = 0.15,
                  left_by_asymmetry_law = 0.015;  // of c_3 of a single shape
 
 double value(const Law& law, double deformation, double s) {
@@ -71,23 +71,23 @@ double value(const AsymmetryLaw& law, double ellipse, double asymmetry, double s
 }  // namespace
 
 PixelErrors pixel_errors(double log_area_px, double deformation) {
-  static const double least = std::log(least_fitted_area_px), greatest = std::log(greatest_fitted_area_px);
+  static const double least = std::log(min_fitted_area_px), greatest = std::log(max_fitted_area_px);
   const double s = std::exp(-std::clamp(log_area_px, least, greatest) / 3), s2 = s * s;
-  const double d = std::clamp(deformation, 0.0, greatest_fitted_deformation);
+  const double d = std::clamp(deformation, 0.0, max_fitted_deformation);
   return {1 + s2 * value(area_law, d, s), s2 * value(deformation_law, d, s),
-          s2 * std::max(value(area_deviation_law, d, s), least_area_deviation),
-          s2 * std::max(value(deformation_deviation_law, d, s), least_deformation_deviation),
+          s2 * std::max(value(area_deviation_law, d, s), min_area_deviation),
+          s2 * std::max(value(deformation_deviation_law, d, s), min_deformation_deviation),
           std::clamp(value(correlation_law, d, s), -1.0, 1.0)};
 }
 
 AsymmetryErrors asymmetry_errors(double log_area_px, double mode_2, double mode_3) {
-  static const double least = std::log(least_fitted_area_px), greatest = std::log(greatest_fitted_area_px);
+  static const double least = std::log(min_fitted_area_px), greatest = std::log(max_fitted_area_px);
   const double s = std::exp(-std::clamp(log_area_px, least, greatest) / 3), s2 = s * s;
-  const double ellipse = std::clamp(mode_2, least_fitted_mode_2, greatest_fitted_mode_2),
-               asymmetry = std::clamp(std::abs(mode_3), 0.0, greatest_fitted_mode_3);
+  const double ellipse = std::clamp(mode_2, min_fitted_mode_2, max_fitted_mode_2),
+               asymmetry = std::clamp(std::abs(mode_3), 0.0, max_fitted_mode_3);
   const double excess = mode_3 < 0 ? -asymmetry : asymmetry;
   return {s2 * excess * value(asymmetry_law, ellipse, asymmetry, s),
-          std::hypot(s2 * std::max(0.3 + 0.8 * asymmetry - 0.4 * ellipse, least_asymmetry_deviation),
+          std::hypot(s2 * std::max(0.3 + 0.8 * asymmetry - 0.4 * ellipse, min_asymmetry_deviation),
                      left_by_asymmetry_law * asymmetry)};
 }
 

@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t greatest_number_of_basins = 16;
-constexpr int greatest_number_of_files = 64;  // basins of basins included
+constexpr std::size_t max_number_of_basins = 16;
+constexpr int max_number_of_files = 64;  // basins of basins included
 constexpr const char* internal_group = "basin_events";
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -31,10 +31,9 @@ void Recording::open_basins(Opening& opening) {
   const Hdf5Handle group = open_group(c.file.get(), "basins");
   auto names = group ? member_names(group.get()) : std::nullopt;
   if (!names) return;
-  if (names->size() > greatest_number_of_basins) {
-    c.remarks.push_back(
-        fmt::format("has {} basins; only the first {} are used.", names->size(), greatest_number_of_basins));
-    names->resize(greatest_number_of_basins);
+  if (names->size() > max_number_of_basins) {
+    c.remarks.push_back(fmt::format("has {} basins; only the first {} are used.", names->size(), max_number_of_basins));
+    names->resize(max_number_of_basins);
   }
   for (const auto& name : *names) {
     const Hdf5Handle dataset = open_dataset(group.get(), name);
@@ -96,7 +95,7 @@ std::string Recording::open_basin_file(const fs::path& file, Basin& basin, Openi
   if (!link.second) return "it leads back to a file that is open";
   std::string problem;
   try {
-    if (++opening.files > greatest_number_of_files) throw UserError("its files refer to too many others");
+    if (++opening.files > max_number_of_files) throw UserError("its files refer to too many others");
     basin.recording.reset(new Recording(file, opening));
   } catch (const UserError& refusal) {
     problem = refusal.what();

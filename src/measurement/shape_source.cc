@@ -10,7 +10,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t greatest_block_bytes = 32U << 20U;  // of masks in memory at a time
+constexpr std::size_t max_block_bytes = 32U << 20U;  // of masks in memory at a time
 
 std::string first_there(const Recording& recording, const std::string& feature, const std::string& stand_in) {
   if (recording.has_scalar(feature)) return feature;
@@ -84,7 +84,7 @@ void ShapeSource::features_from_masks(std::size_t first, std::span<ContourFeatur
   const ImageSize size = recording_.image_size("mask").value_or(ImageSize{});
   // Whole chunks of the file, but not more memory than the limit.
   const std::size_t chunk = recording_.image_rows_per_chunk("mask");
-  const std::size_t fitting = std::max<std::size_t>(greatest_block_bytes / std::max<std::size_t>(size.pixels(), 1), 1);
+  const std::size_t fitting = std::max<std::size_t>(max_block_bytes / std::max<std::size_t>(size.pixels(), 1), 1);
   const std::size_t step = fitting > chunk ? fitting / chunk * chunk : fitting;
   for (std::size_t done = 0; done < features.size();) {
     const std::size_t to_boundary = step - (first + done) % step;

@@ -9,7 +9,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr unsigned long long greatest_chunk = 1ULL << 30;  // a damaged frame may claim any size
+constexpr unsigned long long max_chunk = 1ULL << 30;  // a damaged frame may claim any size
 
 struct Bytes {
   void* data = nullptr;
@@ -19,8 +19,7 @@ struct Bytes {
 // HDF5 frees what a filter returns with its own routine, so memory comes from there.
 Bytes decompressed(const void* source, std::size_t size) {
   const auto content = ::ZSTD_getFrameContentSize(source, size);
-  if (content == ZSTD_CONTENTSIZE_ERROR || content == ZSTD_CONTENTSIZE_UNKNOWN || content == 0 ||
-      content > greatest_chunk)
+  if (content == ZSTD_CONTENTSIZE_ERROR || content == ZSTD_CONTENTSIZE_UNKNOWN || content == 0 || content > max_chunk)
     return {};
   Bytes result{::H5allocate_memory(content, false), static_cast<std::size_t>(content), 0};
   if (!result.data) return result;

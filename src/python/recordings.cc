@@ -190,7 +190,7 @@ py::dict features(const Masks& masks, double pixel_size_um) {
   }
   for (int k = first_radius_mode; k <= last_radius_mode; ++k) {
     std::vector<double> values(count);
-    const int row = int(ShapeFeature::first_mode) + k - least_mode;
+    const int row = int(ShapeFeature::first_mode) + k - min_mode;
     std::ranges::transform(found.shapes, values.begin(), [row](const ShapeVector& shape) { return shape(row); });
     columns[("mode_" + std::to_string(k)).c_str()] = array_of(std::move(values));
   }

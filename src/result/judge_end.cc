@@ -33,7 +33,7 @@ std::string told(double deformation, double distance, bool settled) {
 /// Where the surface was compressed, and whether anything held it.
 std::string told_of_surface(const TimeRecord& record, const Problem& problem) {
   constexpr double share_of_rounding = 1e-6;
-  const HistoryRow& slack = least_tension(record);
+  const HistoryRow& slack = min_tension(record);
   const HistoryRow& unstable =
       *std::ranges::min_element(record.rows, {}, [](const HistoryRow& row) { return row.measure("stability_margin"); });
   const double margin = unstable.measure("stability_margin"), tension = slack.measure("least_tension_mN_per_m");
@@ -65,7 +65,7 @@ std::optional<Problem> straight_from_here(const Result& result, const TimeRecord
   straight.channel.profile = {};
   straight.channel.radius_um = wall.radius.back();
   const Problem problem = problem_of(straight);
-  if (problem.radius_ratio < least_radius_ratio) return {};
+  if (problem.radius_ratio < min_radius_ratio) return {};
   return problem;
 }
 

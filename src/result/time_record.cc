@@ -43,7 +43,7 @@ std::span<const Field<HistoryRow>> history_fields() {
   return fields;
 }
 
-const HistoryRow& least_tension(const TimeRecord& record) {
+const HistoryRow& min_tension(const TimeRecord& record) {
   return *std::ranges::min_element(record.rows, {},
                                    [](const HistoryRow& row) { return row.measure("least_tension_mN_per_m"); });
 }
@@ -57,7 +57,7 @@ std::span<const Field<TimeRecord, Json>> time_fields() {
        [](const TimeRecord& r) -> Json { return name(r.end); }},
       {"least_tension_mN_per_m",
        "least meridional tension of the surface on the way; a shell wrinkles where it is negative",
-       [](const TimeRecord& r) -> Json { return least_tension(r).measure("least_tension_mN_per_m"); }},
+       [](const TimeRecord& r) -> Json { return min_tension(r).measure("least_tension_mN_per_m"); }},
       {"steps", "steps in time", [](const TimeRecord& r) -> Json { return r.rows.size() - 1; }},
       {"frames", "contours and files of fields", [](const TimeRecord& r) -> Json { return r.frames.size(); }},
       {"greatest_relative_volume_change", "greatest magnitude on the way",

@@ -54,7 +54,7 @@ struct TimeRecord {
 };
 
 /// The row of the least meridional tension of the surface; there must be a row.
-const HistoryRow& least_tension(const TimeRecord&);
+const HistoryRow& min_tension(const TimeRecord&);
 
 HistoryRow history_row(const TimePoint&, const Scales&);
 ContourFrame contour_frame(const TimeFrame&, const Scales&);

@@ -15,7 +15,7 @@ constexpr int quadrature_points = 40;
 const Eigen::MatrixXd& whole_piece_basis(int degree, const Quadrature& rule) {
   static const auto all = [&] {
     std::vector<Eigen::MatrixXd> bases(1);
-    for (int p = 1; p <= greatest_curve_degree; ++p) bases.push_back(lagrange_basis(p, rule.points));
+    for (int p = 1; p <= max_curve_degree; ++p) bases.push_back(lagrange_basis(p, rule.points));
     return bases;
   }();
   return all[degree];

@@ -86,12 +86,12 @@ std::vector<int> hull_samples(const Eigen::MatrixX2d& points, int front, int rea
 // Each pass takes the chord's normal and moves both ends to the farthest points in that direction; this is Newton's
 // method for the slope of the common tangent and converges quadratically.
 std::optional<Bridge> refine(const SampledMeridian& meridian, int from, int to, Interval allowed) {
-  constexpr int greatest_passes = 8;
+  constexpr int max_passes = 8;
   constexpr double resolved = 1e-9;
   Bridge bridge{std::max(SampledMeridian::parameter(from), allowed.lower),
                 std::min(SampledMeridian::parameter(to), allowed.upper), 0};
   Eigen::Vector2d normal;
-  for (int pass = 0; pass < greatest_passes; ++pass) {
+  for (int pass = 0; pass < max_passes; ++pass) {
     const Eigen::Vector2d chord = meridian.point(bridge.end) - meridian.point(bridge.start);
     if (!(chord.norm() > 0) || bridge.end <= bridge.start) return std::nullopt;
     normal = outward_normal(chord);
@@ -151,9 +151,9 @@ Interval between_dents(const SampledMeridian& meridian, int front, int rear) {
   Interval rims{support(meridian, {1, 0}, around(meridian, front, all)),
                 support(meridian, {-1, 0}, around(meridian, rear, all))};
   // A dent as shallow as rounding is none.
-  const double least_depth = 1e-14 * meridian.size();
-  if (meridian.point(rims.lower).x() - meridian.point(all.lower).x() < least_depth) rims.lower = all.lower;
-  if (meridian.point(all.upper).x() - meridian.point(rims.upper).x() < least_depth) rims.upper = all.upper;
+  const double min_depth = 1e-14 * meridian.size();
+  if (meridian.point(rims.lower).x() - meridian.point(all.lower).x() < min_depth) rims.lower = all.lower;
+  if (meridian.point(all.upper).x() - meridian.point(rims.upper).x() < min_depth) rims.upper = all.upper;
   return rims;
 }
 

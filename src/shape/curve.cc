@@ -64,16 +64,16 @@ LobattoBasis compute_lobatto_basis(int degree) {
 }
 
 const LobattoBasis& lobatto_basis(int degree) {
-  assert(degree >= 1 && degree <= greatest_curve_degree);
+  assert(degree >= 1 && degree <= max_curve_degree);
   static const auto all = [] {
-    std::array<LobattoBasis, greatest_curve_degree + 1> bases;
-    for (int p = 1; p <= greatest_curve_degree; ++p) bases[p] = compute_lobatto_basis(p);
+    std::array<LobattoBasis, max_curve_degree + 1> bases;
+    for (int p = 1; p <= max_curve_degree; ++p) bases[p] = compute_lobatto_basis(p);
     return bases;
   }();
   return all[degree];
 }
 
-using BasisRow = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, greatest_curve_degree + 1>;
+using BasisRow = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, max_curve_degree + 1>;
 
 BasisRow basis_row(const LobattoBasis& basis, double t) {
   BasisRow row(basis.nodes.size());

@@ -6,9 +6,9 @@
 
 namespace rheocyte {
 
-inline constexpr int greatest_curve_degree = 12;
+inline constexpr int max_curve_degree = 12;
 
-/// Degree of a piece: rows - 1. Every function below expects 1 <= degree <= greatest_curve_degree (asserted).
+/// Degree of a piece: rows - 1. Every function below expects 1 <= degree <= max_curve_degree (asserted).
 inline int degree_of(const CurvePiece& piece) { return static_cast<int>(piece.rows()) - 1; }
 
 /// The degree + 1 Gauss-Legendre-Lobatto points of [0, 1], ascending; the first is 0, the last 1.

@@ -61,9 +61,9 @@ Moments moments_of(const std::vector<Point>& hull) {
   return m;
 }
 
-/// Adds the integrals of r cos(k theta), k = 0 .. greatest_mode, along one edge, seen from the origin: the radius of a
+/// Adds the integrals of r cos(k theta), k = 0 .. max_mode, along one edge, seen from the origin: the radius of a
 /// straight line is distance / cos(theta - direction of its normal).
-void add_edge(const Point& a, const Point& b, std::array<double, greatest_mode + 1>& integral) {
+void add_edge(const Point& a, const Point& b, std::array<double, max_mode + 1>& integral) {
   static constexpr std::array<double, 4> place{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                                                0.8611363115940526},
       weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
@@ -97,12 +97,12 @@ OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) {
   const Moments m = moments_of(hull);
   OutlineShape shape{m.area, 1 - 2 * std::sqrt(std::numbers::pi * m.area) / m.perimeter, m.yy / m.xx, m.centroid.x(),
                      m.centroid.y()};
-  std::array<double, greatest_mode + 1> integral{};
+  std::array<double, max_mode + 1> integral{};
   for (std::size_t i = 0; i < hull.size(); ++i)
     add_edge(hull[i] - m.centroid, hull[(i + 1) % hull.size()] - m.centroid, integral);
   shape.mean_radius = integral[0] / (2 * std::numbers::pi);
-  for (int k = least_mode; k <= greatest_mode; ++k)
-    shape.modes[std::size_t(k - least_mode)] = 2 * integral[std::size_t(k)] / integral[0];
+  for (int k = min_mode; k <= max_mode; ++k)
+    shape.modes[std::size_t(k - min_mode)] = 2 * integral[std::size_t(k)] / integral[0];
   return shape;
 }
 
@@ -130,7 +130,7 @@ Eigen::MatrixX2d outline_of_modes(const std::array<double, mode_count>& modes, d
   for (int i = 0; i < points; ++i) {
     const double theta = 2 * std::numbers::pi * i / points;
     double r = 1;
-    for (int k = least_mode; k <= greatest_mode; ++k) r += modes[std::size_t(k - least_mode)] * std::cos(k * theta);
+    for (int k = min_mode; k <= max_mode; ++k) r += modes[std::size_t(k - min_mode)] * std::cos(k * theta);
     outline.row(i) << mean * r * std::cos(theta), mean * r * std::sin(theta);
   }
   return outline;

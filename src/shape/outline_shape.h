@@ -5,8 +5,8 @@
 
 namespace rheocyte {
 
-/// Modes k = least_mode .. greatest_mode; the first one vanishes about the centroid but for second order.
-inline constexpr int least_mode = 2, greatest_mode = 12, mode_count = greatest_mode - least_mode + 1;
+/// Modes k = min_mode .. max_mode; the first one vanishes about the centroid but for second order.
+inline constexpr int min_mode = 2, max_mode = 12, mode_count = max_mode - min_mode + 1;
 
 /// Of the convex hull of a closed polygon; moments and radius about its centroid (docs/theory-extract.md, eq:modes).
 struct OutlineShape {

@@ -17,14 +17,14 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() 
 bool has_readable_pieces(const Contour& contour) {
   if (contour.pieces.empty()) return false;
   return std::all_of(contour.pieces.begin(), contour.pieces.end(), [](const CurvePiece& piece) {
-    return degree_of(piece) >= 1 && degree_of(piece) <= greatest_curve_degree && piece.allFinite();
+    return degree_of(piece) >= 1 && degree_of(piece) <= max_curve_degree && piece.allFinite();
   });
 }
 
-bool is_continuous(const std::vector<CurvePiece>& pieces, double greatest_gap) {
+bool is_continuous(const std::vector<CurvePiece>& pieces, double max_gap) {
   for (std::size_t i = 1; i < pieces.size(); ++i) {
     const auto& previous = pieces[i - 1];
-    if ((previous.row(previous.rows() - 1) - pieces[i].row(0)).norm() > greatest_gap) return false;
+    if ((previous.row(previous.rows() - 1) - pieces[i].row(0)).norm() > max_gap) return false;
   }
   return true;
 }

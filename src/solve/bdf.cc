@@ -7,7 +7,7 @@ namespace rheocyte {
 namespace {
 
 /// A step may grow by this factor at once; less keeps formulas of variable step stable at high order.
-constexpr double greatest_growth = 1.8, least_growth = 0.3;
+constexpr double max_growth = 1.8, min_growth = 0.3;
 /// A growth below this is not worth the change: equal steps keep the errors smooth.
 constexpr double worthwhile_growth = 1.2;
 /// Of the step that the error estimate permits.
@@ -50,7 +50,7 @@ StepChoice choose_step(int order, const StepErrors& errors) {
     best = {order - 1, permitted(order - 1, errors.below)};
   if (errors.above >= 0 && permitted(order + 1, errors.above) > 1.1 * best.factor)
     best = {order + 1, permitted(order + 1, errors.above)};
-  best.factor = std::clamp(best.factor, least_growth, greatest_growth);
+  best.factor = std::clamp(best.factor, min_growth, max_growth);
   if (best.order == order && best.factor > 1 && best.factor < worthwhile_growth) best.factor = 1;
   return best;
 }

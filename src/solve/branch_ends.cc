@@ -23,7 +23,7 @@ constexpr End neo_hookean[] = {{0.05, 2.0049}, {0.1, 2.0060},  {0.15, 2.0027}, {
                                {0.8, 1.8608},  {0.85, 1.8209}, {0.9, 1.7857},  {0.95, 1.7614}};
 
 /// Moduli below this share of the least one are refused: far outside the table's error, and what inertia changes.
-constexpr double far = 0.85, greatest_reynolds = 0.3;
+constexpr double far = 0.85, max_reynolds = 0.3;
 /// Where the last state is looked for, above the end and the table's error.
 constexpr double above_end = 1.03;
 
@@ -37,10 +37,10 @@ double interpolate(std::span<const End> ends, double radius_ratio) {
 
 }  // namespace
 
-std::optional<double> least_shear_modulus(const Problem& problem) {
+std::optional<double> min_shear_modulus(const Problem& problem) {
   const Cortex& cortex = problem.cortex;
   const bool is_bare = cortex.law == CortexLaw::none && cortex.tension == 0 && cortex.bending == 0;
-  if (!is_bare || problem.liquid.law != LiquidLaw::newtonian || problem.liquid.reynolds > greatest_reynolds ||
+  if (!is_bare || problem.liquid.law != LiquidLaw::newtonian || problem.liquid.reynolds > max_reynolds ||
       problem.drive != Drive::rate || !(problem.radius_ratio > 0))
     return std::nullopt;
   switch (problem.bulk.law) {
@@ -51,13 +51,13 @@ std::optional<double> least_shear_modulus(const Problem& problem) {
 }
 
 bool is_far_too_soft(const Problem& problem) {
-  const auto least = least_shear_modulus(problem);
+  const auto least = min_shear_modulus(problem);
   return least && problem.bulk.shear_modulus < far * *least;
 }
 
 Problem at_end_of_branch(const Problem& problem) {
   Problem end = problem;
-  end.bulk.shear_modulus = above_end * least_shear_modulus(problem).value();
+  end.bulk.shear_modulus = above_end * min_shear_modulus(problem).value();
   return end;
 }
 

@@ -8,7 +8,7 @@ namespace rheocyte {
 
 /// Least shear modulus (in S) of a bare solid, `linear` or neo-Hookean, whose surface is smooth in a Newtonian liquid
 /// with a given flow rate, within 2 %; none for other problems (docs/theory.md, sec. "ends of branches").
-std::optional<double> least_shear_modulus(const Problem&);
+std::optional<double> min_shear_modulus(const Problem&);
 
 /// Whether the problem is so far beyond the end of its branch that it need not be tried.
 bool is_far_too_soft(const Problem&);

@@ -16,7 +16,7 @@ VectorXd predict(const BranchState& now, const BranchState* before, double h) {
 }
 
 /// Changes of the liquid's thinning in one step, and the least one.
-constexpr double thinning_step = 0.2, least_thinning_step = 0.01;
+constexpr double thinning_step = 0.2, min_thinning_step = 0.01;
 
 /// Newton at one compliance from a guess in the Newtonian liquid. A power law is singular where nothing flows yet, so
 /// the liquid is approached from the Newtonian one in steps that halve where Newton fails.
@@ -39,7 +39,7 @@ NewtonReport enter_branch(NonlinearSystem& system, const Problem& problem, const
       first = false;
     } else {
       step /= 2;
-      if (first || report.status == Status::stopped || step * way < least_thinning_step) break;
+      if (first || report.status == Status::stopped || step * way < min_thinning_step) break;
     }
   }
   return report;
@@ -121,7 +121,7 @@ double limited_step(const Path& path, double parameter, double h) {
 Status judge(const NewtonReport& newton, const NonlinearSystem& system, const VectorXd& guess, const VectorXd& found,
              const ContinuationOptions& options) {
   if (newton.status != Status::converged) return newton.status;
-  return system.stretch_change(guess, found) < options.greatest_correction ? Status::converged : Status::branch_ended;
+  return system.stretch_change(guess, found) < options.max_correction ? Status::converged : Status::branch_ended;
 }
 
 }  // namespace
@@ -159,7 +159,7 @@ ContinuationReport continue_branch(const Path& path, const ContinuationOptions& 
       status = Status::surface_unstable;
     if (status != Status::converged) {
       h /= 2;
-      if (h < options.least_step * path.unit(last.parameter)) return report.status = status, report;
+      if (h < options.min_step * path.unit(last.parameter)) return report.status = status, report;
       continue;
     }
     report.residual = newton_report.residual;

@@ -21,8 +21,8 @@ struct ContinuationOptions {
   double displacement_per_step = 0.12;  ///< aim for the largest change of the surface in one step, in r0
   /// A predictor farther off than this may land on another branch: greatest change of the surface's meridional
   /// stretch by Newton. Strain, not displacement, shows a crease, which is short.
-  double greatest_correction = 0.06;
-  double least_step = 2e-3;  ///< of the parameter, relative to its distance from the path's origin (or to 1)
+  double max_correction = 0.06;
+  double min_step = 2e-3;  ///< of the parameter, relative to its distance from the path's origin (or to 1)
   /// Called with each converged state; returning false refuses it as unstable, and the step is halved.
   std::function<bool(const NonlinearSystem&, const BranchState&)> accept;
 };

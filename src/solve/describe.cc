@@ -54,7 +54,7 @@ MatrixXd axial_coordinates(const StateView& state, int e) {
 
 /// The greatest shear rate between the planes through the cell's poles. Quadrature points lie neither on the cell nor
 /// at the wall, where it is the greatest: the polynomials that fit 2 D:D best there are looked at up to the edges.
-double greatest_shear_rate(const StateView& state, const Contour& contour) {
+double max_shear_rate(const StateView& state, const Contour& contour) {
   const ReferenceElement<2>& reference = state.space.reference();
   const VectorXd grid = VectorXd::LinSpaced(4 * reference.degree() + 1, 0, 1);
   const MatrixXd nodes_to_grid = reference.lagrange(grid), at_points = reference.lagrange(reference.points_1d);
@@ -84,10 +84,10 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   r.relative_volume_change =
       r.shape.volume / (4.0 / 3 * std::numbers::pi * std::pow(state.problem.radius_ratio, 3)) - 1;
   read_flow(state, r);
-  r.shear_rate_max = greatest_shear_rate(state, contour);
-  r.least_meridional_stretch = surface.stretch.col(0).minCoeff();
-  r.least_tension = surface_tensions(state.media.cortex, surface).col(0).minCoeff();
-  r.biot_ratio = least_biot_ratio(surface);
+  r.shear_rate_max = max_shear_rate(state, contour);
+  r.min_meridional_stretch = surface.stretch.col(0).minCoeff();
+  r.min_tension = surface_tensions(state.media.cortex, surface).col(0).minCoeff();
+  r.biot_ratio = min_biot_ratio(surface);
   r.stability_margin = stability_margin(state.problem, surface);
   return r;
 }

@@ -57,19 +57,19 @@ SurfaceProfile profile(const DuctSpace& space, const VectorXd& unknowns, const C
 
 /// What decides of the surface's stability.
 struct SurfaceExtremes {
-  double least_stretch, biot_ratio, least_tension;
+  double min_stretch, biot_ratio, min_tension;
 };
 
 SurfaceExtremes surface_extremes(const Cortex& cortex, const DuctSpace& space, const VectorXd& unknowns) {
   const Eigen::MatrixX2d stretch = duct_principal_stretches(space, unknowns);
-  double least_tension = std::numeric_limits<double>::infinity();
+  double min_tension = std::numeric_limits<double>::infinity();
   for (const auto& row : stretch.rowwise()) {
     const auto [T1, T2] = principal_tensions<double>(cortex, row(0), row(1));
-    least_tension = std::min({least_tension, T1, T2});
+    min_tension = std::min({min_tension, T1, T2});
   }
   // Incompressible: the normal stretch is 1 / (least greatest).
   return {stretch.col(0).minCoeff(), (stretch.col(0).array().square() * stretch.col(1).array()).minCoeff(),
-          least_tension};
+          min_tension};
 }
 
 void read_flow(const Media& media, DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
@@ -87,7 +87,7 @@ void read_flow(const Media& media, DuctDiscrete& discrete, const VectorXd& unkno
                                  : discrete.system.undisturbed_gradient(media.liquid);
   r.additional_pressure_drop = r.pressure_drop - 2 * half * undisturbed;
   r.tube_radius = no_value;
-  r.shear_rate_max = greatest_shear_rate(discrete.space, discrete.system.element(), unknowns);
+  r.shear_rate_max = max_shear_rate(discrete.space, discrete.system.element(), unknowns);
 }
 
 /// Numbers of a cell off the axis.
@@ -126,7 +126,7 @@ double duct_deformation(const DuctSpace& space, const VectorXd& unknowns, Camera
 
 double duct_stability_margin(const Problem& problem, const DuctSpace& space, const VectorXd& unknowns) {
   const SurfaceExtremes surface = surface_extremes(problem.cortex, space, unknowns);
-  return stability_margin(problem, surface.biot_ratio, surface.least_tension);
+  return stability_margin(problem, surface.biot_ratio, surface.min_tension);
 }
 
 void describe_duct(const Problem& problem, const Media& media, const std::shared_ptr<DuctDiscrete>& discrete,
@@ -154,10 +154,10 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
   read_flow(media, *discrete, unknowns, r);
   const SurfaceExtremes surface = surface_extremes(media.cortex, space, unknowns);
-  r.least_meridional_stretch = surface.least_stretch;
+  r.min_meridional_stretch = surface.min_stretch;
   r.biot_ratio = surface.biot_ratio;
   r.stability_margin = duct_stability_margin(problem, space, unknowns);
-  r.least_tension = surface.least_tension;
+  r.min_tension = surface.min_tension;
   r.statistics.unknowns = space.unknowns();
   r.statistics.elements = int(space.elements().size());
   r.statistics.degree = space.reference().degree();

@@ -14,9 +14,9 @@ namespace {
 /// The end found at the first degree is not quite that of the higher ones: the last state stays before it, and steps
 /// back where it is beyond.
 constexpr double share_of_end = 0.97, step_back = 0.94;
-constexpr int greatest_steps_back = 4;
+constexpr int max_steps_back = 4;
 /// Of the compliance: so closely the end is looked for.
-constexpr double least_step = 0.01;
+constexpr double min_step = 0.01;
 
 /// A state of the way at the first degree.
 struct Milestone {
@@ -26,8 +26,8 @@ struct Milestone {
 
 class DuctBranchFollower {
  public:
-  DuctBranchFollower(const Problem& problem, double greatest_deformation, const std::atomic<bool>* stop)
-      : problem_(problem), greatest_(greatest_deformation), solver_(problem, nobody_, stop, counts_), stop_(stop) {
+  DuctBranchFollower(const Problem& problem, double max_deformation, const std::atomic<bool>* stop)
+      : problem_(problem), greatest_(max_deformation), solver_(problem, nobody_, stop, counts_), stop_(stop) {
     solver_.keep_systems();
   }
 
@@ -37,7 +37,7 @@ class DuctBranchFollower {
     if (way_.empty() || is_stopped()) return branch;
     double last = std::min(share_of_end * way_.back().deformation, greatest_);
     std::optional<StationaryState> softest;
-    for (int attempt = 0; !softest && attempt <= greatest_steps_back; ++attempt) {
+    for (int attempt = 0; !softest && attempt <= max_steps_back; ++attempt) {
       if (attempt > 0) last *= step_back;
       softest = state_of(last);
     }
@@ -56,7 +56,7 @@ class DuctBranchFollower {
   /// At the first degree from the sphere on.
   Status walk() {
     ContinuationOptions options = solver_.options(false);
-    options.least_step = least_step;
+    options.min_step = min_step;
     options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
       const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
       if (duct_stability_margin(problem_, space, state.unknowns) < 0) return false;
@@ -128,9 +128,9 @@ class DuctBranchFollower {
 
 }  // namespace
 
-DuctBranch follow_in_duct(const Problem& problem, double greatest_deformation, std::span<const double> heights,
+DuctBranch follow_in_duct(const Problem& problem, double max_deformation, std::span<const double> heights,
                           const std::atomic<bool>* stop) {
-  return DuctBranchFollower(problem, greatest_deformation, stop).follow(heights);
+  return DuctBranchFollower(problem, max_deformation, stop).follow(heights);
 }
 
 }  // namespace rheocyte

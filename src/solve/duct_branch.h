@@ -17,7 +17,7 @@ struct DuctBranch {
 /// The branch is followed from the sphere until its deformation d is the greatest, or to its end. Then it has one state
 /// for each height, a share of sqrt(d) at that last state (ascending, the last one 1; met within some per cent). Each
 /// is as accurate as the problem says. Without states if a height has none, and when it was stopped.
-DuctBranch follow_in_duct(const Problem&, double greatest_deformation, std::span<const double> heights,
+DuctBranch follow_in_duct(const Problem&, double max_deformation, std::span<const double> heights,
                           const std::atomic<bool>* stop = nullptr);
 
 }  // namespace rheocyte

@@ -10,7 +10,7 @@ namespace {
 /// Degrees of the way along the branch.
 constexpr std::array ways = {3, 4, 5};
 constexpr double tolerance_on_the_way = 1e-7, final_tolerance = 1e-9;
-constexpr double least_step_before_refining = 0.03, least_step_at_last = 5e-3;
+constexpr double min_step_before_refining = 0.03, min_step_at_last = 5e-3;
 
 /// Higher degrees move the end of a branch by a few per cent: where it is farther from the wanted compliance than this,
 /// they are not tried.
@@ -65,7 +65,7 @@ Status DuctSolver::climb(DuctState& state) {
 ContinuationOptions DuctSolver::options(bool last) {
   ContinuationOptions options;
   options.newton = {.tolerance = tolerance_on_the_way, .iteration_limit = 6, .stop = stop_};
-  options.least_step = last ? least_step_at_last : least_step_before_refining;
+  options.min_step = last ? min_step_at_last : min_step_before_refining;
   options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
     const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
     if (duct_stability_margin(problem_, space, state.unknowns) < 0) return false;

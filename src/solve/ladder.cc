@@ -20,7 +20,7 @@ constexpr std::array<Rung, 3> meshes = {{{{2, 4, 1, 2}, 4, 9}, {{3, 6, 1, 2}, 7,
 constexpr double tiny_deformation = 1e-5;
 
 /// No first change is trusted below this: neighbouring degrees may agree by chance.
-constexpr double least_first_estimate = 2e-5;
+constexpr double min_first_estimate = 2e-5;
 /// Nor below this share of the change of the inertia ratio: two measures seldom agree by chance at once.
 constexpr double share_of_inertia = 0.3;
 
@@ -40,7 +40,7 @@ double estimate_error(const std::vector<double>& values, double share_of_change_
   const std::size_t n = values.size();
   if (n < 2) return std::numeric_limits<double>::infinity();
   const double change = values[n - 1] - values[n - 2], size = std::max(std::abs(values[n - 1]), 1e-300);
-  if (n == 2) return std::max(2 * std::abs(change) / size, least_first_estimate);
+  if (n == 2) return std::max(2 * std::abs(change) / size, min_first_estimate);
   const double before = values[n - 2] - values[n - 3];
   const double ratio = before == 0 ? 0 : std::min(change / before, 0.9);
   const double share = ratio < 0 ? 1 : std::max(0.5, ratio / (1 - ratio));  // below 0: changes of alternating sign

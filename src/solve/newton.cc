@@ -10,8 +10,8 @@ using Eigen::VectorXd;
 namespace {
 
 /// A full step may reduce the least det of the mesh to this share at most; else it is shortened.
-constexpr double least_det_share = 0.2;
-constexpr int greatest_halvings = 5;
+constexpr double min_det_share = 0.2;
+constexpr int max_halvings = 5;
 /// A chord step has to reduce the residual by this factor, or the tangent is renewed.
 constexpr double chord_reduction = 0.1;
 /// Residuals (relative) above which an iteration is given up as diverging.
@@ -21,11 +21,11 @@ constexpr double hopeless_residual = 1e6;
 bool step(NonlinearSystem& system, const Media& media, const VectorXd& correction, double det_before, VectorXd& x,
           VectorXd& residual) {
   double share = 1;
-  for (int i = 0; i <= greatest_halvings; ++i, share /= 2) {
+  for (int i = 0; i <= max_halvings; ++i, share /= 2) {
     const VectorXd candidate = x + share * correction;
     double det = 0;
     residual = system.residual(media, candidate, det);
-    if (det > least_det_share * det_before) {
+    if (det > min_det_share * det_before) {
       x = candidate;
       return true;
     }

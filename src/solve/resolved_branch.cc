@@ -14,7 +14,7 @@ const std::array<Resolution, 4> ways = {{{{2, 4, 1, 2}, 4}, {{2, 4, 1, 2}, 6}, {
 constexpr std::size_t ways_of_quick_search = 2;
 
 /// Least step (relative) where a finer resolution can go on, and where none can.
-constexpr double least_step_before_refining = 0.03, least_step_at_last = 2e-3;
+constexpr double min_step_before_refining = 0.03, min_step_at_last = 2e-3;
 /// Intermediate states serve as starting points only.
 constexpr double tolerance_on_the_way = 1e-7;
 
@@ -99,7 +99,7 @@ ContinuationOptions options_on_the_way(const Problem& problem, const NewtonOptio
   options.newton = newton;
   options.newton.tolerance = tolerance_on_the_way;
   options.newton.iteration_limit = 5;
-  options.least_step = last ? least_step_at_last : least_step_before_refining;
+  options.min_step = last ? min_step_at_last : min_step_before_refining;
   return options;
 }
 

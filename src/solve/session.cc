@@ -16,7 +16,7 @@ namespace {
 constexpr double final_tolerance = 1e-10;
 /// Greatest relative change of any number of the problem that a kept state is carried over, and greatest change of the
 /// surface's stretch by it: farther on the state may belong to another branch.
-constexpr double greatest_change = 0.2, greatest_stretch_change = 0.06;
+constexpr double max_change = 0.2, max_stretch_change = 0.06;
 
 /// Of the surface's stability, where coarse resolutions lose the branch.
 constexpr double margin_at_coarse_ends = 0.3;
@@ -81,7 +81,7 @@ bool move_rung(const Problem& from, const Problem& to, NewtonOptions options, Re
   statistics.newton_iterations += report.iterations;
   add_work(discrete.system.work() - work, statistics);
   return report.status == Status::converged &&
-         stretch_change(discrete.space, before, rung.branch.unknowns) < greatest_stretch_change &&
+         stretch_change(discrete.space, before, rung.branch.unknowns) < max_stretch_change &&
          !is_wrinkled(to, discrete.space, rung.branch.unknowns);
 }
 
@@ -118,7 +118,7 @@ void explain(const Problem& problem, const ResolvedState& state, StationaryState
     outcome.status = Status::branch_ended;
   }
   const double known_end =
-      is_far_too_soft(problem) ? least_shear_modulus(problem).value() / problem.bulk.shear_modulus : 0;
+      is_far_too_soft(problem) ? min_shear_modulus(problem).value() / problem.bulk.shear_modulus : 0;
   outcome.message = explanation(
       outcome, {r.shape.deformation, r.estimated_error, problem.accuracy, surface_kind(problem), known_end});
 }
@@ -148,7 +148,7 @@ bool Session::answer_nearby(const Problem& problem, const NewtonOptions& newton,
                             Kept& answer) {
   const auto near = [&](const Kept& kept) {
     return is_alike(kept.problem, problem, kept.ladder.rungs.back().resolution.subdivision) &&
-           distance(kept.problem, problem) < greatest_change;
+           distance(kept.problem, problem) < max_change;
   };
   const auto found = std::find_if(kept_.begin(), kept_.end(), near);
   if (found == kept_.end()) return false;

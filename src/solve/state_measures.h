@@ -36,10 +36,10 @@ struct StateNumbers {
   double tube_radius = 1;                      ///< in R
   double shear_rate_max = no_value;            ///< of the liquid beside the cell, in U/R
   double reynolds = no_value;                  ///< rho v_cell U / S
-  double least_meridional_stretch = no_value;  ///< over the surface
+  double min_meridional_stretch = no_value;    ///< over the surface
   double biot_ratio = no_value;        ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
   double stability_margin = no_value;  ///< of the surface against short wrinkles: 0 = limit (solve/surface_stability.h)
-  double least_tension = no_value;     ///< meridional, over the surface, in S R; a shell wrinkles where it is negative
+  double min_tension = no_value;       ///< meridional, over the surface, in S R; a shell wrinkles where it is negative
 };
 
 /// The files beside result.json in which a measure is a column.
@@ -152,7 +152,7 @@ inline constexpr StateMeasure state_measures[] = {
      &StateNumbers::shear_rate_max},
     {"least_meridional_stretch",
      "least stretch of the surface along the meridian, in a square channel in any direction",
-     &StateNumbers::least_meridional_stretch, AlsoIn::tables},
+     &StateNumbers::min_meridional_stretch, AlsoIn::tables},
     {"biot_ratio",
      "least ratio of meridional (in a square channel the least) to normal stretch of the surface; a bare surface "
      "wrinkles below 0.2956",
@@ -162,7 +162,7 @@ inline constexpr StateMeasure state_measures[] = {
      "surface, 0 at the limit",
      &StateNumbers::stability_margin, AlsoIn::both},
     {"least_tension_mN_per_m", "least meridional tension of the surface; a shell wrinkles where it is negative",
-     &StateNumbers::least_tension, AlsoIn::history}};
+     &StateNumbers::min_tension, AlsoIn::history}};
 
 /// Those that are columns of a file, in their order.
 template <bool (StateMeasure::*is_column)() const>

@@ -15,18 +15,18 @@ constexpr double shortest_wave = 0.05;
 }  // namespace
 
 double stability_margin(const Problem& problem, const SurfaceState& surface) {
-  return stability_margin(problem, least_biot_ratio(surface),
+  return stability_margin(problem, min_biot_ratio(surface),
                           surface_tensions(problem.cortex, surface).col(0).minCoeff());
 }
 
-double stability_margin(const Problem& problem, double biot_ratio, double least_tension) {
+double stability_margin(const Problem& problem, double biot_ratio, double min_tension) {
   switch (surface_kind(problem)) {
     case SurfaceKind::bare: return (biot_ratio - biot_limit) / (1 - biot_limit);
     case SurfaceKind::membrane: {
       const Cortex& cortex = problem.cortex;
       const double support = problem.bulk.shear_modulus * shortest_wave * problem.radius_ratio / std::numbers::pi;
       // Tensions of the order of the modulus are as far as 1 from the limit.
-      return (least_tension + support) / (cortex.modulus + cortex.tension + support);
+      return (min_tension + support) / (cortex.modulus + cortex.tension + support);
     }
     case SurfaceKind::held: return 1;
   }
@@ -38,12 +38,12 @@ double stability_margin(const Problem& problem, const Discretisation& space, con
 }
 
 bool is_wrinkled(const Problem& problem, const Discretisation& space, const VectorXd& unknowns) {
-  constexpr int greatest_sign_changes = 3;  // a rear dent makes one, a hollow flank two
+  constexpr int max_sign_changes = 3;  // a rear dent makes one, a hollow flank two
   const double margin = stability_margin(problem, space, unknowns);
   if (margin < 0) return true;
   // Farther from the limit, changes of curvature are faint errors of discretisation on nearly straight flanks.
   if (surface_kind(problem) != SurfaceKind::held && margin > small_margin) return false;
-  return surface_smoothness(contour(space, unknowns)).curvature_sign_changes > greatest_sign_changes;
+  return surface_smoothness(contour(space, unknowns)).curvature_sign_changes > max_sign_changes;
 }
 
 }  // namespace rheocyte

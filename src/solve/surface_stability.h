@@ -11,7 +11,7 @@ namespace rheocyte {
 /// the surface is held.
 double stability_margin(const Problem&, const SurfaceState&);
 /// The same of the least ratio of a tangential to the normal stretch, and of the least principal tension.
-double stability_margin(const Problem&, double biot_ratio, double least_tension);
+double stability_margin(const Problem&, double biot_ratio, double min_tension);
 double stability_margin(const Problem&, const Discretisation&, const VectorXd& unknowns);
 
 /// So close to the limit the surface is the reason if Newton fails: no mesh resolves the last stretch.

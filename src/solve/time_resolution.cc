@@ -37,8 +37,8 @@ Resolution resolution_in_time(const Problem& problem, double accuracy, const std
 }
 
 Resolution to_compare_with(const Resolution& resolution) {
-  constexpr int least_degree = 2;
-  return {resolution.subdivision, resolution.degree > least_degree ? resolution.degree - 1 : resolution.degree + 1};
+  constexpr int min_degree = 2;
+  return {resolution.subdivision, resolution.degree > min_degree ? resolution.degree - 1 : resolution.degree + 1};
 }
 
 }  // namespace rheocyte

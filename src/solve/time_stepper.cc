@@ -153,7 +153,7 @@ StepErrors TimeStepper::errors(const Trial& trial, int order) const {
     return share * surface_change(trial.level.unknowns - extrapolate(other + 1, trial.level.time));
   };
   if (order > 1) result.below = error_at(order - 1);
-  const bool settled = state_.steps_at_order > order && order < options_.greatest_order;
+  const bool settled = state_.steps_at_order > order && order < options_.max_order;
   if (settled && int(past.size()) >= order + 2) result.above = error_at(order + 1);
   return result;
 }
@@ -161,17 +161,17 @@ StepErrors TimeStepper::errors(const Trial& trial, int order) const {
 void TimeStepper::accept(const Trial& trial, int order) {
   const double step = trial.level.time - now().time;
   if (options_.fixed_step > 0) {
-    state_.order = std::min<int>(order + 1, options_.greatest_order);
+    state_.order = std::min<int>(order + 1, options_.max_order);
   } else {
     const StepChoice choice = choose_step(order, errors(trial, order));
     state_.steps_at_order = choice.order == order ? state_.steps_at_order + 1 : 0;
     state_.order = choice.order;
     // Where nothing comes any more that a long step would miss, steps have no limit.
-    const double greatest = has_passed_walls(trial.level) ? HUGE_VAL : options_.greatest_step;
+    const double greatest = has_passed_walls(trial.level) ? HUGE_VAL : options_.max_step;
     state_.next_step = std::min(choice.factor * step, greatest);
   }
   state_.levels.insert(state_.levels.begin(), trial.level);
-  if (int(state_.levels.size()) > options_.greatest_order + 2) state_.levels.pop_back();
+  if (int(state_.levels.size()) > options_.max_order + 2) state_.levels.pop_back();
 }
 
 TimeStepReport TimeStepper::step(double limit) {
@@ -207,7 +207,7 @@ TimeStepReport TimeStepper::step(double limit) {
       if (last) state_.next_step = std::max(state_.next_step, wanted);
       return report;
     }
-    if (size < options_.least_step) {
+    if (size < options_.min_step) {
       if (report.status == Status::converged) report.status = Status::accuracy_not_reached;
       return report;
     }

@@ -13,9 +13,9 @@ namespace rheocyte {
 struct TimeStepOptions {
   double accuracy = 1e-5;    ///< of the surface's positions in each step, in r0
   double first_step = 1e-3;  ///< in R/U
-  double least_step = 1e-13;
-  double greatest_step = 1;  ///< before and between walls that are not straight
-  int greatest_order = greatest_bdf_order;
+  double min_step = 1e-13;
+  double max_step = 1;  ///< before and between walls that are not straight
+  int max_order = max_bdf_order;
   double fixed_step = 0;  ///< > 0: all steps have this size and, as soon as there are enough levels, the greatest order
   NewtonOptions newton = {1e-9};
 };

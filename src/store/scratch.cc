@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view infix = ".rheocyte-";
 constexpr std::size_t random_digits = 12;
-constexpr int greatest_number_of_tries = 100;
+constexpr int max_number_of_tries = 100;
 
 // False if another process has taken it for a left-over in the moment between its making and its claim.
 bool hold(const Claim& claim) {
@@ -50,7 +50,7 @@ fs::path folder_of(const fs::path& wanted) { return wanted.has_parent_path() ? w
 
 template <class Make>
 Scratch new_scratch(const fs::path& wanted, const Make& make) {
-  for (int i = 0; i < greatest_number_of_tries; ++i) {
+  for (int i = 0; i < max_number_of_tries; ++i) {
     Scratch scratch{scratch_beside(wanted), {}};
     scratch.claim = make(scratch.path);
     if (!scratch.claim && errno != EEXIST) return {{}, {}, errno};

@@ -12,11 +12,11 @@ struct AnalyticPopulation {
   bool is_shell = false;
   double tension_ratio = 0;  ///< gamma / E2D of a shell
   Duct duct = Duct::tube;
-  double greatest_deformation = greatest_solid_deformation;
+  double max_deformation = max_solid_deformation;
 };
 
-/// Solids and shells up to a given deformation and to r0 / R = greatest_ratio_of_agreement. Up to
-/// greatest_solid_deformation (shells: greatest_shell_deformation) the deformation is within 10 % of the laws `linear`;
+/// Solids and shells up to a given deformation and to r0 / R = max_ratio_of_agreement. Up to
+/// max_solid_deformation (shells: max_shell_deformation) the deformation is within 10 % of the laws `linear`;
 /// beyond, the shapes are those of the linear model all the same.
 class AnalyticShapes : public CellShapes {
  public:

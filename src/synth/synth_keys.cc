@@ -121,10 +121,12 @@ Keys shape_keys() {
       key<&Spec::table>({"shapes.table", "",
                          "folder of a table by `rheocyte table`, seen from the spec; without it the analytical model",
                          Word{}, absent}),
-      key<&Spec::greatest_deformation>({"shapes.greatest_deformation", "",
-                                        "cells that the model would deform more are left out; 0: where it holds, 0.02 "
-                                        "for solids, 0.001 for shells",
-                                        Number{{0, 0.1}}, 0.0, by_model}),
+      key<&Spec::max_deformation>(
+          renamed({"shapes.max_deformation", "",
+                   "cells that the model would deform more are left out; 0: where it holds, 0.02 "
+                   "for solids, 0.001 for shells",
+                   Number{{0, 0.1}}, 0.0, by_model},
+                  "shapes.greatest_deformation")),
       key<&Spec::square_duct>({"shapes.duct", "",
                                "whose velocity on the axis drives the cells: that of the equivalent tube, or of the "
                                "square channel as in the published analytical tables",

@@ -90,7 +90,7 @@ std::unique_ptr<CellShapes> shapes_of(SynthSpec& spec) {
                          .is_shell = spec.kind == CellKind::shell,
                          .tension_ratio = spec.tension_ratio.value_or(Spread{}).mean,
                          .duct = spec.square_duct ? Duct::square : Duct::tube,
-                         .greatest_deformation = spec.greatest_deformation});
+                         .max_deformation = spec.max_deformation});
 }
 
 }  // namespace rheocyte

@@ -54,8 +54,8 @@ void check_shapes(SynthSpec& spec, const KeyReading& keys) {
     keys.refuse("shapes.table",
                 "cell.kind = \"combined\" needs shapes.table, the folder of a table with table.cortex_share; the "
                 "analytical model has no such cells.");
-  if (spec.greatest_deformation == 0)
-    spec.greatest_deformation = spec.kind == CellKind::solid ? greatest_solid_deformation : greatest_shell_deformation;
+  if (spec.max_deformation == 0)
+    spec.max_deformation = spec.kind == CellKind::solid ? max_solid_deformation : max_shell_deformation;
 }
 
 }  // namespace

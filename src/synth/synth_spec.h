@@ -36,7 +36,7 @@ struct SynthSpec {
   double added_ellipse = 0;                               ///< mode c_2 that is added to each outline
   // [shapes]
   std::filesystem::path table;  ///< folder of a table of `rheocyte table`; empty: the analytical model
-  double greatest_deformation = 0;
+  double max_deformation = 0;
   bool square_duct = false;
   // [noise]
   double lateral_um = 0, contour_um = 0, contour_correlation_um = 0, thermometer_C = 0;

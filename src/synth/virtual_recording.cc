@@ -251,9 +251,8 @@ VirtualRecording write_virtual_recording(const SynthSpec& spec, const CellShapes
   VirtualCamera camera(spec, shapes, result);
   Block block;
   const auto cells = static_cast<std::uint64_t>(spec.cells);
-  constexpr std::size_t greatest_block_bytes = 64 << 20;
-  const std::size_t step =
-      std::clamp<std::size_t>(greatest_block_bytes / spec.image_size().pixels(), 1, cells_per_block);
+  constexpr std::size_t max_block_bytes = 64 << 20;
+  const std::size_t step = std::clamp<std::size_t>(max_block_bytes / spec.image_size().pixels(), 1, cells_per_block);
   for (std::uint64_t number = 0; number < cells; ++number) {
     camera.take(number, block);
     if (block.events >= step) write_block(block, spec.image_size(), file);

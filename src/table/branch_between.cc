@@ -180,7 +180,7 @@ class Between {
 std::string family_of(const TableSpec& spec, const SampledBranch& branch) {
   if (branch.empty()) return "empty";
   if (branch.end.status != Status::covered) return name(branch.end.status);
-  return last_of(branch, Measure::deformation) > spec.greatest_deformation ? "deformation" : "area";
+  return last_of(branch, Measure::deformation) > spec.max_deformation ? "deformation" : "area";
 }
 
 SampledBranch branch_between(const TableSpec& spec, Branches near, double radius_um) {

@@ -26,7 +26,7 @@ End end_of(const LogBranch& branch, double greatest) {
 
 // Without those that were not followed to their end: one to three of them between two that were.
 std::vector<End> ends_of(std::span<const LogBranch> branches, double greatest) {
-  constexpr std::size_t greatest_gap = 3;
+  constexpr std::size_t max_gap = 3;
   std::vector<End> kept, gap;
   for (const auto& branch : branches) {
     const End end = end_of(branch, greatest);
@@ -34,7 +34,7 @@ std::vector<End> ends_of(std::span<const LogBranch> branches, double greatest) {
       gap.push_back(end);
       continue;
     }
-    if (kept.empty() || gap.size() > greatest_gap) kept.insert(kept.end(), gap.begin(), gap.end());
+    if (kept.empty() || gap.size() > max_gap) kept.insert(kept.end(), gap.begin(), gap.end());
     gap.clear();
     kept.push_back(end);
   }
@@ -93,7 +93,7 @@ double LogBranch::stiffest() const { return std::log(branch_->stiffness.front())
 double LogBranch::softest() const { return std::log(branch_->stiffness.back()); }
 
 Border upper_border(std::span<const LogBranch> branches, const TableSpec& spec, const Columns& columns) {
-  const double greatest = std::log(spec.greatest_deformation);
+  const double greatest = std::log(spec.max_deformation);
   const EndPolygon polygon(branches, greatest);
   // The least height within the reach, then the mean of these within the reach: never above the polygon, and smooth.
   const int margin = 2 * reach * points_per_column, count = (columns.count - 1) * points_per_column + 1 + 2 * margin;

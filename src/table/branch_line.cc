@@ -6,13 +6,13 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t stencil_size = 8, least_stencil = 4;
+constexpr std::size_t stencil_size = 8, min_stencil = 4;
 constexpr auto nobody = static_cast<std::size_t>(-1);
 /// Of the accuracy: a branch that is left out may be missed by so much, relative in the stiffness. Polynomials at half
 /// of the distance miss by less than a fiftieth of that.
-constexpr double greatest_miss = 1.5;
+constexpr double max_miss = 1.5;
 /// Of the deformation at the end of a branch that is left out.
-constexpr double greatest_miss_of_end = 0.05;
+constexpr double max_miss_of_end = 0.05;
 const std::string without_states = "empty";
 
 }  // namespace
@@ -29,10 +29,10 @@ void BranchLine::predict(std::size_t node) {
   if (here.branch->empty()) return;
   if (nodes_[node - 1].family != here.family || nodes_[node + 1].family != here.family) return;
   const auto near = stencil(node - 1, node);
-  here.has_neighbours = near.size() >= least_stencil;
+  here.has_neighbours = near.size() >= min_stencil;
   if (!here.has_neighbours) return;
   const BranchDifference off = difference(branch_between(spec_, near, here.branch->radius_um), *here.branch);
-  here.is_predicted = off.stiffness < greatest_miss * spec_.accuracy && off.end < greatest_miss_of_end;
+  here.is_predicted = off.stiffness < max_miss * spec_.accuracy && off.end < max_miss_of_end;
 }
 
 bool BranchLine::is_smooth(std::size_t gap) const {

@@ -83,11 +83,11 @@ BranchStates::Way BranchStates::enter() {
     count(report.newton_iterations);
     if (report.status != Status::converged) return {report.status, {}};
     const double d = deformation(0, report.last.unknowns);
-    if (report.last.parameter == 1 && d <= spec_.least_deformation)
+    if (report.last.parameter == 1 && d <= spec_.min_deformation)
       return {Status::converged, unmeasured(0, 0, report.last.unknowns)};
     // The deformation goes with the square of the compliance.
     first_stiffness_ *=
-        report.last.parameter < 1 ? 1.01 / report.last.parameter : 1.05 * std::sqrt(d / spec_.least_deformation);
+        report.last.parameter < 1 ? 1.01 / report.last.parameter : 1.05 * std::sqrt(d / spec_.min_deformation);
   }
   return {Status::iteration_limit, {}};
 }

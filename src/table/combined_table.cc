@@ -145,7 +145,7 @@ class Reader {
 
 std::vector<std::string> feature_names() {
   std::vector<std::string> names{"area_um2", "deformation", "moment_ratio"};
-  for (int k = least_mode; k <= greatest_mode; ++k) names.push_back(fmt::format("mode_{}", k));
+  for (int k = min_mode; k <= max_mode; ++k) names.push_back(fmt::format("mode_{}", k));
   return names;
 }
 

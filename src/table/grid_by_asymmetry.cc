@@ -49,13 +49,13 @@ class Asymmetry {
 std::optional<GridContent> grid_by_asymmetry(const StiffnessGrid& grid, const ShapeGrid& shapes) {
   const GridContent& content = grid.content();
   const GridPatch& bare = content.patches.front();
-  GridContent made{content.origin, content.least_log_area, content.column_step, content.columns, {}};
+  GridContent made{content.origin, content.min_log_area, content.column_step, content.columns, {}};
   GridPatch patch;
   patch.first_column = bare.first_column;
   patch.columns = bare.columns;
   patch.rows = rows;
   for (int c = 0; c < bare.columns; ++c) {
-    const double log_area = content.least_log_area + (bare.first_column + c) * content.column_step;
+    const double log_area = content.min_log_area + (bare.first_column + c) * content.column_step;
     constexpr double rim = 1e-9;
     const auto column = std::size_t(c);
     const double lower = bare.lower[column] + rim, end = bare.upper[column] - rim;

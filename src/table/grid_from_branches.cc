@@ -14,8 +14,8 @@ namespace rheocyte {
 
 namespace {
 
-constexpr int greatest_stencil = 6;
-constexpr double least_height = 0.02;   // of a column, in ln(deformation)
+constexpr int max_stencil = 6;
+constexpr double min_height = 0.02;     // of a column, in ln(deformation)
 constexpr double trusted_error = 1e-3;  // of nodes along the border; beyond it other ways are looked at, too
 constexpr int near_branches = 10;       // on each side, among which a column finds its neighbours
 
@@ -38,7 +38,7 @@ std::optional<NodeValue> value_at(std::span<const Crossing> line, double log_are
   const auto &a = line[static_cast<std::size_t>(below)], &b = line[static_cast<std::size_t>(below) + 1];
   const double slack = 0.5 * (b.log_area - a.log_area);
   if (log_area < a.log_area - slack || log_area > b.log_area + slack) return {};
-  const auto count = std::min<std::ptrdiff_t>(greatest_stencil, size);
+  const auto count = std::min<std::ptrdiff_t>(max_stencil, size);
   const auto first = std::clamp<std::ptrdiff_t>(below - count / 2 + 1, 0, size - count);
   const auto nodes = line.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
   const auto at_column = [&](double Crossing::*member) {
@@ -81,7 +81,7 @@ class PatchMaker {
         if (const auto value = value_at(line, columns_.at(static_cast<double>(c)))) lines[c].push_back(*value);
     }
     for (std::size_t c = 0; c < count; ++c)
-      if (upper.height[c] - lower[c] >= least_height)
+      if (upper.height[c] - lower[c] >= min_height)
         values[c] = column_of(c, lines[c], {lower[c], upper.height[c]}, rows);
     const auto is_whole = [&](std::size_t c) { return values[c].size() == static_cast<std::size_t>(rows); };
     const auto [first, end] = longest_run(count, is_whole);
@@ -208,7 +208,7 @@ void add_step_to_error(const GridPatch& bare, GridPatch& held) {
 
 // To the columns that the bare branches cover.
 void trim_to(GridContent& grid, const GridPatch& bare) {
-  grid.least_log_area += bare.first_column * grid.column_step;
+  grid.min_log_area += bare.first_column * grid.column_step;
   grid.columns = bare.columns;
 }
 
@@ -222,10 +222,10 @@ std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<
     if (radius.beyond() && radius.beyond()->samples() > 1) held.emplace_back(*radius.beyond());
   }
   if (own.size() < 2) return {};
-  const double first = std::log(spec.least_area_um2), last = std::log(spec.greatest_area_um2);
+  const double first = std::log(spec.min_area_um2), last = std::log(spec.max_area_um2);
   const Columns columns{first, (last - first) / (resolution.columns - 1), resolution.columns};
   const Border border = upper_border(own, spec, columns);
-  const std::vector<double> least(static_cast<std::size_t>(columns.count), std::log(spec.least_deformation));
+  const std::vector<double> least(static_cast<std::size_t>(columns.count), std::log(spec.min_deformation));
   const auto bare = PatchMaker(own, columns).patch(least, border, resolution.rows);
   if (!bare) return {};
   GridContent grid{origin_of(spec, version), columns.first, columns.step, columns.count, {*bare}};

@@ -88,12 +88,12 @@ std::vector<LutPoint> points_by_volume(const LookupTable& table) {
 // As many areas as there are radii, by equal steps of the root, and the ends of the branches if the table ends there.
 std::vector<LutPoint> points_by_area(const LookupTable& table) {
   const TableSpec& spec = table.spec;
-  const double first = std::sqrt(spec.least_area_um2), last = std::sqrt(spec.greatest_area_um2);
+  const double first = std::sqrt(spec.min_area_um2), last = std::sqrt(spec.max_area_um2);
   const auto levels = deformation_levels(spec);
   std::vector<LutPoint> points;
   for (int i = 0; i < spec.radii; ++i) {
     const double root = first + (last - first) * i / (spec.radii - 1);
-    const double area = std::clamp(root * root, spec.least_area_um2, spec.greatest_area_um2);
+    const double area = std::clamp(root * root, spec.min_area_um2, spec.max_area_um2);
     for (const double level : levels_of_column(levels, std::size_t(i)))
       if (const auto answer = table.between.by_area(area, level); answer.reason == NoAnswer::none)
         points.push_back({{area, level, answer.stiffness}, answer.regularised});
@@ -118,8 +118,8 @@ TableRow row_at(const RadiusBranches& radius, const BranchPoint& state) {
 
 bool is_inside(const TableSpec& spec, const TableRow& row) {
   const double area = row.at(Measure::area_um2), d = row.at(Measure::deformation);
-  return area >= spec.least_area_um2 && area <= spec.greatest_area_um2 && d >= spec.least_deformation &&
-         d <= spec.greatest_deformation;
+  return area >= spec.min_area_um2 && area <= spec.max_area_um2 && d >= spec.min_deformation &&
+         d <= spec.max_deformation;
 }
 
 int LookupTable::regularised_rows() const {
@@ -127,11 +127,11 @@ int LookupTable::regularised_rows() const {
 }
 
 std::vector<double> deformation_levels(const TableSpec& spec) {
-  const double range = std::log(spec.greatest_deformation / spec.least_deformation);
+  const double range = std::log(spec.max_deformation / spec.min_deformation);
   std::vector<double> levels;
   for (int i = 0; i < spec.rows_per_radius; ++i)
-    levels.push_back(spec.least_deformation * std::exp(range * i / (spec.rows_per_radius - 1)));
-  levels.back() = spec.greatest_deformation;
+    levels.push_back(spec.min_deformation * std::exp(range * i / (spec.rows_per_radius - 1)));
+  levels.back() = spec.max_deformation;
   return levels;
 }
 
@@ -204,7 +204,7 @@ std::string end_of_branch_csv(const LookupTable& table) {
     const auto& end = radius.own()->end;
     text += fmt::format("{},{},{},{},{},{},{},{}\n", row.radius_um, row.state.stiffness, row.at(Measure::area_um2),
                         row.at(Measure::deformation), row.at(Measure::volume_um3),
-                        row.at(Measure::least_meridional_stretch), name(end.status), csv_text(end.message));
+                        row.at(Measure::min_meridional_stretch), name(end.status), csv_text(end.message));
   }
   return text;
 }

@@ -11,9 +11,9 @@ namespace rheocyte {
 namespace {
 
 /// Steps of the samples in ln stiffness.
-constexpr double first_step = 0.25, first_held_step = 0.08, greatest_step = 0.9, least_step = 2e-3;
+constexpr double first_step = 0.25, first_held_step = 0.08, max_step = 0.9, min_step = 2e-3;
 /// So many states in a row may fail to be accurate before a branch is given up; each is nearer than the one before.
-constexpr int greatest_unsampled = 4;
+constexpr int max_unsampled = 4;
 /// Of the step that the last interval would have allowed: towards its end a branch needs ever smaller ones.
 constexpr double growth = 0.6;
 /// Growth while one interval alone says nothing of the next: a state far beyond the wanted ones is dear.
@@ -21,7 +21,7 @@ constexpr double first_growth = 2;
 /// A branch that is steeper than this (-d ln d / d ln E) nears a fold: finer meshes would not go farther.
 constexpr double steep = 4;
 /// Change of ln d between two samples against the trapezoidal rule of its slopes.
-constexpr double greatest_mismatch = 0.15;
+constexpr double max_mismatch = 0.15;
 /// Between two samples the error of the interpolation may be this share of the accuracy.
 constexpr double share_of_interpolation = 0.25;
 
@@ -84,7 +84,7 @@ class BranchSampler {
     std::optional<BranchNode> last;  // the farthest state, once a step has failed
     Status failure = Status::not_started;
     int unsampled = 0;  // states in a row that were not accurate
-    while (h > least_step / 2) {
+    while (h > min_step / 2) {
       const BranchNode& before = nodes_.back();
       BranchNode next;
       if (last && last->u - before.u < 1.2 * h) {
@@ -92,10 +92,10 @@ class BranchSampler {
       } else {
         BranchStates::Way way = states_.advance(before, before.u + h);
         if (way.status == Status::stopped) return end_of(way.status);
-        const bool moved = way.last.u > before.u + least_step / 4;
+        const bool moved = way.last.u > before.u + min_step / 4;
         if (moved && !states_.measure(way.last)) {
           // One state may fail where its neighbours do not.
-          if (++unsampled > greatest_unsampled) return end_of(Status::accuracy_not_reached);
+          if (++unsampled > max_unsampled) return end_of(Status::accuracy_not_reached);
           h = 0.6 * (way.last.u - before.u);
           continue;
         }
@@ -104,17 +104,17 @@ class BranchSampler {
         if (way.status != Status::converged) last = next, failure = way.status;
       }
       const double moved = next.u - before.u, allowed = moved > 0 ? allowed_step(before, next) : h;
-      if (moved > 1.2 * allowed && 0.7 * allowed > least_step / 2) {
+      if (moved > 1.2 * allowed && 0.7 * allowed > min_step / 2) {
         h = 0.7 * allowed;
         continue;
       }
       if (moved > 0) keep(std::move(next));
-      h = std::clamp(growth * allowed, 0.2 * moved, greatest_step);
+      h = std::clamp(growth * allowed, 0.2 * moved, max_step);
       if (const std::optional<BranchEnd> end = leaves_range(nodes_.back())) return *end;
       if (!last || nodes_.back().u < last->u) continue;
       if (const std::optional<BranchEnd> end = ends_here(failure)) return *end;
       last.reset();
-      h = std::max(h, 4 * least_step);
+      h = std::max(h, 4 * min_step);
     }
     return end_of(Status::branch_ended);
   }
@@ -137,8 +137,8 @@ class BranchSampler {
   double allowed_step(const BranchNode& before, const BranchNode& next) {
     const double h = next.u - before.u, change = next.log_d() - before.log_d();
     const double trapezoid = h * (before.log_d_slope() + next.log_d_slope()) / 2;
-    double allowed = nodes_.size() < 2 ? first_growth / growth * h : greatest_step;
-    if (std::abs(change - trapezoid) > greatest_mismatch * std::abs(change) + 1e-6) allowed = h / 2;
+    double allowed = nodes_.size() < 2 ? first_growth / growth * h : max_step;
+    if (std::abs(change - trapezoid) > max_mismatch * std::abs(change) + 1e-6) allowed = h / 2;
     const double wanted = share_of_interpolation * spec_.accuracy, off = middle_mismatch(before, next);
     if (off > wanted) allowed = std::min(allowed, h * std::max(0.4, std::cbrt(wanted / off)));
     if (nodes_.size() < 2) return allowed;
@@ -158,9 +158,9 @@ class BranchSampler {
   }
 
   std::optional<BranchEnd> leaves_range(const BranchNode& node) const {
-    const bool is_large = !spec_.is_combined() && node.at(Measure::area_um2) > 1.02 * spec_.greatest_area_um2;
-    if (node.at(Measure::deformation) > spec_.greatest_deformation || is_large) return end_of(Status::covered);
-    if (node.at(Measure::deformation_raw) > spec_.greatest_deformation_raw) return end_of(Status::dented);
+    const bool is_large = !spec_.is_combined() && node.at(Measure::area_um2) > 1.02 * spec_.max_area_um2;
+    if (node.at(Measure::deformation) > spec_.max_deformation || is_large) return end_of(Status::covered);
+    if (node.at(Measure::deformation_raw) > spec_.max_deformation_raw) return end_of(Status::dented);
     return std::nullopt;
   }
 

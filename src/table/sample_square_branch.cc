@@ -39,7 +39,7 @@ SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& pla
   const Scales scales = scales_of(case_at(spec, place, 1));
   const double stiffness_kPa = 1e-3 * scales.stress_Pa;
   const Problem problem = problem_of(case_at(spec, place, stiffness_kPa));
-  const auto found = follow_in_duct(problem, spec.greatest_deformation, heights(spec.computed_states.value()), stop);
+  const auto found = follow_in_duct(problem, spec.max_deformation, heights(spec.computed_states.value()), stop);
 
   SampledBranch branch;
   branch.radius_um = place.radius_um;

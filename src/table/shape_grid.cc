@@ -46,7 +46,7 @@ ShapeGrid::Field ShapeGrid::field(std::span<const double> values, bool odd) cons
 
 ShapeGrid::Scaled ShapeGrid::scaled(const Field& field, double log_area, double deformation) const {
   const double last_column = nodes_.columns - 1, last_row = nodes_.rows - 1;
-  const double place = std::clamp((log_area - nodes_.least_log_area) / nodes_.column_step, 0.0, last_column);
+  const double place = std::clamp((log_area - nodes_.min_log_area) / nodes_.column_step, 0.0, last_column);
   if (std::isnan(place) || std::isnan(deformation)) return {std::nan(""), std::nan("")};
   const int column = std::min(int(place), nodes_.columns - 2);
   const HermiteWeights across = hermite(place - column);
@@ -65,7 +65,7 @@ ShapeGrid::Scaled ShapeGrid::scaled(const Field& field, double log_area, double 
 }
 
 bool ShapeGrid::has_area(double log_area) const {
-  const double place = (log_area - nodes_.least_log_area) / nodes_.column_step;
+  const double place = (log_area - nodes_.min_log_area) / nodes_.column_step;
   return place >= 0 && place <= nodes_.columns - 1;
 }
 

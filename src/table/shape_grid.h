@@ -10,7 +10,7 @@ namespace rheocyte {
 /// Nodes at equal distances in ln(area) and, in each column, at equal distances in ln(deformation). Columns x rows with
 /// the rows of a column behind each other.
 struct ShapeNodes {
-  double least_log_area = 0, column_step = 0;  ///< ln(um^2)
+  double min_log_area = 0, column_step = 0;  ///< ln(um^2)
   int columns = 0, rows = 0;
   std::vector<double> lower, upper;   ///< ln(deformation) of the first and the last row, by column
   std::vector<double> inertia_ratio;  ///< of the hull

@@ -15,7 +15,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t greatest_stencil = 6, fewest_states = 3;
+constexpr std::size_t max_stencil = 6, fewest_states = 3;
 constexpr auto mode_count = std::tuple_size_v<RadiusModes>;
 constexpr Measure inertia_ratio = Measure::named("inertia_ratio"), first_mode = Measure::named("mode_2");
 
@@ -54,7 +54,7 @@ std::span<const RadiusBranches> radii_near(std::span<const RadiusBranches> radii
 std::vector<double> weights_at(std::span<const RadiusState>& states, double log_area) {
   const auto behind = std::ranges::upper_bound(states, log_area, {}, &RadiusState::log_area) - states.begin();
   const bool outside = behind == 0 || behind == std::ssize(states);
-  const std::size_t count = std::min(states.size(), outside ? fewest_states : greatest_stencil);
+  const std::size_t count = std::min(states.size(), outside ? fewest_states : max_stencil);
   const auto half = std::ptrdiff_t(count) / 2;
   const auto first = std::clamp<std::ptrdiff_t>(behind - half, 0, std::ssize(states) - std::ptrdiff_t(count));
   states = states.subspan(std::size_t(first), count);
@@ -88,12 +88,12 @@ std::optional<ShapeNodes> shapes_from_branches(const GridContent& grid, std::spa
   const GridPatch& bare = grid.patches.front();
   const double end = common_end(radii);
   ShapeNodes nodes;
-  nodes.least_log_area = grid.least_log_area;
+  nodes.min_log_area = grid.min_log_area;
   nodes.column_step = grid.column_step * (grid.columns - 1) / (shape_columns - 1);
   nodes.columns = shape_columns;
   nodes.rows = shape_rows;
   for (int c = 0; c < shape_columns; ++c) {
-    const double log_area = nodes.least_log_area + c * nodes.column_step,
+    const double log_area = nodes.min_log_area + c * nodes.column_step,
                  column = double(c) * (grid.columns - 1) / (shape_columns - 1);
     nodes.lower.push_back(edge_at(bare, bare.lower, column));
     nodes.upper.push_back(std::min(edge_at(bare, bare.upper, column), end));

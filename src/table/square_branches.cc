@@ -20,7 +20,7 @@ constexpr std::size_t fewest_radii = 4;
 constexpr int dense_samples = 48;
 /// Of the miss of polynomials that leave a node out: between nodes that they have, they miss a tenth.
 constexpr double share_of_miss = 0.1;
-constexpr double greatest_exponent_difference = 0.01;
+constexpr double max_exponent_difference = 0.01;
 
 double sqrt_deformation(const SampledBranch& branch, int sample) {
   return std::sqrt(branch.at(sample, Measure::deformation));
@@ -47,7 +47,7 @@ class Reference {
   Reference(const TableSpec& spec, const GridContent* tube) {
     if (!tube) return;
     const ChannelFlow flow = channel_flow_of(spec.base);
-    if (std::abs(flow.exponent - tube->origin.flow.exponent) > greatest_exponent_difference ||
+    if (std::abs(flow.exponent - tube->origin.flow.exponent) > max_exponent_difference ||
         tube->origin.section != Section::tube || tube->origin.is_shell)
       throw UserError(
           fmt::format("table.tube_table = {}: is no table of solids in the tube in a liquid of exponent {:.4g}, "
@@ -66,7 +66,7 @@ class Reference {
     if (!grid_) return {-log_deformation / 2, 0, -0.5};
     constexpr double rim = 1e-6;
     const GridContent& content = grid_->content();
-    const double first = content.least_log_area, last = first + content.column_step * (content.columns - 1);
+    const double first = content.min_log_area, last = first + content.column_step * (content.columns - 1);
     const double x = std::clamp(log_area - log_area_factor_, first + rim, last - rim);
     const auto range = *grid_->smooth_range(std::exp(x));
     const double y = std::clamp(log_deformation, range.lower + rim, range.upper - rim);
@@ -152,7 +152,7 @@ class Surface {
     if (curves_.size() < fewest_radii)
       throw UserError(
           fmt::format("only {} of {} computed branches have states; a table needs {}. Choose smaller cells or "
-                      "a lower table.greatest_deformation.",
+                      "a lower table.max_deformation.",
                       curves_.size(), computed.size(), fewest_radii));
   }
 
@@ -254,7 +254,7 @@ SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double
   branch.end = near.end;
   branch.value.resize(dense_samples, measure_count);
   branch.slope.resize(dense_samples, measure_count);
-  const double first = 0.98 * std::sqrt(spec.least_deformation) / surface.last(radius_um);
+  const double first = 0.98 * std::sqrt(spec.min_deformation) / surface.last(radius_um);
   const double worst = *std::ranges::max_element(near.error);
   for (int k = 0; k < dense_samples; ++k) {
     DenseState state = surface.at(radius_um, std::pow(first, 1 - double(k) / (dense_samples - 1)));

@@ -87,7 +87,7 @@ GridAnswer StiffnessGrid::between(const Patch& patch, const Place& place, double
 
 GridAnswer StiffnessGrid::answer_at(double log_area, double log_deformation) const {
   const auto none = [](NoAnswer reason) { return GridAnswer{nan, nan, nan, nan, reason, false}; };
-  const double place = (log_area - content_.least_log_area) / content_.column_step;
+  const double place = (log_area - content_.min_log_area) / content_.column_step;
   if (std::isnan(place) || std::isnan(log_deformation)) return none(NoAnswer::invalid);
   if (place < 0) return none(NoAnswer::too_small);
   if (place > content_.columns - 1) return none(NoAnswer::too_large);
@@ -119,7 +119,7 @@ GridAnswer StiffnessGrid::answer(double area_um2, double deformation) const {
 }
 
 std::optional<StiffnessGrid::Range> StiffnessGrid::smooth_range(double area_um2) const {
-  const double place = (std::log(area_um2) - content_.least_log_area) / content_.column_step;
+  const double place = (std::log(area_um2) - content_.min_log_area) / content_.column_step;
   if (!(place >= 0 && place <= content_.columns - 1)) return {};
   const int column = std::min(static_cast<int>(place), content_.columns - 2);
   const Patch& bare = patches_.front();

@@ -40,7 +40,7 @@ struct GridPatch {
 /// All that a file of a grid holds.
 struct GridContent {
   TableOrigin origin;
-  double least_log_area = 0, column_step = 0;  ///< ln(um^2)
+  double min_log_area = 0, column_step = 0;  ///< ln(um^2)
   int columns = 0;
   std::vector<GridPatch> patches;         ///< the bare surface's first; each lies on top of the one before
   std::optional<ShapeNodes> shapes = {};  ///< of the bare surface; grids of older versions have none

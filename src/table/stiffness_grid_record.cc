@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr RecordKind kind{"rheocyte grid", "1", "grid of a table",
                           "`rheocyte table` with the table's spec writes it anew"};
-constexpr int greatest_side = 10000;
+constexpr int max_side = 10000;
 /// Only in grids of square channels; keys of a record stand in the order of their letters, and this one comes first.
 constexpr const char *section_key = "channel_section", *square_section = "square";
 
@@ -36,7 +36,7 @@ json record_of(const GridPatch& patch) {
 json record_of(const ShapeNodes& shapes) {
   json modes = json::array();
   for (const auto& mode : shapes.modes) modes.push_back(blob_of(mode));
-  return {{"least_log_area", shapes.least_log_area},
+  return {{"least_log_area", shapes.min_log_area},
           {"column_step", shapes.column_step},
           {"columns", shapes.columns},
           {"rows", shapes.rows},
@@ -59,7 +59,7 @@ json record_of(const GridContent& grid) {
                  {"viscosity_mPas", o.flow.viscosity_mPas},
                  {"flow_exponent", o.flow.exponent},
                  {"is_shell", o.is_shell},
-                 {"least_log_area", grid.least_log_area},
+                 {"least_log_area", grid.min_log_area},
                  {"column_step", grid.column_step},
                  {"columns", grid.columns},
                  {"patches", std::move(patches)}};
@@ -96,7 +96,7 @@ GridPatch patch_of(const json& record, int columns) {
   patch.regularised = record.at("regularised");
   patch.columns = side(record, "columns", 2, columns);
   patch.first_column = side(record, "first_column", 0, columns - patch.columns);
-  patch.rows = side(record, "rows", 2, greatest_side);
+  patch.rows = side(record, "rows", 2, max_side);
   const auto wide = static_cast<std::size_t>(patch.columns), all = wide * static_cast<std::size_t>(patch.rows);
   patch.lower = finite_numbers(record, "lower", wide);
   patch.upper = finite_numbers(record, "upper", wide);
@@ -112,11 +112,11 @@ GridPatch patch_of(const json& record, int columns) {
 
 ShapeNodes shapes_of(const json& record) {
   ShapeNodes shapes;
-  shapes.least_log_area = record.at("least_log_area");
-  check(std::isfinite(shapes.least_log_area), "a number is out of range");
+  shapes.min_log_area = record.at("least_log_area");
+  check(std::isfinite(shapes.min_log_area), "a number is out of range");
   shapes.column_step = positive(record, "column_step");
-  shapes.columns = side(record, "columns", 2, greatest_side);
-  shapes.rows = side(record, "rows", 2, greatest_side);
+  shapes.columns = side(record, "columns", 2, max_side);
+  shapes.rows = side(record, "rows", 2, max_side);
   const auto wide = static_cast<std::size_t>(shapes.columns), all = wide * static_cast<std::size_t>(shapes.rows);
   shapes.lower = finite_numbers(record, "lower", wide);
   shapes.upper = finite_numbers(record, "upper", wide);
@@ -147,10 +147,10 @@ GridContent content_of(const json& record) {
     check(record.at(section_key) == square_section, "a section is unknown");
     o.section = Section::square;
   }
-  grid.least_log_area = record.at("least_log_area");
-  check(std::isfinite(grid.least_log_area), "a number is out of range");
+  grid.min_log_area = record.at("least_log_area");
+  check(std::isfinite(grid.min_log_area), "a number is out of range");
   grid.column_step = positive(record, "column_step");
-  grid.columns = side(record, "columns", 2, greatest_side);
+  grid.columns = side(record, "columns", 2, max_side);
   for (const auto& patch : record.at("patches")) grid.patches.push_back(patch_of(patch, grid.columns));
   check(!grid.patches.empty(), "it has no states");
   if (record.contains("shapes")) grid.shapes = shapes_of(record.at("shapes"));

@@ -13,7 +13,7 @@ namespace rheocyte {
 namespace {
 
 // Deformed cells of a table have up to a tenth more area than the sphere.
-constexpr double least_share_of_sphere = 0.9;
+constexpr double min_share_of_sphere = 0.9;
 
 // A share of 0 or 1 leaves nothing of the other one: not even a modulus of zero.
 void set_moduli(Case& c, const BranchPlace& place, double stiffness) {
@@ -42,8 +42,8 @@ double bending_kBT(double ratio, double radius_um, double stiffness_kPa) {
 
 std::pair<double, double> first_and_last_radius_um(const TableSpec& spec) {
   const double R = unit_length_um(spec.base);
-  return {std::max(std::sqrt(least_share_of_sphere * spec.least_area_um2 / std::numbers::pi), least_radius_ratio * R),
-          std::min(std::sqrt(spec.greatest_area_um2 / std::numbers::pi), greatest_radius_ratio * R)};
+  return {std::max(std::sqrt(min_share_of_sphere * spec.min_area_um2 / std::numbers::pi), min_radius_ratio * R),
+          std::min(std::sqrt(spec.max_area_um2 / std::numbers::pi), max_radius_ratio * R)};
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace rheocyte {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int greatest_stencil = 6;
+constexpr int max_stencil = 6;
 
 StiffnessAnswer no_answer(NoAnswer reason) { return {nan, nan, false, reason}; }
 
@@ -75,10 +75,10 @@ class TableInterpolation::Query {
     if (!(size_ > 0 && deformation_ > 0 && std::isfinite(size_) && std::isfinite(deformation_)))
       return NoAnswer::invalid;
     if (count() < 2) return NoAnswer::unresolved;
-    if (abscissa_ == Abscissa::area && size_ < spec.least_area_um2) return NoAnswer::too_small;
-    if (abscissa_ == Abscissa::area && size_ > spec.greatest_area_um2) return NoAnswer::too_large;
-    if (deformation_ < spec.least_deformation) return NoAnswer::too_stiff;
-    if (deformation_ > spec.greatest_deformation) return NoAnswer::too_soft;
+    if (abscissa_ == Abscissa::area && size_ < spec.min_area_um2) return NoAnswer::too_small;
+    if (abscissa_ == Abscissa::area && size_ > spec.max_area_um2) return NoAnswer::too_large;
+    if (deformation_ < spec.min_deformation) return NoAnswer::too_stiff;
+    if (deformation_ > spec.max_deformation) return NoAnswer::too_soft;
     return NoAnswer::none;
   }
 
@@ -113,9 +113,9 @@ class TableInterpolation::Query {
       nodes.insert(in_front ? nodes.begin() : nodes.end(), *next);
       return true;
     };
-    for (bool down = true, up = true; (down || up) && int(nodes.size()) < greatest_stencil;) {
+    for (bool down = true, up = true; (down || up) && int(nodes.size()) < max_stencil;) {
       down = down && take(low--, true);
-      if (int(nodes.size()) < greatest_stencil) up = up && take(high++, false);
+      if (int(nodes.size()) < max_stencil) up = up && take(high++, false);
     }
     return nodes;
   }

@@ -20,14 +20,18 @@ const std::array table = {
                                "the swept modulus, cell.bulk.young_modulus_kPa or cell.cortex.modulus_mN_per_m, or "
                                "\"combined\"; by itself that of the bulk if it has a law",
                                Word{}, absent}),
-    key<&Spec::least_area_um2>(
-        {"table.least_area_um2", "um2", "area of the smallest cells, deformed", Number{{1e-3, 1e8}}, 30.0}),
-    key<&Spec::greatest_area_um2>(
-        {"table.greatest_area_um2", "um2", "area of the largest cells, deformed", Number{{1e-3, 1e8}}, 290.0}),
-    key<&Spec::least_deformation>(
-        {"table.least_deformation", "", "deformation of the stiffest cells", Number{{1e-7, 0.9}}, 5e-5}),
-    key<&Spec::greatest_deformation>(
-        {"table.greatest_deformation", "", "deformation of the softest cells", Number{{1e-7, 0.9}}, 0.19}),
+    key<&Spec::min_area_um2>(
+        renamed({"table.min_area_um2", "um2", "area of the smallest cells, deformed", Number{{1e-3, 1e8}}, 30.0},
+                "table.least_area_um2")),
+    key<&Spec::max_area_um2>(
+        renamed({"table.max_area_um2", "um2", "area of the largest cells, deformed", Number{{1e-3, 1e8}}, 290.0},
+                "table.greatest_area_um2")),
+    key<&Spec::min_deformation>(
+        renamed({"table.min_deformation", "", "deformation of the stiffest cells", Number{{1e-7, 0.9}}, 5e-5},
+                "table.least_deformation")),
+    key<&Spec::max_deformation>(
+        renamed({"table.max_deformation", "", "deformation of the softest cells", Number{{1e-7, 0.9}}, 0.19},
+                "table.greatest_deformation")),
     key<&Spec::radii>({"table.radii", "", "number of branches, equally spaced in the radius of the sphere",
                        Number{{2, 10000}, true}, 100.0}),
     key<&Spec::rows_per_radius>({"table.rows_per_radius", "", "rows of a full branch, at deformations of equal ratio",
@@ -47,10 +51,11 @@ const std::array table = {
     key<&Spec::bending_ratio>({"table.bending_ratio", "",
                                "bending stiffness of combined cells over S r0^3, 0 = cell.cortex.bending_kBT",
                                Number{{0, 1}}, 0.0, combined}),
-    key<&Spec::greatest_deformation_raw>({"table.greatest_deformation_raw", "",
-                                          "deformation of the contour itself, with the dent that the hull hides, at "
-                                          "which combined branches end",
-                                          Number{{1e-7, 1}}, 1.0, combined}),
+    key<&Spec::max_deformation_raw>(renamed({"table.max_deformation_raw", "",
+                                             "deformation of the contour itself, with the dent that the hull hides, at "
+                                             "which combined branches end",
+                                             Number{{1e-7, 1}}, 1.0, combined},
+                                            "table.greatest_deformation_raw")),
     key<&Spec::computed_radii>({"table.computed_radii", "", "branches that are computed; all others lie between them",
                                 Number{{4, 30}, true}, 8.0, square}),
     key<&Spec::computed_states>(

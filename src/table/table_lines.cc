@@ -17,7 +17,7 @@ double rounded(double value, int digits) { return std::stod(fmt::format("{:.{}g}
 
 // Of the rows at the greatest radius, the first that has the wanted share of the greatest deformation.
 double stiffest_level(const LookupTable& table) {
-  const double wanted = share_of_stiffest_line * table.spec.greatest_deformation;
+  const double wanted = share_of_stiffest_line * table.spec.max_deformation;
   const TableRow* best = nullptr;
   for (const auto& row : table.rows) {
     const bool is_larger = best && row.radius_um > best->radius_um;

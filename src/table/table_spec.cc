@@ -107,13 +107,12 @@ void refuse_swept_keys(const TableSpec& spec, const KeyReading& keys) {
   const auto refuse = [&](std::string_view key, std::string_view reason) {
     if (keys.has(key)) keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
   };
-  refuse(radius_key,
-         "must not be given, because a table sweeps it; choose table.least_area_um2 and table.greatest_area_um2");
+  refuse(radius_key, "must not be given, because a table sweeps it; choose table.min_area_um2 and table.max_area_um2");
   refuse(accuracy_key, "has no effect on a table; choose table.accuracy");
   for (const auto key : swept_keys(spec))
     refuse(key,
-           "must not be given, because a table sweeps it; choose table.least_deformation and "
-           "table.greatest_deformation");
+           "must not be given, because a table sweeps it; choose table.min_deformation and "
+           "table.max_deformation");
   refuse("channel.camera_degree", "is not for tables; choose channel.camera");
   for (const auto key : {drive_key, std::string_view("flow.pressure_drop_Pa")})
     refuse(key, "must not be given, because a table is that of one flow rate; choose flow.rate_ul_per_s");
@@ -134,27 +133,27 @@ void check_identifier(const std::string& identifier, const KeyReading& keys) {
 void check_order(const TableSpec& spec, const KeyReading& keys) {
   const auto check = [&](double least, double greatest, std::string_view what) {
     if (least < greatest) return;
-    const auto least_key = fmt::format("table.least_{}", what), greatest_key = fmt::format("table.greatest_{}", what);
-    keys.refuse(keys.has(least_key) ? least_key : greatest_key,
-                fmt::format("{} = {:g} is not below {} = {:g}; the table would be empty.", least_key, least,
-                            greatest_key, greatest));
+    const auto min_key = fmt::format("table.min_{}", what), max_key = fmt::format("table.max_{}", what);
+    keys.refuse(
+        keys.has(min_key) ? min_key : max_key,
+        fmt::format("{} = {:g} is not below {} = {:g}; the table would be empty.", min_key, least, max_key, greatest));
   };
-  check(spec.least_area_um2, spec.greatest_area_um2, "area_um2");
-  check(spec.least_deformation, spec.greatest_deformation, "deformation");
+  check(spec.min_area_um2, spec.max_area_um2, "area_um2");
+  check(spec.min_deformation, spec.max_deformation, "deformation");
 }
 
 double sphere_area(double radius) { return std::numbers::pi * radius * radius; }
 
 void check_areas(const TableSpec& spec, const KeyReading& keys) {
   const double R = unit_length_um(spec.base);
-  const Range possible{sphere_area(least_radius_ratio * R), sphere_area(greatest_radius_ratio * R)};
-  for (const auto& [key, area] : {std::pair("table.least_area_um2", spec.least_area_um2),
-                                  std::pair("table.greatest_area_um2", spec.greatest_area_um2)})
+  const Range possible{sphere_area(min_radius_ratio * R), sphere_area(max_radius_ratio * R)};
+  for (const auto& [key, area] :
+       {std::pair("table.min_area_um2", spec.min_area_um2), std::pair("table.max_area_um2", spec.max_area_um2)})
     if (!possible.contains(area))
       keys.refuse(key,
                   fmt::format("{} = {:g} um2 is an area that no cell of this channel can have; cells of {} .. {} of "
                               "the {} {:.6g} um have {:.3g} .. {:.4g} um2.",
-                              key, area, least_radius_ratio, greatest_radius_ratio,
+                              key, area, min_radius_ratio, max_radius_ratio,
                               spec.is_square() ? "half width" : "tube radius", R, possible.least, possible.greatest));
 }
 
@@ -228,8 +227,7 @@ std::string to_toml(const TableSpec& spec) {
   if (spec.is_combined()) left_out.push_back(ratio_key);
   // What only combined cells have is written where it is given.
   left_out.push_back(spec.bending_ratio > 0 ? bending_key : "table.bending_ratio");
-  if (spec.greatest_deformation_raw == TableSpec{}.greatest_deformation_raw)
-    left_out.emplace_back("table.greatest_deformation_raw");
+  if (spec.max_deformation_raw == TableSpec{}.max_deformation_raw) left_out.emplace_back("table.max_deformation_raw");
   auto values = values_of(spec.base, case_keys());
   std::ranges::move(values_of(spec, table_keys()), std::back_inserter(values));
   return to_toml(values, left_out);

@@ -26,16 +26,16 @@ struct TableSpec {
   Case base;                  ///< radius and stiffness hold the values of the sweep's middle and mean nothing
   std::string stiffness_key;  ///< the swept parameter, "cell.bulk.young_modulus_kPa", "cell.cortex.modulus_mN_per_m" or
                               ///< combined_stiffness
-  double least_area_um2 = 0, greatest_area_um2 = 0;  ///< of the deformed cell
-  double least_deformation = 0, greatest_deformation = 0;
+  double min_area_um2 = 0, max_area_um2 = 0;  ///< of the deformed cell
+  double min_deformation = 0, max_deformation = 0;
   int radii = 0;  ///< branches, equally spaced in the radius of the sphere
   int rows_per_radius = 0;
   double accuracy = 0;  ///< relative, of the deformation
   /// Bending stiffness of the branches that go on where the bare surface has lost its stability; 0: none.
   double bending_beyond_kBT = 0;
   std::vector<double> cortex_shares, tension_ratios;  ///< of combined cells, ascending; else empty
-  double bending_ratio = 0;             ///< c_b / (S r0^3) of combined cells; 0: the base's bending stiffness for all
-  double greatest_deformation_raw = 1;  ///< of the contour itself, dent included: where branches of combined cells end
+  double bending_ratio = 0;        ///< c_b / (S r0^3) of combined cells; 0: the base's bending stiffness for all
+  double max_deformation_raw = 1;  ///< of the contour itself, dent included: where branches of combined cells end
   /// In a square channel: branches and states on each that are computed, between which the others lie, and the tube's
   /// table by whose ratio they are interpolated, as the user names it; without one the moduli themselves are.
   std::optional<int> computed_radii, computed_states;

@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto head_time = 10s, body_time = 30s, write_time = 20s, drain_time = 2s;
-constexpr std::size_t greatest_head = 64 << 10, greatest_drain = 64 << 20;
+constexpr std::size_t max_head = 64 << 10, max_drain = 64 << 20;
 
 void name_of_end(const sockaddr_storage& address, std::string& ip, int& port) {
   char text[INET6_ADDRSTRLEN] = "";
@@ -58,7 +58,7 @@ bool Connection::wait_for_request(const std::function<bool()>& goes_on) {
 }
 
 void Connection::begin_head() {
-  allowed_ = greatest_head;
+  allowed_ = max_head;
   deadline_ = Clock::now() + head_time;
 }
 
@@ -102,7 +102,7 @@ void Connection::finish() {
   ::shutdown(socket_, SHUT_WR);
   if (!is_last_) return;
   const auto end = Clock::now() + drain_time;
-  for (std::size_t taken = 0; taken < greatest_drain && Clock::now() < end; taken += available())
+  for (std::size_t taken = 0; taken < max_drain && Clock::now() < end; taken += available())
     if (!wait(POLLIN, end - Clock::now()) || !fill()) return;
 }
 

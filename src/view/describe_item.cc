@@ -41,13 +41,12 @@ Json describe_recording(const fs::path& file) {
 }
 
 Json describe_result(const fs::path& folder) {
-  constexpr std::uintmax_t greatest_file = 16 << 20;
+  constexpr std::uintmax_t max_file = 16 << 20;
   const fs::path file = folder / "result.json";
   const std::string name = one_line(file.string(), 300);
   std::error_code error;
   const auto size = fs::file_size(file, error);
-  if (error || size > greatest_file)
-    throw UserError(fmt::format("{}: cannot be read, or is no result of rheocyte.", name));
+  if (error || size > max_file) throw UserError(fmt::format("{}: cannot be read, or is no result of rheocyte.", name));
   std::ifstream stream(file, std::ios::binary);
   const Json result = parse_sound_json(std::string(std::istreambuf_iterator<char>(stream), {}));
   if (!result.is_object() || !result.contains("case"))

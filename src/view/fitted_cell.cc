@@ -42,7 +42,7 @@ std::optional<FittedCell> fitted_cell(const ShapeMap& map, const MeasuringCondit
   if (!std::isfinite(log_area) || !(true_deformation > 0)) return std::nullopt;
   std::array<double, mode_count> modes{};
   for (int k = first_radius_mode; k <= last_radius_mode; ++k)
-    modes[std::size_t(k - least_mode)] = map.shapes().mode(k, log_area, true_deformation);
+    modes[std::size_t(k - min_mode)] = map.shapes().mode(k, log_area, true_deformation);
   FittedCell cell{std::exp(log_area) / scale_factors(conditions.flow, map.origin().flow).area, true_deformation, 0, {}};
   // Polygons of so many points are as good as the curve: 1e-5 of the radius.
   constexpr int fine = 1440;

@@ -116,7 +116,7 @@ TEST(SphereInTube, TheLiquidSticksToTheWallAndToTheSphere) {
   // this checks the reflection, its re-expansion and the solution together.
   constexpr double differences = 1e-8;
   for (const double lambda : {0.2, 0.5}) {
-    const SphereInTube sphere = sphere_in_tube(lambda, functions_for(greatest_sphere_in_tube));
+    const SphereInTube sphere = sphere_in_tube(lambda, functions_for(max_sphere_in_tube));
     for (const double z : {0.0, 0.2, 0.4, 0.6}) {
       const auto [along, across] = velocity(sphere, z, 1);
       EXPECT_NEAR(along, -sphere.velocity, differences) << lambda << ' ' << z;
@@ -133,7 +133,7 @@ TEST(SphereInTube, TheChosenNumberOfFunctionsIsEnough) {
   // The default differs from the longest series by less than the promised 1e-10.
   for (const double lambda : {0.05, 0.3, 0.6, 0.8, 0.9}) {
     const SphereInTube chosen = sphere_in_tube(lambda);
-    const SphereInTube longest = sphere_in_tube(lambda, functions_for(greatest_sphere_in_tube));
+    const SphereInTube longest = sphere_in_tube(lambda, functions_for(max_sphere_in_tube));
     EXPECT_NEAR(chosen.velocity / longest.velocity, 1, 1e-10) << lambda;
     EXPECT_NEAR(chosen.pressure_drop / longest.pressure_drop, 1, 1e-10) << lambda;
     const Eigen::ArrayXd difference = chosen.traction.normal - longest.traction.normal.head(chosen.traction.size());

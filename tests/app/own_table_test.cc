@@ -50,8 +50,8 @@ class OwnTable : public testing::Test {
   TableSpec write_closed_table(const std::string& name) const {
     const auto spec = parse_table_spec(
         "channel.width_um = 20\nflow.rate_ul_per_s = 0.04\nflow.viscosity_mPas = 15\n[table]\nidentifier = \"CLOSED\"\n"
-        "stiffness = \"cell.bulk.young_modulus_kPa\"\nleast_area_um2 = 70\ngreatest_area_um2 = 210\nradii = 24\n"
-        "least_deformation = 5e-4\ngreatest_deformation = 0.08\n",
+        "stiffness = \"cell.bulk.young_modulus_kPa\"\nmin_area_um2 = 70\nmax_area_um2 = 210\nradii = 24\n"
+        "min_deformation = 5e-4\nmax_deformation = 0.08\n",
         "table");
     const TableFolder folder(folder_ / name, spec);
     for (int i = 0; i < folder.branches(); ++i) folder.keep(i, test::analytic_branch(folder.place(i).radius_um), false);

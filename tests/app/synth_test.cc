@@ -60,7 +60,7 @@ TEST_F(Synth, SaysWhatItMadeAndWhatItLeftOut) {
   test::write_file(folder_ / "soft.toml",
                    "[recording]\ncells = 100\n[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\n"
                    "viscosity_mPas = 15\n[cell]\nradius_um = {mean = 6, sd = 0.4}\n"
-                   "bulk.young_modulus_kPa = {mean = 5, sd = 1}\n[shapes]\ngreatest_deformation = 0.01\n");
+                   "bulk.young_modulus_kPa = {mean = 5, sd = 1}\n[shapes]\nmax_deformation = 0.01\n");
   const auto ended = run({"synth", path("soft.toml"), "-o", path("v.rtdc")});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_NE(ended.out.find(" events; areas measured -"), std::string::npos) << ended.out;
@@ -85,7 +85,7 @@ TEST_F(Synth, ATableInPlaceOfTheClosedModelIsLookedForBesideTheSpec) {
 TEST_F(Synth, CellsOfAComputedTableHaveItsShapes) {
   const auto spec = parse_table_spec(
       "channel.width_um = 20\nflow.rate_ul_per_s = 0.04\nflow.viscosity_mPas = 15\n[table]\nidentifier = \"CLOSED\"\n"
-      "stiffness = \"cell.bulk.young_modulus_kPa\"\nleast_area_um2 = 45\ngreatest_area_um2 = 190\nradii = 12\n",
+      "stiffness = \"cell.bulk.young_modulus_kPa\"\nmin_area_um2 = 45\nmax_area_um2 = 190\nradii = 12\n",
       "table");
   const TableFolder folder(folder_ / "table", spec);
   for (int i = 0; i < folder.branches(); ++i) folder.keep(i, test::analytic_branch(folder.place(i).radius_um), false);

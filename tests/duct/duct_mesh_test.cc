@@ -13,7 +13,7 @@ namespace {
 
 /// Volumes of the cell and of everything, by the quadrature of elements of some degree; and the least det of a map.
 struct Volumes {
-  double cell = 0, all = 0, least_det = 1e300;
+  double cell = 0, all = 0, min_det = 1e300;
 };
 
 Volumes volumes(const DuctMesh& mesh, int degree) {
@@ -32,7 +32,7 @@ Volumes volumes(const DuctMesh& mesh, int degree) {
       MapFields<double, 3> map;
       for (int k = 0; k < 3; ++k) map.G.col(k) = G[k].row(q).transpose();
       const double det = PointMap<double, 3>(map).det;
-      sum.least_det = std::min(sum.least_det, det);
+      sum.min_det = std::min(sum.min_det, det);
       (mesh.elements()[e].in_cell() ? sum.cell : sum.all) += reference.weights(q) * det;
     }
   }
@@ -50,7 +50,7 @@ TEST(DuctMesh, AnEighthOfCellAndDuctIsFilledWithoutFolds) {
       EXPECT_NEAR(v.cell / (pi * a * a * a / 6), 1, 1e-5) << a;
       const double area = section == Section::square ? 0.5 : pi / 8;
       EXPECT_NEAR(v.all / (2 * geometry.half_length() * area), 1, 1e-5) << a;
-      EXPECT_GT(v.least_det, 0) << a;
+      EXPECT_GT(v.min_det, 0) << a;
     }
   }
 }
@@ -64,7 +64,7 @@ TEST(DuctMesh, PartsOfARectangleAreFilledWithoutFolds) {
       const double share = 1.0 / double(copies_of(symmetry).size());
       EXPECT_NEAR(v.cell / (share * 4 * pi / 3 * 0.343), 1, 1e-5);
       EXPECT_NEAR(v.all / (share * 2 * geometry.half_length() * geometry.area()), 1, 1e-5);
-      EXPECT_GT(v.least_det, 0);
+      EXPECT_GT(v.min_det, 0);
     }
   }
 }

@@ -18,7 +18,7 @@ TEST(Observe, TheSphereIsNotStretched) {
   const SurfaceState surface = surface_state(channel.space, channel.system.sphere(), 9);
   EXPECT_LT((surface.stretch.col(0).array() - 1).abs().maxCoeff(), rounding);
   EXPECT_LT((surface.stretch.col(1).array() - 1).abs().maxCoeff(), rounding);
-  EXPECT_NEAR(least_biot_ratio(surface), 1, rounding);
+  EXPECT_NEAR(min_biot_ratio(surface), 1, rounding);
 }
 
 TEST(Observe, AUniformStretchIsSeenInBothDirections) {
@@ -37,7 +37,7 @@ TEST(Observe, AUniformStretchIsSeenInBothDirections) {
   EXPECT_NEAR(surface.stretch(0, 0), 1 / std::sqrt(2.0), 1e-4);
   EXPECT_NEAR(surface.stretch(middle, 0), 2, 1e-4);
   EXPECT_NEAR(surface.stretch(middle, 1), 1 / std::sqrt(2.0), rounding);
-  EXPECT_NEAR(least_biot_ratio(surface), std::pow(2, -1.5), 1e-4);
+  EXPECT_NEAR(min_biot_ratio(surface), std::pow(2, -1.5), 1e-4);
 }
 
 TEST(Observe, TheBiotLimitIsTheRootOfItsCubic) {

@@ -45,7 +45,7 @@ TEST(RenderedErrors, OfSolidsAreThoseOfTheFittedLaw) {
   // scatter of the mean of 2000 pictures is 3e-4 and 1e-4.
   constexpr int pictures = 2000;
   constexpr double usual_area = 1.3e-3 + 3e-4, usual_deformation = 5e-4 + 1e-4;
-  const AnalyticShapes model({.flow = {20, 0.04}, .greatest_deformation = 0.03});
+  const AnalyticShapes model({.flow = {20, 0.04}, .max_deformation = 0.03});
   CellRandom random(11, 0, Purpose::place);
   int count = 0, unusual = 0;
   for (const double radius : {4.5, 6.0, 7.0})

@@ -131,7 +131,7 @@ def test_a_table_that_is_not_there_or_damaged_is_named(tmp_path):
 
 SMALL = {"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
          "cell": {"bulk": {"law": "linear"}},
-         "table": {"identifier": "SMALL", "least_area_um2": 60, "greatest_area_um2": 120, "greatest_deformation": 0.01, "radii": 5,
+         "table": {"identifier": "SMALL", "min_area_um2": 60, "max_area_um2": 120, "max_deformation": 0.01, "radii": 5,
                    "rows_per_radius": 20, "accuracy": 1e-3}}
 
 

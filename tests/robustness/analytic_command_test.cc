@@ -198,7 +198,7 @@ TEST(AnalyticCommand, AFullDiskLeavesTheOlderFile) {
   ASSERT_EQ(analytic({"table", "-o", folder.path(), "--radii", "10", "--moduli", "5"}).exit_code, 0);
   const std::string before = content_of(file);
   Command command{{RHEOCYTE, "analytic", "table", "-o", folder.path()}};
-  command.greatest_file_bytes = 8192;
+  command.max_file_bytes = 8192;
   const auto ended = run(command);
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_NE(ended.err.find("an older file is left as it was"), std::string::npos) << ended.err;
@@ -234,7 +234,7 @@ TEST(AnalyticCommand, MistakesInTablesAreNamed) {
   refuse({"table", "--least-modulus-kPa", "0.01", "--greatest-modulus-kPa", "0.1"}, "greater moduli");
   refuse({"table", "--radii", "1"}, "--radii");
   refuse({"table", "--identifier", "../x"}, "--identifier");
-  refuse({"table", "--greatest-deformation", "nan"}, "--greatest-deformation nan is outside its range");
+  refuse({"table", "--greatest-deformation", "nan"}, "--max-deformation nan is outside its range");
   refuse({"lines", "--moduli-kPa", "1,nan"}, "--moduli-kPa nan is outside its range");
   EXPECT_FALSE(fs::exists(folder.path() / "new"));
 }

@@ -87,12 +87,12 @@ StationaryState solve_stationary(const Problem& problem, const ProgressCallback&
   state.volume_of_revolution = state.shape.volume;
   state.flow_rate = 1;
   state.volume_flow = 3;
-  state.reynolds = state.stability_margin = state.least_tension = state.shear_rate_max = 0;
+  state.reynolds = state.stability_margin = state.min_tension = state.shear_rate_max = 0;
   state.pressure_drop = 30;
   state.additional_pressure_drop = 1;
   state.channel_length = 3.5;
   state.relative_volume_change = 0;
-  state.least_meridional_stretch = state.biot_ratio = 1;
+  state.min_meridional_stretch = state.biot_ratio = 1;
   state.residual = state.estimated_error = 1e-12;
   if (failure == "nan") state.pressure_drop = std::numeric_limits<double>::quiet_NaN();
   state.write_fields = write_some_fields;

@@ -24,8 +24,8 @@ namespace {
   ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
   for (const auto& [name, value] : wanted.environment) ::setenv(name.c_str(), value.c_str(), 1);
   if (!wanted.folder.empty()) fs::current_path(wanted.folder);
-  if (wanted.greatest_file_bytes >= 0) {
-    const auto bytes = static_cast<rlim_t>(wanted.greatest_file_bytes);
+  if (wanted.max_file_bytes >= 0) {
+    const auto bytes = static_cast<rlim_t>(wanted.max_file_bytes);
     const rlimit limit{bytes, bytes};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }

@@ -10,7 +10,7 @@ namespace rheocyte::test {
 struct Command {
   std::vector<std::string> arguments;                ///< the first one is the program
   std::map<std::string, std::string> environment{};  ///< in addition to ours
-  long greatest_file_bytes = -1;                     ///< a file may not grow beyond this, as on a full disk
+  long max_file_bytes = -1;                          ///< a file may not grow beyond this, as on a full disk
   std::filesystem::path folder{};                    ///< the current one while it runs; empty: ours
   int signal = 0;                                    ///< sent once the program has printed to standard error
 };

@@ -173,7 +173,7 @@ TEST_F(SolveCommand, AFullDiskLeavesTheOldResultAsItWas) {
   const auto before = content_of(result() / "result.json");
   for (const long bytes : {0L, 200L, 5000L}) {  // in case.toml, contour.csv, fields.vtu
     auto full = solve("", {"--no-picture", "--quiet"});
-    full.greatest_file_bytes = bytes;
+    full.max_file_bytes = bytes;
     const auto ended = run(full);
     EXPECT_EQ(ended.exit_code, 2) << bytes;
     if (bytes > 0) {  // at 0 bytes the sentence itself cannot be written

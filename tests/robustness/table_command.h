@@ -21,9 +21,9 @@ viscosity_mPas = 15.0
 law = "linear"
 [table]
 identifier = "TEST"
-least_area_um2 = 60
-greatest_area_um2 = 120
-greatest_deformation = 0.002
+min_area_um2 = 60
+max_area_um2 = 120
+max_deformation = 0.002
 radii = 4
 rows_per_radius = 10
 accuracy = 1e-3

@@ -86,8 +86,7 @@ TEST_F(TableCommand, ADamagedRecordIsNamed) {
 TEST_F(TableCommand, ASignalEndsItCleanlyAndItGoesOn) {
   // Ctrl-C: exit 130 and a sentence with the way on.
   Command command_with_signal{command(table("s"))};
-  command_with_signal.arguments.insert(command_with_signal.arguments.end(),
-                                       {"--set", "table.greatest_deformation=0.05"});
+  command_with_signal.arguments.insert(command_with_signal.arguments.end(), {"--set", "table.max_deformation=0.05"});
   command_with_signal.arguments.insert(command_with_signal.arguments.end(), {"--set", "table.radii=12"});
   command_with_signal.signal = SIGINT;
   const Ended ended = run(command_with_signal);
@@ -98,7 +97,7 @@ TEST_F(TableCommand, ASignalEndsItCleanlyAndItGoesOn) {
 TEST_F(TableCommand, AFullDiskIsNamed) {
   // Files may not grow beyond 2 kB, as on a full disk.
   Command limited{command(table("full"))};
-  limited.greatest_file_bytes = 2000;
+  limited.max_file_bytes = 2000;
   const Ended ended = run(limited);
   EXPECT_EQ(ended.exit_code, 2) << ended.err;
   EXPECT_NE(ended.err.find("cannot be written"), std::string::npos) << ended.err;

@@ -24,7 +24,7 @@ TEST(Curve, NodesAreThoseOfTheGaussLobattoRule) {
 TEST(Curve, AnEllipsePieceConvergesExponentiallyInTheDegree) {
   // Each degree more gains at least a factor 4 for a quarter of a circle, until rounding is reached.
   double previous = 1;
-  for (int degree = 1; degree <= greatest_curve_degree; ++degree) {
+  for (int degree = 1; degree <= max_curve_degree; ++degree) {
     const Eigen::ArrayXd angle = 0.5 * std::numbers::pi * lobatto_nodes(degree).array();
     CurvePiece piece(degree + 1, 2);
     piece << angle.cos(), angle.sin();
@@ -37,7 +37,7 @@ TEST(Curve, AnEllipsePieceConvergesExponentiallyInTheDegree) {
 
 TEST(Curve, APolynomialOfTheDegreeComesBackWithItsDerivatives) {
   // t^p and its first two derivatives are reproduced at any parameter.
-  for (int p = 2; p <= greatest_curve_degree; ++p) {
+  for (int p = 2; p <= max_curve_degree; ++p) {
     CurvePiece piece(p + 1, 2);
     piece << lobatto_nodes(p).array().pow(p), lobatto_nodes(p);
     const Eigen::ArrayXd t = dense().array();

@@ -63,7 +63,7 @@ class ArcTracer {
   }
 
   bool is_near(const VectorXd& guess, const VectorXd& found) const {
-    return system_.stretch_change(guess, found) < options_.greatest_correction;
+    return system_.stretch_change(guess, found) < options_.max_correction;
   }
   bool goes_on(const BranchState& state) const { return !options_.go_on || options_.go_on(space_of(system_), state); }
 
@@ -106,7 +106,7 @@ ArcReport trace_arc(const Path& path, const ArcOptions& options, BranchState fro
       report.status = Status::branch_ended;
     if (report.status != Status::converged) {
       step /= 2;
-      if (step < options.least_step) return report;
+      if (step < options.min_step) return report;
       continue;
     }
     const ArcTangent after = tracer.tangent(next, t);
@@ -114,7 +114,7 @@ ArcReport trace_arc(const Path& path, const ArcOptions& options, BranchState fro
     if (after.parameter * t.parameter < 0) report.folds.push_back(int(report.states.size()) - 1);
     t = after;
     const bool goes_on = tracer.goes_on(next);
-    if (next.newton_iterations <= 3) step = std::min(1.5 * step, options.greatest_step);
+    if (next.newton_iterations <= 3) step = std::min(1.5 * step, options.max_step);
     report.states.push_back(std::move(next));
     if (!goes_on) break;
   }

@@ -8,8 +8,8 @@ namespace rheocyte {
 struct ArcOptions {
   NewtonOptions newton;
   /// Of the arc, sqrt(mean square displacement of the surface / r0^2 + (step of the parameter / its unit)^2).
-  double first_step = 0.02, least_step = 1e-4, greatest_step = 0.05;
-  double greatest_correction = 0.06;  ///< as in ContinuationOptions
+  double first_step = 0.02, min_step = 1e-4, max_step = 0.05;
+  double max_correction = 0.06;  ///< as in ContinuationOptions
   int step_limit = 50;
   /// Sees each converged state; returning false ends the trace there.
   std::function<bool(const Discretisation&, const BranchState&)> go_on;

@@ -13,7 +13,7 @@ constexpr double now = 1.3;
 
 TEST(Bdf, DifferentiatesPolynomialsUpToItsOrderExactly) {
   // d(t^m)/dt at the new time for m = 0 .. order; rounding is amplified by weights near 10.
-  for (int order = 1; order <= greatest_bdf_order; ++order) {
+  for (int order = 1; order <= max_bdf_order; ++order) {
     const BdfFormula formula = bdf_formula(past, order, now);
     for (int m = 0; m <= order; ++m) {
       double slope = formula.rate * std::pow(now, m);
@@ -45,7 +45,7 @@ TEST(Bdf, ExtrapolatesPolynomialsExactly) {
 
 TEST(Bdf, TheErrorEstimateIsExactForPolynomialsOfOneDegreeMore) {
   // y' = f(t): the new value is off by what the estimate says, for y = t^(order + 1).
-  for (int order = 1; order <= greatest_bdf_order; ++order) {
+  for (int order = 1; order <= max_bdf_order; ++order) {
     const BdfFormula formula = bdf_formula(past, order, now);
     const auto y = [&](double t) { return std::pow(t, order + 1); };
     double value = (order + 1) * std::pow(now, order);

@@ -51,7 +51,7 @@ TEST(ChannelEntry, AProfileOfOneRadiusChangesNothing) {
   Problem straight = entering_cell(), constant = straight;
   straight.wall = {};
   constant.wall = {{-1, 0.5, 2}, {1, 1, 1}};
-  const TimeStepOptions options{.greatest_order = 3, .fixed_step = 0.02, .newton = {1e-13}};
+  const TimeStepOptions options{.max_order = 3, .fixed_step = 0.02, .newton = {1e-13}};
   TimeStepper one(straight, resolution(4), options), other(constant, resolution(4), options);
   ASSERT_EQ(one.start(), Status::converged);
   ASSERT_EQ(other.start(), Status::converged);

@@ -115,7 +115,7 @@ TEST(Continuation, AFailedStepKeepsTheLastGoodState) {
   CoarseProblem coarse(test::problem({6, 0.3, 0}));
   ContinuationOptions options;
   options.newton.iteration_limit = 5;
-  options.least_step = 0.03;
+  options.min_step = 0.03;
   const ContinuationReport report = coarse.follow(options);
   EXPECT_NE(report.status, Status::converged);
   EXPECT_LT(report.last.parameter, 1);

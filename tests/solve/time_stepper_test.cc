@@ -58,7 +58,7 @@ TEST(TimeStepper, TheErrorFallsWithTheOrderOfTheFormula) {
   const Problem problem = moving_cell(0);
   constexpr double fine = 0.1 / unit_us, end = 60 / unit_us;
   constexpr int stride = 20;  // the coarsest step is 2 us
-  TimeStepper reference(problem, resolution(3), {.greatest_order = 4, .fixed_step = fine, .newton = {1e-11}});
+  TimeStepper reference(problem, resolution(3), {.max_order = 4, .fixed_step = fine, .newton = {1e-11}});
   ASSERT_EQ(reference.start(), Status::converged);
   std::vector<TimeLevel> levels;  // every one of the fine steps up to 20 us, the latest first
   while (levels.size() < 201) {
@@ -67,8 +67,7 @@ TEST(TimeStepper, TheErrorFallsWithTheOrderOfTheFormula) {
   }
   ASSERT_EQ(go(reference, end), Status::converged);
   const auto error = [&](int order, int step) {
-    TimeStepper stepper(problem, resolution(3),
-                        {.greatest_order = order, .fixed_step = step * fine, .newton = {1e-11}});
+    TimeStepper stepper(problem, resolution(3), {.max_order = order, .fixed_step = step * fine, .newton = {1e-11}});
     TimeState state{{}, order, 0, step * fine, {}};
     for (int i = 0; i < order; ++i) state.levels.push_back(levels[i * step]);
     stepper.resume(state);
@@ -141,15 +140,15 @@ TEST(TimeStepper, AGivenPressureDropStaysWhatItIs) {
   Problem problem = moving_cell(0);
   problem.drive = Drive::pressure_drop;
   TimeRun run{2000 / unit_us, 1e9, 1e-4, 4};
-  double greatest_acceleration = 0, rate = 0;
+  double max_acceleration = 0, rate = 0;
   const auto observe = [&](const TimePoint& point, const TimeState& state) {
-    greatest_acceleration = std::max(greatest_acceleration, std::abs(state.levels[0].frame_acceleration));
-    EXPECT_NEAR(point.state.pressure_drop / (8 * 2 * least_half_length(problem.radius_ratio)), 1, 1e-6);
+    max_acceleration = std::max(max_acceleration, std::abs(state.levels[0].frame_acceleration));
+    EXPECT_NEAR(point.state.pressure_drop / (8 * 2 * min_half_length(problem.radius_ratio)), 1, 1e-6);
     rate = point.state.flow_rate;
   };
   const StationaryState end = follow_in_time(problem, run, {{}, observe});
   ASSERT_EQ(end.outcome.status, Status::converged);
-  EXPECT_GT(greatest_acceleration, 0.1);
+  EXPECT_GT(max_acceleration, 0.1);
   const StationaryState stationary = solve_stationary(problem);
   EXPECT_NEAR(rate / stationary.flow_rate, 1, 1e-5);
   EXPECT_NEAR(end.shape.deformation / stationary.shape.deformation, 1, 1e-3);

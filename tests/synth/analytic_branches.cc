@@ -10,7 +10,7 @@ namespace rheocyte::test {
 
 SampledBranch analytic_branch(double radius_um) {
   constexpr double viscosity = 15;
-  const AnalyticShapes model({.flow = {20, 0.04}, .greatest_deformation = 0.1});
+  const AnalyticShapes model({.flow = {20, 0.04}, .max_deformation = 0.1});
   const auto state = [&](double radius, double stiffness) {
     return std::get<CellShape>(model.shape({radius, stiffness, viscosity}));
   };

@@ -43,7 +43,7 @@ TEST(AnalyticShapes, AShellIsThatOfTheDimensionlessModel) {
   auto shells = solids;
   shells.is_shell = true;
   shells.tension_ratio = 0.1;
-  shells.greatest_deformation = 0.01;
+  shells.max_deformation = 0.01;
   const auto shape = shape_of(AnalyticShapes(shells), {6, 30, 15});
   const double R = 0.547 * 20;
   const double capillary = 6e-13 / (R * R * 1e-12) / 30e-3;

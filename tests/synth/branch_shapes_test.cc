@@ -24,7 +24,7 @@ constexpr SimulatedCells same{{20, 0.04, viscosity}, {20, 0.04}, false};
 TEST(BranchShapes, LieBetweenTheBranches) {
   const auto branches = analytic_branches();
   const BranchShapes shapes(branches, same);
-  const AnalyticShapes model({.flow = {20, 0.04}, .greatest_deformation = 0.1});
+  const AnalyticShapes model({.flow = {20, 0.04}, .max_deformation = 0.1});
   for (const double radius : {4.0, 4.1, 5.6, 6.37, 7.9})
     for (const double stiffness : {4.1, 7.3, 19.0}) {
       const auto found = shapes.shape({radius, stiffness, viscosity});

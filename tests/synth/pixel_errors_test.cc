@@ -50,7 +50,7 @@ Left left_of(const CellShape& shape, double area_px, int places) {
 }
 
 TEST(PixelErrors, DescribeMasksOfOtherShapes) {
-  const AnalyticShapes model({.flow = {20, 0.04}, .greatest_deformation = 0.1});
+  const AnalyticShapes model({.flow = {20, 0.04}, .max_deformation = 0.1});
   double ratio_of_area = 0, ratio_of_deformation = 0;
   int count = 0;
   for (const double radius : {4.5, 6.0, 7.0})

@@ -41,7 +41,7 @@ TEST(SynthSpec, ShortestOneIsCompletedByDefaults) {
   EXPECT_EQ(spec.radius_um.deviation, 0);
   EXPECT_EQ(spec.stiffness().mean, 3);
   EXPECT_EQ(spec.viscosity_mPas, 5.4);
-  EXPECT_EQ(spec.greatest_deformation, 0.02) << "where the analytical model holds";
+  EXPECT_EQ(spec.max_deformation, 0.02) << "where the analytical model holds";
   EXPECT_EQ(spec.image_size().width, 250U);
   EXPECT_EQ(spec.image_size().height, 78U) << "20 um and 3 um on each side";
 }

@@ -42,7 +42,7 @@ class Virtual : public testing::Test {
   VirtualRecording write(const std::string& more, const std::string& name = "v.rtdc") const {
     const auto spec = parse_synth_spec(base + more, "spec.toml");
     const AnalyticShapes shapes(
-        {.flow = {spec.channel_width_um, spec.flow_rate_ul_s}, .greatest_deformation = spec.greatest_deformation});
+        {.flow = {spec.channel_width_um, spec.flow_rate_ul_s}, .max_deformation = spec.max_deformation});
     return write_virtual_recording(spec, shapes, {"rheocyte test", {"line"}}, folder_ / name, [](double) {});
   }
   std::vector<double> column(const std::string& feature, const std::string& name = "v.rtdc") const {
@@ -146,7 +146,7 @@ TEST_F(Virtual, TheAreaErrorOfSpheresFallsWithThePixelSize) {
 }
 
 TEST_F(Virtual, CellsWithoutAShapeAreCountedAndSaid) {
-  const auto result = write("[recording]\ncells = 300\npictures = \"none\"\n[shapes]\ngreatest_deformation = 0.004\n");
+  const auto result = write("[recording]\ncells = 300\npictures = \"none\"\n[shapes]\nmax_deformation = 0.004\n");
   EXPECT_GT(result.missing[std::size_t(NoShape::too_soft)], 0U);
   EXPECT_EQ(result.events + result.missing[std::size_t(NoShape::too_soft)], 300U);
   const Recording recording(folder_ / "v.rtdc");
@@ -162,7 +162,7 @@ TEST_F(Virtual, CellsOutsideThePictureAreCounted) {
 }
 
 TEST_F(Virtual, APopulationThatCannotBeRecordedIsRefused) {
-  EXPECT_THROW(write("[recording]\ncells = 20\n[shapes]\ngreatest_deformation = 1e-9\n"), UserError);
+  EXPECT_THROW(write("[recording]\ncells = 20\n[shapes]\nmax_deformation = 1e-9\n"), UserError);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ using namespace test;
 
 constexpr double radius = 7;
 
-double greatest_error(const SampledBranch& branch, Measure m) {
+double max_error(const SampledBranch& branch, Measure m) {
   double greatest = 0;
   for (int i = 0; i <= 400; ++i) {
     const double stiffness =
@@ -37,8 +37,8 @@ TEST(Branch, SamplesAreGivenBackExactly) {
 TEST(Branch, InterpolationHasOrderFour) {
   for (const auto m :
        {Measure::deformation, Measure::area_um2, Measure::named("perimeter_um"), Measure::named("inertia_ratio")}) {
-    const double coarse = greatest_error(invented_branch(radius, {30, 0.3, 25}), m);
-    const double fine = greatest_error(invented_branch(radius, {30, 0.3, 49}), m);
+    const double coarse = max_error(invented_branch(radius, {30, 0.3, 25}), m);
+    const double fine = max_error(invented_branch(radius, {30, 0.3, 49}), m);
     EXPECT_GT(coarse / fine, 13) << int(m);  // 16 in the limit of small steps
     EXPECT_LT(fine, 1e-5) << int(m);
   }

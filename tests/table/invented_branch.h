@@ -62,7 +62,7 @@ inline Eigen::MatrixX2d invented_state(double radius, double stiffness, double b
   set(Measure::named("mode_5"), 0.1 * invented_asymmetry(d), 0.05 * invented_asymmetry(d) / d);
   set(Measure::named("cell_velocity_m_per_s"), 0.18 + 0.1 * d, 0.1);
   set(Measure::named("additional_pressure_drop_Pa"), 300 - 100 * d, -100);
-  set(Measure::least_meridional_stretch, 1 - 3 * d, -3);
+  set(Measure::min_meridional_stretch, 1 - 3 * d, -3);
   set(Measure::stability_margin, 1 - 5 * d, -5);
   return state;
 }
@@ -116,8 +116,8 @@ inline SampledBranch invented_branch(double radius, const InventedSweep& sweep =
 
 /// The stiffness range of a branch that covers the deformations of the spec and a little more.
 inline InventedSweep covering(const TableSpec& spec, double radius, int samples = 24) {
-  return {1.02 * invented_stiffness(radius, spec.least_deformation),
-          0.98 * invented_stiffness(radius, spec.greatest_deformation), samples};
+  return {1.02 * invented_stiffness(radius, spec.min_deformation),
+          0.98 * invented_stiffness(radius, spec.max_deformation), samples};
 }
 
 /// One branch for each radius of the spec.
@@ -139,7 +139,7 @@ std::vector<SampledBranch> invented_unstable_branches(const TableSpec& spec, con
   for (const double radius : sweep_radii_um(spec)) {
     const double end = end_at(radius);
     auto sweep = covering(spec, radius);
-    if (end >= spec.greatest_deformation) {
+    if (end >= spec.max_deformation) {
       branches.push_back(invented_branch(radius, sweep));
       continue;
     }

@@ -88,8 +88,8 @@ bending_kBT = 1e4
 identifier = "XC-2D-26"
 cortex_share = [0, 0.125, 0.25, 0.5, 0.75, 0.875, 1]
 tension_ratio = [0, 0.15, 0.3]
-least_area_um2 = 60
-greatest_area_um2 = 220
+min_area_um2 = 60
+max_area_um2 = 220
 radii = 9
 )";
 

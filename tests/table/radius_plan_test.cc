@@ -60,8 +60,8 @@ TEST(RadiusPlan, OfASmoothTableTheFirstRadiiAreEnough) {
     const auto branch = plan.branch({i, false});
     ASSERT_TRUE(branch);
     EXPECT_NEAR(branch->radius_um, sweep_radii_um(spec)[std::size_t(i)], 1e-12);
-    EXPECT_LE(branch->at(0, Measure::deformation), spec.least_deformation);
-    EXPECT_GE(branch->at(branch->samples() - 1, Measure::deformation), spec.greatest_deformation);
+    EXPECT_LE(branch->at(0, Measure::deformation), spec.min_deformation);
+    EXPECT_GE(branch->at(branch->samples() - 1, Measure::deformation), spec.max_deformation);
     for (int k = 0; k < branch->samples(); ++k) {
       const double d = branch->at(k, Measure::deformation), stiffness = branch->stiffness[std::size_t(k)];
       EXPECT_NEAR(stiffness / invented_stiffness(branch->radius_um, d), 1, 2e-5) << i << " " << d;

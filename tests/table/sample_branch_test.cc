@@ -30,7 +30,7 @@ double solved_deformation(const TableSpec& table, double radius_um, double stiff
 
 /// Greatest relative difference of the deformation between samples from direct solves at the middles of the softest
 /// intervals, where the branch bends most.
-double greatest_difference(const TableSpec& table, const SampledBranch& branch) {
+double max_difference(const TableSpec& table, const SampledBranch& branch) {
   double greatest = 0;
   for (int i = std::max(1, branch.samples() - 7); i < branch.samples(); ++i) {
     const double stiffness = std::sqrt(branch.stiffness[i - 1] * branch.stiffness[i]);
@@ -46,18 +46,18 @@ TEST(SampleBranch, BetweenItsSamplesTheDeformationIsThatOfDirectSolves) {
   const SampledBranch branch = sample_branch(solid, {6});
   EXPECT_EQ(branch.end.status, Status::surface_unstable);
   EXPECT_GT(branch.at(branch.samples() - 1, Measure::deformation), 0.16);
-  EXPECT_LT(branch.at(0, Measure::deformation), solid.least_deformation);
-  EXPECT_LT(greatest_difference(solid, branch), 2e-4);
-  const TableSpec thin = spec(shell, "greatest_deformation = 0.03\n");
+  EXPECT_LT(branch.at(0, Measure::deformation), solid.min_deformation);
+  EXPECT_LT(max_difference(solid, branch), 2e-4);
+  const TableSpec thin = spec(shell, "max_deformation = 0.03\n");
   const SampledBranch shells = sample_branch(thin, {7.66});
   EXPECT_EQ(shells.end.status, Status::covered);
-  EXPECT_LT(greatest_difference(thin, shells), 2e-4);
+  EXPECT_LT(max_difference(thin, shells), 2e-4);
 }
 
 TEST(SampleBranch, TheSlopesAreThoseOfTheSamples) {
   // d(value)/d(ln stiffness) by differences of neighbouring interpolations would be circular: compare with direct
   // solves.
-  const TableSpec table = spec(linear_solid, "greatest_deformation = 0.02\n");
+  const TableSpec table = spec(linear_solid, "max_deformation = 0.02\n");
   const SampledBranch branch = sample_branch(table, {6});
   const int i = branch.samples() - 2;
   const double E = branch.stiffness[i], h = 0.01;
@@ -84,13 +84,13 @@ TEST(SampleBranch, BeyondTheBareSurfaceBendingGoesOn) {
 
 TEST(SampleBranch, NothingIsHeldWhereNothingIsUnstable) {
   // A branch that leaves the table's range, and a spec that asks for no bending.
-  const TableSpec covered = spec(linear_solid, "greatest_deformation = 0.01\nbending_beyond_kBT = 1e4\n");
+  const TableSpec covered = spec(linear_solid, "max_deformation = 0.01\nbending_beyond_kBT = 1e4\n");
   EXPECT_TRUE(sample_held_branch(covered, sample_branch(covered, {6})).empty());
 }
 
 TEST(SampleBranch, TheSameBranchHasTheSameBits) {
   // Two runs, the time that they took apart.
-  const TableSpec table = spec(linear_solid, "greatest_deformation = 0.01\n");
+  const TableSpec table = spec(linear_solid, "max_deformation = 0.01\n");
   SampledBranch one = sample_branch(table, {4}), other = sample_branch(table, {4});
   for (SampledBranch* branch : {&one, &other}) branch->seconds = branch->factorisation_seconds = 0;
   EXPECT_EQ(to_bytes(one, "x"), to_bytes(other, "x"));

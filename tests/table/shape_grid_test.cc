@@ -15,7 +15,7 @@ using namespace test;
 
 class ShapesOfATable : public ::testing::Test {
  protected:
-  TableSpec spec_ = spec_of_fifty_radii({"table.greatest_deformation=0.1"});
+  TableSpec spec_ = spec_of_fifty_radii({"table.max_deformation=0.1"});
   StiffnessGrid grid_{make_stiffness_grid(spec_, invented_branches(spec_), "test").value()};
   ShapeGrid shapes_{grid_.content().shapes.value()};
 };

@@ -15,8 +15,8 @@ const std::string channel = "width_um = 20.0\n[flow]\nrate_ul_per_s = 0.04\nvisc
 
 TableSpec square_spec(const std::string& more = "radii = 20\n") {
   return parse_table_spec("[channel]\nsection = \"square\"\n" + channel +
-                              "identifier = \"SQUARE\"\nleast_area_um2 = 40\ngreatest_area_um2 = 200\n"
-                              "greatest_deformation = 0.15\nleast_deformation = 1e-4\n" +
+                              "identifier = \"SQUARE\"\nmin_area_um2 = 40\nmax_area_um2 = 200\n"
+                              "max_deformation = 0.15\nmin_deformation = 1e-4\n" +
                               more,
                           "test");
 }
@@ -35,7 +35,7 @@ std::vector<SampledBranch> computed_branches(const TableSpec& spec) {
     // The states are those of points of Chebyshev's polynomials in sqrt(d).
     for (int k = 0; k < branch.samples(); ++k) {
       const double height = 0.525 - 0.475 * std::cos(std::numbers::pi * k / (branch.samples() - 1));
-      const double d = height * height * spec.greatest_deformation, E = test::invented_stiffness(radius, d);
+      const double d = height * height * spec.max_deformation, E = test::invented_stiffness(radius, d);
       const auto state = test::invented_state(radius, E);
       branch.value.row(k) = state.col(0).transpose();
       branch.contour[std::size_t(k)] = test::invented_contour(radius, d);
@@ -49,13 +49,13 @@ std::vector<SampledBranch> computed_branches(const TableSpec& spec) {
 }
 
 GridContent tube_grid() {
-  const TableSpec spec = parse_table_spec(
-      "[channel]\n" + channel + "identifier = \"TUBE\"\nradii = 40\ngreatest_deformation = 0.19\n", "test");
+  const TableSpec spec =
+      parse_table_spec("[channel]\n" + channel + "identifier = \"TUBE\"\nradii = 40\nmax_deformation = 0.19\n", "test");
   return *make_stiffness_grid(spec, test::invented_branches(spec), "0");
 }
 
 /// Greatest relative difference of the modulus of the branches from the invented one at some deformations.
-double greatest_difference(const std::vector<SampledBranch>& branches) {
+double max_difference(const std::vector<SampledBranch>& branches) {
   double greatest = 0;
   for (const SampledBranch& branch : branches)
     for (const double d : {2e-4, 1e-3, 1e-2, 0.05, 0.1, 0.14}) {
@@ -70,9 +70,9 @@ TEST(SquareBranches, BetweenTheComputedStatesModuliAreThoseOfTheCell) {
   // Eight radii and six states: 4e-4 by themselves, 1e-4 by the ratio to the tube, which has less to interpolate.
   const TableSpec spec = square_spec();
   const auto computed = computed_branches(spec);
-  EXPECT_LT(greatest_difference(square_branches(spec, computed, nullptr)), 1e-3);
+  EXPECT_LT(max_difference(square_branches(spec, computed, nullptr)), 1e-3);
   const GridContent tube = tube_grid();
-  EXPECT_LT(greatest_difference(square_branches(spec, computed, &tube)), 1e-4);
+  EXPECT_LT(max_difference(square_branches(spec, computed, &tube)), 1e-4);
 }
 
 TEST(SquareBranches, AtTheComputedStatesTheyAreThese) {

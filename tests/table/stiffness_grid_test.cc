@@ -18,8 +18,8 @@ using namespace test;
 
 std::vector<Query> random_queries(const TableSpec& spec, int count) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> area(std::log(spec.least_area_um2), std::log(spec.greatest_area_um2)),
-      deformation(std::log(spec.least_deformation), std::log(spec.greatest_deformation));
+  std::uniform_real_distribution<double> area(std::log(spec.min_area_um2), std::log(spec.max_area_um2)),
+      deformation(std::log(spec.min_deformation), std::log(spec.max_deformation));
   std::vector<Query> queries;
   for (int i = 0; i < count; ++i) queries.push_back({std::exp(area(random)), std::exp(deformation(random))});
   return queries;
@@ -188,7 +188,7 @@ TEST(StiffnessGrid, NumbersThatAreNotFiniteAreRefusedEvenUnderTheirChecksum) {
     }
   }
   auto bad = good;
-  bad.least_log_area = std::nan("");
+  bad.min_log_area = std::nan("");
   EXPECT_THROW(grid_from_bytes(to_bytes(bad), "grid.cbor"), UserError);
 }
 

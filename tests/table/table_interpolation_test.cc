@@ -15,8 +15,8 @@ using namespace test;
 
 std::vector<Query> random_queries(const TableSpec& spec, int count) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> area(spec.least_area_um2, spec.greatest_area_um2),
-      deformation(std::log(spec.least_deformation), std::log(spec.greatest_deformation));
+  std::uniform_real_distribution<double> area(spec.min_area_um2, spec.max_area_um2),
+      deformation(std::log(spec.min_deformation), std::log(spec.max_deformation));
   std::vector<Query> queries;
   for (int i = 0; i < count; ++i) queries.push_back({area(random), std::exp(deformation(random))});
   return queries;

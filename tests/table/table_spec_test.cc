@@ -74,7 +74,7 @@ TEST(TableSpec, RadiiCoverTheAreasInsideTheTube) {
   EXPECT_DOUBLE_EQ(radii.front(), std::sqrt(0.9 * 30 / std::numbers::pi));
   EXPECT_DOUBLE_EQ(radii.back(), std::sqrt(290 / std::numbers::pi));
   EXPECT_NEAR(radii[1] - radii[0], radii[99] - radii[98], 1e-12);  // rounding
-  const auto full = sweep_radii_um(read(short_spec, {"table.least_area_um2=0.95", "table.greatest_area_um2=339"}));
+  const auto full = sweep_radii_um(read(short_spec, {"table.min_area_um2=0.95", "table.max_area_um2=339"}));
   EXPECT_GE(full.front(), 0.05 * 10.94);
   EXPECT_LE(full.back(), 0.95 * 10.94);
 }
@@ -90,7 +90,7 @@ TEST(TableSpec, ACaseOfTheSweepHasItsRadiusStiffnessAndAccuracy) {
 TEST(TableSpec, BendingOfCombinedCellsGoesWithTheirStiffness) {
   // c_b = 1e-3 S r0^3 in k_B T of 4.11643e-21 J: 2 kPa and 6 um have 4.32e-16 J; dimensionless it is the same for all.
   const std::vector<std::string> combined{"cell.cortex.law=neo-hookean", "table.cortex_share=[0, 0.5, 1]",
-                                          "table.bending_ratio=1e-3", "table.greatest_deformation_raw=0.16"};
+                                          "table.bending_ratio=1e-3", "table.max_deformation_raw=0.16"};
   const auto spec = read(short_spec, combined);
   for (const double share : {0.0, 0.5, 1.0}) {
     const Case c = case_at(spec, {6, share, 0}, 2);
@@ -98,7 +98,7 @@ TEST(TableSpec, BendingOfCombinedCellsGoesWithTheirStiffness) {
   }
   const auto again = read(to_toml(spec));
   EXPECT_EQ(spec_hash(again), spec_hash(spec));
-  EXPECT_EQ(again.greatest_deformation_raw, 0.16);
+  EXPECT_EQ(again.max_deformation_raw, 0.16);
   EXPECT_EQ(to_toml(read(short_spec)).find("bending_ratio"), std::string::npos) << "tables without it stay the same";
   expect_refusal("table.bending_ratio=1e-3", "has no effect without table.cortex_share");
   auto both = combined;
@@ -127,10 +127,10 @@ TEST(TableSpec, ValuesOutsideTheirRangesAreNamed) {
   expect_refusal("table.radii=many", "is not a number");
   expect_refusal("table.radii=nan", "is not finite");
   expect_refusal("table.identifier=7", "must be a word");
-  expect_refusal("table.least_area_um2=290", "is not below table.greatest_area_um2 = 290; the table would be empty");
-  expect_refusal("table.greatest_deformation=1e-5", "the table would be empty");
-  expect_refusal("table.greatest_area_um2=400", "an area that no cell of this channel can have");
-  expect_refusal("table.least_area_um2=0.5", "an area that no cell of this channel can have");
+  expect_refusal("table.min_area_um2=290", "is not below table.max_area_um2 = 290; the table would be empty");
+  expect_refusal("table.max_deformation=1e-5", "the table would be empty");
+  expect_refusal("table.max_area_um2=400", "an area that no cell of this channel can have");
+  expect_refusal("table.min_area_um2=0.5", "an area that no cell of this channel can have");
 }
 
 TEST(TableSpec, IdentifiersOfOthersAndOddOnesAreRefused) {

@@ -8,14 +8,14 @@
 namespace rheocyte::test {
 
 CellOfArea cell_of_area(Problem like, double area_um2) {
-  constexpr int greatest_steps = 8;
+  constexpr int max_steps = 8;
   constexpr double tolerance = 1e-5;
   const double unit_area = tube_radius_um * tube_radius_um;
   CellOfArea cell;
   cell.radius_um = 0.99 * std::sqrt(area_um2 / std::numbers::pi);
   double slope = 2 / cell.radius_um;  // d(relative area)/d(radius) of a cell that stays a sphere
   double last_radius = 0, last_error = 0;
-  for (int step = 0; step < greatest_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     like.radius_ratio = cell.radius_um / tube_radius_um;
     cell.state = solve_stationary(like);
     cell.area_error = cell.state.shape.area * unit_area / area_um2 - 1;

@@ -136,9 +136,9 @@ TEST(CombinedCell, WrinklesWhereItsCortexIsCompressed) {
   EXPECT_EQ(bare.outcome.status, Status::surface_unstable);
   EXPECT_GE(bare.stability_margin, 0);
   EXPECT_LT(bare.stability_margin, 0.1);
-  EXPECT_LT(bare.least_tension, 0);
+  EXPECT_LT(bare.min_tension, 0);
   problem.cortex.bending = 1e5 * thermal_energy;
-  EXPECT_LT(solved(problem).least_tension, bare.least_tension);
+  EXPECT_LT(solved(problem).min_tension, bare.min_tension);
 }
 
 TEST(CombinedCell, IsStifferWithEachOfItsModuli) {

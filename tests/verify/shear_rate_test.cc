@@ -25,9 +25,9 @@ double shear_rate_max(const Problem& problem) {
 }
 
 /// On the rigid sphere, where nothing slips, the shear rate is the tangential traction over the viscosity; in U/R.
-double greatest_on_rigid_sphere(double radius_ratio) {
+double max_on_rigid_sphere(double radius_ratio) {
   const SurfaceModes traction = sphere_in_tube(radius_ratio).traction;
-  constexpr double greatest_speed = 2;
+  constexpr double max_speed = 2;
   double greatest = 0;
   for (double theta = 0.01; theta < std::numbers::pi; theta += 0.001) {
     const double x = std::cos(theta);
@@ -38,7 +38,7 @@ double greatest_on_rigid_sphere(double radius_ratio) {
     }
     greatest = std::max(greatest, std::abs(shear));
   }
-  return greatest_speed * greatest;
+  return max_speed * greatest;
 }
 
 TEST(ShearRate, BesideASmallCellIsThatOfTheUndisturbedFlowAtTheWall) {
@@ -55,8 +55,7 @@ TEST(ShearRate, InANarrowGapIsThatOnTheRigidSphere) {
   // In gaps of 0.2 and 0.1 R the cell drags behind the liquid's mean, so that the shear rate is greatest on its
   // surface.
   for (const double radius_ratio : {0.8, 0.9})
-    EXPECT_NEAR(shear_rate_max(stiff_cell(radius_ratio)) / greatest_on_rigid_sphere(radius_ratio), 1, 1e-3)
-        << radius_ratio;
+    EXPECT_NEAR(shear_rate_max(stiff_cell(radius_ratio)) / max_on_rigid_sphere(radius_ratio), 1, 1e-3) << radius_ratio;
 }
 
 TEST(ShearRate, ConvergesWithTheResolution) {

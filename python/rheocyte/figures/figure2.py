@@ -63,12 +63,12 @@ def rows(solved):
         solution, stationary = solved[run], solved[f"stationary-{name}"]
         row = {"model": name, "cell_viscosity_mPas": viscosity, "status": solution.result["status"]}
         row |= dict.fromkeys(["deformation_at_end", "stationary_deformation", "relative_difference",
-                              "greatest_deformation", "settled_us", "greatest_relative_volume_change"], "")
+                              "max_deformation", "settled_us", "greatest_relative_volume_change"], "")
         if solution.converged and stationary.converged:
             t, d, volume = history(solution)
             still = stationary["deformation"]
             row |= {"deformation_at_end": f"{d[-1]:.7f}", "stationary_deformation": f"{still:.7f}",
-                    "relative_difference": f"{d[-1] / still - 1:.1e}", "greatest_deformation": f"{d.max():.6f}",
+                    "relative_difference": f"{d[-1] / still - 1:.1e}", "max_deformation": f"{d.max():.6f}",
                     "settled_us": f"{settling_time(t, d):.1f}",
                     "greatest_relative_volume_change": f"{np.abs(volume).max():.1e}"}
         yield row

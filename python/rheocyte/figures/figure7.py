@@ -22,8 +22,8 @@ AREA_UM2, HALF_WIDTH_UM2 = 144.0, 2.0  # the beads of which moduli are told
 BEADS, MEAN_KPA, DEVIATION_KPA = 3000, 5.5, 1.1
 RADIUS_UM, RADIUS_DEVIATION_UM = 6.87, 0.2  # pixels make the areas some 3 % smaller: 144 um^2 are measured
 TABLE = {**CONDITIONS, "flow.density_kg_per_m3": 1000.0, "cell.bulk.law": "neo-hookean", "table.identifier": "BEADS-7",
-         "table.stiffness": "cell.bulk.young_modulus_kPa", "table.least_area_um2": 105, "table.greatest_area_um2": 205,
-         "table.least_deformation": 3e-4, "table.greatest_deformation": 0.06, "table.radii": 7,
+         "table.stiffness": "cell.bulk.young_modulus_kPa", "table.min_area_um2": 105, "table.max_area_um2": 205,
+         "table.min_deformation": 3e-4, "table.max_deformation": 0.06, "table.radii": 7,
          "table.rows_per_radius": 80, "table.accuracy": 1e-3}
 QUANTILES = [0.05, 0.25, 0.5, 0.75, 0.95]
 NORMAL = np.array([-1.6449, -0.6745, 0, 0.6745, 1.6449])  # of the normal distribution at these

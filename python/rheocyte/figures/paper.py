@@ -12,7 +12,7 @@ YOUNG_MODULI_KPA = [2.29, 3.44, 4.58, 5.73, 6.87, 9.16, 11.45]
 CORTEX_MODULI_MN_PER_M = [20.9, 31.3, 41.8, 52.2, 62.7, 73.1, 83.6]
 AREAS_UM2 = (50.0, 250.0)  # of the lines
 # Beyond the areas of the lines, so that these are complete; radii equally spaced.
-TABLE = {"table.least_area_um2": 40.0, "table.greatest_area_um2": 280.0, "table.radii": 12,
+TABLE = {"table.min_area_um2": 40.0, "table.max_area_um2": 280.0, "table.radii": 12,
          "table.rows_per_radius": 240, "table.accuracy": 1e-3}
 
 
@@ -37,10 +37,10 @@ def section(name, values):
 def solid_table(name, law):
     """Spec of a table that holds the lines of the solids."""
     return {**CONDITIONS, "cell.bulk.law": law, "table.identifier": name, **TABLE,
-            "table.least_deformation": 3e-4, "table.greatest_deformation": 0.12}
+            "table.min_deformation": 3e-4, "table.max_deformation": 0.12}
 
 
 def shell_table(name, law):
     """Spec of a table that holds the lines of the shells."""
     return {**CONDITIONS, "cell.bulk.law": "none", "cell.cortex.law": law, "cell.cortex.tension_ratio": TENSION_RATIO,
-            "table.identifier": name, **TABLE, "table.least_deformation": 8e-5, "table.greatest_deformation": 0.08}
+            "table.identifier": name, **TABLE, "table.min_deformation": 8e-5, "table.max_deformation": 0.08}
