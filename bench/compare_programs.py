@@ -78,6 +78,12 @@ def in_time(draw):
             draw, "neo-hookean", round(draw.uniform(3, 6), 3), radius=(5, 7.5))) + "[time]\nend_us = 400\noutput_every_us = 100\n"
 
 
+def with_inertia(draw):
+    for k in range(2):
+        flow = "[channel]\nwidth_um = 20.0\n[flow]\nrate_ul_per_s = 0.16\nviscosity_mPas = 4.0\ndensity_kg_per_m3 = 1000\n"
+        yield f"inertia {k + 1}", flow + cell(draw, "neo-hookean", round(draw.uniform(4, 9), 3), radius=(5, 8))
+
+
 def run(program, *arguments):
     return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, check=False,
                           stdin=subprocess.DEVNULL)
@@ -117,8 +123,9 @@ def compare_states(name, text, programs, folder):
 def make_table(program, folder):
     folder.mkdir(parents=True)
     spec = folder / "table.toml"
-    spec.write_text(NEWTONIAN + '[cell.bulk]\nlaw = "linear"\n[table]\nidentifier = "compared"\nmin_area_um2 = 50.0\n'
-                    "max_area_um2 = 150.0\nmin_deformation = 1e-3\nmax_deformation = 0.06\nradii = 8\n"
+    # Keys by the names that both programs read.
+    spec.write_text(NEWTONIAN + '[cell.bulk]\nlaw = "linear"\n[table]\nidentifier = "compared"\nleast_area_um2 = 50.0\n'
+                    "greatest_area_um2 = 150.0\nleast_deformation = 1e-3\ngreatest_deformation = 0.06\nradii = 8\n"
                     "rows_per_radius = 60\naccuracy = 1e-4\n")
     made = run(program, "table", spec, "-o", folder / "table", "--quiet")
     if made.returncode:
@@ -170,7 +177,7 @@ def main():
     options = parser.parse_args()
     programs = [str(Path(options.old).resolve()), str(Path(options.new).resolve())]
     draw = random.Random(options.seed)
-    cases = [case for kind in (solids, shells, combined, power_law, in_time) for case in kind(draw)]
+    cases = [case for kind in (solids, shells, combined, power_law, in_time, with_inertia) for case in kind(draw)]
     parts = []
     with tempfile.TemporaryDirectory() as scratch:
         folder = options.keep or Path(scratch)

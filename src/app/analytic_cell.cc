@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double um_per_m = 1e6, mN_per_N = 1e3;
+constexpr double mN_per_N = 1e3;
 constexpr int contour_points = 721;
 
 std::string line(std::string_view name, const std::string& value, const std::string& note = "") {
@@ -71,7 +71,7 @@ AnalyticCell analytic_cell(const AnalyticCellInput& input) {
 
 std::string summary(const AnalyticCell& cell) {
   const auto& shape = cell.state.shape;
-  const double R = cell.scales.length_m * um_per_m;
+  const double R = cell.scales.length_um();
   const auto stiffness = cell.is_solid() ? fmt::format("solid, E = {:g} kPa", *cell.input.young_modulus_kPa)
                                          : fmt::format("shell, E2D = {:g} mN/m, tension {:g} E2D",
                                                        *cell.input.cortex_modulus_mN_per_m, cell.input.tension_ratio);
@@ -95,7 +95,7 @@ std::string summary(const AnalyticCell& cell) {
 
 std::string json_text(const AnalyticCell& cell) {
   const auto& shape = cell.state.shape;
-  const double R = cell.scales.length_m * um_per_m;
+  const double R = cell.scales.length_um();
   nlohmann::ordered_json json;
   json["program"] = "rheocyte";
   json["version"] = version;
@@ -126,7 +126,7 @@ std::string json_text(const AnalyticCell& cell) {
 }
 
 std::string contour_text(const AnalyticCell& cell) {
-  Eigen::MatrixX2d points = cell.scales.length_m * um_per_m *
+  Eigen::MatrixX2d points = cell.scales.length_um() *
                             surface_points(cell.cell, cell.strain, Eigen::ArrayXd::LinSpaced(contour_points, 0, pi));
   points(0, 1) = points(contour_points - 1, 1) = 0;  // sin(pi) is not zero in floating point
   std::string text(contour_mark);

@@ -14,7 +14,7 @@ namespace rheocyte {
 namespace {
 
 constexpr std::array<std::string_view, 3> parts_of_spread{".mean", ".sd", ".distribution"};
-constexpr std::size_t longest_word = 100;
+constexpr std::size_t max_word_bytes = 100;
 
 std::string with_meaning(const std::string& allowed, const KeyDescription& key) {
   return fmt::format("{} ({})", allowed, key.sentence);
@@ -58,8 +58,8 @@ std::vector<double> checked_list(const KeyDescription& key, const List& list, co
 std::string checked_word(const KeyDescription& key, const GivenKey& given) {
   const auto* word = std::get_if<std::string>(&given.value);
   if (!word) refuse(given, fmt::format("{} must be a word ({}).", stated(given), key.sentence));
-  if (word->size() > longest_word)
-    refuse(given, fmt::format("{} is longer than {} bytes ({}).", stated(given), longest_word, key.sentence));
+  if (word->size() > max_word_bytes)
+    refuse(given, fmt::format("{} is longer than {} bytes ({}).", stated(given), max_word_bytes, key.sentence));
   return *word;
 }
 

@@ -8,7 +8,7 @@ namespace rheocyte {
 namespace {
 
 // Longer words are no misspelling of a key; the bound keeps the quadratic distance cheap for hostile input.
-constexpr std::size_t longest_word = 64;
+constexpr std::size_t max_length = 64;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -63,7 +63,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string_view> nearest_name(std::string_view wanted, std::span<const std::string_view> known) {
-  if (known.empty() || wanted.empty() || wanted.size() > longest_word) return std::nullopt;
+  if (known.empty() || wanted.empty() || wanted.size() > max_length) return std::nullopt;
   const auto nearest = std::min_element(known.begin(), known.end(),
                                         [&](auto a, auto b) { return likeness(wanted, a) < likeness(wanted, b); });
   if (!near_enough(likeness(wanted, *nearest), wanted)) return std::nullopt;

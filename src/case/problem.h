@@ -66,7 +66,9 @@ struct Scales {
   double velocity_m_per_s = 1;  ///< mean speed U = Q / (pi R^2), undisturbed if the pressure drop is given
   double stress_Pa = 1;         ///< S = eta(U/R) U / R
 
+  double length_um() const { return 1e6 * length_m; }
   double time_s() const { return length_m / velocity_m_per_s; }
+  double time_us() const { return 1e6 * time_s(); }
 };
 
 /// One case, dimensionless: the media and the channel that they are in.

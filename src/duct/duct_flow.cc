@@ -3,10 +3,10 @@
 #include <Eigen/LU>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "laws/developed_flow.h"
 #include "laws/tensor.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 namespace {
@@ -118,7 +118,7 @@ bool CrossSection::improve(const Liquid& liquid, DuctFlow& flow) const {
 DuctFlow CrossSection::flow(const Liquid& liquid) const {
   const double way = thinning(liquid);
   DuctFlow flow{0, VectorXd::Zero(points_.size())};
-  if (!improve(at_thinning(liquid, 0), flow)) flow.pressure_gradient = std::numeric_limits<double>::quiet_NaN();
+  if (!improve(at_thinning(liquid, 0), flow)) flow.pressure_gradient = no_value;
   if (liquid.law == LiquidLaw::newtonian) {
     flow.pressure_gradient *= liquid.viscosity;
     return flow;
@@ -131,7 +131,7 @@ DuctFlow CrossSection::flow(const Liquid& liquid) const {
       flow = trial;
       reached = share;
     } else if ((step /= 2) * way < min_thinning_step) {
-      flow.pressure_gradient = std::numeric_limits<double>::quiet_NaN();
+      flow.pressure_gradient = no_value;
       return flow;
     }
   }

@@ -7,7 +7,6 @@
 namespace rheocyte {
 namespace {
 
-constexpr double tiny = 1e-10;
 /// Size of the core relative to the cell, and how far its faces bulge from the cube (0) to the ball (1).
 constexpr double core_size = 0.5, core_bulge = 0.55;
 
@@ -65,8 +64,8 @@ DuctPoint DuctGeometry::map(Part part, const DuctPoint& cube, double outward) co
 }
 
 bool DuctGeometry::is_wall(const DuctPoint& x) const {
-  if (shape_.section == Section::tube) return x.tail<2>().norm() > 1 - tiny;
-  return std::abs(x(1)) > shape_.extent.width - tiny || std::abs(x(2)) > shape_.extent.height - tiny;
+  if (shape_.section == Section::tube) return x.tail<2>().norm() > 1 - same_place;
+  return std::abs(x(1)) > shape_.extent.width - same_place || std::abs(x(2)) > shape_.extent.height - same_place;
 }
 
 double wall_slide(const DuctPoint& cube) { return 1 - std::pow(cube(0), 4); }

@@ -12,7 +12,7 @@
 namespace rheocyte {
 namespace {
 
-constexpr double tiny = 1e-10, right_angle = std::numbers::pi / 2;
+constexpr double right_angle = std::numbers::pi / 2;
 /// Of an outline that is no line of the mesh.
 constexpr int off_axis_pieces = 48;
 
@@ -56,7 +56,7 @@ std::vector<MeridianEdge> meridian_edges(const DuctSurfaceMap& surface, const Vi
         return nodes[side < 2 ? k + n * fixed : fixed + n * k];
       };
       bool in_plane = true;
-      for (int k = 0; k < n; ++k) in_plane = in_plane && std::abs(view.sight.dot(points[node(k)])) < tiny;
+      for (int k = 0; k < n; ++k) in_plane = in_plane && std::abs(view.sight.dot(points[node(k)])) < same_place;
       if (!in_plane) continue;
       const double at = side % 2;
       SurfacePlace first{f, 0, at}, last{f, 1, at};
@@ -183,7 +183,7 @@ Contour off_axis_contour(const DuctSurfaceMap& surface, const View& view) {
     if (i == off_axis_pieces) to(1) = 0;
     const Eigen::Vector2d way = to - from, along(-std::sin(angle - step), std::cos(angle - step)),
                           normal(std::cos(angle), std::sin(angle));
-    if (way.norm() < tiny) continue;
+    if (way.norm() < same_place) continue;
     const Eigen::Vector2d corner = from + along * (way.dot(normal) / along.dot(normal));
     CurvePiece& piece = contour.pieces.emplace_back(3, 2);
     piece << from.transpose(), (from + 2 * corner + to).transpose() / 4, to.transpose();

@@ -3,11 +3,7 @@
 #include <cmath>
 
 namespace rheocyte {
-namespace {
-
-constexpr double tiny = 1e-10;
-
-}  // namespace
+namespace {}  // namespace
 
 DuctSpace::DuctSpace(const DuctMesh& mesh, int degree)
     : mesh_(mesh),
@@ -42,9 +38,9 @@ void DuctSpace::find_held_nodes() {
   double nearest = mesh_.geometry().radius();
   const Eigen::Vector2d centre(mesh_.geometry().shape().offset, 0);
   for (int i = 0; i < nodes_.count; ++i) {
-    if ((points_[i].tail<2>() - centre).norm() > tiny) continue;
-    if (std::abs(points_[i](0) - mesh_.geometry().radius()) < tiny) held_pole_ = i;
-    if (std::abs(points_[i](0)) >= nearest - tiny) continue;
+    if ((points_[i].tail<2>() - centre).norm() > same_place) continue;
+    if (std::abs(points_[i](0) - mesh_.geometry().radius()) < same_place) held_pole_ = i;
+    if (std::abs(points_[i](0)) >= nearest - same_place) continue;
     held_node_ = i;
     nearest = std::abs(points_[i](0));
   }
@@ -57,8 +53,8 @@ std::vector<DuctSpace::NodeFlags> DuctSpace::flag_nodes() const {
     const DuctPoint& x = points_[i];
     flags[i].across = across_at(mesh_.symmetry(), x);
     flags[i].wall = mesh_.geometry().is_wall(x);
-    flags[i].inlet = x(0) < -end + tiny;
-    flags[i].outlet = x(0) > end - tiny;
+    flags[i].inlet = x(0) < -end + same_place;
+    flags[i].outlet = x(0) > end - same_place;
   }
   for (std::size_t e = 0; e < nodes_.of_element.size(); ++e) {
     for (const int node : nodes_.of_element[e])

@@ -25,10 +25,9 @@ std::vector<Image> copies_of(Symmetry symmetry) {
 }
 
 Across across_at(Symmetry symmetry, const DuctPoint& x) {
-  constexpr double tiny = 1e-10;
-  const bool on_side = x(2) < tiny;
-  const bool on_diagonal = symmetry == Symmetry::eighth && x(1) - x(2) < tiny;
-  const bool on_front = symmetry == Symmetry::quarter && x(1) < tiny;
+  const bool on_side = x(2) < same_place;
+  const bool on_diagonal = symmetry == Symmetry::eighth && x(1) - x(2) < same_place;
+  const bool on_front = symmetry == Symmetry::quarter && x(1) < same_place;
   return {.holds_y = on_front || (on_side && on_diagonal), .holds_z = on_side, .ties = on_diagonal && !on_side};
 }
 

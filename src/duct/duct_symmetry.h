@@ -9,6 +9,9 @@
 
 namespace rheocyte {
 
+/// Points closer than this, in h, are one.
+inline constexpr double same_place = 1e-10;
+
 /// Points of the duct, x along the flow.
 using DuctPoint = Eigen::Vector3d;
 

@@ -12,7 +12,6 @@ namespace rheocyte {
 
 namespace {
 
-constexpr double tiny = 1e-10;
 constexpr int surface_divisions = 6;
 
 /// A face of an element, by the numbers of its nodes within it; first coordinate fastest.
@@ -43,7 +42,7 @@ std::vector<PlaneFace> plane_faces(const DuctSpace& space, const Eigen::Vector2d
     const auto& nodes = space.nodes().of_element[e];
     const auto in_plane = [&](int k) {
       const DuctPoint& X = space.node_points()[nodes[k]];
-      return std::abs(across(0) * X(2) - across(1) * X(1)) < tiny;
+      return std::abs(across(0) * X(2) - across(1) * X(1)) < same_place;
     };
     for (int side = 0; side < 6; ++side) {
       std::vector<int> face = nodes_of_face(per_edge, side / 2, side % 2 == 1);

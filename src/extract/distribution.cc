@@ -2,22 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include "numeric/no_value.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
 
 Distribution distribution_of(std::span<double> values) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  if (values.empty()) return {nan, nan, nan, nan, nan};
+  if (values.empty()) return {no_value, no_value, no_value, no_value, no_value};
   const auto count = static_cast<double>(values.size());
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
   double squares = 0;
   for (const double value : values) squares += (value - mean) * (value - mean);
   return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75), mean,
-          values.size() > 1 ? std::sqrt(squares / (count - 1)) : nan};
+          values.size() > 1 ? std::sqrt(squares / (count - 1)) : no_value};
 }
 
 }  // namespace rheocyte

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "measurement/shape_source.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* stored_ratio = "inert_ratio_cvx";
 constexpr std::size_t looked_at = 1024, at_a_time = 64;  // events, for the direction
 constexpr int second_mode = int(ShapeFeature::first_mode), third_mode = second_mode + 1;
@@ -73,16 +72,16 @@ void EventShapes::read_outlines(std::size_t first, std::size_t count) {
 const ShapeColumns& EventShapes::compute(std::size_t first, const MeasuredEvents& events) {
   const std::size_t count = events.size.size();
   ShapeColumns& c = columns_;
-  c.inertia_ratio.assign(count, nan);
-  c.x_um.assign(count, nan);
-  c.excess.assign(count, {nan, nan, nan, nan});
+  c.inertia_ratio.assign(count, no_value);
+  c.x_um.assign(count, no_value);
+  c.excess.assign(count, {no_value, no_value, no_value, no_value});
   if (!is_known()) return c;
   if (recording_.has_scalar("pos_x")) recording_.read_scalar("pos_x", first, c.x_um);
   if (inertia_ratio_from_ == stored_ratio) recording_.read_scalar(stored_ratio, first, c.inertia_ratio);
   if (outlines_) {
     for (auto* column : {&c.mode_2, &c.mode_3, &c.modulus_kPa, &c.standard_error_kPa}) column->resize(count);
     c.states.assign(count, ModulusState::no_data);
-    c.modulus_kPa.assign(count, nan);
+    c.modulus_kPa.assign(count, no_value);
     read_outlines(first, count);
     if (map_->has_asymmetry())
       map_->estimate(conditions_, events, {c.mode_2, c.mode_3}, {c.modulus_kPa, c.standard_error_kPa, c.states});

@@ -6,12 +6,12 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <limits>
 
 #include "case/case_keys.h"
 #include "case/nearest_name.h"
 #include "case/user_error.h"
 #include "extract/plausibility.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
@@ -118,7 +118,7 @@ std::size_t ExtractSettings::viscosities(const Recording& recording, std::size_t
   std::vector<double> temperatures(mPas.size());
   recording.read_scalar("temp", first, temperatures);
   for (double& celsius : temperatures)
-    if (!is_possible_temperature(celsius)) celsius = std::numeric_limits<double>::quiet_NaN();
+    if (!is_possible_temperature(celsius)) celsius = no_value;
   buffer->viscosity(conditions.flow, temperatures, mPas);
   const auto is_outside = [range = buffer->measured()](double celsius) {
     return std::isfinite(celsius) && !range.contains(celsius);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "extract/plausibility.h"
+#include "numeric/no_value.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
@@ -186,22 +186,21 @@ void Extraction::set_aside_unresolved(const Moduli& moduli) {
   for (std::size_t i = 0; i < moduli.states.size(); ++i) {
     if (!has_modulus(moduli.states[i]) || moduli.standard_error_kPa[i] <= max_relative_standard_error * moduli.kPa[i])
       continue;
-    moduli.kPa[i] = moduli.standard_error_kPa[i] = std::numeric_limits<double>::quiet_NaN();
+    moduli.kPa[i] = moduli.standard_error_kPa[i] = no_value;
     moduli.states[i] = ModulusState::unresolved;
   }
 }
 
 void Extraction::shut_out(std::size_t first) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Columns& c = columns_;
   c.inside.resize(c.states.size());
   gates_.apply(features_, first, c.inside);
   for (std::size_t i = 0; i < c.inside.size(); ++i) {
     if (c.inside[i]) continue;
-    c.modulus[i] = c.standard_error[i] = nan;
+    c.modulus[i] = c.standard_error[i] = no_value;
     c.states[i] = ModulusState::gated;
-    c.shapes.excess[i] = {nan, nan, nan, nan};
-    if (event_shapes_.has_asymmetry()) c.shapes.modulus_kPa[i] = c.shapes.standard_error_kPa[i] = nan;
+    c.shapes.excess[i] = {no_value, no_value, no_value, no_value};
+    if (event_shapes_.has_asymmetry()) c.shapes.modulus_kPa[i] = c.shapes.standard_error_kPa[i] = no_value;
   }
 }
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t block = 4096;
+constexpr std::size_t masks_at_a_time = 4096;
 
 }  // namespace
 
@@ -44,8 +44,8 @@ FeaturesSummary features_of_recording(const fs::path& file, const fs::path& plac
   FeaturesSummary summary{recording.events()};
   std::vector<ContourFeatures> features;
   std::vector<double> values;
-  for (std::size_t first = 0; first < summary.events; first += block) {
-    const std::size_t count = std::min(block, summary.events - first);
+  for (std::size_t first = 0; first < summary.events; first += masks_at_a_time) {
+    const std::size_t count = std::min(masks_at_a_time, summary.events - first);
     features.resize(count);
     values.resize(count);
     shapes.read_features(first, features);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "measurement/event_features.h"
 #include "measurement/event_outlines.h"
 #include "measurement/shape_source.h"
+#include "numeric/no_value.h"
 #include "store/build_info.h"
 #include "store/file_writer.h"
 
@@ -25,7 +25,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t block = 256;  // of events between two words of progress
+constexpr std::size_t events_between_progress = 256;
 
 const Recording& with_outlines(const Recording& recording) {
   if (!ShapeSource::has_outlines(recording))
@@ -129,19 +129,18 @@ class Fits {
 
   /// With the solids of the table that comes with the program.
   void compare(std::span<const ShapeVector> seen) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr int mode_2 = int(ShapeFeature::first_mode);
     std::vector<double> area, deformation, ratio, second, third;
     for (std::size_t i = 0; i < seen.size(); ++i) {
       area.push_back(std::exp(seen[i](0)));
       deformation.push_back(seen[i](1));
-      ratio.push_back(inside_[i] ? 1 / std::sqrt(seen[i](2)) : nan);
+      ratio.push_back(inside_[i] ? 1 / std::sqrt(seen[i](2)) : no_value);
       second.push_back(seen[i](mode_2));
       third.push_back(seen[i](mode_2 + 1));
     }
-    excess_.assign(seen.size(), {nan, nan, nan, nan});
-    solid_kPa_.assign(seen.size(), nan);
-    solid_error_kPa_.assign(seen.size(), nan);
+    excess_.assign(seen.size(), {no_value, no_value, no_value, no_value});
+    solid_kPa_.assign(seen.size(), no_value);
+    solid_error_kPa_.assign(seen.size(), no_value);
     if (!shapes_of_solids_) return;
     const MeasuredEvents events{area, deformation, viscosity_};
     std::vector<ModulusState> states(seen.size());
@@ -208,8 +207,8 @@ ModuliSummary moduli_of_recording(const std::filesystem::path& path, const std::
   FileWriter writer(file);
   writer.append(fits.header(options));
   const std::size_t events = recording.events();
-  for (std::size_t first = 0; first < events; first += block) {
-    const std::size_t count = std::min(block, events - first);
+  for (std::size_t first = 0; first < events; first += events_between_progress) {
+    const std::size_t count = std::min(events_between_progress, events - first);
     writer.append(fits.take(first, count));
     tell_progress(done = double(first + count) / double(events));
   }

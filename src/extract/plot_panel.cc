@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t block = 1 << 14;
+constexpr std::size_t events_at_a_time = 1 << 14;
 
 /// The pairs of a block that are finite.
 class Pairs {
@@ -135,8 +135,8 @@ PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWant
   Axes axes(recording, shapes, options);
   Pairs pairs;
   std::vector<double> x, y;
-  for (std::size_t first = 0; first < panel.events; first += block) {
-    const std::size_t count = std::min(block, panel.events - first);
+  for (std::size_t first = 0; first < panel.events; first += events_at_a_time) {
+    const std::size_t count = std::min(events_at_a_time, panel.events - first);
     x.resize(count);
     y.resize(count);
     panel.gated += axes.read(first, x, y);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 #include "case/user_error.h"
+#include "numeric/no_value.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
@@ -24,7 +24,7 @@ std::string hint_of_kelvin(double value) {
 std::string range_text() { return fmt::format("{:g} to {:g} degC", lowest_temperature_C, highest_temperature_C); }
 
 double given(const std::string& text, const char* option) {
-  double value = std::numeric_limits<double>::quiet_NaN();
+  double value = no_value;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
     throw UserError(fmt::format("rheocyte: {} {}: give degrees Celsius{}.", option, one_line(text, 60),
@@ -37,9 +37,9 @@ double given(const std::string& text, const char* option) {
 
 /// What the feature temp tells.
 struct OfEvents {
-  double median = std::numeric_limits<double>::quiet_NaN();  ///< of the possible ones
-  double example = median;                                   ///< one that is a number and impossible
-  std::size_t impossible = 0;                                ///< events without a possible one
+  double median = no_value;    ///< of the possible ones
+  double example = median;     ///< one that is a number and impossible
+  std::size_t impossible = 0;  ///< events without a possible one
 };
 
 OfEvents temperatures_of_events(const Recording& recording) {

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/no_value.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double of_the_model = 0.02, still_doubtful = 0.05;  // medians of the excess
 constexpr double normal_deviations_per_quartile = 0.6745;
 constexpr std::size_t fewest_for_a_verdict = 5, fewest_for_a_trend = 20;  // events
@@ -24,9 +24,9 @@ double robust_deviation(std::span<double> values) {
 
 Median median_with_error(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return {nan, nan};
+  if (values.empty()) return {no_value, no_value};
   const double error = 1.25 * robust_deviation(values) / std::sqrt(static_cast<double>(values.size()));
-  return {quantile(values, 0.5), values.size() > 1 ? error : nan};
+  return {quantile(values, 0.5), values.size() > 1 ? error : no_value};
 }
 
 /// Least squares over the places, without what lies four robust deviations from the median.
@@ -34,7 +34,7 @@ Trend trend_of(std::span<const double> x, std::span<const double> y, double leng
   std::vector<double> finite;
   for (const double v : y)
     if (std::isfinite(v)) finite.push_back(v);
-  if (finite.size() < fewest_for_a_trend || !(length >= min_length_um)) return {nan, nan, nan};
+  if (finite.size() < fewest_for_a_trend || !(length >= min_length_um)) return {no_value, no_value, no_value};
   const double middle = quantile(finite, 0.5), widest = 4 * robust_deviation(finite);
   double n = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -47,7 +47,7 @@ Trend trend_of(std::span<const double> x, std::span<const double> y, double leng
     xy += dx * (y[i] - mean_y);
     yy += dy * (y[i] - mean_y);
   }
-  if (n < static_cast<double>(fewest_for_a_trend) || !(xx > 0)) return {nan, nan, middle};
+  if (n < static_cast<double>(fewest_for_a_trend) || !(xx > 0)) return {no_value, no_value, middle};
   const double slope = xy / xx, rest = std::max(0.0, yy - slope * xy) / (n - 2);
   return {slope * length, std::sqrt(rest / xx) * length, middle};
 }
@@ -99,7 +99,7 @@ ShapeVerdict ShapeTally::verdict() const {
   const auto x = column(&Event::x);
   auto places = x;
   std::erase_if(places, [](double place) { return !std::isfinite(place); });
-  v.seen_um = places.empty() ? nan : quantile(places, 0.95) - quantile(places, 0.05);
+  v.seen_um = places.empty() ? no_value : quantile(places, 0.95) - quantile(places, 0.05);
   v.inertia_ratio_trend = trend_of(x, column(&Event::inertia_ratio), v.seen_um);
   v.deformation_trend = trend_of(x, column(&Event::deformation), v.seen_um);
   v.asymmetry_trend = trend_of(x, column(&Event::mode_3), v.seen_um);
@@ -112,7 +112,7 @@ ShapeVerdict ShapeTally::verdict() const {
 }
 
 double ShapeVerdict::elongated_percent() const {
-  return judged == 0 ? nan : 100 * static_cast<double>(elongated) / static_cast<double>(judged);
+  return judged == 0 ? no_value : 100 * static_cast<double>(elongated) / static_cast<double>(judged);
 }
 
 ShapeVerdict::Fit ShapeVerdict::fit() const {

@@ -7,19 +7,18 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "case/user_error.h"
 #include "infer/smooth_events.h"
 #include "measurement/pixel_errors.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
 namespace {
 
 constexpr std::size_t block_size = event_block_size;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Variance of ln(modulus) by scattering area and deformation (eq:standard-error).
 double variance_by_pixels(const GridAnswer& answer, const PixelErrors& pixels, double deformation) {
@@ -88,7 +87,7 @@ void GridMap::estimate_block(const MeasuringConditions& conditions, const Measur
   for (std::size_t i = 0; i < count; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const bool has = answers[i].reason == NoAnswer::none && std::isfinite(block.viscosity_mPas[i]);
-    const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : nan;
+    const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : no_value;
     const double variance =
         answers[i].error * answers[i].error + variance_by_pixels(answers[i], pixels[i], deformation[k]);
     estimates.modulus_kPa[i] = value;
@@ -115,7 +114,7 @@ ModulusMap::Interval GridMap::deformations(double area_um2) const {
 
 double GridMap::modulus_kPa(double area_um2, double deformation) const {
   const GridAnswer answer = grid_.answer(area_um2, deformation);
-  return answer.reason == NoAnswer::none && !answer.regularised ? std::exp(answer.log_stiffness) : nan;
+  return answer.reason == NoAnswer::none && !answer.regularised ? std::exp(answer.log_stiffness) : no_value;
 }
 
 PlanePoint GridMap::seen_through_pixels(const PlanePoint& cell, double pixel_size_um) const {

@@ -9,13 +9,13 @@
 
 #include "case/user_error.h"
 #include "infer/published_map.h"
+#include "numeric/no_value.h"
 #include "numeric/roots.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int column_count = 400;  // of the area, for a line from the smallest to the largest cell
 constexpr int search_steps = 96;   // of the deformation, in which a crossing is looked for
 
@@ -37,7 +37,7 @@ class Column {
   /// Moduli fall with the deformation, but at the rim of some tables not everywhere: of several crossings the one next
   /// to the line's last point counts. NaN without any.
   double deformation_at(double modulus_kPa, double near) const {
-    double found = nan;
+    double found = no_value;
     for (int k = 1; k <= search_steps; ++k) {
       const double before = moduli_[std::size_t(k) - 1], after = moduli_[std::size_t(k)];
       if (!((before - modulus_kPa) * (after - modulus_kPa) <= 0)) continue;  // also for NaN
@@ -63,7 +63,7 @@ class Column {
 // From large cells, where lines lie apart, to small ones; up to the first gap.
 IsoelasticityLine line_through(std::span<const Column> columns, double modulus_kPa, double rim) {
   IsoelasticityLine line{modulus_kPa, {}};
-  double near = nan;
+  double near = no_value;
   for (const Column& column : columns) {
     const double deformation = column.deformation_at(modulus_kPa, near);
     if (deformation <= (1 - rim) * column.upper()) {  // false for NaN

@@ -1,11 +1,11 @@
 // Young's modulus over area and deformation, as a table of solids knows it: one interface for all kinds of tables.
 #pragma once
-#include <limits>
 #include <span>
 #include <utility>
 
 #include "infer/modulus_state.h"
 #include "infer/triangulation.h"
+#include "numeric/no_value.h"
 #include "table/stiffness_grid.h"
 
 namespace rheocyte {
@@ -55,7 +55,7 @@ class ModulusMap {
   /// In the channel of the table and without pixels, as isoelasticity lines need it: the region with moduli, by area
   /// (um^2), and the modulus (kPa) there, NaN outside.
   struct Interval {
-    double lower = std::numeric_limits<double>::quiet_NaN(), upper = lower;
+    double lower = no_value, upper = lower;
   };
   virtual Interval areas() const = 0;
   virtual Interval deformations(double area_um2) const = 0;

@@ -6,18 +6,16 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "case/user_error.h"
 #include "measurement/pixelation.h"
+#include "numeric/no_value.h"
 #include "table/scale.h"
 
 namespace rheocyte {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<PlanePoint> normalised(const PublishedTable& table, double size, double deformation) {
   std::vector<PlanePoint> points(table.size.size());
@@ -83,7 +81,7 @@ void PublishedMap::correct(double pixel_size_um, std::span<const double> size, s
 void PublishedMap::estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
                             const EstimatedModuli& estimates) const {
   moduli(conditions, events, estimates.modulus_kPa);
-  std::ranges::fill(estimates.standard_error_kPa, nan);
+  std::ranges::fill(estimates.standard_error_kPa, no_value);
   for (std::size_t i = 0; i < estimates.state.size(); ++i)
     estimates.state[i] = state(conditions, events.size[i], events.deformation[i], estimates.modulus_kPa[i]);
 }
@@ -140,7 +138,7 @@ ModulusMap::Interval PublishedMap::deformations(double area_um2) const {
 
 double PublishedMap::modulus_kPa(double area_um2, double deformation) const {
   const double x = area_um2 / max_size_, y = deformation / max_deformation_;
-  double modulus = nan;
+  double modulus = no_value;
   triangulation_.interpolate({&x, 1}, {&y, 1}, {&modulus, 1});
   return modulus;
 }

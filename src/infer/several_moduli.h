@@ -2,13 +2,13 @@
 // (docs/theory-extract.md, sec. "several moduli").
 #pragma once
 #include <array>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "case/channel_flow.h"
+#include "numeric/no_value.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte {
@@ -31,13 +31,13 @@ std::string_view name_of(ModuliStatus status);
 struct ModuliEstimate {
   ModuliStatus status = ModuliStatus::no_data;
   /// Young's modulus (kPa), E2D (mN/m), tension (mN/m), and their covariance.
-  Eigen::Vector3d modulus = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d modulus = Eigen::Vector3d::Constant(no_value);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(no_value);
   std::array<bool, modulus_count> is_known{};  ///< standard error below `max_relative_error`
-  double stiffness_kPa = std::numeric_limits<double>::quiet_NaN(),
+  double stiffness_kPa = no_value,
          stiffness_error_kPa = stiffness_kPa;      ///< E + E2D / r0
   CellCoordinates cell = CellCoordinates::Zero();  ///< in the table's channel
-  double chi_squared = std::numeric_limits<double>::quiet_NaN();
+  double chi_squared = no_value;
   int freedom = 0;
 
   double value(Modulus m) const { return modulus(int(m)); }

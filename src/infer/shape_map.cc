@@ -4,17 +4,15 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "infer/smooth_events.h"
+#include "numeric/no_value.h"
 #include "table/grid_by_asymmetry.h"
 
 namespace rheocyte {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double sign_of(const ShapeGrid& shapes) {
   const ShapeNodes& nodes = shapes.nodes();
@@ -71,10 +69,10 @@ void ShapeMap::compare(const MeasuringConditions& conditions, const MeasuredEven
       const double ratio = inertia_ratios[first + i], deformation = smooth.deformation[k];
       ShapeExcess& e = excesses[first + i];
       e.expected = shapes_.inertia_ratio(smooth.log_area[k], deformation);
-      e.excess = ratio > 0 && shapes_.has_area(smooth.log_area[k]) ? ratio - e.expected : nan;
+      e.excess = ratio > 0 && shapes_.has_area(smooth.log_area[k]) ? ratio - e.expected : no_value;
       e.error = inertia_ratio_deviation(events.size[first + i], conditions.pixel_size_um);
       const bool has_deformation = deformation > smooth.pixels[i].deformation_deviation && ratio > 0;
-      e.odd_share = has_deformation ? 1 - deformation_of_ellipse(ratio) / deformation : nan;
+      e.odd_share = has_deformation ? 1 - deformation_of_ellipse(ratio) / deformation : no_value;
     }
   });
 }
@@ -121,7 +119,7 @@ void ShapeMap::estimate_block(const MeasuringConditions& conditions, const Measu
     const GridAnswer& answer = answers[i];
     const auto k = static_cast<Eigen::Index>(i);
     const bool has = answer.reason == NoAnswer::none && std::isfinite(block.viscosity_mPas[i]);
-    const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : nan;
+    const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : no_value;
     const double by_area = answer.by_log_area * smooth.pixels[i].area_deviation,
                  by_asymmetry = answer.by_log_deformation * pixels[i].deviation / asymmetry[k];
     estimates.modulus_kPa[i] = value;

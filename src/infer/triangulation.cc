@@ -7,12 +7,12 @@
 
 #include "case/user_error.h"
 #include "infer/delaunay.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // scipy's tolerance for "inside": points on the hull belong to it in spite of rounding.
 constexpr double inside_tolerance = 100 * std::numeric_limits<double>::epsilon();
 // Cells per side of the grid that gives the search its first triangle.
@@ -24,8 +24,8 @@ double cross(const PlanePoint& o, const PlanePoint& a, const PlanePoint& b) {
 
 double height_at(const std::vector<PlanePoint>& border, double x) {
   const auto after = std::ranges::lower_bound(border, x, {}, &PlanePoint::x);
-  if (after == border.end()) return nan;
-  if (after == border.begin()) return x == after->x ? after->y : nan;
+  if (after == border.end()) return no_value;
+  if (after == border.begin()) return x == after->x ? after->y : no_value;
   const auto before = after - 1;
   return before->y + (after->y - before->y) * (x - before->x) / (after->x - before->x);
 }
@@ -175,7 +175,7 @@ void Triangulation::interpolate(std::span<const double> x, std::span<const doubl
                       y[i] >= least_.y - inside_tolerance && y[i] <= greatest_.y + inside_tolerance;
     const std::int32_t at = near ? locate(x[i], y[i], start_for(x[i], y[i]), weights) : -1;
     if (at < 0) {
-      values[i] = nan;
+      values[i] = no_value;
       continue;
     }
     const auto& corner = triangles_[at].values;

@@ -2,9 +2,10 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
+
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
@@ -25,7 +26,7 @@ class Triangulation {
 
   /// The y of the lower and the upper border of the convex hull at x; NaN beyond its ends.
   struct Border {
-    double lower = std::numeric_limits<double>::quiet_NaN(), upper = std::numeric_limits<double>::quiet_NaN();
+    double lower = no_value, upper = no_value;
   };
   Border border_at(double x) const;
 

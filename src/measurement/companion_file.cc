@@ -16,6 +16,11 @@
 
 namespace rheocyte {
 
+struct CompanionFeature {
+  Hdf5Handle dataset;
+  Extremes extremes;
+};
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,18 +62,13 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* tar
   return 0;
 }
 
-struct Feature {
-  Hdf5Handle dataset;
-  Extremes extremes;
-};
-
 }  // namespace
 
 struct CompanionFile::Content {
   fs::path path;
   Hdf5Handle file;
   std::size_t events = 0;
-  std::map<std::string, Feature> features;
+  std::map<std::string, CompanionFeature> features;
 
   void check(bool good, const std::string& what) const {
     if (good) return;
@@ -112,7 +112,7 @@ void CompanionFile::add_feature(const std::string& feature) {
   const Hdf5Handle space(::H5Screate_simple(1, &extent, &unlimited)), properties = compressed({&chunk, 1});
   const Hdf5Handle access(::H5Pcreate(H5P_DATASET_ACCESS));
   ::H5Pset_chunk_cache(access.get(), 521, 4 * written_chunk_bytes, 1.0);
-  Feature& added = c.features[feature];
+  CompanionFeature& added = c.features[feature];
   added.dataset = Hdf5Handle(::H5Dcreate2(c.file.get(), ("events/" + feature).c_str(), H5T_IEEE_F64LE, space.get(),
                                           H5P_DEFAULT, properties.get(), access.get()));
   c.check(bool(added.dataset), feature);
@@ -120,7 +120,7 @@ void CompanionFile::add_feature(const std::string& feature) {
 
 void CompanionFile::write(const std::string& feature, std::size_t first, std::span<const double> values) {
   Content& c = *content_;
-  Feature& target = c.features.at(feature);
+  CompanionFeature& target = c.features.at(feature);
   const hsize_t start = first, count = values.size();
   const Hdf5Handle space(::H5Dget_space(target.dataset.get())), memory(::H5Screate_simple(1, &count, nullptr));
   const bool good =

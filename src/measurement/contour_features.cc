@@ -5,13 +5,14 @@
 #include <limits>
 #include <numbers>
 
+#include "numeric/no_value.h"
+
 namespace rheocyte {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-constexpr ContourFeatures no_features{nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+constexpr ContourFeatures no_features{no_value, no_value, no_value, no_value, no_value, no_value, no_value,
+                                      no_value, no_value, no_value, no_value, no_value, no_value, no_value};
 
 /// Integrals over the polygon; the sign of the orientation is removed.
 struct PolygonMoments {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <span>
 
 #include "measurement/shape_in_pixels.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
@@ -24,7 +24,7 @@ EventOutlines::EventOutlines(const Recording& recording, double pixel_um) : reco
 
 ShapeVector EventOutlines::features(std::size_t event) {
   const PixelContour contour = outline(event);
-  if (contour.size() < fewest_points) return ShapeVector::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (contour.size() < fewest_points) return ShapeVector::Constant(no_value);
   return shape_of_contour(contour, pixel_um_);
 }
 

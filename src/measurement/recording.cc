@@ -6,19 +6,17 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <limits>
 #include <system_error>
 
 #include "case/user_error.h"
 #include "measurement/recording_content.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
   throw UserError(fmt::format("{}: {}", one_line(file.string(), 300), reason));
@@ -192,11 +190,11 @@ void Recording::read_scalar(const std::string& feature, std::size_t first, std::
     const std::size_t rows = data.shape.rows(), there = first < rows ? std::min(values.size(), rows - first) : 0;
     if (!read_rows(data, first, values.first(there), content_->on_piece))
       refuse_data(content_->path, feature, data.dataset.get());
-    std::ranges::fill(values.subspan(there), nan);
+    std::ranges::fill(values.subspan(there), no_value);
   } else if (const auto* basin = basin_with(feature)) {
     read_through(*basin, feature, first, values);
   } else {
-    std::ranges::fill(values, nan);
+    std::ranges::fill(values, no_value);
   }
 }
 

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <system_error>
 
 #include "case/user_error.h"
 #include "measurement/recording_content.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
@@ -144,11 +144,11 @@ void Recording::read_through(const Basin& basin, const std::string& feature, std
     const auto& dataset = basin.internal.at(feature);
     const std::size_t rows = dataset.shape.rows(), there = from < rows ? std::min(target.size(), rows - from) : 0;
     const bool good = read_rows(dataset, from, target.first(there));
-    std::ranges::fill(target.subspan(good ? there : 0), std::numeric_limits<double>::quiet_NaN());
+    std::ranges::fill(target.subspan(good ? there : 0), no_value);
   };
   if (!basin.mapping) return read(first, values);
   const auto& map = *basin.mapping;
-  std::ranges::fill(values, std::numeric_limits<double>::quiet_NaN());
+  std::ranges::fill(values, no_value);
   const std::size_t count = first < map.size() ? std::min(values.size(), map.size() - first) : 0;
   std::vector<double> piece;
   for (std::size_t i = 0; i < count;) {

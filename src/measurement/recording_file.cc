@@ -12,15 +12,15 @@
 
 namespace rheocyte {
 
-namespace {
-
-namespace fs = std::filesystem;
-
-struct Feature {
+struct GrowingFeature {
   Hdf5Handle dataset;
   hsize_t events = 0;
   Extremes extremes;  // of scalars only
 };
+
+namespace {
+
+namespace fs = std::filesystem;
 
 hid_t stored_type(const std::string& feature) {
   return feature == "index" ? H5T_STD_U32LE : feature == "frame" ? H5T_STD_U64LE : H5T_IEEE_F64LE;
@@ -38,7 +38,7 @@ bool mark_as_images(hid_t dataset) {
 }
 
 // Extends the dataset by `count` rows and writes them.
-bool append_rows(Feature& feature, std::vector<hsize_t> extent, hid_t type, const void* values) {
+bool append_rows(GrowingFeature& feature, std::vector<hsize_t> extent, hid_t type, const void* values) {
   std::vector<hsize_t> start(extent.size(), 0), total = extent;
   start[0] = feature.events;
   total[0] += feature.events;
@@ -58,7 +58,7 @@ bool append_rows(Feature& feature, std::vector<hsize_t> extent, hid_t type, cons
 struct RecordingFile::Content {
   fs::path path;
   Hdf5Handle file;
-  std::map<std::string, Feature> features;
+  std::map<std::string, GrowingFeature> features;
 
   void check(bool good, const std::string& what) const {
     if (good) return;
@@ -67,7 +67,7 @@ struct RecordingFile::Content {
   }
 
   // `extent` of one chunk; the dataset is empty at first.
-  Feature& feature(const std::string& name, hid_t type, std::vector<hsize_t> extent) {
+  GrowingFeature& feature(const std::string& name, hid_t type, std::vector<hsize_t> extent) {
     const auto [there, is_new] = features.try_emplace(name);
     if (!is_new) return there->second;
     const Hdf5Handle properties = compressed(extent);
@@ -114,7 +114,7 @@ void RecordingFile::append(const std::string& name, std::span<const double> valu
   if (values.empty()) return;
   constexpr hsize_t chunk =
       1 << 14;  // 128 KiB: small recordings stay small, HDF5 pads the last chunk before compressing
-  Feature& feature = content_->feature(name, stored_type(name), {chunk});
+  GrowingFeature& feature = content_->feature(name, stored_type(name), {chunk});
   content_->check(append_rows(feature, {values.size()}, H5T_NATIVE_DOUBLE, values.data()), name);
   feature.extremes.add(values);
 }
@@ -125,7 +125,7 @@ void RecordingFile::append_images(const std::string& name, ImageSize size, std::
   if (count == 0) return;
   const hsize_t chunk = std::max<hsize_t>(10, written_chunk_bytes / size.pixels());
   const bool is_new = !content_->features.contains(name);
-  Feature& feature = content_->feature(name, H5T_STD_U8LE, {chunk, size.height, size.width});
+  GrowingFeature& feature = content_->feature(name, H5T_STD_U8LE, {chunk, size.height, size.width});
   if (is_new) content_->check(mark_as_images(feature.dataset.get()), name);
   std::vector<std::uint8_t> masks;
   if (name == "mask") {

@@ -8,10 +8,10 @@
 #include <cassert>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "case/user_error.h"
+#include "numeric/no_value.h"
 #include "numeric/whole_packets.h"
 
 namespace rheocyte {
@@ -20,7 +20,6 @@ namespace {
 
 using Array = Eigen::ArrayXd;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kelvin_at_0_celsius = 273.15;
 
 constexpr double exponent_per_kelvin = 0.00223, activation_in_kelvin = 3379.7;  // of methyl cellulose, by Buyukurganci
@@ -166,17 +165,17 @@ void Buffer::viscosity(const ChannelFlow& flow, std::span<const double> celsius,
   if (medium_ == Medium::water)
     water_viscosity(source, target);
   else if (!(flow.rate_ul_s > 0) || !(flow.width_um > 0))
-    target.setConstant(nan);
+    target.setConstant(no_value);
   else if (model_ == ViscosityModel::herold_2017)
     herold_viscosity(medium_, flow, source, target);
   else
     buyukurganci_viscosity(medium_, flow, source, target);
   for (std::size_t i = 0; i < celsius.size(); ++i)
-    viscosity_mPas[i] = std::isfinite(celsius[i]) ? target[static_cast<Eigen::Index>(i)] : nan;
+    viscosity_mPas[i] = std::isfinite(celsius[i]) ? target[static_cast<Eigen::Index>(i)] : no_value;
 }
 
 double Buffer::viscosity(const ChannelFlow& flow, double celsius) const {
-  double value = nan;
+  double value = no_value;
   viscosity(flow, {&celsius, 1}, {&value, 1});
   return value;
 }

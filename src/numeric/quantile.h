@@ -1,9 +1,10 @@
 // Quantiles of samples.
 #pragma once
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <vector>
+
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
@@ -20,7 +21,7 @@ inline double quantile(std::span<double> values, double fraction) {
 /// The middle one, of an even number the upper one of the two; reorders the numbers. NaN of none.
 template <class Number>
 double median_of(std::vector<Number>& values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return no_value;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -17,6 +16,7 @@
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/shape_in_pixels.h"
+#include "numeric/no_value.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
@@ -177,8 +177,7 @@ py::dict features(const Masks& masks, double pixel_size_um) {
       const PixelContour& contour = finder.contour_of({size, {pixels + i * size.pixels(), size.pixels()}});
       all.features.push_back(measurer.measure(contour, pixel_size_um));
       const bool is_cell = std::isfinite(all.features.back().area_um2);
-      all.shapes.push_back(is_cell ? shape_of_contour(contour, pixel_size_um)
-                                   : ShapeVector::Constant(std::numeric_limits<double>::quiet_NaN()));
+      all.shapes.push_back(is_cell ? shape_of_contour(contour, pixel_size_um) : ShapeVector::Constant(no_value));
     }
     return all;
   });

@@ -13,7 +13,6 @@ namespace rheocyte {
 namespace {
 
 constexpr double share_of_time = 0.1, share_of_distance = 0.1;
-constexpr double um_per_m = 1e6;
 
 TimeEnd end_of(const TimeRecord& record, const Result& result) {
   if (result.state.outcome.status != Status::converged) return TimeEnd::failure;
@@ -58,7 +57,7 @@ std::string told_of_surface(const TimeRecord& record, const Problem& problem) {
 std::optional<Problem> straight_from_here(const Result& result, const TimeRecord& record) {
   if (result.input.cell.viscoelasticity == Viscoelasticity::maxwell) return {};
   if (result.problem.wall.is_straight()) return result.problem;
-  const double half_um = um_per_m * result.scales.length_m * result.state.channel_length / 2;
+  const double half_um = result.scales.length_um() * result.state.channel_length / 2;
   const WallTable wall = wall_um(result.input.channel.profile);
   if (record.rows.back().position_um - half_um < wall.x.back()) return {};
   Case straight = result.input;

@@ -6,14 +6,10 @@
 
 namespace rheocyte {
 
-namespace {
-
-constexpr double us_per_s = 1e6, um_per_m = 1e6;
-
-}  // namespace
+namespace {}  // namespace
 
 TimeRun time_run_of(const Case& c, const Scales& scales) {
-  const double unit_us = scales.time_s() * us_per_s, unit_um = scales.length_m * um_per_m;
+  const double unit_us = scales.time_us(), unit_um = scales.length_um();
   TimeRun run;
   run.end = c.time.end_us ? *c.time.end_us / unit_us : HUGE_VAL;
   run.end_position = c.time.end_um ? *c.time.end_um / unit_um : HUGE_VAL;

@@ -15,7 +15,7 @@ struct Row {
   std::string name, sentence;
 };
 
-struct Section {
+struct Chapter {
   std::string title, opening;
   std::vector<Row> rows;
 };
@@ -51,7 +51,7 @@ std::vector<Row> rows_of_outputs() {
   return rows;
 }
 
-std::vector<Section> sections() {
+std::vector<Chapter> chapters() {
   return {{"result.json", "How the computation ended, and for which moduli:", rows_of(outcome_fields())},
           {"Measures in result.json", "Of the state, or of the last one on the way to it:", rows_of_measures()},
           {"Computation in result.json", "What was computed, and how:", rows_of(computation_fields())},
@@ -84,7 +84,7 @@ std::string result_reference(bool markdown) {
                                 "that the files are written from; a test keeps it up to date.\n\n"
                               : "What the files of a result hold.\n";
   text += rules;
-  for (const auto& [title, opening, rows] : sections()) {
+  for (const auto& [title, opening, rows] : chapters()) {
     if (markdown)
       text += fmt::format("\n## {}\n\n{}\n\n| name | unit | meaning |\n|---|---|---|\n", title, opening);
     else

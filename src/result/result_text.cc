@@ -13,8 +13,6 @@ namespace rheocyte {
 
 namespace {
 
-constexpr double um_per_m = 1e6;
-
 std::string line(std::string_view name, const std::string& value, const std::string& remark) {
   return fmt::format("  {:<18} {:<16} {}\n", name, value, remark);
 }
@@ -86,7 +84,7 @@ std::string summary(const Result& result, const std::string& folder) {
   const auto& state = result.state;
   const auto& shape = state.shape;
   const auto& scales = result.scales;
-  const double R = scales.length_m * um_per_m;
+  const double R = scales.length_um();
   std::string text = fmt::format("rheocyte {}: {}\n", version, name(state.outcome.status));
   text += channel_line(result.input);
   text +=

@@ -14,8 +14,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr double um_per_m = 1e6, us_per_s = 1e6;
-
 std::array<double, history_measures.size()> in_history(const StateNumbers& state, const Scales& scales) {
   std::array<double, history_measures.size()> measures;
   std::ranges::transform(history_measures, measures.begin(),
@@ -79,7 +77,7 @@ double HistoryRow::measure(std::string_view name) const {
 }
 
 HistoryRow history_row(const TimePoint& point, const Scales& scales) {
-  const double um = scales.length_m * um_per_m, us = scales.time_s() * us_per_s;
+  const double um = scales.length_um(), us = scales.time_us();
   return {us * point.time,
           us * point.step,
           double(point.order),
@@ -92,7 +90,7 @@ HistoryRow history_row(const TimePoint& point, const Scales& scales) {
 ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
   Eigen::Index rows = 1;
   for (const CurvePiece& piece : frame.contour.pieces) rows += piece.rows() - 1;
-  const double um = scales.length_m * um_per_m, us = scales.time_s() * us_per_s;
+  const double um = scales.length_um(), us = scales.time_us();
   ContourFrame result{us * frame.time, um * frame.position, Eigen::MatrixX2d(rows, 2), in_history(frame.state, scales)};
   Eigen::Index row = 0;
   for (const CurvePiece& piece : frame.contour.pieces) {  // a piece begins where the one before ends
@@ -137,7 +135,7 @@ std::string channel_csv(const WallTable& table, const Scales& scales) {
   constexpr int samples = 500;
   constexpr double beyond = 4;  // tube radii
   const WallProfile wall(table);
-  const double um = scales.length_m * um_per_m, start = table.x.front() - beyond, end = table.x.back() + beyond;
+  const double um = scales.length_um(), start = table.x.front() - beyond, end = table.x.back() + beyond;
   std::string text = "x_um,R_um\n";
   for (int i = 0; i <= samples; ++i) {
     const double x = start + (end - start) * i / samples;

@@ -1,7 +1,6 @@
 // What a computation in time leaves behind: a row for each step, a contour for each output.
 #pragma once
 #include <array>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "case/problem.h"
+#include "numeric/no_value.h"
 #include "result/field.h"
 #include "solve/follow_in_time.h"
 
@@ -44,7 +44,7 @@ struct TimeRecord {
   std::vector<ContourFrame> frames;
   TimeEnd end = TimeEnd::failure;
   /// Of the same cell, at the end of the run; NaN if there is none, or none to compare with.
-  double stationary_deformation = std::numeric_limits<double>::quiet_NaN();
+  double stationary_deformation = no_value;
 
   /// For store/bytes.h.
   template <class Self>

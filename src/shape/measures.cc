@@ -1,8 +1,8 @@
 #include "shape/measures.h"
 
 #include <cmath>
-#include <limits>
 
+#include "numeric/no_value.h"
 #include "shape/arc_integrals.h"
 #include "shape/convex_hull.h"
 
@@ -10,10 +10,10 @@ namespace rheocyte {
 namespace {
 
 ShapeMeasures no_measures() {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  ShapeMeasures none{nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, {}, {}};
-  none.modes.fill(nan);
-  none.modes_raw.fill(nan);
+  ShapeMeasures none{no_value, no_value, no_value, no_value, no_value, no_value, no_value,
+                     no_value, no_value, no_value, no_value, {},       {}};
+  none.modes.fill(no_value);
+  none.modes_raw.fill(no_value);
   return none;
 }
 

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
+
+#include "numeric/no_value.h"
+#include "shape/cross.h"
 
 namespace rheocyte {
 
 namespace {
 
 using Point = Eigen::Vector2d;
-
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Counterclockwise, without points on its edges (monotone chain).
 std::vector<Point> hull_of(const Eigen::MatrixX2d& polygon) {
@@ -89,9 +89,8 @@ void add_edge(const Point& a, const Point& b, std::array<double, max_mode + 1>& 
 OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) {
   const auto hull = hull_of(polygon);
   if (hull.size() < 3) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    OutlineShape none{nan, nan, nan, nan, nan, nan, {}};
-    none.modes.fill(nan);
+    OutlineShape none{no_value, no_value, no_value, no_value, no_value, no_value, {}};
+    none.modes.fill(no_value);
     return none;
   }
   const Moments m = moments_of(hull);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "shape/cross.h"
 #include "shape/curve.h"
 
 namespace rheocyte {
@@ -11,8 +12,6 @@ namespace {
 
 // Gaps, poles off the axis and negative radii below this fraction of the size are rounding of a solver or a file.
 constexpr double relative_gap = 1e-8;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 bool has_readable_pieces(const Contour& contour) {
   if (contour.pieces.empty()) return false;

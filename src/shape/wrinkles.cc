@@ -1,9 +1,9 @@
 #include "shape/wrinkles.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "numeric/no_value.h"
 #include "shape/arc_integrals.h"
 #include "shape/convex_hull.h"
 #include "shape/curve.h"
@@ -39,7 +39,7 @@ int curvature_sign_changes(const std::vector<CurvePiece>& pieces, double weak_cu
 SurfaceSmoothness surface_smoothness(const Contour& contour) {
   const auto meridian = SampledMeridian::of(contour);
   const auto hull = meridian ? convex_hull(*meridian, HullParts::all) : std::nullopt;
-  if (!hull) return {0, 0, std::numeric_limits<double>::quiet_NaN()};
+  if (!hull) return {0, 0, no_value};
 
   const double origin = meridian->points().col(0).mean();
   const ArcIntegrals convex = integrate(hull->arcs, origin);

@@ -4,18 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <string_view>
 #include <variant>
 
 #include "case/unit.h"
+#include "numeric/no_value.h"
 #include "shape/measures.h"
 
 namespace rheocyte {
-
-/// What is not known must not look like a number.
-inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// The numbers of a state; dimensionless, in the units of case/problem.h.
 struct StateNumbers {

@@ -3,16 +3,27 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "numeric/hermite.h"
+#include "numeric/no_value.h"
 #include "numeric/roots.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+std::string reason(Status status) {
+  switch (status) {
+    case Status::surface_unstable: return "the surface loses stability against short wrinkles";
+    case Status::branch_ended: return "the branch turns back: softer cells are drawn out without limit";
+    case Status::accuracy_not_reached: return "the next state is not within the accuracy on the finest mesh";
+    case Status::mesh_folded: return "the mesh of the liquid folds";
+    case Status::stopped: return "stopped by a signal";
+    case Status::covered: return "The branch leaves the table's ranges.";
+    case Status::dented: return "The dent at the rear is as deep as the table admits.";
+    default: return std::string("Newton's method ended: ") + name(status);
+  }
+}
 
 // The place of a stiffness: the interval behind a sample, and how far in it, 0 .. 1 in ln(stiffness).
 struct Place {
@@ -74,6 +85,8 @@ double piece_value(const SampledBranch& branch, const Place& place, Measure meas
 
 }  // namespace
 
+BranchEnd end_of(Status status) { return {status, reason(status)}; }
+
 double interpolate(const SampledBranch& branch, Measure measure, double stiffness) {
   return piece_value(branch, place_of(branch, stiffness), measure);
 }
@@ -95,7 +108,7 @@ Eigen::MatrixX2d interpolate_contour(const SampledBranch& branch, double stiffne
 }
 
 double stiffness_at(const SampledBranch& branch, Measure measure, double value) {
-  if (!std::isfinite(value)) return nan;
+  if (!std::isfinite(value)) return no_value;
   for (int i = 0; i < branch.samples(); ++i) {
     const double here = branch.at(i, measure);
     if (here == value) return branch.stiffness[std::size_t(i)];
@@ -107,7 +120,7 @@ double stiffness_at(const SampledBranch& branch, Measure measure, double value) 
     const double share = Piece(branch, i, width, measure).place_of(value);
     return std::clamp(stiff * std::exp(share * width), soft, stiff);
   }
-  return nan;
+  return no_value;
 }
 
 }  // namespace rheocyte

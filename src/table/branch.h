@@ -48,6 +48,9 @@ struct BranchEnd {
   bool is_physical() const { return status == Status::surface_unstable || status == Status::branch_ended; }
 };
 
+/// The end with its sentence.
+BranchEnd end_of(Status status);
+
 /// Samples from stiff to soft; every row of the matrices is one converged state within the wanted accuracy.
 struct SampledBranch {
   double radius_um = 0;    ///< of the sphere at rest

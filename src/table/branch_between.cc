@@ -4,7 +4,9 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
+#include <span>
 
+#include "numeric/lagrange.h"
 #include "table/radius_branches.h"
 
 namespace rheocyte {
@@ -23,19 +25,10 @@ bool is_logarithmic(int measure) {
 double first_of(const SampledBranch& branch, Measure m) { return branch.at(0, m); }
 double last_of(const SampledBranch& branch, Measure m) { return branch.at(branch.samples() - 1, m); }
 
-/// Weights of the values at some places for the value of their polynomial at another.
-std::vector<double> lagrange_weights(const std::vector<double>& places, double at) {
-  std::vector<double> weights(places.size(), 1);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    for (std::size_t k = 0; k < places.size(); ++k)
-      if (k != i) weights[i] *= (at - places[k]) / (places[i] - places[k]);
-  return weights;
-}
-
 /// Weights of the polynomial of two degrees less, on the branches in the middle; zero for the others.
 std::vector<double> inner_weights(const std::vector<double>& places, double at) {
   if (places.size() < 4) return std::vector<double>(places.size(), 1.0 / double(places.size()));
-  auto weights = lagrange_weights({places.begin() + 1, places.end() - 1}, at);
+  auto weights = lagrange_weights(std::span(places).subspan(1, places.size() - 2), at).value;
   weights.insert(weights.begin(), 0);
   weights.push_back(0);
   return weights;
@@ -105,7 +98,7 @@ class Between {
   Between(const TableSpec& spec, Branches near, double radius_um) : near_(near), heights_(heights_of(spec, near)) {
     std::vector<double> places;
     for (const auto* branch : near) places.push_back(std::log(branch->radius_um));
-    weights_ = lagrange_weights(places, std::log(radius_um));
+    weights_ = lagrange_weights(places, std::log(radius_um)).value;
     inner_weights_ = inner_weights(places, std::log(radius_um));
     branch_.radius_um = radius_um;
     branch_.bending_kBT = near.front()->bending_kBT;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "numeric/no_value.h"
 #include "table/branch.h"
 #include "table/table_interpolation.h"
 #include "table/table_spec.h"
@@ -29,8 +30,7 @@ class LogBranch {
     double stiff = stiffest(), soft = softest();
     constexpr double rounding = 1e-12;
     // Where the line has no height, neither holds.
-    if (!(height(at(stiff)) <= rounding && height(at(soft)) >= -rounding))
-      return std::numeric_limits<double>::quiet_NaN();
+    if (!(height(at(stiff)) <= rounding && height(at(soft)) >= -rounding)) return no_value;
     for (int step = 0; step < 60 && stiff - soft > 1e-13; ++step) {
       const double middle = 0.5 * (stiff + soft);
       (height(at(middle)) < 0 ? stiff : soft) = middle;

@@ -8,7 +8,6 @@
 namespace rheocyte {
 namespace {
 
-constexpr double um_per_m = 1e6;
 constexpr int intervals_per_sector = 64;  // of front and rear, twice as many on top
 
 /// Points at parameters of the sectors front, top, rear that are the same on all meshes: the front has so many edges,
@@ -44,13 +43,13 @@ MeasuredState measure_state(const Discretisation& space, const Problem& problem,
   const Contour curve = contour(space, unknowns);
   const SurfaceState surface = surface_state(space, unknowns, 4 * space.reference().degree() + 1);
   const StateNumbers numbers = numbers_of({problem, problem, space, unknowns}, curve, surface);
-  return {physical(numbers, scales), scales.length_m * um_per_m * resampled(curve, front_edges(curve))};
+  return {physical(numbers, scales), scales.length_um() * resampled(curve, front_edges(curve))};
 }
 
 MeasuredState measure_state(const StationaryState& state, const Scales& scales) {
   StateNumbers numbers = state;
   numbers.shape.volume = state.volume_of_revolution;
-  return {physical(numbers, scales), scales.length_m * um_per_m * resampled(state.contour, front_edges_in_duct)};
+  return {physical(numbers, scales), scales.length_um() * resampled(state.contour, front_edges_in_duct)};
 }
 
 }  // namespace rheocyte

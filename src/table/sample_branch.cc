@@ -25,21 +25,6 @@ constexpr double max_mismatch = 0.15;
 /// Between two samples the error of the interpolation may be this share of the accuracy.
 constexpr double share_of_interpolation = 0.25;
 
-std::string reason(Status status) {
-  switch (status) {
-    case Status::surface_unstable: return "the surface loses stability against short wrinkles";
-    case Status::branch_ended: return "the branch turns back: softer cells are drawn out without limit";
-    case Status::accuracy_not_reached: return "the next state is not within the accuracy on the finest mesh";
-    case Status::mesh_folded: return "the mesh of the liquid folds";
-    case Status::stopped: return "stopped by a signal";
-    case Status::covered: return "The branch leaves the table's ranges.";
-    case Status::dented: return "The dent at the rear is as deep as the table admits.";
-    default: return std::string("Newton's method ended: ") + name(status);
-  }
-}
-
-BranchEnd end_of(Status status) { return {status, reason(status)}; }
-
 /// Newton's failure at the end of a branch is the end of the branch.
 BranchEnd end_after(Status failure) {
   const bool is_newton = failure == Status::iteration_limit || failure == Status::converged;

@@ -22,15 +22,6 @@ std::vector<double> heights(int count) {
   return all;
 }
 
-BranchEnd end_of(Status end) {
-  switch (end) {
-    case Status::converged: return {Status::covered, "The branch leaves the table's ranges."};
-    case Status::surface_unstable: return {end, "the surface loses stability against short wrinkles"};
-    case Status::stopped: return {end, "stopped by a signal"};
-    default: return {end, std::string("the branch was lost: ") + name(end)};
-  }
-}
-
 }  // namespace
 
 SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop) {
@@ -43,7 +34,8 @@ SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& pla
 
   SampledBranch branch;
   branch.radius_um = place.radius_um;
-  branch.end = end_of(stop && *stop ? Status::stopped : found.end);
+  const Status end = stop && *stop ? Status::stopped : found.end;
+  branch.end = end_of(end == Status::converged ? Status::covered : end);
   branch.value.resize(std::ssize(found.states), measure_count);
   for (const StationaryState& state : found.states) {
     MeasuredState measured = measure_state(state, scales);

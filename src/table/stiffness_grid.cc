@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "numeric/hermite.h"
+#include "numeric/no_value.h"
 #include "table/node_slopes.h"
 
 namespace rheocyte {
 
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 StiffnessGrid::Patch StiffnessGrid::ready(const GridPatch& patch) {
   Patch made{patch.regularised, patch.first_column, patch.columns, patch.rows, {}, {}, {}, {}, {}};
@@ -86,7 +82,7 @@ GridAnswer StiffnessGrid::between(const Patch& patch, const Place& place, double
 }
 
 GridAnswer StiffnessGrid::answer_at(double log_area, double log_deformation) const {
-  const auto none = [](NoAnswer reason) { return GridAnswer{nan, nan, nan, nan, reason, false}; };
+  const auto none = [](NoAnswer reason) { return GridAnswer{no_value, no_value, no_value, no_value, reason, false}; };
   const double place = (log_area - content_.min_log_area) / content_.column_step;
   if (std::isnan(place) || std::isnan(log_deformation)) return none(NoAnswer::invalid);
   if (place < 0) return none(NoAnswer::too_small);

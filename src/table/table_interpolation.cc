@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "numeric/lagrange.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int max_stencil = 6;
 
-StiffnessAnswer no_answer(NoAnswer reason) { return {nan, nan, false, reason}; }
+StiffnessAnswer no_answer(NoAnswer reason) { return {no_value, no_value, false, reason}; }
 
 }  // namespace
 

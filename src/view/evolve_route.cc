@@ -25,7 +25,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double um_per_m = 1e6;
 constexpr auto look_for_client = std::chrono::milliseconds(20);
 constexpr int most_at_once = 4;
 
@@ -82,7 +81,7 @@ class Evolution {
   void add(const TimeFrame& frame) {
     record_.frames.push_back(contour_frame(frame, result_.scales));
     const ContourFrame& seen = record_.frames.back();
-    const double um = um_per_m * result_.scales.length_m;
+    const double um = result_.scales.length_um();
     add(Json{{"time_s", result_.scales.time_s() * frame.time},
              {"x_um", seen.position_um},
              {"deformation", frame.state.shape.deformation},

@@ -23,7 +23,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double um_per_m = 1e6;
 constexpr int points_per_piece = 17, points_in_sample = 6000;
 
 /// A meridian from the front pole to the rear one as the closed outline that the camera sees; x, r by rows.
@@ -99,7 +98,7 @@ struct FieldArray {
 
 Json tensions(const Result& result, double origin) {
   const SurfaceProfile& surface = result.state.surface;
-  const double um = um_per_m * result.scales.length_m;
+  const double um = result.scales.length_um();
   Json json = curve(surface.point, um, origin);
   const double tension = 1e3 * result.scales.stress_Pa * result.scales.length_m;
   json["tension_mN_per_m"] = numbers(tension * surface.tension.col(0).array());
@@ -117,7 +116,7 @@ double wall_distance(const Problem& problem) {
 
 /// In the plane that the camera looks at.
 Json wall(const Result& result, double origin) {
-  const double um = um_per_m * result.scales.length_m, half = result.state.channel_length / 2;
+  const double um = result.scales.length_um(), half = result.state.channel_length / 2;
   const double r = um * wall_distance(result.problem);
   return {{"x_um", {um * (-half - origin), um * (half - origin)}}, {"r_um", {r, r}}};
 }
@@ -129,7 +128,7 @@ Json outline_json(const Contour& contour, double um) {
   return curve(outline, um, centroid(outline));
 }
 
-ShownState::ShownState(Result result) : result_(std::move(result)), um_(um_per_m * result_.scales.length_m) {
+ShownState::ShownState(Result result) : result_(std::move(result)), um_(result_.scales.length_um()) {
   if (result_.state.contour.pieces.empty()) return;
   outline_ = outline_of(result_.state.contour);
   origin_ = centroid(outline_);
