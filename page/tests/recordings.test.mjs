@@ -141,6 +141,7 @@ test('A reload restores gates, axes and the event under inspection', { skip }, (
   inPage(async (page) => {
     await recordings.drawBox(page, [0.3, 0.35], [0.55, 0.85]);
     await page.getByRole('button', { name: 'log, horizontal axis' }).click();
+    await recordings.drawn(page);
     const saved = page.waitForRequest((each) => each.method() === 'PUT' && each.url().endsWith('/api/session') && each.postData().includes('"event":4'));
     await recordings.plotOf(page).focus();
     await page.keyboard.press('n');

@@ -3,6 +3,7 @@ import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { Case, KeyDescription, Value } from '../api';
 import { plain, unitText } from '../draw/numbers';
 import { useStore } from '../shell/store';
+import { TypedInput } from '../shell/TypedInput';
 import { titleOf } from './keys';
 import * as model from './model';
 import { isAtEnd, placeOf, sliderScale, steps, valueOf } from './scale';
@@ -136,12 +137,12 @@ function ListControl({ of, values }: ControlProps) {
   return (
     <div class="control list" data-key={of.name} title={of.sentence}>
       <label for={idOf(of)}>{`${titleOf(of)} (${unitText(of.unit)})`}</label>
-      <input
+      <TypedInput
         id={idOf(of)}
         type="text"
         placeholder="numbers, with commas"
         value={value?.map(plain).join(', ') ?? ''}
-        onChange={(event) => take(event.currentTarget.value)}
+        take={take}
       />
       {wrong && <p class="wrong">{wrong}</p>}
     </div>

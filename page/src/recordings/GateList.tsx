@@ -1,5 +1,6 @@
 // The gates as numbers: what is drawn in a plot can be set here as well, and by the keyboard alone.
 import { useStore } from '../shell/store';
+import { TypedInput } from '../shell/TypedInput';
 import { labelOf, nameOf } from './features';
 import type { Gate, PolygonGate, RangeGate } from './gates';
 import { addGate, changeGate, focus, gates, itemOf, items, removeGate } from './model';
@@ -12,14 +13,14 @@ const numberOf = (text: string): number | null => {
 
 function End({ gate, which }: { gate: RangeGate; which: 'low' | 'high' }) {
   return (
-    <input
+    <TypedInput
       type="text"
       inputMode="decimal"
       class="number"
       aria-label={`${which === 'low' ? 'Least' : 'Greatest'} ${nameOf(gate.feature)}`}
       value={gate[which] ?? ''}
       placeholder={which === 'low' ? 'least' : 'greatest'}
-      onChange={({ currentTarget }) => changeGate(gate.id, { [which]: numberOf(currentTarget.value) })}
+      take={(text) => changeGate(gate.id, { [which]: numberOf(text) })}
     />
   );
 }
@@ -39,15 +40,14 @@ function readCorners(text: string): [number, number][] | null {
 
 function Corners({ gate }: { gate: PolygonGate }) {
   return (
-    <input
+    <TypedInput
       type="text"
       class="corners"
       aria-label={`Corners of the polygon, ${nameOf(gate.x)} and ${nameOf(gate.y)}, separated by semicolons`}
       value={written(gate)}
-      onChange={({ currentTarget }) => {
-        const points = readCorners(currentTarget.value);
+      take={(text) => {
+        const points = readCorners(text);
         if (points) changeGate(gate.id, { points });
-        else currentTarget.value = written(gate);
       }}
     />
   );

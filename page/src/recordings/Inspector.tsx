@@ -5,6 +5,7 @@ import { significant } from '../draw/numbers';
 import { openInCell } from '../shell/open_in_cell';
 import { Progress, useLasting } from '../shell/Progress';
 import { useStore } from '../shell/store';
+import { TypedInput } from '../shell/TypedInput';
 import { nameOf, unitOf } from './features';
 import { EventImage } from './EventImage';
 import { choice, focus, itemOf, items, titleOf, type Choice } from './model';
@@ -95,13 +96,13 @@ function Steps({ chosen }: { chosen: Choice }) {
       </button>
       <label>
         <span class="hidden">Number of the event</span>
-        <input
+        <TypedInput
           class="number"
           type="number"
           min={1}
           max={count}
           value={chosen.event + 1}
-          onChange={({ currentTarget }) => currentTarget.value && go(Math.round(Number(currentTarget.value)) - 1)}
+          take={(text) => text && go(Math.round(Number(text)) - 1)}
         />
       </label>
       <span class="soft">of {counted(count)}</span>

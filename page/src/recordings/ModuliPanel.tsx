@@ -2,6 +2,7 @@
 import { Progress } from '../shell/Progress';
 import { notify } from '../shell/notices';
 import { useStore } from '../shell/store';
+import { TypedInput } from '../shell/TypedInput';
 import { focus, gates, itemOf, items, moduliSettings, recordings, titleOf } from './model';
 import { gateOptions } from './gates';
 import { endModuli, moduli, runModuli } from './moduli';
@@ -19,13 +20,13 @@ function Setting({ name, label, numeric }: (typeof fields)[number]) {
   return (
     <label class="setting">
       <span>{label}</span>
-      <input
+      <TypedInput
         type="text"
         inputMode={numeric ? 'decimal' : 'text'}
         value={settings[name] ?? ''}
         placeholder="automatic"
         list={name === 'table' ? 'own-tables' : undefined}
-        onChange={({ currentTarget: { value } }) => moduliSettings.update((all) => ({ ...all, [name]: value }))}
+        take={(text) => moduliSettings.update((all) => ({ ...all, [name]: text }))}
       />
       {name === 'table' && (
         <datalist id="own-tables">

@@ -2,6 +2,7 @@
 import type { Item } from '../api';
 import { significant } from '../draw/numbers';
 import { useStore } from '../shell/store';
+import { TypedInput } from '../shell/TypedInput';
 import { countWithin } from './analysis';
 import { columnsVersion } from './columns';
 import { hasModulus, states } from './features';
@@ -60,12 +61,12 @@ function NameField({ item, which }: { item: Item; which: 'condition' | 'replicat
   return (
     <label class="name-field">
       <span>{which === 'condition' ? 'Condition' : 'Replicate'}</span>
-      <input
+      <TypedInput
         type="text"
         value={item[which] ?? ''}
         placeholder="–"
         list={which === 'condition' ? 'conditions' : undefined}
-        onChange={({ currentTarget }) => void rename(item.item, { [which]: currentTarget.value.trim() })}
+        take={(text) => void rename(item.item, { [which]: text.trim() })}
       />
     </label>
   );
