@@ -44,9 +44,11 @@ target_compile_definitions(rheocyte::toml INTERFACE TOML_HEADER_ONLY=1)
 rheocyte_import(hdf5 LIBRARY hdf5 HEADER hdf5.h SUFFIXES hdf5/serial PACKAGE libhdf5-dev)
 rheocyte_import(zstd LIBRARY zstd HEADER zstd.h PACKAGE libzstd-dev)
 rheocyte_import(qhull LIBRARY qhull_r HEADER libqhull_r/libqhull_r.h PACKAGE libqhull-dev)
-rheocyte_import(httplib LIBRARY cpp-httplib HEADER httplib.h PACKAGE libcpp-httplib-dev)
-target_compile_definitions(rheocyte::httplib INTERFACE CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT
-                                                       CPPHTTPLIB_BROTLI_SUPPORT)
+if(RHEOCYTE_SOLVER)
+  rheocyte_import(httplib LIBRARY cpp-httplib HEADER httplib.h PACKAGE libcpp-httplib-dev)
+  target_compile_definitions(rheocyte::httplib INTERFACE CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT
+                                                         CPPHTTPLIB_BROTLI_SUPPORT)
+endif()
 
 # Debian's interpreter first: another python3 that stands earlier in PATH often lacks the packages.
 if(NOT RHEOCYTE_PYTHON_EXECUTABLE)

@@ -9,7 +9,7 @@
 
 namespace rheocyte {
 
-Distribution distribution_of(std::span<double> values) {
+Distribution distribution_of(std::span<const double> values) {
   if (values.empty()) return {no_value, no_value, no_value, no_value, no_value};
   const auto count = static_cast<double>(values.size());
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;

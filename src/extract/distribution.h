@@ -9,7 +9,7 @@ struct Distribution {
   double median = 0, first_quartile = 0, third_quartile = 0, mean = 0, standard_deviation = 0;
 };
 
-/// Reorders the values. Quartiles between two values are interpolated linearly.
-Distribution distribution_of(std::span<double> values);
+/// Quartiles between two values are interpolated linearly.
+Distribution distribution_of(std::span<const double> values);
 
 }  // namespace rheocyte

@@ -16,27 +16,30 @@ constexpr int second_mode = int(ShapeFeature::first_mode), third_mode = second_m
 
 }  // namespace
 
+bool EventShapes::are_measured(const Recording& recording) {
+  return recording.has_scalar(stored_ratio) || ShapeSource::has_outlines(recording);
+}
+
 EventShapes::EventShapes(const Recording& recording, const MeasuringConditions& conditions, const ShapeMap* map,
                          bool with_asymmetry)
     : recording_(recording), conditions_(conditions), map_(map) {
-  const bool has_outlines = ShapeSource::has_outlines(recording), has_ratio = recording.has_scalar(stored_ratio);
+  if (!are_measured(recording)) {
+    missing_ =
+        "the recording has neither inert_ratio_cvx nor contours nor masks: whether the shapes are those of the model "
+        "is unknown.";
+    return;
+  }
   if (!map) {
     missing_ = "the table does not say what its cells look like, so shapes cannot be compared with those of the model.";
     return;
   }
+  const bool has_outlines = ShapeSource::has_outlines(recording), has_ratio = recording.has_scalar(stored_ratio);
   if (has_outlines && ((with_asymmetry && map->has_asymmetry()) || !has_ratio)) {
     outlines_.emplace(recording, conditions.pixel_size_um > 0 ? conditions.pixel_size_um : 1);
     find_direction();
   }
-  if (has_ratio)
-    inertia_ratio_from_ = stored_ratio;
-  else if (has_outlines)
-    inertia_ratio_from_ = recording.has_contours() ? "contour" : "mask";
-  if (inertia_ratio_from_.empty())
-    missing_ =
-        "the recording has neither inert_ratio_cvx nor contours nor masks: whether the shapes are those of the model "
-        "is unknown.";
-  else if (!has_outlines)
+  inertia_ratio_from_ = has_ratio ? stored_ratio : recording.has_contours() ? "contour" : "mask";
+  if (!has_outlines)
     missing_ = "the recording has neither contours nor masks: there are no moduli from the asymmetry of the outlines.";
 }
 
@@ -72,10 +75,15 @@ void EventShapes::read_outlines(std::size_t first, std::size_t count) {
 const ShapeColumns& EventShapes::compute(std::size_t first, const MeasuredEvents& events) {
   const std::size_t count = events.size.size();
   ShapeColumns& c = columns_;
+  if (!is_known()) {  // nothing but NaN ever
+    c.inertia_ratio.resize(count, no_value);
+    c.x_um.resize(count, no_value);
+    c.excess.resize(count, {no_value, no_value, no_value, no_value});
+    return c;
+  }
   c.inertia_ratio.assign(count, no_value);
   c.x_um.assign(count, no_value);
   c.excess.assign(count, {no_value, no_value, no_value, no_value});
-  if (!is_known()) return c;
   if (recording_.has_scalar("pos_x")) recording_.read_scalar("pos_x", first, c.x_um);
   if (inertia_ratio_from_ == stored_ratio) recording_.read_scalar(stored_ratio, first, c.inertia_ratio);
   if (outlines_) {

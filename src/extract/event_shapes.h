@@ -21,6 +21,9 @@ struct ShapeColumns {
 
 class EventShapes {
  public:
+  /// Whether a recording has anything to compare with the shapes of a table, which then must be read.
+  static bool are_measured(const Recording& recording);
+
   /// The recording and the map must outlive it; without a map nothing is known. `with_asymmetry`: contours or masks are
   /// read, where there are any. UserError if the data are damaged.
   EventShapes(const Recording& recording, const MeasuringConditions& conditions, const ShapeMap* map,

@@ -85,7 +85,9 @@ class Writers {
     else
       give_names(recording, columns_);
     describe(companion_, fs::absolute(files.companion()).parent_path(), recording, extraction, columns_);
-    for (const char* feature : {"emodulus", "area_um", "deform"}) companion_.add_feature(feature);
+    companion_.add_feature("emodulus");
+    add_shape(recording, "area_um", extraction.shapes().area_from());
+    add_shape(recording, "deform", extraction.shapes().deformation_from());
     for (const auto& column : columns_)
       if (!column.name.empty()) companion_.add_feature(column.name);
     if (!files.events()) return;
@@ -124,6 +126,13 @@ class Writers {
   }
 
  private:
+  void add_shape(const Recording& recording, const std::string& feature, const std::string& source) {
+    if (source == feature)
+      companion_.add_feature_of(recording, feature);
+    else
+      companion_.add_feature(feature);
+  }
+
   std::span<const double> values_of(const OwnColumn& column, const EventBlock& block) {
     if (column.values) return column.values(block);
     values_.resize(block.state.size());

@@ -36,7 +36,8 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
       table_(tables.used(settings_.conditions.flow.exponent)),
       other_table_(tables.other(settings_.conditions.flow.exponent)),
       shapes_(recording, settings_.pixel_size_um),
-      event_shapes_(recording, settings_.conditions, tables.shapes(settings_.conditions.flow.exponent),
+      event_shapes_(recording, settings_.conditions,
+                    EventShapes::are_measured(recording) ? tables.shapes(settings_.conditions.flow.exponent) : nullptr,
                     !options.no_asymmetry),
       gates_(options.measuring.gates),
       features_(recording, shapes_) {

@@ -25,6 +25,7 @@ class Extraction {
 
   const ModulusMap& table() const { return table_; }
   const ExtractSettings& settings() const { return settings_; }
+  const ShapeSource& shapes() const { return shapes_; }
   const EventShapes& event_shapes() const { return event_shapes_; }
   /// The number of events that are best computed at once.
   std::size_t block() const;

@@ -18,7 +18,7 @@ constexpr double normal_deviations_per_quartile = 0.6745;
 constexpr std::size_t fewest_for_a_verdict = 5, fewest_for_a_trend = 20;  // events
 constexpr double min_length_um = 15;                                      // of what a recording sees, for a trend
 
-double robust_deviation(std::span<double> values) {
+double robust_deviation(std::span<const double> values) {
   return (quantile(values, 0.75) - quantile(values, 0.25)) / (2 * normal_deviations_per_quartile);
 }
 
@@ -103,11 +103,9 @@ ShapeVerdict ShapeTally::verdict() const {
   v.inertia_ratio_trend = trend_of(x, column(&Event::inertia_ratio), v.seen_um);
   v.deformation_trend = trend_of(x, column(&Event::deformation), v.seen_um);
   v.asymmetry_trend = trend_of(x, column(&Event::mode_3), v.seen_um);
-  auto moduli = asymmetry_kPa_;
-  v.asymmetry_kPa = distribution_of(moduli);
-  v.with_asymmetry = moduli.size();
-  auto ratios = ratios_;
-  v.modulus_ratio = median_of(ratios);
+  v.asymmetry_kPa = distribution_of(asymmetry_kPa_);
+  v.with_asymmetry = asymmetry_kPa_.size();
+  v.modulus_ratio = median_of(ratios_);
   return v;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include "case/user_error.h"
 #include "infer/delaunay.h"
@@ -30,6 +30,13 @@ double height_at(const std::vector<PlanePoint>& border, double x) {
   return before->y + (after->y - before->y) * (x - before->x) / (after->x - before->x);
 }
 
+template <class Object>
+void prefetch(const Object& object) {
+  constexpr std::size_t cache_line = 64;
+  for (std::size_t at = 0; at < sizeof object; at += cache_line)
+    __builtin_prefetch(reinterpret_cast<const char*>(&object) + at);
+}
+
 // Places along a curve that fills the square, so that neighbours in the plane are neighbours in memory.
 std::uint64_t place_on_curve(double x, double y) {
   const auto spread = [](double t) {
@@ -39,6 +46,24 @@ std::uint64_t place_on_curve(double x, double y) {
     return result;
   };
   return spread(x) | spread(y) << 1U;
+}
+
+// The triangles, those that are near each other in the plane near each other in memory.
+std::vector<std::array<std::int32_t, 3>> along_curve(std::vector<std::array<std::int32_t, 3>> triangles,
+                                                     std::span<const PlanePoint> points) {
+  const auto [left, right] = std::ranges::minmax(points, {}, &PlanePoint::x);
+  const auto [low, high] = std::ranges::minmax(points, {}, &PlanePoint::y);
+  using Placed = std::pair<std::uint64_t, std::array<std::int32_t, 3>>;
+  std::vector<Placed> placed;
+  placed.reserve(triangles.size());
+  for (const auto& c : triangles) {
+    const double x = (points[c[0]].x + points[c[1]].x + points[c[2]].x) / 3;
+    const double y = (points[c[0]].y + points[c[1]].y + points[c[2]].y) / 3;
+    placed.emplace_back(place_on_curve((x - left.x) / (right.x - left.x), (y - low.y) / (high.y - low.y)), c);
+  }
+  std::ranges::sort(placed);
+  std::ranges::transform(placed, triangles.begin(), &Placed::second);
+  return triangles;
 }
 
 }  // namespace
@@ -61,34 +86,45 @@ void Triangulation::make_triangles(std::span<const PlanePoint> points, std::span
   const auto [low, high] = std::ranges::minmax(points, {}, &PlanePoint::y);
   least_ = {left.x, low.y};
   greatest_ = {right.x, high.y};
-  auto corners = delaunay_triangles(points);
-  std::ranges::sort(corners, {}, [&](const auto& c) {
-    const double x = (points[c[0]].x + points[c[1]].x + points[c[2]].x) / 3;
-    const double y = (points[c[0]].y + points[c[1]].y + points[c[2]].y) / 3;
-    return place_on_curve((x - least_.x) / (greatest_.x - least_.x), (y - least_.y) / (greatest_.y - least_.y));
-  });
-  std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, int>> open_edges;
-  for (const auto& c : corners) {
-    const PlanePoint a = points[c[0]], b = points[c[1]], last = points[c[2]];
+  std::vector<Corners> kept;
+  for (const Corners& corners : along_curve(delaunay_triangles(points), points)) {
+    const auto& [first, second, third] = corners;
+    const PlanePoint a = points[first], b = points[second], last = points[third];
     const double determinant = (a.x - last.x) * (b.y - last.y) - (b.x - last.x) * (a.y - last.y);
     if (determinant == 0) {  // three points on a line of the hull; the walk cannot cross what is not there
       has_gaps_ = true;
       continue;
     }
-    const auto number = static_cast<std::int32_t>(triangles_.size());
+    kept.push_back(corners);
     triangles_.push_back({last,
                           {(b.y - last.y) / determinant, -(b.x - last.x) / determinant, -(a.y - last.y) / determinant,
                            (a.x - last.x) / determinant},
-                          {values[c[0]], values[c[1]], values[c[2]]},
+                          {values[first], values[second], values[third]},
                           {-1, -1, -1}});
-    for (int k = 0; k < 3; ++k) {
-      const auto edge = std::minmax(c[(k + 1) % 3], c[(k + 2) % 3]);
-      const auto [there, is_new] = open_edges.try_emplace(edge, number, k);
-      if (is_new) continue;
-      const auto [other, opposite] = there->second;
-      triangles_[number].neighbours[k] = other;
-      triangles_[other].neighbours[opposite] = number;
+  }
+  find_neighbours(kept);
+}
+
+// Both sides of an edge are next to each other once the sides are sorted by the points that they join.
+void Triangulation::find_neighbours(std::span<const Corners> corners) {
+  struct Side {
+    std::uint64_t edge;
+    std::int32_t triangle;
+    std::uint32_t opposite;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(corners[i][(k + 1) % 3], corners[i][(k + 2) % 3]);
+      sides.push_back({std::uint64_t(low) << 32U | std::uint64_t(high), std::int32_t(i), k});
     }
+  std::ranges::sort(sides, {}, &Side::edge);
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    const Side &one = sides[i - 1], &other = sides[i];
+    if (one.edge != other.edge) continue;
+    triangles_[std::size_t(one.triangle)].neighbours[one.opposite] = other.triangle;
+    triangles_[std::size_t(other.triangle)].neighbours[other.opposite] = one.triangle;
   }
 }
 
@@ -121,11 +157,16 @@ void Triangulation::make_start_grid() {
     if (j > 0) near = start_grid_[static_cast<std::size_t>(j - 1) * grid_side];
     for (int i = 0; i < grid_side; ++i) {
       const double x = least_.x + (i + 0.5) / cells_per_x_, y = least_.y + (j + 0.5) / cells_per_y_;
-      const std::int32_t found = locate(x, y, near, weights);
-      if (found >= 0) near = found;
+      walk(x, y, near, weights);  // outside, it ends at the border, from where the next cell is near, too
       start_grid_[static_cast<std::size_t>(j) * grid_side + i] = near;
     }
   }
+}
+
+// Also false for NaN. The margin is that of the tolerance.
+bool Triangulation::is_near(double x, double y) const {
+  return x >= least_.x - inside_tolerance && x <= greatest_.x + inside_tolerance && y >= least_.y - inside_tolerance &&
+         y <= greatest_.y + inside_tolerance;
 }
 
 std::int32_t Triangulation::start_for(double x, double y) const {
@@ -135,10 +176,9 @@ std::int32_t Triangulation::start_for(double x, double y) const {
 }
 
 // Walks across the edge behind which the point lies farthest. In a Delaunay triangulation this ends; rounding in
-// slivers could let it go round, then every triangle is tried.
-std::int32_t Triangulation::locate(double x, double y, std::int32_t start, std::array<double, 3>& weights) const {
+// slivers could let it go round.
+Triangulation::WalkEnd Triangulation::walk(double x, double y, std::int32_t& at, std::array<double, 3>& weights) const {
   constexpr int max_steps = 4096;
-  std::int32_t at = start;
   for (int step = 0; step < max_steps; ++step) {
     const Triangle& t = triangles_[at];
     const double dx = x - t.last.x, dy = y - t.last.y;
@@ -147,11 +187,24 @@ std::int32_t Triangulation::locate(double x, double y, std::int32_t start, std::
     weights[2] = 1 - weights[0] - weights[1];
     int worst = weights[1] < weights[0] ? 1 : 0;
     if (weights[2] < weights[worst]) worst = 2;
-    if (weights[worst] >= -inside_tolerance) return at;
+    if (weights[worst] >= -inside_tolerance) return WalkEnd::inside;
+    if (t.neighbours[worst] < 0) return WalkEnd::border;
     at = t.neighbours[worst];
-    if (at < 0) return has_gaps_ ? search_all(x, y, weights) : -1;
   }
-  return search_all(x, y, weights);
+  return WalkEnd::lost;
+}
+
+double Triangulation::value_at(double x, double y, std::int32_t start) const {
+  std::int32_t at = start;
+  std::array<double, 3> weights{};
+  const WalkEnd end = walk(x, y, at, weights);
+  if (end == WalkEnd::lost || (end == WalkEnd::border && has_gaps_))
+    at = search_all(x, y, weights);
+  else if (end == WalkEnd::border)
+    return no_value;
+  if (at < 0) return no_value;
+  const auto& corner = triangles_[at].values;
+  return weights[0] * corner[0] + weights[1] * corner[1] + weights[2] * corner[2];
 }
 
 std::int32_t Triangulation::search_all(double x, double y, std::array<double, 3>& weights) const {
@@ -166,20 +219,19 @@ std::int32_t Triangulation::search_all(double x, double y, std::array<double, 3>
   return -1;
 }
 
+// The triangles of a batch are on their way from memory while those before them are walked through.
 void Triangulation::interpolate(std::span<const double> x, std::span<const double> y, std::span<double> values) const {
   assert(x.size() == values.size() && y.size() == values.size());
-  std::array<double, 3> weights{};
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    // Also false for NaN. The margin is that of the tolerance.
-    const bool near = x[i] >= least_.x - inside_tolerance && x[i] <= greatest_.x + inside_tolerance &&
-                      y[i] >= least_.y - inside_tolerance && y[i] <= greatest_.y + inside_tolerance;
-    const std::int32_t at = near ? locate(x[i], y[i], start_for(x[i], y[i]), weights) : -1;
-    if (at < 0) {
-      values[i] = no_value;
-      continue;
+  constexpr std::size_t batch = 32;
+  std::array<std::int32_t, batch> starts{};
+  for (std::size_t first = 0; first < values.size(); first += batch) {
+    const std::size_t count = std::min(batch, values.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      starts[i] = is_near(x[first + i], y[first + i]) ? start_for(x[first + i], y[first + i]) : -1;
+      if (starts[i] >= 0) prefetch(triangles_[starts[i]]);
     }
-    const auto& corner = triangles_[at].values;
-    values[i] = weights[0] * corner[0] + weights[1] * corner[1] + weights[2] * corner[2];
+    for (std::size_t i = 0; i < count; ++i)
+      values[first + i] = starts[i] < 0 ? no_value : value_at(x[first + i], y[first + i], starts[i]);
   }
 }
 

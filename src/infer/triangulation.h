@@ -42,11 +42,16 @@ class Triangulation {
     std::array<double, 3> values;            // at the corners
     std::array<std::int32_t, 3> neighbours;  // across the edge opposite each corner; -1: outside
   };
+  using Corners = std::array<std::int32_t, 3>;  // of a triangle, by the numbers of the points
+  enum class WalkEnd { inside, border, lost };  // border: of the hull, or of a gap
 
   void make_triangles(std::span<const PlanePoint> points, std::span<const double> values);
+  void find_neighbours(std::span<const Corners> corners);
   void make_borders(std::span<const PlanePoint> points);
   void make_start_grid();
-  std::int32_t locate(double x, double y, std::int32_t start, std::array<double, 3>& weights) const;
+  WalkEnd walk(double x, double y, std::int32_t& at, std::array<double, 3>& weights) const;
+  double value_at(double x, double y, std::int32_t start) const;
+  bool is_near(double x, double y) const;
   std::int32_t search_all(double x, double y, std::array<double, 3>& weights) const;
   std::int32_t start_for(double x, double y) const;
 

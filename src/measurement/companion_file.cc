@@ -18,6 +18,7 @@ namespace rheocyte {
 
 struct CompanionFeature {
   Hdf5Handle dataset;
+  Hdf5Handle original = {};  ///< to be copied
   Extremes extremes;
 };
 
@@ -60,6 +61,16 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* tar
   if (copy) ::H5Awrite(copy.get(), type.get(), values.data());
   ::H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, values.data());
   return 0;
+}
+
+// As it is stored, without its attributes. All of it has been read, and thus checked, by now.
+bool copy_original(CompanionFeature& feature, hid_t file, const std::string& path) {
+  const Hdf5Handle properties(::H5Pcreate(H5P_OBJECT_COPY));
+  ::H5Pset_copy_object(properties.get(), H5O_COPY_WITHOUT_ATTR_FLAG);
+  if (::H5Ocopy(feature.original.get(), ".", file, path.c_str(), properties.get(), H5P_DEFAULT) < 0) return false;
+  feature.original = {};
+  feature.dataset = Hdf5Handle(::H5Dopen2(file, path.c_str(), H5P_DEFAULT));
+  return bool(feature.dataset);
 }
 
 }  // namespace
@@ -118,16 +129,24 @@ void CompanionFile::add_feature(const std::string& feature) {
   c.check(bool(added.dataset), feature);
 }
 
+void CompanionFile::add_feature_of(const Recording& original, const std::string& feature) {
+  const auto dataset = original.compressed_scalar(feature);
+  if (!dataset) return add_feature(feature);
+  ::H5Iinc_ref(*dataset);
+  content_->features[feature].original = Hdf5Handle(*dataset);
+}
+
 void CompanionFile::write(const std::string& feature, std::size_t first, std::span<const double> values) {
   Content& c = *content_;
   CompanionFeature& target = c.features.at(feature);
+  target.extremes.add(values);
+  if (target.original) return;
   const hsize_t start = first, count = values.size();
   const Hdf5Handle space(::H5Dget_space(target.dataset.get())), memory(::H5Screate_simple(1, &count, nullptr));
   const bool good =
       ::H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &start, nullptr, &count, nullptr) >= 0 &&
       ::H5Dwrite(target.dataset.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()) >= 0;
   c.check(good, feature);
-  target.extremes.add(values);
 }
 
 void CompanionFile::add_log(const std::string& name, const std::vector<std::string>& lines) {
@@ -141,6 +160,8 @@ void CompanionFile::add_basin(const std::vector<std::string>& paths) {
 
 void CompanionFile::close() {
   Content& c = *content_;
+  for (auto& [name, feature] : c.features)
+    if (feature.original) c.check(copy_original(feature, c.file.get(), "events/" + name), name);
   for (const auto& [name, feature] : c.features) c.check(write_extremes(feature.dataset.get(), feature.extremes), name);
   c.features.clear();
   c.check(close_on_disk(c.file, c.path.string()), "the file");

@@ -28,6 +28,10 @@ class CompanionFile {
   /// Declares a feature with one number per event; their number is that of the original's events.
   void add_feature(const std::string& feature);
 
+  /// Declares a feature whose values are those of the original. Where they can be, they are copied as they are stored
+  /// when the file is closed; those that are written before then only tell their extremes.
+  void add_feature_of(const Recording& original, const std::string& feature);
+
   /// Values of events [first, first + values.size()) of a declared feature. UserError, e.g. if the disk is full.
   void write(const std::string& feature, std::size_t first, std::span<const double> values);
 

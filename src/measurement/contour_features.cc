@@ -20,10 +20,6 @@ struct PolygonMoments {
   double mu20 = 0, mu11 = 0, mu02 = 0;  // about the centroid
 };
 
-std::int64_t cross(const PixelPoint& o, const PixelPoint& a, const PixelPoint& b) {
-  return static_cast<std::int64_t>(a.x - o.x) * (b.y - o.y) - static_cast<std::int64_t>(a.y - o.y) * (b.x - o.x);
-}
-
 // Green's theorem about the first point. All terms are whole numbers; for a contour in a picture they and their sums
 // are exact in double precision, and what a damaged file holds does not overflow.
 PolygonMoments moments_of(std::span<const PixelPoint> polygon) {
@@ -79,33 +75,6 @@ double frustum(double dz, double r0, double r1) { return dz * (r0 * r0 + r0 * r1
 
 }  // namespace
 
-std::span<const PixelPoint> ContourMeasurer::hull_of(std::span<const PixelPoint> contour) {
-  // In each column only the highest and the lowest pixel can lie on the hull; this replaces sorting.
-  const auto [left, right] = std::ranges::minmax(contour, {}, &PixelPoint::x);
-  constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
-  columns_.assign(static_cast<std::size_t>(right.x - left.x + 1), {none, -none});
-  for (const PixelPoint& point : contour) {
-    Column& column = columns_[static_cast<std::size_t>(point.x - left.x)];
-    column.min_y = std::min(column.min_y, point.y);
-    column.max_y = std::max(column.max_y, point.y);
-  }
-  hull_.clear();
-  std::size_t bottom = 0;
-  const auto push = [&](const PixelPoint& point) {
-    while (hull_.size() >= bottom + 2 && cross(hull_[hull_.size() - 2], hull_.back(), point) <= 0) hull_.pop_back();
-    hull_.push_back(point);
-  };
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (columns_[i].min_y != none) push({left.x + static_cast<std::int32_t>(i), columns_[i].min_y});
-  const PixelPoint turn{right.x, columns_.back().max_y};
-  if (!(turn == hull_.back())) hull_.push_back(turn);
-  bottom = hull_.size() - 1;
-  for (std::size_t i = columns_.size() - 1; i-- > 0;)
-    if (columns_[i].min_y != none) push({left.x + static_cast<std::int32_t>(i), columns_[i].max_y});
-  if (hull_.size() > 1 && hull_.back() == hull_.front()) hull_.pop_back();
-  return hull_;
-}
-
 double volume_of_rotation(std::span<const PixelPoint> contour, double y) {
   double right = 0, left = 0;
   PixelPoint before = contour.back();
@@ -121,7 +90,7 @@ double volume_of_rotation(std::span<const PixelPoint> contour, double y) {
 
 ContourFeatures ContourMeasurer::measure(std::span<const PixelPoint> contour, double pixel_size_um) {
   if (contour.size() < 4) return no_features;
-  const auto hull_points = hull_of(contour);
+  const auto hull_points = hull_.of(contour);
   if (hull_points.size() < 3) return no_features;
   const PolygonMoments hull = moments_of(hull_points), raw = moments_of(contour);
   if (!(hull.area > 0) || !(raw.area > 0)) return no_features;

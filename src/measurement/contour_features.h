@@ -1,9 +1,9 @@
 // Features of a cell's outline as the programs of RT-DC define them (docs/theory-extract.md, sec. "features").
 #pragma once
 #include <span>
-#include <vector>
 
 #include "measurement/pixel_contour.h"
+#include "measurement/pixel_hull.h"
 
 namespace rheocyte {
 
@@ -37,14 +37,11 @@ class ContourMeasurer {
   /// `pixel_size_um` > 0. Fewer than four points, or all on a line, give NaN everywhere.
   ContourFeatures measure(std::span<const PixelPoint> contour, double pixel_size_um);
 
- private:
-  std::span<const PixelPoint> hull_of(std::span<const PixelPoint> contour);
+  /// The hull of the outline that was measured last, if it has features.
+  std::span<const PixelPoint> hull() const { return hull_.points(); }
 
-  struct Column {
-    std::int32_t min_y, max_y;
-  };
-  std::vector<Column> columns_;
-  std::vector<PixelPoint> hull_;
+ private:
+  PixelHull hull_;
 };
 
 /// Rotation of a closed contour about the line y = `y` through each of its halves, then the mean (pixels cubed).

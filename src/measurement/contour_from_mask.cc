@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <utility>
 
@@ -13,35 +14,63 @@ namespace {
 constexpr std::array<std::int32_t, 8> step_x{1, 1, 0, -1, -1, -1, 0, 1};
 constexpr std::array<std::int32_t, 8> step_y{0, -1, -1, -1, 0, 1, 1, 1};
 constexpr int west = 4;
+static_assert(std::endian::native == std::endian::little);
 
-// The first place from `at` on whose pixel is set (or not); eight pixels at a time while they are all empty.
-std::int32_t next_set(const std::uint8_t* row, std::int32_t at, std::int32_t width) {
-  for (; at + 8 <= width; at += 8) {
-    std::uint64_t eight = 0;
-    std::memcpy(&eight, row + at, sizeof eight);
-    if (eight != 0) break;
+std::uint64_t eight_pixels(const std::uint8_t* at) {
+  std::uint64_t eight = 0;
+  std::memcpy(&eight, at, sizeof eight);
+  return eight;
+}
+
+// The high bit of each byte that is 0, exact up to the first of them.
+std::uint64_t zeros_among(std::uint64_t bytes) {
+  constexpr std::uint64_t ones = 0x0101010101010101, high_bits = 0x8080808080808080;
+  return (bytes - ones) & ~bytes & high_bits;
+}
+
+// Of eight pixels the first one with a bit set here; the first pixel of a row lies in the lowest byte.
+std::size_t first_of(std::uint64_t bits) { return static_cast<std::size_t>(std::countr_zero(bits)) / 8; }
+
+// The first place from `at` on whose pixel is set; 64 pixels at a time while they are all empty, then eight.
+std::size_t next_set(std::span<const std::uint8_t> pixels, std::size_t at) {
+  constexpr std::size_t many = 64;
+  const std::size_t end = pixels.size();
+  for (; at + many <= end; at += many) {
+    std::array<std::uint64_t, many / 8> words{};
+    std::memcpy(words.data(), pixels.data() + at, many);
+    std::uint64_t any = 0;
+    for (const std::uint64_t word : words) any |= word;
+    if (any != 0) break;
   }
-  while (at < width && row[at] == 0) ++at;
+  for (; at + 8 <= end; at += 8)
+    if (const std::uint64_t eight = eight_pixels(pixels.data() + at); eight != 0) return at + first_of(eight);
+  while (at < end && pixels[at] == 0) ++at;
   return at;
 }
 
-std::int32_t next_empty(const std::uint8_t* row, std::int32_t at, std::int32_t width) {
-  while (at < width && row[at] != 0) ++at;
+// Not beyond the end of the span.
+std::size_t next_empty(std::span<const std::uint8_t> pixels, std::size_t at) {
+  const std::size_t end = pixels.size();
+  for (; at + 8 <= end; at += 8)
+    if (const std::uint64_t zeros = zeros_among(eight_pixels(pixels.data() + at)); zeros != 0)
+      return at + first_of(zeros);
+  while (at < end && pixels[at] != 0) ++at;
   return at;
 }
 
 }  // namespace
 
+// The empty ends of rows are passed over together with those of the next ones.
 void ContourFinder::find_runs(const Mask& mask) {
   runs_.clear();
-  const auto width = static_cast<std::int32_t>(mask.size.width);
-  for (std::size_t y = 0; y < mask.size.height; ++y) {
-    const std::uint8_t* row = mask.pixels.data() + y * mask.size.width;
-    for (std::int32_t x = next_set(row, 0, width); x < width;) {
-      const std::int32_t end = next_empty(row, x, width);
-      runs_.push_back({static_cast<std::int32_t>(y), x, end, static_cast<std::int32_t>(runs_.size())});
-      x = next_set(row, end, width);
-    }
+  const std::size_t width = mask.size.width, all = mask.size.pixels();
+  const auto pixels = mask.pixels.first(all);
+  for (std::size_t at = next_set(pixels, 0); at < all;) {
+    const std::size_t row = at / width;
+    const std::size_t end = next_empty(pixels.first((row + 1) * width), at);
+    runs_.push_back({static_cast<std::int32_t>(row), static_cast<std::int32_t>(at - row * width),
+                     static_cast<std::int32_t>(end - row * width), static_cast<std::int32_t>(runs_.size())});
+    at = next_set(pixels, end);
   }
 }
 

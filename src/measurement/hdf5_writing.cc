@@ -14,6 +14,8 @@ namespace rheocyte {
 
 namespace {
 
+constexpr unsigned compression_level = 5;  // that which the field's checker wants
+
 Hdf5Handle text_type(std::size_t size) {
   Hdf5Handle type(::H5Tcopy(H5T_C_S1));
   ::H5Tset_size(type.get(), size);
@@ -39,12 +41,23 @@ bool write_text(hid_t object, const std::string& name, const std::string& text) 
 
 Hdf5Handle compressed(std::span<const hsize_t> chunk) {
   Hdf5Handle properties(::H5Pcreate(H5P_DATASET_CREATE));
-  const unsigned level = 5;
   ::H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
-  ::H5Pset_filter(properties.get(), zstd_filter_number, H5Z_FLAG_MANDATORY, 1, &level);
+  ::H5Pset_filter(properties.get(), zstd_filter_number, H5Z_FLAG_MANDATORY, 1, &compression_level);
   ::H5Pset_fletcher32(properties.get());
   ::H5Pset_obj_track_times(properties.get(), false);
   return properties;
+}
+
+bool is_compressed(hid_t dataset) {
+  const Hdf5Handle properties(::H5Dget_create_plist(dataset));
+  if (!properties || ::H5Pget_layout(properties.get()) != H5D_CHUNKED) return false;
+  unsigned flags = 0, level = 0;
+  std::size_t count = 1, none = 0;
+  return ::H5Pget_filter_by_id2(properties.get(), zstd_filter_number, &flags, &count, &level, 0, nullptr, nullptr) >=
+             0 &&
+         count == 1 && level >= compression_level &&
+         ::H5Pget_filter_by_id2(properties.get(), H5Z_FILTER_FLETCHER32, &flags, &none, nullptr, 0, nullptr, nullptr) >=
+             0;
 }
 
 bool write_lines(hid_t file, const std::string& path, const std::vector<std::string>& lines) {
@@ -80,11 +93,11 @@ std::vector<std::string> broken_lines(const std::vector<std::string>& lines) {
 
 void Extremes::add(std::span<const double> values) {
   for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    least = std::min(least, value);
-    greatest = std::max(greatest, value);
-    sum += value;
-    ++count;
+    const bool counts = std::isfinite(value);
+    least = counts && value < least ? value : least;
+    greatest = counts && value > greatest ? value : greatest;
+    sum += counts ? value : 0;
+    count += counts;
   }
 }
 

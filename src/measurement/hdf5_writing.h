@@ -25,6 +25,9 @@ std::vector<std::string> broken_lines(const std::vector<std::string>& lines);
 /// Creation properties of a dataset in chunks: Zstandard, then fletcher32, no time stamps.
 Hdf5Handle compressed(std::span<const hsize_t> chunk);
 
+/// Whether a dataset is compressed and checked at least as `compressed` does it.
+bool is_compressed(hid_t dataset);
+
 /// Least, greatest and mean of the finite values, as the field's programs keep them with each feature.
 struct Extremes {
   double least = std::numeric_limits<double>::infinity(), greatest = -least, sum = 0;

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "case/user_error.h"
+#include "measurement/hdf5_writing.h"
 #include "measurement/recording_content.h"
 #include "numeric/no_value.h"
 
@@ -182,6 +183,15 @@ bool Recording::is_single_precision(const std::string& feature) const {
     return found->second.shape.single_precision;
   const auto* basin = basin_with(feature);
   return basin && basin->recording && basin->recording->is_single_precision(feature);
+}
+
+std::optional<std::int64_t> Recording::compressed_scalar(const std::string& feature) const {
+  const auto found = content_->scalars.find(feature);
+  if (found == content_->scalars.end() || found->second.shape.rows() != events()) return {};
+  const hid_t dataset = found->second.dataset.get();
+  const Hdf5Handle type(::H5Dget_type(dataset));
+  if (::H5Tget_class(type.get()) != H5T_FLOAT || !is_compressed(dataset)) return {};
+  return dataset;
 }
 
 void Recording::read_scalar(const std::string& feature, std::size_t first, std::span<double> values) const {

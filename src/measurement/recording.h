@@ -47,6 +47,10 @@ class Recording {
   /// Whether a scalar is stored with 32 bits; other programs then compute with 32 bits, too.
   bool is_single_precision(const std::string& feature) const;
 
+  /// HDF5's identifier of a scalar of all events that lies in this file itself, compressed and checked as a companion
+  /// wants it; nothing otherwise. Valid while the recording lives.
+  std::optional<std::int64_t> compressed_scalar(const std::string& feature) const;
+
   /// Values of events [first, first + values.size()); NaN for those that the feature does not cover.
   /// UserError if the data are damaged.
   void read_scalar(const std::string& feature, std::size_t first, std::span<double> values) const;

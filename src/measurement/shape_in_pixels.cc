@@ -7,16 +7,20 @@
 
 #include "measurement/contour_from_mask.h"
 #include "measurement/mask_from_outline.h"
+#include "measurement/pixel_hull.h"
 
 namespace rheocyte {
 
+ShapeVector shape_of_hull(std::span<const PixelPoint> pixels, double pixel_size_um) {
+  std::vector<Eigen::Vector2d> hull;
+  hull.reserve(pixels.size());
+  for (const PixelPoint& point : pixels) hull.emplace_back(pixel_size_um * point.x, pixel_size_um * point.y);
+  return shape_vector(hull_shape(hull));
+}
+
 ShapeVector shape_of_contour(const PixelContour& contour, double pixel_size_um) {
-  Eigen::MatrixX2d polygon(Eigen::Index(contour.size()), 2);
-  for (Eigen::Index i = 0; i < polygon.rows(); ++i) {
-    const PixelPoint& point = contour[std::size_t(i)];
-    polygon.row(i) << pixel_size_um * point.x, pixel_size_um * point.y;
-  }
-  return shape_vector(outline_shape(polygon));
+  PixelHull hull;
+  return shape_of_hull(hull.of(contour), pixel_size_um);
 }
 
 ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um,

@@ -18,7 +18,9 @@ namespace rheocyte {
 
 namespace {
 
-using Array = Eigen::ArrayXd;
+// Events that are worked on together: their columns stay in the fastest memory.
+constexpr std::size_t block_size = 512;
+using Array = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, block_size, 1>;
 
 constexpr double kelvin_at_0_celsius = 273.15;
 
@@ -160,6 +162,14 @@ TemperatureRange Buffer::measured() const {
 void Buffer::viscosity(const ChannelFlow& flow, std::span<const double> celsius,
                        std::span<double> viscosity_mPas) const {
   assert(celsius.size() == viscosity_mPas.size());
+  for (std::size_t first = 0; first < celsius.size(); first += block_size) {
+    const std::size_t count = std::min(block_size, celsius.size() - first);
+    viscosity_of_block(flow, celsius.subspan(first, count), viscosity_mPas.subspan(first, count));
+  }
+}
+
+void Buffer::viscosity_of_block(const ChannelFlow& flow, std::span<const double> celsius,
+                                std::span<double> viscosity_mPas) const {
   Array source = Array::Constant(whole_packets(celsius.size()), 20), target = source;
   std::ranges::copy(celsius, source.data());
   if (medium_ == Medium::water)

@@ -62,6 +62,9 @@ class Buffer {
   double consistency_Pa_sn(double celsius) const;
 
  private:
+  void viscosity_of_block(const ChannelFlow& flow, std::span<const double> celsius,
+                          std::span<double> viscosity_mPas) const;
+
   Medium medium_;
   ViscosityModel model_;
 };

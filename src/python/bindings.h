@@ -9,6 +9,7 @@ void bind_cases(pybind11::module_& module);
 void bind_states(pybind11::module_& module);
 void bind_evolution(pybind11::module_& module);
 void bind_tables(pybind11::module_& module);
+void bind_table_computation(pybind11::module_& module);
 void bind_recordings(pybind11::module_& module);
 void bind_analysis(pybind11::module_& module);
 

@@ -26,6 +26,7 @@ PYBIND11_MODULE(native, module) {
   rheocyte::bind_states(module);
   rheocyte::bind_evolution(module);
   rheocyte::bind_tables(module);
+  rheocyte::bind_table_computation(module);
   rheocyte::bind_recordings(module);
   rheocyte::bind_analysis(module);
 }

@@ -177,7 +177,7 @@ py::dict features(const Masks& masks, double pixel_size_um) {
       const PixelContour& contour = finder.contour_of({size, {pixels + i * size.pixels(), size.pixels()}});
       all.features.push_back(measurer.measure(contour, pixel_size_um));
       const bool is_cell = std::isfinite(all.features.back().area_um2);
-      all.shapes.push_back(is_cell ? shape_of_contour(contour, pixel_size_um) : ShapeVector::Constant(no_value));
+      all.shapes.push_back(is_cell ? shape_of_hull(measurer.hull(), pixel_size_um) : ShapeVector::Constant(no_value));
     }
     return all;
   });

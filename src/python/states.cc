@@ -80,7 +80,7 @@ class SharedSession {
 
 void bind_states(py::module_& module) {
   py::class_<Result>(module, "Result")
-      .def("json", &json_text)
+      .def("json", [](const Result& r) { return json_text(r); })
       .def("surface", &surface_columns)
       .def("has_state", [](const Result& r) { return bool(r.state.write_fields); })
       .def("write_fields",

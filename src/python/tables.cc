@@ -13,16 +13,12 @@
 #include "extract/find_table.h"
 #include "extract/modulus_tables.h"
 #include "extract/shipped_tables.h"
-#include "extract/tube_table.h"
 #include "infer/isoelasticity_lines.h"
 #include "infer/read_modulus_map.h"
 #include "measurement/viscosity.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
-#include "store/build_info.h"
-#include "table/finish_table.h"
-#include "table/table_workers.h"
 
 namespace rheocyte {
 
@@ -37,18 +33,30 @@ struct HeldTable {
   SharedMap map;
 };
 
-struct Columns {
-  std::vector<double> modulus_kPa, standard_error_kPa;
-  std::vector<std::int8_t> state;
-};
-
 // Columns of a block stay in the second fastest memory.
 constexpr std::size_t block = 4096;
 
-Columns estimates(const ModulusMap& map, const MeasuringConditions& conditions, const MeasuredEvents& events,
-                  const std::atomic<bool>& stop) {
+/// Of numpy, which takes large pages for large arrays and leaves them unwritten.
+struct Columns {
+  py::array_t<double> modulus_kPa, standard_error_kPa;
+  py::array_t<std::int8_t> state;
+
+  explicit Columns(std::size_t events) : modulus_kPa(events), standard_error_kPa(events), state(events) {}
+};
+
+struct Estimates {
+  std::span<double> modulus_kPa, standard_error_kPa;
+  std::span<std::int8_t> state;
+};
+
+template <class Number>
+std::span<Number> written(py::array_t<Number>& array) {
+  return {array.mutable_data(), static_cast<std::size_t>(array.size())};
+}
+
+void estimate(const ModulusMap& map, const MeasuringConditions& conditions, const MeasuredEvents& events,
+              const Estimates& found, const std::atomic<bool>& stop) {
   const std::size_t all = events.size.size();
-  Columns columns{std::vector<double>(all), std::vector<double>(all), std::vector<std::int8_t>(all)};
   std::array<ModulusState, block> states{};
   std::array<double, block> viscosity{};
   const bool one_viscosity = events.viscosity_mPas.size() == 1;
@@ -59,13 +67,11 @@ Columns estimates(const ModulusMap& map, const MeasuringConditions& conditions, 
         conditions,
         {events.size.subspan(first, count), events.deformation.subspan(first, count),
          one_viscosity ? std::span<const double>(viscosity).first(count) : events.viscosity_mPas.subspan(first, count)},
-        {std::span(columns.modulus_kPa).subspan(first, count),
-         std::span(columns.standard_error_kPa).subspan(first, count), std::span(states).first(count)});
-    std::transform(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(count),
-                   columns.state.begin() + static_cast<std::ptrdiff_t>(first),
-                   [](ModulusState state) { return static_cast<std::int8_t>(state); });
+        {found.modulus_kPa.subspan(first, count), found.standard_error_kPa.subspan(first, count),
+         std::span(states).first(count)});
+    std::ranges::transform(std::span(states).first(count), found.state.begin() + static_cast<std::ptrdiff_t>(first),
+                           [](ModulusState state) { return static_cast<std::int8_t>(state); });
   }
-  return columns;
 }
 
 MeasuringConditions conditions_of(double width_um, double rate_ul_s, double pixel_size_um, bool correct_area) {
@@ -76,10 +82,13 @@ MeasuringConditions conditions_of(double width_um, double rate_ul_s, double pixe
 py::tuple modulus(const HeldTable& table, const Numbers& area, const Numbers& deformation, const Numbers& viscosity,
                   const MeasuringConditions& conditions) {
   const MeasuredEvents events{span_of(area), span_of(deformation), span_of(viscosity)};
-  Columns columns =
-      interruptible([&](const std::atomic<bool>& stop) { return estimates(*table.map, conditions, events, stop); });
-  return py::make_tuple(array_of(std::move(columns.modulus_kPa)), array_of(std::move(columns.standard_error_kPa)),
-                        array_of(std::move(columns.state)));
+  Columns columns(events.size.size());
+  const Estimates found{written(columns.modulus_kPa), written(columns.standard_error_kPa), written(columns.state)};
+  interruptible([&](const std::atomic<bool>& stop) {
+    estimate(*table.map, conditions, events, found, stop);
+    return 0;
+  });
+  return py::make_tuple(columns.modulus_kPa, columns.standard_error_kPa, columns.state);
 }
 
 py::array_t<double> seen(const ModulusMap& map, const MeasuringConditions& conditions,
@@ -132,9 +141,9 @@ Buffer buffer_of(const std::string& medium_name, const std::string& model_name) 
 }
 
 py::array_t<double> viscosities(const Buffer& buffer, double width_um, double rate_ul_s, const Numbers& celsius) {
-  std::vector<double> result(static_cast<std::size_t>(celsius.size()));
-  buffer.viscosity({.width_um = width_um, .rate_ul_s = rate_ul_s}, span_of(celsius), result);
-  return array_of(std::move(result));
+  py::array_t<double> result(celsius.size());
+  buffer.viscosity({.width_um = width_um, .rate_ul_s = rate_ul_s}, span_of(celsius), written(result));
+  return result;
 }
 
 std::map<std::string, std::string> table_files() {
@@ -146,25 +155,6 @@ std::map<std::string, std::string> table_files() {
 HeldTable table_for(double flow_exponent) {
   const auto tables = std::make_shared<const ModulusTables>("");
   return {SharedMap(tables, &tables->used(flow_exponent))};
-}
-
-// Works on the folder of a table; tells branches that are done and all. Sentences about what could not be made.
-std::vector<std::string> compute_table(const std::string& text, const std::string& name,
-                                       const std::vector<std::string>& settings, const std::filesystem::path& place,
-                                       int jobs, const std::optional<std::function<void(double)>>& progress) {
-  const TableSpec spec = parse_table_spec(text, name, settings);
-  return interruptible([&](const std::atomic<bool>& stop) -> std::vector<std::string> {
-    const TableFolder folder(place, spec);
-    provide_tube_table(folder);
-    folder.take_over();
-    const auto tell = [&](int done) {
-      if (!progress) return;
-      const py::gil_scoped_acquire acquired;
-      (*progress)(static_cast<double>(done) / folder.branches());
-    };
-    if (!work_on_table(folder, jobs > 0 ? jobs : available_processors(), {tell, {}}, stop)) return {};
-    return finish_table(folder, {}, version);
-  });
 }
 
 }  // namespace
@@ -186,7 +176,6 @@ void bind_tables(py::module_& module) {
       .def("flow_exponent", &Buffer::flow_exponent)
       .def("viscosity", &viscosities);
   module.def("table_files", &table_files);
-  module.def("compute_table", &compute_table);
   module.attr("state_names") =
       std::vector<std::string_view>(names_of_modulus_states.begin(), names_of_modulus_states.end());
 }

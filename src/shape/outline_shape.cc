@@ -61,33 +61,62 @@ Moments moments_of(const std::vector<Point>& hull) {
   return m;
 }
 
-/// Adds the integrals of r cos(k theta), k = 0 .. max_mode, along one edge, seen from the origin: the radius of a
-/// straight line is distance / cos(theta - direction of its normal).
-void add_edge(const Point& a, const Point& b, std::array<double, max_mode + 1>& integral) {
-  static constexpr std::array<double, 4> place{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                                               0.8611363115940526},
+/// Points along a hull, those of Gauss' rule on each part of it: cosines of their directions, and their weights in
+/// int r d(theta).
+struct Directions {
+  std::vector<Eigen::Array4d> cosine, weight;
+};
+
+/// Adds the part from s0 to s1 of a straight line; s counts along it from the foot of the normal from the origin.
+/// r d(theta) is distance ds / r there.
+void add_part(const Point& foot, const Point& along, double s0, double s1, Directions& directions) {
+  const Eigen::Array4d place{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526},
       weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+  const double middle = (s0 + s1) / 2, half = (s1 - s0) / 2;
+  const Eigen::Array4d s = middle + half * place, per_radius = (foot.squaredNorm() + s.square()).sqrt().inverse();
+  directions.cosine.emplace_back((foot.x() + s * along.x()) * per_radius);
+  directions.weight.emplace_back(half * foot.norm() * weight * per_radius);
+}
+
+/// Adds one edge of a hull around the origin, in parts that are seen under small angles.
+void add_edge(const Point& a, const Point& b, Directions& directions) {
   constexpr double widest = 0.2;  // radians; Gauss' error is then below 1e-9
-  const double start = std::atan2(a.y(), a.x()), angle = std::atan2(cross(a, b), a.dot(b));
-  const Point along = (b - a).normalized();
-  const double distance = cross(a, along), normal = std::atan2(-along.x(), along.y());
-  const int parts = 1 + int(std::abs(angle) / widest);
-  for (int part = 0; part < parts; ++part)
-    for (std::size_t q = 0; q < place.size(); ++q) {
-      const double theta = start + angle * (part + 0.5 + 0.5 * place[q]) / parts;
-      const double r = distance / std::cos(theta - normal) * weight[q] * angle / (2 * parts), c = std::cos(theta);
-      double before = c, here = 1;  // cos(-theta), cos(0)
-      for (double& sum : integral) {
-        sum += r * here;
-        before = std::exchange(here, 2 * c * here - before);
-      }
-    }
+  const Point along = (b - a).normalized(), foot = a - along * a.dot(along);
+  const double s0 = a.dot(along), s1 = b.dot(along), distance = foot.norm();
+  if (s1 - s0 < widest * distance) return add_part(foot, along, s0, s1, directions);
+  const double first = std::atan2(s0, distance), angle = std::atan2(s1, distance) - first;
+  const int parts = 1 + int(angle / widest);
+  double start = s0;
+  for (int part = 1; part <= parts; ++part) {
+    const double end = part == parts ? s1 : distance * std::tan(first + angle * part / parts);
+    add_part(foot, along, start, end, directions);
+    start = end;
+  }
+}
+
+/// int r cos(k theta) d(theta), k = 0 .. max_mode, once around.
+std::array<double, max_mode + 1> radius_integrals(const std::vector<Point>& hull, const Point& centre) {
+  Directions directions;
+  directions.cosine.reserve(2 * hull.size());
+  directions.weight.reserve(2 * hull.size());
+  for (std::size_t i = 0; i < hull.size(); ++i)
+    add_edge(hull[i] - centre, hull[(i + 1) % hull.size()] - centre, directions);
+  const auto count = 4 * Eigen::Index(directions.cosine.size());
+  const Eigen::Map<const Eigen::ArrayXd> cosine(directions.cosine.front().data(), count);
+  const Eigen::Map<const Eigen::ArrayXd> weight(directions.weight.front().data(), count);
+  Eigen::ArrayXd before = cosine, here = Eigen::ArrayXd::Ones(count);  // cos(-theta), cos(0)
+  std::array<double, max_mode + 1> integral{};
+  for (double& sum : integral) {
+    sum = (weight * here).sum();
+    before = 2 * cosine * here - before;
+    before.swap(here);
+  }
+  return integral;
 }
 
 }  // namespace
 
-OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) {
-  const auto hull = hull_of(polygon);
+OutlineShape hull_shape(const std::vector<Eigen::Vector2d>& hull) {
   if (hull.size() < 3) {
     OutlineShape none{no_value, no_value, no_value, no_value, no_value, no_value, {}};
     none.modes.fill(no_value);
@@ -96,14 +125,14 @@ OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) {
   const Moments m = moments_of(hull);
   OutlineShape shape{m.area, 1 - 2 * std::sqrt(std::numbers::pi * m.area) / m.perimeter, m.yy / m.xx, m.centroid.x(),
                      m.centroid.y()};
-  std::array<double, max_mode + 1> integral{};
-  for (std::size_t i = 0; i < hull.size(); ++i)
-    add_edge(hull[i] - m.centroid, hull[(i + 1) % hull.size()] - m.centroid, integral);
+  const auto integral = radius_integrals(hull, m.centroid);
   shape.mean_radius = integral[0] / (2 * std::numbers::pi);
   for (int k = min_mode; k <= max_mode; ++k)
     shape.modes[std::size_t(k - min_mode)] = 2 * integral[std::size_t(k)] / integral[0];
   return shape;
 }
+
+OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) { return hull_shape(hull_of(polygon)); }
 
 ShapeVector shape_vector(const OutlineShape& shape) {
   ShapeVector vector;

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 namespace rheocyte {
 
@@ -34,6 +35,9 @@ struct ShapeErrors {
 
 /// Points (x, y) in order, the first one not repeated, at least one; NaN everywhere if all lie on a line.
 OutlineShape outline_shape(const Eigen::MatrixX2d& polygon);
+
+/// The same of a polygon that is its own hull: counterclockwise, without points on its edges. NaN below three points.
+OutlineShape hull_shape(const std::vector<Eigen::Vector2d>& hull);
 
 /// The closed polygon of a meridian (x, r) and its mirror image.
 Eigen::MatrixX2d mirrored(const Eigen::MatrixX2d& meridian);

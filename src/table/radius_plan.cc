@@ -7,8 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "table/sample_branch.h"
-
 namespace rheocyte {
 
 namespace {
@@ -25,6 +23,10 @@ std::vector<int> first_places(int count) {
 }
 
 }  // namespace
+
+bool can_be_held(const TableSpec& spec, const SampledBranch& own) {
+  return spec.bending_beyond_kBT > 0 && !own.empty() && own.end.status == Status::surface_unstable;
+}
 
 RadiusPlan::RadiusPlan(const TableSpec& spec, Records records)
     : spec_(spec), places_(sweep_places(spec)), records_(std::move(records)) {}

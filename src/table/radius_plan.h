@@ -17,6 +17,9 @@ struct BranchTask {
   auto operator<=>(const BranchTask&) const = default;
 };
 
+/// Whether the spec wants more where `own` ended: its bare surface lost stability there.
+bool can_be_held(const TableSpec&, const SampledBranch& own);
+
 /// First some radii, denser towards both ends; then, round by round, those in the middle of neighbours between which
 /// polynomials are not accurate. The choice depends on finished records alone: whoever takes part makes the same one.
 /// Of combined cells, and in a square channel, all branches are computed.

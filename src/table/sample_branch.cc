@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "table/branch_states.h"
+#include "table/radius_plan.h"
 
 namespace rheocyte {
 namespace {
@@ -186,10 +187,6 @@ class BranchSampler {
 
 SampledBranch sample_branch(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop) {
   return BranchSampler(spec, place, stop).from_sphere();
-}
-
-bool can_be_held(const TableSpec& spec, const SampledBranch& own) {
-  return spec.bending_beyond_kBT > 0 && !own.empty() && own.end.status == Status::surface_unstable;
 }
 
 SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own, const std::atomic<bool>* stop) {

@@ -11,9 +11,6 @@ namespace rheocyte {
 /// The case's own branch, from the least deformation to the greatest one or to the branch's end.
 SampledBranch sample_branch(const TableSpec&, const BranchPlace& place, const std::atomic<bool>* stop = nullptr);
 
-/// Whether the spec wants more where `own` ended: its bare surface lost stability there.
-bool can_be_held(const TableSpec&, const SampledBranch& own);
-
 /// Goes on where `own` ended because its bare surface lost stability: the same cell with the bending stiffness of the
 /// spec, from a state before the end on, so that both overlap. Empty if there is nothing to go on from.
 SampledBranch sample_held_branch(const TableSpec&, const SampledBranch& own, const std::atomic<bool>* stop = nullptr);

@@ -117,6 +117,45 @@ TEST(CompanionFile, FeaturesAreCompressedCheckedAndCarryTheirExtremes) {
   EXPECT_EQ(extremes.number("mean"), 2);
 }
 
+/// The bytes of a feature's numbers in memory, as they are stored.
+std::size_t stored_width(const std::filesystem::path& path, const std::string& feature) {
+  const Hdf5Handle file(::H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  const Hdf5Handle dataset(::H5Dopen2(file.get(), ("events/" + feature).c_str(), H5P_DEFAULT));
+  return ::H5Tget_size(Hdf5Handle(::H5Dget_type(dataset.get())).get());
+}
+
+TEST(CompanionFile, FeaturesOfTheOriginalAreTakenOverAsTheyAreStored) {
+  // Where they are compressed as a companion wants it, in the original's precision; else they are written anew. Both
+  // ways carry the same numbers and their extremes.
+  const ScratchFolder folder;
+  {
+    RecordingWriter writer(folder / "a.rtdc");
+    test::write_usual_metadata(writer);
+    writer.scalar("area_um", {10, 20, 30}, H5T_IEEE_F32LE, {test::Storage::Filter::zstd, true, 2});
+    writer.scalar("deform", {0.25, NAN, 0.5}, H5T_IEEE_F32LE, {test::Storage::Filter::zstd, false, 2});
+  }
+  {
+    const Recording original(folder / "a.rtdc");
+    CompanionFile companion(folder / "b.rtdc", original, "rheocyte");
+    for (const char* feature : {"area_um", "deform"}) {
+      companion.add_feature_of(original, feature);
+      companion.write(feature, 0, column(original, feature));
+    }
+    companion.close();
+  }
+  EXPECT_EQ(stored_width(folder / "b.rtdc", "area_um"), 4U) << "taken over";
+  EXPECT_EQ(stored_width(folder / "b.rtdc", "deform"), 8U) << "without checksums in the original";
+  for (const auto& [feature, max] : {std::pair("area_um", 30.0), std::pair("deform", 0.5)}) {
+    const Hdf5Handle file(::H5Fopen((folder / "b.rtdc").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+    const Hdf5Handle dataset(::H5Dopen2(file.get(), (std::string("events/") + feature).c_str(), H5P_DEFAULT));
+    EXPECT_EQ(read_attributes(dataset.get()).number("max"), max) << feature;
+  }
+  const Recording recording(folder / "b.rtdc");
+  EXPECT_EQ(column(recording, "area_um"), (std::vector<double>{10, 20, 30}));
+  EXPECT_EQ(column(recording, "deform")[2], 0.5);
+  EXPECT_TRUE(std::isnan(column(recording, "deform")[1]));
+}
+
 TEST(CompanionFile, LogsAndTheBasinAreCompressedToo) {
   // dclab's check of integrity counts every dataset.
   const ScratchFolder folder;
