@@ -30,7 +30,7 @@ struct CellOptions {
   bool json = false, force = false;
 };
 
-struct TableOptions {
+struct AnalyticTableOptions {
   AnalyticTableInput input;
   std::filesystem::path folder;
   bool force = false;
@@ -75,7 +75,7 @@ void add_cell_command(CLI::App& analytic) {
   command->callback([options] { run_cell(*options); });
 }
 
-void run_table(TableOptions& options, TextFile (*make)(const AnalyticTableInput&)) {
+void run_table(AnalyticTableOptions& options, TextFile (*make)(const AnalyticTableInput&)) {
   complete(options.input.conditions);
   const TextFile file = make(options.input);
   const auto path = options.folder / file.name;
@@ -83,7 +83,7 @@ void run_table(TableOptions& options, TextFile (*make)(const AnalyticTableInput&
   print(fmt::format("{}: {} rows\n", path.string(), file.rows));
 }
 
-void declare_table_options(CLI::App& command, TableOptions& options) {
+void declare_table_options(CLI::App& command, AnalyticTableOptions& options) {
   AnalyticTableInput& input = options.input;
   declare_conditions(command, input.conditions);
   const auto& radius = case_key("cell.radius_um");
@@ -117,7 +117,7 @@ void declare_table_options(CLI::App& command, TableOptions& options) {
 
 void add_table_command(CLI::App& analytic) {
   auto* command = analytic.add_subcommand("table", "look-up table for dclab: area, deformation, Young's modulus");
-  auto options = std::make_shared<TableOptions>();
+  auto options = std::make_shared<AnalyticTableOptions>();
   AnalyticTableInput& input = options->input;
   declare_table_options(*command, *options);
   const auto& modulus = case_key("cell.bulk.young_modulus_kPa");
@@ -136,7 +136,7 @@ void add_table_command(CLI::App& analytic) {
 
 void add_lines_command(CLI::App& analytic) {
   auto* command = analytic.add_subcommand("lines", "isoelasticity lines for dclab");
-  auto options = std::make_shared<TableOptions>();
+  auto options = std::make_shared<AnalyticTableOptions>();
   declare_table_options(*command, *options);
   command
       ->add_option("--moduli-kPa", options->input.levels_kPa,

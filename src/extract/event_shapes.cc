@@ -11,7 +11,7 @@ namespace rheocyte {
 namespace {
 
 constexpr const char* stored_ratio = "inert_ratio_cvx";
-constexpr std::size_t looked_at = 1024, at_a_time = 64;  // events, for the direction
+constexpr std::size_t outlines_looked_at = 1024, at_a_time = 64;  // events, for the direction
 constexpr int second_mode = int(ShapeFeature::first_mode), third_mode = second_mode + 1;
 
 }  // namespace
@@ -44,7 +44,7 @@ EventShapes::EventShapes(const Recording& recording, const MeasuringConditions& 
 }
 
 void EventShapes::find_direction() {
-  const std::size_t events = recording_.events(), pieces = std::min(looked_at, events) / at_a_time + 1;
+  const std::size_t events = recording_.events(), pieces = std::min(outlines_looked_at, events) / at_a_time + 1;
   double sum = 0, squares = 0, count = 0;
   for (std::size_t piece = 0; piece < pieces; ++piece) {
     const std::size_t first = piece * events / pieces, last = std::min(first + at_a_time, events);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double min_viscosity_mPas = 0.2;  // water has 0.28 where it boils
 constexpr double rate_tolerance = 0.01, area_tolerance = 0.02;
-constexpr std::size_t looked_at = 4096;  // events
+constexpr std::size_t events_looked_at = 4096;  // events
 
 void add_rate(const Recording& recording, double rate_ul_s, std::vector<std::string>& sentences) {
   const auto sample = recording.metadata().number("setup:flow rate sample"),
@@ -32,7 +32,7 @@ void add_rate(const Recording& recording, double rate_ul_s, std::vector<std::str
 // Areas are stored in um^2 and in pixels: their ratio is the area of a pixel.
 void add_pixel(const Recording& recording, double pixel_size_um, std::vector<std::string>& sentences) {
   if (!recording.has_scalar("area_um") || !recording.has_scalar("area_cvx")) return;
-  const std::size_t count = std::min(looked_at, recording.events());
+  const std::size_t count = std::min(events_looked_at, recording.events());
   std::vector<double> um2(count), pixels(count), ratios;
   recording.read_scalar("area_um", 0, um2);
   recording.read_scalar("area_cvx", 0, pixels);

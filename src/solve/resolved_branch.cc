@@ -9,14 +9,15 @@ namespace {
 
 /// Resolutions of the way along the branch. Coarse ones cost 3 ms per Newton iteration and mostly go all the way;
 /// near the end of the branch the rear shoulder and the front tip need the fine ones.
-const std::array<Resolution, 4> ways = {{{{2, 4, 1, 2}, 4}, {{2, 4, 1, 2}, 6}, {{3, 6, 1, 2}, 6}, {{3, 6, 1, 2}, 8}}};
+const std::array<Resolution, 4> meshes_on_the_way = {
+    {{{2, 4, 1, 2}, 4}, {{2, 4, 1, 2}, 6}, {{3, 6, 1, 2}, 6}, {{3, 6, 1, 2}, 8}}};
 
 constexpr std::size_t ways_of_quick_search = 2;
 
 /// Least step (relative) where a finer resolution can go on, and where none can.
-constexpr double min_step_before_refining = 0.03, min_step_at_last = 2e-3;
+constexpr double min_branch_step_before_refining = 0.03, min_branch_step_at_last = 2e-3;
 /// Intermediate states serve as starting points only.
-constexpr double tolerance_on_the_way = 1e-7;
+constexpr double branch_tolerance = 1e-7;
 
 std::shared_ptr<Discrete> discretise(const Problem& problem, const Resolution& resolution) {
   return std::make_shared<Discrete>(problem, resolution);
@@ -97,9 +98,9 @@ ContinuationOptions options_on_the_way(const Problem& problem, const NewtonOptio
     return true;
   };
   options.newton = newton;
-  options.newton.tolerance = tolerance_on_the_way;
+  options.newton.tolerance = branch_tolerance;
   options.newton.iteration_limit = 5;
-  options.min_step = last ? min_step_at_last : min_step_before_refining;
+  options.min_step = last ? min_branch_step_at_last : min_branch_step_before_refining;
   return options;
 }
 
@@ -113,7 +114,7 @@ bool is_hopeless(double coarse_end, double end) {
 
 ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton, const BranchObserver& observe,
                             Search search) {
-  const std::size_t count = search == Search::quick ? ways_of_quick_search : ways.size();
+  const std::size_t count = search == Search::quick ? ways_of_quick_search : meshes_on_the_way.size();
   ResolvedState state;
   double seen = 0;  // a resolution that starts anew need not show again what a coarser one showed
   const BranchObserver observe_new = [&](const Discretisation& space, const BranchState& branch) {
@@ -121,9 +122,9 @@ ResolvedState follow_branch(const Problem& problem, const NewtonOptions& newton,
     seen = std::max(seen, branch.parameter);
   };
   for (std::size_t i = 0; i < count; ++i) {
-    const bool last = i + 1 == ways.size();
+    const bool last = i + 1 == meshes_on_the_way.size();
     const ContinuationOptions options = options_on_the_way(problem, newton, last, observe_new);
-    ResolvedState next = enter(problem, options, state, ways[i]);
+    ResolvedState next = enter(problem, options, state, meshes_on_the_way[i]);
     if (next.status == Status::converged) advance(problem, options, next);
     next.steps += state.steps;
     next.newton_iterations += state.newton_iterations;

@@ -13,7 +13,7 @@
 namespace rheocyte {
 namespace {
 
-constexpr double final_tolerance = 1e-10;
+constexpr double session_tolerance = 1e-10;
 /// Greatest relative change of any number of the problem that a kept state is carried over, and greatest change of the
 /// surface's stretch by it: farther on the state may belong to another branch.
 constexpr double max_change = 0.2, max_stretch_change = 0.06;
@@ -179,7 +179,7 @@ StationaryState Session::solve(const Problem& problem, const ProgressCallback& p
   const auto start = std::chrono::steady_clock::now();
   StationaryState result;
   result.shape = measure(Contour{});  // not a number until there is a shape
-  const NewtonOptions newton{.tolerance = final_tolerance, .stop = stop};
+  const NewtonOptions newton{.tolerance = session_tolerance, .stop = stop};
   const auto report = [&](const BranchStep& point) {
     result.branch.push_back(point);
     if (progress) progress(point);

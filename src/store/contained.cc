@@ -30,16 +30,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Kind = ContainedEnd::Kind;
 
-enum class Message : char { progress = 'p', result = 'r', user_error = 'u', own_error = 'o', no_memory = 'm' };
+enum class MessageKind : char { progress = 'p', result = 'r', user_error = 'u', own_error = 'o', no_memory = 'm' };
 
 struct Header {
-  Message message;
+  MessageKind message;
   std::uint32_t length;
 };
 
 constexpr std::uint32_t longest_message = 1 << 24;
 
-void send(int pipe, Message message, const void* data, std::size_t length) {
+void send(int pipe, MessageKind message, const void* data, std::size_t length) {
   std::string bytes(sizeof(Header) + length, '\0');
   Header header{};
   header.message = message;
@@ -53,14 +53,14 @@ void send(int pipe, Message message, const void* data, std::size_t length) {
   }
 }
 
-void send(int pipe, Message message, const std::string& text) { send(pipe, message, text.data(), text.size()); }
+void send(int pipe, MessageKind message, const std::string& text) { send(pipe, message, text.data(), text.size()); }
 
 int pipe_to_parent = -1;
 
 // Ends the child at once: Eigen's matrices do not survive std::bad_alloc, and nothing here can be saved.
 [[noreturn]] void tell_of_no_memory() {
   Header header{};
-  header.message = Message::no_memory;
+  header.message = MessageKind::no_memory;
   static_cast<void>(!::write(pipe_to_parent, &header, sizeof header));
   ::_exit(0);
 }
@@ -116,14 +116,14 @@ class SignalsHeldBack {
   limit(limits);
   try {
     const std::string text =
-        work([pipe](double fraction) { send(pipe, Message::progress, &fraction, sizeof fraction); });
-    send(pipe, Message::result, text);
+        work([pipe](double fraction) { send(pipe, MessageKind::progress, &fraction, sizeof fraction); });
+    send(pipe, MessageKind::result, text);
   } catch (const UserError& error) {
-    send(pipe, Message::user_error, error.what());
+    send(pipe, MessageKind::user_error, error.what());
   } catch (const std::bad_alloc&) {
-    send(pipe, Message::no_memory, std::string());
+    send(pipe, MessageKind::no_memory, std::string());
   } catch (const std::exception& error) {
-    send(pipe, Message::own_error, error.what());
+    send(pipe, MessageKind::own_error, error.what());
   }
   ::_exit(0);  // no destructors of the parent's objects, no flushing of its buffers
 }
@@ -156,17 +156,17 @@ class Inbox {
     if (header.length > longest_message || bytes_.size() < sizeof header + header.length) return false;
     const std::string text = bytes_.substr(sizeof header, header.length);
     bytes_.erase(0, sizeof header + header.length);
-    if (header.message == Message::progress) {
+    if (header.message == MessageKind::progress) {
       double fraction = 0;
       if (text.size() == sizeof fraction) std::memcpy(&fraction, text.data(), sizeof fraction);
       on_progress_(fraction);
       return true;
     }
     end_.text = text;
-    end_.kind = header.message == Message::result       ? Kind::finished
-                : header.message == Message::user_error ? Kind::user_error
-                : header.message == Message::no_memory  ? Kind::no_memory
-                                                        : Kind::own_error;
+    end_.kind = header.message == MessageKind::result       ? Kind::finished
+                : header.message == MessageKind::user_error ? Kind::user_error
+                : header.message == MessageKind::no_memory  ? Kind::no_memory
+                                                            : Kind::own_error;
     has_end_ = true;
     return true;
   }

@@ -15,13 +15,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+[[noreturn]] void refuse_file(const fs::path& path, const std::string& reason) {
   throw UserError(fmt::format("{}: {}", path.string(), reason));
 }
 
 [[noreturn]] void refuse_writing(const fs::path& path, int error_number) {
-  refuse(path, fmt::format("cannot be written ({}); an older file is left as it was.",
-                           std::generic_category().message(error_number)));
+  refuse_file(path, fmt::format("cannot be written ({}); an older file is left as it was.",
+                                std::generic_category().message(error_number)));
 }
 
 bool begins_with(const fs::path& path, std::string_view mark) {
@@ -37,22 +37,23 @@ void check_replaceable(const fs::path& path, std::string_view mark, Foreign fore
   std::error_code error;
   const auto status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) return;
-  if (error) refuse(path, fmt::format("cannot write there ({}).", error.message()));
-  if (fs::is_directory(status)) refuse(path, "is a folder; give the name of a file with -o.");
-  if (!fs::is_regular_file(status)) refuse(path, "is not a regular file; give another name with -o.");
+  if (error) refuse_file(path, fmt::format("cannot write there ({}).", error.message()));
+  if (fs::is_directory(status)) refuse_file(path, "is a folder; give the name of a file with -o.");
+  if (!fs::is_regular_file(status)) refuse_file(path, "is not a regular file; give another name with -o.");
   if (foreign == Foreign::replace || begins_with(path, mark)) return;
-  refuse(path, foreign == Foreign::keep
-                   ? "is there and was not written by rheocyte; move it away, or name another folder with -o."
-                   : "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
+  refuse_file(path,
+              foreign == Foreign::keep
+                  ? "is there and was not written by rheocyte; move it away, or name another folder with -o."
+                  : "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
 }
 
 void write_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, Foreign foreign) {
   std::error_code error;
   const fs::path path = fs::weakly_canonical(fs::absolute(wanted), error);  // a link stays a link
-  if (error) refuse(wanted, fmt::format("cannot write there ({}).", error.message()));
+  if (error) refuse_file(wanted, fmt::format("cannot write there ({}).", error.message()));
   check_replaceable(path, mark, foreign);
   fs::create_directories(path.parent_path(), error);
-  if (error) refuse(wanted, fmt::format("cannot make its folder ({}).", error.message()));
+  if (error) refuse_file(wanted, fmt::format("cannot make its folder ({}).", error.message()));
   if (const int failed = write_whole_file(path, content)) refuse_writing(wanted, failed);
 }
 

@@ -49,13 +49,13 @@ bool send_pieces(int socket, Word word, std::string_view text) {
   return true;
 }
 
-struct Message {
+struct HostMessage {
   Word word = Word::done;
   std::string text;
 };
 
 /// Nothing once the other end is closed, or silent for too long.
-std::optional<Message> receive_message(int socket) {
+std::optional<HostMessage> receive_message(int socket) {
   std::string packet(longest_piece + 1, '\0');
   for (;;) {
     pollfd awaited{socket, POLLIN, 0};
@@ -65,7 +65,7 @@ std::optional<Message> receive_message(int socket) {
     const ssize_t count = ::recv(socket, packet.data(), packet.size(), 0);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return std::nullopt;
-    return Message{static_cast<Word>(packet.front()), packet.substr(1, static_cast<std::size_t>(count) - 1)};
+    return HostMessage{static_cast<Word>(packet.front()), packet.substr(1, static_cast<std::size_t>(count) - 1)};
   }
 }
 

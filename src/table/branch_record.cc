@@ -20,7 +20,7 @@ std::vector<std::string> measure_names() {
   return names;
 }
 
-constexpr RecordKind kind{"rheocyte branch", "2", "record of a branch", "delete it, and it is computed again"};
+constexpr RecordKind branch_kind{"rheocyte branch", "2", "record of a branch", "delete it, and it is computed again"};
 
 json blob_of_all(const std::vector<Eigen::MatrixX2d>& contours) {
   std::vector<double> all;
@@ -109,7 +109,7 @@ SampledBranch branch_of(const json& record) {
 }
 
 SampledBranch checked_branch(std::string_view bytes, const std::string& spec_hash) {
-  const OpenedRecord opened = opened_record(kind, bytes);
+  const OpenedRecord opened = opened_record(branch_kind, bytes);
   if (opened.spec_hash != spec_hash) throw DamagedRecord{"it belongs to another spec"};
   return branch_of(opened.record);
 }
@@ -117,15 +117,15 @@ SampledBranch checked_branch(std::string_view bytes, const std::string& spec_has
 }  // namespace
 
 std::string branch_record_format() {
-  return fmt::format("{} {}: {}", kind.kind, kind.format, joined(measure_names(), ", "));
+  return fmt::format("{} {}: {}", branch_kind.kind, branch_kind.format, joined(measure_names(), ", "));
 }
 
 std::string to_bytes(const SampledBranch& branch, const std::string& spec_hash) {
-  return sealed_record(kind, spec_hash, record_of(branch));
+  return sealed_record(branch_kind, spec_hash, record_of(branch));
 }
 
 SampledBranch branch_from_bytes(std::string_view bytes, const std::string& spec_hash, const std::string& name) {
-  return read_or_refuse(kind, name, [&] { return checked_branch(bytes, spec_hash); });
+  return read_or_refuse(branch_kind, name, [&] { return checked_branch(bytes, spec_hash); });
 }
 
 }  // namespace rheocyte

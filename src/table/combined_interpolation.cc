@@ -18,7 +18,7 @@ namespace rheocyte {
 namespace {
 
 /// Where a dent appears, the hull's features bend at another deformation in each branch: higher degrees do worse.
-constexpr int max_stencil = 4;
+constexpr int max_combined_stencil = 4;
 
 /// The interval of ascending nodes that holds x, or the nearest one.
 int interval_of(std::span<const double> nodes, double x) {
@@ -34,11 +34,11 @@ struct Window {
 Window window_of(std::span<const double> nodes, double x, const std::function<bool(int)>& is_usable) {
   const int below = interval_of(nodes, x), count = int(nodes.size());
   Window window{below, std::min(below + 2, count)};
-  for (bool down = true, up = true; (down || up) && window.end - window.first < max_stencil;) {
+  for (bool down = true, up = true; (down || up) && window.end - window.first < max_combined_stencil;) {
     down = down && window.first > 0 && is_usable(window.first - 1);
     if (down) --window.first;
     up = up && window.end < count && is_usable(window.end);
-    if (up && window.end - window.first < max_stencil) ++window.end;
+    if (up && window.end - window.first < max_combined_stencil) ++window.end;
   }
   return window;
 }

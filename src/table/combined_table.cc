@@ -65,9 +65,9 @@ std::string row_text(const CombinedBranch& branch, int i) {
 }
 
 // Goes over the lines of a file and keeps the place of errors.
-class Reader {
+class CombinedReader {
  public:
-  Reader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+  CombinedReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
   CombinedTable read(const TableSpec& spec) {
     CombinedTable table{spec, {}};
@@ -177,7 +177,7 @@ std::string combined_ends_csv(std::span<const SampledBranch> branches) {
 std::string combined_table_name(const TableSpec& spec) { return fmt::format("combined_{}.csv", spec.identifier); }
 
 CombinedTable parse_combined_table(const TableSpec& spec, std::string_view csv, const std::string& name) {
-  return Reader(csv, name).read(spec);
+  return CombinedReader(csv, name).read(spec);
 }
 
 CombinedTable read_combined_table(const std::filesystem::path& folder) {

@@ -14,7 +14,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr int max_stencil = 6;
+constexpr int max_grid_stencil = 6;
 constexpr double min_height = 0.02;     // of a column, in ln(deformation)
 constexpr double trusted_error = 1e-3;  // of nodes along the border; beyond it other ways are looked at, too
 constexpr int near_branches = 10;       // on each side, among which a column finds its neighbours
@@ -38,7 +38,7 @@ std::optional<NodeValue> value_at(std::span<const Crossing> line, double log_are
   const auto &a = line[static_cast<std::size_t>(below)], &b = line[static_cast<std::size_t>(below) + 1];
   const double slack = 0.5 * (b.log_area - a.log_area);
   if (log_area < a.log_area - slack || log_area > b.log_area + slack) return {};
-  const auto count = std::min<std::ptrdiff_t>(max_stencil, size);
+  const auto count = std::min<std::ptrdiff_t>(max_grid_stencil, size);
   const auto first = std::clamp<std::ptrdiff_t>(below - count / 2 + 1, 0, size - count);
   const auto nodes = line.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
   const auto at_column = [&](double Crossing::*member) {

@@ -15,8 +15,8 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t max_stencil = 6, fewest_states = 3;
-constexpr auto mode_count = std::tuple_size_v<RadiusModes>;
+constexpr std::size_t max_shape_stencil = 6, fewest_states = 3;
+constexpr auto shape_mode_count = std::tuple_size_v<RadiusModes>;
 constexpr Measure inertia_ratio = Measure::named("inertia_ratio"), first_mode = Measure::named("mode_2");
 
 /// The state of one radius at the deformation of a node.
@@ -33,7 +33,7 @@ std::vector<RadiusState> states_at(std::span<const RadiusBranches> radii, double
     if (!std::isfinite(stiffness)) continue;
     const Eigen::VectorXd value = interpolate(*radius.own(), stiffness);
     RadiusState state{std::log(value(int(Measure::area_um2))), value(int(inertia_ratio)), {}};
-    for (std::size_t k = 0; k < mode_count; ++k) state.modes[k] = value(int(first_mode) + int(k));
+    for (std::size_t k = 0; k < shape_mode_count; ++k) state.modes[k] = value(int(first_mode) + int(k));
     states.push_back(state);
   }
   std::ranges::sort(states, {}, &RadiusState::log_area);
@@ -54,7 +54,7 @@ std::span<const RadiusBranches> radii_near(std::span<const RadiusBranches> radii
 std::vector<double> weights_at(std::span<const RadiusState>& states, double log_area) {
   const auto behind = std::ranges::upper_bound(states, log_area, {}, &RadiusState::log_area) - states.begin();
   const bool outside = behind == 0 || behind == std::ssize(states);
-  const std::size_t count = std::min(states.size(), outside ? fewest_states : max_stencil);
+  const std::size_t count = std::min(states.size(), outside ? fewest_states : max_shape_stencil);
   const auto half = std::ptrdiff_t(count) / 2;
   const auto first = std::clamp<std::ptrdiff_t>(behind - half, 0, std::ssize(states) - std::ptrdiff_t(count));
   states = states.subspan(std::size_t(first), count);
@@ -109,10 +109,10 @@ std::optional<ShapeNodes> shapes_from_branches(const GridContent& grid, std::spa
       RadiusState sum;
       for (std::size_t i = 0; i < weights.size(); ++i) {
         sum.inertia_ratio += weights[i] * around[i].inertia_ratio;
-        for (std::size_t k = 0; k < mode_count; ++k) sum.modes[k] += weights[i] * around[i].modes[k];
+        for (std::size_t k = 0; k < shape_mode_count; ++k) sum.modes[k] += weights[i] * around[i].modes[k];
       }
       nodes.inertia_ratio.push_back(sum.inertia_ratio);
-      for (std::size_t k = 0; k < mode_count; ++k) nodes.modes[k].push_back(sum.modes[k]);
+      for (std::size_t k = 0; k < shape_mode_count; ++k) nodes.modes[k].push_back(sum.modes[k]);
     }
   }
   return nodes;

@@ -42,9 +42,9 @@ Scaling scaling_of(int measure) {
 
 /// ln(E) as a function of ln(area) and ln(d) that takes most of its changes away: the tube's table, continued in
 /// straight lines beyond its rims, or -ln(d) / 2.
-class Reference {
+class ReferenceStiffness {
  public:
-  Reference(const TableSpec& spec, const GridContent* tube) {
+  ReferenceStiffness(const TableSpec& spec, const GridContent* tube) {
     if (!tube) return;
     const ChannelFlow flow = channel_flow_of(spec.base);
     if (std::abs(flow.exponent - tube->origin.flow.exponent) > max_exponent_difference ||
@@ -84,7 +84,7 @@ class Reference {
 /// The polynomials along one computed branch over t in (0, 1].
 class Curve {
  public:
-  Curve(const SampledBranch& branch, const Reference& reference) : branch_(&branch) {
+  Curve(const SampledBranch& branch, const ReferenceStiffness& reference) : branch_(&branch) {
     const int samples = branch.samples();
     last_ = sqrt_deformation(branch, samples - 1);
     for (int k = 0; k < samples; ++k) t_.push_back(sqrt_deformation(branch, k) / last_);
@@ -224,7 +224,7 @@ class Surface {
     state.contour_slope *= by_log_stiffness;
   }
 
-  Reference reference_;
+  ReferenceStiffness reference_;
   std::vector<Curve> curves_;
 };
 

@@ -15,8 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr RecordKind kind{"rheocyte grid", "1", "grid of a table",
-                          "`rheocyte table` with the table's spec writes it anew"};
+constexpr RecordKind grid_kind{"rheocyte grid", "1", "grid of a table",
+                               "`rheocyte table` with the table's spec writes it anew"};
 constexpr int max_side = 10000;
 /// Only in grids of square channels; keys of a record stand in the order of their letters, and this one comes first.
 constexpr const char *section_key = "channel_section", *square_section = "square";
@@ -167,7 +167,7 @@ std::string TableOrigin::description() const {
 }
 
 std::string to_bytes(const GridContent& grid) {
-  return sealed_record(kind, fingerprint(grid.origin.spec), record_of(grid));
+  return sealed_record(grid_kind, fingerprint(grid.origin.spec), record_of(grid));
 }
 
 // Keys of a record stand in the order of their letters, so the numbers come behind it.
@@ -184,7 +184,7 @@ std::optional<GridHead> grid_head(std::string_view head) {
 }
 
 GridContent grid_from_bytes(std::string_view bytes, const std::string& name) {
-  return read_or_refuse(kind, name, [&] { return content_of(opened_record(kind, bytes).record); });
+  return read_or_refuse(grid_kind, name, [&] { return content_of(opened_record(grid_kind, bytes).record); });
 }
 
 }  // namespace rheocyte

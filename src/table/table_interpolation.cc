@@ -12,7 +12,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr int max_stencil = 6;
+constexpr int max_radius_stencil = 6;
 
 StiffnessAnswer no_answer(NoAnswer reason) { return {no_value, no_value, false, reason}; }
 
@@ -112,9 +112,9 @@ class TableInterpolation::Query {
       nodes.insert(in_front ? nodes.begin() : nodes.end(), *next);
       return true;
     };
-    for (bool down = true, up = true; (down || up) && int(nodes.size()) < max_stencil;) {
+    for (bool down = true, up = true; (down || up) && int(nodes.size()) < max_radius_stencil;) {
       down = down && take(low--, true);
-      if (int(nodes.size()) < max_stencil) up = up && take(high++, false);
+      if (int(nodes.size()) < max_radius_stencil) up = up && take(high++, false);
     }
     return nodes;
   }

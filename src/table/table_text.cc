@@ -41,9 +41,9 @@ std::string_view without_hash(std::string_view line) {
 }
 
 // Goes line by line over the text and keeps what it meets.
-class Reader {
+class TextReader {
  public:
-  Reader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+  TextReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
   TableText read() {
     while (!text_.empty()) {
@@ -156,7 +156,7 @@ std::string to_text(const TableText& table) {
   return text;
 }
 
-TableText parse_table_text(std::string_view text, const std::string& name) { return Reader(text, name).read(); }
+TableText parse_table_text(std::string_view text, const std::string& name) { return TextReader(text, name).read(); }
 
 TableText read_table_text(const fs::path& file) {
   const std::string name = file.string();

@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr auto look_for_client = std::chrono::milliseconds(20);
+constexpr auto look_for_client_in_time = std::chrono::milliseconds(20);
 constexpr int most_at_once = 4;
 
 /// Computes in a thread of its own; lines wait until they are taken.
@@ -47,7 +47,7 @@ class Evolution {
   void give(const TakePiece& take, const Client* client) {
     std::unique_lock lock(mutex_);
     for (bool is_last = false; !is_last;) {
-      changed_.wait_for(lock, look_for_client, [this] { return is_over_ || !lines_.empty(); });
+      changed_.wait_for(lock, look_for_client_in_time, [this] { return is_over_ || !lines_.empty(); });
       is_last = is_over_;
       const std::deque<std::string> lines = std::move(lines_);
       lines_.clear();

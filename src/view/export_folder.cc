@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t longest_name = 120;
 
-bool is_name(std::string_view name) {
+bool is_file_name(std::string_view name) {
   const auto is_odd = [](unsigned char c) { return c < 0x20 || c == 0x7F || c == '/'; };
   return !name.empty() && name.size() <= longest_name && name.front() != '.' && std::ranges::none_of(name, is_odd);
 }
@@ -39,7 +39,7 @@ ExportFolder::ExportFolder(const fs::path& folder) : folder_(fs::absolute(folder
 }
 
 fs::path ExportFolder::claim(std::string_view name) {
-  if (!is_name(name))
+  if (!is_file_name(name))
     throw Refused(400, "name",
                   fmt::format("{} is no name for a file: give one without folders that does not begin "
                               "with a point.",

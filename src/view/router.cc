@@ -22,11 +22,11 @@ std::vector<std::string> split(std::string_view path) {
   return parts;
 }
 
-bool is_name(std::string_view part) { return part.size() > 2 && part.front() == '{' && part.back() == '}'; }
+bool is_placeholder(std::string_view part) { return part.size() > 2 && part.front() == '{' && part.back() == '}'; }
 
 bool fits(const std::vector<std::string>& pattern, const std::vector<std::string>& path) {
   return std::ranges::equal(pattern, path, [](const std::string& wanted, const std::string& part) {
-    return wanted == part || (is_name(wanted) && !part.empty());
+    return wanted == part || (is_placeholder(wanted) && !part.empty());
   });
 }
 
@@ -42,7 +42,7 @@ const Router::Route* Router::find(std::string_view method, std::string_view path
       std::ranges::find_if(routes_, [&](const Route& r) { return r.method == method && fits(r.pattern, asked); });
   if (found == routes_.end()) return nullptr;
   for (std::size_t i = 0; parts && i < asked.size(); ++i)
-    if (const std::string& name = found->pattern[i]; is_name(name))
+    if (const std::string& name = found->pattern[i]; is_placeholder(name))
       (*parts)[name.substr(1, name.size() - 2)] = asked[i];
   return &*found;
 }
