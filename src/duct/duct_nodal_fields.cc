@@ -53,7 +53,7 @@ MatrixXd DuctNodalFields::of_element(int e) const {
   const HexahedronUnknowns& self = space_.elements()[e];
   const auto& nodes = space_.nodes().of_element[e];
   const int n = space_.reference().nodes();
-  const double um = 1e6 * scales_.length_m, U = scales_.velocity_m_per_s;
+  const double um = scales_.length_um(), U = scales_.velocity_m_per_s;
 
   MatrixXd fields = MatrixXd::Zero(n, columns);
   fields.col(region).setConstant(self.liquid ? 0 : 1);

@@ -107,7 +107,7 @@ SampledFields sample_duct_fields(const DuctSpace& space, const Media& media, con
     s.in_cell.insert(s.in_cell.end(), std::size_t(of_face), space.elements()[faces[i].element].liquid ? 0 : 1);
     add_grid_triangles(std::uint32_t(first), divisions, s.triangles);
   }
-  add_surface(space, unknowns, 1e6 * scales.length_m, s);
+  add_surface(space, unknowns, scales.length_um(), s);
   return s;
 }
 

@@ -91,7 +91,7 @@ void NodalFields::add_cell_stress(int e, MatrixXd& fields) const {
 
 MatrixXd NodalFields::in_liquid_interior(int e) const {
   const auto& nodes = space_.nodes().of_element[e];
-  const double um = 1e6 * scales_.length_m;
+  const double um = scales_.length_um();
   const double rest_pressure = 2 * media_.cortex.tension / space_.mesh().geometry().radius();
   MatrixXd fields = MatrixXd::Zero(Eigen::Index(nodes.size()), columns);
   fields.col(region).setOnes();
@@ -110,7 +110,7 @@ MatrixXd NodalFields::of_element(int e) const {
   const auto& nodes = space_.nodes().of_element[e];
   const int n = int(nodes.size()), m = element.position_columns;
   const VectorXd local = local_values(element, unknowns_);
-  const double um = 1e6 * scales_.length_m, v_cell = unknowns_(space_.cell_velocity());
+  const double um = scales_.length_um(), v_cell = unknowns_(space_.cell_velocity());
   const double rest_pressure = 2 * media_.cortex.tension / space_.mesh().geometry().radius();
 
   MatrixXd fields = MatrixXd::Zero(n, columns);

@@ -48,18 +48,17 @@ std::uint64_t place_on_curve(double x, double y) {
   return spread(x) | spread(y) << 1U;
 }
 
-// The triangles, those that are near each other in the plane near each other in memory.
+// The triangles of points between min and max, those that are near each other in the plane near each other in memory.
 std::vector<std::array<std::int32_t, 3>> along_curve(std::vector<std::array<std::int32_t, 3>> triangles,
-                                                     std::span<const PlanePoint> points) {
-  const auto [left, right] = std::ranges::minmax(points, {}, &PlanePoint::x);
-  const auto [low, high] = std::ranges::minmax(points, {}, &PlanePoint::y);
+                                                     std::span<const PlanePoint> points, PlanePoint min,
+                                                     PlanePoint max) {
   using Placed = std::pair<std::uint64_t, std::array<std::int32_t, 3>>;
   std::vector<Placed> placed;
   placed.reserve(triangles.size());
   for (const auto& c : triangles) {
     const double x = (points[c[0]].x + points[c[1]].x + points[c[2]].x) / 3;
     const double y = (points[c[0]].y + points[c[1]].y + points[c[2]].y) / 3;
-    placed.emplace_back(place_on_curve((x - left.x) / (right.x - left.x), (y - low.y) / (high.y - low.y)), c);
+    placed.emplace_back(place_on_curve((x - min.x) / (max.x - min.x), (y - min.y) / (max.y - min.y)), c);
   }
   std::ranges::sort(placed);
   std::ranges::transform(placed, triangles.begin(), &Placed::second);
@@ -87,7 +86,7 @@ void Triangulation::make_triangles(std::span<const PlanePoint> points, std::span
   least_ = {left.x, low.y};
   greatest_ = {right.x, high.y};
   std::vector<Corners> kept;
-  for (const Corners& corners : along_curve(delaunay_triangles(points), points)) {
+  for (const Corners& corners : along_curve(delaunay_triangles(points), points, least_, greatest_)) {
     const auto& [first, second, third] = corners;
     const PlanePoint a = points[first], b = points[second], last = points[third];
     const double determinant = (a.x - last.x) * (b.y - last.y) - (b.x - last.x) * (a.y - last.y);

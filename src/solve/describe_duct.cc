@@ -168,7 +168,7 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
   if (space.turns()) return;  // pictures show halves of planes through the axis
   r.sample_fields = [=, camera = problem.camera](const Scales& scales, int points) {
     SampledFields fields = sample_duct_fields(discrete->space, media, unknowns, scales, camera, points);
-    const auto place = float(1e6 * scales.length_m * volume.barycentre);
+    const auto place = float(scales.length_um() * volume.barycentre);
     fields.point_um.col(0).array() -= place;
     fields.surface_um.col(0).array() -= place;
     return fields;
