@@ -28,18 +28,19 @@ std::vector<int> places(const int* unknowns, int count, const std::vector<int>& 
 
 /// Adds the block of one pair of components.
 void scatter(const TensorTangent& block, int nodes_1d, const std::vector<int>& rows, const Slot* columns,
-             const std::vector<int>& place, MatrixXd& matrix) {
+             const std::vector<int>& place, NestedLU::Matrix& matrix) {
   const int n = nodes_1d;
   for (int j = 0; j < n * n * n; ++j) {
     const Slot& slot = columns[j];
     if (slot.unknown < 0 || slot.factor == 0) continue;
-    double* column = matrix.col(place[slot.unknown]).data();
+    float* column = matrix.col(place[slot.unknown]).data();
+    const auto factor = float(slot.factor);
     for (int i3 = 0; i3 < n; ++i3) {
       for (int i2 = 0; i2 < n; ++i2) {
-        const double* run = block.run(i2, i3, j % n, j / n % n, j / (n * n));
+        const float* run = block.run(i2, i3, j % n, j / n % n, j / (n * n));
         const int* row = rows.data() + n * (i2 + n * i3);
         for (int i1 = 0; i1 < n; ++i1) {
-          if (row[i1] >= 0) column[row[i1]] += slot.factor * run[i1];
+          if (row[i1] >= 0) column[row[i1]] += factor * run[i1];
         }
       }
     }
@@ -117,7 +118,7 @@ VectorXd integrate_hexahedron(const DuctSpace& space, const TensorElement& eleme
 /// Adds what the pressure modes do to the momentum a, and the displacements or velocities b to the tests of pressures.
 template <class Fields>
 void HexahedronTangent::add_pressures(const HexahedronUnknowns& self, const HexahedronPoints& points,
-                                      const std::vector<int>& place, MatrixXd& matrix) {
+                                      const std::vector<int>& place, NestedLU::Matrix& matrix) {
   const MatrixXd& modes = element_modes_;
   const int n = int(self.rows.size() - self.pressure.size()) / 3, m = int(self.pressure.size());
   const auto slope = [&](int flux, int input) { return points.fluxes.flux_slopes.col(flux * Fields::count + input); };
@@ -131,9 +132,9 @@ void HexahedronTangent::add_pressures(const HexahedronUnknowns& self, const Hexa
   for (int a = 0; a < 3; ++a) {
     const MatrixXd block = tested([&](int k) { return slope(4 * a + k, p); });
     for (int j = 0; j < m; ++j) {
-      double* column = matrix.col(place[self.pressure[j].unknown]).data();
+      float* column = matrix.col(place[self.pressure[j].unknown]).data();
       for (int i = 0; i < n; ++i) {
-        if (rows[a * n + i] >= 0) column[rows[a * n + i]] += block(j, i);
+        if (rows[a * n + i] >= 0) column[rows[a * n + i]] += float(block(j, i));
       }
     }
   }
@@ -143,8 +144,8 @@ void HexahedronTangent::add_pressures(const HexahedronUnknowns& self, const Hexa
       for (int j = 0; j < n; ++j) {
         const Slot& slot = columns[b * n + j];
         if (slot.unknown < 0) continue;
-        double* column = matrix.col(place[slot.unknown]).data();
-        for (int i = 0; i < m; ++i) column[rows[3 * n + i]] += slot.factor * block(i, j);
+        float* column = matrix.col(place[slot.unknown]).data();
+        for (int i = 0; i < m; ++i) column[rows[3 * n + i]] += float(slot.factor * block(i, j));
       }
     }
   };
@@ -154,7 +155,7 @@ void HexahedronTangent::add_pressures(const HexahedronUnknowns& self, const Hexa
 
 template <class Fields>
 void HexahedronTangent::add_fields(const HexahedronUnknowns& self, bool has_inertia, const HexahedronPoints& points,
-                                   const std::vector<int>& place, MatrixXd& matrix) {
+                                   const std::vector<int>& place, NestedLU::Matrix& matrix) {
   const int n = int(self.rows.size() - self.pressure.size()) / 3;
   const auto add = [&](Source source, const std::vector<Slot>& columns, int a, int b) {
     TensorTangent::Coefficients coefficients{};
@@ -178,7 +179,7 @@ void HexahedronTangent::add_fields(const HexahedronUnknowns& self, bool has_iner
 }
 
 void HexahedronTangent::add(const HexahedronUnknowns& self, bool has_inertia, const HexahedronPoints& points,
-                            const std::vector<int>& place, MatrixXd& matrix) {
+                            const std::vector<int>& place, NestedLU::Matrix& matrix) {
   if (self.liquid) {
     add_fields<Moving>(self, has_inertia, points, place, matrix);
   } else {

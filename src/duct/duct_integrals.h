@@ -3,6 +3,7 @@
 #pragma once
 #include "duct/duct_space.h"
 #include "fem/element_integrals.h"
+#include "fem/nested_lu.h"
 #include "fem/tensor_tangent.h"
 
 namespace rheocyte {
@@ -34,15 +35,15 @@ class HexahedronTangent {
   HexahedronTangent(const TensorElement& element, const ReferenceElement<3>& reference)
       : element_(element), element_modes_(reference.pressure.value), tangent_(element) {}
   void add(const HexahedronUnknowns&, bool has_inertia, const HexahedronPoints&, const std::vector<int>& place,
-           MatrixXd& matrix);
+           NestedLU::Matrix& matrix);
 
  private:
   template <class Fields>
   void add_fields(const HexahedronUnknowns&, bool has_inertia, const HexahedronPoints&, const std::vector<int>& place,
-                  MatrixXd& matrix);
+                  NestedLU::Matrix& matrix);
   template <class Fields>
   void add_pressures(const HexahedronUnknowns&, const HexahedronPoints&, const std::vector<int>& place,
-                     MatrixXd& matrix);
+                     NestedLU::Matrix& matrix);
 
   const TensorElement& element_;
   const MatrixXd& element_modes_;

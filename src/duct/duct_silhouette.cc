@@ -8,6 +8,7 @@
 
 #include "duct/farthest_place.h"
 #include "numeric/roots.h"
+#include "shape/curve.h"
 
 namespace rheocyte {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 constexpr double right_angle = std::numbers::pi / 2;
 /// Of an outline that is no line of the mesh.
 constexpr int off_axis_pieces = 48;
+/// Of a contour's pieces at least: arcs of the sphere then are round to 1e-12.
+constexpr int contour_degree = 9;
 
 /// Axes of a camera.
 struct View {
@@ -171,7 +174,7 @@ Pieces farthest_places(const DuctSurfaceMap& surface, const View& view, const Ve
 Contour off_axis_contour(const DuctSurfaceMap& surface, const View& view) {
   const FarthestPlace farthest(surface);
   const auto point = [&](const SurfacePlace& place) {
-    const DuctPoint x = surface.now(place).x;
+    const DuctPoint x = surface.point(place);
     return Eigen::Vector2d(x(0), view.across.dot(x));
   };
   Contour contour;
@@ -237,10 +240,11 @@ Contour duct_contour(const DuctSpace& space, const VectorXd& unknowns, Camera ca
   const View view = view_of(space, camera);
   if (space.turns()) return off_axis_contour(surface, view);
   Contour contour;
-  for (const auto& places : silhouette(surface, view, space.reference().nodes_1d)) {
+  const VectorXd& along = lobatto_nodes(std::max(space.reference().degree(), contour_degree));
+  for (const auto& places : silhouette(surface, view, along)) {
     CurvePiece& piece = contour.pieces.emplace_back(places.size(), 2);
     for (int k = 0; k < piece.rows(); ++k) {
-      const DuctPoint x = surface.now(places[k]).x;
+      const DuctPoint x = surface.point(places[k]);
       piece.row(k) << x(0), view.across.dot(x);
     }
   }

@@ -45,6 +45,11 @@ DuctSurfaceMap::DuctSurfaceMap(const DuctSpace& space, const VectorXd& unknowns)
   }
 }
 
+DuctPoint DuctSurfaceMap::point(const SurfacePlace& at) const {
+  const DuctPoint sphere = space_.mesh().point(faces_[at.face].element, {at.s, at.t, 1});
+  return sphere + now(at).x - rest(at).x;
+}
+
 SurfaceJet DuctSurfaceMap::jet(const Nodes& nodes, const SurfacePlace& at) const {
   const int degree = space_.reference().degree();
   const auto tables = [&](double coordinate) {

@@ -34,6 +34,9 @@ class DuctSurfaceMap {
   const std::vector<SurfaceFace>& faces() const { return faces_; }
   SurfaceJet now(const SurfacePlace& at) const { return jet(now_[at.face], at); }
   SurfaceJet rest(const SurfacePlace& at) const { return jet(rest_[at.face], at); }
+  /// The point of the sphere itself, which the polynomials of `rest` meet in their nodes alone, moved by the
+  /// displacement of `now`. So an undeformed cell is round to rounding.
+  DuctPoint point(const SurfacePlace&) const;
 
  private:
   using Nodes = std::array<MatrixXd, 3>;  ///< x, y, z by node along s and t

@@ -1,9 +1,11 @@
 #include "duct/duct_system.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "duct/duct_ends.h"
 #include "duct/observe_duct.h"
@@ -68,7 +70,8 @@ double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
   return undisturbed_->second;
 }
 
-VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, Want want, double& min_det) {
+VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use, double& min_det) {
+  const Want want = use ? Want::residual_and_tangent : Want::residual;
   // The undisturbed pressure vanishes at the cell.
   const double end_pressure = drop_ * undisturbed_gradient(media.liquid) * space_.mesh().geometry().half_length();
   VectorXd total = -end_pressure * outlet_load_;
@@ -95,7 +98,7 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, Want
       add_cortex(e, media.cortex, unknowns, want, total);
     }
     const Stopwatch watch(work_.condensation_s);
-    lu_.condense(e, matrix_);
+    use(e, lu_.order(e), matrix_);
   }
   turning_.add_residual(unknowns, total);
   return total;
@@ -111,21 +114,33 @@ void DuctSystem::add_cortex(int element, const Cortex& cortex, const VectorXd& u
     total(rows[j]) += face_.residual(j);
     if (want == Want::residual) continue;
     for (int i = 0; i < int(rows.size()); ++i) {
-      if (rows[i] >= 0) matrix_(place_[rows[i]], place_[rows[j]]) += face_.tangent(i, j);
+      if (rows[i] >= 0) matrix_(place_[rows[i]], place_[rows[j]]) += float(face_.tangent(i, j));
     }
   }
 }
 
 VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, double& min_det) {
-  return assemble(media, unknowns, Want::residual, min_det);
+  return assemble(media, unknowns, {}, min_det);
 }
 
 VectorXd DuctSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
-  VectorXd total = assemble(media, unknowns, Want::residual_and_tangent, min_det);
+  const auto condense = [this](int e, const std::vector<int>&, NestedLU::Matrix& tangent) { lu_.condense(e, tangent); };
+  VectorXd total = assemble(media, unknowns, condense, min_det);
   const Stopwatch watch(work_.sparse_s);
-  factorised = total.allFinite() && lu_.factorise();
+  factorised = has_factors_ = total.allFinite() && lu_.factorise();
   ++work_.factorisations;
   return total;
+}
+
+void DuctSystem::exchange_factors(DuctSystem& other) {
+  assert(space_.unknowns() == other.space_.unknowns() && space_.elements().size() == other.space_.elements().size());
+  std::swap(lu_, other.lu_);
+  std::swap(has_factors_, other.has_factors_);
+}
+
+void DuctSystem::drop_factors() {
+  lu_.drop_factors();
+  has_factors_ = false;
 }
 
 VectorXd DuctSystem::solve(const VectorXd& rhs) {

@@ -1,6 +1,7 @@
 // The nonlinear system of cell and liquid in a duct: residual, exact tangent, and its factorisation
 // subdomain by subdomain (docs/theory-square.md).
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -14,6 +15,9 @@ namespace rheocyte {
 
 class DuctSystem final : public NonlinearSystem {
  public:
+  /// Is given the tangent of an element, with rows and columns in the order of these unknowns.
+  using UseTangent = std::function<void(int element, const std::vector<int>& order, NestedLU::Matrix& tangent)>;
+
   /// The space must outlive this object. Where the pressure drop is given, it is `drop` times that of the undisturbed
   /// flow at mean speed 1. Bending stiffness is not for this system.
   explicit DuctSystem(const DuctSpace&, double drop = 1);
@@ -22,6 +26,8 @@ class DuctSystem final : public NonlinearSystem {
   const TensorElement& element() const { return element_; }
 
   VectorXd sphere() const override;
+  /// The residual; the tangent, if it is used, is given element by element, and is the sum of these.
+  VectorXd assemble(const Media&, const VectorXd& unknowns, const UseTangent&, double& min_det);
   VectorXd residual(const Media&, const VectorXd& unknowns, double& min_det) override;
   VectorXd linearise(const Media&, const VectorXd& unknowns, double& min_det, bool& factorised) override;
   VectorXd solve(const VectorXd& rhs) override;
@@ -36,9 +42,15 @@ class DuctSystem final : public NonlinearSystem {
   /// Of one factorisation of the linear system, and of the entries of its factors.
   double factorisation_flops() const { return lu_.flops(); }
   double factor_entries() const { return lu_.entries(); }
+  /// Of the factors.
+  std::size_t memory_bytes() const { return has_factors_ ? lu_.memory_bytes() : 0; }
+  bool has_factors() const { return has_factors_; }
+  /// Gives the factors to a system whose unknowns mean the same, for chord steps there, and takes the other's.
+  void exchange_factors(DuctSystem&);
+  /// Frees their memory.
+  void drop_factors();
 
  private:
-  VectorXd assemble(const Media&, const VectorXd& unknowns, Want, double& min_det);
   /// Of the face that an element shares with the cell.
   void add_cortex(int element, const Cortex&, const VectorXd& unknowns, Want, VectorXd& total);
 
@@ -48,13 +60,14 @@ class DuctSystem final : public NonlinearSystem {
   HexahedronTangent tangent_;
   DuctCortex cortex_;
   NestedLU lu_;
+  bool has_factors_ = false;
   VectorXd outlet_load_, inlet_load_;
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
   TurningSurface turning_;
   HexahedronPoints points_;
   FaceSystem face_;
-  MatrixXd matrix_;
-  std::vector<int> place_;  ///< of each unknown in the matrix of an element
+  NestedLU::Matrix matrix_;  ///< of an element
+  std::vector<int> place_;   ///< of each unknown in the matrix of an element
 };
 
 }  // namespace rheocyte

@@ -70,7 +70,7 @@ void TurningSurface::add_residual(const VectorXd& unknowns, VectorXd& total) con
 }
 
 void TurningSurface::add_tangent(int element, const VectorXd& unknowns, const std::vector<int>& place,
-                                 MatrixXd& matrix) const {
+                                 NestedLU::Matrix& matrix) const {
   if (face_of_element_[element] < 0) return;
   const Face& face = faces_[face_of_element_[element]];
   const Eigen::MatrixX3d rate = velocity(face, unknowns);
@@ -80,11 +80,11 @@ void TurningSurface::add_tangent(int element, const VectorXd& unknowns, const st
       const int own = space_.velocity(face.nodes[k], c).unknown;
       if (own < 0) continue;
       const int row = place[own];
-      matrix(row, row) += face.share(k);
-      matrix(row, place[space_.spin()]) -= face.share(k) * rate(k, c);
+      matrix(row, row) += float(face.share(k));
+      matrix(row, place[space_.spin()]) -= float(face.share(k) * rate(k, c));
       for (int j = 0; j < rate.rows(); ++j) {
         const int moved = space_.displacement(face.nodes[j], c);
-        if (moved >= 0) matrix(row, place[moved]) -= face.share(k) * spin * face.rate(k, j);
+        if (moved >= 0) matrix(row, place[moved]) -= float(face.share(k) * spin * face.rate(k, j));
       }
     }
   }

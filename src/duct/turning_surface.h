@@ -5,6 +5,7 @@
 // the current surface along the undeformed one's rotation, the mean of what the faces round the node say.
 #pragma once
 #include "duct/duct_space.h"
+#include "fem/nested_lu.h"
 
 namespace rheocyte {
 
@@ -18,7 +19,8 @@ class TurningSurface {
 
   void add_residual(const VectorXd& unknowns, VectorXd& total) const;
   /// What the face of an element of the liquid adds to its matrix, whose rows and columns are numbered by `place`.
-  void add_tangent(int element, const VectorXd& unknowns, const std::vector<int>& place, MatrixXd& matrix) const;
+  void add_tangent(int element, const VectorXd& unknowns, const std::vector<int>& place,
+                   NestedLU::Matrix& matrix) const;
 
  private:
   struct Face {

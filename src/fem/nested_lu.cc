@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "fem/nested_order.h"
+#include "fem/triangular_solve.h"
 
 namespace rheocyte {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
@@ -28,20 +28,21 @@ NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
   }
 }
 
-void NestedLU::eliminate(Front& front, MatrixXd& matrix) {
+void NestedLU::eliminate(Front& front, const Matrix& matrix) {
   const Eigen::Index f = front.eliminated, o = matrix.rows() - f;
   front.schur = matrix.bottomRightCorner(o, o);
   if (f == 0) return;
   front.lu.compute(matrix.topLeftCorner(f, f));
   front.rows = matrix.bottomLeftCorner(o, f);
-  front.solved_columns = front.lu.solve(matrix.topRightCorner(f, o));
+  front.solved_columns = front.lu.permutationP() * matrix.topRightCorner(f, o);
+  solve_triangular(front.lu.matrixLU(), front.solved_columns);
   front.schur.noalias() -= front.rows * front.solved_columns;
 }
 
-void NestedLU::condense(int element, MatrixXd& matrix) { eliminate(fronts_[element], matrix); }
+void NestedLU::condense(int element, Matrix& matrix) { eliminate(fronts_[element], matrix); }
 
 bool NestedLU::factorise() {
-  MatrixXd matrix;
+  Matrix matrix;
   for (Front& front : fronts_) {
     if (front.parts[0] < 0) continue;
     const auto n = Eigen::Index(front.unknowns.size());
@@ -65,13 +66,16 @@ bool NestedLU::factorise() {
 }
 
 VectorXd NestedLU::solve(const VectorXd& rhs) const {
-  VectorXd x = rhs;
+  // Residuals far below the smallest number of single precision are corrected as well as others.
+  const double size = rhs.cwiseAbs().maxCoeff();
+  if (size == 0 || !std::isfinite(size)) return rhs;
+  Eigen::VectorXf x = (rhs / size).cast<float>();
   for (const Front& front : fronts_) {
     if (front.eliminated == 0) continue;
     const std::vector<int>& all = front.unknowns;
     const std::vector<int> first(all.begin(), all.begin() + front.eliminated),
         rest(all.begin() + front.eliminated, all.end());
-    const VectorXd y = front.lu.solve(VectorXd(x(first)));
+    const Eigen::VectorXf y = front.lu.solve(Eigen::VectorXf(x(first)));
     x(first) = y;
     if (!rest.empty()) x(rest) -= front.rows * y;
   }
@@ -79,9 +83,16 @@ VectorXd NestedLU::solve(const VectorXd& rhs) const {
     const std::vector<int>& all = front->unknowns;
     const std::vector<int> first(all.begin(), all.begin() + front->eliminated),
         rest(all.begin() + front->eliminated, all.end());
-    if (front->eliminated > 0 && !rest.empty()) x(first) -= front->solved_columns * VectorXd(x(rest));
+    if (front->eliminated > 0 && !rest.empty()) x(first) -= front->solved_columns * Eigen::VectorXf(x(rest));
   }
-  return x;
+  return size * x.cast<double>();
+}
+
+void NestedLU::drop_factors() {
+  for (Front& front : fronts_) {
+    front.lu = {};
+    for (Matrix* matrix : {&front.solved_columns, &front.rows, &front.schur}) matrix->resize(0, 0);
+  }
 }
 
 double NestedLU::entries() const {

@@ -2,6 +2,9 @@
 // pairs in pairs, and each time all unknowns that no other element knows are eliminated from a dense matrix
 // (docs/theory-square.md, eq:nested). With 50 to 150 elements of high degree the faces between subdomains are large
 // dense blocks by themselves, so that no ordering of single unknowns could do better, and no library is needed.
+//
+// Matrices and factors have single precision, which halves memory and time: they only correct a state, and Newton's
+// method, whose residuals have double precision, goes on with the same factors until nothing is left to correct.
 #pragma once
 #include <Eigen/LU>
 #include <array>
@@ -21,6 +24,8 @@ struct CoupledUnknowns {
 
 class NestedLU {
  public:
+  using Matrix = Eigen::MatrixXf;
+
   /// Chooses the order of joining. The elements must hang together through their faces.
   NestedLU(int unknowns, const std::vector<CoupledUnknowns>&);
 
@@ -28,13 +33,18 @@ class NestedLU {
   const std::vector<int>& order(int element) const { return fronts_[element].unknowns; }
   /// Condenses an element's matrix, which may be overwritten. All elements have to be given, then `factorise` be
   /// called.
-  void condense(int element, Eigen::MatrixXd& matrix);
+  void condense(int element, Matrix& matrix);
   /// Joins the subdomains; false if the matrix is singular or not finite.
   bool factorise();
+  /// To the digits of single precision.
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
+
+  /// Frees the memory of the factors; the order stays.
+  void drop_factors();
 
   double flops() const { return flops_; }  ///< of one factorisation, elements included
   double entries() const;                  ///< of the factors
+  std::size_t memory_bytes() const { return std::size_t(entries()) * sizeof(Matrix::Scalar); }
 
  private:
   struct Front {
@@ -42,11 +52,11 @@ class NestedLU {
     int eliminated = 0;
     std::array<int, 2> parts{-1, -1};           ///< the fronts that are joined
     std::array<std::vector<int>, 2> positions;  ///< of their remaining unknowns in this one
-    Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-    Eigen::MatrixXd solved_columns, rows;  ///< K_ff^-1 K_fo and K_of
-    Eigen::MatrixXd schur;                 ///< of the remaining unknowns, until it is joined
+    Eigen::PartialPivLU<Matrix> lu;
+    Matrix solved_columns, rows;  ///< K_ff^-1 K_fo and K_of
+    Matrix schur;                 ///< of the remaining unknowns, until it is joined
   };
-  void eliminate(Front&, Eigen::MatrixXd& matrix);
+  static void eliminate(Front&, const Matrix&);
 
   std::vector<Front> fronts_;  ///< elements first, each after its parts, the whole last
   double flops_ = 0;

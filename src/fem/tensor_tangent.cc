@@ -6,6 +6,7 @@ namespace rheocyte {
 namespace {
 
 using ConstMap = Eigen::Map<const MatrixXd>;
+using ConstMapF = Eigen::Map<const Eigen::MatrixXf>;
 
 /// Applies a table (out x in) to the first index of an array, which becomes the last one: rest x out.
 MatrixXd rotate(const MatrixXd& table, const MatrixXd& array) {
@@ -28,10 +29,10 @@ TensorElement::TensorElement(int degree) : nodes_(degree + 1), points_(degree + 
   stacked_products_.resize(4 * points_, nodes_ * nodes_);
   for (int s = 0; s < 2; ++s) {
     for (int t = 0; t < 2; ++t) {
-      MatrixXd& product = products_[s][t];
+      Eigen::MatrixXf& product = products_[s][t];
       product.resize(points_, nodes_ * nodes_);
       for (int j = 0; j < nodes_; ++j)
-        product.middleCols(j * nodes_, nodes_) = shape_[t].col(j).asDiagonal() * shape_[s];
+        product.middleCols(j * nodes_, nodes_) = (shape_[t].col(j).asDiagonal() * shape_[s]).cast<float>();
       stacked_products_.middleRows((s + 2 * t) * points_, points_) = product;
     }
   }
@@ -55,7 +56,7 @@ MatrixXd TensorElement::tested(int part, const MatrixXd& at_points) const {
 
 /// sums(i3 j3; q1 q2) over q3 for rows and columns of a kind: derived in the first direction (1), in the second (2), or
 /// neither (0), which a value (part 0) and a derivative in the third one (part 3) are.
-void TensorTangent::sum_third(const Coefficients& C, int row_kind, int column_kind, MatrixXd& sums) {
+void TensorTangent::sum_third(const Coefficients& C, int row_kind, int column_kind, Eigen::MatrixXf& sums) {
   const int n = element_.nodes_, m = element_.points_;
   sums.setZero(n * n, m * m);
   const auto parts = [](int kind) { return kind == 0 ? std::array{0, 3} : std::array{kind, -1}; };
@@ -63,7 +64,7 @@ void TensorTangent::sum_third(const Coefficients& C, int row_kind, int column_ki
     for (const int l : parts(column_kind)) {
       if (k < 0 || l < 0 || !C[k][l]) continue;
       const ConstMap coefficients(C[k][l], m * m, m);
-      sums.noalias() += element_.products_[k == 3][l == 3].transpose() * coefficients.transpose();
+      sums.noalias() += element_.products_[k == 3][l == 3].transpose() * coefficients.cast<float>().transpose();
     }
   }
 }
@@ -76,13 +77,13 @@ void TensorTangent::integrate(const Coefficients& C) {
   for (int row_kind = 0; row_kind < 3; ++row_kind) {
     for (int column_kind = 0; column_kind < 3; ++column_kind) {
       sum_third(C, row_kind, column_kind, third_);
-      const ConstMap by_second(third_.data(), Eigen::Index(nn) * m, m);
+      const ConstMapF by_second(third_.data(), Eigen::Index(nn) * m, m);
       const int block = (row_kind == 1) + 2 * (column_kind == 1);
       second_.middleCols(block * Eigen::Index(nn) * m, Eigen::Index(nn) * m).noalias() +=
           element_.products_[row_kind == 2][column_kind == 2].transpose() * by_second.transpose();
     }
   }
-  const ConstMap by_first(second_.data(), Eigen::Index(nn) * nn, 4 * m);
+  const ConstMapF by_first(second_.data(), Eigen::Index(nn) * nn, 4 * m);
   result_.resize(nn, Eigen::Index(nn) * nn);
   result_.noalias() = element_.stacked_products_.transpose() * by_first.transpose();
 }

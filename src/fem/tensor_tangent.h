@@ -30,11 +30,12 @@ class TensorElement {
   std::array<MatrixXd, 2> shape_;  ///< values and derivatives: points x nodes
   std::array<MatrixXd, 2> transposed_;
   /// Products of two of these tables, [first][second]: points x nodes^2, the first function's node fastest.
-  std::array<std::array<MatrixXd, 2>, 2> products_;
-  MatrixXd stacked_products_;  ///< all four below each other, [0][0], [1][0], [0][1], [1][1]
+  std::array<std::array<Eigen::MatrixXf, 2>, 2> products_;
+  Eigen::MatrixXf stacked_products_;  ///< all four below each other, [0][0], [1][0], [0][1], [1][1]
 };
 
-/// The matrices sum_q sum_km (part k of phi_i)(q) C_km(q) (part m of phi_j)(q) of pairs of components.
+/// The matrices sum_q sum_km (part k of phi_i)(q) C_km(q) (part m of phi_j)(q) of pairs of components, in the precision
+/// of NestedLU.
 class TensorTangent {
  public:
   explicit TensorTangent(const TensorElement& element) : element_(element) {}
@@ -44,16 +45,16 @@ class TensorTangent {
   void integrate(const Coefficients&);
 
   /// The entries of column (j1, j2, j3) in the rows (0, i2, i3), (1, i2, i3), ..., which are contiguous.
-  const double* run(int i2, int i3, int j1, int j2, int j3) const {
+  const float* run(int i2, int i3, int j1, int j2, int j3) const {
     const int n = element_.nodes_;
     return result_.data() + n * (j1 + n * ((i2 + n * j2) + n * n * (i3 + n * j3)));
   }
 
  private:
-  void sum_third(const Coefficients&, int row_kind, int column_kind, MatrixXd& sums);
+  void sum_third(const Coefficients&, int row_kind, int column_kind, Eigen::MatrixXf& sums);
 
   const TensorElement& element_;
-  MatrixXd third_, second_, result_;
+  Eigen::MatrixXf third_, second_, result_;
 };
 
 }  // namespace rheocyte

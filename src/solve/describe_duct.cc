@@ -72,7 +72,7 @@ SurfaceExtremes surface_extremes(const Cortex& cortex, const DuctSpace& space, c
           min_tension};
 }
 
-void read_flow(const Media& media, DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
+void read_flow(const Media& media, const DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
   const DuctGeometry& geometry = discrete.space.mesh().geometry();
   const double half = geometry.half_length(),
                outlet = -discrete.system.drop() * half * discrete.system.undisturbed_gradient(media.liquid);
@@ -129,10 +129,10 @@ double duct_stability_margin(const Problem& problem, const DuctSpace& space, con
   return stability_margin(problem, surface.biot_ratio, surface.min_tension);
 }
 
-void describe_duct(const Problem& problem, const Media& media, const std::shared_ptr<DuctDiscrete>& discrete,
-                   const VectorXd& unknowns, StationaryState& r) {
-  const DuctSpace& space = discrete->space;
-  const CellVolume volume = cell_volume(space, discrete->system.element(), unknowns);
+void describe_duct(const Problem& problem, const Media& media, const DuctDiscrete& discrete, const VectorXd& unknowns,
+                   StationaryState& r) {
+  const DuctSpace& space = discrete.space;
+  const CellVolume volume = cell_volume(space, discrete.system.element(), unknowns);
   for (const auto& [name, camera] : views_of(problem))
     r.views.push_back({name, profile(space, unknowns, media.cortex, camera, volume.barycentre)});
   const Camera seen_from = camera_in_mesh(problem);
@@ -152,7 +152,7 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
     r.deformation_diagonal = measure(contour_at(Camera::diagonal)).deformation;
   const double a = space.mesh().geometry().radius();
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
-  read_flow(media, *discrete, unknowns, r);
+  read_flow(media, discrete, unknowns, r);
   const SurfaceExtremes surface = surface_extremes(media.cortex, space, unknowns);
   r.min_meridional_stretch = surface.min_stretch;
   r.biot_ratio = surface.biot_ratio;
@@ -161,13 +161,13 @@ void describe_duct(const Problem& problem, const Media& media, const std::shared
   r.statistics.unknowns = space.unknowns();
   r.statistics.elements = int(space.elements().size());
   r.statistics.degree = space.reference().degree();
-  r.write_fields = [discrete, media, unknowns](const std::string& path, const Scales& scales) {
-    return write_duct_fields(discrete->space, media, unknowns, scales, path);
+  r.write_fields = [shared = discrete.shared_space, media, unknowns](const std::string& path, const Scales& scales) {
+    return write_duct_fields(*shared, media, unknowns, scales, path);
   };
-  read_turning(*discrete, unknowns, r);
+  read_turning(discrete, unknowns, r);
   if (space.turns()) return;  // pictures show halves of planes through the axis
-  r.sample_fields = [=, camera = problem.camera](const Scales& scales, int points) {
-    SampledFields fields = sample_duct_fields(discrete->space, media, unknowns, scales, camera, points);
+  r.sample_fields = [=, shared = discrete.shared_space, camera = problem.camera](const Scales& scales, int points) {
+    SampledFields fields = sample_duct_fields(*shared, media, unknowns, scales, camera, points);
     const auto place = float(scales.length_um() * volume.barycentre);
     fields.point_um.col(0).array() -= place;
     fields.surface_um.col(0).array() -= place;

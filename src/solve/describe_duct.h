@@ -14,16 +14,19 @@ Symmetry symmetry_of(const Problem&);
 Camera camera_in_mesh(const Problem&);
 DuctSubdivision subdivision_of(const Problem&);
 
-/// Space and system of one resolution; they stay together.
+/// Space and system of one resolution. The space may be held for longer than the system, whose factors are large.
 struct DuctDiscrete {
   DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree)
       : DuctDiscrete(problem, subdivision, degree, symmetry_of(problem)) {}
   DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree, Symmetry symmetry)
-      : space(DuctMesh(DuctGeometry(shape_of(problem)), subdivision, symmetry), degree, problem.liquid, problem.drive),
+      : shared_space(std::make_shared<const DuctSpace>(DuctMesh(DuctGeometry(shape_of(problem)), subdivision, symmetry),
+                                                       degree, problem.liquid, problem.drive)),
+        space(*shared_space),
         system(space, problem.drive == Drive::rate
                           ? 1
                           : problem.pressure_gradient / space.section().flow(problem.liquid).pressure_gradient) {}
-  DuctSpace space;
+  std::shared_ptr<const DuctSpace> shared_space;
+  const DuctSpace& space;
   DuctSystem system;
 };
 
@@ -36,7 +39,6 @@ double duct_stability_margin(const Problem&, const DuctSpace&, const VectorXd& u
 
 /// Fills in contours, surface, numbers, sizes and the writer of fields; outcome, errors and counts of work are left
 /// alone.
-void describe_duct(const Problem&, const Media&, const std::shared_ptr<DuctDiscrete>&, const VectorXd& unknowns,
-                   StationaryState&);
+void describe_duct(const Problem&, const Media&, const DuctDiscrete&, const VectorXd& unknowns, StationaryState&);
 
 }  // namespace rheocyte

@@ -88,11 +88,12 @@ class DuctBranchFollower {
     solver_.count_in(result);
     const Milestone guess = guess_of(deformation);
     DuctState state = solver_.at_compliance(first_, guess.compliance, guess.unknowns);
-    if (state.status == Status::converged) result.outcome.status = solver_.climb(state);
+    DuctLadder ladder;
+    if (state.status == Status::converged) result.outcome.status = solver_.climb(state, ladder);
     const bool has_state =
         result.outcome.status == Status::converged || result.outcome.status == Status::accuracy_not_reached;
     if (!has_state || duct_stability_margin(problem_, state.discrete->space, state.branch.unknowns) < 0) return {};
-    describe_duct(problem_, media_at(problem_, guess.compliance), state.discrete, state.branch.unknowns, result);
+    describe_duct(problem_, media_at(problem_, guess.compliance), *state.discrete, state.branch.unknowns, result);
     result.write_fields = {};
     result.outcome.reached = guess.compliance;
     return result;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "solve/ladder.h"
+#include "solve/near_problem.h"
 
 namespace rheocyte {
 namespace {
@@ -25,9 +26,21 @@ int last_degree_of(const Problem& problem) {
   return problem.offset == 0 ? DuctSolver::last_degree : last_degree_off_axis;
 }
 
+/// A factorisation costs as much as tens of chord steps at high degrees.
+NewtonOptions fine_newton(const std::atomic<bool>* stop) {
+  return {.tolerance = final_tolerance, .chord_reduction = 0.5, .stop = stop};
+}
+
 int degree_of(const DuctState& state) { return state.discrete->space.reference().degree(); }
 
 }  // namespace
+
+void DuctLadder::add(DuctState state, double deformation) {
+  if (!keeps_systems && !rungs.empty()) rungs.back().discrete.reset();
+  rungs.push_back(std::move(state));
+  deformations.push_back(deformation);
+  estimated_error = estimate_error(deformations, share_of_change_before);
+}
 
 DuctState DuctSolver::follow() {
   DuctState state;
@@ -46,20 +59,63 @@ DuctState DuctSolver::follow() {
   return state;
 }
 
-Status DuctSolver::climb(DuctState& state) {
-  std::vector<double> deformations;
-  for (int degree = std::max(first_degree, degree_of(state)); degree <= last_degree_of(problem_); ++degree) {
-    if (degree > degree_of(state)) {
-      DuctState next = at_degree(state, degree, {.tolerance = final_tolerance, .stop = stop_});
-      if (next.status != Status::converged) return next.status;
-      state = std::move(next);
-    }
-    deformations.push_back(duct_deformation(state.discrete->space, state.branch.unknowns, camera_in_mesh(problem_)));
-    report(state.branch, deformations.back(), degree);
-    result_->estimated_error = estimate_error(deformations, share_of_change_before);
-    if (result_->estimated_error <= problem_.accuracy) return Status::converged;
+Status DuctSolver::climb(DuctState& state, DuctLadder& ladder) {
+  if (ladder.rungs.empty()) add(state, ladder);
+  while (ladder.estimated_error > problem_.accuracy) {
+    const int degree = degree_of(ladder.rungs.back()) + 1;
+    if (degree > last_degree_of(problem_)) return Status::accuracy_not_reached;
+    DuctState next = at_degree(ladder.rungs.back(), degree, fine_newton(stop_));
+    if (next.status != Status::converged) return next.status;
+    state = next;
+    add(std::move(next), ladder);
   }
-  return Status::accuracy_not_reached;
+  return Status::converged;
+}
+
+void DuctSolver::add(DuctState state, DuctLadder& ladder) {
+  const double d = duct_deformation(state.discrete->space, state.branch.unknowns, camera_in_mesh(problem_));
+  report(state.branch, d, degree_of(state));
+  ladder.add(std::move(state), d);
+  result_->estimated_error = ladder.estimated_error;
+}
+
+Status DuctSolver::carry(const Problem& from, const DuctLadder& ladder, DuctLadder& carried) {
+  VectorXd before;  // of the last rung, on the mesh of this problem
+  for (const DuctState& rung : ladder.rungs) {
+    DuctState next = moved(from, rung);
+    const VectorXd kept = next.branch.unknowns;
+    if (!carried.rungs.empty()) {
+      // What changed at the lower degree changes here, too.
+      const DuctState& coarse = carried.rungs.back();
+      const DuctSpace &lower = coarse.discrete->space, &space = next.discrete->space;
+      next.branch.unknowns += transfer(lower, coarse.branch.unknowns, space) - transfer(lower, before, space);
+    }
+    NewtonOptions options = fine_newton(stop_);
+    options.keep_factors = next.discrete->system.has_factors();
+    const DuctState found = solved(next.discrete, next.branch, options);
+    const DuctSpace& space = next.discrete->space;
+    const bool is_good = found.status == Status::converged &&
+                         found.discrete->system.stretch_change(kept, found.branch.unknowns) < max_stretch_change &&
+                         duct_stability_margin(problem_, space, found.branch.unknowns) >= 0;
+    if (!is_good) {
+      carried.rungs.push_back(found);  // it holds the factors
+      return found.status == Status::stopped ? Status::stopped : Status::branch_ended;
+    }
+    before = kept;
+    add(found, carried);
+    if (carried.estimated_error <= problem_.accuracy) break;
+  }
+  return Status::converged;
+}
+
+/// The rung on the mesh of this problem. Factors are exchanged, not copied.
+DuctState DuctSolver::moved(const Problem& from, const DuctState& rung) {
+  DuctState to = rung;
+  if (has_same_mesh(from, problem_)) return to;
+  to.discrete = std::make_shared<DuctDiscrete>(problem_, subdivision_of(problem_), degree_of(rung));
+  to.discrete->system.exchange_factors(rung.discrete->system);
+  to.discrete->system.scale_displacement(problem_.radius_ratio / from.radius_ratio, to.branch.unknowns);
+  return to;
 }
 
 ContinuationOptions DuctSolver::options(bool last) {

@@ -1,7 +1,9 @@
 // One case in a square duct on its way: along the branch at low degrees, then to ever higher ones
 // (docs/theory-square.md, sec. accuracy).
 #pragma once
+#include <limits>
 #include <map>
+#include <vector>
 
 #include "solve/continuation.h"
 #include "solve/describe_duct.h"
@@ -15,6 +17,16 @@ struct DuctState {
   std::shared_ptr<DuctDiscrete> discrete;
   BranchState branch;  ///< its parameter is the compliance relative to the problem's
   double residual = 0;
+};
+
+/// A state at ever higher degrees.
+struct DuctLadder {
+  bool keeps_systems = false;  ///< of all rungs; or of the last one alone
+  std::vector<DuctState> rungs = {};
+  std::vector<double> deformations = {};                             ///< rung by rung
+  double estimated_error = std::numeric_limits<double>::infinity();  ///< relative, of the last deformation
+
+  void add(DuctState, double deformation);
 };
 
 /// What steps and work there are is counted in a result, which must outlive the solver as problem, callback and stop
@@ -42,14 +54,20 @@ class DuctSolver {
   DuctState at_degree(const DuctState& from, int degree, const NewtonOptions&);
   /// Newton at a compliance from a guess at the degree of a state.
   DuctState at_compliance(const DuctState& near, double compliance, VectorXd guess);
-  /// Raises the degree until the error is small.
-  Status climb(DuctState&);
+  /// Raises the degree until the error is small: on from the ladder's last rung, or from the state, which becomes the
+  /// last rung.
+  Status climb(DuctState&, DuctLadder&);
+  /// The ladder of a neighbouring problem `from` becomes this one's, whose factors serve for chord steps, as far as the
+  /// accuracy needs it; or why not. Those factors are then with the new ladder.
+  Status carry(const Problem& from, const DuctLadder& ladder, DuctLadder& carried);
   /// Along the branch; the last way looks for its end more closely.
   ContinuationOptions options(bool last);
 
  private:
   std::shared_ptr<DuctDiscrete> discrete(int degree);
   DuctState solved(std::shared_ptr<DuctDiscrete>, BranchState, const NewtonOptions&);
+  void add(DuctState, DuctLadder&);
+  DuctState moved(const Problem& from, const DuctState&);
   void take(DuctState&, const ContinuationReport&);
   void count(const WorkMeter&);
   void report(const BranchState&, double deformation, int degree);

@@ -12,8 +12,6 @@ namespace {
 /// A full step may reduce the least det of the mesh to this share at most; else it is shortened.
 constexpr double min_det_share = 0.2;
 constexpr int max_halvings = 5;
-/// A chord step has to reduce the residual by this factor, or the tangent is renewed.
-constexpr double chord_reduction = 0.1;
 /// Residuals (relative) above which an iteration is given up as diverging.
 constexpr double hopeless_residual = 1e6;
 
@@ -83,7 +81,7 @@ NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOpt
     if (report.residual > hopeless_residual) return report.status = Status::iteration_limit, report;
     const bool at_round_off = displacement < round_off_displacement && report.residual < round_off_residual;
     if (report.residual < options.tolerance || at_round_off) return report.status = Status::converged, report;
-    keep = options.chord_steps && report.residual < chord_reduction * before;
+    keep = options.chord_steps && report.residual < options.chord_reduction * before;
   }
 }
 

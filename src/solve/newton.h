@@ -9,9 +9,11 @@
 namespace rheocyte {
 
 struct NewtonOptions {
-  double tolerance = 1e-11;   ///< of the residual, relative to that of the undeformed sphere in a liquid at rest
-  int iteration_limit = 12;   ///< factorisations
-  bool chord_steps = true;    ///< reuse a factorisation while each step reduces the residual tenfold
+  double tolerance = 1e-11;  ///< of the residual, relative to that of the undeformed sphere in a liquid at rest
+  int iteration_limit = 12;  ///< factorisations
+  bool chord_steps = true;   ///< reuse a factorisation while each step reduces the residual enough
+  /// A chord step has to reduce the residual by this factor, or the tangent is renewed.
+  double chord_reduction = 0.1;
   bool keep_factors = false;  ///< begin with chord steps with the factors that the system holds, of a state nearby
   double residual_scale = 0;  ///< what residuals are relative to; 0: the function below
   const std::atomic<bool>* stop = nullptr;

@@ -15,20 +15,19 @@ SurfaceKind surface_kind(const Problem& problem) {
 
 namespace {
 
-std::string way_out_of_wrinkles(SurfaceKind kind) {
-  const std::string hold = kind == SurfaceKind::held
-                               ? ""
-                               : ", or stabilise the surface by a little bending stiffness (cell.cortex.bending_kBT = "
-                                 "1e4) or tension (cell.cortex.tension_mN_per_m)";
-  return "raise the moduli above that, lower flow rate or viscosity" + hold + ".";
+/// What keeps short waves off the surface.
+std::string stabiliser(const LastState& last) {
+  const std::string tension = "tension (cell.cortex.tension_mN_per_m)";
+  return last.can_bend ? "a little bending stiffness (cell.cortex.bending_kBT = 1e4) or " + tension : tension;
 }
 
-std::string unstable_surface(const std::string& where, SurfaceKind kind) {
-  const std::string what = kind == SurfaceKind::membrane
+std::string unstable_surface(const std::string& where, const LastState& last) {
+  const std::string what = last.surface == SurfaceKind::membrane
                                ? "The cortex of so soft a cell is compressed and wrinkles: the smooth branch ends at "
                                : "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder): the "
                                  "smooth branch ends at ";
-  return what + where + "; " + way_out_of_wrinkles(kind);
+  const std::string hold = last.surface == SurfaceKind::held ? "" : ", or stabilise the surface by " + stabiliser(last);
+  return what + where + "; raise the moduli above that, lower flow rate or viscosity" + hold + ".";
 }
 
 }  // namespace
@@ -44,8 +43,8 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
   if (outcome.status == Status::stopped && outcome.reached <= 0) return "Stopped by a signal before the first state.";
   if (outcome.reached <= 0) {
     if (outcome.status == Status::surface_unstable)
-      return "The surface of this cell wrinkles at the smallest load already; stabilise it by a little "
-             "bending stiffness (cell.cortex.bending_kBT = 1e4) or tension (cell.cortex.tension_mN_per_m).";
+      return "The surface of this cell wrinkles at the smallest load already; stabilise it by " + stabiliser(last) +
+             ".";
     return "No state was found, not even of a nearly rigid cell: the case is far outside what the solver can follow; "
            "check the units of its numbers.";
   }
@@ -55,9 +54,8 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
     case Status::surface_unstable:
       if (last.known_end > 0)
         return unstable_surface(
-            fmt::format("{:.3g} times the wanted moduli (the last state kept has {})", last.known_end, where),
-            last.surface);
-      return unstable_surface(where, last.surface);
+            fmt::format("{:.3g} times the wanted moduli (the last state kept has {})", last.known_end, where), last);
+      return unstable_surface(where, last);
     case Status::branch_ended:
       return "The branch of stationary shapes ends at " + where +
              "; softer cells are drawn out without limit: raise the moduli above that, or lower flow rate or "

@@ -8,15 +8,12 @@
 #include "fem/write_fields.h"
 #include "solve/branch_ends.h"
 #include "solve/describe.h"
-#include "solve/stationary_duct.h"
+#include "solve/near_problem.h"
 
 namespace rheocyte {
 namespace {
 
 constexpr double session_tolerance = 1e-10;
-/// Greatest relative change of any number of the problem that a kept state is carried over, and greatest change of the
-/// surface's stretch by it: farther on the state may belong to another branch.
-constexpr double max_change = 0.2, max_stretch_change = 0.06;
 
 /// Of the surface's stability, where coarse resolutions lose the branch.
 constexpr double margin_at_coarse_ends = 0.3;
@@ -38,26 +35,10 @@ void add_work(const ResolvedState& state, SolveStatistics& statistics) {
   add_work(state.work, statistics);
 }
 
-double relative_change(double a, double b) { return a == b ? 0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b)); }
-
 /// Whether the unknowns of both problems mean the same at any resolution.
 bool is_alike(const Problem& a, const Problem& b, const Subdivision& subdivision) {
-  return interior_of(a) == interior_of(b) && a.bulk.law == b.bulk.law && a.cortex.law == b.cortex.law &&
-         a.liquid.law == b.liquid.law && (is_power_law(a.liquid.law) || a.liquid == b.liquid) && a.drive == b.drive &&
-         a.channel_length == b.channel_length &&
-         layers_for(ChannelGeometry(a.radius_ratio), subdivision) ==
-             layers_for(ChannelGeometry(b.radius_ratio), subdivision);
-}
-
-/// Greatest relative change of any number.
-double distance(const Problem& a, const Problem& b) {
-  return std::max(
-      {relative_change(a.radius_ratio, b.radius_ratio), relative_change(a.bulk.shear_modulus, b.bulk.shear_modulus),
-       std::abs(a.bulk.mooney_share - b.bulk.mooney_share), relative_change(a.cortex.modulus, b.cortex.modulus),
-       relative_change(a.cortex.tension, b.cortex.tension), relative_change(a.cortex.bending, b.cortex.bending),
-       relative_change(a.liquid.exponent, b.liquid.exponent),
-       relative_change(a.liquid.shear_rate_floor, b.liquid.shear_rate_floor),
-       std::abs(a.liquid.reynolds - b.liquid.reynolds)});
+  return has_same_laws(a, b) && layers_for(ChannelGeometry(a.radius_ratio), subdivision) ==
+                                    layers_for(ChannelGeometry(b.radius_ratio), subdivision);
 }
 
 /// Whether mesh and spaces differ.
@@ -119,8 +100,11 @@ void explain(const Problem& problem, const ResolvedState& state, StationaryState
   }
   const double known_end =
       is_far_too_soft(problem) ? min_shear_modulus(problem).value() / problem.bulk.shear_modulus : 0;
-  outcome.message = explanation(
-      outcome, {r.shape.deformation, r.estimated_error, problem.accuracy, surface_kind(problem), known_end});
+  outcome.message = explanation(outcome, {.deformation = r.shape.deformation,
+                                          .estimated_error = r.estimated_error,
+                                          .wanted_error = problem.accuracy,
+                                          .surface = surface_kind(problem),
+                                          .known_end = known_end});
 }
 
 /// The branch from the sphere to the problem, or to the end of the branch where that is known to lie before.
@@ -175,7 +159,11 @@ void Session::take_back(Kept kept, const Problem& from) {
 
 StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress,
                                const std::atomic<bool>* stop) {
-  if (is_duct(problem.section)) return solve_in_duct(problem, progress, stop);
+  if (is_duct(problem.section)) {
+    StationaryState state = ducts_.solve(problem, progress, stop);
+    forget_tubes();
+    return state;
+  }
   const auto start = std::chrono::steady_clock::now();
   StationaryState result;
   result.shape = measure(Contour{});  // not a number until there is a shape
@@ -221,7 +209,7 @@ StationaryState Session::solve(const Problem& problem, const ProgressCallback& p
 }
 
 std::size_t Session::memory_bytes() const {
-  std::size_t bytes = 0;
+  std::size_t bytes = ducts_.memory_bytes();
   for (const Kept& kept : kept_) {
     for (const ResolvedState& rung : kept.ladder.rungs) bytes += rung.discrete->system.memory_bytes();
   }
@@ -231,6 +219,11 @@ std::size_t Session::memory_bytes() const {
 void Session::keep(Kept answer) {
   if (memory_limit_ == 0) return;
   kept_.push_front(std::move(answer));
+  if (memory_bytes() > memory_limit_) ducts_.forget();
+  forget_tubes();
+}
+
+void Session::forget_tubes() {
   while (!kept_.empty() && memory_bytes() > memory_limit_) kept_.pop_back();
 }
 

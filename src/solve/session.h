@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <list>
 
+#include "solve/duct_session.h"
 #include "solve/ladder.h"
 #include "solve/stationary.h"
 
@@ -13,7 +14,8 @@ namespace rheocyte {
 class Session {
  public:
   /// Keeps states as long as their meshes and factors take no more than this, the latest ones; 0: none.
-  explicit Session(std::size_t memory_limit_bytes = std::size_t(256) << 20) : memory_limit_(memory_limit_bytes) {}
+  explicit Session(std::size_t memory_limit_bytes = std::size_t(256) << 20)
+      : memory_limit_(memory_limit_bytes), ducts_(memory_limit_bytes) {}
 
   /// The stationary state of a problem, from a kept one nearby or from the unstressed sphere; the answer is the same up
   /// to rounding and the tolerance of Newton's method. Never throws for a numerical failure: the state then holds the
@@ -22,7 +24,7 @@ class Session {
   StationaryState solve(const Problem&, const ProgressCallback& = {}, const std::atomic<bool>* stop = nullptr);
 
   /// How many answers started from a kept state.
-  int warm_starts() const { return warm_starts_; }
+  int warm_starts() const { return warm_starts_ + ducts_.warm_starts(); }
   /// Of all that is kept, about.
   std::size_t memory_bytes() const;
 
@@ -34,12 +36,15 @@ class Session {
   /// The kept ladder moved to the problem, if one is near enough to be on the same branch.
   bool answer_nearby(const Problem&, const NewtonOptions&, SolveStatistics&, Kept& answer);
   void keep(Kept);
+  /// The oldest ones, until the limit is met.
+  void forget_tubes();
   /// What was being moved to the problem `from` when a stop was wanted becomes what it was.
   void take_back(Kept, const Problem& from);
 
   std::size_t memory_limit_;
   std::list<Kept> kept_;  ///< the latest first
   int warm_starts_ = 0;
+  DuctSession ducts_;
 };
 
 }  // namespace rheocyte

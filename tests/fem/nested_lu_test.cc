@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "fem/triangular_solve.h"
+
 namespace rheocyte {
 namespace {
 
@@ -34,7 +36,7 @@ struct Grid {
   }
 };
 
-TEST(NestedLU, SolvesTheSumOfTheElementsMatrices) {
+TEST(NestedLU, SolvesTheSumOfTheElementsMatricesAndCorrectionsMakeUpForSinglePrecision) {
   const Grid grid(5, 4);
   NestedLU lu(grid.unknowns, grid.elements);
   std::mt19937 engine(7);
@@ -45,22 +47,45 @@ TEST(NestedLU, SolvesTheSumOfTheElementsMatrices) {
     const std::vector<int>& order = lu.order(e);
     ASSERT_EQ(order.size(), grid.elements[e].unknowns.size());
     // Not symmetric; dominant enough for every part to be regular.
-    MatrixXd matrix = MatrixXd::Zero(order.size(), order.size()).unaryExpr(random);
+    NestedLU::Matrix matrix = MatrixXd::Zero(order.size(), order.size()).unaryExpr(random).cast<float>();
     matrix.diagonal().array() += 5;
-    whole(order, order) += matrix;
+    whole(order, order) += matrix.cast<double>();
     lu.condense(e, matrix);
   }
   ASSERT_TRUE(lu.factorise());
   const VectorXd rhs = VectorXd::Zero(grid.unknowns).unaryExpr(random);
-  // Rounding of a hundred unknowns.
-  EXPECT_LT((whole * lu.solve(rhs) - rhs).norm(), 1e-12 * rhs.norm());
+  // The matrix itself has single precision here. Rounding of a hundred unknowns: in single precision, then in double.
+  VectorXd x = lu.solve(rhs);
+  EXPECT_LT((whole * x - rhs).norm(), 3e-6 * rhs.norm());
+  for (int i = 0; i < 2; ++i) x += lu.solve(rhs - whole * x);
+  EXPECT_LT((whole * x - rhs).norm(), 1e-13 * rhs.norm());
+  // However small the right-hand side is.
+  EXPECT_LT((lu.solve(1e-60 * rhs) - 1e-60 * lu.solve(rhs)).norm(), 3e-6 * 1e-60 * x.norm());
+}
+
+TEST(NestedLU, TriangularFactorsAreSolvedBlockByBlock) {
+  // Sizes below, at and between multiples of a block; against substitution in double precision.
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const int n : {1, 31, 32, 33, 100}) {
+    MatrixXd factors = MatrixXd::Zero(n, n).unaryExpr([&](double) { return uniform(engine) / n; });
+    factors.diagonal().array() += 2;
+    const MatrixXd columns = MatrixXd::Zero(n, 5).unaryExpr([&](double) { return uniform(engine); });
+    MatrixXd expected = columns;
+    factors.triangularView<Eigen::UnitLower>().solveInPlace(expected);
+    factors.triangularView<Eigen::Upper>().solveInPlace(expected);
+    Eigen::MatrixXf solved = columns.cast<float>();
+    solve_triangular(factors.cast<float>(), solved);
+    EXPECT_LT((solved.cast<double>() - expected).norm(), 1e-6 * expected.norm()) << n;
+  }
 }
 
 TEST(NestedLU, AZeroMatrixIsNotFactorised) {
   const Grid grid(2, 2);
   NestedLU lu(grid.unknowns, grid.elements);
   for (int e = 0; e < 4; ++e) {
-    MatrixXd matrix = MatrixXd::Zero(lu.order(e).size(), lu.order(e).size());
+    NestedLU::Matrix matrix =
+        NestedLU::Matrix::Zero(Eigen::Index(lu.order(e).size()), Eigen::Index(lu.order(e).size()));
     lu.condense(e, matrix);
   }
   EXPECT_FALSE(lu.factorise());

@@ -70,5 +70,14 @@ TEST(Outcome, AnUnstableSurfaceIsOfferedWhatCouldHoldIt) {
             std::string::npos);
 }
 
+TEST(Outcome, ASurfaceInADuctIsNotOfferedTheBendingStiffnessThatDuctsRefuse) {
+  for (const double reached : {0.0, 0.4}) {
+    const std::string sentence =
+        explanation({Status::surface_unstable, "", reached}, {.surface = SurfaceKind::membrane, .can_bend = false});
+    EXPECT_EQ(sentence.find("bending"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("cell.cortex.tension_mN_per_m"), std::string::npos) << sentence;
+  }
+}
+
 }  // namespace
 }  // namespace rheocyte

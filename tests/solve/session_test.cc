@@ -150,5 +150,67 @@ TEST(Session, ACellFarTooSoftIsRefusedWithTheStateAtTheEndOfItsBranch) {
   EXPECT_GT(state.shape.deformation, 0.08);
 }
 
+/// In the square channel, at degrees 3 and 4.
+Problem cell_in_square() {
+  Problem problem;
+  problem.section = Section::square;
+  problem.radius_ratio = 0.6;
+  problem.bulk.shear_modulus = 8;
+  problem.cortex.tension = 0.2;
+  problem.liquid = {.law = LiquidLaw::power_law, .exponent = 0.9};
+  problem.accuracy = 5e-2;
+  return problem;
+}
+
+TEST(DuctSession, ANearCaseIsAnsweredFromTheLastOne) {
+  // Steps in modulus, radius, tension and exponent, one after the other; then as from the sphere, within the tolerance
+  // of Newton's method.
+  Problem problem = cell_in_square();
+  Session session;
+  session.solve(problem);
+  StationaryState state;
+  for (double* moved :
+       {&problem.bulk.shear_modulus, &problem.radius_ratio, &problem.cortex.tension, &problem.liquid.exponent}) {
+    *moved *= 0.97;
+    state = session.solve(problem);
+    EXPECT_EQ(state.outcome.status, Status::converged);
+    EXPECT_LE(state.estimated_error, problem.accuracy);
+  }
+  EXPECT_EQ(session.warm_starts(), 4);
+  const StationaryState anew = solve_stationary(problem);
+  EXPECT_EQ(state.statistics.degree, anew.statistics.degree);
+  EXPECT_NEAR(state.shape.deformation / anew.shape.deformation, 1, 1e-6);
+  EXPECT_LT(state.statistics.factorisations, anew.statistics.factorisations);
+}
+
+TEST(DuctSession, ItKeepsNoMoreThanItsLimitAndStillAnswersFromWhatItKept) {
+  // The factors of degree 3 take 12 MB, those of degree 4 four times as much.
+  constexpr std::size_t limit = 20 << 20;
+  Problem problem = cell_in_square();
+  Session session(limit);
+  session.solve(problem);
+  EXPECT_GT(session.memory_bytes(), 0u);
+  EXPECT_LE(session.memory_bytes(), limit);
+  problem.bulk.shear_modulus *= 1.03;
+  EXPECT_EQ(session.solve(problem).outcome.status, Status::converged);
+  EXPECT_EQ(session.warm_starts(), 1);
+  EXPECT_LE(session.memory_bytes(), limit);
+}
+
+TEST(DuctSession, ACancelledSolveLeavesWhatWasKept) {
+  // On another mesh, to which the factors have been handed on, and are handed back.
+  Problem problem = cell_in_square();
+  Session session;
+  const double before = session.solve(problem).shape.deformation;
+  Problem other = problem;
+  other.radius_ratio *= 1.02;
+  const std::atomic<bool> stop = true;
+  EXPECT_EQ(session.solve(other, {}, &stop).outcome.status, Status::stopped);
+  const StationaryState state = session.solve(problem);
+  EXPECT_EQ(session.warm_starts(), 1);
+  EXPECT_EQ(state.statistics.factorisations, 0);
+  EXPECT_NEAR(state.shape.deformation / before, 1, 1e-7);
+}
+
 }  // namespace
 }  // namespace rheocyte

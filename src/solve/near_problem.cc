@@ -1,0 +1,38 @@
+#include "solve/near_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rheocyte {
+namespace {
+
+double relative_change(double a, double b) { return a == b ? 0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b)); }
+
+}  // namespace
+
+bool has_same_laws(const Problem& a, const Problem& b) {
+  const bool same_side = (a.offset == 0) == (b.offset == 0) && (a.offset == 0 || a.camera == b.camera);
+  return a.bulk.law == b.bulk.law && a.cortex.law == b.cortex.law && a.liquid.law == b.liquid.law &&
+         (is_power_law(a.liquid.law) || a.liquid == b.liquid) && a.drive == b.drive &&
+         a.channel_length == b.channel_length && a.section == b.section && a.extent.width == b.extent.width &&
+         a.extent.height == b.extent.height && same_side;
+}
+
+double distance(const Problem& a, const Problem& b) {
+  return std::max(
+      {relative_change(a.radius_ratio, b.radius_ratio), relative_change(a.bulk.shear_modulus, b.bulk.shear_modulus),
+       std::abs(a.bulk.mooney_share - b.bulk.mooney_share), relative_change(a.cortex.modulus, b.cortex.modulus),
+       relative_change(a.cortex.tension, b.cortex.tension), relative_change(a.cortex.bending, b.cortex.bending),
+       relative_change(a.liquid.exponent, b.liquid.exponent),
+       relative_change(a.liquid.shear_rate_floor, b.liquid.shear_rate_floor),
+       relative_change(a.pressure_gradient, b.pressure_gradient), relative_change(a.offset, b.offset),
+       std::abs(a.liquid.reynolds - b.liquid.reynolds)});
+}
+
+bool has_same_mesh(const Problem& a, const Problem& b) {
+  return a.radius_ratio == b.radius_ratio && a.offset == b.offset && a.liquid.law == b.liquid.law &&
+         a.liquid.exponent == b.liquid.exponent && a.liquid.shear_rate_floor == b.liquid.shear_rate_floor &&
+         a.pressure_gradient == b.pressure_gradient;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,50 @@
+// The tangent of a duct's system against its residual, and its factors against the tangent.
+#pragma once
+#include <cmath>
+#include <random>
+
+#include "duct/duct_system.h"
+
+namespace rheocyte {
+
+/// The tangent times a direction, summed in double precision from the entries, which have single precision.
+inline VectorXd tangent_times(DuctSystem& system, const Media& media, const VectorXd& unknowns,
+                              const VectorXd& direction) {
+  VectorXd product = VectorXd::Zero(direction.size());
+  const auto add = [&](int, const std::vector<int>& order, const NestedLU::Matrix& tangent) {
+    product(order) += tangent.cast<double>() * direction(order);
+  };
+  double det = 0;
+  system.assemble(media, unknowns, add, det);
+  return product;
+}
+
+inline VectorXd random_direction(Eigen::Index size) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  return VectorXd::Zero(size).unaryExpr([&](double) { return uniform(engine); });
+}
+
+/// Exponent of h in residual(x + h d) - residual(x) - h K d between steps of 1e-2 and 1e-3 of the direction. An entry's
+/// rounding is 1e-7 of K d, and the second order at least 1e-4 of it: the slope shows the derivative itself.
+inline double taylor_slope(DuctSystem& system, const Media& media, const VectorXd& unknowns) {
+  const VectorXd d = 0.1 * random_direction(unknowns.size());
+  const VectorXd g = tangent_times(system, media, unknowns, d);
+  double det = 0;
+  const VectorXd r = system.residual(media, unknowns, det);
+  const auto remainder = [&](double h) { return (system.residual(media, unknowns + h * d, det) - r - h * g).norm(); };
+  return std::log10(remainder(1e-2) / remainder(1e-3));
+}
+
+/// What solutions with the factors of the state leave of a right-hand side, relative: of the first one, and after two
+/// corrections.
+inline std::pair<double, double> left_by_factors(DuctSystem& system, const Media& media, const VectorXd& unknowns) {
+  const VectorXd g = random_direction(unknowns.size());
+  const auto rest = [&](const VectorXd& d) -> VectorXd { return g - tangent_times(system, media, unknowns, d); };
+  VectorXd d = system.solve(g);
+  const double first = rest(d).norm() / g.norm();
+  for (int i = 0; i < 2; ++i) d += system.solve(rest(d));
+  return {first, rest(d).norm() / g.norm()};
+}
+
+}  // namespace rheocyte
