@@ -2,6 +2,7 @@
 #pragma once
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "duct/duct_system.h"
 
@@ -25,8 +26,9 @@ inline VectorXd random_direction(Eigen::Index size) {
   return VectorXd::Zero(size).unaryExpr([&](double) { return uniform(engine); });
 }
 
-/// Exponent of h in residual(x + h d) - residual(x) - h K d between steps of 1e-2 and 1e-3 of the direction. An entry's
-/// rounding is 1e-7 of K d, and the second order at least 1e-4 of it: the slope shows the derivative itself.
+/// Exponent of h in residual(x + h d) - residual(x) - h K d between steps of 1e-2 and 1e-3 of the direction. Random
+/// directions have a large K d, of which rounding of entries in single precision leaves 1e-7: the second order is well
+/// above that at these steps, so that the slope shows the derivative itself.
 inline double taylor_slope(DuctSystem& system, const Media& media, const VectorXd& unknowns) {
   const VectorXd d = 0.1 * random_direction(unknowns.size());
   const VectorXd g = tangent_times(system, media, unknowns, d);
