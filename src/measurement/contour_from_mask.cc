@@ -36,10 +36,8 @@ std::size_t next_set(std::span<const std::uint8_t> pixels, std::size_t at) {
   constexpr std::size_t many = 64;
   const std::size_t end = pixels.size();
   for (; at + many <= end; at += many) {
-    std::array<std::uint64_t, many / 8> words{};
-    std::memcpy(words.data(), pixels.data() + at, many);
-    std::uint64_t any = 0;
-    for (const std::uint64_t word : words) any |= word;
+    std::uint8_t any = 0;
+    for (std::size_t i = 0; i < many; ++i) any |= pixels[at + i];
     if (any != 0) break;
   }
   for (; at + 8 <= end; at += 8)
@@ -94,13 +92,19 @@ void ContourFinder::connect_runs() {
   }
 }
 
-void ContourFinder::copy_with_margin(const Mask& mask) {
-  const auto width = static_cast<std::int32_t>(mask.size.width), height = static_cast<std::int32_t>(mask.size.height);
-  stride_ = width + 2;
-  framed_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 2), 0);
+// The rectangle around all that is set, with one empty pixel on each side.
+void ContourFinder::copy_with_margin() {
+  top_ = runs_.front().row;
+  left_ = std::ranges::min(runs_, {}, &Run::first).first;
+  stride_ = std::ranges::max(runs_, {}, &Run::end).end - left_ + 2;
+  const std::int32_t rows = runs_.back().row - top_ + 3;
+  framed_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows), 0);
   for (const Run& run : runs_)
-    std::memset(framed_.data() + static_cast<std::ptrdiff_t>(run.row + 1) * stride_ + run.first + 1, 1,
-                static_cast<std::size_t>(run.end - run.first));
+    std::memset(framed_.data() + place_of(run), 1, static_cast<std::size_t>(run.end - run.first));
+}
+
+std::ptrdiff_t ContourFinder::place_of(const Run& run) const {
+  return static_cast<std::ptrdiff_t>(run.row - top_ + 1) * stride_ + run.first - left_ + 1;
 }
 
 // Border following: from each pixel the neighbours are searched against the clock, from the one after that from which
@@ -109,8 +113,7 @@ void ContourFinder::follow(const Run& start, PixelContour& contour) const {
   contour.clear();
   std::array<std::ptrdiff_t, 8> offset{};
   for (int d = 0; d < 8; ++d) offset[d] = step_y[d] * static_cast<std::ptrdiff_t>(stride_) + step_x[d];
-  const std::uint8_t* const first =
-      framed_.data() + static_cast<std::ptrdiff_t>(start.row + 1) * stride_ + start.first + 1;
+  const std::uint8_t* const first = framed_.data() + place_of(start);
   const std::uint8_t* here = first;
   PixelPoint point{start.first, start.row};
   int search = west + 1, first_direction = -1;
@@ -141,7 +144,7 @@ const PixelContour& ContourFinder::contour_of(const Mask& mask) {
   find_runs(mask);
   if (runs_.empty()) return contour_;
   connect_runs();
-  copy_with_margin(mask);
+  copy_with_margin();
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (runs_[i].parent != static_cast<std::int32_t>(i)) continue;
     follow(runs_[i], other_);

@@ -20,12 +20,13 @@ class ContourFinder {
   void find_runs(const Mask& mask);
   void connect_runs();
   std::int32_t group_of(std::int32_t run);
-  void copy_with_margin(const Mask& mask);
+  void copy_with_margin();
+  std::ptrdiff_t place_of(const Run& run) const;  // of its first pixel, in the copy
   void follow(const Run& start, PixelContour& contour) const;
 
   std::vector<Run> runs_;
-  std::vector<std::uint8_t> framed_;  // the mask inside a margin of one empty pixel, so that no neighbour is missing
-  std::int32_t stride_ = 0;
+  std::vector<std::uint8_t> framed_;  // what is set, inside a margin of one empty pixel: no neighbour is missing
+  std::int32_t top_ = 0, left_ = 0, stride_ = 0;  // of the copy in the mask, without its margin; length of its rows
   PixelContour contour_, other_;
 };
 

@@ -173,6 +173,8 @@ py::dict features(const Masks& masks, double pixel_size_um) {
     Found all;
     ContourFinder finder;
     ContourMeasurer measurer;
+    all.features.reserve(count);
+    all.shapes.reserve(count);
     for (std::size_t i = 0; i < count && !stop; ++i) {
       const PixelContour& contour = finder.contour_of({size, {pixels + i * size.pixels(), size.pixels()}});
       all.features.push_back(measurer.measure(contour, pixel_size_um));

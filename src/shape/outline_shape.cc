@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <complex>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "numeric/no_value.h"
@@ -61,55 +61,36 @@ Moments moments_of(const std::vector<Point>& hull) {
   return m;
 }
 
-/// Points along a hull, those of Gauss' rule on each part of it: cosines of their directions, and their weights in
-/// int r d(theta).
-struct Directions {
-  std::vector<Eigen::Array4d> cosine, weight;
-};
-
-/// Adds the part from s0 to s1 of a straight line; s counts along it from the foot of the normal from the origin.
-/// r d(theta) is distance ds / r there.
-void add_part(const Point& foot, const Point& along, double s0, double s1, Directions& directions) {
-  const Eigen::Array4d place{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526},
-      weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
-  const double middle = (s0 + s1) / 2, half = (s1 - s0) / 2;
-  const Eigen::Array4d s = middle + half * place, per_radius = (foot.squaredNorm() + s.square()).sqrt().inverse();
-  directions.cosine.emplace_back((foot.x() + s * along.x()) * per_radius);
-  directions.weight.emplace_back(half * foot.norm() * weight * per_radius);
-}
-
-/// Adds one edge of a hull around the origin, in parts that are seen under small angles.
-void add_edge(const Point& a, const Point& b, Directions& directions) {
-  constexpr double widest = 0.2;  // radians; Gauss' error is then below 1e-9
-  const Point along = (b - a).normalized(), foot = a - along * a.dot(along);
-  const double s0 = a.dot(along), s1 = b.dot(along), distance = foot.norm();
-  if (s1 - s0 < widest * distance) return add_part(foot, along, s0, s1, directions);
-  const double first = std::atan2(s0, distance), angle = std::atan2(s1, distance) - first;
-  const int parts = 1 + int(angle / widest);
-  double start = s0;
-  for (int part = 1; part <= parts; ++part) {
-    const double end = part == parts ? s1 : distance * std::tan(first + angle * part / parts);
-    add_part(foot, along, start, end, directions);
-    start = end;
-  }
-}
-
-/// int r cos(k theta) d(theta), k = 0 .. max_mode, once around.
+/// int r cos(k theta) d(theta), k = 0 .. max_mode, once around a hull that runs counterclockwise around `centre`.
+/// Exact: with v = r exp(i theta), n the unit normal of an edge at the distance d, and v = n (d + i s) on it,
+/// F_k = int exp(i k theta) r / d d(theta) obeys F_k = n (2 [exp(i (k-1) theta)] / (i (k-1)) - n F_{k-2}) there,
+/// because the sum of two such integrands, k and k-2, has no denominator any more.
 std::array<double, max_mode + 1> radius_integrals(const std::vector<Point>& hull, const Point& centre) {
-  Directions directions;
-  directions.cosine.reserve(2 * hull.size());
-  directions.weight.reserve(2 * hull.size());
-  for (std::size_t i = 0; i < hull.size(); ++i)
-    add_edge(hull[i] - centre, hull[(i + 1) % hull.size()] - centre, directions);
-  const auto count = 4 * Eigen::Index(directions.cosine.size());
-  const Eigen::Map<const Eigen::ArrayXd> cosine(directions.cosine.front().data(), count);
-  const Eigen::Map<const Eigen::ArrayXd> weight(directions.weight.front().data(), count);
-  Eigen::ArrayXd before = cosine, here = Eigen::ArrayXd::Ones(count);  // cos(-theta), cos(0)
+  const auto edges = Eigen::Index(hull.size());
+  Eigen::ArrayXcd vertex(edges + 1);  // the first one closes the hull
+  for (Eigen::Index i = 0; i <= edges; ++i) {
+    const Point from_centre = hull[std::size_t(i % edges)] - centre;
+    vertex(i) = {from_centre.x(), from_centre.y()};
+  }
+  const auto change = [edges](const auto& at_vertices) { return at_vertices.tail(edges) - at_vertices.head(edges); };
+  constexpr std::complex<double> i{0, 1};
+  const Eigen::ArrayXcd along = change(vertex) / change(vertex).abs2().sqrt(), normal = -i * along;
+  const Eigen::ArrayXd distance = (vertex.head(edges) * normal.conjugate()).real(), radius = vertex.abs2().sqrt();
+  const Eigen::ArrayXd log_radius = radius.log(), turn = (vertex.tail(edges) * vertex.head(edges).conjugate()).arg();
+  const auto arsinh = [&](const auto& vertices) {  // of s / d
+    const Eigen::ArrayXd t = (vertices * along.conjugate()).real() / distance;
+    const Eigen::ArrayXd of_size = (t.abs() + (1 + t.square()).sqrt()).log();
+    return Eigen::ArrayXd((t < 0).select(-of_size, of_size));
+  };
+  const Eigen::ArrayXcd direction = vertex / radius;
+  Eigen::ArrayXcd before = arsinh(vertex.tail(edges)) - arsinh(vertex.head(edges));
+  Eigen::ArrayXcd here = normal * (turn + i * change(log_radius)), power = direction;
   std::array<double, max_mode + 1> integral{};
-  for (double& sum : integral) {
-    sum = (weight * here).sum();
-    before = 2 * cosine * here - before;
+  for (int k = 0; k <= max_mode; ++k) {
+    integral[std::size_t(k)] = (distance * before.real()).sum();
+    before = normal * (-2.0 * i / (k + 1.0) * change(power) - normal * before);
     before.swap(here);
+    power *= direction;
   }
   return integral;
 }

@@ -53,7 +53,31 @@ TEST(OutlineShape, ADentIsNotSeen) {
   EXPECT_NEAR(whole.deformation, 1 - std::sqrt(pi) / 2, 1e-12);
   EXPECT_NEAR(shape_vector(whole)(0), std::log(4.0), 1e-12);
   EXPECT_EQ(shape_vector(dented), shape_vector(whole));
-  EXPECT_LT(whole.modes[2], -0.1);
+  EXPECT_NEAR(whole.modes[2], 2 * (1 - 2 * std::sqrt(2) / (3 * std::asinh(1))), 1e-14);
+}
+
+TEST(OutlineShape, TheModesOfATriangleAreIntegralsOfItsRadius) {
+  // r = d / cos(theta - phi) on an edge whose normal has the length d and the direction phi, summed by Simpson's rule.
+  Eigen::MatrixX2d triangle(3, 2);
+  triangle << -1, -1, 2, 0.3, 0.5, 1.5;
+  const Eigen::RowVector2d centroid = triangle.colwise().mean();
+  std::array<double, max_mode + 1> integral{};
+  for (int edge = 0; edge < 3; ++edge) {
+    const Eigen::RowVector2d a = triangle.row(edge) - centroid, b = triangle.row((edge + 1) % 3) - centroid;
+    const double phi = std::atan2(a.x() - b.x(), b.y() - a.y()), first = std::atan2(a.y(), a.x());
+    const double distance = a.x() * std::cos(phi) + a.y() * std::sin(phi);
+    const double angle = std::remainder(std::atan2(b.y(), b.x()) - first, 2 * pi);
+    constexpr int intervals = 4000;
+    for (int i = 0; i <= intervals; ++i) {
+      const double theta = first + angle * i / intervals, r = distance / std::cos(theta - phi);
+      const double weight = (i == 0 || i == intervals ? 1 : 2 + 2 * (i % 2)) * angle / (3 * intervals);
+      for (int k = 0; k <= max_mode; ++k) integral[std::size_t(k)] += weight * r * std::cos(k * theta);
+    }
+  }
+  const auto shape = outline_shape(triangle);
+  EXPECT_NEAR(shape.mean_radius, integral[0] / (2 * pi), 1e-11);
+  for (int k = min_mode; k <= max_mode; ++k)
+    EXPECT_NEAR(shape.modes[std::size_t(k - min_mode)], 2 * integral[std::size_t(k)] / integral[0], 1e-11) << k;
 }
 
 TEST(OutlineShape, PointsOnALineHaveNoShape) {
