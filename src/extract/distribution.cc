@@ -15,7 +15,8 @@ Distribution distribution_of(std::span<const double> values) {
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
   double squares = 0;
   for (const double value : values) squares += (value - mean) * (value - mean);
-  return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75), mean,
+  const CountedSample sample(values);
+  return {sample.quantile(0.5), sample.quantile(0.25), sample.quantile(0.75), mean,
           values.size() > 1 ? std::sqrt(squares / (count - 1)) : no_value};
 }
 

@@ -18,15 +18,21 @@ constexpr double normal_deviations_per_quartile = 0.6745;
 constexpr std::size_t fewest_for_a_verdict = 5, fewest_for_a_trend = 20;  // events
 constexpr double min_length_um = 15;                                      // of what a recording sees, for a trend
 
-double robust_deviation(std::span<const double> values) {
-  return (quantile(values, 0.75) - quantile(values, 0.25)) / (2 * normal_deviations_per_quartile);
+double robust_deviation(const CountedSample<double>& values) {
+  return (values.quantile(0.75) - values.quantile(0.25)) / (2 * normal_deviations_per_quartile);
 }
 
 Median median_with_error(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty()) return {no_value, no_value};
-  const double error = 1.25 * robust_deviation(values) / std::sqrt(static_cast<double>(values.size()));
-  return {quantile(values, 0.5), values.size() > 1 ? error : no_value};
+  const CountedSample<double> sample(values);
+  const double error = 1.25 * robust_deviation(sample) / std::sqrt(static_cast<double>(values.size()));
+  return {sample.quantile(0.5), values.size() > 1 ? error : no_value};
+}
+
+double length_seen(std::span<const double> places) {
+  const CountedSample sample(places);
+  return sample.quantile(0.95) - sample.quantile(0.05);
 }
 
 /// Least squares over the places, without what lies four robust deviations from the median.
@@ -35,7 +41,8 @@ Trend trend_of(std::span<const double> x, std::span<const double> y, double leng
   for (const double v : y)
     if (std::isfinite(v)) finite.push_back(v);
   if (finite.size() < fewest_for_a_trend || !(length >= min_length_um)) return {no_value, no_value, no_value};
-  const double middle = quantile(finite, 0.5), widest = 4 * robust_deviation(finite);
+  const CountedSample<double> sample(finite);
+  const double middle = sample.quantile(0.5), widest = 4 * robust_deviation(sample);
   double n = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!std::isfinite(x[i]) || !(std::abs(y[i] - middle) <= widest)) continue;
@@ -99,7 +106,7 @@ ShapeVerdict ShapeTally::verdict() const {
   const auto x = column(&Event::x);
   auto places = x;
   std::erase_if(places, [](double place) { return !std::isfinite(place); });
-  v.seen_um = places.empty() ? no_value : quantile(places, 0.95) - quantile(places, 0.05);
+  v.seen_um = places.empty() ? no_value : length_seen(places);
   v.inertia_ratio_trend = trend_of(x, column(&Event::inertia_ratio), v.seen_um);
   v.deformation_trend = trend_of(x, column(&Event::deformation), v.seen_um);
   v.asymmetry_trend = trend_of(x, column(&Event::mode_3), v.seen_um);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -12,49 +13,72 @@
 
 namespace rheocyte {
 
-/// The numbers of places `place` and `place + 1` (or the last one twice) in the order of size, without sorting: they
-/// are counted in classes of equal width, and only the classes of these places are looked at. No NaN, the place in
-/// range.
+/// Numbers that are counted once, in classes of equal width; places in their order of size are then found without
+/// sorting, because only the classes of these places are looked at. At least one number, none of them NaN; the span
+/// outlives this.
 template <class Number>
-std::pair<double, double> neighbours_in_order(std::span<const Number> values, std::size_t place) {
-  constexpr std::size_t classes = 2048;
-  const auto [min, max] = std::ranges::minmax(values);
-  const double width = (double(max) - double(min)) / classes, start = double(min);
-  if (!(width > 0)) return {start, start};
-  const auto class_of = [&](Number value) {
-    const double place_of_class = (double(value) - start) / width;
-    return place_of_class < classes - 1 ? std::size_t(place_of_class) : classes - 1;  // also what is infinite
-  };
-  std::array<std::size_t, classes> counts{};
-  for (const Number value : values) ++counts[class_of(value)];
-  const std::size_t next = std::min(place + 1, values.size() - 1);
-  std::size_t first = 0, before = 0;
-  while (before + counts[first] <= place) before += counts[first++];
-  std::size_t last = first, until = before + counts[first];
-  while (until <= next) until += counts[++last];
-  std::vector<Number> near;
-  near.reserve(until - before);
-  for (const Number value : values)
-    if (const std::size_t its = class_of(value); first <= its && its <= last) near.push_back(value);
-  std::ranges::nth_element(near, near.begin() + std::ptrdiff_t(place - before));
-  const double here = near[place - before];
-  if (next == place) return {here, here};
-  return {here, *std::min_element(near.begin() + std::ptrdiff_t(next - before), near.end())};
-}
+class CountedSample {
+ public:
+  explicit CountedSample(std::span<const Number> values) : values_(values), class_(values.size()) {
+    const auto [min, max] = std::ranges::minmax(values);
+    start_ = double(min);
+    per_class_ = classes / (double(max) - start_);
+    is_constant_ = !(max > min);
+    if (is_constant_) return;
+    for (std::size_t i = 0; i < values.size(); ++i) ++counts_[class_[i] = class_of(values[i])];
+  }
+
+  /// The numbers of places `place` and `place + 1` (or the last one twice) in the order of size; the place in range.
+  std::pair<double, double> neighbours(std::size_t place) const {
+    if (is_constant_) return {start_, start_};
+    const std::size_t next = std::min(place + 1, values_.size() - 1);
+    std::size_t first = 0, before = 0;
+    while (before + counts_[first] <= place) before += counts_[first++];
+    std::size_t last = first, until = before + counts_[first];
+    while (until <= next) until += counts_[++last];
+    std::vector<Number> near;
+    near.reserve(until - before);
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (first <= class_[i] && class_[i] <= last) near.push_back(values_[i]);
+    std::ranges::nth_element(near, near.begin() + std::ptrdiff_t(place - before));
+    const double here = near[place - before];
+    if (next == place) return {here, here};
+    return {here, *std::min_element(near.begin() + std::ptrdiff_t(next - before), near.end())};
+  }
+
+  /// Linear between two of the numbers.
+  double quantile(double fraction) const {
+    const double place = fraction * static_cast<double>(values_.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const auto [lower, above] = neighbours(below);
+    return lower + (place - static_cast<double>(below)) * (above - lower);
+  }
+
+ private:
+  static constexpr std::size_t classes = 2048;
+
+  std::uint16_t class_of(Number value) const {
+    const double place = (double(value) - start_) * per_class_;
+    return std::uint16_t(place < classes - 1 ? place : classes - 1);  // also what is infinite
+  }
+
+  std::span<const Number> values_;
+  double start_ = 0, per_class_ = 0;
+  bool is_constant_ = false;
+  std::vector<std::uint16_t> class_;  // of each number
+  std::array<std::size_t, classes> counts_{};
+};
 
 /// Linear between two of the numbers, at least one.
 inline double quantile(std::span<const double> values, double fraction) {
-  const double place = fraction * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const auto [lower, above] = neighbours_in_order(values, below);
-  return lower + (place - static_cast<double>(below)) * (above - lower);
+  return CountedSample(values).quantile(fraction);
 }
 
 /// The middle one, of an even number the upper one of the two. NaN of none.
 template <class Number>
 double median_of(const std::vector<Number>& values) {
   if (values.empty()) return no_value;
-  return neighbours_in_order(std::span<const Number>(values), values.size() / 2).first;
+  return CountedSample(std::span<const Number>(values)).neighbours(values.size() / 2).first;
 }
 
 }  // namespace rheocyte
