@@ -1,5 +1,4 @@
 // Tables of moduli: events in numpy arrays, lines, and the viscosity of buffers.
-#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 

@@ -44,7 +44,7 @@ class ByteWriter {
   template <class T>
   void put(const T& value) {
     if constexpr (HasFields<T>) {
-      std::apply([this](const auto&... field) { (put(field), ...); }, FieldsOf<T>::fields(value));
+      std::apply([this](const auto&... field) { (this->put(field), ...); }, FieldsOf<T>::fields(value));
     } else if constexpr (IsMatrix<T>) {
       put(std::int64_t(value.rows()));
       append(value.data(), sizeof(*value.data()) * std::size_t(value.size()));
@@ -74,7 +74,7 @@ class ByteReader {
   template <class T>
   void take(T& value) {
     if constexpr (HasFields<T>) {
-      std::apply([this](auto&... field) { (take(field), ...); }, FieldsOf<T>::fields(value));
+      std::apply([this](auto&... field) { (this->take(field), ...); }, FieldsOf<T>::fields(value));
     } else if constexpr (IsMatrix<T>) {
       constexpr std::size_t row = sizeof(*value.data()) * std::size_t(T::ColsAtCompileTime);
       const std::size_t rows = count(row);
