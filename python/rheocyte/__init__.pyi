@@ -8,6 +8,7 @@ from rheocyte.in_time import evolve as evolve
 from rheocyte.recordings import extract as extract
 from rheocyte.recordings import features as features
 from rheocyte.recordings import moduli as moduli
+from rheocyte.recordings import time_course as time_course
 from rheocyte.recordings import synth as synth
 from rheocyte.states import Result as Result
 from rheocyte.states import Session as Session

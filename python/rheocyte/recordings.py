@@ -98,6 +98,34 @@ def moduli(recording, table, *, fit_tension=False, only_figure=False, progress=N
     return frame
 
 
+def time_course(recordings, table, contraction_um, *, progress=None, **measuring):
+    """Young's modulus and viscosity of cells from how c3 changes along the channel, as `rheocyte time-course` does.
+
+    recordings      one, or several of one population, as for extract
+    table           dynamic table: the folder of one that `rheocyte table` has made, or its dynamic_*.cbor
+    contraction_um  pos_x of the end of the contraction, from which the cells come; one for all, or one each
+    others          as for extract
+
+    Returns a pandas.DataFrame with one row per cell that was seen over at least 20 um: places, radius_um,
+    young_modulus_kPa and viscosity_Pas with the ends of their 90 % intervals, chi_squared, status, event_numbers. attrs:
+    settings, population (sentences; of at least 50 cells, also of those that were seen once). UserError says why single
+    images, or pictures at one place, do not tell a viscosity.
+    """
+    import pandas
+
+    several = recordings if isinstance(recordings, (list, tuple)) else [recordings]
+    places = np.atleast_1d(np.asarray(contraction_um, float))
+    if len(places) not in (1, len(several)):
+        raise UserError(f"contraction_um has {len(places)} places for {len(several)} recordings; give one, or one each.")
+    each = [number(place, "contraction_um") for place in np.broadcast_to(places, len(several))]
+    with progress_bar(progress) as tell:
+        text, lines = native.time_course([_path(recording) for recording in several], os.fspath(table), each,
+                                         _measuring(measuring, "time_course"), tell)
+    frame = pandas.read_csv(io.StringIO(text), sep="\t", comment="#")
+    frame.attrs.update(settings=[line[2:] for line in text.splitlines() if line.startswith("# ")], population=lines)
+    return frame
+
+
 def synth(spec, file, *, replace=False, progress=None, **overrides):
     """Makes a virtual recording (.rtdc) of a population of cells, as `rheocyte synth` does.
 
@@ -106,7 +134,8 @@ def synth(spec, file, *, replace=False, progress=None, **overrides):
     progress        called with the share that is done; True: a bar of tqdm where it is installed
     overrides       keys that replace those of the spec, with two underscores for each dot: recording__cells=1000
 
-    The features userdef1 to userdef6 hold the true values. Returns the number of events. UserError names a wrong key.
+    The features userdef1 to userdef6 (userdef9 with recording.places_um) hold the true values. Returns the number of
+    events. UserError names a wrong key.
     """
     place = Path(os.fspath(file))
     text, name, settings = read_spec(spec, overrides, "synth")

@@ -1,4 +1,4 @@
-// `rheocyte help [case|table|synth|COMMAND]`
+// `rheocyte help [case|table|dynamic|synth|COMMAND]`
 // It prints to standard output.
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@
 #include "result/result_reference.h"
 #include "store/standard_output.h"
 #include "synth/synth_keys.h"
+#include "table/dynamic_spec.h"
 #include "table/table_keys.h"
 
 namespace rheocyte {
@@ -33,6 +34,7 @@ struct HelpOptions {
 const std::map<std::string, std::function<std::string(bool markdown)>> references{
     {"case", [](bool markdown) { return reference(case_reference(), markdown); }},
     {"table", [](bool markdown) { return reference(table_reference(), markdown); }},
+    {"dynamic", [](bool markdown) { return reference(dynamic_reference(), markdown); }},
     {"result", result_reference},
     {"synth", [](bool markdown) { return reference(synth_reference(), markdown); }},
 };
@@ -52,10 +54,10 @@ void add_help_command(CLI::App& app, int&) {
   auto* command =
       app.add_subcommand("help", "explain the keys of a case or a spec, the files of a result, or a command");
   auto options = std::make_shared<HelpOptions>();
-  auto* topic =
-      command->add_option("TOPIC", options->topic,
-                          "case, table or synth: all keys with unit, default and range; result: all numbers with "
-                          "unit and meaning; or another command");
+  auto* topic = command->add_option(
+      "TOPIC", options->topic,
+      "case, table, dynamic (tables) or synth: all keys with unit, default and range; result: all numbers with "
+      "unit and meaning; or another command");
   std::vector<std::string> topics;
   for (const auto& [name, text] : references) topics.push_back(name);
   for (const auto* known : app.get_subcommands([](const CLI::App*) { return true; }))

@@ -1,4 +1,4 @@
-// `rheocyte table`: a whole look-up table from a spec.
+// `rheocyte table`: a whole look-up table from a spec, stationary or dynamic.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
+#include "case/case_text.h"
 #include "case/user_error.h"
 #include "extract/tube_table.h"
 #include "store/build_info.h"
@@ -17,6 +18,7 @@
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
+#include "table/dynamic_folder.h"
 #include "table/finish_table.h"
 #include "table/table_workers.h"
 
@@ -52,7 +54,45 @@ bool compute(const TableFolder& folder, int jobs, bool quiet) {
   return is_complete;
 }
 
+std::string failure_text(const std::vector<CellCourse>& failed) {
+  const CellCourse& first = failed.front();
+  return fmt::format(
+      "rheocyte: {} of the cells cannot be followed to the last place, for example {:.4g} um, {:.4g} kPa, {:.4g} mPa "
+      "s: "
+      "{} Raise dynamic.min_young_modulus_kPa or lower dynamic.max_radius_um, in a new folder.",
+      failed.size(), first.cell.radius_um, first.cell.young_modulus_kPa, first.cell.viscosity_mPas(), first.message);
+}
+
+int make_dynamic_table(const TableOptions& options, const std::string& text) {
+  const DynamicSpec spec = parse_dynamic_spec(text, options.spec.string(), options.settings);
+  watch_signals();
+  DynamicFolder folder(options.folder, spec);
+  Progress progress("cells", folder.cells(), folder.done(), options.quiet);
+  const int jobs = options.jobs > 0 ? options.jobs : available_processors();
+  const bool is_complete = folder.compute(
+      jobs, [&](int done) { progress.show(done); }, stop_wanted());
+  progress.finish();
+  if (!is_complete) {
+    tell(fmt::format("rheocyte: stopped after {} of {} cells; the same command goes on from here.", folder.done(),
+                     folder.cells()));
+    return exit_stopped();
+  }
+  if (const auto failed = folder.failed(); !failed.empty()) return tell(failure_text(failed)), exit_numerical;
+  const DynamicTable table = folder.finish();
+  const CourseErrors& errors = table.errors();
+  if (!options.quiet)
+    print(
+        fmt::format("dynamic table {}: {} cells at {} places in {:.0f} s of computation; at {} cells between them c3 "
+                    "is off by at most {:.2f} %, the deformation by {:.2f} % of its greatest value  folder {}\n",
+                    spec.identifier, nodes(spec), spec.places, folder.seconds(), errors.cells, 100 * errors.mode_3,
+                    100 * errors.deformation, options.folder.string()));
+  return exit_converged;
+}
+
 int make_table(const TableOptions& options) {
+  if (const std::string text = read_case_text(options.spec);
+      is_dynamic_spec(text, options.spec.string(), options.settings))
+    return make_dynamic_table(options, text);
   const TableSpec spec = read_table_spec(options.spec, options.settings);
   const TableFolder folder(options.folder, spec);
   const Rank rank = rank_from_environment();
@@ -76,7 +116,7 @@ void add_table_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<TableOptions>();
   command
       ->add_option("SPEC", options->spec,
-                   "spec of the table, a TOML file (see `rheocyte help table` and examples/tables)")
+                   "spec of the table, a TOML file (see `rheocyte help table`, `help dynamic` and examples/tables)")
       ->required();
   command->add_option("-o,--output", options->folder, "folder of the table")->required();
   command->add_option("--set", options->settings, "replace a key of the spec; may be repeated")

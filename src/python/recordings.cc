@@ -13,6 +13,7 @@
 #include "case/user_error.h"
 #include "extract/extraction.h"
 #include "extract/moduli_recording.h"
+#include "extract/time_course_table.h"
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/shape_in_pixels.h"
@@ -134,6 +135,32 @@ std::vector<std::string> moduli(const std::filesystem::path& recording, const st
   });
 }
 
+// The file of `rheocyte time-course` as text, and what it says in sentences; a contraction for each recording.
+py::tuple time_course(const std::vector<std::filesystem::path>& recordings, const std::filesystem::path& place,
+                      const std::vector<double>& contraction_um, const MeasuringOptions& measuring,
+                      const Progress& progress) {
+  check_measuring_options(measuring);
+  struct Stopped {};
+  const auto report = interruptible([&](const std::atomic<bool>& stop) -> CourseReport {
+    try {
+      const DynamicTable table = read_dynamic_table(place);
+      CourseTable courses(table);
+      for (std::size_t i = 0; i < recordings.size(); ++i) {
+        const auto tell_share = [&](double share) {
+          tell(progress, (double(i) + share) / double(recordings.size()));
+          if (stop) throw Stopped{};
+        };
+        courses.add(read_course_events(recordings[i], measuring, tell_share), recordings[i].string(),
+                    contraction_um[i]);
+      }
+      return courses.report();
+    } catch (const Stopped&) {
+      return {};
+    }
+  });
+  return py::make_tuple(report.text, report.lines);
+}
+
 // The file appears whole or not at all; the caller has looked whether one is there. The number of its events.
 std::size_t synth(const std::string& text, const std::string& name, const std::vector<std::string>& settings,
                   const std::filesystem::path& place, const Progress& progress) {
@@ -234,6 +261,7 @@ void bind_recordings(py::module_& module) {
   bind_options(module);
   module.def("extract", &extract);
   module.def("moduli", &moduli);
+  module.def("time_course", &time_course);
   module.def("features", &features);
   module.def("synth", &synth);
 }

@@ -171,8 +171,10 @@ class TimeFollower {
   /// Those between the last step and the one before.
   void show_frames(double before) const {
     const double now = progress(stepper_->now());
-    for (long i = std::lround(std::floor(before / run_.output_every * (1 + 1e-12))) + 1;; ++i) {
-      const double output = i * run_.output_every;
+    const double gone = (before - run_.first_output) / run_.output_every;
+    const long next = run_.first_output > 0 && gone < 0 ? 0 : std::lround(std::floor(gone * (1 + 1e-12))) + 1;
+    for (long i = next;; ++i) {
+      const double output = run_.first_output + double(i) * run_.output_every;
       if (output > now * (1 + 1e-12) || (at_end() && output > now * (1 - 1e-9))) break;
       const double time = run_.outputs_by_place ? stepper_->time_at(std::min(output, now)) : output;
       stepper_->move_walls(time);

@@ -20,6 +20,7 @@ struct TimeRun {
   bool outputs_by_place = false;
   double mesh_accuracy = 1e-3;   ///< of the deformation, relative; where the mesh is chosen
   bool estimates_error = false;  ///< by a second run on a coarser mesh, unless the cell has settled
+  double first_output = 0;       ///< time, or way, of the first output behind the start; 0: output_every
 };
 
 /// What is recorded of each step; dimensionless.

@@ -14,22 +14,28 @@ struct VirtualCell {
   double stiffness = 0;  ///< Young's modulus (kPa) of what has a bulk, modulus of the cortex (mN/m) of a shell
   double viscosity_mPas = 0;
   double cortex_modulus_mN_per_m = 0, tension_mN_per_m = 0;  ///< of a combined cell
+  double own_viscosity_mPas = 0, place_um = 0;  ///< of a cell on its way: inside it, behind the contraction
 };
 
-/// The stationary state of a cell, in um.
+/// The stationary state of a cell, or that at its place, in um.
 struct CellShape {
   Eigen::MatrixX2d meridian;  ///< points (x, r) from the front pole to the rear pole
   double area_um2 = 0;        ///< of the convex hull
   double deformation = 0;     ///< of the convex hull
   double volume_um3 = 0;
+  double time_s = 0;  ///< of a cell on its way, since it started
 };
 
 /// Why a model has no shape for a cell.
-enum class NoShape { too_small, too_large, too_stiff, too_soft, outside_picture, outside_sheets };
+enum class NoShape { too_small, too_large, too_stiff, too_soft, outside_picture, outside_sheets, outside_times };
 
-inline constexpr std::array<std::string_view, 6> names_of_missing_shapes{
-    "too small", "too large",           "too stiff",
-    "too soft",  "outside the picture", "of a cortex or tension outside the table"};
+inline constexpr std::array<std::string_view, 7> names_of_missing_shapes{"too small",
+                                                                         "too large",
+                                                                         "too stiff",
+                                                                         "too soft",
+                                                                         "outside the picture",
+                                                                         "of a cortex or tension outside the table",
+                                                                         "of a viscosity outside the table"};
 
 class CellShapes {
  public:

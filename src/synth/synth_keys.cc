@@ -70,6 +70,10 @@ Keys recording_keys() {
       key<&Spec::frame_rate_Hz>({"recording.frame_rate_Hz", "Hz", "pictures per second", Number{{1, 1e6}}, 3000.0}),
       key<&Spec::cells_per_s>(
           {"recording.cells_per_s", "1/s", "mean rate at which cells arrive", Number{{1e-3, 1e5}}, 100.0}),
+      key<&Spec::places_um>({"recording.places_um", "um",
+                             "places behind the contraction at which each cell is seen, with a dynamic table; pos_x is "
+                             "the place, so the pictures must be wide enough",
+                             List{{0, 1e6}, true}, absent}),
       key<&Spec::sample>({"recording.sample", "", "name of the sample", Word{}, "virtual cells"}),
       key<&Spec::date>({"recording.date", "", "YYYY-MM-DD", Word{}, "2026-01-01"}),
       key<&Spec::time>({"recording.time", "", "HH:MM:SS", Word{}, "12:00:00"}),
@@ -109,6 +113,8 @@ Keys cell_keys() {
                                    no_solid, tension),
       spread<&Spec::tension_mN_per_m>(tension, "tension of combined cells, in place of the ratio", absent,
                                       "cell.tension_mN_per_m", is_combined, ratio),
+      spread<&Spec::viscosity_of_cell_mPas>("cell.viscosity_mPas",
+                                            "viscosity of the cells' interior, with recording.places_um", absent, ""),
       key<&Spec::added_ellipse>({"cell.added_ellipse", "",
                                  "mode c_2 added to each outline after the model, e.g. 0.1: an elongation along the "
                                  "flow as many real cells have it (docs/real-cells.md); true values are those before",
@@ -119,7 +125,9 @@ Keys cell_keys() {
 Keys shape_keys() {
   return {
       key<&Spec::table>({"shapes.table", "",
-                         "folder of a table by `rheocyte table`, seen from the spec; without it the analytical model",
+                         "folder of a table by `rheocyte table`, seen from the spec, a dynamic one with "
+                         "recording.places_um; without it "
+                         "the analytical model",
                          Word{}, absent}),
       key<&Spec::max_deformation>(
           renamed({"shapes.max_deformation", "",

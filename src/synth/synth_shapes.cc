@@ -5,11 +5,13 @@
 #include <set>
 #include <system_error>
 
+#include "case/case_text.h"
 #include "case/joined.h"
 #include "case/user_error.h"
 #include "synth/analytic_shapes.h"
 #include "synth/branch_shapes.h"
 #include "synth/combined_shapes.h"
+#include "synth/course_shapes.h"
 #include "table/table_folder.h"
 
 namespace rheocyte {
@@ -63,12 +65,25 @@ std::unique_ptr<CellShapes> shapes_of_combined_table(SynthSpec& spec, const Tabl
   return std::make_unique<CombinedShapes>(folder.spec(), std::move(branches), cells_of(spec, folder.spec().base));
 }
 
+std::unique_ptr<CellShapes> shapes_of_dynamic_table(const SynthSpec& spec) {
+  if (!spec.is_on_its_way()) refuse(spec, "is a dynamic table; give recording.places_um, where its cells are seen.");
+  if (!spec.viscosity_of_cell_mPas) refuse(spec, "is a dynamic table; give cell.viscosity_mPas of its cells.");
+  if (spec.kind != CellKind::solid) refuse(spec, "its cells are solids, so cell.kind must be \"solid\".");
+  return std::make_unique<CourseShapes>(read_dynamic_table(spec.table),
+                                        ChannelFlow{spec.channel_width_um, spec.flow_rate_ul_s});
+}
+
 std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   std::error_code error;
   if (!fs::exists(spec.table / "spec.toml", error))
     refuse(spec,
            "there is no table of `rheocyte table` (no spec.toml in this folder); shapes.table names such a folder.");
-  const TableFolder folder(spec.table, read_table_spec(spec.table / "spec.toml"));
+  const fs::path file = spec.table / "spec.toml";
+  if (is_dynamic_spec(read_case_text(file), file.string(), {})) return shapes_of_dynamic_table(spec);
+  if (spec.is_on_its_way())
+    refuse(spec,
+           "is a table of stationary shapes; recording.places_um needs a dynamic table (`rheocyte help dynamic`).");
+  const TableFolder folder(spec.table, read_table_spec(file));
   if (folder.spec().is_combined()) return shapes_of_combined_table(spec, folder);
   const bool is_shell = folder.spec().sweeps_cortex();
   if (spec.kind != (is_shell ? CellKind::shell : CellKind::solid))

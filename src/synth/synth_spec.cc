@@ -49,7 +49,14 @@ void check_pattern(const std::string& text, std::string_view pattern, std::strin
 }
 
 void check_shapes(SynthSpec& spec, const KeyReading& keys) {
+  constexpr std::string_view viscosity = "cell.viscosity_mPas";
+  if (keys.has(viscosity) && !spec.is_on_its_way())
+    keys.refuse(viscosity, fmt::format("{} has no effect on a stationary shape; remove it, or give "
+                                       "recording.places_um.",
+                                       viscosity));
   if (!spec.table.empty()) return;
+  if (spec.is_on_its_way())
+    keys.refuse("recording.places_um", "recording.places_um needs shapes.table, the folder of a dynamic table.");
   if (spec.kind == CellKind::combined)
     keys.refuse("shapes.table",
                 "cell.kind = \"combined\" needs shapes.table, the folder of a table with table.cortex_share; the "

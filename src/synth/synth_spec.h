@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "case/spread.h"
 #include "measurement/pixel_contour.h"
@@ -21,6 +22,7 @@ struct SynthSpec {
   double width_px = 0, height_px = 0;  ///< height 0: as high as the channel and its walls
   Pictures pictures = Pictures::masks;
   std::string sample, date, time;
+  std::vector<double> places_um;  ///< behind a contraction, at each of which every cell is seen; empty: once, anywhere
   // [channel], [flow]
   double channel_width_um = 0, flow_rate_ul_s = 0;
   std::optional<double> viscosity_mPas;
@@ -33,6 +35,7 @@ struct SynthSpec {
   std::optional<Spread> young_modulus_kPa;                ///< of solids and combined cells
   std::optional<Spread> cortex_modulus_mN_per_m;          ///< E2D of shells and combined cells
   std::optional<Spread> tension_ratio, tension_mN_per_m;  ///< at most one; of shells the same ratio for all
+  std::optional<Spread> viscosity_of_cell_mPas;           ///< of cells on their way
   double added_ellipse = 0;                               ///< mode c_2 that is added to each outline
   // [shapes]
   std::filesystem::path table;  ///< folder of a table of `rheocyte table`; empty: the analytical model
@@ -41,6 +44,8 @@ struct SynthSpec {
   // [noise]
   double lateral_um = 0, contour_um = 0, contour_correlation_um = 0, thermometer_C = 0;
 
+  /// Whether the cells are seen on their way, by a dynamic table.
+  bool is_on_its_way() const { return !places_um.empty(); }
   /// Young's modulus (kPa) of solids and combined cells, modulus E2D (mN/m) of shells.
   const Spread& stiffness() const { return (young_modulus_kPa ? young_modulus_kPa : cortex_modulus_mN_per_m).value(); }
   ImageSize image_size() const;

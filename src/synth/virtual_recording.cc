@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "case/user_error.h"
 #include "measurement/contour_features.h"
@@ -65,9 +66,27 @@ class VirtualCamera {
     if (!spec.viscosity_mPas) buffer_.emplace(*medium_of_name(spec.medium), spec.viscosity_model);
   }
 
-  /// Adds the cell of this number to the block, if it can be seen.
+  /// Adds the cell of this number to the block, if it can be seen; a cell on its way at each of its places.
   void take(std::uint64_t number, Block& block) {
     ++result_.cells;
+    auto [cell, celsius] = drawn(number);
+    if (!spec_.is_on_its_way()) return see(cell, {number, number, celsius}, block);
+    const std::size_t places = spec_.places_um.size();
+    arrive(number);
+    for (std::size_t k = 0; k < places; ++k) {
+      cell.place_um = spec_.places_um[k];
+      see(cell, {number, number * places + k, celsius}, block);
+    }
+  }
+
+ private:
+  /// Of a picture: numbers of its cell and of itself.
+  struct Picture {
+    std::uint64_t cell, number;
+    double celsius;
+  };
+
+  std::pair<VirtualCell, double> drawn(std::uint64_t number) const {
     auto random = CellRandom(seed(), number, Purpose::population);
     VirtualCell cell;
     cell.radius_um = spec_.radius_um.at(random.normal());
@@ -82,10 +101,15 @@ class VirtualCamera {
     const double celsius = spec_.temperature_C.at(CellRandom(seed(), number, Purpose::temperature).normal());
     cell.viscosity_mPas = buffer_ ? buffer_->viscosity({spec_.channel_width_um, spec_.flow_rate_ul_s}, celsius)
                                   : spec_.viscosity_mPas.value_or(0);
+    if (spec_.viscosity_of_cell_mPas) cell.own_viscosity_mPas = spec_.viscosity_of_cell_mPas->at(random.normal());
+    return {cell, celsius};
+  }
+
+  void see(const VirtualCell& cell, const Picture& picture, Block& block) {
     auto found = shapes_.shape(cell);
     if (const auto* const reason = std::get_if<NoShape>(&found)) return count(*reason);
     const auto& shape = std::get<CellShape>(found);
-    const auto outline = outline_in_picture(shape, number);
+    const auto outline = outline_in_picture(shape, cell, picture.number);
     if (!fill_mask(outline, size_, mask_)) return count(NoShape::outside_picture);
     const auto features = measurer_.measure(finder_.contour_of({size_, mask_}), spec_.pixel_size_um);
     if (!std::isfinite(features.area_um2)) return count(NoShape::too_small);
@@ -93,23 +117,24 @@ class VirtualCamera {
     ++block.events;
     add_features(features, block);
     add_truth(cell, shape, features, block);
-    add_time(number, celsius, block);
-    add_pictures(outline, number, block);
+    if (spec_.is_on_its_way()) block.columns["userdef9"].push_back(double(picture.cell + 1));
+    add_time(shape, picture, block);
+    add_pictures(outline, picture.number, block);
   }
 
- private:
   bool is_combined() const { return spec_.kind == CellKind::combined; }
   std::uint64_t seed() const { return static_cast<std::uint64_t>(spec_.seed); }
   void count(NoShape reason) { ++result_.missing[static_cast<std::size_t>(reason)]; }
 
   // In pixels; the cell lies anywhere between the pixels.
-  Eigen::MatrixX2d outline_in_picture(const CellShape& shape, std::uint64_t number) {
+  Eigen::MatrixX2d outline_in_picture(const CellShape& shape, const VirtualCell& cell, std::uint64_t number) {
     auto place = CellRandom(seed(), number, Purpose::place), noise = CellRandom(seed(), number, Purpose::contour);
     Eigen::MatrixX2d outline = with_ellipse(silhouette(shape.meridian), spec_.added_ellipse);
     outline = displaced(outline, {spec_.contour_um, spec_.contour_correlation_um}, noise) / spec_.pixel_size_um;
     const double middle = 0.5 * (outline.col(0).maxCoeff() + outline.col(0).minCoeff());
-    const double x =
-        0.5 * static_cast<double>(size_.width) - middle + spread_along_channel_px * (2 * place.uniform() - 1);
+    const double taken = spread_along_channel_px * (2 * place.uniform() - 1);
+    const double x = spec_.is_on_its_way() ? cell.place_um / spec_.pixel_size_um
+                                           : 0.5 * static_cast<double>(size_.width) - middle + taken;
     const double y = axis() + place.uniform() - 0.5 + spec_.lateral_um / spec_.pixel_size_um * place.normal();
     outline.rowwise() += Eigen::RowVector2d(x, y);
     return outline;
@@ -126,19 +151,25 @@ class VirtualCamera {
     std::vector truth{cell.radius_um,    cell.stiffness,   shape.area_um2,
                       shape.deformation, shape.volume_um3, cell.viscosity_mPas};
     if (is_combined()) truth.insert(truth.end(), {cell.cortex_modulus_mN_per_m, cell.tension_mN_per_m});
+    if (spec_.is_on_its_way()) truth.insert(truth.end(), {cell.own_viscosity_mPas, cell.place_um});
     for (std::size_t k = 0; k < truth.size(); ++k) block.columns[fmt::format("userdef{}", k + 1)].push_back(truth[k]);
     result_.mean_area_error += features.area_um2 / shape.area_um2 - 1;
     result_.mean_deformation_error += features.deformation - shape.deformation;
   }
 
-  void add_time(std::uint64_t number, double celsius, Block& block) {
+  void arrive(std::uint64_t number) {
     auto arrival = CellRandom(seed(), number, Purpose::arrival);
     frame_ += 1 + std::floor(-std::log(arrival.uniform()) * spec_.frame_rate_Hz / spec_.cells_per_s);
-    block.columns["frame"].push_back(frame_);
-    block.columns["time"].push_back(frame_ / spec_.frame_rate_Hz);
+  }
+
+  void add_time(const CellShape& shape, const Picture& picture, Block& block) {
+    if (!spec_.is_on_its_way()) arrive(picture.cell);
+    const double frame = frame_ + shape.time_s * spec_.frame_rate_Hz;  // on its way a cell is taken at its places
+    block.columns["frame"].push_back(std::floor(frame));
+    block.columns["time"].push_back(frame / spec_.frame_rate_Hz);
     block.columns["index"].push_back(static_cast<double>(result_.events));
-    auto thermometer = CellRandom(seed(), number, Purpose::thermometer);
-    if (buffer_) block.columns["temp"].push_back(celsius + spec_.thermometer_C * thermometer.normal());
+    auto thermometer = CellRandom(seed(), picture.number, Purpose::thermometer);
+    if (buffer_) block.columns["temp"].push_back(picture.celsius + spec_.thermometer_C * thermometer.normal());
   }
 
   void add_pictures(const Eigen::MatrixX2d& outline, std::uint64_t number, Block& block) const {
@@ -208,6 +239,8 @@ void describe_truth(const SynthSpec& spec, const CellShapes& shapes, const Virtu
                                     "deformation of the convex hull",
                                     "volume (um^3)",
                                     "viscosity (mPa s)"};
+  if (spec.is_on_its_way())
+    meanings.insert(meanings.end(), {"viscosity of the cell (mPa s)", "place behind the contraction (um)", "number"});
   if (spec.kind == CellKind::combined) meanings.insert(meanings.end(), {cortex, "tension of the cortex (mN/m)"});
   for (std::size_t k = 0; k < meanings.size(); ++k)
     file.add_metadata(fmt::format("user:rheocyte userdef{}", k + 1), fmt::format("true {}", meanings[k]));

@@ -127,3 +127,68 @@ def test_moduli_of_bulk_and_cortex_need_their_table(tmp_path):
     rheocyte.synth(CELLS, file)
     with pytest.raises(UserError, match="nowhere"):
         rheocyte.moduli(file, tmp_path / "nowhere")
+
+
+ON_THEIR_WAY = {"recording": {"cells": 60, "width_px": 260, "places_um": [15, 55]}, "channel": {"width_um": 20},
+                "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+                "cell": {"radius_um": {"mean": 6.5, "sd": 0.2}, "viscosity_mPas": 5000, "bulk": {"young_modulus_kPa": 8}},
+                "shapes": {"table": "dynamic"}}
+
+
+@pytest.fixture(scope="module")
+def on_their_way(program, tmp_path_factory):
+    """A folder with a dynamic table of few cells, and a recording of others, each seen twice."""
+    folder = tmp_path_factory.mktemp("time-course")
+    (folder / "dynamic.toml").write_text("""
+[channel.profile]
+x_um = [60.0, 100.0]
+R_um = [21.88, 10.94]
+[flow]
+rate_ul_per_s = 0.04
+viscosity_mPas = 15.0
+density_kg_per_m3 = 0
+[cell]
+density_kg_per_m3 = 0
+[time]
+degree = 2
+accuracy = 1e-3
+[dynamic]
+identifier = "small"
+min_radius_um = 5.5
+max_radius_um = 7.5
+min_young_modulus_kPa = 6.0
+max_young_modulus_kPa = 20.0
+min_time_ms = 0.5
+last_um = 60
+radii = 2
+moduli = 2
+times = 2
+places = 4
+checks = 0
+""")
+    subprocess.run([program, "table", "dynamic.toml", "-o", "dynamic", "--quiet"], cwd=folder, check=True)
+    spec = dict(ON_THEIR_WAY, shapes={"table": str(folder / "dynamic")})
+    assert rheocyte.synth(spec, folder / "cells.rtdc") == 120
+    return folder
+
+
+def test_the_time_course_is_that_of_the_command(program, on_their_way):
+    frame = rheocyte.time_course(on_their_way / "cells.rtdc", on_their_way / "dynamic", 0)
+    subprocess.run([program, "time-course", "cells.rtdc", "--table", "dynamic", "--contraction-um", "0", "-o", "cells.tsv",
+                    "--quiet"], cwd=on_their_way, check=True)
+    written = pandas.read_csv(on_their_way / "cells.tsv", sep="\t", comment="#")
+    pandas.testing.assert_frame_equal(frame.drop(columns="recording"), written.drop(columns="recording"))
+    assert len(frame) == 60 and set(frame["events"]) == {2}
+    held = (frame["viscosity_low_Pas"] <= 5) & (frame["viscosity_high_Pas"] >= 5)
+    assert held.mean() > 0.7  # of 90 %; the standard deviation is 4 %
+    assert frame.attrs["population"][1].startswith("population: Young's modulus")
+
+
+def test_single_images_do_not_tell_a_viscosity(on_their_way, tmp_path):
+    spec = dict(ON_THEIR_WAY, shapes={"table": str(on_their_way / "dynamic")},
+                recording={"cells": 12, "width_px": 260, "places_um": [30]})
+    rheocyte.synth(spec, tmp_path / "once.rtdc")
+    with pytest.raises(UserError, match="One picture of a cell does not tell"):
+        rheocyte.time_course(tmp_path / "once.rtdc", on_their_way / "dynamic", 0)
+    with pytest.raises(UserError, match="contraction_um has 2 places for 1 recordings"):
+        rheocyte.time_course(tmp_path / "once.rtdc", on_their_way / "dynamic", [0, 1])

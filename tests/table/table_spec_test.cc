@@ -7,10 +7,12 @@
 #include <sstream>
 
 #include "../refusal.h"
+#include "case/case_text.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "invented_branch.h"
+#include "table/dynamic_spec.h"
 #include "table/table_keys.h"
 
 namespace rheocyte {
@@ -164,14 +166,27 @@ TEST(TableSpec, TheReferenceInDocsIsUpToDate) {
       << "run `build/rheocyte help table --markdown > docs/table-reference.md`";
 }
 
+TEST(DynamicSpec, TheReferenceInDocsIsUpToDate) {
+  std::ostringstream text;
+  text << std::ifstream(DYNAMIC_REFERENCE).rdbuf();
+  EXPECT_EQ(text.str(), reference_markdown(dynamic_reference()))
+      << "run `build/rheocyte help dynamic --markdown > docs/dynamic-reference.md`";
+}
+
 TEST(TableSpec, EveryReadySpecIsAGoodOne) {
   int specs = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(EXAMPLES) + "/tables")) {
-    const auto spec = read_table_spec(entry.path());
-    EXPECT_EQ(to_toml(parse_table_spec(to_toml(spec), "again")), to_toml(spec)) << entry.path();
+    const std::string text = read_case_text(entry.path()), name = entry.path().string();
     ++specs;
+    if (is_dynamic_spec(text, name, {})) {
+      const auto spec = parse_dynamic_spec(text, name);
+      EXPECT_EQ(to_toml(parse_dynamic_spec(to_toml(spec), "again")), to_toml(spec)) << name;
+      continue;
+    }
+    const auto spec = read_table_spec(entry.path());
+    EXPECT_EQ(to_toml(parse_table_spec(to_toml(spec), "again")), to_toml(spec)) << name;
   }
-  EXPECT_EQ(specs, 10);
+  EXPECT_EQ(specs, 11);
 }
 
 }  // namespace

@@ -68,15 +68,15 @@ TEST(TimeEndStates, APaperCellAndACellWithACortexEndAsTheStationaryOnes) {
 TEST(TimeEndStatesSlow, TwentyCellsEndAsTheStationaryOnes) {
   // Solids, shells, and solids with a cortex; the last of these was 0.6 % off on the usual mesh.
   const Surface linear_9{9, 0.9, 1e4, CortexLaw::linear};
-  const std::vector<MovingCell> cells = {{{4, 0.5, linear}},
-                                         {{5.5, 1, neo_hookean}},
+  const std::vector<MovingCell> cells = {{{4, 1.2, linear}},
+                                         {{5.5, 2.2, neo_hookean}},
                                          {{7.66, 3.437, neo_hookean}},
                                          {{7.66, 3.437, linear}},
                                          {{8.5, 8, neo_hookean}},
                                          {{6, 2, neo_hookean}, {}, true},
                                          {{7, 4.58, neo_hookean}, {}, true},
                                          {{8, 8, linear}, {}, true},
-                                         {{5, 0}, {6, 0.6, 0, CortexLaw::neo_hookean}},
+                                         {{5, 0}, {15, 1.5, 0, CortexLaw::neo_hookean}},
                                          {{6, 0}, {12, 1.2, 0, CortexLaw::linear}},
                                          {{7.2, 0}, {25, 2.5, 0, CortexLaw::neo_hookean}},
                                          {{7.66, 0}, {31.3, 3.13, 0, CortexLaw::linear}},
@@ -84,10 +84,10 @@ TEST(TimeEndStatesSlow, TwentyCellsEndAsTheStationaryOnes) {
                                          {{7, 0}, {30, 3, 0, CortexLaw::linear}, true},
                                          {{7.2, 2, neo_hookean}, linear_9},
                                          {{7.2, 2, neo_hookean}, linear_9, true},
-                                         {{5.5, 0.8, neo_hookean}, {4, 0.4, 0, CortexLaw::linear}},
-                                         {{6.5, 1.5, linear}, {8, 0.8, 0, CortexLaw::neo_hookean}},
+                                         {{5.5, 2.4, neo_hookean}, {12, 1.2, 0, CortexLaw::linear}},
+                                         {{6.5, 3, linear}, {16, 1.6, 0, CortexLaw::neo_hookean}},
                                          {{8, 4, neo_hookean}, {15, 1.5, 0, CortexLaw::thin_shell}},
-                                         {{6, 1.5, linear}, {6, 0.6, 0, CortexLaw::linear}, true}};
+                                         {{6, 3, linear}, {12, 1.2, 0, CortexLaw::linear}, true}};
   for (const MovingCell& cell : cells) expect_stationary_end(cell);
 }
 

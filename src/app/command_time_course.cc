@@ -1,0 +1,104 @@
+// `rheocyte time-course`: Young's modulus and viscosity of the cells in recordings, from how the third mode of their
+// outlines changes along the channel.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/extract_options.h"
+#include "app/recording_batch.h"
+#include "case/user_error.h"
+#include "extract/course_events.h"
+#include "extract/time_course_table.h"
+#include "store/contained.h"
+#include "store/own_file.h"
+#include "store/standard_error.h"
+#include "store/standard_output.h"
+#include "store/stop_signal.h"
+
+namespace rheocyte {
+
+namespace {
+
+struct TimeCourseOptions {
+  BatchOptions batch;
+  MeasuringOptions measuring;
+  std::filesystem::path table, file;
+  std::vector<double> contraction_um;  ///< one for all recordings, or one each
+};
+
+CourseEvents read(const RecordingTask& task, const TimeCourseOptions& options) {
+  const auto work = [&](const TellProgress& tell_progress) {
+    return read_course_events(task.recording, options.measuring, tell_progress);
+  };
+  Containment limits;
+  limits.patience_s = options.measuring.patience_s;
+  auto done = run_contained(work, limits, FileProgress(one_line(task.recording.string(), 200), options.batch.quiet));
+  if (!done.finished()) throw UserError(sentence_for(task.recording, done.end, limits.patience_s));
+  return std::move(done.result);
+}
+
+double contraction_of(const TimeCourseOptions& options, std::size_t recording, std::size_t recordings) {
+  const auto& places = options.contraction_um;
+  if (places.size() == 1) return places.front();
+  if (places.size() == recordings) return places[recording];
+  throw UserError(
+      fmt::format("rheocyte: --contraction-um has {} places for {} recordings; give one for all, or one "
+                  "each.",
+                  places.size(), recordings));
+}
+
+int run(const TimeCourseOptions& options) {
+  const auto tasks = tasks_of(options.batch);
+  const DynamicTable table = read_dynamic_table(options.table);
+  check_replaceable(options.file, mark_of_courses, Foreign::keep);
+  CourseTable courses(table);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const double contraction_um = contraction_of(options, i, tasks.size());
+    const std::string name = one_line(tasks[i].recording.string(), 200);
+    const CourseEvents events = read(tasks[i], options);
+    if (stop_wanted()) return exit_stopped();
+    for (const std::string& warning : events.warnings) tell(fmt::format("{}: {}", name, warning));
+    courses.add(events, name, contraction_um);
+  }
+  const CourseReport report = courses.report();
+  write_own_file(options.file, report.text, mark_of_courses, Foreign::keep);
+  if (!options.batch.quiet)
+    for (const std::string& line : report.lines) print(line + "\n");
+  return exit_converged;
+}
+
+}  // namespace
+
+void add_time_course_command(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand(
+      "time-course", "Young's modulus and viscosity of cells that recordings (.rtdc) see at several places");
+  auto options = std::make_shared<TimeCourseOptions>();
+  command->add_option("FILES", options->batch.inputs, "recordings (.rtdc) of one population; folders with -r")
+      ->required();
+  command->add_option("--table", options->table, "dynamic table: a folder of `rheocyte table`, or its dynamic_*.cbor")
+      ->required()
+      ->type_name("TABLE");
+  command
+      ->add_option("--contraction-um", options->contraction_um,
+                   "pos_x of the end of the contraction, from which the cells come; one for all recordings, or one "
+                   "each, comma-separated")
+      ->delimiter(',')
+      ->required();
+  command->add_option("-o,--output", options->file, "table of the cells and the population")
+      ->type_name("FILE.tsv")
+      ->required();
+  command->add_flag("-r,--recursive", options->batch.recursive, "search the given folders for recordings");
+  command->add_flag("--quiet", options->batch.quiet, "print neither progress nor results");
+  declare_measuring_options(*command, options->measuring);
+  command->callback([options, &exit_code] {
+    check_measuring_options(options->measuring);
+    watch_signals(SecondSignal::waits);
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace rheocyte

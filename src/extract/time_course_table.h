@@ -1,0 +1,45 @@
+// What is told of the cells that recordings saw along a channel, and of their population.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "extract/course_events.h"
+
+namespace rheocyte {
+
+/// With these words the file begins: its first line holds the names of all columns.
+inline constexpr std::string_view mark_of_courses = "recording\tcell\tevents\tfirst_place_um\t";
+
+struct CourseReport {
+  std::string text;                ///< the file: a line for each cell that was seen again, the settings below
+  std::vector<std::string> lines;  ///< for the terminal
+  PopulationEstimate population;
+};
+
+class CourseTable {
+ public:
+  /// The table must outlive it.
+  explicit CourseTable(const DynamicTable& table) : table_(table) {}
+
+  /// UserError as course_cells, and if its flow or viscosity differs from that of the recordings before.
+  void add(const CourseEvents& events, const std::string& name, double contraction_um);
+
+  /// Of all recordings. UserError as check_places_seen.
+  CourseReport report() const;
+
+ private:
+  struct Row {
+    std::string recording;
+    CourseCell cell;
+    ChannelFlow flow;
+  };
+  std::string line(const Row& row, std::size_t number) const;
+
+  const DynamicTable& table_;
+  std::vector<Row> rows_;
+  std::vector<std::string> remarks_;
+  std::size_t outside_places_ = 0, outside_areas_ = 0;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,226 @@
+#include "infer/time_course.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace rheocyte {
+
+namespace {
+
+constexpr int coarse = 48, fine = 41;             // points along each axis
+constexpr double relevant = 12;                   // of ln(likelihood) below the greatest
+constexpr double step_of_radius = 0.03;           // in ln(radius), to both sides
+constexpr double normal_quantile = 1.6448536270;  // of 95 %
+
+std::vector<double> spaced(double first, double last, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(std::lerp(first, last, (i + 0.5) / count));
+  return values;
+}
+
+/// Quantiles of weighted values, between their middles.
+Credible credible(const std::vector<double>& logarithm, const std::vector<double>& weight) {
+  std::vector<std::size_t> order(logarithm.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return logarithm[i]; });
+  const double all = std::accumulate(weight.begin(), weight.end(), 0.0);
+  const auto quantile = [&](double share) {
+    double below = 0, last = 0, last_value = logarithm[order.front()];
+    for (const std::size_t i : order) {
+      const double middle = (below + weight[i] / 2) / all;
+      if (middle >= share) return std::lerp(last_value, logarithm[i], (share - last) / (middle - last));
+      below += weight[i];
+      last = middle;
+      last_value = logarithm[i];
+    }
+    return last_value;
+  };
+  constexpr double rim = (1 - credible_share) / 2;
+  return {std::exp(quantile(0.5)), std::exp(quantile(rim)), std::exp(quantile(1 - rim))};
+}
+
+}  // namespace
+
+struct TimeCourse::Box {
+  double min_modulus, max_modulus, min_time, max_time;  ///< logarithms, in the coordinates of the table
+};
+
+/// Cells that could have been seen, and how likely they are (not normalised).
+struct TimeCourse::Points {
+  std::vector<double> modulus, time;                       ///< coordinates
+  std::vector<double> log_modulus, log_viscosity, weight;  ///< kPa, Pa s
+  std::vector<double> log_radius;
+  double min_chi_squared = 0;
+};
+
+bool TimeCourse::has_area(double area_um2) const { return table_.has_radius(std::sqrt(area_um2 / std::numbers::pi)); }
+
+TimeCourse::Points TimeCourse::points(const CellImages& images, const Box& box, int count) const {
+  const auto moduli = spaced(box.min_modulus, box.max_modulus, count),
+             times = spaced(box.min_time, box.max_time, count);
+  const double share = 1 / double(images.size());
+  Eigen::ArrayXXd log_radius = Eigen::ArrayXXd::Zero(count, count), chi_squared = log_radius;
+  double guess = 0;  // of ln(radius), as if no area changed
+  for (const CourseImage& image : images) guess += share * std::log(image.area_um2 / std::numbers::pi) / 2;
+  const double radius = std::exp(guess);
+  for (const CourseImage& image : images) {
+    const auto ratio = table_.values(CourseMeasure::area_ratio, radius, image.place_um, moduli, times);
+    log_radius += share * (std::log(image.area_um2 / std::numbers::pi) - ratio.array().log()) / 2;
+  }
+  for (const CourseImage& image : images) {
+    const auto at = [&](double step) -> Eigen::ArrayXXd {
+      return table_.values(CourseMeasure::mode_3, radius * std::exp(step), image.place_um, moduli, times).array();
+    };
+    const Eigen::ArrayXXd less = at(-step_of_radius), more = at(step_of_radius);
+    const Eigen::ArrayXXd expected = (less + more) / 2 + (more - less) / (2 * step_of_radius) * (log_radius - guess);
+    chi_squared += ((image.mode_3 - expected) / image.deviation).square();
+  }
+  Points points;
+  points.min_chi_squared = chi_squared.minCoeff();
+  for (int k = 0; k < count; ++k)
+    for (int j = 0; j < count; ++j) {
+      const double below = (chi_squared(j, k) - points.min_chi_squared) / 2;
+      if (!(below < relevant)) continue;
+      const double modulus =
+          moduli[std::size_t(j)] + power_of_radius * (log_radius(j, k) - std::log(table_.spec().max_radius_um));
+      points.modulus.push_back(moduli[std::size_t(j)]);
+      points.time.push_back(times[std::size_t(k)]);
+      points.log_modulus.push_back(modulus);
+      points.log_viscosity.push_back(modulus + times[std::size_t(k)] - std::log(3));
+      points.weight.push_back(std::exp(-below));
+      points.log_radius.push_back(log_radius(j, k));
+    }
+  return points;
+}
+
+TimeCourse::Points TimeCourse::refined_points(const CellImages& images) const {
+  const auto axes = nodes_of(table_.spec());
+  const Box whole{axes[1].front(), axes[1].back(), axes[2].front(), axes[2].back()};
+  const Points seen = points(images, whole, coarse);
+  const auto [low_modulus, high_modulus] = std::ranges::minmax(seen.modulus);
+  const auto [low_time, high_time] = std::ranges::minmax(seen.time);
+  const double step_modulus = (whole.max_modulus - whole.min_modulus) / coarse,
+               step_time = (whole.max_time - whole.min_time) / coarse;
+  return points(images,
+                {std::max(low_modulus - step_modulus, whole.min_modulus),
+                 std::min(high_modulus + step_modulus, whole.max_modulus),
+                 std::max(low_time - step_time, whole.min_time), std::min(high_time + step_time, whole.max_time)},
+                fine);
+}
+
+CourseEstimate TimeCourse::cell(const CellImages& images) const {
+  const Points seen = refined_points(images);
+  CourseEstimate estimate;
+  const double all = std::accumulate(seen.weight.begin(), seen.weight.end(), 0.0);
+  estimate.radius_um =
+      std::exp(std::inner_product(seen.log_radius.begin(), seen.log_radius.end(), seen.weight.begin(), 0.0) / all);
+  estimate.young_modulus_kPa = credible(seen.log_modulus, seen.weight);
+  estimate.viscosity_Pas = credible(seen.log_viscosity, seen.weight);
+  estimate.time_ms = credible(seen.time, seen.weight);
+  estimate.chi_squared = seen.min_chi_squared;
+  return estimate;
+}
+
+namespace {
+
+/// Means and variances of ln(E) and ln(viscosity) in a population.
+struct Normal {
+  Eigen::Array2d mean = Eigen::Array2d::Zero(), variance = Eigen::Array2d::Ones();
+};
+
+constexpr double min_variance = 1e-4;
+
+/// What a cell adds: mean and variance about the population's mean of what it may be.
+struct Moments {
+  Eigen::Array2d first = Eigen::Array2d::Zero(), second = Eigen::Array2d::Zero();
+};
+
+template <class Points>
+Moments moments_of(const Points& points, const Normal& population) {
+  Moments moments;
+  double all = 0;
+  for (std::size_t i = 0; i < points.weight.size(); ++i) {
+    const Eigen::Array2d away = Eigen::Array2d(points.log_modulus[i], points.log_viscosity[i]) - population.mean;
+    const double weight = points.weight[i] * std::exp(-(away.square() / population.variance).sum() / 2);
+    all += weight;
+    moments.first += weight * away;
+    moments.second += weight * away.square();
+  }
+  if (all > 0) moments.first /= all, moments.second /= all;
+  return moments;
+}
+
+/// Where the population starts: as if each cell were what it is most likely alone.
+template <class Points>
+Normal first_guess(const std::vector<Points>& cells) {
+  Normal flat;
+  flat.variance.setConstant(1e6);
+  Eigen::Array2d sum = Eigen::Array2d::Zero(), squares = sum;
+  for (const Points& cell : cells) {
+    const Moments moments = moments_of(cell, flat);
+    sum += moments.first;
+    squares += moments.first.square();
+  }
+  const double n = double(cells.size());
+  return {sum / n, (squares / n - (sum / n).square()).max(0.01)};
+}
+
+/// Expectation and maximisation (Dempster, Laird and Rubin 1977).
+template <class Points>
+Normal most_likely(const std::vector<Points>& cells) {
+  constexpr int max_steps = 400;
+  constexpr double settled = 1e-5;
+  Normal population = first_guess(cells);
+  for (int step = 0; step < max_steps; ++step) {
+    Eigen::Array2d first = Eigen::Array2d::Zero(), second = first;
+    for (const Points& cell : cells) {
+      const Moments moments = moments_of(cell, population);
+      first += moments.first;
+      second += moments.second;
+    }
+    first /= double(cells.size());
+    second /= double(cells.size());
+    population.mean += first;
+    population.variance = (second - first.square()).max(min_variance);
+    if (first.abs().maxCoeff() < settled) break;
+  }
+  return population;
+}
+
+/// Standard errors of the means, from the scatter of the cells' scores.
+template <class Points>
+Eigen::Array2d errors_of(const std::vector<Points>& cells, const Normal& population) {
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+  for (const Points& cell : cells) {
+    const Moments moments = moments_of(cell, population);
+    Eigen::Vector4d score;
+    score << (moments.first / population.variance).matrix(), ((moments.second / population.variance - 1) / 2).matrix();
+    information += score * score.transpose();
+  }
+  const Eigen::FullPivLU<Eigen::Matrix4d> lu(information);
+  if (!lu.isInvertible()) return Eigen::Array2d::Constant(HUGE_VAL);
+  return lu.inverse().diagonal().head<2>().array().sqrt();
+}
+
+Credible around(double logarithm, double error) {
+  return {std::exp(logarithm), std::exp(logarithm - normal_quantile * error),
+          std::exp(logarithm + normal_quantile * error)};
+}
+
+}  // namespace
+
+PopulationEstimate TimeCourse::population(std::span<const CellImages> cells) const {
+  const std::size_t count = std::min(cells.size(), max_cells);
+  std::vector<Points> seen;
+  for (std::size_t i = 0; i < count; ++i) seen.push_back(refined_points(cells[i * cells.size() / count]));
+  const Normal population = most_likely(seen);
+  const Eigen::Array2d error = errors_of(seen, population);
+  return {around(population.mean[0], error[0]), around(population.mean[1], error[1]), std::sqrt(population.variance[0]),
+          std::sqrt(population.variance[1]), count};
+}
+
+}  // namespace rheocyte

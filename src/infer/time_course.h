@@ -1,0 +1,70 @@
+// Young's modulus and viscosity of cells from the third mode of their outlines at several places behind a contraction
+// (docs/theory-extract.md, sec. "Time courses").
+#pragma once
+#include <limits>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "table/dynamic_table.h"
+
+namespace rheocyte {
+
+/// One picture of a cell, in the channel of the table.
+struct CourseImage {
+  double place_um = 0;  ///< behind the contraction, inside the table's places
+  double area_um2 = 0;  ///< without what the pixels do, as mode_3 of a cell that moves towards +x
+  double mode_3 = 0;
+  double deviation = 0;  ///< standard deviation of mode_3
+};
+
+/// All pictures of one cell.
+using CellImages = std::vector<CourseImage>;
+
+/// A number with the interval that holds it with a probability of 90 %.
+struct Credible {
+  double value = std::numeric_limits<double>::quiet_NaN(), low = value, high = value;
+  /// Whether it is known to better than a factor of two.
+  bool is_resolved() const { return high < 4 * low; }
+};
+
+inline constexpr double credible_share = 0.9;
+
+struct CourseEstimate {
+  double radius_um = std::numeric_limits<double>::quiet_NaN();
+  Credible young_modulus_kPa, viscosity_Pas, time_ms;  ///< medians; time: 3 viscosity / E
+  double chi_squared = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Normal in ln(E) and ln(viscosity).
+struct PopulationEstimate {
+  Credible young_modulus_kPa, viscosity_Pas;        ///< medians of the population
+  double modulus_spread = 0, viscosity_spread = 0;  ///< standard deviations of the logarithms
+  std::size_t cells = 0;
+};
+
+class TimeCourse {
+ public:
+  /// The table must outlive it.
+  explicit TimeCourse(const DynamicTable& table) : table_(table) {}
+
+  /// Whether the table has cells of this area.
+  bool has_area(double area_um2) const;
+
+  /// From at least one picture; every modulus and every time of the table is as likely beforehand.
+  CourseEstimate cell(const CellImages& images) const;
+
+  /// Of cells with at least one picture each, at most this many of them, evenly chosen.
+  static constexpr std::size_t max_cells = 2000;
+  PopulationEstimate population(std::span<const CellImages> cells) const;
+
+ private:
+  struct Points;
+  struct Box;
+  Points points(const CellImages& images, const Box& box, int count) const;
+  Points refined_points(const CellImages& images) const;
+
+  const DynamicTable& table_;
+};
+
+}  // namespace rheocyte

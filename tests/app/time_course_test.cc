@@ -1,0 +1,102 @@
+// `rheocyte synth` of cells on their way, and `rheocyte time-course` back to their moduli and viscosities.
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "../robustness/run_program.h"
+#include "../table/invented_dynamic.h"
+
+namespace rheocyte::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string population = R"([recording]
+cells = 80
+cells_per_s = 50
+width_px = 1000
+places_um = [15, 60, 140, 290]
+[channel]
+width_um = 20
+[flow]
+rate_ul_per_s = 0.04
+viscosity_mPas = 15
+[cell]
+radius_um = {mean = 6.6, sd = 0.3}
+viscosity_mPas = {mean = 1200, sd = 200, distribution = "lognormal"}
+[cell.bulk]
+young_modulus_kPa = {mean = 5, sd = 0.7, distribution = "lognormal"}
+[shapes]
+table = "table"
+)";
+
+class TimeCourseCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const DynamicContent content = invented_dynamic();
+    fs::create_directory(folder_.path() / "table");
+    write_file(folder_.path() / "table" / "spec.toml", to_toml(content.spec));
+    write_file(folder_.path() / "table" / dynamic_file_name("invented"), to_bytes(content));
+    write_file(folder_.path() / "cells.toml", population);
+  }
+
+  Ended call(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), RHEOCYTE);
+    return run({.arguments = arguments, .folder = folder_.path()});
+  }
+  Ended synth(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"synth", "cells.toml", "-o", "cells.rtdc", "--quiet", "--force"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return call(arguments);
+  }
+  Ended time_course(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"time-course", "cells.rtdc", "--table", "table", "-o", "cells.tsv"};
+    if (more.empty()) arguments.insert(arguments.end(), {"--contraction-um", "0"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return call(arguments);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(TimeCourseCommand, VirtualCellsSeenAtFourPlacesGiveBackTheirPopulation) {
+  ASSERT_EQ(synth().exit_code, 0);
+  const Ended ended = time_course();
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(ended.out.starts_with("80 cells, 80 of them seen over at least 20 um; 0 events")) << ended.out;
+  const auto at = ended.out.find("population: Young's modulus ");
+  ASSERT_NE(at, std::string::npos) << ended.out;
+  std::istringstream text(ended.out.substr(at + 28));
+  double modulus = 0;
+  text >> modulus;
+  // The median of the law is 4.95; pixels and 80 cells leave 3 % (one standard deviation of the mean: 1.6 %).
+  EXPECT_NEAR(modulus, 4.95, 0.25);
+  const std::string table = content_of(folder_.path() / "cells.tsv");
+  EXPECT_TRUE(table.starts_with("recording\tcell\tevents\tfirst_place_um\t"));
+  EXPECT_NE(table.find("\tresolved\t1 2 3 4\n"), std::string::npos) << table;
+}
+
+TEST_F(TimeCourseCommand, WhatDoesNotTellAViscosityIsRefusedInASentence) {
+  ASSERT_EQ(synth({"--set", "recording.cells=20", "--set", "recording.places_um=[60, 65]"}).exit_code, 0);
+  expect_sentence(time_course(), "all cells were seen at one place");
+  ASSERT_EQ(synth({"--set", "recording.cells=12", "--set", "recording.places_um=[60]"}).exit_code, 0);
+  expect_sentence(time_course(), "One picture of a cell does not tell");
+  expect_sentence(time_course({"--contraction-um", "2000"}), "no event lies at a place");
+  expect_sentence(time_course({"--contraction-um", "0,1,2"}), "--contraction-um has 3 places for 1 recordings");
+  expect_sentence(time_course({"--contraction-um", "0", "--channel-width-um", "30"}),
+                  "is for the contraction to one of");
+}
+
+TEST_F(TimeCourseCommand, CellsOnTheirWayNeedADynamicTableWithPlacesAndViscosity) {
+  write_file(folder_.path() / "cells.toml", population.substr(0, population.find("[shapes]")));
+  expect_sentence(synth(), "recording.places_um needs shapes.table");
+  std::string without_places = population;
+  without_places.erase(without_places.find("places_um"), std::string("places_um = [15, 60, 140, 290]\n").size());
+  write_file(folder_.path() / "cells.toml", without_places);
+  expect_sentence(synth(), "has no effect on a stationary shape");
+}
+
+}  // namespace
+}  // namespace rheocyte::test

@@ -1,0 +1,138 @@
+// A dynamic table gives back the ways of its cells, and those of cells between them.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "../refusal.h"
+#include "invented_dynamic.h"
+#include "table/dynamic_folder.h"
+
+namespace rheocyte {
+namespace {
+
+namespace fs = std::filesystem;
+using test::refusal_of;
+
+DynamicSpec spec_with(const std::string& setting) {
+  return parse_dynamic_spec(test::dynamic_spec_text, "spec.toml", std::vector{setting});
+}
+
+TEST(DynamicTable, BetweenItsCellsAndPlacesItFollowsASmoothLawWithinAPercent) {
+  const DynamicTable table(test::invented_dynamic());
+  for (const DynamicCell& cell : {DynamicCell{5.3, 1.8, 0.09}, {6.6, 5, 0.4}, {7.1, 9, 1.7}, {7.9, 3.3, 7}})
+    for (const double place : {10.0, 23.0, 57.0, 191.0, 307.0}) {
+      // 1 % of the greatest value on the way: what the tables promise.
+      const double greatest = test::invented_mode_3(cell, 310);
+      EXPECT_NEAR(table.value(CourseMeasure::mode_3, cell, place), test::invented_mode_3(cell, place), 0.01 * greatest);
+    }
+  EXPECT_LT(table.errors().mode_3, 0.01);
+  EXPECT_EQ(table.errors().cells, 4);
+}
+
+TEST(DynamicTable, AtItsNodesItIsExact) {
+  const DynamicTable table(test::invented_dynamic());
+  const CellCourse& course = table.content().courses[17];
+  const double place = places_of(table.spec())[5];
+  for (int m = 0; m < course_measures; ++m)
+    EXPECT_NEAR(table.value(CourseMeasure(m), course.cell, place), course.value(5, m), 1e-12);  // rounding
+}
+
+TEST(DynamicTable, ItsSpecAndItsFileGiveBackTheSame) {
+  const DynamicContent content = test::invented_dynamic();
+  const std::string text = to_toml(content.spec);
+  EXPECT_EQ(to_toml(parse_dynamic_spec(text, "again.toml")), text);
+  const DynamicContent again = dynamic_from_bytes(to_bytes(content), "table");
+  ASSERT_EQ(again.courses.size(), content.courses.size());
+  EXPECT_EQ(again.courses.back().value, content.courses.back().value);
+}
+
+TEST(DynamicTable, AnyChangedByteOfItsFileIsRefusedInASentence) {
+  const std::string bytes = to_bytes(test::invented_dynamic());
+  for (std::size_t at = 3; at < bytes.size(); at += bytes.size() / 23) {
+    std::string damaged = bytes;
+    damaged[at] = char(damaged[at] ^ 0x21);
+    const std::string refusal = refusal_of([&] { dynamic_from_bytes(damaged, "table.cbor"); });
+    EXPECT_TRUE(refusal.starts_with("table.cbor: this dynamic table cannot be used: ")) << refusal;
+  }
+  EXPECT_NE(refusal_of([&] { dynamic_from_bytes(bytes.substr(0, 1000), "table.cbor"); }), "accepted");
+}
+
+TEST(DynamicTable, WhatItsSpecMustNotSayIsRefusedInASentence) {
+  const auto refusal = [](const std::string& setting) { return refusal_of([&] { spec_with(setting); }); };
+  EXPECT_NE(refusal("cell.radius_um=6").find("must not be given, because a dynamic table chooses it"),
+            std::string::npos);
+  EXPECT_NE(refusal("time.end_us=100").find("must not be given"), std::string::npos);
+  EXPECT_NE(refusal("dynamic.max_radius_um=4").find("is not below"), std::string::npos);
+  EXPECT_NE(refusal("dynamic.max_radius_um=40").find("outside its range"), std::string::npos);
+  EXPECT_NE(refusal("dynamic.identifier=a b").find("no name of a table"), std::string::npos);
+  EXPECT_NE(refusal("cell.bulk.law=none"), "accepted");
+  const std::string straight =
+      "[channel]\nwidth_um = 20\n" + test::dynamic_spec_text.substr(test::dynamic_spec_text.find("[flow]"));
+  EXPECT_NE(refusal_of([&] { parse_dynamic_spec(straight, "spec.toml"); }).find("needs the contraction"),
+            std::string::npos);
+}
+
+class DynamicFolderTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "rheocyte-dynamic-XXXXXX").string();
+    folder_ = fs::path(::mkdtemp(name.data()));
+    fs::remove(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+};
+
+/// 2 x 2 x 2 cells at few places: some seconds.
+DynamicSpec small_spec() {
+  return parse_dynamic_spec(
+      test::dynamic_spec_text, "spec.toml",
+      std::vector<std::string>{"dynamic.radii=2", "dynamic.moduli=2", "dynamic.times=2", "dynamic.places=4",
+                               "dynamic.last_um=60", "dynamic.checks=0", "dynamic.min_young_modulus_kPa=6",
+                               "dynamic.min_time_ms=0.5", "time.degree=2", "time.accuracy=1e-3"});
+}
+
+TEST_F(DynamicFolderTest, AnInterruptedComputationGoesOnAndEndsWithAllCells) {
+  std::atomic<bool> stop = true;
+  EXPECT_FALSE(DynamicFolder(folder_, small_spec())
+                   .compute(
+                       1, [](int) {}, stop));
+  stop = false;
+  {
+    DynamicFolder folder(folder_, small_spec());
+    const int before = folder.done();
+    EXPECT_LT(before, folder.cells());
+    EXPECT_TRUE(folder.compute(
+        2, [](int) {}, stop));
+    EXPECT_TRUE(folder.failed().empty());
+    const DynamicTable table = folder.finish();
+    // Every cell of a soft and a stiff kind grows more asymmetric on its way, the soft one more.
+    EXPECT_GT(table.value(CourseMeasure::mode_3, {8, 6, 0.5}, 60), table.value(CourseMeasure::mode_3, {8, 6, 0.5}, 10));
+    EXPECT_GT(table.value(CourseMeasure::mode_3, {8, 6, 0.5}, 60),
+              table.value(CourseMeasure::mode_3, {8, 20, 0.5}, 60));
+  }
+  EXPECT_EQ(DynamicFolder(folder_, small_spec()).done(), 8);
+  EXPECT_EQ(read_dynamic_table(folder_).spec().identifier, "invented");
+}
+
+TEST_F(DynamicFolderTest, AFolderOfAnotherContractionOrOfSomethingElseIsRefused) {
+  { DynamicFolder first(folder_, small_spec()); }
+  const DynamicSpec other = spec_with("channel.profile.x_um=[60, 120]");
+  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, other); }).find("holds a table of another spec"),
+            std::string::npos);
+  fs::remove_all(folder_);
+  fs::create_directories(folder_);
+  std::ofstream(folder_ / "letter.txt") << "dear";
+  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, other); }).find("holds other files"), std::string::npos);
+  EXPECT_NE(refusal_of([&] { read_dynamic_table(folder_); }).find("there is no dynamic table here"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rheocyte
