@@ -73,7 +73,8 @@ std::vector<Seen> look_at_shapes(const CellShapes& shapes, const TableSpec& spec
     if (!found || found->deformation < min_deformation || found->deformation > max_deformation) continue;
     const double ellipse = random.uniform() < 0.5 ? 0 : max_ellipse * random.uniform();
     const double area_px = log_uniform(min_fitted_area_px, max_fitted_area_px);
-    const auto outline = with_ellipse(silhouette(found->meridian), ellipse) * std::sqrt(area_px / found->area_um2);
+    const Eigen::MatrixX2d outline =
+        with_ellipse(silhouette(found->meridian), ellipse) * std::sqrt(area_px / found->area_um2);
     const ShapeErrors errors = errors_in_pixels(outline, 1, places, random);
     const ShapeVector truth = shape_vector(outline_shape(outline));
     const double deviation = std::sqrt(errors.covariance(third_mode, third_mode));

@@ -85,14 +85,11 @@ class CourseReader {
 
   /// Without what the pixels do.
   bool measure(const ShapeVector& seen, CourseEvent& event) const {
-    constexpr int second = int(ShapeFeature::first_mode), third = second + 1;
     if (!seen.allFinite()) return false;
-    const double log_area_px = seen(0) - 2 * std::log(settings_.pixel_size_um);
-    const PixelErrors pixels = pixel_errors(log_area_px, seen(1));
-    const AsymmetryErrors asymmetry = asymmetry_errors(log_area_px, seen(second), seen(third));
-    event.area_um2 = std::exp(seen(0)) * pixels.area_factor;
-    event.mode_3 = seen(third) - asymmetry.excess;
-    event.deviation = asymmetry.deviation;
+    const SmoothAsymmetry smooth = without_pixels(seen, settings_.pixel_size_um);
+    event.area_um2 = smooth.area_um2;
+    event.mode_3 = smooth.mode_3;
+    event.deviation = smooth.deviation;
     return true;
   }
 

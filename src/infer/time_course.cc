@@ -7,12 +7,15 @@
 #include <numbers>
 #include <numeric>
 
+#include "measurement/pixel_errors.h"
+#include "numeric/quantile.h"
+
 namespace rheocyte {
 
 namespace {
 
 constexpr int coarse = 48, fine = 41;             // points along each axis
-constexpr double relevant = 12;                   // of ln(likelihood) below the greatest
+constexpr double relevant = 12;                   // of ln(likelihood) below the maximum
 constexpr double step_of_radius = 0.03;           // in ln(radius), to both sides
 constexpr double normal_quantile = 1.6448536270;  // of 95 %
 
@@ -171,10 +174,9 @@ Normal first_guess(const std::vector<Points>& cells) {
 
 /// Expectation and maximisation (Dempster, Laird and Rubin 1977).
 template <class Points>
-Normal most_likely(const std::vector<Points>& cells) {
+Normal most_likely(const std::vector<Points>& cells, Normal population) {
   constexpr int max_steps = 400;
   constexpr double settled = 1e-5;
-  Normal population = first_guess(cells);
   for (int step = 0; step < max_steps; ++step) {
     Eigen::Array2d first = Eigen::Array2d::Zero(), second = first;
     for (const Points& cell : cells) {
@@ -206,6 +208,19 @@ Eigen::Array2d errors_of(const std::vector<Points>& cells, const Normal& populat
   return lu.inverse().diagonal().head<2>().array().sqrt();
 }
 
+double middle_place(const std::vector<CellImages>& cells) {
+  std::vector<double> places;
+  for (const CellImages& images : cells)
+    for (const CourseImage& image : images) places.push_back(image.place_um);
+  return median_of(places);
+}
+
+/// With c_3 multiplied by one factor at the places before the middle, and by another one from there on.
+CellImages with_factors(CellImages images, double middle_um, double near, double far) {
+  for (CourseImage& image : images) image.mode_3 *= image.place_um < middle_um ? near : far;
+  return images;
+}
+
 Credible around(double logarithm, double error) {
   return {std::exp(logarithm), std::exp(logarithm - normal_quantile * error),
           std::exp(logarithm + normal_quantile * error)};
@@ -215,10 +230,21 @@ Credible around(double logarithm, double error) {
 
 PopulationEstimate TimeCourse::population(std::span<const CellImages> cells) const {
   const std::size_t count = std::min(cells.size(), max_cells);
-  std::vector<Points> seen;
-  for (std::size_t i = 0; i < count; ++i) seen.push_back(refined_points(cells[i * cells.size() / count]));
-  const Normal population = most_likely(seen);
-  const Eigen::Array2d error = errors_of(seen, population);
+  std::vector<CellImages> chosen;
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(cells[i * cells.size() / count]);
+  const double middle = middle_place(chosen);
+  const auto points_with = [&](double near, double far) {
+    std::vector<Points> seen;
+    for (const CellImages& images : chosen) seen.push_back(refined_points(with_factors(images, middle, near, far)));
+    return seen;
+  };
+  const std::vector<Points> seen = points_with(1, 1);
+  const Normal population = most_likely(seen, first_guess(seen));
+  Eigen::Array2d variance = errors_of(seen, population).square();
+  constexpr double off = 1 + left_by_asymmetry_law;
+  for (const auto& moved : {points_with(off, 1), points_with(1, off)})
+    variance += (most_likely(moved, population).mean - population.mean).square();
+  const Eigen::Array2d error = variance.sqrt();
   return {around(population.mean[0], error[0]), around(population.mean[1], error[1]), std::sqrt(population.variance[0]),
           std::sqrt(population.variance[1]), count};
 }

@@ -1,11 +1,11 @@
 // Young's modulus and viscosity of cells from the third mode of their outlines at several places behind a contraction
 // (docs/theory-extract.md, sec. "Time courses").
 #pragma once
-#include <limits>
 #include <span>
 #include <tuple>
 #include <vector>
 
+#include "numeric/no_value.h"
 #include "table/dynamic_table.h"
 
 namespace rheocyte {
@@ -23,7 +23,7 @@ using CellImages = std::vector<CourseImage>;
 
 /// A number with the interval that holds it with a probability of 90 %.
 struct Credible {
-  double value = std::numeric_limits<double>::quiet_NaN(), low = value, high = value;
+  double value = no_value, low = value, high = value;
   /// Whether it is known to better than a factor of two.
   bool is_resolved() const { return high < 4 * low; }
 };
@@ -31,9 +31,9 @@ struct Credible {
 inline constexpr double credible_share = 0.9;
 
 struct CourseEstimate {
-  double radius_um = std::numeric_limits<double>::quiet_NaN();
+  double radius_um = no_value;
   Credible young_modulus_kPa, viscosity_Pas, time_ms;  ///< medians; time: 3 viscosity / E
-  double chi_squared = std::numeric_limits<double>::quiet_NaN();
+  double chi_squared = no_value;
 };
 
 /// Normal in ln(E) and ln(viscosity).
@@ -54,7 +54,9 @@ class TimeCourse {
   /// From at least one picture; every modulus and every time of the table is as likely beforehand.
   CourseEstimate cell(const CellImages& images) const;
 
-  /// Of cells with at least one picture each, at most this many of them, evenly chosen.
+  /// Of cells with at least one picture each, at most this many of them, evenly chosen. The intervals hold what is
+  /// alike in all cells, too: what the law of the pixels leaves of c_3, at the nearer places and, independently, at the
+  /// others.
   static constexpr std::size_t max_cells = 2000;
   PopulationEstimate population(std::span<const CellImages> cells) const;
 

@@ -38,14 +38,13 @@ constexpr Law correlation_law{{{-1.0575, 2.81051, -9.41081},
 // LE-2D-26 with added ellipses (4000 shapes at 80 places each).
 constexpr int powers_of_mode = 3, powers_of_s = 2;
 using AsymmetryLaw = std::array<double, powers_of_mode * powers_of_mode * powers_of_s>;
-constexpr AsymmetryLaw asymmetry_law{-4.51305, 12.1154,  36.1538, -116.452, -188.857, 841.275,
-                                     -425.781, 1271.94,  5513.51, -17071.7, -17293.2, 51575.5,
-                                     1113.81,  -3272.11, -14040,  41639.7,  39400,    -102179};
+constexpr AsymmetryLaw asymmetry_law{-2.67223, 6.18995, 19.351,   -57.3574, -1.98186, 2.82509,
+                                     -153.477, 289.294, 1775.81,  -3741.11, -5332.71, 11215.8,
+                                     241.079,  27.5765, -1895.08, -3100.73, 1605.49,  25223.2};
 constexpr double min_fitted_mode_2 = -0.02, max_fitted_mode_2 = 0.28, max_fitted_mode_3 = 0.15;
 
 // Below what masks show; for shapes that few pixels cannot have.
-constexpr double min_area_deviation = 0.2, min_deformation_deviation = 0.05, min_asymmetry_deviation = 0.15,
-                 left_by_asymmetry_law = 0.015;  // of c_3 of a single shape
+constexpr double min_area_deviation = 0.2, min_deformation_deviation = 0.05, min_asymmetry_deviation = 0.14;
 
 double value(const Law& law, double deformation, double s) {
   double sum = 0;
@@ -87,8 +86,17 @@ AsymmetryErrors asymmetry_errors(double log_area_px, double mode_2, double mode_
                asymmetry = std::clamp(std::abs(mode_3), 0.0, max_fitted_mode_3);
   const double excess = mode_3 < 0 ? -asymmetry : asymmetry;
   return {s2 * excess * value(asymmetry_law, ellipse, asymmetry, s),
-          std::hypot(s2 * std::max(0.3 + 0.8 * asymmetry - 0.4 * ellipse, min_asymmetry_deviation),
+          std::hypot(s2 * std::max(0.28 + 0.75 * asymmetry - 0.38 * ellipse, min_asymmetry_deviation),
                      left_by_asymmetry_law * asymmetry)};
+}
+
+SmoothAsymmetry without_pixels(const ShapeVector& measured, double pixel_size_um) {
+  constexpr int second = int(ShapeFeature::first_mode), third = second + 1;
+  const double log_area = measured(int(ShapeFeature::area_um2));
+  const double log_area_px = log_area - 2 * std::log(pixel_size_um);
+  const PixelErrors pixels = pixel_errors(log_area_px, measured(int(ShapeFeature::deformation)));
+  const AsymmetryErrors asymmetry = asymmetry_errors(log_area_px, measured(second), measured(third));
+  return {std::exp(log_area) * pixels.area_factor, measured(third) - asymmetry.excess, asymmetry.deviation};
 }
 
 PixelShape seen_through_pixels(const PixelShape& smooth) {

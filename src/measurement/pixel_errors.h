@@ -2,6 +2,7 @@
 // for millions of events in a second (docs/theory-extract.md, eq:pixel-errors). For cells with a cortex, and for all
 // features of a shape with their covariance, see infer/rendered_errors.h.
 #pragma once
+#include "shape/outline_shape.h"
 
 namespace rheocyte {
 
@@ -32,6 +33,18 @@ struct AsymmetryErrors {
 /// By the natural logarithm of the measured area in pixels and the measured c_2 and c_3. Pixels make the ends of an
 /// elongated cell more alike: they take away the more of c_3 the greater c_2 is.
 AsymmetryErrors asymmetry_errors(double log_area_px, double mode_2, double mode_3);
+
+/// What the law leaves of c_3 of a single shape, in parts of it (standard deviation); alike in all pictures of it.
+inline constexpr double left_by_asymmetry_law = 0.01;
+
+/// What the smooth contour of a measured one is like.
+struct SmoothAsymmetry {
+  double area_um2 = 0, mode_3 = 0;
+  double deviation = 0;  ///< standard deviation of mode_3
+};
+
+/// Of the features of a contour through the centres of pixels, which are all numbers.
+SmoothAsymmetry without_pixels(const ShapeVector& measured, double pixel_size_um);
 
 /// The inverse: the mean measured area in pixels and deformation of a smooth contour.
 struct PixelShape {

@@ -8,6 +8,7 @@
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/mask_from_outline.h"
+#include "measurement/shape_in_pixels.h"
 #include "numeric/cell_random.h"
 #include "synth/analytic_shapes.h"
 #include "synth/outline.h"
@@ -70,6 +71,37 @@ TEST(PixelErrors, DescribeMasksOfOtherShapes) {
   // Single shapes scatter 0.8 to 1.4 times as much as stated, many together as much.
   EXPECT_NEAR(ratio_of_area / count, 0, 0.15);
   EXPECT_NEAR(ratio_of_deformation / count, 0, 0.15);
+}
+
+/// What the law leaves of c_3, in parts of it, on average over shapes.
+double left_of_mode_3(double added_ellipse, double area_px) {
+  const AnalyticShapes model({.flow = {20, 0.04}, .max_deformation = 0.1});
+  constexpr int third = int(ShapeFeature::first_mode) + 1;
+  CellRandom random(9, std::uint64_t(area_px), Purpose::place);
+  double sum = 0;
+  int count = 0;
+  for (const double radius : {4.5, 5.2, 6.0, 7.0})
+    for (const double stiffness : {2.0, 4.0, 6.0, 9.0}) {
+      const auto found = model.shape({radius, stiffness, 15});
+      const auto* const shape = std::get_if<CellShape>(&found);
+      if (!shape) continue;
+      const Eigen::MatrixX2d outline =
+          with_ellipse(silhouette(shape->meridian), added_ellipse) * std::sqrt(area_px / shape->area_um2);
+      const ShapeVector smooth = shape_vector(outline_shape(outline));
+      if (smooth(third) < 0.02) continue;
+      sum += without_pixels(smooth + errors_in_pixels(outline, 1, 100, random).bias, 1).mode_3 / smooth(third) - 1;
+      ++count;
+    }
+  EXPECT_GE(count, 5);
+  return sum / count;
+}
+
+TEST(AsymmetryErrors, LeaveTheThirdModeOfRoundAndOfDrawnOutCellsAsItIs) {
+  // The law leaves 0.5 to 1 % of the shapes to which it was fitted (median), of these up to 1.5 %; without it the drawn
+  // out ones are 3 to 8 % too small.
+  for (const double added_ellipse : {0.0, 0.15})
+    for (const double area_px : {500., 2000.})
+      EXPECT_NEAR(left_of_mode_3(added_ellipse, area_px), 0, 0.015) << added_ellipse << " " << area_px;
 }
 
 TEST(PixelErrors, AreFiniteAndOfTheRightSignEverywhere) {
