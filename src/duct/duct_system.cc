@@ -77,7 +77,7 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, cons
   VectorXd total = -end_pressure * outlet_load_;
   if (space_.has_open_inlet()) total -= end_pressure * inlet_load_;
   min_det = std::numeric_limits<double>::infinity();
-  for (int e = 0; e < int(space_.elements().size()); ++e) {
+  for (const int e : lu_.elements()) {
     const HexahedronUnknowns& self = space_.elements()[e];
     {
       const Stopwatch watch(work_.assembly_s);
@@ -126,8 +126,7 @@ VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, doub
 VectorXd DuctSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
   const auto condense = [this](int e, const std::vector<int>&, NestedLU::Matrix& tangent) { lu_.condense(e, tangent); };
   VectorXd total = assemble(media, unknowns, condense, min_det);
-  const Stopwatch watch(work_.sparse_s);
-  factorised = has_factors_ = total.allFinite() && lu_.factorise();
+  factorised = has_factors_ = total.allFinite() && lu_.is_regular();
   ++work_.factorisations;
   return total;
 }

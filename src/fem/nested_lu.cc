@@ -21,9 +21,22 @@ NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
     if (front.parts[0] < 0) continue;
     for (int i = 0; i < int(front.unknowns.size()); ++i) place[front.unknowns[i]] = i;
     for (int side = 0; side < 2; ++side) {
-      const Front& part = fronts_[front.parts[side]];
+      Front& part = fronts_[front.parts[side]];
+      part.whole = int(fronts_.size()) - 1;
       for (int i = part.eliminated; i < int(part.unknowns.size()); ++i)
         front.positions[side].push_back(place[part.unknowns[i]]);
+    }
+  }
+  // Each subdomain after its parts, from the whole downwards.
+  std::vector<int> left{int(fronts_.size()) - 1};
+  while (!left.empty()) {
+    const int subdomain = left.back();
+    left.pop_back();
+    const std::array<int, 2>& parts = fronts_[subdomain].parts;
+    if (parts[0] < 0) {
+      elements_.push_back(subdomain);
+    } else {
+      left.insert(left.end(), parts.begin(), parts.end());
     }
   }
 }
@@ -39,25 +52,35 @@ void NestedLU::eliminate(Front& front, const Matrix& matrix) {
   front.schur.noalias() -= front.rows * front.solved_columns;
 }
 
-void NestedLU::condense(int element, Matrix& matrix) { eliminate(fronts_[element], matrix); }
+void NestedLU::condense(int element, const Matrix& matrix) {
+  eliminate(fronts_[element], matrix);
+  for (int at = element; fronts_[at].whole >= 0; at = fronts_[at].whole) {
+    Front& whole = fronts_[fronts_[at].whole];
+    fronts_[at].waits = true;
+    if (!fronts_[whole.parts[0]].waits || !fronts_[whole.parts[1]].waits) return;
+    eliminate(whole, joined(whole));
+  }
+}
 
-bool NestedLU::factorise() {
-  Matrix matrix;
-  for (Front& front : fronts_) {
-    if (front.parts[0] < 0) continue;
-    const auto n = Eigen::Index(front.unknowns.size());
-    matrix.setZero(n, n);
-    for (int side = 0; side < 2; ++side) {
-      Front& part = fronts_[front.parts[side]];
-      const std::vector<int>& at = front.positions[side];
-      for (std::size_t j = 0; j < at.size(); ++j) {
-        for (std::size_t i = 0; i < at.size(); ++i)
-          matrix(at[i], at[j]) += part.schur(Eigen::Index(i), Eigen::Index(j));
-      }
-      part.schur.resize(0, 0);
+/// The matrix of a subdomain from those of its parts, which are given up.
+NestedLU::Matrix NestedLU::joined(const Front& whole) {
+  const auto n = Eigen::Index(whole.unknowns.size());
+  Matrix matrix = Matrix::Zero(n, n);
+  for (int side = 0; side < 2; ++side) {
+    Front& part = fronts_[whole.parts[side]];
+    const std::vector<int>& at = whole.positions[side];
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      for (std::size_t i = 0; i < at.size(); ++i) matrix(at[i], at[j]) += part.schur(Eigen::Index(i), Eigen::Index(j));
     }
-    eliminate(front, matrix);
-    if (!front.solved_columns.allFinite()) return false;
+    part.schur.resize(0, 0);
+    part.waits = false;
+  }
+  return matrix;
+}
+
+bool NestedLU::is_regular() const {
+  for (const Front& front : fronts_) {
+    if (front.eliminated > 0 && !front.solved_columns.allFinite()) return false;
   }
   const Front& whole = fronts_.back();
   if (whole.eliminated == 0) return true;

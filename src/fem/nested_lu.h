@@ -31,11 +31,13 @@ class NestedLU {
 
   /// An element's unknowns in the order of its matrix.
   const std::vector<int>& order(int element) const { return fronts_[element].unknowns; }
-  /// Condenses an element's matrix, which may be overwritten. All elements have to be given, then `factorise` be
-  /// called.
-  void condense(int element, Matrix& matrix);
-  /// Joins the subdomains; false if the matrix is singular or not finite.
-  bool factorise();
+  /// All elements, one subdomain after the other.
+  const std::vector<int>& elements() const { return elements_; }
+  /// Condenses an element's matrix, and joins all subdomains whose parts are there. Each element has to be given once;
+  /// in the order of `elements` few condensed matrices wait for others.
+  void condense(int element, const Matrix& matrix);
+  /// Once all elements are condensed: whether the sum of their matrices is finite and regular.
+  bool is_regular() const;
   /// To the digits of single precision.
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
 
@@ -51,14 +53,18 @@ class NestedLU {
     std::vector<int> unknowns;  ///< those that are eliminated first
     int eliminated = 0;
     std::array<int, 2> parts{-1, -1};           ///< the fronts that are joined
+    int whole = -1;                             ///< the front that this one is a part of; -1: none
+    bool waits = false;                         ///< condensed, for the other part
     std::array<std::vector<int>, 2> positions;  ///< of their remaining unknowns in this one
     Eigen::PartialPivLU<Matrix> lu;
     Matrix solved_columns, rows;  ///< K_ff^-1 K_fo and K_of
     Matrix schur;                 ///< of the remaining unknowns, until it is joined
   };
   static void eliminate(Front&, const Matrix&);
+  Matrix joined(const Front&);
 
   std::vector<Front> fronts_;  ///< elements first, each after its parts, the whole last
+  std::vector<int> elements_;
   double flops_ = 0;
 };
 

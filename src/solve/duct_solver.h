@@ -64,6 +64,7 @@ class DuctSolver {
   ContinuationOptions options(bool last);
 
  private:
+  DuctState scout();
   std::shared_ptr<DuctDiscrete> discrete(int degree);
   DuctState solved(std::shared_ptr<DuctDiscrete>, BranchState, const NewtonOptions&);
   void add(DuctState, DuctLadder&);

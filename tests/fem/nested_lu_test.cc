@@ -52,7 +52,7 @@ TEST(NestedLU, SolvesTheSumOfTheElementsMatricesAndCorrectionsMakeUpForSinglePre
     whole(order, order) += matrix.cast<double>();
     lu.condense(e, matrix);
   }
-  ASSERT_TRUE(lu.factorise());
+  ASSERT_TRUE(lu.is_regular());
   const VectorXd rhs = VectorXd::Zero(grid.unknowns).unaryExpr(random);
   // The matrix itself has single precision here. Rounding of a hundred unknowns: in single precision, then in double.
   VectorXd x = lu.solve(rhs);
@@ -88,7 +88,7 @@ TEST(NestedLU, AZeroMatrixIsNotFactorised) {
         NestedLU::Matrix::Zero(Eigen::Index(lu.order(e).size()), Eigen::Index(lu.order(e).size()));
     lu.condense(e, matrix);
   }
-  EXPECT_FALSE(lu.factorise());
+  EXPECT_FALSE(lu.is_regular());
 }
 
 TEST(NestedLU, CostsNoMoreThanSeparatorsOfAGrid) {

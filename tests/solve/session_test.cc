@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "cases.h"
+#include "solve/duct_solver.h"
 
 namespace rheocyte {
 namespace {
@@ -160,6 +161,16 @@ Problem cell_in_square() {
   problem.liquid = {.law = LiquidLaw::power_law, .exponent = 0.9};
   problem.accuracy = 5e-2;
   return problem;
+}
+
+TEST(DuctLadder, TwoDegreesThatAgreeByChanceDoNotPassForAccurate) {
+  // Seen along the diagonal, a cell of d = 0.01 differs by 3e-5 between degrees 3 and 4, whose error is 1.3e-4.
+  DuctLadder ladder;
+  ladder.add({}, 0.01);
+  ladder.add({}, 0.01);
+  EXPECT_GT(ladder.estimated_error, 1e-4);
+  ladder.add({}, 0.01);
+  EXPECT_LT(ladder.estimated_error, 1e-12);
 }
 
 TEST(DuctSession, ANearCaseIsAnsweredFromTheLastOne) {
