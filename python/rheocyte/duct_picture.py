@@ -16,7 +16,7 @@ SIDE_IN, GAP_IN, HEAD_IN, FOOT_IN = 0.06, 0.16, 0.2, 0.64
 ANGLES_DEG = (-34, 17)  # azimuth and elevation of the eye
 LENGTH = 1.5  # half the length of the channel shown, in lesser half widths
 WALL = 0.14  # thickness of the drawn wall, likewise
-PIXELS = 560  # of the cell in space
+PIXELS, SPACE_STEPS = 560, 20  # of the cell in space, and points along each edge of a face
 WALL_FACE, LIQUID, CELL = "#d3d8dc", "#eef4f8", "#fdf0cf"
 COLOURS = [colours.INK, "#c22f1d", "#2f6fa8"]  # of the silhouettes
 STYLE = page.STYLE | {"font.size": 6.5}
@@ -108,9 +108,8 @@ def draw_in_space(axes, story):
         section = [(x, -a, -b), (x, a, -b), (x, a, b), (x, -a, b), (x, -a, -b)]
         axes.plot(*seen(section).T, color=colours.INK, linewidth=0.5, alpha=0.6, zorder=1)
     edge = 1.15 * np.abs(story.faces).max()
-    widest = np.linalg.norm(np.diff(story.faces, axis=2), axis=-1).sum(axis=2).max()  # of all faces
-    points, normals = refined(story.faces, int(1.2 * widest / body.spacing(edge, PIXELS)) + 2, sum(story.offset))
-    image = body.image_of(whole(points, story.images), whole(normals, story.images), ANGLES_DEG, edge, PIXELS, colours.CELL)
+    points, normals = (whole(part, story.images) for part in refined(story.faces, SPACE_STEPS, sum(story.offset)))
+    image = body.image_of(points, normals, ANGLES_DEG, edge, PIXELS, colours.CELL)
     axes.imshow(image, origin="lower", extent=(-edge, edge, -edge, edge), interpolation="antialiased", zorder=2)
     corners = seen([(x, y, z) for x in (-length, length) for y in (-a, a) for z in (-b, b)])
     (left, low), (right, high) = corners.min(axis=0), corners.max(axis=0)

@@ -47,8 +47,11 @@ def refined(faces, count, middle=0.0):
     to_powers = np.linalg.inv(np.vander(equidistant, increasing=True))
     value = fine[:, None] ** powers @ to_powers
     slope = powers * fine[:, None] ** np.maximum(powers - 1, 0) @ to_powers
-    points = np.einsum("ai,bj,mijc->mabc", value, value, faces)
-    normals = np.cross(np.einsum("ai,bj,mijc->mabc", value, slope, faces), np.einsum("ai,bj,mijc->mabc", slope, value, faces))
+
+    def at(first, second):
+        return np.einsum("ai,bj,mijc->mabc", first, second, faces, optimize=True)
+
+    points, normals = at(value, value), np.cross(at(value, slope), at(slope, value))
     normals /= np.maximum(np.linalg.norm(normals, axis=-1, keepdims=True), 1e-30)
     centre = np.array([(faces[..., 0].min() + faces[..., 0].max()) / 2, middle, 0])
     inward = np.einsum("mabc,mabc->m", normals, points - centre) < 0
@@ -57,9 +60,8 @@ def refined(faces, count, middle=0.0):
 
 
 def whole(points, images):
-    """All images of the computed part, (n times their number, 3)."""
-    flat = points.reshape(-1, 3)
-    return np.concatenate([np.column_stack([flat[:, 0], flat[:, 1:] @ image.T]) for image in images])
+    """All images of points or normals (m, a, b, 3) of the computed part, (m times their number, a, b, 3)."""
+    return np.concatenate([np.concatenate([points[..., :1], points[..., 1:] @ image.T], axis=-1) for image in images])
 
 
 def silhouettes(faces, images, camera_degree=None):
@@ -72,7 +74,7 @@ def silhouettes(faces, images, camera_degree=None):
         seen = {}
     if camera_degree is not None and camera_degree not in seen.values():
         seen[f"{camera_degree:g}°"] = camera_degree
-    points = whole(refined(faces, 24)[0], images)
+    points = whole(refined(faces, 24)[0], images).reshape(-1, 3)
 
     def outline(degrees):
         across = points[:, 1:] @ [np.cos(np.radians(degrees)), np.sin(np.radians(degrees))]
@@ -83,12 +85,16 @@ def silhouettes(faces, images, camera_degree=None):
 
 def front_view(faces, images):
     """Outline (n, 2) in y and z of the cell seen along the channel."""
-    return ring(whole(refined(faces, 24)[0], images)[:, 1:])
+    return ring(whole(refined(faces, 24)[0], images).reshape(-1, 3)[:, 1:])
 
 
-def ring(points):
-    """The closed convex outline, as cameras see such cells."""
+def ring(points, sectors=2000):
+    """The closed convex outline, as cameras see such cells, of the farthest points in all directions."""
     from rheocyte.contour import convex_hull
 
-    outline = points[convex_hull(points)]
+    away = points - points.mean(axis=0)
+    sector = (np.arctan2(away[:, 1], away[:, 0]) * (sectors / (2 * np.pi))).astype(int)
+    order = np.lexsort((np.hypot(*away.T), sector))
+    farthest = points[order[np.flatnonzero(np.diff(sector[order], append=sectors))]]
+    outline = farthest[convex_hull(farthest)]
     return np.concatenate([outline, outline[:1]])

@@ -44,15 +44,21 @@ def rasterise(x, r, values, grid, parts=12):
     matrix = subdivision(x.shape[1] - 1, parts)
     fine = [matrix @ np.asarray(field, dtype=float) @ matrix.T for field in (x, r, *values)]
     fine[0], fine[1] = grid.coordinates(fine[0], fine[1])
-    corners = [np.stack([field[:, :-1, :-1], field[:, :-1, 1:], field[:, 1:, 1:], field[:, 1:, :-1]], axis=-1)
-               for field in fine]
-    triangles = [np.concatenate([c[..., [0, 1, 2]].reshape(-1, 3), c[..., [0, 2, 3]].reshape(-1, 3)])
-                 for c in corners]
-    return fill_triangles(triangles[0], triangles[1], np.stack(triangles[2:]), grid.shape)
+    column, row, *rest = map(triangles_of, fine)
+    return fill_triangles(column, row, np.stack(rest), grid.shape)
 
 
-def fill_triangles(column, row, values, shape):
-    """Linear interpolation inside triangles; column, row: (T, 3) in pixels, values: (fields, T, 3)."""
+def triangles_of(field):
+    """Corners (T, 3) of the two triangles of each square between the points (m, a, b) of grids."""
+    corners = np.stack([field[:, :-1, :-1], field[:, :-1, 1:], field[:, 1:, 1:], field[:, 1:, :-1]], axis=-1)
+    return np.concatenate([corners[..., [0, 1, 2]].reshape(-1, 3), corners[..., [0, 2, 3]].reshape(-1, 3)])
+
+
+def fill_triangles(column, row, values, shape, highest=False):
+    """Linear interpolation inside triangles, NaN elsewhere; column, row: (T, 3) in pixels, values: (fields, T, 3).
+
+    `highest`: where triangles lie over each other, the one with the highest first value counts; they come in its order.
+    """
     image = np.full((len(values), *shape), np.nan)
     first = [np.maximum(np.ceil(c.min(axis=1) - 1e-6), 0).astype(int) for c in (column, row)]
     last = [np.minimum(np.floor(c.max(axis=1) + 1e-6), n - 1).astype(int) for c, n in ((column, shape[1]), (row, shape[0]))]
@@ -64,7 +70,9 @@ def fill_triangles(column, row, values, shape):
             chosen = np.flatnonzero(wide & (count[1] > up))
             j, i = first[0][chosen] + across, first[1][chosen] + up
             weights, inside = barycentric(column[chosen], row[chosen], j, i)
-            image[:, i[inside], j[inside]] = np.sum(values[:, chosen[inside]] * weights[inside], axis=-1)
+            found, i, j = np.sum(values[:, chosen[inside]] * weights[inside], axis=-1), i[inside], j[inside]
+            shown = ~(found[0] < image[0, i, j]) if highest else slice(None)
+            image[:, i[shown], j[shown]] = found[:, shown]
     return image
 
 
@@ -77,7 +85,7 @@ def barycentric(column, row, j, i):
         determinant = a[0] * b[1] - a[1] * b[0]
         second = (p[0] * b[1] - p[1] * b[0]) / determinant
         third = (a[0] * p[1] - a[1] * p[0]) / determinant
-    weights = np.stack([1 - second - third, second, third], axis=-1)
+        weights = np.stack([1 - second - third, second, third], axis=-1)
     return weights, (weights >= -1e-5).all(axis=-1)
 
 
