@@ -45,9 +45,9 @@ class DuctSurface(unittest.TestCase):
         eighth, quarter = sphere_patch(), np.concatenate([sphere_patch(), sphere_patch()[..., [0, 2, 1]]])
         for section, faces in (("square", eighth), ("rectangle", quarter)):
             every = whole(refined(faces, 20)[0], IMAGES[section])
-            self.assertEqual(len(every), 8 * 20 * 20)
+            self.assertEqual(every.shape, (8, 20, 20, 3))
             for axis in range(3):
-                np.testing.assert_allclose([every[:, axis].min(), every[:, axis].max()], [-2, 2], rtol=1e-2)
+                np.testing.assert_allclose([every[..., axis].min(), every[..., axis].max()], [-2, 2], rtol=1e-2)
             for outline in [*silhouettes(faces, IMAGES[section], 11).values(), front_view(faces, IMAGES[section])]:
                 np.testing.assert_allclose(np.hypot(*outline.T), 2, rtol=1e-2)
                 np.testing.assert_array_equal(outline[0], outline[-1])

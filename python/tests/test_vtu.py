@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from rheocyte.files import InputError
-from rheocyte.raster import PixelGrid, rasterise, stream_function
+from rheocyte.raster import PixelGrid, fill_triangles, rasterise, stream_function
 from rheocyte.vtu import read_vtu, quadrilateral_position
 from tests.synthetic import blocks, fields, write_vtu
 
@@ -58,6 +58,17 @@ class Vtu(unittest.TestCase):
         wanted = 2 * grid.x[None, :] - 3 * grid.r[:, None] + 1
         self.assertTrue(np.isfinite(image).all())
         np.testing.assert_allclose(image, wanted, atol=1e-4)
+
+    def test_of_triangles_over_each_other_the_highest_is_seen(self):
+        # A small one on a large one, above it or below.
+        column, row = np.array([[0, 40, 0], [0, 20, 0]]), np.array([[0, 0, 40], [0, 0, 20]])
+        for height, seen in ((1, 2), (-1, 1)):
+            heights = np.array([0, height])
+            order = np.argsort(heights)
+            values = np.stack([heights, [1, 2]])[:, order, None] * np.ones(3)
+            image = fill_triangles(column[order], row[order], values, (41, 41), highest=True)[1]
+            self.assertAlmostEqual(image[5, 5], seen)
+            self.assertAlmostEqual(image[5, 30], 1)
 
     def test_the_stream_function_of_uniform_flow_is_half_the_radius_squared(self):
         # The trapezoidal rule is exact for the integrand r.
