@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "infer/smooth_events.h"
+#include "infer/added_ellipse.h"
 #include "numeric/no_value.h"
 #include "table/grid_by_asymmetry.h"
 
@@ -51,7 +51,10 @@ double inertia_ratio_deviation(double area_um2, double pixel_size_um) {
 
 ShapeMap::ShapeMap(const StiffnessGrid& grid)
     : origin_(grid.origin()), shapes_(grid.content().shapes.value()), sign_(sign_of(shapes_)) {
-  if (auto by_asymmetry = grid_by_asymmetry(grid, shapes_)) by_asymmetry_.emplace(std::move(*by_asymmetry));
+  if (auto grids = grids_by_asymmetry(grid, shapes_)) {
+    by_asymmetry_.emplace(std::move(grids->stiffness));
+    mode_2_.emplace(std::move(grids->mode_2));
+  }
 }
 
 double ShapeMap::inertia_ratio(double area_um2, double deformation) const {
@@ -95,37 +98,55 @@ void ShapeMap::estimate_block(const MeasuringConditions& conditions, const Measu
   const std::size_t count = block.size.size();
   const Eigen::Index rows = whole_packets(count);
   SmoothEvents smooth;
-  EventColumn asymmetry, log_asymmetry, modulus;
-  std::array<AsymmetryErrors, event_block_size> pixels{};
+  EventColumn log_asymmetry, modulus;
+  std::array<double, event_block_size> deviation{};  // of ln|c_3|
   std::array<GridAnswer, event_block_size> answers;
   remove_pixels(conditions, origin_.flow, block, smooth);
   const double log_pixel_area = 2 * std::log(conditions.pixel_size_um);
   log_asymmetry.head(rows) = 1;
   modulus.head(rows) = 0;
   for (std::size_t i = 0; i < count; ++i) {
+    AsymmetryErrors pixels;
     if (conditions.pixel_size_um > 0)
-      pixels[i] = asymmetry_errors(std::log(block.size[i]) - log_pixel_area, modes.mode_2[i], modes.mode_3[i]);
-    const auto k = static_cast<Eigen::Index>(i);
-    asymmetry[k] = (modes.mode_3[i] - pixels[i].excess) * sign_;
+      pixels = asymmetry_errors(std::log(block.size[i]) - log_pixel_area, modes.mode_2[i], modes.mode_3[i]);
+    const double asymmetry = (modes.mode_3[i] - pixels.excess) * sign_;
+    deviation[i] = pixels.deviation / asymmetry;
     // An asymmetry of the wrong sign is one that is too small, not one that is missing.
-    log_asymmetry[k] = asymmetry[k] < 0 ? 0 : asymmetry[k];
+    log_asymmetry[static_cast<Eigen::Index>(i)] = asymmetry < 0 ? 0 : asymmetry;
   }
   log_asymmetry.head(rows) = log_asymmetry.head(rows).log();
+  remove_ellipses(modes.mode_2, smooth.log_area, log_asymmetry, deviation);
   by_asymmetry_->answer({smooth.log_area.data(), count}, {log_asymmetry.data(), count}, {answers.data(), count});
   for (std::size_t i = 0; i < count; ++i) modulus[static_cast<Eigen::Index>(i)] = answers[i].log_stiffness;
   modulus.head(rows) = modulus.head(rows).exp();
   const double factor = scale_factors(origin_.flow, {conditions.flow.width_um, conditions.flow.rate_ul_s, 1}).modulus;
   for (std::size_t i = 0; i < count; ++i) {
     const GridAnswer& answer = answers[i];
-    const auto k = static_cast<Eigen::Index>(i);
     const bool has = answer.reason == NoAnswer::none && std::isfinite(block.viscosity_mPas[i]);
-    const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : no_value;
+    const double value = has ? modulus[static_cast<Eigen::Index>(i)] * factor * block.viscosity_mPas[i] : no_value;
     const double by_area = answer.by_log_area * smooth.pixels[i].area_deviation,
-                 by_asymmetry = answer.by_log_deformation * pixels[i].deviation / asymmetry[k];
+                 by_asymmetry = answer.by_log_deformation * deviation[i];
     estimates.modulus_kPa[i] = value;
     estimates.standard_error_kPa[i] =
         value * std::sqrt(by_area * by_area + by_asymmetry * by_asymmetry + answer.error * answer.error);
     estimates.state[i] = answer.reason == NoAnswer::none && !has ? ModulusState::no_data : state_of(answer);
+  }
+}
+
+void ShapeMap::remove_ellipses(std::span<const double> mode_2, EventColumn& log_area, EventColumn& log_asymmetry,
+                               std::span<double> deviation) const {
+  const std::size_t count = mode_2.size();
+  std::array<GridAnswer, event_block_size> of_table;
+  mode_2_->answer({log_area.data(), count}, {log_asymmetry.data(), count}, {of_table.data(), count});
+  const double log_half_width = std::log(origin_.flow.width_um / 2);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (of_table[i].reason != NoAnswer::none) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    const WithoutEllipse change = without_ellipse(
+        {mode_2[i] - of_table[i].log_stiffness, std::exp(log_asymmetry[k]), log_area[k] - 2 * log_half_width});
+    log_asymmetry[k] += change.log_mode_3;
+    log_area[k] += change.log_area;
+    deviation[i] = std::hypot(deviation[i], change.deviation);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "infer/modulus_map.h"
+#include "infer/smooth_events.h"
 #include "table/shape_grid.h"
 
 namespace rheocyte {
@@ -39,9 +40,10 @@ class ShapeMap {
   void compare(const MeasuringConditions& conditions, const MeasuredEvents& events,
                std::span<const double> inertia_ratios, std::span<ShapeExcess> excesses) const;
 
-  /// Young's modulus by area and c_3, without what the pixels do to both; cells that are asymmetric the other way round
-  /// count as too stiff. Only where has_asymmetry() (asserted). The deformations of the events serve to know the
-  /// pixels' part of the area.
+  /// Young's modulus by area and c_3, without what the pixels do to both, and an ellipse that the table's cells do not
+  /// have: c_2 beyond that of the table's cell with this c_3 counts as added to the outline (added_ellipse.h). Cells
+  /// that are asymmetric the other way round count as too stiff. Only where has_asymmetry() (asserted). The
+  /// deformations of the events serve to know the pixels' part of the area.
   void estimate(const MeasuringConditions& conditions, const MeasuredEvents& events, const MeasuredModes& modes,
                 const EstimatedModuli& moduli) const;
 
@@ -52,11 +54,15 @@ class ShapeMap {
  private:
   void estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block, const MeasuredModes& modes,
                       const EstimatedModuli& moduli) const;
+  /// From ln(area), in the table's channel, and ln|c_3|; makes the deviation of the latter wider.
+  void remove_ellipses(std::span<const double> mode_2, EventColumn& log_area, EventColumn& log_asymmetry,
+                       std::span<double> deviation) const;
 
   TableOrigin origin_;
   ShapeGrid shapes_;
   double sign_;
-  std::optional<StiffnessGrid> by_asymmetry_;  ///< its rows are those of ln|c_3| in place of ln(deformation)
+  /// Their rows are those of ln|c_3| in place of ln(deformation); the second one tells c_2.
+  std::optional<StiffnessGrid> by_asymmetry_, mode_2_;
 };
 
 /// 1 - 2 sqrt(pi A) / P of an ellipse with this ratio of its axes.

@@ -46,11 +46,12 @@ class Asymmetry {
 
 }  // namespace
 
-std::optional<GridContent> grid_by_asymmetry(const StiffnessGrid& grid, const ShapeGrid& shapes) {
+std::optional<GridsByAsymmetry> grids_by_asymmetry(const StiffnessGrid& grid, const ShapeGrid& shapes) {
   const GridContent& content = grid.content();
   const GridPatch& bare = content.patches.front();
   GridContent made{content.origin, content.min_log_area, content.column_step, content.columns, {}};
   GridPatch patch;
+  std::vector<double> mode_2;
   patch.first_column = bare.first_column;
   patch.columns = bare.columns;
   patch.rows = rows;
@@ -73,10 +74,13 @@ std::optional<GridContent> grid_by_asymmetry(const StiffnessGrid& grid, const Sh
       grid.answer({&log_area, 1}, {&log_deformation, 1}, answer);
       patch.log_stiffness.push_back(answer[0].log_stiffness);
       patch.error.push_back(answer[0].error);
+      mode_2.push_back(shapes.mode(2, log_area, std::exp(log_deformation)));
     }
   }
   made.patches.push_back(std::move(patch));
-  return made;
+  GridsByAsymmetry both{made, std::move(made)};
+  both.mode_2.patches.front().log_stiffness = std::move(mode_2);
+  return both;
 }
 
 }  // namespace rheocyte

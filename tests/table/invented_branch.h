@@ -37,6 +37,7 @@ inline double invented_modulus(double area_um2, double deformation) {
 
 /// The deformation of an outline with c_3 alone is 2 c_3^2.
 inline double invented_asymmetry(double deformation) { return std::sqrt(deformation / 2); }
+inline double invented_mode_2(double deformation) { return 0.3 * deformation; }
 
 /// Of all measures the values (first column) and their slopes with ln(stiffness).
 inline Eigen::MatrixX2d invented_state(double radius, double stiffness, double bending = 0) {
@@ -57,7 +58,7 @@ inline Eigen::MatrixX2d invented_state(double radius, double stiffness, double b
   set(Measure::moment_ratio, 1 - 3 * d, -3);
   set(Measure::named("moment_ratio_raw"), 1 - 3.1 * d, -3.1);
   set(Measure::named("inertia_ratio"), 1 + 1.5 * d, 1.5);
-  set(Measure::named("mode_2"), 0.3 * d, 0.3);
+  set(Measure::named("mode_2"), invented_mode_2(d), 0.3);
   set(Measure::named("mode_3"), invented_asymmetry(d), 0.5 * invented_asymmetry(d) / d);
   set(Measure::named("mode_5"), 0.1 * invented_asymmetry(d), 0.05 * invented_asymmetry(d) / d);
   set(Measure::named("cell_velocity_m_per_s"), 0.18 + 0.1 * d, 0.1);
