@@ -10,19 +10,17 @@
 #include <fstream>
 #include <iterator>
 
+#include "bare_branches.h"
 #include "case/user_error.h"
 #include "program.h"
 #include "table/shapes_from_branches.h"
-#include "table/table_folder.h"
 
 namespace {
 
 using namespace rheocyte;
 
 std::vector<SampledBranch> finished(const TableFolder& folder) {
-  std::vector<SampledBranch> branches;
-  for (int i = 0; i < folder.branches(); ++i)
-    if (folder.has(i, false)) branches.push_back(folder.read(i, false));
+  std::vector<SampledBranch> branches = bare_branches(folder);
   std::erase_if(branches, [](const SampledBranch& branch) { return branch.samples() < 2; });
   std::ranges::sort(branches, {}, &SampledBranch::radius_um);
   return branches;

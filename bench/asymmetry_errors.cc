@@ -12,12 +12,12 @@
 #include <cstdlib>
 #include <vector>
 
+#include "bare_branches.h"
 #include "measurement/pixel_errors.h"
 #include "measurement/shape_in_pixels.h"
 #include "program.h"
 #include "synth/branch_shapes.h"
 #include "synth/outline.h"
-#include "table/table_folder.h"
 
 namespace {
 
@@ -96,10 +96,7 @@ void print(const char* name, const Eigen::VectorXd& coefficients) {
 int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("asymmetry_errors DIR [SHAPES [PLACES]]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
-  const TableFolder folder(argv[1], spec);
-  std::vector<SampledBranch> branches;
-  for (int i = 0; i < folder.branches(); ++i)
-    if (folder.has(i, false)) branches.push_back(folder.read(i, false));
+  std::vector<SampledBranch> branches = bare_branches(TableFolder(argv[1], spec));
   const ChannelFlow flow = channel_flow_of(spec.base);
   const BranchShapes shapes(std::move(branches), {flow, flow, false});
   const auto all =

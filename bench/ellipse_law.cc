@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "bare_branches.h"
 #include "infer/added_ellipse.h"
 #include "program.h"
 #include "shape/outline_shape.h"
@@ -18,7 +19,6 @@
 #include "synth/outline.h"
 #include "table/grid_by_asymmetry.h"
 #include "table/grid_from_branches.h"
-#include "table/table_folder.h"
 
 namespace {
 
@@ -108,10 +108,7 @@ void tell(const std::vector<Changed>& all, const char* what, const EllipseLaw& l
 int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("ellipse_law DIR [SHAPES]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
-  const TableFolder folder(argv[1], spec);
-  std::vector<SampledBranch> branches;
-  for (int i = 0; i < folder.branches(); ++i)
-    if (folder.has(i, false)) branches.push_back(folder.read(i, false));
+  std::vector<SampledBranch> branches = bare_branches(TableFolder(argv[1], spec));
   const ChannelFlow flow = channel_flow_of(spec.base);
   const StiffnessGrid grid = modes_2(spec, branches);
   const BranchShapes shapes(std::move(branches), {flow, flow, false});
