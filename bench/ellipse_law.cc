@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <vector>
 
 #include "bare_branches.h"
@@ -68,22 +69,26 @@ std::vector<Changed> change_shapes(const CellShapes& shapes, const StiffnessGrid
   return all;
 }
 
+auto as_row(const EllipseLaw& numbers) { return Eigen::RowVectorXd::Map(numbers.data(), Eigen::Index(numbers.size())); }
+
 EllipseLaw fitted(const std::vector<Changed>& all, double Changed::*member) {
   const auto rows = Eigen::Index(all.size());
-  Eigen::MatrixXd matrix(rows, EllipseLaw().size());
+  Eigen::MatrixXd matrix(rows, Eigen::Index(EllipseLaw().size()));
   Eigen::VectorXd wanted(rows);
   for (Eigen::Index row = 0; row < rows; ++row) {
     const Changed& one = all[std::size_t(row)];
-    matrix.row(row) = ellipse_terms(one.outline);
+    matrix.row(row) = as_row(ellipse_terms(one.outline));
     wanted(row) = one.*member;
   }
-  return matrix.colPivHouseholderQr().solve(wanted);
+  EllipseLaw law;
+  Eigen::VectorXd::Map(law.data(), Eigen::Index(law.size())) = matrix.colPivHouseholderQr().solve(wanted);
+  return law;
 }
 
 void print(const char* name, const EllipseLaw& law) {
-  fmt::print("const EllipseLaw {}{{{{", name);
-  for (int i = 0; i < law.size(); ++i) fmt::print("{}{:.6g}", i ? ", " : "", law(i));
-  fmt::print("}}}};\n");
+  fmt::print("constexpr EllipseLaw {}{{", name);
+  for (std::size_t i = 0; i < law.size(); ++i) fmt::print("{}{:.6g}", i ? ", " : "", law[i]);
+  fmt::print("}};\n");
 }
 
 void tell(const std::vector<Changed>& all, const char* what, const EllipseLaw& law, double Changed::*member) {
@@ -92,7 +97,8 @@ void tell(const std::vector<Changed>& all, const char* what, const EllipseLaw& l
     for (const Changed& one : all) {
       if ((one.log_area == 0) != round) continue;
       before.push_back(std::abs(one.*member));
-      left.push_back(std::abs(one.*member - ellipse_terms(one.outline).dot(law)));
+      left.push_back(
+          std::abs(one.*member - std::inner_product(law.begin(), law.end(), ellipse_terms(one.outline).begin(), 0.0)));
     }
     const auto at = [](std::vector<double>& v, double share) {
       std::ranges::sort(v);

@@ -120,6 +120,27 @@ void own_moduli_of_a_population(benchmark::State& state) {
   own_moduli(state, all);
 }
 
+// By the asymmetry: cells of the table, half of them with an ellipse that it does not have.
+void own_moduli_by_asymmetry(benchmark::State& state) {
+  static const Events all = population();
+  std::vector<double> mode_2, mode_3;
+  const ShapeGrid& shapes = grid->shapes()->shapes();
+  for (std::size_t i = 0; i < events; ++i) {
+    const double log_area = std::log(all.area[i]);
+    mode_2.push_back(shapes.mode(2, log_area, all.deformation[i]) + (i % 2 ? 0.1 : 0));
+    mode_3.push_back(shapes.mode(3, log_area, all.deformation[i]));
+  }
+  const std::vector<double> viscosity(events, 5.0);
+  std::vector<double> modulus(events), error(events);
+  std::vector<ModulusState> states(events);
+  for (auto _ : state) {
+    grid->shapes()->estimate({{20, 0.06}, 0.34}, {all.area, all.deformation, viscosity}, {mode_2, mode_3},
+                             {modulus, error, states});
+    benchmark::DoNotOptimize(modulus.data());
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
+}
+
 void viscosities(benchmark::State& state) {
   static const Events all = population();
   const Buffer buffer(Medium::methyl_cellulose_049, ViscosityModel::buyukurganci_2022);
@@ -169,6 +190,7 @@ BENCHMARK(moduli_uniform_in_hull)->Unit(benchmark::kMillisecond);
 BENCHMARK(moduli_of_a_population)->Unit(benchmark::kMillisecond);
 BENCHMARK(own_moduli_uniform)->Unit(benchmark::kMillisecond);
 BENCHMARK(own_moduli_of_a_population)->Unit(benchmark::kMillisecond);
+BENCHMARK(own_moduli_by_asymmetry)->Unit(benchmark::kMillisecond);
 BENCHMARK(viscosities)->Unit(benchmark::kMillisecond);
 BENCHMARK(table_and_triangulation)->Unit(benchmark::kMillisecond);
 BENCHMARK(features_from_masks)->Unit(benchmark::kMillisecond);

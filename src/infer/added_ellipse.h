@@ -1,27 +1,31 @@
 // What an elongation that the model does not have does to area and asymmetry of an outline (docs/theory-extract.md,
 // sec. "Shapes").
 #pragma once
-#include <Eigen/Core>
+#include <array>
+
+#include "numeric/whole_packets.h"
 
 namespace rheocyte {
 
-/// A smooth outline: what its c_2 has beyond that of the model's cell of the same area and c_3, |c_3|, and ln(area) in
-/// units of half the channel's width, squared.
-struct LongOutline {
-  double excess = 0, mode_3 = 0, log_area = 0;
+/// Smooth outlines, one or a Packet of them: what their c_2 have beyond that of the model's cell of the same area and
+/// c_3, |c_3|, and ln(area) in units of half the channel's width, squared.
+template <class Number>
+struct LongOutlineOf {
+  Number excess, mode_3, log_area;
 };
+using LongOutline = LongOutlineOf<double>;
 
 /// Coefficients of excess^i |c_3|^j r^k, i from 1 on, r the radius of a circle of this area.
-using EllipseLaw = Eigen::Matrix<double, 18, 1>;
-using EllipseTerms = Eigen::Matrix<double, 1, 18>;
-EllipseTerms ellipse_terms(const LongOutline&);
+using EllipseLaw = std::array<double, 18>;
+template <class Number>
+std::array<Number, 18> ellipse_terms(const LongOutlineOf<Number>&);
 
 /// To be added to ln|c_3| and to ln(area) of an outline, so that they become those of the cell of the model to which
-/// an ellipse was added. Beyond what the law was fitted to the nearest counts.
+/// an ellipse was added. Beyond what the law was fitted to the nearest counts; nothing without an excess.
 struct WithoutEllipse {
-  double log_mode_3 = 0, log_area = 0;
-  double deviation = 0;  ///< standard deviation of what the law leaves of ln|c_3|
+  Packet log_mode_3, log_area;
+  Packet deviation;  ///< standard deviation of what the law leaves of ln|c_3|
 };
-WithoutEllipse without_ellipse(const LongOutline&);
+WithoutEllipse without_ellipse(const LongOutlineOf<Packet>&);
 
 }  // namespace rheocyte

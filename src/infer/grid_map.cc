@@ -21,10 +21,11 @@ namespace {
 constexpr std::size_t block_size = event_block_size;
 
 // Variance of ln(modulus) by scattering area and deformation (eq:standard-error).
-double variance_by_pixels(const GridAnswer& answer, const PixelErrors& pixels, double deformation) {
-  const double by_area = answer.by_log_area * pixels.area_deviation;
-  const double by_deformation = answer.by_log_deformation * pixels.deformation_deviation / deformation;
-  return by_area * by_area + by_deformation * by_deformation + 2 * pixels.correlation * by_area * by_deformation;
+double variance_by_pixels(const GridAnswer& answer, const SmoothEvents& smooth, Eigen::Index event) {
+  const double by_area = answer.by_log_area * smooth.area_deviation[event];
+  const double by_deformation =
+      answer.by_log_deformation * smooth.deformation_deviation[event] / smooth.deformation[event];
+  return by_area * by_area + by_deformation * by_deformation + 2 * smooth.correlation[event] * by_area * by_deformation;
 }
 
 }  // namespace
@@ -73,13 +74,9 @@ void GridMap::estimate_block(const MeasuringConditions& conditions, const Measur
   EventColumn log_deformation, modulus;
   std::array<GridAnswer, block_size> answers;
   remove_pixels(conditions, origin().flow, block, smooth);
-  const auto& [log_area, deformation, pixels] = smooth;
   // A deformation below zero is one that is too small, not one that is missing.
-  log_deformation.head(rows) = 1;
-  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(count); ++k)
-    log_deformation[k] = deformation[k] < 0 ? 0 : deformation[k];
-  log_deformation.head(rows) = log_deformation.head(rows).log();
-  grid_.answer({log_area.data(), count}, {log_deformation.data(), count}, {answers.data(), count});
+  log_deformation.head(rows) = smooth.deformation.head(rows).max(0).log();
+  grid_.answer({smooth.log_area.data(), count}, {log_deformation.data(), count}, {answers.data(), count});
   const double factor = factor_per_mPas(conditions);
   modulus.head(rows) = 0;
   for (std::size_t i = 0; i < count; ++i) modulus[static_cast<Eigen::Index>(i)] = answers[i].log_stiffness;
@@ -88,8 +85,7 @@ void GridMap::estimate_block(const MeasuringConditions& conditions, const Measur
     const auto k = static_cast<Eigen::Index>(i);
     const bool has = answers[i].reason == NoAnswer::none && std::isfinite(block.viscosity_mPas[i]);
     const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : no_value;
-    const double variance =
-        answers[i].error * answers[i].error + variance_by_pixels(answers[i], pixels[i], deformation[k]);
+    const double variance = answers[i].error * answers[i].error + variance_by_pixels(answers[i], smooth, k);
     estimates.modulus_kPa[i] = value;
     estimates.standard_error_kPa[i] = value * std::sqrt(variance);
     estimates.state[i] = answers[i].reason == NoAnswer::none && !has ? ModulusState::no_data : state_of(answers[i]);

@@ -74,7 +74,7 @@ void ShapeMap::compare(const MeasuringConditions& conditions, const MeasuredEven
       e.expected = shapes_.inertia_ratio(smooth.log_area[k], deformation);
       e.excess = ratio > 0 && shapes_.has_area(smooth.log_area[k]) ? ratio - e.expected : no_value;
       e.error = inertia_ratio_deviation(events.size[first + i], conditions.pixel_size_um);
-      const bool has_deformation = deformation > smooth.pixels[i].deformation_deviation && ratio > 0;
+      const bool has_deformation = deformation > smooth.deformation_deviation[k] && ratio > 0;
       e.odd_share = has_deformation ? 1 - deformation_of_ellipse(ratio) / deformation : no_value;
     }
   });
@@ -98,34 +98,24 @@ void ShapeMap::estimate_block(const MeasuringConditions& conditions, const Measu
   const std::size_t count = block.size.size();
   const Eigen::Index rows = whole_packets(count);
   SmoothEvents smooth;
-  EventColumn log_asymmetry, modulus;
-  std::array<double, event_block_size> deviation{};  // of ln|c_3|
+  SmoothAsymmetries asymmetry;
+  EventColumn modulus;
   std::array<GridAnswer, event_block_size> answers;
   remove_pixels(conditions, origin_.flow, block, smooth);
-  const double log_pixel_area = 2 * std::log(conditions.pixel_size_um);
-  log_asymmetry.head(rows) = 1;
+  smooth_modes(conditions.pixel_size_um, modes, smooth, asymmetry);
+  remove_ellipses(modes.mode_2, smooth.log_area, asymmetry);
+  by_asymmetry_->answer({smooth.log_area.data(), count}, {asymmetry.log_mode_3.data(), count}, {answers.data(), count});
   modulus.head(rows) = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    AsymmetryErrors pixels;
-    if (conditions.pixel_size_um > 0)
-      pixels = asymmetry_errors(std::log(block.size[i]) - log_pixel_area, modes.mode_2[i], modes.mode_3[i]);
-    const double asymmetry = (modes.mode_3[i] - pixels.excess) * sign_;
-    deviation[i] = pixels.deviation / asymmetry;
-    // An asymmetry of the wrong sign is one that is too small, not one that is missing.
-    log_asymmetry[static_cast<Eigen::Index>(i)] = asymmetry < 0 ? 0 : asymmetry;
-  }
-  log_asymmetry.head(rows) = log_asymmetry.head(rows).log();
-  remove_ellipses(modes.mode_2, smooth.log_area, log_asymmetry, deviation);
-  by_asymmetry_->answer({smooth.log_area.data(), count}, {log_asymmetry.data(), count}, {answers.data(), count});
   for (std::size_t i = 0; i < count; ++i) modulus[static_cast<Eigen::Index>(i)] = answers[i].log_stiffness;
   modulus.head(rows) = modulus.head(rows).exp();
   const double factor = scale_factors(origin_.flow, {conditions.flow.width_um, conditions.flow.rate_ul_s, 1}).modulus;
   for (std::size_t i = 0; i < count; ++i) {
     const GridAnswer& answer = answers[i];
+    const auto k = static_cast<Eigen::Index>(i);
     const bool has = answer.reason == NoAnswer::none && std::isfinite(block.viscosity_mPas[i]);
-    const double value = has ? modulus[static_cast<Eigen::Index>(i)] * factor * block.viscosity_mPas[i] : no_value;
-    const double by_area = answer.by_log_area * smooth.pixels[i].area_deviation,
-                 by_asymmetry = answer.by_log_deformation * deviation[i];
+    const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : no_value;
+    const double by_area = answer.by_log_area * smooth.area_deviation[k],
+                 by_asymmetry = answer.by_log_deformation * asymmetry.deviation[k];
     estimates.modulus_kPa[i] = value;
     estimates.standard_error_kPa[i] =
         value * std::sqrt(by_area * by_area + by_asymmetry * by_asymmetry + answer.error * answer.error);
@@ -133,20 +123,46 @@ void ShapeMap::estimate_block(const MeasuringConditions& conditions, const Measu
   }
 }
 
-void ShapeMap::remove_ellipses(std::span<const double> mode_2, EventColumn& log_area, EventColumn& log_asymmetry,
-                               std::span<double> deviation) const {
+void ShapeMap::smooth_modes(double pixel_size_um, const MeasuredModes& modes, const SmoothEvents& smooth,
+                            SmoothAsymmetries& asymmetry) const {
+  const Eigen::Index rows = whole_packets(modes.mode_3.size());
+  EventColumn mode_2, mode_3;
+  mode_2.head(rows) = mode_3.head(rows) = 0;
+  std::ranges::copy(modes.mode_2, mode_2.data());
+  std::ranges::copy(modes.mode_3, mode_3.data());
+  asymmetry.deviation.head(rows) = 0;
+  for (Eigen::Index k = 0; pixel_size_um > 0 && k < rows; k += packet_size) {
+    const Packet log_area_px = packet_at(smooth.log_measured_area, k) - 2 * std::log(pixel_size_um),
+                 second = packet_at(mode_2, k), third = packet_at(mode_3, k);
+    const auto pixels = asymmetry_errors(log_area_px, second, third);
+    packet_at(mode_3, k) -= pixels.excess;
+    packet_at(asymmetry.deviation, k) = pixels.deviation;
+  }
+  // An asymmetry of the wrong sign is one that is too small, not one that is missing.
+  mode_3.head(rows) = (sign_ * mode_3.head(rows)).max(0);
+  asymmetry.deviation.head(rows) /= mode_3.head(rows);
+  asymmetry.log_mode_3.head(rows) = mode_3.head(rows).log();
+}
+
+void ShapeMap::remove_ellipses(std::span<const double> mode_2, EventColumn& log_area,
+                               SmoothAsymmetries& asymmetry) const {
   const std::size_t count = mode_2.size();
+  const Eigen::Index rows = whole_packets(count);
   std::array<GridAnswer, event_block_size> of_table;
-  mode_2_->answer({log_area.data(), count}, {log_asymmetry.data(), count}, {of_table.data(), count});
+  mode_2_->answer({log_area.data(), count}, {asymmetry.log_mode_3.data(), count}, {of_table.data(), count});
+  EventColumn excess;
+  excess.head(rows) = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (of_table[i].reason == NoAnswer::none)
+      excess[static_cast<Eigen::Index>(i)] = mode_2[i] - of_table[i].log_stiffness;
   const double log_half_width = std::log(origin_.flow.width_um / 2);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (of_table[i].reason != NoAnswer::none) continue;
-    const auto k = static_cast<Eigen::Index>(i);
-    const WithoutEllipse change = without_ellipse(
-        {mode_2[i] - of_table[i].log_stiffness, std::exp(log_asymmetry[k]), log_area[k] - 2 * log_half_width});
-    log_asymmetry[k] += change.log_mode_3;
-    log_area[k] += change.log_area;
-    deviation[i] = std::hypot(deviation[i], change.deviation);
+  for (Eigen::Index k = 0; k < rows; k += packet_size) {
+    auto log_mode_3 = packet_at(asymmetry.log_mode_3, k), deviation = packet_at(asymmetry.deviation, k);
+    const WithoutEllipse change =
+        without_ellipse({packet_at(excess, k), log_mode_3.exp(), packet_at(log_area, k) - 2 * log_half_width});
+    log_mode_3 += change.log_mode_3;
+    packet_at(log_area, k) += change.log_area;
+    deviation = (deviation.square() + change.deviation.square()).sqrt();
   }
 }
 

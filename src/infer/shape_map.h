@@ -52,11 +52,17 @@ class ShapeMap {
   const ShapeGrid& shapes() const { return shapes_; }
 
  private:
+  /// ln|c_3| and its standard deviation.
+  struct SmoothAsymmetries {
+    EventColumn log_mode_3, deviation;
+  };
   void estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block, const MeasuredModes& modes,
                       const EstimatedModuli& moduli) const;
-  /// From ln(area), in the table's channel, and ln|c_3|; makes the deviation of the latter wider.
-  void remove_ellipses(std::span<const double> mode_2, EventColumn& log_area, EventColumn& log_asymmetry,
-                       std::span<double> deviation) const;
+  /// Without what the pixels do.
+  void smooth_modes(double pixel_size_um, const MeasuredModes& modes, const SmoothEvents& smooth,
+                    SmoothAsymmetries& asymmetry) const;
+  /// Changes ln(area), in the table's channel, and the asymmetry.
+  void remove_ellipses(std::span<const double> mode_2, EventColumn& log_area, SmoothAsymmetries& asymmetry) const;
 
   TableOrigin origin_;
   ShapeGrid shapes_;

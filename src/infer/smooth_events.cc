@@ -11,23 +11,27 @@ void remove_pixels(const MeasuringConditions& conditions, const ChannelFlow& tab
   const std::size_t count = block.size.size();
   assert(count <= event_block_size && block.deformation.size() == count);
   const Eigen::Index rows = whole_packets(count);
-  smooth.log_area.head(rows) = 1;
-  std::ranges::copy(block.size, smooth.log_area.data());
-  smooth.log_area.head(rows) = smooth.log_area.head(rows).log();
+  smooth.log_measured_area.head(rows) = 1;
+  smooth.deformation.head(rows) = 0;
+  std::ranges::copy(block.size, smooth.log_measured_area.data());
   std::ranges::copy(block.deformation, smooth.deformation.data());
-  std::ranges::fill(smooth.pixels, PixelErrors{});
-  if (conditions.pixel_size_um > 0) {
-    const double log_pixel_area = 2 * std::log(conditions.pixel_size_um);
-    EventColumn factor = EventColumn::Ones();
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      smooth.pixels[i] = pixel_errors(smooth.log_area[k] - log_pixel_area, smooth.deformation[k]);
-      smooth.deformation[k] -= smooth.pixels[i].deformation_excess;
-      factor[k] = smooth.pixels[i].area_factor;
-    }
-    if (conditions.correct_area) smooth.log_area.head(rows) += factor.head(rows).log();
+  smooth.log_measured_area.head(rows) = smooth.log_measured_area.head(rows).log();
+  smooth.log_area.head(rows) =
+      smooth.log_measured_area.head(rows) + std::log(scale_factors(conditions.flow, table).area);
+  for (EventColumn* column : {&smooth.area_deviation, &smooth.deformation_deviation, &smooth.correlation})
+    column->head(rows) = 0;
+  if (!(conditions.pixel_size_um > 0)) return;
+  const double log_pixel_area = 2 * std::log(conditions.pixel_size_um);
+  for (Eigen::Index k = 0; k < rows; k += packet_size) {
+    const Packet log_area_px = packet_at(smooth.log_measured_area, k) - log_pixel_area,
+                 deformation = packet_at(smooth.deformation, k);
+    const auto pixels = pixel_errors(log_area_px, deformation);
+    packet_at(smooth.deformation, k) -= pixels.deformation_excess;
+    if (conditions.correct_area) packet_at(smooth.log_area, k) += pixels.area_factor.log();
+    packet_at(smooth.area_deviation, k) = pixels.area_deviation;
+    packet_at(smooth.deformation_deviation, k) = pixels.deformation_deviation;
+    packet_at(smooth.correlation, k) = pixels.correlation;
   }
-  smooth.log_area.head(rows) += std::log(scale_factors(conditions.flow, table).area);
 }
 
 }  // namespace rheocyte

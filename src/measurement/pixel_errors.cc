@@ -46,18 +46,19 @@ constexpr double min_fitted_mode_2 = -0.02, max_fitted_mode_2 = 0.28, max_fitted
 // Below what masks show; for shapes that few pixels cannot have.
 constexpr double min_area_deviation = 0.2, min_deformation_deviation = 0.05, min_asymmetry_deviation = 0.14;
 
-double value(const Law& law, double deformation, double s) {
-  double sum = 0;
-  for (int i = powers_of_deformation; i-- > 0;)
-    sum = sum * deformation + law[static_cast<std::size_t>(i)][0] +
-          s * (law[static_cast<std::size_t>(i)][1] + s * law[static_cast<std::size_t>(i)][2]);
+template <class Number>
+Number value(const Law& law, const Number& deformation, const Number& s) {
+  Number sum = 0 * deformation;
+  for (std::size_t i = powers_of_deformation; i-- > 0;)
+    sum = sum * deformation + law[i][0] + s * (law[i][1] + s * law[i][2]);
   return sum;
 }
 
-double value(const AsymmetryLaw& law, double ellipse, double asymmetry, double s) {
-  double sum = 0;
+template <class Number>
+Number value(const AsymmetryLaw& law, const Number& ellipse, const Number& asymmetry, const Number& s) {
+  Number sum = 0 * ellipse;
   for (std::size_t i = powers_of_mode; i-- > 0;) {
-    double row = 0;
+    Number row = 0 * ellipse;
     for (std::size_t j = powers_of_mode; j-- > 0;) {
       const std::size_t first = powers_of_s * (powers_of_mode * i + j);
       row = row * asymmetry + law[first] + s * law[first + 1];
@@ -67,28 +68,41 @@ double value(const AsymmetryLaw& law, double ellipse, double asymmetry, double s
   return sum;
 }
 
+/// (area in pixels)^(-1/3)
+template <class Number>
+Number inverse_root(const Number& log_area_px) {
+  static const double least = std::log(min_fitted_area_px), greatest = std::log(max_fitted_area_px);
+  const Number third = clamped(log_area_px, least, greatest) / -3;
+  using std::exp;
+  return exp(third);
+}
+
 }  // namespace
 
-PixelErrors pixel_errors(double log_area_px, double deformation) {
-  static const double least = std::log(min_fitted_area_px), greatest = std::log(max_fitted_area_px);
-  const double s = std::exp(-std::clamp(log_area_px, least, greatest) / 3), s2 = s * s;
-  const double d = std::clamp(deformation, 0.0, max_fitted_deformation);
+template <class Number>
+PixelErrorsOf<Number> pixel_errors(const Number& log_area_px, const Number& deformation) {
+  const Number s = inverse_root(log_area_px), s2 = s * s, d = clamped(deformation, 0, max_fitted_deformation);
   return {1 + s2 * value(area_law, d, s), s2 * value(deformation_law, d, s),
-          s2 * std::max(value(area_deviation_law, d, s), min_area_deviation),
-          s2 * std::max(value(deformation_deviation_law, d, s), min_deformation_deviation),
-          std::clamp(value(correlation_law, d, s), -1.0, 1.0)};
+          s2 * at_least(value(area_deviation_law, d, s), min_area_deviation),
+          s2 * at_least(value(deformation_deviation_law, d, s), min_deformation_deviation),
+          clamped(value(correlation_law, d, s), -1, 1)};
 }
 
-AsymmetryErrors asymmetry_errors(double log_area_px, double mode_2, double mode_3) {
-  static const double least = std::log(min_fitted_area_px), greatest = std::log(max_fitted_area_px);
-  const double s = std::exp(-std::clamp(log_area_px, least, greatest) / 3), s2 = s * s;
-  const double ellipse = std::clamp(mode_2, min_fitted_mode_2, max_fitted_mode_2),
-               asymmetry = std::clamp(std::abs(mode_3), 0.0, max_fitted_mode_3);
-  const double excess = mode_3 < 0 ? -asymmetry : asymmetry;
-  return {s2 * excess * value(asymmetry_law, ellipse, asymmetry, s),
-          std::hypot(s2 * std::max(0.28 + 0.75 * asymmetry - 0.38 * ellipse, min_asymmetry_deviation),
-                     left_by_asymmetry_law * asymmetry)};
+template <class Number>
+AsymmetryErrorsOf<Number> asymmetry_errors(const Number& log_area_px, const Number& mode_2, const Number& mode_3) {
+  using std::abs, std::sqrt;
+  const Number s = inverse_root(log_area_px), s2 = s * s;
+  const Number ellipse = clamped(mode_2, min_fitted_mode_2, max_fitted_mode_2),
+               held = clamped(mode_3, -max_fitted_mode_3, max_fitted_mode_3), asymmetry = abs(held);
+  const Number by_chance = s2 * at_least(Number(0.28 + 0.75 * asymmetry - 0.38 * ellipse), min_asymmetry_deviation),
+               by_law = left_by_asymmetry_law * asymmetry;
+  return {s2 * held * value(asymmetry_law, ellipse, asymmetry, s), sqrt(by_chance * by_chance + by_law * by_law)};
 }
+
+template PixelErrors pixel_errors(const double&, const double&);
+template PixelErrorsOf<Packet> pixel_errors(const Packet&, const Packet&);
+template AsymmetryErrors asymmetry_errors(const double&, const double&, const double&);
+template AsymmetryErrorsOf<Packet> asymmetry_errors(const Packet&, const Packet&, const Packet&);
 
 SmoothAsymmetry without_pixels(const ShapeVector& measured, double pixel_size_um) {
   constexpr int second = int(ShapeFeature::first_mode), third = second + 1;

@@ -2,18 +2,21 @@
 // for millions of events in a second (docs/theory-extract.md, eq:pixel-errors). For cells with a cortex, and for all
 // features of a shape with their covariance, see infer/rendered_errors.h.
 #pragma once
+#include "numeric/whole_packets.h"
 #include "shape/outline_shape.h"
 
 namespace rheocyte {
 
-/// For a contour through the centres of the outermost pixels.
-struct PixelErrors {
-  double area_factor = 1;            ///< area of the smooth contour's hull / measured area
-  double deformation_excess = 0;     ///< measured deformation - that of the smooth contour
-  double area_deviation = 0;         ///< standard deviation of ln(area) from cell to cell
-  double deformation_deviation = 0;  ///< of the deformation
-  double correlation = 0;            ///< of both
+/// For a contour through the centres of the outermost pixels; of one event, or of a Packet of them.
+template <class Number>
+struct PixelErrorsOf {
+  Number area_factor;            ///< area of the smooth contour's hull / measured area
+  Number deformation_excess;     ///< measured deformation - that of the smooth contour
+  Number area_deviation;         ///< standard deviation of ln(area) from cell to cell
+  Number deformation_deviation;  ///< of the deformation
+  Number correlation;            ///< of both
 };
+using PixelErrors = PixelErrorsOf<double>;
 
 /// Areas (pixels) for which the law was fitted; outside, the nearest one counts.
 inline constexpr double min_fitted_area_px = 50, max_fitted_area_px = 9000;
@@ -22,17 +25,21 @@ inline constexpr double max_fitted_deformation = 0.2;
 
 /// By the natural logarithm of the measured area in pixels and the measured deformation of a solid. By what one solid
 /// differs from another of the same area and deformation counts as scatter; a shell differs by more.
-PixelErrors pixel_errors(double log_area_px, double deformation);
+template <class Number>
+PixelErrorsOf<Number> pixel_errors(const Number& log_area_px, const Number& deformation);
 
 /// For the third mode of the outline's radius (docs/theory-extract.md, eq:asymmetry-errors).
-struct AsymmetryErrors {
-  double excess = 0;     ///< measured c_3 - that of the smooth contour
-  double deviation = 0;  ///< standard deviation of the measured c_3
+template <class Number>
+struct AsymmetryErrorsOf {
+  Number excess;     ///< measured c_3 - that of the smooth contour
+  Number deviation;  ///< standard deviation of the measured c_3
 };
+using AsymmetryErrors = AsymmetryErrorsOf<double>;
 
 /// By the natural logarithm of the measured area in pixels and the measured c_2 and c_3. Pixels make the ends of an
 /// elongated cell more alike: they take away the more of c_3 the greater c_2 is.
-AsymmetryErrors asymmetry_errors(double log_area_px, double mode_2, double mode_3);
+template <class Number>
+AsymmetryErrorsOf<Number> asymmetry_errors(const Number& log_area_px, const Number& mode_2, const Number& mode_3);
 
 /// What the law leaves of c_3 of a single shape, in parts of it (standard deviation); alike in all pictures of it.
 inline constexpr double left_by_asymmetry_law = 0.01;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case/channel_flow.h"
+#include "numeric/whole_packets.h"
 #include "table/shape_grid.h"
 #include "table/table_interpolation.h"
 
@@ -76,9 +77,7 @@ class StiffnessGrid {
   std::optional<Range> smooth_range(double area_um2) const;
 
  private:
-  struct alignas(32) Node {
-    double value, by_column, by_row, by_both;
-  };
+  using Node = Packet;  ///< value, its slopes by the column and by the row, and by both
   struct Edge {
     double value, by_column;
   };
@@ -92,8 +91,8 @@ class StiffnessGrid {
   };
   struct Place;
   static Patch ready(const GridPatch& patch);
-  GridAnswer between(const Patch& patch, const Place& place, double log_deformation) const;
-  GridAnswer answer_at(double log_area, double log_deformation) const;
+  void between(const Patch& patch, const Place& place, double log_deformation, GridAnswer& answer) const;
+  void answer_at(double log_area, double log_deformation, GridAnswer& answer) const;
 
   GridContent content_;
   std::vector<Patch> patches_;

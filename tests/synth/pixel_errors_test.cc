@@ -19,7 +19,7 @@ namespace {
 /// What is left of ln(area) and deformation after the correction, over many places of one shape.
 struct Left {
   double log_area = 0, deformation = 0, log_area_deviation = 0, deformation_deviation = 0;  ///< means; about zero
-  PixelErrors stated;                                                                       ///< mean
+  PixelErrors stated{};                                                                     ///< mean
 };
 
 Left left_of(const CellShape& shape, double area_px, int places) {
