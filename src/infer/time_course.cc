@@ -135,7 +135,8 @@ struct Normal {
   Eigen::Array2d mean = Eigen::Array2d::Zero(), variance = Eigen::Array2d::Ones();
 };
 
-constexpr double min_variance = 1e-4;
+/// Narrower than that the points of a cell, which lie a few per cent apart, do not resolve a population.
+constexpr double min_variance = min_spread * min_spread;
 
 /// What a cell adds: mean and variance about the population's mean of what it may be.
 struct Moments {
@@ -193,16 +194,21 @@ Normal most_likely(const std::vector<Points>& cells, Normal population) {
   return population;
 }
 
-/// Standard errors of the means, from the scatter of the cells' scores.
+/// Standard errors of the means, from the scatter of the cells' scores. A variance that is as small as any is not
+/// estimated.
 template <class Points>
 Eigen::Array2d errors_of(const std::vector<Points>& cells, const Normal& population) {
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   for (const Points& cell : cells) {
     const Moments moments = moments_of(cell, population);
     Eigen::Vector4d score;
-    score << (moments.first / population.variance).matrix(), ((moments.second / population.variance - 1) / 2).matrix();
+    const auto is_free = (population.variance > min_variance).cast<double>();
+    score << (moments.first / population.variance).matrix(),
+        (is_free * (moments.second / population.variance - 1) / 2).matrix();
     information += score * score.transpose();
   }
+  for (Eigen::Index i = 0; i < 2; ++i)
+    if (!(population.variance[i] > min_variance)) information(2 + i, 2 + i) = 1;
   const Eigen::FullPivLU<Eigen::Matrix4d> lu(information);
   if (!lu.isInvertible()) return Eigen::Array2d::Constant(HUGE_VAL);
   return lu.inverse().diagonal().head<2>().array().sqrt();

@@ -36,10 +36,13 @@ struct CourseEstimate {
   double chi_squared = no_value;
 };
 
+/// No spread of a population is told from a smaller one: standard deviation of a logarithm.
+inline constexpr double min_spread = 0.05;
+
 /// Normal in ln(E) and ln(viscosity).
 struct PopulationEstimate {
   Credible young_modulus_kPa, viscosity_Pas;        ///< medians of the population
-  double modulus_spread = 0, viscosity_spread = 0;  ///< standard deviations of the logarithms
+  double modulus_spread = 0, viscosity_spread = 0;  ///< of the logarithms, at least min_spread
   std::size_t cells = 0;
 };
 

@@ -71,6 +71,22 @@ TEST(TimeCourse, APopulationSeenOnceOverALongRegionTellsItsModulusAndViscosity) 
   EXPECT_LT(found.viscosity_Pas.high / found.viscosity_Pas.low, 1.3);
 }
 
+TEST(TimeCourse, APopulationOfEqualCellsHasAnIntervalThatHoldsThem) {
+  const DynamicTable table(test::invented_dynamic());
+  std::vector<CellImages> cells;
+  for (int i = 0; i < 400; ++i) {
+    auto random = CellRandom(5, std::uint64_t(i), Purpose::population);
+    cells.push_back(seen(table, {6.8 + 0.3 * random.normal(), 5, 3 * 1.2 / 5}, {10 + 300 * random.uniform()}, random));
+  }
+  const PopulationEstimate found = TimeCourse(table).population(cells);
+  EXPECT_TRUE(holds(found.young_modulus_kPa, 5)) << found.young_modulus_kPa.low << " " << found.young_modulus_kPa.high;
+  EXPECT_TRUE(holds(found.viscosity_Pas, 1.2)) << found.viscosity_Pas.low << " " << found.viscosity_Pas.high;
+  EXPECT_LT(found.young_modulus_kPa.high / found.young_modulus_kPa.low, 1.2);
+  EXPECT_LT(found.viscosity_Pas.high / found.viscosity_Pas.low, 1.2);
+  EXPECT_LT(found.modulus_spread, 0.1);
+  EXPECT_LT(found.viscosity_spread, 0.1);
+}
+
 TEST(TimeCourse, OnePictureDoesNotTellViscosity) {
   const DynamicTable table(test::invented_dynamic());
   auto random = CellRandom(1, 1, Purpose::population);
