@@ -1,5 +1,5 @@
 // How well Young's modulus and viscosity of cells on their way come back from masks: round_trip_courses DIR
-// [POPULATIONS [CELLS [PIXEL_UM]]]
+// [POPULATIONS [CELLS [PIXEL_UM [ADDED_ELLIPSE]]]]
 //
 // The dynamic table in DIR shows virtual cells at four places; they are drawn into masks of pixels, whose contours give
 // back single cells from all over the table, and populations of random medians. Times 3 viscosity / E of 0.1 to 5 ms.
@@ -59,8 +59,12 @@ struct Found {
 
 class Laboratory {
  public:
-  Laboratory(const DynamicTable& table, double pixel_um)
-      : table_(table), flow_(channel_flow_of(table.spec().base)), shapes_(table, flow_), pixel_um_(pixel_um) {}
+  Laboratory(const DynamicTable& table, double pixel_um, double added_ellipse)
+      : table_(table),
+        flow_(channel_flow_of(table.spec().base)),
+        shapes_(table, flow_),
+        pixel_um_(pixel_um),
+        added_ellipse_(added_ellipse) {}
 
   /// Cells from all over the table.
   void look_at_cells(int cells) const {
@@ -137,9 +141,9 @@ class Laboratory {
       const auto* const found = std::get_if<CellShape>(&shape);
       if (!found) return {};
       const Eigen::RowVector2d place_px(random.uniform() - 0.5, random.uniform() - 0.5);
-      const auto smooth =
-          without_pixels(features_in_pixels(silhouette(found->meridian), pixel_um_, place_px), pixel_um_);
-      images.push_back({place, smooth.area_um2, smooth.mode_3, smooth.deviation});
+      const Eigen::MatrixX2d outline = with_ellipse(silhouette(found->meridian), added_ellipse_);
+      const auto smooth = without_pixels(features_in_pixels(outline, pixel_um_, place_px), pixel_um_);
+      images.push_back({place, smooth.area_um2, smooth.mode_3, smooth.deviation, smooth.mode_2});
     }
     return images;
   }
@@ -147,17 +151,17 @@ class Laboratory {
   const DynamicTable& table_;
   ChannelFlow flow_;
   CourseShapes shapes_;
-  double pixel_um_;
+  double pixel_um_, added_ellipse_;
   Found populations_;
 };
 
 }  // namespace
 
 int rheocyte::measure(int argc, char** argv) {
-  if (argc < 2) return fmt::print("round_trip_courses DIR [POPULATIONS [CELLS [PIXEL_UM]]]\n"), 2;
+  if (argc < 2) return fmt::print("round_trip_courses DIR [POPULATIONS [CELLS [PIXEL_UM [ADDED_ELLIPSE]]]]\n"), 2;
   const DynamicTable table = read_dynamic_table(argv[1]);
   const int populations = argc > 2 ? std::atoi(argv[2]) : 20, cells = argc > 3 ? std::atoi(argv[3]) : 500;
-  Laboratory laboratory(table, argc > 4 ? std::atof(argv[4]) : 0.34);
+  Laboratory laboratory(table, argc > 4 ? std::atof(argv[4]) : 0.34, argc > 5 ? std::atof(argv[5]) : 0);
   laboratory.look_at_cells(cells);
   for (int i = 0; i < populations; ++i) laboratory.look_at_population(std::uint64_t(i), cells);
   if (populations > 0) laboratory.report_populations();

@@ -88,6 +88,7 @@ class CourseReader {
     if (!seen.allFinite()) return false;
     const SmoothAsymmetry smooth = without_pixels(seen, settings_.pixel_size_um);
     event.area_um2 = smooth.area_um2;
+    event.mode_2 = smooth.mode_2;
     event.mode_3 = smooth.mode_3;
     event.deviation = smooth.deviation;
     return true;
@@ -209,7 +210,7 @@ CourseCells course_cells(const CourseEvents& events, const std::string& name, do
   std::vector<Placed> placed;
   for (const CourseEvent& event : events.events) {
     const CourseImage image{direction * (event.x_um - contraction_um) / factors.length, event.area_um2 / factors.area,
-                            direction * event.mode_3, event.deviation};
+                            direction * event.mode_3, event.deviation, event.mode_2};
     const bool has_place = table.has_place(image.place_um), has_area = course.has_area(image.area_um2);
     result.outside_places += !has_place;
     result.outside_areas += has_place && !has_area;

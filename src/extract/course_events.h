@@ -16,7 +16,7 @@ namespace rheocyte {
 /// One event with all that is needed; in the recording's own units and direction.
 struct CourseEvent {
   double event = 0;  ///< from 1 on
-  double x_um = 0, y_um = 0, time_s = 0, area_um2 = 0, mode_3 = 0, deviation = 0;
+  double x_um = 0, y_um = 0, time_s = 0, area_um2 = 0, mode_2 = 0, mode_3 = 0, deviation = 0;
 };
 
 /// Of one recording.

@@ -3,10 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "infer/added_ellipse.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/quantile.h"
 
@@ -14,7 +16,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr int coarse = 48, fine = 41;             // points along each axis
+constexpr int coarse = 48, fine = 40;             // points along each axis: together whole packets
 constexpr double relevant = 12;                   // of ln(likelihood) below the maximum
 constexpr double step_of_radius = 0.03;           // in ln(radius), to both sides
 constexpr double normal_quantile = 1.6448536270;  // of 95 %
@@ -60,6 +62,36 @@ struct TimeCourse::Points {
   double min_chi_squared = 0;
 };
 
+/// What is to be added to ln|c_3| and to ln(area) of an image, for each modulus and time, to be without the ellipse
+/// that such a cell of the table does not have.
+struct TimeCourse::Ellipse {
+  Eigen::ArrayXXd log_mode_3, log_area;
+  double deviation = 0;  ///< of ln|c_3|, by the law
+};
+
+TimeCourse::Ellipse TimeCourse::ellipse_of(const CourseImage& image, double radius_um,
+                                           std::span<const double> log_modulus,
+                                           std::span<const double> log_time) const {
+  const auto rows = Eigen::Index(log_modulus.size()), columns = Eigen::Index(log_time.size());
+  Ellipse ellipse{Eigen::ArrayXXd::Zero(rows, columns), Eigen::ArrayXXd::Zero(rows, columns)};
+  if (std::isnan(image.mode_2)) return ellipse;
+  const Eigen::ArrayXXd excess =
+      image.mode_2 - table_.values(CourseMeasure::mode_2, radius_um, image.place_um, log_modulus, log_time).array();
+  const double half_width = channel_flow_of(table_.spec().base).width_um / 2;
+  const Packet mode_3 = Packet::Constant(std::abs(image.mode_3)),
+               log_area = Packet::Constant(std::log(image.area_um2 / (half_width * half_width)));
+  assert(excess.size() % packet_size == 0);
+  double deviations = 0;
+  for (Eigen::Index i = 0; i < excess.size(); i += packet_size) {
+    const auto change = without_ellipse({excess.reshaped().segment<packet_size>(i), mode_3, log_area});
+    ellipse.log_mode_3.reshaped().segment<packet_size>(i) = change.log_mode_3;
+    ellipse.log_area.reshaped().segment<packet_size>(i) = change.log_area;
+    deviations += change.deviation.sum();
+  }
+  ellipse.deviation = deviations / double(excess.size());
+  return ellipse;
+}
+
 bool TimeCourse::has_area(double area_um2) const { return table_.has_radius(std::sqrt(area_um2 / std::numbers::pi)); }
 
 TimeCourse::Points TimeCourse::points(const CellImages& images, const Box& box, int count) const {
@@ -70,17 +102,22 @@ TimeCourse::Points TimeCourse::points(const CellImages& images, const Box& box, 
   double guess = 0;  // of ln(radius), as if no area changed
   for (const CourseImage& image : images) guess += share * std::log(image.area_um2 / std::numbers::pi) / 2;
   const double radius = std::exp(guess);
+  std::vector<Ellipse> ellipses;
   for (const CourseImage& image : images) {
+    const Ellipse& ellipse = ellipses.emplace_back(ellipse_of(image, radius, moduli, times));
     const auto ratio = table_.values(CourseMeasure::area_ratio, radius, image.place_um, moduli, times);
-    log_radius += share * (std::log(image.area_um2 / std::numbers::pi) - ratio.array().log()) / 2;
+    log_radius += share * (std::log(image.area_um2 / std::numbers::pi) + ellipse.log_area - ratio.array().log()) / 2;
   }
-  for (const CourseImage& image : images) {
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const CourseImage& image = images[i];
+    const Ellipse& ellipse = ellipses[i];
     const auto at = [&](double step) -> Eigen::ArrayXXd {
       return table_.values(CourseMeasure::mode_3, radius * std::exp(step), image.place_um, moduli, times).array();
     };
     const Eigen::ArrayXXd less = at(-step_of_radius), more = at(step_of_radius);
     const Eigen::ArrayXXd expected = (less + more) / 2 + (more - less) / (2 * step_of_radius) * (log_radius - guess);
-    chi_squared += ((image.mode_3 - expected) / image.deviation).square();
+    const double deviation = std::hypot(image.deviation, image.mode_3 * ellipse.deviation);
+    chi_squared += ((image.mode_3 * ellipse.log_mode_3.exp() - expected) / deviation).square();
   }
   Points points;
   points.min_chi_squared = chi_squared.minCoeff();

@@ -16,6 +16,8 @@ struct CourseImage {
   double area_um2 = 0;  ///< without what the pixels do, as mode_3 of a cell that moves towards +x
   double mode_3 = 0;
   double deviation = 0;  ///< standard deviation of mode_3
+  /// What it has beyond that of the table's cell counts as an added ellipse (added_ellipse.h); NaN: it has nothing.
+  double mode_2 = no_value;
 };
 
 /// All pictures of one cell.
@@ -66,6 +68,9 @@ class TimeCourse {
  private:
   struct Points;
   struct Box;
+  struct Ellipse;
+  Ellipse ellipse_of(const CourseImage& image, double radius_um, std::span<const double> log_modulus,
+                     std::span<const double> log_time) const;
   Points points(const CellImages& images, const Box& box, int count) const;
   Points refined_points(const CellImages& images) const;
 

@@ -110,7 +110,8 @@ SmoothAsymmetry without_pixels(const ShapeVector& measured, double pixel_size_um
   const double log_area_px = log_area - 2 * std::log(pixel_size_um);
   const PixelErrors pixels = pixel_errors(log_area_px, measured(int(ShapeFeature::deformation)));
   const AsymmetryErrors asymmetry = asymmetry_errors(log_area_px, measured(second), measured(third));
-  return {std::exp(log_area) * pixels.area_factor, measured(third) - asymmetry.excess, asymmetry.deviation};
+  return {std::exp(log_area) * pixels.area_factor, measured(second), measured(third) - asymmetry.excess,
+          asymmetry.deviation};
 }
 
 PixelShape seen_through_pixels(const PixelShape& smooth) {

@@ -46,7 +46,7 @@ inline constexpr double left_by_asymmetry_law = 0.01;
 
 /// What the smooth contour of a measured one is like.
 struct SmoothAsymmetry {
-  double area_um2 = 0, mode_3 = 0;
+  double area_um2 = 0, mode_2 = 0, mode_3 = 0;
   double deviation = 0;  ///< standard deviation of mode_3
 };
 

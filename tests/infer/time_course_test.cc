@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "../table/invented_dynamic.h"
+#include "case/channel_flow.h"
+#include "infer/added_ellipse.h"
 #include "numeric/cell_random.h"
 
 namespace rheocyte {
@@ -85,6 +87,43 @@ TEST(TimeCourse, APopulationOfEqualCellsHasAnIntervalThatHoldsThem) {
   EXPECT_LT(found.viscosity_Pas.high / found.viscosity_Pas.low, 1.2);
   EXPECT_LT(found.modulus_spread, 0.1);
   EXPECT_LT(found.viscosity_spread, 0.1);
+}
+
+/// The picture of the same cell with an ellipse that the table's cells do not have.
+CourseImage with_ellipse(CourseImage image, double mode_2_of_table, double half_width, double ellipse) {
+  const CourseImage bare = image;
+  for (int i = 0; i < 20; ++i) {
+    const auto change = without_ellipse({Packet::Constant(ellipse), Packet::Constant(std::abs(image.mode_3)),
+                                         Packet::Constant(std::log(image.area_um2 / (half_width * half_width)))});
+    image.mode_3 = bare.mode_3 * std::exp(-change.log_mode_3[0]);
+    image.area_um2 = bare.area_um2 * std::exp(-change.log_area[0]);
+  }
+  image.mode_2 = mode_2_of_table + ellipse;
+  return image;
+}
+
+TEST(TimeCourse, AnEllipseThatTheTableDoesNotHaveIsTakenBack) {
+  const DynamicTable table(test::invented_dynamic());
+  const double half_width = channel_flow_of(table.spec().base).width_um / 2;
+  const DynamicCell cell{6.5, 5, 0.6};
+  auto random = CellRandom(2, 1, Purpose::population);
+  const CellImages bare = seen(table, cell, {15, 60, 140, 290}, random);
+  CellImages as_seen, with_its_own;
+  for (const CourseImage& image : bare) {
+    const double mode_2 = table.value(CourseMeasure::mode_2, cell, image.place_um);
+    as_seen.push_back(with_ellipse(image, mode_2, half_width, 0.2));
+    with_its_own.push_back(with_ellipse(image, mode_2, half_width, 0));
+  }
+  const TimeCourse course(table);
+  const CourseEstimate wanted = course.cell(bare), found = course.cell(as_seen);
+  EXPECT_NEAR(std::log(found.young_modulus_kPa.value / wanted.young_modulus_kPa.value), 0, 0.02);
+  EXPECT_NEAR(std::log(found.viscosity_Pas.value / wanted.viscosity_Pas.value), 0, 0.04);
+  EXPECT_NEAR(found.radius_um, wanted.radius_um, 0.005);
+  for (CourseImage& image : as_seen) image.mode_2 = no_value;
+  const double left = course.cell(as_seen).young_modulus_kPa.value / wanted.young_modulus_kPa.value;
+  EXPECT_GT(std::abs(std::log(left)), 0.03);  // what there was to take back
+  EXPECT_NEAR(course.cell(with_its_own).young_modulus_kPa.value, wanted.young_modulus_kPa.value,
+              0.01 * wanted.young_modulus_kPa.value);
 }
 
 TEST(TimeCourse, OnePictureDoesNotTellViscosity) {
