@@ -1,6 +1,7 @@
 #include "fem/nested_lu.h"
 
 #include <cmath>
+#include <utility>
 
 #include "fem/nested_order.h"
 #include "fem/triangular_solve.h"
@@ -23,8 +24,12 @@ NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
     for (int side = 0; side < 2; ++side) {
       Front& part = fronts_[front.parts[side]];
       part.whole = int(fronts_.size()) - 1;
-      for (int i = part.eliminated; i < int(part.unknowns.size()); ++i)
-        front.positions[side].push_back(place[part.unknowns[i]]);
+      for (int i = part.eliminated; i < int(part.unknowns.size()); ++i) {
+        const int at = place[part.unknowns[i]];
+        Same& same = at < front.eliminated ? front.ended[side] : front.left[side];
+        same.in_part.push_back(i - part.eliminated);
+        same.in_whole.push_back(at < front.eliminated ? at : at - front.eliminated);
+      }
     }
   }
   // Each subdomain after its parts, from the whole downwards.
@@ -41,19 +46,20 @@ NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
   }
 }
 
-void NestedLU::eliminate(Front& front, const Matrix& matrix) {
-  const Eigen::Index f = front.eliminated, o = matrix.rows() - f;
-  front.schur = matrix.bottomRightCorner(o, o);
-  if (f == 0) return;
-  front.lu.compute(matrix.topLeftCorner(f, f));
-  front.rows = matrix.bottomLeftCorner(o, f);
-  front.solved_columns = front.lu.permutationP() * matrix.topRightCorner(f, o);
+void NestedLU::eliminate(Front& front, Blocks matrix) {
+  front.schur = std::move(matrix.rest);
+  if (front.eliminated == 0) return;
+  front.lu.compute(matrix.own);
+  front.rows = std::move(matrix.rows);
+  front.solved_columns = front.lu.permutationP() * matrix.columns;
   solve_triangular(front.lu.matrixLU(), front.solved_columns);
   front.schur.noalias() -= front.rows * front.solved_columns;
 }
 
 void NestedLU::condense(int element, const Matrix& matrix) {
-  eliminate(fronts_[element], matrix);
+  const Eigen::Index f = fronts_[element].eliminated, o = matrix.rows() - f;
+  eliminate(fronts_[element], {matrix.topLeftCorner(f, f), matrix.topRightCorner(f, o), matrix.bottomLeftCorner(o, f),
+                               matrix.bottomRightCorner(o, o)});
   for (int at = element; fronts_[at].whole >= 0; at = fronts_[at].whole) {
     Front& whole = fronts_[fronts_[at].whole];
     fronts_[at].waits = true;
@@ -63,25 +69,31 @@ void NestedLU::condense(int element, const Matrix& matrix) {
 }
 
 /// The matrix of a subdomain from those of its parts, which are given up.
-NestedLU::Matrix NestedLU::joined(const Front& whole) {
-  const auto n = Eigen::Index(whole.unknowns.size());
-  Matrix matrix = Matrix::Zero(n, n);
+NestedLU::Blocks NestedLU::joined(const Front& whole) {
+  const Eigen::Index f = whole.eliminated, o = Eigen::Index(whole.unknowns.size()) - f;
+  Blocks sum{Matrix::Zero(f, f), Matrix::Zero(f, o), Matrix::Zero(o, f), Matrix::Zero(o, o)};
   for (int side = 0; side < 2; ++side) {
     Front& part = fronts_[whole.parts[side]];
-    const std::vector<int>& at = whole.positions[side];
-    for (std::size_t j = 0; j < at.size(); ++j) {
-      for (std::size_t i = 0; i < at.size(); ++i) matrix(at[i], at[j]) += part.schur(Eigen::Index(i), Eigen::Index(j));
-    }
+    const auto add = [&](const Same& rows, const Same& columns, Matrix& to) {
+      for (std::size_t j = 0; j < columns.in_part.size(); ++j) {
+        const auto from = part.schur.col(columns.in_part[j]);
+        auto column = to.col(columns.in_whole[j]);
+        for (std::size_t i = 0; i < rows.in_part.size(); ++i) column(rows.in_whole[i]) += from(rows.in_part[i]);
+      }
+    };
+    const Same &ended = whole.ended[side], &left = whole.left[side];
+    add(ended, ended, sum.own);
+    add(ended, left, sum.columns);
+    add(left, ended, sum.rows);
+    add(left, left, sum.rest);
     part.schur.resize(0, 0);
     part.waits = false;
   }
-  return matrix;
+  return sum;
 }
 
+// What is not finite anywhere makes all that is joined with it NaN, up to the pivots of the whole.
 bool NestedLU::is_regular() const {
-  for (const Front& front : fronts_) {
-    if (front.eliminated > 0 && !front.solved_columns.allFinite()) return false;
-  }
   const Front& whole = fronts_.back();
   if (whole.eliminated == 0) return true;
   const auto pivots = whole.lu.matrixLU().diagonal().array().abs();

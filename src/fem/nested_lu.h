@@ -49,19 +49,29 @@ class NestedLU {
   std::size_t memory_bytes() const { return std::size_t(entries()) * sizeof(Matrix::Scalar); }
 
  private:
+  /// Which unknowns of a part are which of the whole.
+  struct Same {
+    std::vector<int> in_part, in_whole;
+  };
   struct Front {
     std::vector<int> unknowns;  ///< those that are eliminated first
     int eliminated = 0;
-    std::array<int, 2> parts{-1, -1};           ///< the fronts that are joined
-    int whole = -1;                             ///< the front that this one is a part of; -1: none
-    bool waits = false;                         ///< condensed, for the other part
-    std::array<std::vector<int>, 2> positions;  ///< of their remaining unknowns in this one
+    std::array<int, 2> parts{-1, -1};  ///< the fronts that are joined
+    int whole = -1;                    ///< the front that this one is a part of; -1: none
+    bool waits = false;                ///< condensed, for the other part
+    /// Of the parts' remaining unknowns: those that are eliminated here, and the others, counted from 0 as well.
+    std::array<Same, 2> ended, left;
     Eigen::PartialPivLU<Matrix> lu;
     Matrix solved_columns, rows;  ///< K_ff^-1 K_fo and K_of
     Matrix schur;                 ///< of the remaining unknowns, until it is joined
   };
-  static void eliminate(Front&, const Matrix&);
-  Matrix joined(const Front&);
+  /// A matrix, split at the unknowns that are eliminated.
+  struct Blocks {
+    Matrix own, columns;  ///< K_ff, K_fo
+    Matrix rows, rest;    ///< K_of, K_oo
+  };
+  static void eliminate(Front&, Blocks);
+  Blocks joined(const Front&);
 
   std::vector<Front> fronts_;  ///< elements first, each after its parts, the whole last
   std::vector<int> elements_;
