@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "fem/observe.h"
@@ -116,8 +117,11 @@ TEST(SquareChannel, ACortexInThreeDimensionsIsThatOfTheTubeInBothViews) {
 }
 
 TEST(SquareChannelSlow, ACortexInThreeDimensionsIsThatOfTheTubeToOneTenThousandth) {
-  for (const CortexLaw law : {CortexLaw::thin_shell, CortexLaw::neo_hookean_reference}) {
-    const auto [side, diagonal] = over_the_tube(4, 1e-6, 6, {law, 2, 0.5, 0});
+  // A bulk of 4 within the second shell is at the end of its smooth branch (margin 0.002), where no mesh is fine
+  // enough.
+  for (const auto& [law, shear_modulus] :
+       {std::pair{CortexLaw::thin_shell, 4.0}, std::pair{CortexLaw::neo_hookean_reference, 6.0}}) {
+    const auto [side, diagonal] = over_the_tube(shear_modulus, 1e-6, 6, {law, 2, 0.5, 0});
     EXPECT_NEAR(side, 1, 1e-4);
     EXPECT_NEAR(diagonal, 1, 1e-4);
   }
