@@ -16,6 +16,7 @@ import numpy as np
 
 from rheocyte import colours
 from rheocyte.body import seen
+from rheocyte.figure import available, drawing
 from rheocyte.figures import figure6, paper
 from rheocyte.figures.cases import Laboratory, Solution, analytic_options, toml
 from rheocyte.files import InputError
@@ -58,6 +59,13 @@ class WithFakeProgram(unittest.TestCase):
     def table(self, number):
         with open(self.out / f"figure-{number}.csv", newline="") as file:
             return list(csv.DictReader(file))
+
+
+class Modules(unittest.TestCase):
+    def test_every_figure_can_be_made(self):
+        for number in available():
+            with self.subTest(figure=number):
+                self.assertTrue(callable(drawing(number).make))
 
 
 class Command(WithFakeProgram):

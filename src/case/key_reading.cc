@@ -112,7 +112,7 @@ void KeyReading::take(GivenKey given) {
 void KeyReading::choose() {
   for (const auto* key : keys_) {
     const auto* choice = std::get_if<Choice>(&key->kind);
-    if (!choice || has(key->name)) continue;
+    if (!choice || has(key->name) || has(key->alternative)) continue;
     if (const auto* usual = fallback_of(*key)) values_[key->name] = *usual;
     const auto& implied = choice->implied;
     if (!implied || has(implied->unless_given)) continue;

@@ -136,7 +136,7 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
     refuse(offset[0] != 0 ? "is along the width, along which the camera must look: give channel.camera_degree = 90"
                           : "is along the height, along which the camera must look: leave channel.camera out");
   if (c.flow.drive != Drive::rate) refuse("is for a given flow rate; give flow.rate_ul_per_s");
-  if (keys.has("cell.cortex.law") || keys.has("cell.cortex.tension_mN_per_m"))
+  if (c.cell.cortex.law != CortexLaw::none || tension_mN_per_m(c) > 0)
     refuse("is for cells without a cortex; leave [cell.cortex] out");
   const Extent extent = extent_of(c);
   const double half = unit_length_um(c) * (offset[0] != 0 ? extent.width : extent.height);

@@ -49,12 +49,12 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
            "check the units of its numbers.";
   }
   const std::string where =
-      fmt::format("{:.3g} times the wanted moduli (deformation {:.4f})", 1 / outcome.reached, last.deformation);
+      fmt::format("{:.4g} times the wanted moduli (deformation {:.4f})", 1 / outcome.reached, last.deformation);
   switch (outcome.status) {
     case Status::surface_unstable:
       if (last.known_end > 0)
         return unstable_surface(
-            fmt::format("{:.3g} times the wanted moduli (the last state kept has {})", last.known_end, where), last);
+            fmt::format("{:.4g} times the wanted moduli (the last state kept has {})", last.known_end, where), last);
       return unstable_surface(where, last);
     case Status::branch_ended:
       return "The branch of stationary shapes ends at " + where +

@@ -38,10 +38,11 @@ std::string model_text(const Case& c) {
   if (c.cell.bulk.law != BulkLaw::none) solid = fmt::format("{} solid", chosen_option(c, "cell.bulk.law"));
   if (c.cell.cortex.law != CortexLaw::none)
     solid += fmt::format("{}{} shell", solid.empty() ? "" : " with ", chosen_option(c, "cell.cortex.law"));
-  return fmt::format("{} / {} fluid{}", solid, chosen_option(c, "flow.law"),
-                     c.channel.section == Section::square
-                         ? fmt::format(" / square channel, {} view", chosen_option(c, "channel.camera"))
-                         : "");
+  std::string view;
+  if (c.channel.section == Section::square)
+    view = c.channel.camera_degree ? fmt::format(" / square channel, seen at {:g} degrees", *c.channel.camera_degree)
+                                   : fmt::format(" / square channel, {} view", chosen_option(c, "channel.camera"));
+  return fmt::format("{} / {} fluid{}", solid, chosen_option(c, "flow.law"), view);
 }
 
 ordered_json table_metadata(const TableSpec& spec, std::string_view version) {

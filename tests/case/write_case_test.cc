@@ -29,7 +29,14 @@ std::vector<Case> cases_of_all_laws() {
                  "pressure drop"),
       parse_case(
           "channel.profile.x_um = [60, 100.1]\nchannel.profile.R_um = [21.88, 10.94]\n" + common + newtonian + in_time,
-          "profile")};
+          "profile"),
+      parse_case("channel.section = \"square\"\nchannel.width_um = 20\n" + common + power_law, "square"),
+      parse_case("channel.section = \"square\"\nchannel.width_um = 20\ncell.offset_um = [0, 1]\n" + common + newtonian,
+                 "off the axis"),
+      parse_case("channel.section = \"rectangle\"\nchannel.width_um = 20\nchannel.height_um = 30\n"
+                 "channel.camera_degree = 20\ncell.cortex.law = \"linear\"\ncell.cortex.modulus_mN_per_m = 1\n" +
+                     common + newtonian,
+                 "rectangle")};
 }
 
 TEST(WriteCase, WhatIsWrittenIsReadBackToTheSameBits) {

@@ -5,7 +5,7 @@ from matplotlib.patches import Circle
 
 from rheocyte import colours, duct_picture
 from rheocyte.contour import closed
-from rheocyte.duct_picture import CELL, DIAGONAL, LIQUID, SIDE, TUBE, WALL, WALL_FACE
+from rheocyte.duct_picture import CELL, COLOURS, LIQUID, WALL, WALL_FACE
 from rheocyte.duct_surface import IMAGES, front_view, surface_faces
 from rheocyte.figures import style
 from rheocyte.files import read_contour
@@ -13,6 +13,7 @@ from rheocyte.vtu import read_vtu
 
 WIDTH_UM, RATE_UL_S, ACCURACY = 20.0, 0.04, 2e-3
 HALF_UM, TUBE_UM = WIDTH_UM / 2, 0.547 * WIDTH_UM
+SIDE, DIAGONAL, TUBE = COLOURS
 LIQUIDS = {"newtonian": {"flow.viscosity_mPas": 15.0},
            "cellcarrier": {"flow.law": "power-law", "flow.consistency_Pa_sn": 0.2079, "flow.exponent": 0.6548}}
 # Radius in um: Young's modulus in kPa at which the deformation is about 0.01 in a Newtonian liquid.
@@ -124,8 +125,8 @@ def draw_over_deformation(axes, pairs):
             axes.plot([pair.tube["deformation"] for pair in chosen], [pair.ratio(view) for pair in chosen], color=colour,
                       linewidth=1.1, marker=marker, markersize=2.4)
         if chosen:
-            axes.annotate(f"$r_0$ = {radius:g} µm", (chosen[-1].tube["deformation"], chosen[-1].ratio("side")),
-                          textcoords="offset points", xytext=(0, 4), ha="right", fontsize=6)
+            axes.annotate(f"$r_0$ = {radius:g} µm", (chosen[0].tube["deformation"], chosen[0].ratio("side")),
+                          textcoords="offset points", xytext=(0, 4), ha="left", fontsize=6)
     axes.set_xscale("log")
     finish(axes, "deformation in the tube")
 
@@ -163,8 +164,7 @@ def draw_outlines(axes, pair):
 
 def draw_along_the_flow(axes, pair):
     """The cell in the square seen along the flow, with the tube's wall and cell."""
-    h = HALF_UM
-    duct_picture.draw_square(axes, h)
+    duct_picture.draw_section(axes, HALF_UM, HALF_UM)
     axes.add_patch(Circle((0, 0), TUBE_UM, fill=False, edgecolor=TUBE, linewidth=0.7, zorder=2))
     if pair.converged:
         faces = surface_faces(read_vtu(pair.square.folder / "fields.vtu", ["region"]))
