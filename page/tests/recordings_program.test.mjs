@@ -90,6 +90,27 @@ test('A gate of the page is --min and --max of the command line', { skip }, () =
   }),
 );
 
+test('A polygon gate of the page is --polygon of the command line', { skip }, () =>
+  inPage([many], async (page) => {
+    await computeAt(page, 23);
+    await page.getByRole('button', { name: 'log, horizontal axis' }).click();
+    await recordings.drawn(page);
+    await page.getByRole('button', { name: 'Polygon', exact: true }).click();
+    for (const [right, down] of [[0.3, 0.9], [0.7, 0.9], [0.5, 0.4], [0.3, 0.9]]) {
+      const { x, y } = await recordings.pixelIn(page, right, down);
+      await page.mouse.click(x, y);
+    }
+    await page.getByText(/ of 5\u202f000 events/).waitFor();
+    await page.getByRole('tab', { name: 'Statistics' }).click();
+    const command = await page.locator('.command code').textContent();
+    const polygon = / --polygon (log:area_um,deform=\S+)$/.exec(command)?.[1];
+    assert.ok(polygon, command);
+    const wanted = await extracted(many, '--temperature', '23', '--polygon', polygon);
+    assert.ok(Number(wanted.summary.valid) > 100, 'the polygon holds some events');
+    assertSame(await exactStatistics(page), wanted);
+  }),
+);
+
 test("An exported table of events has the lines of the command line's", { skip }, () =>
   inPage([many], async (page) => {
     await computeAt(page, 23);

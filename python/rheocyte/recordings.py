@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rheocyte.arrays import number, positive
+from rheocyte.arrays import number, numbers, positive
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
 from rheocyte.progress import progress_bar
@@ -32,6 +32,8 @@ def extract(
     channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas, medium, viscosity_model,
     temperature     replace the metadata; temperature is a number in degrees Celsius, "feature" or "metadata"
     least, greatest dictionaries of limits of features: least={"area_ratio": 1}, greatest={"area_ratio": 1.05}
+    polygons        corners in the plane of two features: {("area_um", "deform"): [(40, 0.01), (90, 0.01), (90, 0.1)]};
+                    edges are straight over the logarithm of "log:area_um"
 
     Returns a pandas.DataFrame with one row per event: area_um2, deformation, viscosity_mPas, young_modulus_kPa,
     standard_error_kPa (without it for published tables), state (a category). Where the recording has inertia ratios,
@@ -185,8 +187,10 @@ _TEXTS = ("medium", "viscosity_model")
 def _measuring(given, function):
     options = native.MeasuringOptions()
     least, greatest = (given.pop(name, None) or {} for name in ("least", "greatest"))
+    polygons = given.pop("polygons", None) or {}
     options.set_gates(*([f"{feature}={number(limit, feature)!r}" for feature, limit in limits.items()]
-                        for limits in (least, greatest)))
+                        for limits in (least, greatest)),
+                      [f"{','.join(features)}={_corners(corners)}" for features, corners in polygons.items()])
     for name, value in given.items():
         if value is None:
             continue
@@ -197,6 +201,13 @@ def _measuring(given, function):
         elif name == "temperature":
             options.temperature = value if isinstance(value, str) else repr(number(value, name))
         else:
-            known = ", ".join((*_NUMBERS, *_TEXTS, "temperature", "least", "greatest"))
+            known = ", ".join((*_NUMBERS, *_TEXTS, "temperature", "least", "greatest", "polygons"))
             raise UserError(f"{function} has no argument {name!r}; there are {known}.")
     return options
+
+
+def _corners(corners):
+    pairs = numbers(corners, "polygons")
+    if pairs.ndim != 2 or pairs.shape[1] != 2:
+        raise UserError(f"polygons: the corners have the shape {pairs.shape}; wanted are pairs of numbers.")
+    return ":".join(f"{x!r},{y!r}" for x, y in pairs.tolist())

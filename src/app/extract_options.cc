@@ -22,6 +22,12 @@ void declare_gate_options(CLI::App& command, GateOptions& options) {
                   "take only events whose feature is not above a value, e.g. area_ratio=1.05")
       ->type_name("FEATURE=VALUE")
       ->allow_extra_args(false);
+  command
+      .add_option("--polygon", options.polygons,
+                  "take only events within a polygon in the plane of two features, e.g. "
+                  "area_um,deform=40,0.01:90,0.01:90,0.1; log:area_um draws its edges over the logarithm")
+      ->type_name("FEATURE,FEATURE=X,Y:...")
+      ->allow_extra_args(false);
 }
 
 }  // namespace

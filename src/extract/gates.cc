@@ -44,6 +44,7 @@ Gates::Gates(const GateOptions& options) {
           fmt::format("rheocyte: --min and --max of {} contradict each other: no number is at least {} and at "
                       "most {}.",
                       one_line(limit.feature, 60), limit.least, limit.greatest));
+  for (const auto& text : options.polygons) polygons_.emplace_back(text);
   events_ = options.events;
   if (events_) std::ranges::sort(*events_);
 }
@@ -62,7 +63,9 @@ std::string Gates::description() const {
     text += one_line(feature, 60);
     if (std::isfinite(greatest)) text += fmt::format(" <= {}", greatest);
   }
-  if (events_) text += fmt::format("{}{} chosen events", text.empty() ? "" : ", ", events_->size());
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
+  for (const auto& polygon : polygons_) add(polygon.description());
+  if (events_) add(fmt::format("{} chosen events", events_->size()));
   return text;
 }
 
@@ -71,6 +74,7 @@ void Gates::check(const EventFeatures& features, const std::string& recording) c
     if (!features.has(limit.feature))
       throw UserError(fmt::format("{}: has no feature {}, for which --min or --max gives a limit.",
                                   one_line(recording, 300), one_line(limit.feature, 60)));
+  for (const auto& polygon : polygons_) polygon.check(features, recording);
 }
 
 void Gates::apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const {
@@ -85,6 +89,7 @@ void Gates::apply(EventFeatures& features, std::size_t first, std::vector<char>&
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!(values[i] >= least && values[i] <= greatest)) inside[i] = 0;
   }
+  for (const auto& polygon : polygons_) polygon.apply(features, first, inside);
 }
 
 }  // namespace rheocyte

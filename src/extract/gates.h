@@ -1,32 +1,33 @@
-// Which events are taken: those within limits of features.
+// Which events are taken: those within limits of features and within polygons.
 #pragma once
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "extract/polygon_gate.h"
 #include "measurement/event_features.h"
 
 namespace rheocyte {
 
-/// Limits as on the command line: "area_ratio=1.05".
+/// As on the command line: limits "area_ratio=1.05", polygons "area_um,deform=40,0.01:90,0.01:90,0.1".
 struct GateOptions {
-  std::vector<std::string> least, greatest;
+  std::vector<std::string> least, greatest, polygons = {};
   std::optional<std::vector<std::size_t>> events = {};  ///< the only ones that are taken, counted from 0
 };
 
 class Gates {
  public:
-  /// UserError: no FEATURE=NUMBER, or a least value above the greatest.
+  /// UserError: no FEATURE=NUMBER, a least value above the greatest, or no polygon.
   explicit Gates(const GateOptions& options);
 
-  bool empty() const { return limits_.empty() && !events_; }
+  bool empty() const { return limits_.empty() && polygons_.empty() && !events_; }
   /// "1 <= area_ratio <= 1.05", "12 chosen events"
   std::string description() const;
 
   /// UserError naming a feature that the recording does not have.
   void check(const EventFeatures& features, const std::string& recording) const;
-  /// Whether events [first, first + inside.size()) lie within all limits; events without a number do not.
+  /// Whether events [first, first + inside.size()) lie within all limits and polygons; events without a number do not.
   void apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const;
 
  private:
@@ -36,6 +37,7 @@ class Gates {
   };
   Limit& limit_of(const std::string& feature);
   std::vector<Limit> limits_;
+  std::vector<PolygonGate> polygons_;
   std::optional<std::vector<std::size_t>> events_;  ///< ascending
 };
 

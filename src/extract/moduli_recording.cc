@@ -13,7 +13,6 @@
 #include "extract/gates.h"
 #include "extract/modulus_tables.h"
 #include "extract/plausibility.h"
-#include "infer/rendered_errors.h"
 #include "measurement/event_features.h"
 #include "measurement/event_outlines.h"
 #include "measurement/shape_source.h"
@@ -58,12 +57,9 @@ class Fits {
         shapes_(recording, settings_.pixel_size_um),
         features_(recording, shapes_),
         gates_(options.measuring.gates),
-        pixels_(table.between, settings_.pixel_size_um * table.simulated.width_um / settings_.conditions.flow.width_um),
         simulated_exponent_(table.simulated.exponent),
         shapes_of_solids_(solids_.shapes(settings_.conditions.flow.exponent)),
-        moduli_(table.between, table.simulated,
-                {options.only_figure ? features_of_figure() : features_of_contour(), options.fit_tension,
-                 table.between.tension_ratios().front()}) {
+        moduli_(settings_, options, table) {
     gates_.check(features_, recording.file().string());
   }
 
@@ -94,7 +90,7 @@ class Fits {
     compare(seen);
     std::string text;
     for (std::size_t i = 0; i < count; ++i) {
-      const ModuliEstimate estimate = inside_[i] ? fit(seen[i], viscosity_[i]) : gated();
+      const ModuliEstimate estimate = inside_[i] ? moduli_.fit(seen[i], viscosity_[i]) : gated();
       tally_.take(estimate);
       text += line(first + i, seen[i], viscosity_[i], estimate) +
               fmt::format("\t{:.4g}\t{:.6g}\t{:.3g}\n", excess_[i].excess, solid_kPa_[i], solid_error_kPa_[i]);
@@ -121,12 +117,6 @@ class Fits {
   }
 
  private:
-  ModuliEstimate fit(const ShapeVector& seen, double viscosity_mPas) const {
-    ChannelFlow flow = settings_.conditions.flow;
-    flow.viscosity_mPas = viscosity_mPas;
-    return fit_pixels(moduli_, pixels_, seen, flow);
-  }
-
   /// With the solids of the table that comes with the program.
   void compare(std::span<const ShapeVector> seen) {
     constexpr int mode_2 = int(ShapeFeature::first_mode);
@@ -173,11 +163,10 @@ class Fits {
   ShapeSource shapes_;
   EventFeatures features_;
   Gates gates_;
-  RenderedErrors pixels_;
   double simulated_exponent_;
   ModulusTables solids_{std::string()};
   const ShapeMap* shapes_of_solids_;
-  SeveralModuli moduli_;
+  EventModuli moduli_;
   std::vector<double> viscosity_;
   std::vector<char> inside_;
   std::vector<ShapeExcess> excess_;
@@ -188,14 +177,6 @@ class Fits {
 };
 
 }  // namespace
-
-ModuliTable::ModuliTable(const ModuliOptions& options)
-    : content(read_combined_table(options.table)), between(content), simulated(channel_flow_of(content.spec.base)) {
-  if (options.fit_tension && between.tension_ratios().size() < 2)
-    throw UserError(
-        fmt::format("rheocyte: --fit-tension needs a table with several tensions (table.tension_ratio); {} has one.",
-                    content.spec.identifier));
-}
 
 ModuliSummary moduli_of_recording(const std::filesystem::path& path, const std::filesystem::path& file,
                                   const ModuliOptions& options, const ModuliTable& table,

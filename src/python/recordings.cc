@@ -236,8 +236,9 @@ void bind_options(py::module_& module) {
       .def_readwrite("medium", &M::medium)
       .def_readwrite("viscosity_model", &M::viscosity_model)
       .def_readwrite("temperature", &M::temperature)
-      .def("set_gates", [](M& m, const std::vector<std::string>& least, const std::vector<std::string>& greatest) {
-        m.gates = {least, greatest};
+      .def("set_gates", [](M& m, const std::vector<std::string>& least, const std::vector<std::string>& greatest,
+                           const std::vector<std::string>& polygons) {
+        m.gates = {least, greatest, polygons};
       });
   py::class_<ExtractOptions>(module, "ExtractOptions")
       .def(py::init<>())

@@ -34,8 +34,8 @@ struct Setting {
 
 constexpr const char* pixel_key = "recording.pixel_size_um";
 
-const std::array<Setting, 14>& all() {
-  static const std::array<Setting, 14> settings{{
+const std::array<Setting, 15>& all() {
+  static const std::array<Setting, 15> settings{{
       {"table", "--table", &E::table},
       {"channel_width_um", "--channel-width-um", &M::channel_width_um, "channel.width_um"},
       {"flow_rate_ul_s", "--flow-rate-ul-s", &M::flow_rate_ul_s, "flow.rate_ul_per_s"},
@@ -47,6 +47,7 @@ const std::array<Setting, 14>& all() {
       {"temperature_if_missing", "--temperature-if-missing", &M::temperature_if_missing},
       {"min", "--min", &GateOptions::least},
       {"max", "--max", &GateOptions::greatest},
+      {"polygon", "--polygon", &GateOptions::polygons},
       {"no_pixelation", "--no-pixelation", &E::no_pixelation},
       {"no_area_correction", "--no-area-correction", &E::no_area_correction},
       {"no_asymmetry", "--no-asymmetry", &E::no_asymmetry},
@@ -204,6 +205,15 @@ Json all_settings(const ExtractOptions& options) {
 std::string extract_command(const ExtractOptions& options, const std::filesystem::path& recording) {
   std::string command = "rheocyte extract " + quoted(recording.string());
   for (const Setting& setting : all()) visit(setting, options, ToCommand{setting.option, command});
+  return command;
+}
+
+std::string moduli_command(const ExtractOptions& options, const std::filesystem::path& recording,
+                           const std::filesystem::path& table) {
+  std::string command = "rheocyte moduli " + quoted(recording.string()) + " --table " + quoted(table.string());
+  for (const Setting& setting : all())
+    if (!std::holds_alternative<std::string E::*>(setting.member) && !std::holds_alternative<bool E::*>(setting.member))
+      visit(setting, options, ToCommand{setting.option, command});
   return command;
 }
 

@@ -20,6 +20,10 @@ ExtractOptions extract_options(const nlohmann::ordered_json& settings, const Tab
 /// The command with the same settings, for a shell.
 std::string extract_command(const ExtractOptions& options, const std::filesystem::path& recording);
 
+/// `rheocyte moduli` with those of them that it has, too, and a combined table.
+std::string moduli_command(const ExtractOptions& options, const std::filesystem::path& recording,
+                           const std::filesystem::path& table);
+
 /// All settings as JSON, with the table as a path: what is handed to a process of our own, and back.
 nlohmann::ordered_json all_settings(const ExtractOptions& options);
 ExtractOptions options_of_settings(const nlohmann::ordered_json& settings);

@@ -143,6 +143,9 @@ TEST_F(ModuliCommand, EventsOutsideTheGatesAreNotFitted) {
     }
   }
   EXPECT_NE(table().find("# only events with 7 <= index <= 10\n"), std::string::npos);
+  const auto within = status_of_events({"--polygon", "index,index=6.5,6.5:10.5,6.5:10.5,10.5:6.5,10.5"});
+  EXPECT_EQ(within, some) << "a square polygon is a range gate";
+  EXPECT_NE(table().find("# only events with index,index in a polygon of 4 corners\n"), std::string::npos);
   const std::string folder = table_folder().string();
   expect_refusal({folder, "--min", "bright=4"}, "has no feature bright, for which --min or --max");
   expect_refusal({folder, "--min", "index=5", "--max", "index=4"}, "contradict each other");

@@ -36,6 +36,9 @@ def test_gates_shut_events_out():
     frame = rheocyte.extract(file, least={"area_um": 50}, greatest={"area_um": 100}, pixel_size_um=0.34, **KNOWN)
     inside = frame["area_um2"].between(50, 100)
     assert ((frame["state"] == "gated") == ~inside).all()
+    corners = [(50, -1), (100, -1), (100, 2), (50, 2)]
+    within = rheocyte.extract(file, polygons={("area_um", "deform"): corners}, pixel_size_um=0.34, **KNOWN)
+    assert within["young_modulus_kPa"].equals(frame["young_modulus_kPa"])
 
 
 @pytest.mark.parametrize("arguments, sentence", [
@@ -43,6 +46,8 @@ def test_gates_shut_events_out():
     ({"channel_width_um": -20}, "channel"),
     ({"temperature": "warm"}, "warm"),
     ({"least": {"area_um": "x"}}, "area_um"),
+    ({"polygons": {("area_um", "deform"): [1, 2, 3]}}, "pairs of numbers"),
+    ({"polygons": {("area_um", "deform"): [(1, 2), (3, 4)]}}, "three corners"),
 ])
 @needs_recordings
 def test_wrong_arguments_are_value_errors(arguments, sentence):

@@ -37,6 +37,9 @@ TEST(ModuliSettings, BecomeOptionsAndTheCommandWithTheSameNumbers) {
   EXPECT_EQ(extract_command(options, "/data/it's a.rtdc"),
             "rheocyte extract '/data/it'\\''s a.rtdc' --table LE-2D-26 --channel-width-um 30 --medium '0.59% MC-PBS' "
             "--temperature 23.5 --max area_ratio=1.05 --no-asymmetry");
+  EXPECT_EQ(moduli_command(options, "a.rtdc", "/tables/mine"),
+            "rheocyte moduli a.rtdc --table /tables/mine --channel-width-um 30 --medium '0.59% MC-PBS' --temperature "
+            "23.5 --max area_ratio=1.05");
 }
 
 TEST(ModuliSettings, ComeBackFromAProcessOfOurOwn) {

@@ -120,17 +120,20 @@ export function numbersWithin(inside: Uint8Array): number[] {
   return numbers;
 }
 
-/** What gates say to the command line: ranges can be told, polygons cannot. */
-export function gateOptions(gates: Gate[]): { options: string; polygons: number } {
-  const parts: string[] = [];
-  let polygons = 0;
-  for (const gate of gates.filter((each) => each.on)) {
-    if (gate.kind === 'polygon') {
-      ++polygons;
-      continue;
-    }
-    if (gate.low !== null) parts.push(`--min ${gate.feature}=${gate.low}`);
-    if (gate.high !== null) parts.push(`--max ${gate.feature}=${gate.high}`);
-  }
-  return { options: parts.join(' '), polygons };
+const rangeOptions = ({ feature, low, high }: RangeGate): string[] => [
+  ...(low === null ? [] : [`--min ${feature}=${low}`]),
+  ...(high === null ? [] : [`--max ${feature}=${high}`]),
+];
+
+function polygonOption({ x, y, xScale, yScale, points }: PolygonGate): string {
+  const axis = (feature: string, scale: ScaleKind) => (scale === 'log' ? `log:${feature}` : feature);
+  return `--polygon ${axis(x, xScale)},${axis(y, yScale)}=${points.map((point) => point.join(',')).join(':')}`;
+}
+
+/** The gates that are on, as options of the command line. */
+export function gateOptions(gates: Gate[]): string {
+  return gates
+    .filter((gate) => gate.on)
+    .flatMap((gate) => (gate.kind === 'range' ? rangeOptions(gate) : [polygonOption(gate)]))
+    .join(' ');
 }

@@ -1,0 +1,45 @@
+// Moduli of bulk and cortex of single events of one recording, by a combined table.
+#pragma once
+#include <filesystem>
+
+#include "extract/extract_settings.h"
+#include "infer/rendered_errors.h"
+#include "infer/several_moduli.h"
+
+namespace rheocyte {
+
+struct ModuliOptions {
+  BatchOptions batch;
+  MeasuringOptions measuring;
+  std::filesystem::path table;  ///< folder of a combined table
+  bool fit_tension = false;     ///< as a third unknown
+  bool only_figure = false;     ///< by deformation and Lambda1 / Lambda2 in place of the whole contour
+};
+
+/// A combined table, ready for use.
+struct ModuliTable {
+  /// UserError, also if the tension is to be fitted with a table of a single one.
+  explicit ModuliTable(const ModuliOptions& options);
+  ModuliTable(const ModuliTable&) = delete;
+  ModuliTable& operator=(const ModuliTable&) = delete;
+
+  CombinedTable content;
+  CombinedInterpolation between;
+  ChannelFlow simulated;
+};
+
+class EventModuli {
+ public:
+  /// Renders the errors of the recording's pixels, which takes about a second. The table must outlive it.
+  EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table);
+
+  /// From the shape in pixels (EventOutlines) and the viscosity of the event.
+  ModuliEstimate fit(const ShapeVector& seen, double viscosity_mPas) const;
+
+ private:
+  ChannelFlow flow_;
+  RenderedErrors pixels_;
+  SeveralModuli moduli_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,92 @@
+#include "extract/polygon_gate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "case/user_error.h"
+#include "numeric/no_value.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr std::string_view logarithmic = "log:";
+constexpr std::size_t fewest_corners = 3;
+
+double corner_number(std::string_view text) {
+  double value = no_value;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc{} && stop == end ? value : no_value;
+}
+
+[[noreturn]] void refuse_polygon(const std::string& text, std::string_view why) {
+  throw UserError(
+      fmt::format("rheocyte: --polygon {}: {}; for example --polygon area_um,deform=40,0.01:90,0.01:90,0.1.",
+                  one_line(text, 60), why));
+}
+
+}  // namespace
+
+double PolygonGate::Axis::place(double value) const { return is_log ? std::log10(value) : value; }
+
+PolygonGate::Axis PolygonGate::axis_of(const std::string& name) {
+  const bool is_log = name.starts_with(logarithmic);
+  return {is_log ? name.substr(logarithmic.size()) : name, is_log};
+}
+
+PolygonGate::PolygonGate(const std::string& text) {
+  const auto sign = text.find('='), comma = text.find(',');
+  if (sign == std::string::npos || comma >= sign) refuse_polygon(text, "give two features and the corners");
+  x_ = axis_of(text.substr(0, comma));
+  y_ = axis_of(text.substr(comma + 1, sign - comma - 1));
+  if (x_.feature.empty() || y_.feature.empty()) refuse_polygon(text, "give two features and the corners");
+  std::string_view rest = std::string_view(text).substr(sign + 1);
+  while (!rest.empty()) {
+    const std::string_view corner = rest.substr(0, rest.find(':'));
+    rest.remove_prefix(std::min(rest.size(), corner.size() + 1));
+    const auto middle = std::min(corner.find(','), corner.size());
+    const double x = x_.place(corner_number(corner.substr(0, middle))),
+                 y = y_.place(corner_number(corner.substr(std::min(middle + 1, corner.size()))));
+    if (!std::isfinite(x) || !std::isfinite(y))
+      refuse_polygon(text, "a corner is two numbers, which are positive on a logarithmic axis");
+    corners_.push_back({x, y});
+  }
+  if (corners_.size() < fewest_corners) refuse_polygon(text, "give three corners at least");
+}
+
+std::string PolygonGate::description() const {
+  return fmt::format("{},{} in a polygon of {} corners", one_line(x_.feature, 60), one_line(y_.feature, 60),
+                     corners_.size());
+}
+
+void PolygonGate::check(const EventFeatures& features, const std::string& recording) const {
+  for (const Axis& axis : {x_, y_})
+    if (!features.has(axis.feature))
+      throw UserError(fmt::format("{}: has no feature {}, which --polygon names.", one_line(recording, 300),
+                                  one_line(axis.feature, 60)));
+}
+
+bool PolygonGate::holds(double x, double y) const {
+  bool is_inside = false;
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    Corner a = corners_[k], b = corners_[(k + 1) % corners_.size()];
+    if (a.y > b.y) std::swap(a, b);
+    if (y >= a.y && y < b.y && x < a.x + (b.x - a.x) / (b.y - a.y) * (y - a.y)) is_inside = !is_inside;
+  }
+  return is_inside;
+}
+
+void PolygonGate::apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const {
+  std::vector<double> x(inside.size()), y(inside.size());
+  features.read(x_.feature, first, x);
+  features.read(y_.feature, first, y);
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (inside[i] && !holds(x_.place(x[i]), y_.place(y[i]))) inside[i] = 0;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,40 @@
+// A polygon in the plane of two features, within which events are taken.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "measurement/event_features.h"
+
+namespace rheocyte {
+
+class PolygonGate {
+ public:
+  /// "FEATURE,FEATURE=X,Y:X,Y:X,Y" with at least three corners; the edges are straight over the logarithm of a feature
+  /// whose name stands behind "log:". UserError otherwise.
+  explicit PolygonGate(const std::string& text);
+
+  /// "area_um,deform in a polygon of 4 corners"
+  std::string description() const;
+  /// UserError naming a feature that the recording does not have.
+  void check(const EventFeatures& features, const std::string& recording) const;
+  /// Takes those of the events [first, first + inside.size()) out that are not within; those without a number are not.
+  void apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const;
+  /// By the number of edges to the right (even-odd); the lower end of an edge belongs to it, the upper one does not.
+  bool holds(double x, double y) const;
+
+ private:
+  struct Axis {
+    std::string feature;
+    bool is_log = false;
+    double place(double value) const;
+  };
+  struct Corner {
+    double x, y;  ///< along the axes
+  };
+  static Axis axis_of(const std::string& name);
+
+  Axis x_, y_;
+  std::vector<Corner> corners_;
+};
+
+}  // namespace rheocyte
