@@ -9,6 +9,7 @@
 
 #include "duct/duct_ends.h"
 #include "duct/observe_duct.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 namespace {
@@ -98,7 +99,7 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, cons
       add_cortex(e, media.cortex, unknowns, want, total);
     }
     const Stopwatch watch(work_.condensation_s);
-    use(e, lu_.order(e), matrix_);
+    if (!use(e, lu_.order(e), matrix_)) return VectorXd::Constant(total.size(), no_value);
   }
   turning_.add_residual(unknowns, total);
   return total;
@@ -124,9 +125,13 @@ VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, doub
 }
 
 VectorXd DuctSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
-  const auto condense = [this](int e, const std::vector<int>&, NestedLU::Matrix& tangent) { lu_.condense(e, tangent); };
+  const auto condense = [this](int e, const std::vector<int>&, NestedLU::Matrix& tangent) {
+    return lu_.condense(e, tangent, stop_);
+  };
   VectorXd total = assemble(media, unknowns, condense, min_det);
-  factorised = has_factors_ = total.allFinite() && lu_.is_regular();
+  const bool is_stopped = stop_ && *stop_;
+  if (is_stopped) drop_factors();
+  factorised = has_factors_ = !is_stopped && total.allFinite() && lu_.is_regular();
   ++work_.factorisations;
   return total;
 }

@@ -1,6 +1,7 @@
 // The nonlinear system of cell and liquid in a duct: residual, exact tangent, and its factorisation
 // subdomain by subdomain (docs/theory-square.md).
 #pragma once
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,7 +17,8 @@ namespace rheocyte {
 class DuctSystem final : public NonlinearSystem {
  public:
   /// Is given the tangent of an element, with rows and columns in the order of these unknowns.
-  using UseTangent = std::function<void(int element, const std::vector<int>& order, NestedLU::Matrix& tangent)>;
+  /// False: no more is wanted.
+  using UseTangent = std::function<bool(int element, const std::vector<int>& order, NestedLU::Matrix& tangent)>;
 
   /// The space must outlive this object. Where the pressure drop is given, it is `drop` times that of the undisturbed
   /// flow at mean speed 1. Bending stiffness is not for this system.
@@ -49,6 +51,8 @@ class DuctSystem final : public NonlinearSystem {
   void exchange_factors(DuctSystem&);
   /// Frees their memory.
   void drop_factors();
+  /// From now on, until null is given: once `stop` is set `linearise` gives up, with numbers that are not finite.
+  void obey(const std::atomic<bool>* stop) { stop_ = stop; }
 
  private:
   /// Of the face that an element shares with the cell.
@@ -61,6 +65,7 @@ class DuctSystem final : public NonlinearSystem {
   DuctCortex cortex_;
   NestedLU lu_;
   bool has_factors_ = false;
+  const std::atomic<bool>* stop_ = nullptr;
   VectorXd outlet_load_, inlet_load_;
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
   TurningSurface turning_;

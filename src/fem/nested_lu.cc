@@ -46,26 +46,33 @@ NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
   }
 }
 
-void NestedLU::eliminate(Front& front, Blocks matrix) {
+bool NestedLU::eliminate(Front& front, Blocks matrix, const std::atomic<bool>* stop) {
+  const auto is_stopped = [stop] { return stop && *stop; };
   front.schur = std::move(matrix.rest);
-  if (front.eliminated == 0) return;
+  if (front.eliminated == 0) return true;
+  if (is_stopped()) return false;
   front.lu.compute(matrix.own);
   front.rows = std::move(matrix.rows);
   front.solved_columns = front.lu.permutationP() * matrix.columns;
+  if (is_stopped()) return false;
   solve_triangular(front.lu.matrixLU(), front.solved_columns);
+  if (is_stopped()) return false;
   front.schur.noalias() -= front.rows * front.solved_columns;
+  return !is_stopped();
 }
 
-void NestedLU::condense(int element, const Matrix& matrix) {
+bool NestedLU::condense(int element, const Matrix& matrix, const std::atomic<bool>* stop) {
   const Eigen::Index f = fronts_[element].eliminated, o = matrix.rows() - f;
-  eliminate(fronts_[element], {matrix.topLeftCorner(f, f), matrix.topRightCorner(f, o), matrix.bottomLeftCorner(o, f),
-                               matrix.bottomRightCorner(o, o)});
+  Blocks blocks{matrix.topLeftCorner(f, f), matrix.topRightCorner(f, o), matrix.bottomLeftCorner(o, f),
+                matrix.bottomRightCorner(o, o)};
+  if (!eliminate(fronts_[element], std::move(blocks), stop)) return false;
   for (int at = element; fronts_[at].whole >= 0; at = fronts_[at].whole) {
     Front& whole = fronts_[fronts_[at].whole];
     fronts_[at].waits = true;
-    if (!fronts_[whole.parts[0]].waits || !fronts_[whole.parts[1]].waits) return;
-    eliminate(whole, joined(whole));
+    if (!fronts_[whole.parts[0]].waits || !fronts_[whole.parts[1]].waits) return true;
+    if (!eliminate(whole, joined(whole), stop)) return false;
   }
+  return true;
 }
 
 /// The matrix of a subdomain from those of its parts, which are given up.
@@ -126,6 +133,7 @@ VectorXd NestedLU::solve(const VectorXd& rhs) const {
 void NestedLU::drop_factors() {
   for (Front& front : fronts_) {
     front.lu = {};
+    front.waits = false;
     for (Matrix* matrix : {&front.solved_columns, &front.rows, &front.schur}) matrix->resize(0, 0);
   }
 }

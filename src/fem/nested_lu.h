@@ -8,6 +8,7 @@
 #pragma once
 #include <Eigen/LU>
 #include <array>
+#include <atomic>
 #include <vector>
 
 namespace rheocyte {
@@ -34,8 +35,9 @@ class NestedLU {
   /// All elements, one subdomain after the other.
   const std::vector<int>& elements() const { return elements_; }
   /// Condenses an element's matrix, and joins all subdomains whose parts are there. Each element has to be given once;
-  /// in the order of `elements` few condensed matrices wait for others.
-  void condense(int element, const Matrix& matrix);
+  /// in the order of `elements` few condensed matrices wait for others. False once `stop` is set, which is looked at
+  /// between the parts of the work: then `drop_factors` has to come before a new beginning.
+  bool condense(int element, const Matrix& matrix, const std::atomic<bool>* stop = nullptr);
   /// Once all elements are condensed: whether the sum of their matrices is finite and regular.
   bool is_regular() const;
   /// To the digits of single precision.
@@ -70,7 +72,7 @@ class NestedLU {
     Matrix own, columns;  ///< K_ff, K_fo
     Matrix rows, rest;    ///< K_of, K_oo
   };
-  static void eliminate(Front&, Blocks);
+  static bool eliminate(Front&, Blocks, const std::atomic<bool>* stop);
   Blocks joined(const Front&);
 
   std::vector<Front> fronts_;  ///< elements first, each after its parts, the whole last

@@ -15,6 +15,8 @@ VectorXd predict(const BranchState& now, const BranchState* before, double h) {
   return guess;
 }
 
+bool is_stopped(const ContinuationOptions& options) { return options.newton.stop && *options.newton.stop; }
+
 /// Changes of the liquid's thinning in one step, and the least one.
 constexpr double thinning_step = 0.2, min_thinning_step = 0.01;
 
@@ -73,6 +75,7 @@ ContinuationReport start_branch(NonlinearSystem& system, const Problem& problem,
   const VectorXd sphere = system.sphere();
   const VectorXd residual = system.linearise(wanted, sphere, det, factorised);
   report.newton_iterations = 1;
+  if (is_stopped(options)) return report.status = Status::stopped, report;
   if (!factorised) {
     report.status = residual.allFinite() ? Status::singular_matrix : Status::not_finite;
     return report;
@@ -135,6 +138,7 @@ ContinuationReport continue_branch(const Path& path, const ContinuationOptions& 
     bool factorised = false;
     double det = 0;
     path.system(last.parameter).linearise(path.media(last.parameter), last.unknowns, det, factorised);
+    if (is_stopped(options)) return report.status = Status::stopped, report;
     last.tangent = branch_tangent(path, last);
   }
   BranchState before;

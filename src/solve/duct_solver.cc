@@ -36,6 +36,18 @@ NewtonOptions fine_newton(const std::atomic<bool>* stop) {
   return {.tolerance = final_tolerance, .chord_reduction = 0.5, .stop = stop};
 }
 
+/// While it lives, the system gives up its work once it is to stop.
+class Obedience {
+ public:
+  Obedience(DuctSystem& system, const std::atomic<bool>* stop) : system_(system) { system_.obey(stop); }
+  ~Obedience() { system_.obey(nullptr); }
+  Obedience(const Obedience&) = delete;
+  Obedience& operator=(const Obedience&) = delete;
+
+ private:
+  DuctSystem& system_;
+};
+
 int degree_of(const DuctState& state) { return state.discrete->space.reference().degree(); }
 
 }  // namespace
@@ -167,6 +179,7 @@ std::shared_ptr<DuctDiscrete> DuctSolver::discrete(int degree) {
 DuctState DuctSolver::enter(int degree) {
   DuctState state;
   state.discrete = discrete(degree);
+  const Obedience obedience(state.discrete->system, stop_);
   const WorkMeter before = state.discrete->system.work();
   take(state, start_branch(state.discrete->system, problem_, options(false)));
   count(state.discrete->system.work() - before);
@@ -174,6 +187,7 @@ DuctState DuctSolver::enter(int degree) {
 }
 
 void DuctSolver::advance(DuctState& state, double compliance, const ContinuationOptions& options) {
+  const Obedience obedience(state.discrete->system, stop_);
   const WorkMeter before = state.discrete->system.work();
   Path path = stiffness_path(state.discrete->system, problem_);
   path.end = compliance;
@@ -195,6 +209,7 @@ DuctState DuctSolver::at_compliance(const DuctState& near, double compliance, Ve
 DuctState DuctSolver::solved(std::shared_ptr<DuctDiscrete> at, BranchState guess, const NewtonOptions& options) {
   DuctState to{.discrete = std::move(at), .branch = std::move(guess)};
   DuctSystem& system = to.discrete->system;
+  const Obedience obedience(system, stop_);
   const WorkMeter before = system.work();
   const NewtonReport report = newton(system, media_at(problem_, to.branch.parameter), options, to.branch.unknowns);
   to.status = report.status;

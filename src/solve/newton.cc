@@ -44,6 +44,7 @@ double residual_scale(NonlinearSystem& system, const Media& media) {
 
 NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOptions& options, VectorXd& x) {
   NewtonReport report;
+  const auto is_stopped = [&options] { return options.stop && *options.stop; };
   const double scale = options.residual_scale > 0 ? options.residual_scale : residual_scale(system, media);
   bool keep = options.keep_factors;  // whether the next step is a chord step
   double det = 0;
@@ -53,11 +54,12 @@ NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOpt
     report.residual_history.push_back(residual.norm() / scale);
   }
   for (int factorisations = 0;;) {
-    if (options.stop && *options.stop) return report.status = Status::stopped, report;
+    if (is_stopped()) return report.status = Status::stopped, report;
     if (!keep) {
       if (factorisations++ == options.iteration_limit) return report.status = Status::iteration_limit, report;
       bool factorised = false;
       residual = system.linearise(media, x, det, factorised);
+      if (is_stopped()) return report.status = Status::stopped, report;
       if (!factorised) {
         report.status = residual.allFinite() ? Status::singular_matrix : Status::not_finite;
         return report;

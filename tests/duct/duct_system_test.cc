@@ -74,6 +74,24 @@ TEST(DuctSystem, LineariseReturnsTheResidual) {
   EXPECT_EQ(det, det_again);
 }
 
+TEST(DuctSystem, GivesUpOnceItIsToStopAndIsWholeAfterwards) {
+  SmallDuct duct({});
+  const Media law = media({});
+  const VectorXd x = duct.system.sphere();
+  double det = 0;
+  bool factorised = false;
+  const VectorXd wanted = duct.system.linearise(law, x, det, factorised);
+  const VectorXd solved = duct.system.solve(wanted);
+  const std::atomic<bool> stop = true;
+  duct.system.obey(&stop);
+  EXPECT_FALSE(duct.system.linearise(law, x, det, factorised).allFinite());
+  EXPECT_FALSE(factorised || duct.system.has_factors());
+  duct.system.obey(nullptr);
+  EXPECT_EQ(duct.system.linearise(law, x, det, factorised), wanted);
+  ASSERT_TRUE(factorised);
+  EXPECT_EQ(duct.system.solve(wanted), solved);
+}
+
 TEST(DuctSystem, TheUndisturbedFlowSolvesTheEquationsFarFromTheCell) {
   // With the cell's speed as it is, only equations of the layers round the cell, and of the cell, have a residual.
   const Liquid liquid{.law = LiquidLaw::power_law, .exponent = 0.7, .shear_rate_floor = 0.1};

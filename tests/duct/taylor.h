@@ -14,6 +14,7 @@ inline VectorXd tangent_times(DuctSystem& system, const Media& media, const Vect
   VectorXd product = VectorXd::Zero(direction.size());
   const auto add = [&](int, const std::vector<int>& order, const NestedLU::Matrix& tangent) {
     product(order) += tangent.cast<double>() * direction(order);
+    return true;
   };
   double det = 0;
   system.assemble(media, unknowns, add, det);

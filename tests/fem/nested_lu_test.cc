@@ -91,6 +91,28 @@ TEST(NestedLU, AZeroMatrixIsNotFactorised) {
   EXPECT_FALSE(lu.is_regular());
 }
 
+TEST(NestedLU, GivesUpWhenItIsToStopAndBeginsAnew) {
+  const Grid grid(3, 2);
+  NestedLU lu(grid.unknowns, grid.elements);
+  const auto matrix_of = [&](int e) {
+    const auto n = Eigen::Index(lu.order(e).size());
+    return NestedLU::Matrix(NestedLU::Matrix::Identity(n, n));
+  };
+  std::atomic<bool> stop = false;
+  for (const int e : lu.elements()) {
+    stop = e == lu.elements().back();
+    EXPECT_EQ(lu.condense(e, matrix_of(e), &stop), !stop);
+  }
+  lu.drop_factors();
+  for (const int e : lu.elements()) EXPECT_TRUE(lu.condense(e, matrix_of(e)));
+  ASSERT_TRUE(lu.is_regular());
+  // As many elements meet at each unknown as its sum of ones says.
+  VectorXd sums = VectorXd::Zero(grid.unknowns);
+  for (const int e : lu.elements())
+    for (const int unknown : lu.order(e)) sums(unknown) += 1;
+  EXPECT_LT((lu.solve(sums) - VectorXd::Ones(grid.unknowns)).norm(), 1e-5) << "single precision";
+}
+
 TEST(NestedLU, CostsNoMoreThanSeparatorsOfAGrid) {
   // A dense matrix of all unknowns would take 2/3 n^3 operations; separators of a long grid take a small share of it.
   const Grid grid(20, 4);
