@@ -47,6 +47,21 @@ function recording(item, name, count, seed, stiffness) {
   return { about, columns, computed: null, run: null };
 }
 
+/** By a combined table: a bulk of 1 kPa with a cortex of 2 mN/m. */
+const combinedOf = (cell) => ({
+  table: 'HC-2D-26',
+  status: 'resolved',
+  sentence: 'E = 1 +- 0.1 kPa, E2D = 2 +- 0.3 mN/m.',
+  young_modulus_kPa: 1,
+  standard_error_young_modulus_kPa: 0.1,
+  cortex_modulus_mN_per_m: 2,
+  standard_error_cortex_modulus_mN_per_m: 0.3,
+  stiffness_kPa: 1.4,
+  standard_error_stiffness_kPa: 0.05,
+  contour: ring(cell, (angle) => 1 - 0.005 * Math.cos(3 * angle)),
+  case: { channel: { width_um: 20 }, flow: { rate_ul_per_s: 0.04, viscosity_mPas: 5 }, cell: { radius_um: 5, bulk: { young_modulus_kPa: 1 }, cortex: { law: 'neo-hookean', modulus_mN_per_m: 2 } } },
+});
+
 export class MockRecordings {
   constructor(largest = 3000) {
     this.items = [
@@ -108,7 +123,8 @@ export class MockRecordings {
       sentence: has ? '' : 'The event is deformed less than the stiffest cell of the table.',
       pixel_um,
       outline,
-      model: has ? { ...ring(cell, () => 1), cortex: null, residual_um: residualOf(cell), residual_rms_um: 0.05 } : null,
+      model: has ? { ...ring(cell, () => 1), residual_um: residualOf(cell), residual_rms_um: 0.05 } : null,
+      combined: has ? combinedOf(cell) : null,
       case: has ? { channel: { width_um: 20 }, flow: { rate_ul_per_s: 0.04, viscosity_mPas: 5 }, cell: { radius_um: 5, bulk: { young_modulus_kPa: modulus } } } : null,
     };
   }

@@ -56,6 +56,16 @@ export interface EncodedFields {
   bytes: ArrayBuffer;
 }
 
+/** The same as text: base64 of each array under its name. */
+export interface FieldsText {
+  xy_um: string;
+  index: string;
+  region: string;
+  values: Record<string, string>;
+  surface?: FieldsHead['surface'];
+  wall?: Outline;
+}
+
 /** The keys of result.json that the page reads by name; there are more. */
 export interface Result {
   status: string;
@@ -85,6 +95,8 @@ export interface TimeStep {
   velocity_m_per_s: number;
   contour: Outline;
   progress: number;
+  /** of some steps, where there are many */
+  fields?: FieldsText;
 }
 
 export interface Isoelastic {
@@ -100,7 +112,7 @@ export interface Lines {
   sentence?: string;
 }
 
-export type ItemKind = 'recording' | 'case' | 'result' | 'table';
+export type ItemKind = 'recording' | 'case' | 'result' | 'table' | 'combined';
 
 export interface Item {
   item: number;
@@ -130,11 +142,25 @@ export interface Curve {
 
 /** The model's cell of an event, laid over its image. */
 export interface EventModel extends Curve {
-  cortex: Curve | null;
   /** At each point of the outline: its distance from the centroid less the model's, once their mean radii agree. */
   residual_um: number[];
   residual_rms_um: number;
   source?: string;
+}
+
+/** The cell with bulk and cortex that a combined table has for an event. */
+export interface CombinedCell {
+  table: string;
+  status: string;
+  sentence: string;
+  young_modulus_kPa: number | null;
+  standard_error_young_modulus_kPa: number | null;
+  cortex_modulus_mN_per_m: number | null;
+  standard_error_cortex_modulus_mN_per_m: number | null;
+  stiffness_kPa: number | null;
+  standard_error_stiffness_kPa: number | null;
+  contour: Curve | null;
+  case: Sections | null;
 }
 
 /** One event; curves in um from the upper left corner of the image, y downwards. */
@@ -147,6 +173,7 @@ export interface EventDetail {
   pixel_um: number | null;
   outline: Curve | null;
   model: EventModel | null;
+  combined?: CombinedCell | null;
   case: Sections | null;
 }
 
@@ -157,6 +184,8 @@ export interface Moduli {
   summary?: Record<string, unknown>;
   lines?: string[];
   command?: string;
+  /** of the moduli with cortex, where a combined table is there */
+  command_several?: string;
 }
 
 export interface ExportRequest {
@@ -191,19 +220,23 @@ async function refusal(answer: Response): Promise<Refusal> {
 }
 
 async function request(path: string, options: RequestInit = {}): Promise<Response> {
-  let answer: Response;
-  try {
-    answer = await fetch(path, { credentials: 'same-origin', ...options });
-  } catch (failure) {
-    if (failure instanceof DOMException && failure.name === 'AbortError') throw new Refusal(0, 'stopped', 'Stopped.');
-    throw new Refusal(0, 'unreachable', 'The program does not answer; is it still running in its terminal?');
-  }
+  const answer = await fetch(path, { credentials: 'same-origin', ...options }).catch(give);
   if (!answer.ok) throw await refusal(answer);
   return answer;
 }
 
+/** An answer that did not come, or not to its end: because it was given up here, or because the program has gone. */
+function broken(failure: unknown): Refusal {
+  if (failure instanceof DOMException && failure.name === 'AbortError') return new Refusal(0, 'stopped', 'Stopped.');
+  return new Refusal(0, 'unreachable', 'The program does not answer; is it still running in its terminal?');
+}
+
+function give(failure: unknown): never {
+  throw broken(failure);
+}
+
 async function json<T>(path: string, options: RequestInit = {}): Promise<T> {
-  return (await request(path, options)).json() as Promise<T>;
+  return (await request(path, options)).json().catch(give) as Promise<T>;
 }
 
 function sending(method: string, body: unknown, signal?: AbortSignal): RequestInit {
@@ -307,18 +340,18 @@ export async function solveState(sections: Sections, want: StateRequest, signal?
 
 export type EvolveLine = TimeStep | { result: Result } | { error: string };
 
-/** Follows a cell in time; calls `take` with each line as it arrives. */
+/** Follows a cell in time with its fields; calls `take` with each line as it arrives. */
 export async function evolve(
   sections: Sections,
   stream: string,
   take: (line: EvolveLine) => void,
   signal?: AbortSignal,
 ): Promise<void> {
-  const answer = await request(`/api/evolve?${query({ stream })}`, sending('POST', sections, signal));
+  const answer = await request(`/api/evolve?${query({ stream, fields: 1 })}`, sending('POST', sections, signal));
   const reader = answer.body!.pipeThrough(new TextDecoderStream()).getReader();
   let rest = '';
   for (;;) {
-    const { value, done } = await reader.read();
+    const { value, done } = await reader.read().catch(give);
     const lines = (rest + (value ?? '')).split('\n');
     rest = done ? '' : lines.pop()!;
     for (const line of lines) if (line.trim()) take(JSON.parse(line) as EvolveLine);
@@ -347,7 +380,7 @@ export async function readEvents(
   const path = `/api/items/${item}/events?${query({ features: features.join(','), type })}`;
   const answer = await request(path, { signal });
   const head = JSON.parse(answer.headers.get('X-Rheocyte-Columns')!) as { features: string[]; events: number };
-  const bytes = await answer.arrayBuffer();
+  const bytes = await answer.arrayBuffer().catch(give);
   const size = type === 'float32' ? 4 : 8;
   const column = (k: number) =>
     type === 'float32'

@@ -133,6 +133,9 @@ test('A case in time is followed and played along its time line', { skip: noBrow
     await page.getByRole('button', { name: 'Follow the cell in time' }).click();
     await page.getByRole('button', { name: 'Close' }).waitFor({ timeout: 120000 });
     const last = await shownDeformation(page);
+    await page.locator('.channel').focus();
+    await page.keyboard.press('ArrowUp');
+    if (underTest) assert.match(await page.locator('.readout').textContent(), /stress/i, 'the steps have fields');
     await page.locator('.time-slider').fill('0');
     assert.ok((await shownDeformation(page)) < last);
     await page.getByRole('button', { name: 'Play' }).click();

@@ -68,6 +68,8 @@ test('A click on an event shows its image with outline and contour of the model,
     await page.locator('.event-image .model-contour').waitFor();
     await page.locator('.event-image image').waitFor();
     assert.equal(await page.locator('.event-image .event-outline').count(), 1);
+    assert.equal(await page.locator('.event-image .model-cortex').count(), 1);
+    await page.getByText('E = 1 ± 0.1 kPa, E2D = 2 ± 0.3 mN/m.').waitFor();
     assert.match(await page.locator('.modulus').textContent(), /^E \d\.\d+ ± 0\.\d+ kPa/);
     assert.match(await page.locator('.residual figcaption').textContent(), /rms 0\.050 µm/);
   }),

@@ -71,7 +71,7 @@ class Recorder {
  private:
   void add(const TimeFrame& frame) {
     const fs::path file = folder_.scratch() / fields_folder / field_file(record_.frames.size());
-    write_field_file(frame.write_fields, result_.scales, file, options_.folder);
+    write_field_file(frame.state.write_fields, result_.scales, file, options_.folder);
     record_.frames.push_back(contour_frame(frame, result_.scales));
   }
 

@@ -89,11 +89,11 @@ HistoryRow history_row(const TimePoint& point, const Scales& scales) {
 
 ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
   Eigen::Index rows = 1;
-  for (const CurvePiece& piece : frame.contour.pieces) rows += piece.rows() - 1;
+  for (const CurvePiece& piece : frame.state.contour.pieces) rows += piece.rows() - 1;
   const double um = scales.length_um(), us = scales.time_us();
   ContourFrame result{us * frame.time, um * frame.position, Eigen::MatrixX2d(rows, 2), in_history(frame.state, scales)};
   Eigen::Index row = 0;
-  for (const CurvePiece& piece : frame.contour.pieces) {  // a piece begins where the one before ends
+  for (const CurvePiece& piece : frame.state.contour.pieces) {  // a piece begins where the one before ends
     result.point_um.middleRows(row, piece.rows()) = um * piece;
     row += piece.rows() - 1;
   }

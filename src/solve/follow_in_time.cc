@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "fem/observe.h"
 #include "solve/describe.h"
@@ -162,7 +163,7 @@ class TimeFollower {
     if (!observer_.frame) return;
     StationaryState state;
     describe_level(level, state);
-    observer_.frame({level.time, level.position, state, state.contour, state.write_fields});
+    observer_.frame({level.time, level.position, std::move(state)});
   }
 
   /// Time or place of a level, whichever the outputs follow.

@@ -35,9 +35,7 @@ struct TimePoint {
 struct TimeFrame {
   double time = 0;
   double position = 0;
-  StateNumbers state;
-  Contour contour;
-  std::function<bool(const std::string& path, const Scales&)> write_fields;
+  StationaryState state;  ///< its fields are there as long as the observer is being called: then the walls move on
 };
 
 struct TimeObserver {

@@ -54,12 +54,6 @@ void solve(SolverThreads& threads, const Request& request,
   if (end == JobEnd::left) throw Refused(503, "left", "The computation was stopped.");
 }
 
-/// The text stands in an object beside other members, without being read again.
-void add_member(std::string& object, std::string_view name, std::string_view json) {
-  object.pop_back();
-  object.append(",\"").append(name).append("\":").append(json).append("}");
-}
-
 /// The numbers are sent at once, the fields when they are sampled.
 Answer with_fields_after(const std::shared_ptr<const ShownState>& shown) {
   Answer answer{.type = "application/octet-stream"};

@@ -13,6 +13,7 @@
 #include "case/write_case.h"
 #include "infer/read_modulus_map.h"
 #include "measurement/shape_source.h"
+#include "table/combined_table.h"
 #include "view/recording_columns.h"
 
 namespace rheocyte {
@@ -54,16 +55,25 @@ Json describe_result(const fs::path& folder) {
   return {{"case", result["case"]}};
 }
 
+Json table_conditions(const std::string& identifier, const std::string& model, const ChannelFlow& flow) {
+  return {{"conditions",
+           {{"table", identifier},
+            {"model", model},
+            {"channel_width_um", flow.width_um},
+            {"flow_rate_ul_per_s", flow.rate_ul_s},
+            {"viscosity_mPas", flow.viscosity_mPas},
+            {"flow_exponent", flow.exponent}}}};
+}
+
 Json describe_table(const fs::path& path) {
   const auto map = read_modulus_map(path);
   const TableOrigin& origin = map->origin();
-  return {{"conditions",
-           {{"table", origin.identifier},
-            {"model", origin.model},
-            {"channel_width_um", origin.flow.width_um},
-            {"flow_rate_ul_per_s", origin.flow.rate_ul_s},
-            {"viscosity_mPas", origin.flow.viscosity_mPas},
-            {"flow_exponent", origin.flow.exponent}}}};
+  return table_conditions(origin.identifier, origin.model, origin.flow);
+}
+
+Json describe_combined(const fs::path& folder) {
+  const CombinedTable table = read_combined_table(folder);
+  return table_conditions(table.spec.identifier, "bulk and cortex", channel_flow_of(table.spec.base));
 }
 
 }  // namespace
@@ -91,6 +101,7 @@ Json describe_item(const ItemPlace& place) {
     case ItemKind::case_file: return {{"case", to_json(read_case(place.path))}};
     case ItemKind::result: return describe_result(place.path);
     case ItemKind::table: return describe_table(place.path);
+    case ItemKind::combined: return describe_combined(place.path);
     default: return describe_recording(place.path);
   }
 }

@@ -13,6 +13,8 @@
 #include "extract/extraction.h"
 #include "measurement/event_outlines.h"
 #include "shape/outline_shape.h"
+#include "view/combined_cells.h"
+#include "view/event_json.h"
 #include "view/fitted_cell.h"
 #include "view/grey_png.h"
 #include "view/recording_columns.h"
@@ -22,8 +24,6 @@ namespace rheocyte {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json points_json(const Eigen::MatrixX2d& points) {
   Json x = Json::array(), y = Json::array();
@@ -71,10 +71,21 @@ class ShapeResidual {
   std::vector<Node> nodes_;
 };
 
+/// A model's outline with its front where the recording's cells move to.
+Eigen::MatrixX2d with_front(Eigen::MatrixX2d model, int direction) {
+  if (direction < 0) model.col(0) *= -1;
+  return model;
+}
+
+/// About the centroid of a measured outline.
+Eigen::MatrixX2d laid_over(Eigen::MatrixX2d model, const OutlineShape& measured) {
+  model.rowwise() += Eigen::RowVector2d(measured.x, measured.y);
+  return model;
+}
+
 Json model_json(const FittedCell& cell, const Eigen::MatrixX2d& outline, int direction, const std::string& table) {
   const OutlineShape measured = outline_shape(outline);
-  Eigen::MatrixX2d model = cell.outline;
-  if (direction < 0) model.col(0) *= -1;
+  const Eigen::MatrixX2d model = with_front(cell.outline, direction);
   const ShapeResidual residual(model, outline_shape(model).mean_radius);
   Json residuals = Json::array();
   double squares = 0;
@@ -83,9 +94,7 @@ Json model_json(const FittedCell& cell, const Eigen::MatrixX2d& outline, int dir
     residuals.push_back(r);
     squares += r * r;
   }
-  model.rowwise() += Eigen::RowVector2d(measured.x, measured.y);
-  Json j = points_json(model);
-  j["cortex"] = nullptr;
+  Json j = points_json(laid_over(model, measured));
   j["area_um2"] = cell.area_um2;
   j["deformation"] = cell.deformation;
   j["residual_um"] = residuals;
@@ -98,17 +107,10 @@ Json model_json(const FittedCell& cell, const Eigen::MatrixX2d& outline, int dir
 /// The live solver's case of this cell; the liquid is that of the table, with the viscosity that it had for the event.
 Json case_json(const FittedCell& cell, const TableOrigin& origin, ChannelFlow flow, double young_modulus_kPa) {
   flow.exponent = origin.flow.exponent;
-  Json liquid{{"rate_ul_per_s", flow.rate_ul_s}, {"law", flow.exponent == 1 ? "newtonian" : "power-law"}};
-  if (flow.exponent == 1) {
-    liquid["viscosity_mPas"] = flow.viscosity_mPas;
-  } else {
-    liquid["consistency_Pa_sn"] = consistency_Pa_sn(flow);
-    liquid["exponent"] = flow.exponent;
-  }
   Json bulk{{"young_modulus_kPa", young_modulus_kPa}};
   if (const auto end = origin.model.find(" solid"); end != std::string::npos) bulk["law"] = origin.model.substr(0, end);
   return {{"channel", {{"width_um", flow.width_um}}},
-          {"flow", liquid},
+          {"flow", flow_json(flow)},
           {"cell", {{"radius_um", cell.radius_um}, {"bulk", bulk}}}};
 }
 
@@ -127,6 +129,15 @@ void add_fit(const Extraction& extraction, const EventBlock& block, const Modulu
   j["case"] = case_json(*cell, extraction.table().origin(), flow, block.young_modulus_kPa[0]);
   if (outline.rows() > 2)
     j["model"] = model_json(*cell, outline, extraction.event_shapes().direction(), map->origin().identifier);
+}
+
+/// What a combined table says of the event, with the outline of its cell over the measured one.
+Json combined_json(CombinedCell cell, const Eigen::MatrixX2d& outline, int direction) {
+  cell.told["contour"] =
+      cell.outline.rows() > 0 && outline.rows() > 2
+          ? points_json(laid_over(with_front(std::move(cell.outline), direction), outline_shape(outline)))
+          : Json();
+  return std::move(cell.told);
 }
 
 double first_of(std::span<const double> values) { return values.empty() ? NAN : values[0]; }
@@ -153,7 +164,7 @@ EventInspector::EventInspector(const InspectedRecording& file, const ExtractOpti
                                const ModulusTables& tables)
     : recording_(file.recording),
       tables_(tables),
-      columns_(file.recording, file.companion),
+      columns_(file.recording, file.computed),
       pixel_um_(
           options.measuring.pixel_size_um.value_or(recording_.metadata().number("imaging:pixel size").value_or(0))) {
   if (ShapeSource::has_outlines(recording_) && pixel_um_ > 0) outlines_.emplace(recording_, pixel_um_);
@@ -161,6 +172,11 @@ EventInspector::EventInspector(const InspectedRecording& file, const ExtractOpti
     extraction_ = std::make_unique<Extraction>(recording_, options, tables);
   } catch (const UserError& missing) {
     missing_ = missing.what();
+  }
+  if (!file.combined || !outlines_) return;
+  try {
+    combined_ = std::make_unique<CombinedCells>(recording_, options.measuring, *file.combined);
+  } catch (const UserError&) {  // what is missing for several moduli is missing for one, and told there
   }
 }
 
@@ -193,7 +209,7 @@ Json EventInspector::inspect(std::size_t event) {
     if (const auto size = recording_.image_size(feature))
       j["image_size"] = {{"width", size->width}, {"height", size->height}};
   for (const char* key : {"young_modulus_kPa", "standard_error_kPa", "shape_excess", "young_modulus_asymmetry_kPa",
-                          "outline", "model", "case"})
+                          "outline", "model", "combined", "case"})
     j[key] = nullptr;
   const Eigen::MatrixX2d points = outline(event);
   if (points.rows() > 0) j["outline"] = points_json(points);
@@ -202,6 +218,7 @@ Json EventInspector::inspect(std::size_t event) {
     const EventBlock block = extraction_->compute(event, 1);
     add_modulus(block, j);
     add_fit(*extraction_, block, tables_, points, j);
+    if (combined_) j["combined"] = combined_json(combined_->at(event), points, extraction_->event_shapes().direction());
   } catch (const UserError& missing) {
     j["state"] = "unknown";
     j["sentence"] = missing.what();

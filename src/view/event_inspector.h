@@ -16,11 +16,14 @@
 
 namespace rheocyte {
 
+class CombinedCells;
 class Extraction;
+struct ModuliTable;
 
 struct InspectedRecording {
   const Recording& recording;
-  const Recording* companion;  ///< what has been computed from it; null: nothing
+  ComputedFiles computed = {};
+  const ModuliTable* combined = nullptr;  ///< of cells with bulk and cortex; null: none
 };
 
 /// One recording with its settings, event after event: what belongs to all of them is found out once.
@@ -31,9 +34,10 @@ class EventInspector {
   ~EventInspector();
 
   /// {"event", "features", "young_modulus_kPa", "standard_error_kPa", "state", "sentence", "shape_excess",
-  /// "young_modulus_asymmetry_kPa", "viscosity_mPas", "pixel_um", "image_size", "outline", "model", "case", ...}, with
-  /// the numbers that `rheocyte extract` with these options gives for this event; what is not known is null. Lengths in
-  /// um in the frame of the picture: x along its rows, y down, from its corner. UserError: no such event, damaged data.
+  /// "young_modulus_asymmetry_kPa", "viscosity_mPas", "pixel_um", "image_size", "outline", "model", "combined", "case",
+  /// ...}, with the numbers that `rheocyte extract` with these options gives for this event; what is not known is null.
+  /// Lengths in um in the frame of the picture: x along its rows, y down, from its corner. UserError: no such event,
+  /// damaged data.
   nlohmann::ordered_json inspect(std::size_t event);
 
  private:
@@ -47,6 +51,7 @@ class EventInspector {
   std::optional<EventOutlines> outlines_;
   std::unique_ptr<Extraction> extraction_;  ///< or why there are no moduli:
   std::string missing_;
+  std::unique_ptr<CombinedCells> combined_;  ///< null without a combined table
 };
 
 /// A picture of one event, "image" or "mask", as PNG. UserError if there is none.

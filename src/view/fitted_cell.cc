@@ -7,21 +7,17 @@
 #include <span>
 
 #include "infer/smooth_events.h"
-#include "shape/outline_shape.h"
 #include "shape/radius_modes.h"
 
 namespace rheocyte {
 
-namespace {
-
 // The modes alone have no c_1: of second order, it is what keeps the centroid in its place.
-Eigen::MatrixX2d about_centroid(Eigen::MatrixX2d outline) {
+Eigen::MatrixX2d outline_about_centroid(const std::array<double, mode_count>& modes, double area_um2, int points) {
+  Eigen::MatrixX2d outline = outline_of_modes(modes, area_um2, points);
   const OutlineShape shape = outline_shape(outline);
   outline.rowwise() -= Eigen::RowVector2d(shape.x, shape.y);
   return outline;
 }
-
-}  // namespace
 
 double volume_of_revolution(const Eigen::MatrixX2d& outline) {
   assert(outline.rows() % 2 == 0);
@@ -48,7 +44,7 @@ std::optional<FittedCell> fitted_cell(const ShapeMap& map, const MeasuringCondit
   constexpr int fine = 1440;
   const Eigen::MatrixX2d curve = outline_of_modes(modes, cell.area_um2, fine);
   cell.radius_um = std::cbrt(3 / (4 * std::numbers::pi) * volume_of_revolution(curve));
-  cell.outline = about_centroid(outline_of_modes(modes, cell.area_um2, points));
+  cell.outline = outline_about_centroid(modes, cell.area_um2, points);
   return cell;
 }
 

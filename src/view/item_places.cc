@@ -25,6 +25,10 @@ bool is_grid(const fs::path& file) {
   return file.extension() == ".cbor" && file.filename().string().starts_with("grid_");
 }
 
+bool is_combined(const fs::path& file) {
+  return file.extension() == ".csv" && file.filename().string().starts_with("combined_");
+}
+
 std::vector<fs::path> entries_of(const fs::path& folder, std::error_code& error) {
   std::vector<fs::path> entries;
   for (auto at = fs::directory_iterator(folder, error); !error && at != fs::end(at); at.increment(error))
@@ -42,6 +46,10 @@ void search(const fs::path& folder, std::vector<ItemPlace>& found) {
   const std::vector<fs::path> entries = entries_of(folder, error);
   if (std::ranges::any_of(entries, is_grid)) {
     found.push_back({ItemKind::table, folder});
+    return;
+  }
+  if (std::ranges::any_of(entries, is_combined)) {
+    found.push_back({ItemKind::combined, folder});
     return;
   }
   for (const auto& entry : entries) {
@@ -87,6 +95,7 @@ std::string_view name_of(ItemKind kind) {
     case ItemKind::case_file: return "case";
     case ItemKind::result: return "result";
     case ItemKind::table: return "table";
+    case ItemKind::combined: return "combined";
     default: return "recording";
   }
 }

@@ -8,7 +8,7 @@
 
 namespace rheocyte {
 
-enum class ItemKind { recording, case_file, result, table };
+enum class ItemKind { recording, case_file, result, table, combined };
 std::string_view name_of(ItemKind);
 
 struct ItemPlace {
@@ -19,8 +19,9 @@ struct ItemPlace {
 };
 
 /// Files, each as what its name says (.toml: a case; .cbor, .txt: a table; else a recording), folders of results and
-/// of tables, and what other folders hold of recordings, results and tables, sorted by name and without companions of
-/// recordings that are there. Each once, in the order given. What is missing or empty stays, with a sentence.
+/// of tables (combined: of cells with bulk and cortex), and what other folders hold of recordings, results and tables,
+/// sorted by name and without companions of recordings that are there. Each once, in the order given. What is missing
+/// or empty stays, with a sentence.
 std::vector<ItemPlace> item_places(std::span<const std::filesystem::path> paths);
 
 }  // namespace rheocyte

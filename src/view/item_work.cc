@@ -8,8 +8,10 @@
 #include "case/json_guard.h"
 #include "case/user_error.h"
 #include "extract/extract_recording.h"
+#include "extract/moduli_recording.h"
 #include "view/describe_item.h"
 #include "view/event_inspector.h"
+#include "view/moduli_columns.h"
 #include "view/moduli_settings.h"
 #include "view/recording_columns.h"
 #include "view/recording_lines.h"
@@ -31,15 +33,17 @@ struct OpenRecording {
   explicit OpenRecording(const Json& request, const TellProgress& tell) : recording(path_in(request, "file")) {
     recording.on_piece(now_and_then([tell] { tell(0); }));
     if (const fs::path file = path_in(request, "companion"); !file.empty()) companion.emplace(file);
+    if (const fs::path table = path_in(request, "several"); !table.empty()) several.emplace(table);
   }
-  const Recording* computed() const { return companion ? &*companion : nullptr; }
+  ComputedFiles computed() const { return {companion ? &*companion : nullptr, several ? &*several : nullptr}; }
 
   Recording recording;
   std::optional<Recording> companion;
+  std::optional<ModuliColumns> several;
 };
 
 ItemKind kind_in(const Json& request) {
-  for (const auto kind : {ItemKind::case_file, ItemKind::result, ItemKind::table})
+  for (const auto kind : {ItemKind::case_file, ItemKind::result, ItemKind::table, ItemKind::combined})
     if (request.value("kind", "") == name_of(kind)) return kind;
   return ItemKind::recording;
 }
@@ -75,12 +79,23 @@ void give_columns(const Json& request, const WorkReply& reply, const TellProgres
     }
 }
 
+ModuliOptions moduli_options(const ExtractOptions& options, const fs::path& folder) {
+  ModuliOptions wanted;
+  wanted.measuring = options.measuring;
+  wanted.table = folder;
+  return wanted;
+}
+
 /// Stays with its recording, tables and settings until nobody asks for an event any more.
 void inspect_events(const Json& request, const WorkReply& reply, const TellProgress& tell) {
   const OpenRecording open(request, tell);
   const ExtractOptions options = options_of_settings(request.at("settings"));
   const ModulusTables tables(options.table, options.section);
-  EventInspector inspector({open.recording, open.computed()}, options, tables);
+  std::optional<ModuliTable> combined;
+  if (const fs::path folder = path_in(request, "combined"); !folder.empty()) {
+    combined.emplace(moduli_options(options, folder));
+  }
+  EventInspector inspector({open.recording, open.computed(), combined ? &*combined : nullptr}, options, tables);
   while (const auto event = reply.next_request()) {
     reply.give(json_text(inspector.inspect(std::stoul(*event))));
     reply.end_answer();
@@ -101,6 +116,23 @@ std::optional<std::vector<std::size_t>> gate_in(const Json& request) {
   return request["gate"].get<std::vector<std::size_t>>();
 }
 
+/// Moduli of bulk and cortex beside the others, where a combined table is among the items: its lines and features are
+/// added to the report, or why there are none.
+void add_several_moduli(const Json& request, const ExtractOptions& options, const TellProgress& tell, Json& report) {
+  const fs::path folder = path_in(request, "combined"), target = path_in(request, "several");
+  if (folder.empty() || target.empty()) return;
+  try {
+    const ModuliOptions wanted = moduli_options(options, folder);
+    const ModuliTable table(wanted);
+    const ModuliSummary summary = moduli_of_recording(path_in(request, "file"), target, wanted, table, tell);
+    report["lines"].push_back(table.content.spec.identifier + ": " + in_one_line(summary));
+    for (const auto& warning : summary.warnings) report["lines"].push_back(warning);
+    for (const auto& name : ModuliColumns::names()) report["features"].push_back(name);
+  } catch (const UserError& error) {
+    report["lines"].push_back(error.what());
+  }
+}
+
 // The files are published here, as the command does: the process that reads may break.
 void compute_moduli(const Json& request, const WorkReply& reply) {
   const fs::path file = path_in(request, "file");
@@ -110,10 +142,15 @@ void compute_moduli(const Json& request, const WorkReply& reply) {
   check_against_tables(options, tables);
   const ExtractOutput output{path_in(request, "companion"), path_in(request, "events"), request.value("keep", false)};
   ExtractFiles files(output, !output.events.empty());
+  // Several moduli take by far longer than one.
+  const double share = path_in(request, "several").empty() ? 1 : 0.1;
   const auto work = [&](const TellProgress& tell) {
-    Json report = moduli_report(file, extract_recording(file, files, options, tables, tell));
+    const auto tell_first = [&](double done) { tell(share * done); };
+    const auto tell_second = [&](double done) { tell(share + (1 - share) * done); };
+    Json report = moduli_report(file, extract_recording(file, files, options, tables, tell_first));
     report["features"] = Json::array();
     for (const auto& column : computed_columns(Recording(files.companion()))) report["features"].push_back(column.name);
+    add_several_moduli(request, options, tell_second, report);
     reply.give(json_text(report));
   };
   reply.run_contained(file, work);

@@ -20,4 +20,9 @@ const nlohmann::ordered_json& object_member(const nlohmann::ordered_json& tree, 
   return *found;
 }
 
+void add_member(std::string& object, std::string_view name, std::string_view json) {
+  object.pop_back();
+  object.append(",\"").append(name).append("\":").append(json).append("}");
+}
+
 }  // namespace rheocyte

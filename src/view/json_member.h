@@ -1,4 +1,4 @@
-// Members of the JSON that a request brings.
+// Members of JSON objects: those that a request brings, and one more of an answer.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -11,5 +11,8 @@ std::string text_member(const nlohmann::ordered_json& tree, std::string_view nam
 
 /// An object; Refused (400) if it is not given or something else.
 const nlohmann::ordered_json& object_member(const nlohmann::ordered_json& tree, std::string_view name);
+
+/// Puts a member whose value is JSON already behind those of an object, without reading either.
+void add_member(std::string& object, std::string_view name, std::string_view json);
 
 }  // namespace rheocyte

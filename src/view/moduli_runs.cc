@@ -25,11 +25,12 @@ struct ModuliRuns::Run {
     thread = {};  // stops and joins
     std::error_code not_there;
     fs::remove(companion, not_there);
+    fs::remove(several, not_there);
   }
 
   Json settings;
-  std::string command;
-  fs::path companion;
+  std::string command, command_several;
+  fs::path companion, several;  ///< the latter empty without a combined table
 
   mutable std::mutex mutex;  ///< of what follows
   const char* state = "running";
@@ -54,13 +55,19 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options) {
   const auto run = std::make_shared<Run>();
   run->settings = all_settings(options);
   run->command = extract_command(options, found.place.path);
+  const fs::path combined = items_.combined();
+  if (!combined.empty()) run->command_several = moduli_command(options, found.place.path, combined);
   take_out(item);
   const std::scoped_lock lock(mutex_);
-  run->companion = items_.host().folder() / fmt::format("item-{}-{}_rheocyte.rtdc", item, ++started_);
+  const fs::path stem = items_.host().folder() / fmt::format("item-{}-{}", item, ++started_);
+  run->companion = stem.string() + "_rheocyte.rtdc";
+  if (!combined.empty()) run->several = stem.string() + "_moduli.tsv";
   const Json request{{"do", "moduli"},
                      {"file", found.place.path.string()},
                      {"settings", run->settings},
                      {"companion", run->companion.string()},
+                     {"combined", combined.string()},
+                     {"several", run->several.string()},
                      {"keep", true}};
   run->thread =
       std::jthread([this, &run = *run, request](const std::stop_token& stop) { compute(run, request, stop); });
@@ -135,6 +142,7 @@ Json ModuliRuns::state(std::size_t item) const {
   if (!run) return {{"state", "none"}, {"done", 0}};
   const std::scoped_lock lock(run->mutex);
   Json state{{"state", run->state}, {"done", run->done}, {"settings", run->settings}, {"command", run->command}};
+  if (!run->command_several.empty()) state["command_several"] = run->command_several;
   if (!run->error.empty()) state["error"] = run->error;
   state.update(run->report);
   return state;
@@ -150,6 +158,13 @@ fs::path ModuliRuns::companion(std::size_t item) const {
   if (!run) return {};
   const std::scoped_lock lock(run->mutex);
   return std::string_view(run->state) == "ready" ? run->companion : fs::path();
+}
+
+fs::path ModuliRuns::several(std::size_t item) const {
+  const auto run = run_of(item);
+  std::error_code error;
+  if (!run || companion(item).empty() || !fs::exists(run->several, error)) return {};
+  return run->several;
 }
 
 Json ModuliRuns::counts(std::size_t item) const {

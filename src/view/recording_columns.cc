@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <iterator>
 
 #include "case/user_error.h"
 
@@ -48,9 +49,9 @@ std::vector<ComputedColumn> computed_columns(const Recording& companion) {
   return columns;
 }
 
-RecordingColumns::RecordingColumns(const Recording& recording, const Recording* companion)
-    : recording_(recording), companion_(companion) {
-  if (companion) computed_ = computed_columns(*companion);
+RecordingColumns::RecordingColumns(const Recording& recording, const ComputedFiles& files)
+    : recording_(recording), files_(files) {
+  if (files.companion) computed_ = computed_columns(*files.companion);
   try {
     const double pixel_size_um = recording.metadata().number("imaging:pixel size").value_or(0);
     shapes_.emplace(recording, pixel_size_um);
@@ -64,13 +65,16 @@ std::vector<std::string> RecordingColumns::names() const {
   for (const char* implied : {"area_um", "deform", "area_ratio"})
     if (features_ && features_->has(implied) && !recording_.has_scalar(implied)) names.emplace_back(implied);
   std::ranges::sort(names);
-  std::erase_if(names, [this](const std::string& name) { return computed(name) != nullptr; });
+  std::erase_if(names, [this](const std::string& name) { return computed(name) || has_modulus(name); });
   for (const auto& column : computed_) names.push_back(column.name);
+  if (files_.moduli) std::ranges::copy(ModuliColumns::names(), std::back_inserter(names));
   return names;
 }
 
+bool RecordingColumns::has_modulus(const std::string& name) const { return files_.moduli && files_.moduli->has(name); }
+
 bool RecordingColumns::has(const std::string& name) const {
-  return computed(name) || (features_ ? features_->has(name) : recording_.has_scalar(name));
+  return computed(name) || has_modulus(name) || (features_ ? features_->has(name) : recording_.has_scalar(name));
 }
 
 const std::string* RecordingColumns::computed(const std::string& name) const {
@@ -79,7 +83,8 @@ const std::string* RecordingColumns::computed(const std::string& name) const {
 }
 
 void RecordingColumns::read(const std::string& name, std::size_t first, std::span<double> values) {
-  if (const std::string* feature = computed(name)) return companion_->read_scalar(*feature, first, values);
+  if (const std::string* feature = computed(name)) return files_.companion->read_scalar(*feature, first, values);
+  if (has_modulus(name)) return files_.moduli->read(name, first, values);
   if (!has(name))
     throw UserError(
         fmt::format("{}: has no feature {}.", one_line(recording_.file().string(), 300), one_line(name, 60)));

@@ -9,6 +9,7 @@
 #include "measurement/event_features.h"
 #include "measurement/recording.h"
 #include "measurement/shape_source.h"
+#include "view/moduli_columns.h"
 
 namespace rheocyte {
 
@@ -21,10 +22,16 @@ struct ComputedColumn {
 /// young_modulus_asymmetry, standard_error_asymmetry, shape_excess, odd_share.
 std::vector<ComputedColumn> computed_columns(const Recording& companion);
 
+/// What has been computed from a recording; null: nothing.
+struct ComputedFiles {
+  const Recording* companion = nullptr;   ///< of `rheocyte extract`
+  const ModuliColumns* moduli = nullptr;  ///< of `rheocyte moduli`
+};
+
 class RecordingColumns {
  public:
-  /// Both must outlive it; without a companion nothing has been computed.
-  explicit RecordingColumns(const Recording& recording, const Recording* companion = nullptr);
+  /// All must outlive it.
+  explicit RecordingColumns(const Recording& recording, const ComputedFiles& files = {});
 
   std::size_t events() const { return recording_.events(); }
   /// In the order of the alphabet, the computed ones at the end.
@@ -36,9 +43,10 @@ class RecordingColumns {
 
  private:
   const std::string* computed(const std::string& name) const;
+  bool has_modulus(const std::string& name) const;
 
   const Recording& recording_;
-  const Recording* companion_;
+  ComputedFiles files_;
   std::vector<ComputedColumn> computed_;
   std::optional<ShapeSource> shapes_;  ///< of recordings that have areas and deformations
   std::optional<EventFeatures> features_;

@@ -98,7 +98,9 @@ class RecordingAnswers {
   }
 
   Answer event(const Request& request) {
-    return {.body = items_.inspectors().inspect(recording_in(request), request.number("event"))};
+    Json recording = recording_in(request);
+    recording["combined"] = items_.combined().string();
+    return {.body = items_.inspectors().inspect(recording, request.number("event"))};
   }
 
   Answer picture(const Request& request, const std::string& feature) const {
@@ -163,6 +165,7 @@ class RecordingAnswers {
     const std::size_t number = request.number("item");
     return {{"file", items_.recording(number).place.path.string()},
             {"companion", runs_.companion(number).string()},
+            {"several", runs_.several(number).string()},
             {"settings", runs_.settings(number)}};
   }
 

@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int points_per_piece = 17, points_in_sample = 6000;
+constexpr int points_per_piece = 17;
 
 /// A meridian from the front pole to the rear one as the closed outline that the camera sees; x, r by rows.
 Eigen::MatrixX2d closed(const std::vector<Eigen::MatrixX2d>& pieces) {
@@ -147,7 +147,7 @@ Json ShownState::numbers() const {
 
 /// What the sampled fields say beside their numbers, and their numbers.
 struct ShownState::Fields {
-  explicit Fields(const ShownState&);
+  Fields(const ShownState&, int points);
   /// Those of four bytes come first, so that each begins at a multiple of its size.
   std::vector<FieldArray> arrays() const;
 
@@ -156,8 +156,8 @@ struct ShownState::Fields {
   Json about;
 };
 
-ShownState::Fields::Fields(const ShownState& shown)
-    : sampled(shown.result_.state.sample_fields(shown.result_.scales, points_in_sample)),
+ShownState::Fields::Fields(const ShownState& shown, int points)
+    : sampled(shown.result_.state.sample_fields(shown.result_.scales, points)),
       speed(sampled.velocity_m_per_s.rowwise().norm()),
       about{{"points", sampled.point_um.rows()},
             {"triangles", sampled.triangles.size() / 3},
@@ -186,9 +186,9 @@ std::vector<FieldArray> ShownState::Fields::arrays() const {
   return all;
 }
 
-std::string ShownState::fields() const {
+std::string ShownState::fields(int points) const {
   if (!has_fields()) return {};
-  const Fields fields(*this);
+  const Fields fields(*this, points);
   Json json = fields.about;
   for (const FieldArray& array : fields.arrays())
     json[Json::json_pointer(std::string("/") + array.name)] = base64(array.bytes);
@@ -197,7 +197,7 @@ std::string ShownState::fields() const {
 
 void ShownState::give_fields(const TakePiece& take) const {
   if (!has_fields()) return;
-  const Fields fields(*this);
+  const Fields fields(*this, usual_points);
   Json head = fields.about;
   std::string bytes;
   for (const FieldArray& array : fields.arrays()) {

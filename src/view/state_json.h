@@ -16,14 +16,15 @@ class ShownState {
   /// result.json's keys, with "contour" and "hull", closed, and in a square channel "contours" from both sides.
   nlohmann::ordered_json numbers() const;
 
-  /// "fields": values at points of straight triangles, as base64. One line; empty without a state.
-  std::string fields() const;
+  /// "fields": values at about so many points of straight triangles, as base64. One line; empty without a state.
+  std::string fields(int points = usual_points) const;
 
   /// The same fields without base64: one line that tells the arrays' names, types and counts, then their numbers one
   /// array after another, little endian. Nothing without a state.
   void give_fields(const TakePiece&) const;
 
  private:
+  static constexpr int usual_points = 6000;
   struct Fields;
   bool has_fields() const;
 

@@ -139,6 +139,13 @@ fs::path ViewItems::table(std::size_t number) const {
   return item.place.path;
 }
 
+fs::path ViewItems::combined() const {
+  const std::scoped_lock lock(mutex_);
+  const auto found = std::ranges::find_if(
+      items_, [](const Item& item) { return item.place.kind == ItemKind::combined && item.state == State::ready; });
+  return found == items_.end() ? fs::path() : found->place.path;
+}
+
 void ViewItems::label(std::size_t number, const Json& labels) {
   const Item before = at(number);
   const std::string condition = label_in(labels, "condition", before.condition),

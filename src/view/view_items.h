@@ -45,6 +45,8 @@ class ViewItems {
   Item recording(std::size_t number) const;
   /// The path of a table. UserError if the item is none.
   std::filesystem::path table(std::size_t number) const;
+  /// The folder of the first combined table that can be read; empty if there is none.
+  std::filesystem::path combined() const;
   /// Condition and replicate, as far as they are given.
   void label(std::size_t number, const nlohmann::ordered_json& labels);
 

@@ -250,7 +250,7 @@ TEST_F(CellRoutes, AWayInTimeComesLineByLine) {
   Json in_time = cell(8);
   in_time["time"] = {{"end_us", 40}, {"output_every_us", 10}, {"degree", 4}, {"accuracy", 1e-4}};
   in_time["cell"]["viscosity_mPas"] = 15;
-  const Answer answer = post("/api/evolve", in_time);
+  const Answer answer = post("/api/evolve", in_time, {{"fields", "1"}});
   ASSERT_TRUE(answer.give_pieces) << answer.body;
   std::string text;
   answer.give_pieces([&](std::string_view piece) {
@@ -264,6 +264,11 @@ TEST_F(CellRoutes, AWayInTimeComesLineByLine) {
   for (int i = 0; i < 5; ++i) {
     EXPECT_NEAR(steps[i]["time_s"].get<double>(), i * 1e-5, 1e-12);
     EXPECT_TRUE(steps[i]["velocity_m_per_s"].is_number()) << i;
+    const Json& fields = steps[i]["fields"];
+    const auto points = fields["points"].get<std::size_t>();
+    EXPECT_GT(points, 500u);
+    EXPECT_EQ(fields["region"].get<std::string>().size(), 4 * ((points + 2) / 3)) << "base64 of a byte each";
+    EXPECT_TRUE(fields["values"].contains("stress_Pa"));
   }
   EXPECT_LT(steps[0]["deformation"].get<double>(), 1e-6);
   EXPECT_EQ(steps[4]["progress"], 1);

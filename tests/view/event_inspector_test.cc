@@ -4,11 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
+#include "../table/invented_combined.h"
 #include "case/user_error.h"
 #include "extract/extract_recording.h"
+#include "extract/moduli_recording.h"
+#include "measurement/mask_from_outline.h"
 #include "measurement/recording_writer.h"
 #include "measurement/reference_files.h"
 #include "shape/outline_shape.h"
@@ -42,7 +48,7 @@ void expect_the_numbers_of_extract(const std::filesystem::path& file, const test
   const ExtractOptions options;
   const ModulusTables tables("");
   const Recording recording(file), companion(extracted(file, folder, options, tables));
-  RecordingColumns columns(recording, &companion);
+  RecordingColumns columns(recording, {.companion = &companion});
   EventInspector inspector({recording, &companion}, options, tables);
   for (std::size_t event = 0; event < std::min(most_events, recording.events()); ++event) {
     const Json told = inspector.inspect(event);
@@ -132,6 +138,93 @@ TEST(EventInspector, TellsWhyThereIsNoModulus) {
   EXPECT_NE(unknown["sentence"].get<std::string>().find("setup:channel width"), std::string::npos) << unknown;
   EXPECT_THROW(static_cast<void>(EventInspector({recording, nullptr}, ExtractOptions{}, tables).inspect(3)), UserError);
   EXPECT_THROW(static_cast<void>(picture_of_event(recording, "image", 0)), UserError);
+}
+
+/// Cells of one kind at the places of pixels, with the usual metadata and a viscosity of 15 mPa s.
+void write_combined_cells(const std::filesystem::path& file, const Eigen::MatrixX2d& outline_um, int cells) {
+  constexpr double pixel_um = 0.34;
+  const ImageSize size{120, 70};
+  std::vector<std::uint8_t> all, mask(size.pixels());
+  for (int i = 0; i < cells; ++i) {
+    const Eigen::RowVector2d middle(60 + 0.1 * i, 35 - 0.07 * i);
+    ASSERT_TRUE(fill_mask((outline_um / pixel_um).rowwise() + middle, size, mask));
+    all.insert(all.end(), mask.begin(), mask.end());
+  }
+  test::RecordingWriter writer(file);
+  test::write_usual_metadata(writer);
+  writer.integer("experiment:event count", cells);
+  writer.scalar("index", std::vector<double>(std::size_t(cells), 1));
+  writer.images("mask", all, size.height, size.width);
+}
+
+/// The table of rheocyte moduli by columns, without its remarks.
+std::vector<std::map<std::string, std::string>> rows_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::vector<std::map<std::string, std::string>> rows;
+  std::vector<std::string> names;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with('#')) continue;
+    std::istringstream cells(line);
+    std::vector<std::string> found;
+    for (std::string cell; std::getline(cells, cell, '\t');) found.push_back(cell);
+    if (names.empty()) {
+      names = found;
+      continue;
+    }
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      if (k == 0) rows.emplace_back();
+      rows.back()[names.at(k)] = found[k];
+    }
+  }
+  return rows;
+}
+
+TEST(EventInspector, SaysWhatModuliSaysByACombinedTable) {
+  const test::ScratchFolder folder;
+  const CombinedTable invented = test::whole_combined_table();
+  std::filesystem::create_directory(folder / "table");
+  std::ofstream(folder / "table/spec.toml") << to_toml(invented.spec);
+  std::ofstream(folder / "table" / combined_table_name(invented.spec)) << combined_table_csv(invented);
+  write_combined_cells(folder / "a.rtdc", test::invented_outline({7, 0.5, 0}, 1.2), 4);
+  ModuliOptions moduli;
+  moduli.table = folder / "table";
+  moduli.measuring.viscosity_mPas = 15;
+  const ModuliTable combined(moduli);
+  moduli_of_recording(folder / "a.rtdc", folder / "a.tsv", moduli, combined, [](double) {});
+  const auto rows = rows_of(folder / "a.tsv");
+  ExtractOptions options;
+  options.measuring = moduli.measuring;
+  const ModulusTables tables("");
+  const Recording recording(folder / "a.rtdc");
+  const ModuliColumns columns(folder / "a.tsv");
+  EventInspector inspector({recording, {}, &combined}, options, tables);
+  for (std::size_t event = 0; event < 4; ++event) {
+    const Json told = inspector.inspect(event)["combined"];
+    ASSERT_TRUE(told.is_object()) << event;
+    const auto& row = rows.at(event);
+    EXPECT_EQ(told["status"], row.at("status"));
+    for (const char* name : {"young_modulus_kPa", "cortex_modulus_mN_per_m", "stiffness_kPa", "chi_squared"}) {
+      const double wanted = std::stod(row.at(name));
+      EXPECT_NEAR(told[name].get<double>(), wanted, 1e-4 * wanted) << name << ", written with four to six digits";
+    }
+    std::array<double, 1> column{};
+    columns.read("stiffness_kPa", event, column);
+    EXPECT_EQ(column[0], std::stod(row.at("stiffness_kPa")));
+    columns.read("cortex_modulus_mN_per_m", event, column);
+    if (row.at("status") == "resolved")
+      EXPECT_EQ(column[0], std::stod(row.at("cortex_modulus_mN_per_m")));
+    else
+      EXPECT_TRUE(std::isnan(column[0])) << "moduli that are not told apart are none";
+    // E = 0.6 kPa and E2D = 4.2 mN/m: the cell that was drawn, by the pixels within 0.1 um.
+    EXPECT_NEAR(told["case"]["cell"]["radius_um"].get<double>(), 7, 0.1);
+    Eigen::MatrixX2d drawn(Eigen::Index(told["contour"]["x_um"].size()), 2);
+    for (Eigen::Index i = 0; i < drawn.rows(); ++i)
+      drawn.row(i) << told["contour"]["x_um"][std::size_t(i)].get<double>(),
+          told["contour"]["y_um"][std::size_t(i)].get<double>();
+    const OutlineShape shape = outline_shape(drawn), wanted = outline_shape(test::invented_outline({7, 0.5, 0}, 1.2));
+    EXPECT_NEAR(shape.area, wanted.area, 0.02 * wanted.area);
+    EXPECT_NEAR(shape.deformation, wanted.deformation, 0.1 * wanted.deformation);
+  }
 }
 
 TEST(FittedCell, HasTheAreaTheCentroidAndTheVolumeOfItsSphere) {

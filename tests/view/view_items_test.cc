@@ -51,15 +51,17 @@ TEST_F(Items, AreFoundInFoldersWithoutCompanionsOfRecordingsThatAreThere) {
   write_recording("data/a_rheocyte.rtdc");
   write_recording("data/day 2/a.rtdc");
   write_recording("data/alone_rheocyte.rtdc");
+  write("data/table/combined_XC-2D-26.csv", "");
   write("data/result/result.json", R"({"case": {"cell": {"radius_um": 7}}})");
   const std::array<fs::path, 2> paths{folder_ / "data", folder_ / "data/a.rtdc"};
   const auto places = item_places(paths);
-  ASSERT_EQ(places.size(), 4u);
+  ASSERT_EQ(places.size(), 5u);
   EXPECT_EQ(places[0].name, "a.rtdc");
   EXPECT_EQ(places[1].name, "alone_rheocyte.rtdc");
   EXPECT_EQ(places[2].name, "day 2/a.rtdc");
   EXPECT_EQ(places[3].name, "result");
   EXPECT_EQ(places[3].kind, ItemKind::result);
+  EXPECT_EQ(places[4].kind, ItemKind::combined);
 }
 
 TEST_F(Items, ThatAreDamagedOrMissingStayInTheListWithASentence) {

@@ -12,14 +12,18 @@ interface Row {
   lead?: boolean;
 }
 
+const power = (value: number) => value.toExponential(0).replace('e', ' × 10^');
+
 /** The program estimates the error of the deformation; of the others the page knows what the last refinement changed. */
-function rowsOf({ state, coarse }: model.Solved): Row[] {
+function changeOf({ state, coarse }: model.Solved, name: 'area_um2' | 'cell_velocity_m_per_s' | 'pressure_drop_Pa' | 'stability_margin'): string | null {
+  const moved = coarse ? Math.abs((state[name] ?? 0) - (coarse[name] ?? 0)) : 0;
+  return moved > 0 ? power(moved) : null;
+}
+
+function rowsOf(solved: model.Solved): Row[] {
+  const { state } = solved;
   const relative = state.estimated_error;
-  const power = (value: number) => value.toExponential(0).replace('e', ' × 10^');
-  const refined = (name: 'area_um2' | 'cell_velocity_m_per_s' | 'pressure_drop_Pa') => {
-    const moved = coarse ? Math.abs(state[name] - coarse[name]) : 0;
-    return moved > 0 ? power(moved) : null;
-  };
+  const refined = (name: Parameters<typeof changeOf>[1]) => changeOf(solved, name);
   const error = relative === null ? null : power(relative * Math.abs(state.deformation));
   return [
     { title: 'Deformation', value: state.deformation.toFixed(5), unit: '', error, lead: true },
@@ -46,14 +50,16 @@ function Measure({ row }: { row: Row }) {
 }
 
 /** How far the surface is from wrinkling: 1 at rest, 0 where smooth shapes end. */
-function Margin({ margin }: { margin: number | null }) {
+function Margin({ solved }: { solved: model.Solved }) {
+  const margin = solved.state.stability_margin;
   const low = margin !== null && margin < 0.1;
+  const error = changeOf(solved, 'stability_margin');
   return (
     <div class="measure margin" data-measure="Margin">
       <dt>Margin to the instability</dt>
       <dd>
         <span class="value">{margin === null ? '–' : margin.toFixed(3)}</span>
-        <span class="error">{low ? 'the surface is about to wrinkle' : ''}</span>
+        <span class="error">{low ? 'the surface is about to wrinkle' : error && `± ${raised(error)}`}</span>
         <meter min={0} max={1} low={0.1} optimum={1} value={Math.max(0, margin ?? 0)} aria-label="Margin to the instability" />
       </dd>
     </div>
@@ -101,7 +107,7 @@ export function Numbers() {
       {rowsOf(solved).map((row) => (
         <Measure key={row.title} row={row} />
       ))}
-      <Margin margin={solved.state.stability_margin} />
+      <Margin solved={solved} />
       <Accuracy solved={solved} />
     </dl>
   );

@@ -1,6 +1,7 @@
 // The middle: the picture, its colour bars and switches, and what the page says when a state does not exist.
 import { useMemo } from 'preact/hooks';
 import type { Outline } from '../api';
+import { fieldsOfText, type Fields } from '../draw/fields';
 import { Progress, useLasting } from '../shell/Progress';
 import { useStore } from '../shell/store';
 import { Channel, type Scene } from './Channel';
@@ -42,26 +43,33 @@ function useScene(): [Scene | null, Painted] {
   const values = useStore(model.values);
   const now = useStore(looks);
   const time = useStore(run);
-  const fields = solved?.fields ?? null;
-  const painted = useMemo(() => (fields ? paintsOf(fields, now) : nothing), [fields, now]);
   const step = time?.steps[time.shown];
+  const stepFields = useMemo(() => (step?.fields ? fieldsOfText(step.fields) : null), [step]);
+  const fields = step ? stepFields : (solved?.fields ?? null);
+  const painted = useMemo(() => (fields ? paintsOf(fields, now) : nothing), [fields, now]);
   const scene = useMemo((): Scene | null => {
-    if (step) return timeScene(step.contour, step.x_um, values, solved);
+    if (step) return timeScene({ ...step, fields }, painted, values, solved);
     return solved && sceneOf(solved, painted);
-  }, [step, solved, painted, values]);
-  return [scene, step ? nothing : painted];
+  }, [step, fields, solved, painted, values]);
+  return [scene, painted];
 }
 
-/** A step in time has a contour alone; the channel is that of the case. */
-function timeScene(contour: Outline, x_um: number, values: Record<string, unknown>, solved: model.Solved | null): Scene {
+interface ShownStep {
+  contour: Outline;
+  x_um: number;
+  fields: Fields | null;
+}
+
+/** Where there are many steps, some have a contour alone; the channel is that of the case. */
+function timeScene({ contour, x_um, fields }: ShownStep, painted: Painted, values: Record<string, unknown>, solved: model.Solved | null): Scene {
   const profile = values['channel.profile.R_um'] as number[] | undefined;
   const places = values['channel.profile.x_um'] as number[] | undefined;
   const width = Number(values['channel.width_um'] ?? 20);
   const radius_um = profile ? Math.max(...profile) : Number(values['channel.radius_um'] ?? 0.547 * width);
   const wall = profile && places ? { x_um: places.map((x) => x - x_um), r_um: profile } : undefined;
   return {
-    fields: null,
-    paints: [null, null],
+    fields,
+    paints: painted.paints,
     contour,
     hull: null,
     undeformed_um: Number(values['cell.radius_um']),

@@ -69,19 +69,20 @@ export function pause(): void {
   update({ playing: false });
 }
 
-/** Plays all steps within six seconds, from the shown one, or anew from the end. */
+/** Plays all steps, or those with fields, within six seconds, from the shown one, or anew from the end. */
 export function play(): void {
   const now = run.get();
   if (!now || now.steps.length < 2) return;
   const end_s = now.steps[now.steps.length - 1].time_s;
   const rate = end_s / 6;
   const from_s = now.shown >= now.steps.length - 1 ? 0 : now.steps[now.shown].time_s;
+  const withFields = now.steps.some((step) => step.fields);
   const began = performance.now();
   update({ playing: true });
   const tick = () => {
     const at_s = from_s + ((performance.now() - began) / 1000) * rate;
     const { steps } = run.get() ?? now;
-    const next = steps.findIndex((step) => step.time_s >= at_s);
+    const next = steps.findIndex((step) => step.time_s >= at_s && (step.fields || !withFields));
     if (next < 0) return update({ shown: steps.length - 1, playing: false });
     showStep(next);
     frame = window.requestAnimationFrame(tick);

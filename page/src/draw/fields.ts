@@ -1,5 +1,5 @@
 // The fields of an answer as arrays: a triangle mesh of the half plane and values at its points.
-import type { EncodedFields, FieldsHead } from '../api';
+import type { EncodedFields, FieldsHead, FieldsText } from '../api';
 
 export interface Fields {
   /** x, r of each point, um */
@@ -32,6 +32,25 @@ export function decodeFields({ head, bytes }: EncodedFields): Fields {
     surface: head.surface,
     wall: head.wall,
     surface3d: solid ? { places: solid, triangles: found.get('surface3d/index') as Uint32Array } : null,
+  };
+}
+
+function bytesOf(base64: string): ArrayBuffer {
+  const text = window.atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let k = 0; k < bytes.length; ++k) bytes[k] = text.charCodeAt(k);
+  return bytes.buffer;
+}
+
+export function fieldsOfText({ xy_um, index, region, values, surface, wall }: FieldsText): Fields {
+  return {
+    places: new Float32Array(bytesOf(xy_um)),
+    triangles: new Uint32Array(bytesOf(index)),
+    region: new Uint8Array(bytesOf(region)),
+    values: Object.fromEntries(Object.entries(values).map(([name, text]) => [name, new Float32Array(bytesOf(text))])),
+    surface,
+    wall,
+    surface3d: null,
   };
 }
 

@@ -81,7 +81,7 @@ function View({ chosen, detail }: ViewProps) {
         {shown.outline && detail.outline && <path class="event-outline" d={path(detail.outline)} />}
         {shown.model && detail.model && <path class="model-halo" d={path(detail.model)} />}
         {shown.model && detail.model && <path class="model-contour" d={path(detail.model)} />}
-        {shown.model && detail.model?.cortex && <path class="model-cortex" d={path(detail.model.cortex)} />}
+        {shown.model && detail.combined?.contour && <path class="model-cortex" d={path(detail.combined.contour)} />}
         <g class="scale-bar">
           <path d={`M${x + 0.05 * width} ${y + 0.93 * height}h${bar}`} />
           <text x={x + 0.05 * width} y={y + 0.905 * height} font-size={0.05 * height}>

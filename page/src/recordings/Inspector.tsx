@@ -1,6 +1,6 @@
 // One event: its image with outline and model, its features, its modulus or the reason why there is none.
 import { useEffect, useState } from 'preact/hooks';
-import { readEvent, type EventDetail } from '../api';
+import { readEvent, type CombinedCell, type EventDetail } from '../api';
 import { significant } from '../draw/numbers';
 import { openInCell } from '../shell/open_in_cell';
 import { Progress, useLasting } from '../shell/Progress';
@@ -66,6 +66,24 @@ function Modulus({ detail }: { detail: EventDetail }) {
   );
 }
 
+/** The cell with bulk and cortex that a combined table among the items has for this event. */
+function Cortex({ cell }: { cell: CombinedCell }) {
+  return (
+    <div class="cortex-cell">
+      <h3>
+        <svg class="sample" viewBox="0 0 20 8" aria-hidden="true">
+          <path class="model-cortex" d="M0 4H20" />
+        </svg>
+        With cortex ({cell.table})
+      </h3>
+      <p class="soft">{cell.sentence.replaceAll('+-', '±')}</p>
+      {cell.case && (
+        <button onClick={() => openInCell(cell.case!)}>Open in Cell with cortex</button>
+      )}
+    </div>
+  );
+}
+
 function Extras({ detail }: { detail: EventDetail }) {
   const features = Object.entries(detail.features).filter(
     (row): row is [string, number] => row[0] !== 'state' && typeof row[1] === 'number' && Number.isFinite(row[1]),
@@ -124,6 +142,7 @@ function Detail({ chosen, detail }: { chosen: Choice; detail: EventDetail }) {
           Open in Cell
         </button>
       )}
+      {detail.combined && <Cortex cell={detail.combined} />}
       <Extras detail={detail} />
     </>
   );

@@ -40,9 +40,9 @@ function Setting({ name, label, numeric }: (typeof fields)[number]) {
 }
 
 /** The command that gives the same numbers; null before there is one. */
-export function Command({ command }: { command: string }) {
+export function Command({ title, command }: { title: string; command: string }) {
   const active = useStore(gates);
-  const { options, polygons } = gateOptions(active);
+  const options = gateOptions(active);
   const whole = options === '' ? command : `${command} ${options}`;
   const copy = () =>
     void navigator.clipboard.writeText(whole).then(
@@ -52,13 +52,12 @@ export function Command({ command }: { command: string }) {
   return (
     <div class="command">
       <div class="row">
-        <h3>As a command</h3>
-        <button class="quiet" onClick={copy}>
+        <h3>{title}</h3>
+        <button class="quiet" aria-label={`Copy: ${title}`} onClick={copy}>
           Copy
         </button>
       </div>
       <code tabIndex={0}>{whole}</code>
-      {polygons > 0 && <p class="soft">Polygon gates have no option there; the export of the events holds them.</p>}
     </div>
   );
 }
@@ -108,7 +107,8 @@ export function ModuliPanel() {
           </ul>
         </details>
       )}
-      {run?.command && <Command command={run.command} />}
+      {run?.command && <Command title="As a command" command={run.command} />}
+      {run?.command_several && <Command title="With cortex" command={run.command_several} />}
     </section>
   );
 }

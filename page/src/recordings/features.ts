@@ -29,6 +29,8 @@ const known: Record<string, [string, string]> = {
   time: ['Time', 's'],
   volume: ['Volume', 'µm³'],
   young_modulus_asymmetry: ['E from the asymmetry', 'kPa'],
+  young_modulus_with_cortex_kPa: ['E beside a cortex', 'kPa'],
+  stiffness_kPa: ['Stiffness E + E2D/r0', 'kPa'],
   cortex_modulus_mN_per_m: ['Cortex modulus E2D', 'mN/m'],
   tension_mN_per_m: ['Cortex tension', 'mN/m'],
 };
@@ -65,6 +67,10 @@ const computed = new Set([
   'standard_error_asymmetry',
   'shape_excess',
   'odd_share',
+  'young_modulus_with_cortex_kPa',
+  'cortex_modulus_mN_per_m',
+  'tension_mN_per_m',
+  'stiffness_kPa',
 ]);
 /** What the program computes with the moduli; all else is in the file. */
 export const isComputed = (feature: string): boolean => computed.has(feature);

@@ -1,0 +1,87 @@
+#include "view/combined_cells.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "case/write_case.h"
+#include "view/event_json.h"
+#include "view/fitted_cell.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double coordinate(const ModuliEstimate& estimate, CellCoordinate which) { return estimate.cell(int(which)); }
+
+/// Whether the estimate is a cell of the table.
+bool is_cell(const ModuliEstimate& estimate) {
+  switch (estimate.status) {
+    case ModuliStatus::resolved:
+    case ModuliStatus::not_told_apart:
+    case ModuliStatus::poor_fit: return true;
+    default: return false;
+  }
+}
+
+Json numbers_of(const ModuliEstimate& e) {
+  Json j{{"status", name_of(e.status)}, {"sentence", sentence(e)}};
+  for (const auto& [modulus, name] :
+       {std::pair(Modulus::young, "young_modulus_kPa"), std::pair(Modulus::cortex, "cortex_modulus_mN_per_m"),
+        std::pair(Modulus::tension, "tension_mN_per_m")}) {
+    j[name] = number_or_null(e.value(modulus));
+    j[std::string("standard_error_") + name] = number_or_null(e.error(modulus));
+  }
+  j["stiffness_kPa"] = number_or_null(e.stiffness_kPa);
+  j["standard_error_stiffness_kPa"] = number_or_null(e.stiffness_error_kPa);
+  j["chi_squared"] = number_or_null(e.chi_squared);
+  return j;
+}
+
+}  // namespace
+
+CombinedCells::CombinedCells(const Recording& recording, const MeasuringOptions& measuring, const ModuliTable& table)
+    : recording_(recording),
+      table_(table),
+      settings_(extract_settings(measuring, PixelUse::fit, recording)),
+      outlines_(recording, settings_.pixel_size_um),
+      moduli_(settings_, {}, table) {}
+
+CombinedCell CombinedCells::at(std::size_t event) {
+  std::array<double, 1> viscosity_mPas{};
+  settings_.viscosities(recording_, event, viscosity_mPas);
+  const ModuliEstimate estimate = moduli_.fit(outlines_.features(event), viscosity_mPas[0]);
+  CombinedCell cell{numbers_of(estimate), {}};
+  cell.told["table"] = table_.content.spec.identifier;
+  cell.told["case"] = nullptr;
+  if (!is_cell(estimate)) return cell;
+  cell.told["case"] = case_of(estimate, viscosity_mPas[0]);
+  cell.outline = outline_of(estimate);
+  return cell;
+}
+
+/// The live solver's case of this cell, in the channel of the recording.
+Json CombinedCells::case_of(const ModuliEstimate& estimate, double viscosity_mPas) const {
+  ChannelFlow flow = settings_.conditions.flow;
+  flow.viscosity_mPas = viscosity_mPas;
+  flow.exponent = table_.simulated.exponent;
+  const double length = scale_factors(table_.simulated, flow).length;
+  const BranchPlace place{length * std::exp(coordinate(estimate, CellCoordinate::log_radius)),
+                          coordinate(estimate, CellCoordinate::cortex_share),
+                          coordinate(estimate, CellCoordinate::tension_ratio)};
+  const Json cell = to_json(case_at(table_.content.spec, place, estimate.stiffness_kPa));
+  return {{"channel", {{"width_um", flow.width_um}}}, {"flow", flow_json(flow)}, {"cell", cell["cell"]}};
+}
+
+Eigen::MatrixX2d CombinedCells::outline_of(const ModuliEstimate& estimate) const {
+  const CombinedState state = table_.between.at(estimate.cell);
+  std::array<double, mode_count> modes{};
+  for (int k = 0; k < mode_count; ++k) modes[std::size_t(k)] = state.value(first_mode_row + k);
+  const double area = scale_factors(table_.simulated, settings_.conditions.flow).area;
+  return outline_about_centroid(modes, area * std::exp(state.value(log_area_row)));
+}
+
+}  // namespace rheocyte
