@@ -165,6 +165,28 @@ TEST(HttpServer, FiftyClientsAtOnceAreAnsweredWhileOthersSayNothing) {
   EXPECT_EQ(good, 50);
 }
 
+TEST(HttpServer, SlowReadersHoldUpNobodyAndGetTheirAnswer) {
+  // More than sockets hold: the server waits for each of these readers.
+  const std::string piece(std::size_t{1} << 16U, 'x');
+  constexpr int pieces = 160;
+  Router router = echo();
+  router.add("GET", "/api/large", [&](const Request&) {
+    Answer answer;
+    answer.give_pieces = [&](const TakePiece& take) {
+      for (int i = 0; i < pieces && take(piece); ++i) continue;
+    };
+    return answer;
+  });
+  const Served served(router);
+  std::vector<std::unique_ptr<Wire>> slow;
+  for (int i = 0; i < 20; ++i) {
+    slow.push_back(std::make_unique<Wire>(served.port()));
+    slow.back()->send(request_text(served, "GET", "/api/large"));
+  }
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(status_of(ask(served, "GET", "/api/ping")), 200);
+  for (const auto& wire : slow) EXPECT_GT(wire->read_to_end().size(), pieces * piece.size());
+}
+
 TEST(HttpServer, AClientThatHangsUpIsNoticedWhileItsAnswerIsMade) {
   // The handler waits for nothing else.
   std::mutex mutex;
