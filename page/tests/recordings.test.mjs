@@ -92,7 +92,7 @@ test('"Open in Cell" hands the case of the event to the other workplace', { skip
   inPage(async (page) => {
     const { x, y } = await recordings.pixelIn(page, 0.4, 0.65);
     await page.mouse.click(x, y);
-    await page.getByRole('button', { name: 'Open in Cell' }).click();
+    await page.getByRole('button', { name: 'Open in Cell', exact: true }).click();
     await page.locator('.cell').waitFor();
     assert.match(new URL(page.url()).hash, /^#cell\?.*cell\.radius_um=5&cell\.bulk\.young_modulus_kPa=/);
   }),
