@@ -1,9 +1,9 @@
-// A recording of a million events in the browser: time to its first plot, frames of moving and stretching, a gate's
-// statistics. Against the mock, or the program with the recording that RECORDING names:
+// A recording of a million events in the browser: time to its first plot, frames of moving and stretching, the next event, a
+// gate's counts and statistics. Against the mock, or the program with the recording that RECORDING names:
 //     RHEOCYTE=build/rheocyte RECORDING=million.rtdc node bench/recordings.mjs
 import { resetRecordings } from '../mock/recording_routes.mjs';
 import { openBrowser } from '../tests/browser.mjs';
-import { drawn } from '../tests/recordings_page.mjs';
+import { computeModuli, drawn } from '../tests/recordings_page.mjs';
 import { program, startTarget } from '../tests/target.mjs';
 
 const events = Number(process.env.EVENTS ?? 1e6);
@@ -41,6 +41,33 @@ async function gate(value) {
   input.dispatchEvent(new Event('change', { bubbles: true }));
   while (count() === before) await new Promise((done) => setTimeout(done));
   return { time: performance.now() - start, says: count() };
+}
+
+/** From a key to the next event until what is known of it is shown: milliseconds. */
+async function nextEvent() {
+  const shown = () => document.querySelector('.event-features')?.textContent;
+  const before = shown();
+  const start = performance.now();
+  document.querySelector('[data-plot="1"]').dispatchEvent(new KeyboardEvent('keydown', { key: 'n', bubbles: true }));
+  while (!shown() || shown() === before) await new Promise((done) => setTimeout(done));
+  return performance.now() - start;
+}
+
+/** From a changed limit until the statistics of the moduli have followed on the screen: milliseconds. */
+async function statistics(value) {
+  const input = document.querySelector('[aria-label="Least Area"]');
+  input.value = String(value);
+  const row = () => document.querySelector('.statistics tr[data-item="0"]')?.textContent ?? '';
+  const start = performance.now();
+  input.dispatchEvent(new Event('change', { bubbles: true }));
+  [...document.querySelectorAll('[role=tab]')].find((tab) => tab.textContent.startsWith('Statistics')).click();
+  while (!/\d\.\d/.test(row()) || row() === window.rowBefore) {
+    if (performance.now() - start > 5000) throw new Error('the statistics did not follow within 5 s');
+    await new Promise((done) => setTimeout(done));
+  }
+  window.rowBefore = row();
+  await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+  return performance.now() - start;
 }
 
 const summary = (times) => {
@@ -81,6 +108,22 @@ await page.getByLabel('Limit').selectOption('area_um');
 const gates = [];
 for (let k = 0; k < 15; ++k) gates.push(await page.evaluate(gate, 40 + 2 * k));
 console.log(`a gate's counts on the screen: ${summary(gates.map(({ time }) => time))}; last: ${gates.at(-1).says}`);
+if (program) {
+  const events_ms = [];
+  for (let k = 0; k < 15; ++k) events_ms.push(await page.evaluate(nextEvent));
+  console.log(`the next event with all that is known of it: ${summary(events_ms)}`);
+  const start = performance.now();
+  await page.getByRole('tab', { name: 'Statistics' }).click();
+  await computeModuli(page);
+  console.log(`moduli: ${(performance.now() - start).toFixed(0)} ms`);
+  const times = [];
+  for (let k = 0; k < 15; ++k) {
+    await page.getByRole('tab', { name: /^Gates/ }).click();
+    await page.getByLabel('Least Area').waitFor();
+    times.push(await page.evaluate(statistics, 45 + k));
+  }
+  console.log(`a gate's statistics of the moduli on the screen: ${summary(times)}`);
+}
 await close();
 await target.stop();
 process.exit(0);
