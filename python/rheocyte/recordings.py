@@ -2,6 +2,7 @@
 
 import io
 import os
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from rheocyte.arrays import number, numbers, positive
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
+from rheocyte.paths import path
 from rheocyte.progress import progress_bar
 from rheocyte.specs import read_spec
 from rheocyte.stiffness_tables import place_of_table
@@ -42,8 +44,8 @@ def extract(
     standard_error_asymmetry_kPa (docs/real-cells.md). attrs: units, table, settings, warnings, shapes (what is said
     about the shapes of all events, in sentences).
 
-    UserError for what is wrong with the recording, naming what it lacks. HDF5 is known to break down on some damaged
-    files: for files of unknown origin use the command, which reads them in a process of its own.
+    UserError for what is wrong with the recording, naming what it lacks. It is read in a child of this process, for HDF5 is
+    known to break down on some damaged files.
     """
     import pandas
 
@@ -83,7 +85,7 @@ def moduli(recording, table, *, fit_tension=False, only_figure=False, progress=N
 
     options = native.ModuliOptions()
     options.measuring = _measuring(measuring, "moduli")
-    options.table = os.fspath(table)
+    options.table = path(table, "table")
     options.fit_tension, options.only_figure = bool(fit_tension), bool(only_figure)
     descriptor = os.memfd_create("rheocyte-moduli")  # memory, not a file
     try:
@@ -116,12 +118,12 @@ def time_course(recordings, table, contraction_um, *, progress=None, **measuring
     import pandas
 
     several = recordings if isinstance(recordings, (list, tuple)) else [recordings]
-    places = np.atleast_1d(np.asarray(contraction_um, float))
+    places = np.atleast_1d(numbers(contraction_um, "contraction_um"))
     if len(places) not in (1, len(several)):
         raise UserError(f"contraction_um has {len(places)} places for {len(several)} recordings; give one, or one each.")
     each = [number(place, "contraction_um") for place in np.broadcast_to(places, len(several))]
     with progress_bar(progress) as tell:
-        text, lines = native.time_course([_path(recording) for recording in several], os.fspath(table), each,
+        text, lines = native.time_course([_path(recording) for recording in several], path(table, "table"), each,
                                          _measuring(measuring, "time_course"), tell)
     frame = pandas.read_csv(io.StringIO(text), sep="\t", comment="#")
     frame.attrs.update(settings=[line[2:] for line in text.splitlines() if line.startswith("# ")], population=lines)
@@ -139,7 +141,7 @@ def synth(spec, file, *, replace=False, progress=None, **overrides):
     The features userdef1 to userdef6 (userdef9 with recording.places_um) hold the true values. Returns the number of
     events. UserError names a wrong key.
     """
-    place = Path(os.fspath(file))
+    place = Path(path(file, "file"))
     text, name, settings = read_spec(spec, overrides, "synth")
     if place.suffix != ".rtdc":
         raise UserError(f"{place}: recordings have names that end in .rtdc.")
@@ -163,7 +165,10 @@ def features(masks, pixel_size_um):
     """
     import pandas
 
-    array = np.asarray(masks)
+    try:
+        array = np.asarray(masks)
+    except ValueError as error:
+        raise UserError(f"masks is no array: {error}.") from error
     if array.dtype.kind not in "biu" or array.ndim not in (2, 3) or 0 in array.shape[-2:]:
         raise UserError(f"masks has the type {array.dtype} and the shape {array.shape}; wanted are booleans or whole "
                         "numbers (events, rows, columns).")
@@ -174,10 +179,7 @@ def features(masks, pixel_size_um):
 
 
 def _path(recording):
-    path = getattr(recording, "path", recording)
-    if not isinstance(path, (str, os.PathLike)):
-        raise UserError(f"{recording!r} is no path of a recording; give that of an .rtdc file.")
-    return os.fspath(path)
+    return path(getattr(recording, "path", recording), "the recording")
 
 
 _NUMBERS = ("channel_width_um", "flow_rate_ul_s", "pixel_size_um", "viscosity_mPas")
@@ -188,6 +190,9 @@ def _measuring(given, function):
     options = native.MeasuringOptions()
     least, greatest = (given.pop(name, None) or {} for name in ("least", "greatest"))
     polygons = given.pop("polygons", None) or {}
+    for limits in (least, greatest, polygons):
+        if not isinstance(limits, Mapping):
+            raise UserError(f"limits of features are {limits!r}; give a dictionary, such as {{\"area_ratio\": 1.05}}.")
     options.set_gates(*([f"{feature}={number(limit, feature)!r}" for feature, limit in limits.items()]
                         for limits in (least, greatest)),
                       [f"{','.join(features)}={_corners(corners)}" for features, corners in polygons.items()])

@@ -11,6 +11,7 @@ import numpy as np
 from rheocyte.cases import Case
 from rheocyte.errors import NoStateError, UserError
 from rheocyte.native_module import native
+from rheocyte.progress import told_to
 
 _DEFAULT_MEMORY_MB = 256
 
@@ -49,7 +50,7 @@ class Session:
         """As rheocyte.solve, from a kept state if one is near; the answer is the same up to rounding and tolerance."""
         if not isinstance(case, Case) or overrides:
             case = Case(case, **overrides)
-        result = Result(self._native.solve(case._values, progress), case)
+        result = Result(self._native.solve(case._values, told_to(progress)), case)
         if check and not result.converged:
             raise NoStateError(result)
         return result

@@ -11,6 +11,7 @@ import numpy as np
 from rheocyte.arrays import equally_long, number, numbers, positive
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
+from rheocyte.paths import path
 from rheocyte.progress import progress_bar
 from rheocyte.specs import read_spec
 
@@ -26,19 +27,44 @@ class Moduli(NamedTuple):
     state: np.ndarray  # int8, the names are in rheocyte.STATES: 0 valid, 8 regularised, else why there is no modulus
 
 
+class Shapes(NamedTuple):
+    """One value per event, arrays of the shape of the events; NaN where something is missing."""
+
+    expected: np.ndarray  # inertia ratio of the table's cell of this area and deformation
+    excess: np.ndarray  # measured - expected inertia ratio
+    standard_error: np.ndarray  # of the excess, by pixels
+    odd_share: np.ndarray  # share of the deformation that no ellipse of this inertia ratio has
+
+
+class TextFiles(NamedTuple):
+    """Paths of a table in dclab's format."""
+
+    table: Path  # for dclab.features.emodulus.load.register_lut
+    lines: Path  # for dclab.isoelastics.Isoelastics
+
+
 def table_names():
     """Names of the tables that come with the package."""
     return sorted(native.table_files())
 
 
+def text_tables():
+    """TextFiles of the tables that come with the package, by their names; dclab takes the paths in place of names."""
+    folders = {name: Path(grid).parent for name, grid in sorted(native.table_files().items())}
+    files = {name: TextFiles(folder / f"lut_{name}.txt", folder / f"iso_{name}-area_um-deform.txt")
+             for name, folder in folders.items()}
+    return {name: texts for name, texts in files.items() if texts.table.is_file()}
+
+
 def place_of_table(name):
     """The file of a table of the dclab that is installed for this interpreter; any other name as it is."""
+    wanted = path(name, "the table")
     dclab = importlib.util.find_spec("dclab")
-    if dclab and dclab.origin and os.sep not in os.fspath(name):
-        file = Path(dclab.origin).parent / "features" / "emodulus" / f"lut_{os.fspath(name)}.txt"
+    if dclab and dclab.origin and os.sep not in wanted:
+        file = Path(dclab.origin).parent / "features" / "emodulus" / f"lut_{wanted}.txt"
         if file.is_file():
             return str(file)
-    return os.fspath(name)
+    return wanted
 
 
 def table(spec, folder, *, jobs=None, progress=None, **overrides):
@@ -54,8 +80,9 @@ def table(spec, folder, *, jobs=None, progress=None, **overrides):
     key, or says that the folder belongs to another spec. Ctrl-C keeps the branches that are complete.
     """
     text, name, settings = read_spec(spec, overrides, "table")
+    place, threads = path(folder, "folder"), 0 if jobs is None else positive(jobs, "jobs")
     with progress_bar(progress) as tell:
-        for sentence in native.compute_table(text, name, settings, os.fspath(folder), jobs or 0, tell):
+        for sentence in native.compute_table(text, name, settings, place, int(threads), tell):
             warnings.warn(sentence, stacklevel=2)
     if any(Path(folder).glob("grid_*.cbor")) or any(Path(folder).glob("lut_*.txt")):
         return Table(folder)
@@ -66,13 +93,13 @@ def viscosity(medium, *, channel_width_um, flow_rate_ul_s, temperature_C, model=
     """Effective viscosity (mPa s) of a measurement buffer at the wall of the square channel.
 
     medium          "CellCarrier", "0.49% MC-PBS", "CellCarrierB", "0.83% MC-PBS", "water", ...
-    temperature_C   a number or an array; the result has its shape
+    temperature_C   a number or an array; the result has its shape, NaN at temperatures of events that cannot be
     model           "buyukurganci-2022" (doi 10.1039/D2SM01515C) or "herold-2017" (arXiv:1704.00572); water has its own
 
     UserError for a medium or a model that is not known.
     """
     width, rate = positive(channel_width_um, "channel_width_um"), positive(flow_rate_ul_s, "flow_rate_ul_s")
-    celsius = numbers(temperature_C, "temperature_C")
+    celsius = _celsius(temperature_C)
     found = native.Buffer(str(medium), str(model)).viscosity(width, rate, celsius.ravel())
     return found.reshape(celsius.shape) if celsius.ndim else float(found[0])
 
@@ -89,8 +116,6 @@ class Table:
     """
 
     def __init__(self, name="LE-2D-26"):
-        if not isinstance(name, (str, os.PathLike)):
-            raise UserError(f"Table: {name!r} is no name of a table and no path.")
         self._native = native.Table(place_of_table(name))
         self._origin = self._native.origin()
 
@@ -124,11 +149,29 @@ class Table:
         shape = area.shape
         area, deformation = np.atleast_1d(area), np.atleast_1d(deformation)
         conditions = self._conditions(channel_width_um, flow_rate_ul_s, pixel_size_um, correct_area)
-        mPas = _viscosity(viscosity_mPas, medium, temperature_C, viscosity_model, channel_width_um, flow_rate_ul_s)
+        name, values, buffer = _liquid(viscosity_mPas, medium, temperature_C, viscosity_model)
         arrays = {"area_um2": area, "deform": deformation}
-        equally_long(**arrays, **({"viscosity": mPas} if mPas.size != 1 else {}))
-        found = self._native.modulus(area, deformation, mPas, conditions)
+        equally_long(**arrays, **({name: values} if values.size != 1 else {}))
+        found = self._native.modulus(area, deformation, values, buffer, conditions)
         return Moduli(*(column.reshape(shape) for column in found))
+
+    def shapes(self, area_um2, deform, inertia_ratio, *, channel_width_um, pixel_size_um=0.0, correct_area=True):
+        """The inertia ratios of events against those of the table's cells (docs/theory-extract.md, sec. "Shapes").
+
+        area_um2, deform, inertia_ratio     as measured, arrays of one length or numbers; the ratio of the convex hull
+                                            (inert_ratio_cvx)
+        pixel_size_um, correct_area         as modulus
+
+        Returns Shapes: expected, excess, standard_error, odd_share. UserError for arrays that do not fit, and for
+        tables that do not know the shapes of their cells (published ones).
+        """
+        columns = {"area_um2": area_um2, "deform": deform, "inertia_ratio": inertia_ratio}
+        arrays = {name: numbers(values, name) for name, values in columns.items()}
+        shape = arrays["area_um2"].shape
+        arrays = {name: np.atleast_1d(array) for name, array in arrays.items()}
+        equally_long(**arrays)
+        conditions = self._conditions(channel_width_um, self._origin["flow_rate_ul_s"], pixel_size_um, correct_area)
+        return Shapes(*(column.reshape(shape) for column in self._native.shapes(*arrays.values(), conditions)))
 
     def lines(self, levels_kPa=None, *, count=11, channel_width_um=None, flow_rate_ul_s=None, viscosity_mPas=None,
               pixel_size_um=0.0):
@@ -141,7 +184,7 @@ class Table:
         levels = [] if levels_kPa is None else np.atleast_1d(numbers(levels_kPa, "levels_kPa")).tolist()
         if not all(np.isfinite(level) and level > 0 for level in levels):
             raise UserError(f"levels_kPa is {levels_kPa!r}; give moduli above 0.")
-        if not 1 <= count <= 1000:
+        if not 1 <= number(count, "count") <= 1000:
             raise UserError(f"count is {count!r}; give a number of lines from 1 to 1000.")
         return self._native.lines(levels, int(count), self._seen(channel_width_um, flow_rate_ul_s, viscosity_mPas,
                                                                  pixel_size_um))
@@ -169,13 +212,24 @@ class Table:
         return f"<Table {self._origin['description']}>"
 
 
-def _viscosity(mPas, medium, temperature_C, model, width, rate):
-    """One value, or one per event."""
+def _liquid(mPas, medium, temperature_C, model):
+    """Name and values of what tells the viscosity, one or one per event, and the buffer if they are its temperatures."""
     if mPas is not None:
         if medium is not None or temperature_C is not None:
             raise UserError("viscosity_mPas and medium exclude each other; give one of them.")
-        return np.atleast_1d(numbers(mPas, "viscosity_mPas"))
+        given = np.atleast_1d(numbers(mPas, "viscosity_mPas"))
+        if (given <= 0).any():
+            raise UserError(f"viscosity_mPas holds {given.min():g}; it must be above 0 (NaN: unknown).")
+        return "viscosity_mPas", given, None
     if medium is None or temperature_C is None:
         raise UserError("the viscosity is missing; give viscosity_mPas, or medium and temperature_C.")
-    return np.atleast_1d(viscosity(medium, channel_width_um=width, flow_rate_ul_s=rate, temperature_C=temperature_C,
-                                   model=model))
+    return "temperature_C", np.atleast_1d(_celsius(temperature_C)), native.Buffer(str(medium), str(model))
+
+
+def _celsius(temperature_C):
+    """Of a buffer in a channel. Of many events some may be wrong, which then have no modulus; a single number may not."""
+    celsius = numbers(temperature_C, "temperature_C")
+    low, high = native.possible_temperatures_C
+    if celsius.size == 1 and not low <= celsius.reshape(())[()] <= high:
+        raise UserError(f"temperature_C is {float(celsius.reshape(()))}; a buffer in a channel has {low:g} to {high:g}.")
+    return celsius

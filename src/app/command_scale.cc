@@ -1,5 +1,6 @@
 // `rheocyte scale TABLE`
-// A look-up table or isoelasticity lines for another channel, flow rate or viscosity.
+// A look-up table or isoelasticity lines for another channel, flow rate or viscosity; of the tables that come with the
+// program, the text files themselves.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,9 @@
 #include "case/case_keys.h"
 #include "case/joined.h"
 #include "case/user_error.h"
+#include "extract/find_table.h"
+#include "infer/read_modulus_map.h"
+#include "infer/text_of_map.h"
 #include "store/build_info.h"
 #include "store/own_file.h"
 #include "table/scale.h"
@@ -27,12 +31,25 @@ struct ScaleOptions {
   std::filesystem::path table, output;
   std::optional<double> channel_width_um, flow_rate_ul_s, viscosity_mPas;
   std::string identifier;
-  bool force = false, inexact = false;
+  bool lines = false, force = false, inexact = false;
 };
 
+bool is_text(const std::filesystem::path& table) {
+  return table.extension() != ".cbor" && !std::filesystem::is_directory(table);
+}
+
+TableText read_text(const ScaleOptions& options, const std::filesystem::path& table) {
+  if (is_text(table)) {
+    if (options.lines)
+      throw UserError(fmt::format("{}: --lines makes isoelasticity lines of rheocyte's own tables (grid_*.cbor).",
+                                  one_line(table.string(), 300)));
+    return read_table_text(table);
+  }
+  const auto map = read_modulus_map(table);
+  return options.lines ? lines_of_map(*map) : text_of_map(*map);
+}
+
 ChannelFlow wanted_flow(const ScaleOptions& options, const TableText& table) {
-  if (!options.channel_width_um && !options.flow_rate_ul_s && !options.viscosity_mPas)
-    throw UserError("rheocyte: give at least one of --channel-width-um, --flow-rate-ul-s and --viscosity-mPas.");
   const auto own = channel_flow_of(table);
   return {options.channel_width_um.value_or(own.width_um), options.flow_rate_ul_s.value_or(own.rate_ul_s),
           options.viscosity_mPas.value_or(own.viscosity_mPas)};
@@ -47,19 +64,28 @@ void rename(TableText& table, const ChannelFlow& to, const std::string& wanted) 
                       : fmt::format("{}-{:g}um-{:g}uls-{:g}mPas", own, to.width_um, to.rate_ul_s, to.viscosity_mPas);
 }
 
-void run(const ScaleOptions& options) {
-  const TableText table = read_table_text(options.table);
+TableText rescaled(const ScaleOptions& options, const TableText& table, const std::string& name) {
   const auto to = wanted_flow(options, table);
-  std::error_code error;
-  if (std::filesystem::equivalent(options.table, options.output, error))
-    throw UserError(fmt::format("{}: is the table itself; give another name with -o.", options.output.string()));
   const auto doubts = doubts_of_scaling(table, to);
   if (!doubts.empty() && !options.inexact)
-    throw UserError(fmt::format("{}: the scaling would not be exact: {}; --inexact scales nevertheless.",
-                                options.table.string(), joined(doubts, "; ")));
+    throw UserError(fmt::format("{}: the scaling would not be exact: {}; --inexact scales nevertheless.", name,
+                                joined(doubts, "; ")));
   TableText result = scaled(table, to, version);
   rename(result, to, options.identifier);
-  write_own_file(options.output, to_text(result), table_mark, foreign(options.force));
+  return result;
+}
+
+void run(const ScaleOptions& options) {
+  const auto file = find_table(options.table.string(), "scale");
+  const bool scales = options.channel_width_um || options.flow_rate_ul_s || options.viscosity_mPas;
+  if (is_text(file) && !scales)
+    throw UserError("rheocyte: give at least one of --channel-width-um, --flow-rate-ul-s and --viscosity-mPas.");
+  std::error_code error;
+  if (std::filesystem::equivalent(file, options.output, error))
+    throw UserError(fmt::format("{}: is the table itself; give another name with -o.", options.output.string()));
+  TableText table = read_text(options, file);
+  if (scales) table = rescaled(options, table, file.string());
+  write_own_file(options.output, to_text(table), table_mark, foreign(options.force));
 }
 
 std::string check_identifier(const std::string& name) {
@@ -73,11 +99,16 @@ std::string check_identifier(const std::string& name) {
 void add_scale_command(CLI::App& app, int&) {
   auto* command = app.add_subcommand("scale", "look-up table for another channel, flow rate or viscosity");
   auto options = std::make_shared<ScaleOptions>();
-  command->add_option("TABLE", options->table, "look-up table or isoelasticity lines in dclab's format")->required();
+  command
+      ->add_option(
+          "TABLE", options->table,
+          "look-up table or isoelasticity lines in dclab's format, or a table of rheocyte: its name or grid_*.cbor")
+      ->required();
   const std::string otherwise = "that of the table";
   add_key_option(*command, case_key("channel.width_um"), options->channel_width_um, otherwise);
   add_key_option(*command, case_key("flow.rate_ul_per_s"), options->flow_rate_ul_s, otherwise);
   add_key_option(*command, case_key("flow.viscosity_mPas"), options->viscosity_mPas, otherwise);
+  command->add_flag("--lines", options->lines, "isoelasticity lines of a table of rheocyte in place of its rows");
   command->add_option("--identifier", options->identifier, "name of the new table; default: from the old one")
       ->check(CLI::Validator(check_identifier, "NAME"));
   command->add_option("-o,--output", options->output, "file for the new table")->type_name("FILE.txt")->required();

@@ -65,7 +65,9 @@ void EventShapes::read_outlines(std::size_t first, std::size_t count) {
   const int direction = direction_ < 0 ? -1 : 1;
   const bool stored = inertia_ratio_from_ == stored_ratio;
   for (std::size_t i = 0; i < count; ++i) {
-    const ShapeVector features = outlines_->features(first + i);
+    const PixelContour contour = outlines_->outline(first + i);
+    const ShapeVector features = outlines_->features(contour);
+    if (measured_pixel_um_ > 0) columns_.outlines[i] = measurer_.measure(contour, measured_pixel_um_);
     columns_.mode_2[i] = features(second_mode);
     columns_.mode_3[i] = direction * features(third_mode);
     if (!stored) columns_.inertia_ratio[i] = 1 / std::sqrt(features(int(ShapeFeature::moment_ratio)));
@@ -88,6 +90,7 @@ const ShapeColumns& EventShapes::compute(std::size_t first, const MeasuredEvents
   if (inertia_ratio_from_ == stored_ratio) recording_.read_scalar(stored_ratio, first, c.inertia_ratio);
   if (outlines_) {
     for (auto* column : {&c.mode_2, &c.mode_3, &c.modulus_kPa, &c.standard_error_kPa}) column->resize(count);
+    if (measured_pixel_um_ > 0) c.outlines.resize(count);
     c.states.assign(count, ModulusState::no_data);
     c.modulus_kPa.assign(count, no_value);
     read_outlines(first, count);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "infer/shape_map.h"
+#include "measurement/contour_features.h"
 #include "measurement/event_outlines.h"
 #include "measurement/recording.h"
 
@@ -17,6 +18,7 @@ struct ShapeColumns {
   std::vector<ShapeExcess> excess;
   std::vector<double> modulus_kPa, standard_error_kPa;  ///< from the asymmetry; empty without contours and masks
   std::vector<ModulusState> states;
+  std::vector<ContourFeatures> outlines;  ///< empty unless measure_outlines() was called
 };
 
 class EventShapes {
@@ -37,6 +39,9 @@ class EventShapes {
   /// What the recording lacks, and what therefore is not known; empty if nothing.
   const std::string& missing() const { return missing_; }
 
+  /// From now on the features of the outlines are told, too, where contours or masks are read. The size is above 0.
+  void measure_outlines(double pixel_size_um) { measured_pixel_um_ = pixel_size_um; }
+
   /// Of the events from `first` on, until the next call.
   const ShapeColumns& compute(std::size_t first, const MeasuredEvents& events);
 
@@ -48,6 +53,8 @@ class EventShapes {
   MeasuringConditions conditions_;
   const ShapeMap* map_;
   std::optional<EventOutlines> outlines_;
+  double measured_pixel_um_ = 0;  ///< 0: outlines are not measured
+  ContourMeasurer measurer_;
   std::string inertia_ratio_from_, missing_;
   int direction_ = 0;
   ShapeColumns columns_;

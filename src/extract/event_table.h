@@ -8,6 +8,7 @@
 
 #include "infer/modulus_state.h"
 #include "infer/shape_map.h"
+#include "measurement/contour_features.h"
 #include "store/file_writer.h"
 
 namespace rheocyte {
@@ -20,6 +21,7 @@ struct EventBlock {
   std::span<const ShapeExcess> shape;                          ///< empty if nothing is known of the shapes
   std::span<const double> mode_3;                              ///< empty, as the next two, without contours and masks
   std::span<const double> asymmetry_kPa, asymmetry_error_kPa;  ///< Young's modulus from the asymmetry
+  std::span<const ContourFeatures> outlines;                   ///< empty unless they are measured, too
 };
 
 /// Columns beside those that every table of events has.

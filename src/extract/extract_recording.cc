@@ -7,6 +7,7 @@
 
 #include "case/user_error.h"
 #include "extract/companion_origin.h"
+#include "extract/companion_shapes.h"
 #include "extract/event_table.h"
 #include "extract/extraction.h"
 #include "measurement/companion_file.h"
@@ -74,11 +75,11 @@ void describe(CompanionFile& companion, const fs::path& folder, const Recording&
   add_origin(companion, "extract", recording, folder, extraction.lines());
 }
 
-/// Both files of a recording, block by block. The companion holds area and deformation, too: the recording may only
-/// imply them, or be moved away.
+/// Both files of a recording, block by block. The companion holds area, deformation, volume and inertia ratios, too:
+/// the recording may only imply them, or be moved away.
 class Writers {
  public:
-  Writers(const ExtractFiles& files, const Recording& recording, const Extraction& extraction)
+  Writers(const ExtractFiles& files, const Recording& recording, Extraction& extraction)
       : companion_(files.companion(), recording, program()), columns_(own_columns(extraction)) {
     if (files.for_ourselves())
       for (auto& column : columns_) column.name = column.role;
@@ -88,6 +89,7 @@ class Writers {
     companion_.add_feature("emodulus");
     add_shape(recording, "area_um", extraction.shapes().area_from());
     add_shape(recording, "deform", extraction.shapes().deformation_from());
+    if (!files.for_ourselves()) shapes_.emplace(companion_, recording, extraction);
     for (const auto& column : columns_)
       if (!column.name.empty()) companion_.add_feature(column.name);
     if (!files.events()) return;
@@ -102,6 +104,7 @@ class Writers {
     companion_.write("emodulus", first, block.young_modulus_kPa);
     companion_.write("area_um", first, block.area_um2);
     companion_.write("deform", first, block.deformation);
+    if (shapes_) shapes_->write(first, block);
     for (const auto& column : columns_)
       if (!column.name.empty()) companion_.write(column.name, first, values_of(column, block));
     if (table_) table_->append(block);
@@ -145,6 +148,7 @@ class Writers {
   }
 
   CompanionFile companion_;
+  std::optional<CompanionShapes> shapes_;
   std::vector<OwnColumn> columns_;
   std::optional<EventTable> table_;
   std::vector<double> values_;

@@ -42,6 +42,8 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
       gates_(options.measuring.gates),
       features_(recording, shapes_) {
   gates_.check(features_, recording.file().string());
+  moduli_.reserve(recording.events());
+  if (table_.is_own()) standard_errors_.reserve(recording.events());
 }
 
 void Extraction::Columns::resize(std::size_t count) {
@@ -76,8 +78,8 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   if (!gates_.empty()) shut_out(first);
   collect();
   const auto& s = c.shapes;
-  return {c.area,   c.deformation, c.viscosity, c.modulus,     c.standard_error,
-          c.states, s.excess,      s.mode_3,    s.modulus_kPa, s.standard_error_kPa};
+  return {c.area,   c.deformation, c.viscosity,          c.modulus, c.standard_error, c.states, s.excess,
+          s.mode_3, s.modulus_kPa, s.standard_error_kPa, s.outlines};
 }
 
 void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events) {

@@ -27,6 +27,8 @@ class Extraction {
   const ExtractSettings& settings() const { return settings_; }
   const ShapeSource& shapes() const { return shapes_; }
   const EventShapes& event_shapes() const { return event_shapes_; }
+  /// From now on blocks hold the features of the outlines, too, where contours or masks are read.
+  void measure_outlines() { event_shapes_.measure_outlines(settings_.pixel_size_um); }
   /// The number of events that are best computed at once.
   std::size_t block() const;
   /// Of events [first, first + count), until the next call. All events in turn, so that the summary is that of all.

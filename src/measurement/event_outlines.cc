@@ -22,8 +22,7 @@ EventOutlines::EventOutlines(const Recording& recording, double pixel_um) : reco
   block_ = recording.image_rows_per_chunk("mask");
 }
 
-ShapeVector EventOutlines::features(std::size_t event) {
-  const PixelContour contour = outline(event);
+ShapeVector EventOutlines::features(const PixelContour& contour) const {
   if (contour.size() < fewest_points) return ShapeVector::Constant(no_value);
   return shape_of_contour(contour, pixel_um_);
 }

@@ -16,7 +16,8 @@ class EventOutlines {
   EventOutlines(const Recording& recording, double pixel_um);
 
   /// NaN where there is no cell. UserError if the data are damaged.
-  ShapeVector features(std::size_t event);
+  ShapeVector features(std::size_t event) { return features(outline(event)); }
+  ShapeVector features(const PixelContour& contour) const;
   /// Empty where there is no cell. UserError if the data are damaged.
   PixelContour outline(std::size_t event);
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
+#include <tuple>
+#include <type_traits>
 
 #include "case/user_error.h"
 #include "extract/extraction.h"
@@ -20,7 +20,9 @@
 #include "numeric/no_value.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/contained_reading.h"
 #include "python/interruptible.h"
+#include "python/shared_columns.h"
 #include "shape/radius_modes.h"
 #include "store/build_info.h"
 #include "store/whole_file.h"
@@ -32,14 +34,6 @@ namespace rheocyte {
 namespace py = pybind11;
 
 namespace {
-
-using Progress = std::optional<std::function<void(double)>>;
-
-void tell(const Progress& progress, double share) {
-  if (!progress) return;
-  const py::gil_scoped_acquire acquired;
-  (*progress)(share);
-}
 
 struct Events {
   std::vector<double> area, deformation, viscosity, modulus, standard_error;
@@ -70,100 +64,118 @@ struct Events {
   }
 };
 
-Events events_of(const std::filesystem::path& file, const ExtractOptions& options, const Progress& progress,
-                 const std::atomic<bool>& stop) {
+Events events_of(const std::filesystem::path& file, const ExtractOptions& options, const TellProgress& tell_progress) {
   const ModulusTables tables(options.table, options.section);
   const Recording recording(file);
   Extraction extraction(recording, options, tables);
   Events events;
   const std::size_t all = recording.events(), block = extraction.block();
-  for (std::size_t first = 0; first < all && !stop; first += block) {
+  for (std::size_t first = 0; first < all; first += block) {
     const std::size_t count = std::min(block, all - first);
     events.append(extraction.compute(first, count));
-    tell(progress, static_cast<double>(first + count) / static_cast<double>(all));
+    tell_progress(static_cast<double>(first + count) / static_cast<double>(all));
   }
   events.summary = extraction.summary();
   events.lines = extraction.lines();
   return events;
 }
 
-py::tuple extract(const std::filesystem::path& file, const ExtractOptions& options, const Progress& progress) {
-  check_measuring_options(options.measuring);
-  Events e = interruptible([&](const std::atomic<bool>& stop) { return events_of(file, options, progress, stop); });
-  py::dict columns, attributes;
-  columns["area_um2"] = array_of(std::move(e.area));
-  columns["deformation"] = array_of(std::move(e.deformation));
-  columns["viscosity_mPas"] = array_of(std::move(e.viscosity));
-  columns["young_modulus_kPa"] = array_of(std::move(e.modulus));
-  columns["standard_error_kPa"] = array_of(std::move(e.standard_error));
-  columns["state"] = array_of(std::move(e.state));
+/// What is said about the columns.
+struct Told {
+  std::uint64_t events = 0;
+  std::vector<SharedColumn> columns;
+  std::vector<std::string> shapes, settings, warnings;
+  std::string table;
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.events, s.columns, s.shapes, s.settings, s.warnings, s.table);
+  }
+};
+
+Told written(const Events& e, const SharedColumns& memory) {
+  Told told{e.area.size(), {}, shape_lines(e.summary.shapes), e.lines, e.summary.warnings, e.summary.table};
+  const auto write = [&](const char* name, const auto& values) {
+    constexpr bool is_bytes = std::is_same_v<decltype(values), const std::vector<std::int8_t>&>;
+    memory.write(values);
+    told.columns.push_back({name, is_bytes});
+  };
+  write("area_um2", e.area);
+  write("deformation", e.deformation);
+  write("viscosity_mPas", e.viscosity);
+  write("young_modulus_kPa", e.modulus);
+  write("standard_error_kPa", e.standard_error);
+  write("state", e.state);
   if (std::isfinite(e.summary.shapes.excess.value)) {
-    columns["shape_excess"] = array_of(std::move(e.shape_excess));
-    columns["shape_excess_error"] = array_of(std::move(e.shape_excess_error));
-    columns["elongated"] = array_of(std::move(e.elongated));
-    columns["odd_share"] = array_of(std::move(e.odd_share));
+    write("shape_excess", e.shape_excess);
+    write("shape_excess_error", e.shape_excess_error);
+    write("elongated", e.elongated);
+    write("odd_share", e.odd_share);
   }
   if (!e.mode_3.empty()) {
-    columns["mode_3"] = array_of(std::move(e.mode_3));
-    columns["young_modulus_asymmetry_kPa"] = array_of(std::move(e.asymmetry));
-    columns["standard_error_asymmetry_kPa"] = array_of(std::move(e.asymmetry_error));
+    write("mode_3", e.mode_3);
+    write("young_modulus_asymmetry_kPa", e.asymmetry);
+    write("standard_error_asymmetry_kPa", e.asymmetry_error);
   }
-  attributes["shapes"] = shape_lines(e.summary.shapes);
-  attributes["table"] = e.summary.table;
-  attributes["settings"] = e.lines;
-  attributes["warnings"] = e.summary.warnings;
-  return py::make_tuple(columns, attributes);
+  return told;
+}
+
+py::tuple extract(const std::filesystem::path& file, const ExtractOptions& options, const PythonProgress& progress) {
+  check_measuring_options(options.measuring);
+  const SharedColumns memory;
+  const auto work = [&](const TellProgress& tell_progress) {
+    return written(events_of(file, options, tell_progress), memory);
+  };
+  const Told told =
+      interruptible([&](const std::atomic<bool>& stop) { return read_contained(file, work, progress, stop); });
+  py::dict attributes;
+  attributes["shapes"] = told.shapes;
+  attributes["table"] = told.table;
+  attributes["settings"] = told.settings;
+  attributes["warnings"] = told.warnings;
+  return py::make_tuple(memory.arrays(told.columns, told.events), attributes);
 }
 
 // The lines of `rheocyte moduli`, into a file that may be a piece of memory.
 std::vector<std::string> moduli(const std::filesystem::path& recording, const std::filesystem::path& target,
-                                const ModuliOptions& options, const Progress& progress) {
+                                const ModuliOptions& options, const PythonProgress& progress) {
   check_measuring_options(options.measuring);
-  struct Stopped {};
-  return interruptible([&](const std::atomic<bool>& stop) -> std::vector<std::string> {
-    try {
-      const ModuliTable table(options);
-      return moduli_of_recording(recording, target, options, table,
-                                 [&](double share) {
-                                   tell(progress, share);
-                                   if (stop) throw Stopped{};
-                                 })
-          .warnings;
-    } catch (const Stopped&) {
-      return {};
-    }
+  return interruptible([&](const std::atomic<bool>& stop) {
+    const ModuliTable table(options);
+    const auto work = [&](const TellProgress& tell_progress) {
+      return moduli_of_recording(recording, target, options, table, tell_progress).warnings;
+    };
+    return read_contained(recording, work, progress, stop);
   });
 }
 
 // The file of `rheocyte time-course` as text, and what it says in sentences; a contraction for each recording.
 py::tuple time_course(const std::vector<std::filesystem::path>& recordings, const std::filesystem::path& place,
                       const std::vector<double>& contraction_um, const MeasuringOptions& measuring,
-                      const Progress& progress) {
+                      const PythonProgress& progress) {
   check_measuring_options(measuring);
-  struct Stopped {};
   const auto report = interruptible([&](const std::atomic<bool>& stop) -> CourseReport {
-    try {
-      const DynamicTable table = read_dynamic_table(place);
-      CourseTable courses(table);
-      for (std::size_t i = 0; i < recordings.size(); ++i) {
-        const auto tell_share = [&](double share) {
-          tell(progress, (double(i) + share) / double(recordings.size()));
-          if (stop) throw Stopped{};
-        };
-        courses.add(read_course_events(recordings[i], measuring, tell_share), recordings[i].string(),
-                    contraction_um[i]);
-      }
-      return courses.report();
-    } catch (const Stopped&) {
-      return {};
+    const DynamicTable table = read_dynamic_table(place);
+    CourseTable courses(table);
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+      const auto work = [&](const TellProgress& tell_progress) {
+        return read_course_events(recordings[i], measuring, [&](double share) {
+          tell_progress((double(i) + share) / double(recordings.size()));
+        });
+      };
+      const auto events = read_contained(recordings[i], work, progress, stop);
+      if (stop) return {};
+      courses.add(events, recordings[i].string(), contraction_um[i]);
     }
+    return courses.report();
   });
   return py::make_tuple(report.text, report.lines);
 }
 
 // The file appears whole or not at all; the caller has looked whether one is there. The number of its events.
 std::size_t synth(const std::string& text, const std::string& name, const std::vector<std::string>& settings,
-                  const std::filesystem::path& place, const Progress& progress) {
+                  const std::filesystem::path& place, const PythonProgress& progress) {
   SynthSpec spec = parse_synth_spec(text, name, settings);
   if (!spec.table.empty()) spec.table = std::filesystem::path(name).parent_path() / spec.table;
   const RecordingProvenance provenance{std::string("rheocyte ") + version, text};

@@ -1,4 +1,5 @@
 // Tables of moduli: events in numpy arrays, lines, and the viscosity of buffers.
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -11,10 +12,13 @@
 #include "case/user_error.h"
 #include "extract/find_table.h"
 #include "extract/modulus_tables.h"
+#include "extract/recording_temperature.h"
 #include "extract/shipped_tables.h"
 #include "infer/isoelasticity_lines.h"
 #include "infer/read_modulus_map.h"
+#include "infer/shape_map.h"
 #include "measurement/viscosity.h"
+#include "numeric/no_value.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
@@ -53,21 +57,45 @@ std::span<Number> written(py::array_t<Number>& array) {
   return {array.mutable_data(), static_cast<std::size_t>(array.size())};
 }
 
+/// As Buffer::viscosity; NaN at temperatures that no buffer in a channel has.
+void viscosities_at(const Buffer& buffer, const ChannelFlow& flow, std::span<const double> celsius,
+                    std::span<double> mPas) {
+  buffer.viscosity(flow, celsius, mPas);
+  for (std::size_t i = 0; i < celsius.size(); ++i)
+    if (!is_possible_temperature(celsius[i])) mPas[i] = no_value;
+}
+
+/// What tells the viscosity of each event, or of all: itself (mPa s), or the temperature (degC) of a buffer.
+struct LiquidOfEvents {
+  const Buffer* buffer;
+  std::span<const double> values;
+
+  void viscosities(const ChannelFlow& flow, std::span<const double> part, std::span<double> mPas) const {
+    if (buffer)
+      viscosities_at(*buffer, flow, part, mPas);
+    else
+      std::ranges::copy(part, mPas.begin());
+  }
+};
+
 void estimate(const ModulusMap& map, const MeasuringConditions& conditions, const MeasuredEvents& events,
-              const Estimates& found, const std::atomic<bool>& stop) {
+              const LiquidOfEvents& liquid, const Estimates& found, const std::atomic<bool>& stop) {
   const std::size_t all = events.size.size();
   std::array<ModulusState, block> states{};
   std::array<double, block> viscosity{};
-  const bool one_viscosity = events.viscosity_mPas.size() == 1;
-  if (one_viscosity) viscosity.fill(events.viscosity_mPas.front());
+  const bool is_one = liquid.values.size() == 1;
+  if (is_one) {
+    liquid.viscosities(conditions.flow, liquid.values, std::span(viscosity).first(1));
+    viscosity.fill(viscosity.front());
+  }
   for (std::size_t first = 0; first < all && !stop; first += block) {
     const std::size_t count = std::min(block, all - first);
-    map.estimate(
-        conditions,
-        {events.size.subspan(first, count), events.deformation.subspan(first, count),
-         one_viscosity ? std::span<const double>(viscosity).first(count) : events.viscosity_mPas.subspan(first, count)},
-        {found.modulus_kPa.subspan(first, count), found.standard_error_kPa.subspan(first, count),
-         std::span(states).first(count)});
+    if (!is_one) liquid.viscosities(conditions.flow, liquid.values.subspan(first, count), viscosity);
+    map.estimate(conditions,
+                 {events.size.subspan(first, count), events.deformation.subspan(first, count),
+                  std::span(viscosity).first(count)},
+                 {found.modulus_kPa.subspan(first, count), found.standard_error_kPa.subspan(first, count),
+                  std::span(states).first(count)});
     std::ranges::transform(std::span(states).first(count), found.state.begin() + static_cast<std::ptrdiff_t>(first),
                            [](ModulusState state) { return static_cast<std::int8_t>(state); });
   }
@@ -77,14 +105,14 @@ MeasuringConditions conditions_of(double width_um, double rate_ul_s, double pixe
   return {{.width_um = width_um, .rate_ul_s = rate_ul_s}, pixel_size_um, correct_area};
 }
 
-// The arrays are equally long (or there is a single viscosity): the caller has looked.
-py::tuple modulus(const HeldTable& table, const Numbers& area, const Numbers& deformation, const Numbers& viscosity,
-                  const MeasuringConditions& conditions) {
-  const MeasuredEvents events{span_of(area), span_of(deformation), span_of(viscosity)};
+// The arrays are equally long (or `liquid` is a single number, see LiquidOfEvents): the caller has looked.
+py::tuple modulus(const HeldTable& table, const Numbers& area, const Numbers& deformation, const Numbers& liquid,
+                  const Buffer* buffer, const MeasuringConditions& conditions) {
+  const MeasuredEvents events{span_of(area), span_of(deformation), {}};
   Columns columns(events.size.size());
   const Estimates found{written(columns.modulus_kPa), written(columns.standard_error_kPa), written(columns.state)};
   interruptible([&](const std::atomic<bool>& stop) {
-    estimate(*table.map, conditions, events, found, stop);
+    estimate(*table.map, conditions, events, {buffer, span_of(liquid)}, found, stop);
     return 0;
   });
   return py::make_tuple(columns.modulus_kPa, columns.standard_error_kPa, columns.state);
@@ -93,6 +121,24 @@ py::tuple modulus(const HeldTable& table, const Numbers& area, const Numbers& de
 py::array_t<double> seen(const ModulusMap& map, const MeasuringConditions& conditions,
                          std::span<const PlanePoint> points) {
   return array_of_points(as_measured(points, map.origin().flow, conditions, &map), &PlanePoint::x, &PlanePoint::y);
+}
+
+// Inertia ratios against those of the table's cells; the caller has looked at the lengths, as above.
+py::tuple shapes(const HeldTable& table, const Numbers& area, const Numbers& deformation, const Numbers& ratio,
+                 const MeasuringConditions& conditions) {
+  const ShapeMap* const map = table.map->shapes();
+  if (!map)
+    throw UserError(fmt::format("The table {} does not know the shapes of its cells; take one of rheocyte's own.",
+                                table.map->origin().identifier));
+  std::vector<ShapeExcess> found(span_of(area).size());
+  map->compare(conditions, {span_of(area), span_of(deformation), {}}, span_of(ratio), found);
+  const auto column = [&](double ShapeExcess::*member) {
+    std::vector<double> values(found.size());
+    std::ranges::transform(found, values.begin(), member);
+    return array_of(std::move(values));
+  };
+  return py::make_tuple(column(&ShapeExcess::expected), column(&ShapeExcess::excess), column(&ShapeExcess::error),
+                        column(&ShapeExcess::odd_share));
 }
 
 // Moduli in the measurement, whose viscosity must be given.
@@ -141,7 +187,7 @@ Buffer buffer_of(const std::string& medium_name, const std::string& model_name) 
 
 py::array_t<double> viscosities(const Buffer& buffer, double width_um, double rate_ul_s, const Numbers& celsius) {
   py::array_t<double> result(celsius.size());
-  buffer.viscosity({.width_um = width_um, .rate_ul_s = rate_ul_s}, span_of(celsius), written(result));
+  viscosities_at(buffer, {.width_um = width_um, .rate_ul_s = rate_ul_s}, span_of(celsius), written(result));
   return result;
 }
 
@@ -167,6 +213,7 @@ void bind_tables(py::module_& module) {
       .def_static("for_exponent", &table_for)
       .def("origin", &origin)
       .def("modulus", &modulus)
+      .def("shapes", &shapes)
       .def("lines", &lines)
       .def("support",
            [](const HeldTable& t, const MeasuringConditions& c) { return seen(*t.map, c, support(*t.map)); });
@@ -175,6 +222,7 @@ void bind_tables(py::module_& module) {
       .def("flow_exponent", &Buffer::flow_exponent)
       .def("viscosity", &viscosities);
   module.def("table_files", &table_files);
+  module.attr("possible_temperatures_C") = py::make_tuple(lowest_temperature_C, highest_temperature_C);
   module.attr("state_names") =
       std::vector<std::string_view>(names_of_modulus_states.begin(), names_of_modulus_states.end());
 }

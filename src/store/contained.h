@@ -48,7 +48,9 @@ ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgr
 
 /// Forks, runs `work` in the child, where it may tell its progress, and returns what became of it; the result comes
 /// back as bytes (store/bytes.h). The child prints nothing; it does not see SIGINT, SIGTERM and SIGHUP and is killed
-/// when the parent has got one. `on_progress` is called in the parent. The process must have a single thread.
+/// when the parent has got one. `on_progress` is called in the parent. Of several threads only
+/// the one that calls is there in the child: the work must not need what others may hold, such as an interpreter's
+/// lock.
 template <class Work>
 auto run_contained(const Work& work, const Containment& limits, const TellProgress& on_progress) {
   using Result = std::invoke_result_t<const Work&, const TellProgress&>;

@@ -85,19 +85,12 @@ std::vector<LutPoint> points_by_volume(const LookupTable& table) {
   return points;
 }
 
-// As many areas as there are radii, by equal steps of the root, and the ends of the branches if the table ends there.
 std::vector<LutPoint> points_by_area(const LookupTable& table) {
   const TableSpec& spec = table.spec;
-  const double first = std::sqrt(spec.min_area_um2), last = std::sqrt(spec.max_area_um2);
-  const auto levels = deformation_levels(spec);
   std::vector<LutPoint> points;
-  for (int i = 0; i < spec.radii; ++i) {
-    const double root = first + (last - first) * i / (spec.radii - 1);
-    const double area = std::clamp(root * root, spec.min_area_um2, spec.max_area_um2);
-    for (const double level : levels_of_column(levels, std::size_t(i)))
-      if (const auto answer = table.between.by_area(area, level); answer.reason == NoAnswer::none)
-        points.push_back({{area, level, answer.stiffness}, answer.regularised});
-  }
+  for (const auto& [area, level] : text_places(spec))
+    if (const auto answer = table.between.by_area(area, level); answer.reason == NoAnswer::none)
+      points.push_back({{area, level, answer.stiffness}, answer.regularised});
   for (const auto& row : table.rows)
     if (row.is_end && spec.bending_beyond_kBT == 0)
       points.push_back({{row.at(Measure::area_um2), row.at(Measure::deformation), row.state.stiffness}, false});
@@ -122,6 +115,8 @@ bool is_inside(const TableSpec& spec, const TableRow& row) {
          d <= spec.max_deformation;
 }
 
+std::string LookupTable::program() const { return fmt::format("{}{}", table_mark.substr(2), version); }
+
 int LookupTable::regularised_rows() const {
   return int(std::ranges::count_if(rows, [](const TableRow& row) { return row.state.regularised; }));
 }
@@ -135,6 +130,18 @@ std::vector<double> deformation_levels(const TableSpec& spec) {
   return levels;
 }
 
+std::vector<TextPlace> text_places(const TableSpec& spec) {
+  const double first = std::sqrt(spec.min_area_um2), last = std::sqrt(spec.max_area_um2);
+  const auto levels = deformation_levels(spec);
+  std::vector<TextPlace> places;
+  for (int i = 0; i < spec.radii; ++i) {
+    const double root = first + (last - first) * i / (spec.radii - 1);
+    const double area = std::clamp(root * root, spec.min_area_um2, spec.max_area_um2);
+    for (const double level : levels_of_column(levels, std::size_t(i))) places.push_back({area, level});
+  }
+  return places;
+}
+
 LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBranch> branches,
                               std::string_view version) {
   LookupTable table{spec, std::string(version), by_radius(branches), TableInterpolation(spec, branches), {}};
@@ -144,25 +151,28 @@ LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBran
   return table;
 }
 
-TableText empty_text(const LookupTable& table, Abscissa abscissa) {
-  const bool shell = stiffness_unit(table.spec) != "kPa";
+TableText empty_text(const TableSpec& spec, const std::string& program, bool has_regularised) {
   TableText text;
   text.comments = {
-      fmt::format("{}{}: stationary shapes of cells in the channel of RT-DC.", table_mark.substr(2), table.version),
+      fmt::format("{}: stationary shapes of cells in the channel of RT-DC.", program),
       "Area and deformation are those of the convex contour that a camera sees, without any pixelation.",
-      fmt::format("Estimated relative error of the deformation at most {:g} at each computed state.",
-                  table.spec.accuracy)};
-  if (shell)
+      fmt::format("Estimated relative error of the deformation at most {:g} at each computed state.", spec.accuracy)};
+  if (stiffness_unit(spec) != "kPa")
     text.comments.push_back("The third column is the modulus E2D of the cortex in mN/m, whatever its name says.");
-  if (table.spec.base.flow.law == LiquidLaw::power_law)
+  if (spec.base.flow.law == LiquidLaw::power_law)
     text.comments.push_back("The liquid is shear-thinning; fluid_viscosity is its effective viscosity at the wall.");
-  if (table.regularised_rows() > 0) {
+  if (has_regularised) {
     text.comments.push_back(
         "Beyond the curve regularised_beyond_* the bare surface is unstable; the rows there have a");
-    text.comments.push_back(fmt::format("bending stiffness of {:g} kBT.", table.spec.bending_beyond_kBT));
+    text.comments.push_back(fmt::format("bending stiffness of {:g} kBT.", spec.bending_beyond_kBT));
   }
   text.comments.emplace_back();
-  text.metadata = table_metadata(table.spec, table.version);
+  text.metadata = table_metadata(spec, program);
+  return text;
+}
+
+TableText empty_text(const LookupTable& table, Abscissa abscissa) {
+  TableText text = empty_text(table.spec, table.program(), table.regularised_rows() > 0);
   add_regularisation(text.metadata, table);
   text.abscissa = abscissa;
   return text;

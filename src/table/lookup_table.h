@@ -30,6 +30,7 @@ struct LookupTable {
   TableInterpolation between;  ///< the branches
   std::vector<TableRow> rows;
 
+  std::string program() const;  ///< with its version
   int regularised_rows() const;
 };
 
@@ -42,14 +43,23 @@ bool is_inside(const TableSpec& spec, const TableRow& row);
 /// Deformations of the rows: rows_per_radius values of equal ratio from the least to the greatest.
 std::vector<double> deformation_levels(const TableSpec& spec);
 
+/// Area (um^2) and deformation.
+struct TextPlace {
+  double area_um2, deformation;
+};
+
+/// Where a text table has its rows, as far as there is a modulus: on as many columns of equal area as there are radii,
+/// by equal steps of the root, at the same deformations in every other of them and halfway between in the rest.
+/// Programs put triangles between the points: upright columns keep these well-shaped at small deformations, and
+/// staggered ones leave no diagonal to rounding.
+std::vector<TextPlace> text_places(const TableSpec&);
+
 /// The rows inside the ranges of the spec, and the end of each bare branch. Regularised states are left out unless the
 /// spec asks for them. The branches must outlive the table; equal branches in any order give equal tables.
 LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBranch> branches, std::string_view version);
 
-/// The table in dclab's format, by columns of equal size, at the same deformations in every other of them and halfway
-/// between in the rest: programs put triangles between the points, upright columns keep these well-shaped at small
-/// deformations, and staggered ones leave no diagonal to rounding. For areas the stiffness is interpolated between the
-/// branches.
+/// The table in dclab's format, by columns of equal size. For areas they are text_places(), and the stiffness is
+/// interpolated between the branches; for volumes they are the radii, staggered likewise.
 std::string lut_text(const LookupTable&, Abscissa);
 
 /// All measures of all rows with the shortest digits that give back the same numbers.
@@ -62,7 +72,8 @@ std::string end_of_branch_csv(const LookupTable&);
 /// well: deformation of both at one radius and stiffness, and the relative change; one line for each held state.
 std::string regularisation_csv(const LookupTable&);
 
-/// Comments and metadata that all text files of a table share.
+/// Comments and metadata that all text files of a table share. `program`: that computed it, with its version.
+TableText empty_text(const TableSpec&, const std::string& program, bool has_regularised);
 TableText empty_text(const LookupTable&, Abscissa);
 
 struct TableFile {

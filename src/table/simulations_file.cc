@@ -92,7 +92,7 @@ void write_simulation(const Hdf5Handle& group, const TableRow& row) {
 
 // Numbers and texts only: the field's programs convert every attribute to one of them.
 void write_metadata(const Hdf5Handle& root, const LookupTable& table) {
-  auto metadata = table_metadata(table.spec, table.version);
+  auto metadata = table_metadata(table.spec, table.program());
   metadata["fluid_viscosity"] = metadata.at("fluid_viscosity").get<double>() * Pas_per_mPas;
   metadata["fluid_viscosity_unit"] = "Pa s";
   for (const auto& [key, value] : metadata.items())

@@ -63,13 +63,17 @@ std::vector<TableRow> line_at(const LookupTable& table, double stiffness) {
   return line;
 }
 
-std::string lines_text(const LookupTable& table, std::span<const double> levels, Abscissa abscissa) {
-  TableText text = empty_text(table, abscissa);
-  text.comments.insert(text.comments.begin() + 1, "Lines of equal stiffness.");
+TableText header_of_lines(TableText table) {
+  table.comments.insert(table.comments.begin() + 1, "Lines of equal stiffness.");
   auto metadata = nlohmann::ordered_json::object();
-  for (const auto& [key, value] : text.metadata.items())
+  for (const auto& [key, value] : table.metadata.items())
     metadata[key == table_identifier_key ? lines_identifier_key : key] = value;
-  text.metadata = std::move(metadata);
+  table.metadata = std::move(metadata);
+  return table;
+}
+
+std::string lines_text(const LookupTable& table, std::span<const double> levels, Abscissa abscissa) {
+  TableText text = header_of_lines(empty_text(table, abscissa));
   const bool by_area = abscissa == Abscissa::area;
   if (!by_area) text.metadata[lines_identifier_key] = table.spec.identifier + "-volume";
   for (const double level : levels)

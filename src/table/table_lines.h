@@ -16,6 +16,9 @@ std::vector<double> line_levels(const LookupTable&);
 /// The states of all radii at a stiffness that lie inside the table's ranges.
 std::vector<TableRow> line_at(const LookupTable&, double stiffness);
 
+/// Comments and metadata of a table as files of its lines have them.
+TableText header_of_lines(TableText table);
+
 /// Lines in dclab's format, in the order of the levels.
 std::string lines_text(const LookupTable&, std::span<const double> levels, Abscissa);
 

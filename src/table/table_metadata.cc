@@ -45,7 +45,7 @@ std::string model_text(const Case& c) {
   return fmt::format("{} / {} fluid{}", solid, chosen_option(c, "flow.law"), view);
 }
 
-ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
+ordered_json table_metadata(const TableSpec& spec, std::string_view program) {
   const Case& c = spec.base;
   const ChannelFlow flow = channel_flow_of(c);
   const bool square = spec.is_square();
@@ -63,7 +63,7 @@ ordered_json table_metadata(const TableSpec& spec, std::string_view version) {
   metadata[table_identifier_key] = spec.identifier;
   metadata["method"] = "stationary FEM, monolithic Newton, high order";
   metadata["model"] = model_text(c);
-  metadata["software"] = fmt::format("rheocyte {}", version);
+  metadata["software"] = program;
   metadata["summary"] = fmt::format("{} stationary states, {}", square ? "3D" : "2D-axis-symmetric", model_text(c));
   metadata["stiffness"] = spec.stiffness_key;
   metadata["stiffness_unit"] = stiffness_unit(spec);

@@ -15,7 +15,8 @@ inline constexpr std::string_view table_mark = "# rheocyte ";
 std::string model_text(const Case&);
 
 /// Metadata in dclab's terms and all parameters of the case, which stand below "case" without radius and stiffness.
-nlohmann::ordered_json table_metadata(const TableSpec&, std::string_view version);
+/// `program`: that computed the table, with its version.
+nlohmann::ordered_json table_metadata(const TableSpec&, std::string_view program);
 
 /// "kPa" or "mN/m", and the column of tables: "young_modulus_kPa" or "cortex_modulus_mN_per_m".
 std::string_view stiffness_unit(const TableSpec&);

@@ -334,6 +334,18 @@ TEST_F(OwnTable, AnAddedEllipseIsToldAndLeavesTheModulusFromTheAsymmetryAlone) {
   }
 }
 
+TEST_F(OwnTable, TheCompanionHoldsVolumeAndInertiaRatiosWhereTheRecordingIsGone) {
+  ASSERT_EQ(run({"synth", EXAMPLES "/recordings/virtual-cells.toml", "-o", path("v.rtdc"), "--set",
+                 "recording.cells=20", "--quiet"})
+                .exit_code,
+            0);
+  ASSERT_EQ(run({"features", path("v.rtdc"), "--quiet"}).exit_code, 0);
+  ASSERT_EQ(run({"extract", path("v.rtdc"), "--quiet"}).exit_code, 0);
+  fs::remove(folder_ / "v.rtdc");
+  for (const std::string name : {"volume", "inert_ratio_cvx", "inert_ratio_raw", "inert_ratio_prnc"})
+    EXPECT_EQ(column(folder_ / "v_rheocyte.rtdc", name), column(folder_ / "v_features_rheocyte.rtdc", name)) << name;
+}
+
 TEST_F(OwnTable, WhatARecordingLacksForItsShapesIsNamed) {
   write_recording("a.rtdc");
   EXPECT_NE(run({"extract", path("a.rtdc")}).out.find("neither inert_ratio_cvx nor contours nor masks"),

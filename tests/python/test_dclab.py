@@ -11,6 +11,7 @@ from conftest import REFERENCE
 dclab = pytest.importorskip("dclab", reason="dclab is not installed", exc_type=ImportError)
 emodulus = pytest.importorskip("dclab.features.emodulus")
 ndimage = pytest.importorskip("scipy.ndimage")
+dclab_parity = pytest.importorskip("dclab_parity")
 
 WITH_EVENTS = []
 for path in sorted((REFERENCE / "rtdc").glob("*.rtdc")):
@@ -104,6 +105,18 @@ def test_the_plugin_gives_dclab_the_moduli_of_the_table(plugin):
     assert np.array_equal(dataset["rheocyte_state"], expected.state)
 
 
+def test_the_plugin_tells_how_far_the_shapes_are_those_of_the_table(plugin):
+    dataset = invented()
+    assert np.isnan(dataset["rheocyte_shape_excess"]).all(), "neither masks nor inertia ratios"
+    table = rheocyte.Table.for_medium("CellCarrier", temperature_C=23.5)
+    area, deform, ratio = np.array(dataset["area_um"]), np.array(dataset["deform"]), np.linspace(0.9, 1.4, len(dataset))
+    with_ratio = dclab.new_dataset({"area_um": area, "deform": deform, "inert_ratio_cvx": ratio})
+    with_ratio.config.update(dataset.config)
+    expected = table.shapes(area, deform, ratio, channel_width_um=20, pixel_size_um=0.34)
+    same(with_ratio["rheocyte_shape_excess"], expected.excess)
+    assert np.isfinite(expected.excess).any()
+
+
 def test_the_command_prints_the_plugin(program, tmp_path):
     said = subprocess.run([program, "dclab-plugin"], capture_output=True, check=True).stdout
     assert said == plugin_file(tmp_path).read_bytes()
@@ -139,36 +152,70 @@ def test_features_from_masks_are_those_that_recordings_store(program, path, tmp_
         assert set(after) <= set(before)
 
 
-MEASURED = ({"width": 20, "rate": 0.04, "mPas": 15}, {"width": 20, "rate": 0.12, "mPas": 5.7},
-            {"width": 30, "rate": 0.16, "mPas": 3.5}, {"width": 15, "rate": 0.032, "mPas": 10},
-            {"width": 40, "rate": 1.2, "mPas": 1.1}, {"width": 20, "rate": 0.06, "medium": "CellCarrier", "degC": 23},
-            {"width": 30, "rate": 0.24, "medium": "CellCarrierB", "degC": 24.5},
-            {"width": 20, "rate": 0.06, "medium": "CellCarrier", "degC": 22, "model": "herold-2017"},
-            {"width": 15, "rate": 0.016, "medium": "CellCarrierB", "degC": 21, "model": "herold-2017"},
-            {"width": 20, "rate": 0.04, "medium": "water", "degC": 25})
-
-
-def their_moduli(path, table, width, rate, mPas=None, medium=None, degC=None, model="buyukurganci-2022"):
-    with dclab.new_dataset(path) as dataset:
-        area, deform = np.array(dataset["area_um"]), np.array(dataset["deform"])
-        pixel = dataset.config["imaging"].get("pixel size", 0.34)
-    model = None if mPas else "kestin-1978" if medium == "water" else model
-    return emodulus.get_emodulus(area_um=area, deform=deform, medium=mPas or medium, channel_width=width,
-                                 flow_rate=rate, px_um=pixel, temperature=degC, lut_data=table, visc_model=model)
-
-
-def our_moduli(path, table, width, rate, mPas=None, medium=None, degC=None, model=None):
-    return rheocyte.extract(path, table=table, channel_width_um=width, flow_rate_ul_s=rate, viscosity_mPas=mPas,
-                            medium=medium, temperature=degC, viscosity_model=model)["young_modulus_kPa"].to_numpy()
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory):
+    """Virtual cells, smaller and larger than the tables, stiffer and softer."""
+    file = tmp_path_factory.mktemp("recorded") / "cells.rtdc"
+    rheocyte.synth({"recording": {"cells": 300, "seed": 11}, "channel": {"width_um": 20},
+                    "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+                    "cell": {"radius_um": {"mean": 6, "sd": 1.5}, "bulk": {"young_modulus_kPa": {"mean": 5, "sd": 2}}}}, file)
+    return file
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("table", ["LE-2D-FEM-19", "HE-2D-FEM-22", "HE-3D-FEM-22"])
-@pytest.mark.parametrize("path", WITH_EVENTS)
-def test_moduli_of_recordings_are_those_of_dclab(path, table):
-    """Ten ways to measure, by published tables: the same events without a modulus, the others equal to 1e-6."""
-    with dclab.new_dataset(path) as dataset:
-        if "area_um" not in dataset or "deform" not in dataset:
-            pytest.skip(f"{path.name} holds no area or deformation")
-    for measured in MEASURED:
-        same(our_moduli(path, table, **measured), their_moduli(path, table, **measured))
+@pytest.mark.parametrize("table", dclab_parity.tables())
+@pytest.mark.parametrize("path", [*WITH_EVENTS, pytest.param(None, id="virtual cells")])
+def test_moduli_of_recordings_are_those_of_dclab(path, table, recorded):
+    """Ten ways to measure, by published tables and by the texts of our own: the same events without a modulus, the others
+    equal to 1e-6. dclab_parity.py does the same with any recordings."""
+    path = path or recorded
+    if not dclab_parity.has_events(path):
+        pytest.skip(f"{path.name} holds no area or deformation")
+    for measured in dclab_parity.MEASURED:
+        place = dclab_parity.tables()[table]
+        same(dclab_parity.our_moduli(path, place, **measured), dclab_parity.their_moduli(path, place, **measured))
+
+
+@pytest.mark.parametrize("name", rheocyte.text_tables())
+def test_dclab_takes_the_texts_of_our_tables(name):
+    """Registered under their names, they give our moduli as far as straight lines between their rows do."""
+    files = rheocyte.text_tables()[name]
+    emodulus.load.register_lut(files.table)
+    rng = np.random.default_rng(4)
+    area, deform = rng.uniform(50, 150, 500), rng.uniform(0.005, 0.04, 500)
+    theirs = emodulus.get_emodulus(area_um=area, deform=deform, medium=15, channel_width=20, flow_rate=0.04, px_um=0,
+                                   temperature=None, lut_data=name)
+    ours = rheocyte.Table(name).modulus(area, deform, channel_width_um=20, flow_rate_ul_s=0.04, viscosity_mPas=15)
+    has = np.isfinite(ours.young_modulus_kPa) & np.isfinite(theirs)
+    assert has.mean() > 0.9
+    assert np.abs(theirs[has] / ours.young_modulus_kPa[has] - 1).max() < 2e-3
+    lines = dclab.isoelastics.Isoelastics([files.lines])
+    shown = lines.get(col1="area_um", col2="deform", channel_width=20, method=None, lut_identifier=name)
+    assert len(shown) > 5 and all(len(line) > 1 for line in shown)
+
+
+def test_companions_and_recordings_of_ours_are_in_order_for_dclab(program, recorded, tmp_path):
+    """No new complaint of any level; the companion shows what it computed and, by its basin, what was recorded."""
+    before = dclab.rtdc_dataset.check.check_dataset(recorded)
+    subprocess.run([program, "extract", recorded, "-o", tmp_path, "--quiet"], check=True)
+    companion = tmp_path / "cells_rheocyte.rtdc"
+    for old, new in zip(before, dclab.rtdc_dataset.check.check_dataset(companion)):
+        assert set(new) <= set(old)
+    frame = rheocyte.extract(recorded)
+    with dclab.new_dataset(companion) as dataset:
+        same(np.array(dataset["emodulus"]), frame["young_modulus_kPa"].to_numpy())
+        assert len(dataset["mask"]) == len(dataset) == len(frame)
+
+
+def test_a_companion_is_complete_without_its_recording(program, recorded, tmp_path):
+    moved = tmp_path / "cells.rtdc"
+    moved.write_bytes(recorded.read_bytes())
+    subprocess.run([program, "extract", moved, "-o", tmp_path, "--quiet"], check=True)
+    with dclab.new_dataset(moved) as dataset:
+        features = rheocyte.features(np.array(dataset["mask"][:len(dataset)]), dataset.config["imaging"]["pixel size"])
+    moved.unlink()
+    with dclab.new_dataset(tmp_path / "cells_rheocyte.rtdc") as dataset:
+        named = dataset.config["user"]["rheocyte standard error"]
+        assert {"emodulus", "area_um", "deform", named} <= set(dataset.features_innate)
+        for name in ("volume", "inert_ratio_cvx", "inert_ratio_prnc", "inert_ratio_raw"):
+            same(np.array(dataset[name]), features[name].to_numpy())

@@ -1,6 +1,7 @@
 """Recordings and masks give in Python what dclab and the command line give; mistakes are told."""
 
 import subprocess
+import sys
 
 import numpy as np
 import pandas
@@ -61,8 +62,86 @@ def test_a_file_that_is_none_or_damaged_is_named(tmp_path):
     (tmp_path / "damaged.rtdc").write_bytes(b"\x89HDF\r\n\x1a\n" + b"\xff" * 2000)
     with pytest.raises(UserError, match="damaged.rtdc"):
         rheocyte.extract(tmp_path / "damaged.rtdc")
-    with pytest.raises(UserError, match="no path"):
-        rheocyte.extract(5)
+    for wrong in (5, None, b"a.rtdc", "a\0b", tmp_path):
+        with pytest.raises(UserError, match="no path|is not a file"):
+            rheocyte.extract(wrong)
+
+
+@pytest.mark.parametrize("call", [
+    lambda file: rheocyte.extract(file, table=5), lambda file: rheocyte.extract(file, least=5),
+    lambda file: rheocyte.extract(file, least={"area_um": None}), lambda file: rheocyte.extract(file, section="round"),
+    lambda file: rheocyte.extract(file, progress=5), lambda file: rheocyte.moduli(file, None),
+    lambda file: rheocyte.time_course(file, None, 0), lambda file: rheocyte.time_course(file, file, "x"),
+    lambda file: rheocyte.synth({}, 5), lambda file: rheocyte.table({}, 5), lambda file: rheocyte.table({}, file, jobs=-1),
+    lambda file: rheocyte.solve(radius_um=5, progress=5), lambda file: rheocyte.Session("large"),
+    lambda file: rheocyte.features([[True], [True, False]], 0.34), lambda file: rheocyte.features(None, 0.34)])
+def test_arguments_of_the_wrong_kind_are_value_errors(call, tmp_path):
+    (tmp_path / "a.rtdc").write_bytes(b"")
+    with pytest.raises(UserError):
+        call(tmp_path / "a.rtdc")
+
+
+def test_no_damaged_file_takes_the_interpreter_along(tmp_path):
+    """HDF5 breaks down on some of them; that is a UserError, too, and the next file is read as if nothing had been."""
+    sound = tmp_path / "cells.rtdc"
+    rheocyte.synth(CELLS, sound, recording__cells=40)
+    content = bytearray(sound.read_bytes())
+    rng = np.random.default_rng(6)
+    ends = {"read": 0, "refused": 0}
+    for _ in range(60):
+        damaged = content.copy()
+        for place in rng.integers(0, 4000, 12):  # where the structure lies
+            damaged[place] = rng.integers(256)
+        (tmp_path / "damaged.rtdc").write_bytes(damaged)
+        try:
+            rheocyte.extract(tmp_path / "damaged.rtdc")
+            ends["read"] += 1
+        except UserError as error:
+            assert "\n" not in str(error)
+            ends["refused"] += 1
+    assert ends["refused"] > 0 and len(rheocyte.extract(sound)) == 40
+
+
+@pytest.mark.parametrize("work", ["extract", "synth", "features", "modulus", "table"])
+def test_ctrl_c_ends_long_work_and_python_goes_on(work, tmp_path):
+    """The signal comes with the first word of progress, or once the work has begun."""
+    code = """
+import os, signal, sys, threading, numpy as np, rheocyte
+work, spec = sys.argv[1], eval(sys.argv[2])
+def interrupt(*_):
+    if not sent:
+        sent.append(1)
+        os.kill(os.getpid(), signal.SIGINT)
+sent = []
+def extract():
+    sent.append(1)
+    rheocyte.synth(spec, "cells.rtdc", recording__cells=3000)
+    sent.clear()
+    rheocyte.extract("cells.rtdc", progress=interrupt)
+def synth(): rheocyte.synth(spec, "more.rtdc", recording__cells=100000, progress=interrupt)
+def features():
+    masks = np.zeros((100000, 80, 250), bool)
+    masks[:, 30:50, 100:140] = True
+    threading.Timer(0.2, interrupt).start()
+    while True: rheocyte.features(masks, 0.34)
+def modulus():
+    table, area = rheocyte.Table("LE-2D-26"), np.full(10**7, 80.0)
+    threading.Timer(0.2, interrupt).start()
+    while True: table.modulus(area, np.full(10**7, 0.02), channel_width_um=20, flow_rate_ul_s=0.04, viscosity_mPas=15)
+def table():
+    threading.Timer(0.5, interrupt).start()
+    rheocyte.table({"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+                    "cell": {"bulk": {"law": "linear"}}, "table": {"identifier": "LONG"}}, "LONG", jobs=1)
+try:
+    globals()[work]()
+except KeyboardInterrupt:
+    print("interrupted")
+print(float(rheocyte.Table("LE-2D-26").modulus(80, 0.02, channel_width_um=20, flow_rate_ul_s=0.04, viscosity_mPas=15)[0]) > 0)
+"""
+    said = subprocess.run([sys.executable, "-B", "-c", code, work, repr(CELLS)], capture_output=True, text=True, cwd=tmp_path,
+                          check=False)
+    assert (said.stdout.split(), said.stderr) == (["interrupted", "True"], "")
+    assert not (tmp_path / "more.rtdc").exists()
 
 
 def test_a_disc_of_pixels_has_the_features_of_a_disc():
@@ -132,6 +211,36 @@ def test_moduli_of_bulk_and_cortex_need_their_table(tmp_path):
     rheocyte.synth(CELLS, file)
     with pytest.raises(UserError, match="nowhere"):
         rheocyte.moduli(file, tmp_path / "nowhere")
+
+
+BULK_AND_CORTEX = {"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+                   "cell": {"bulk": {"law": "neo-hookean"},
+                            "cortex": {"law": "neo-hookean", "tension_ratio": 0.1, "bending_kBT": 3e4}},
+                   "table": {"identifier": "SMALL-HC", "cortex_share": [0.2, 0.5, 0.8], "min_area_um2": 115,
+                             "max_area_um2": 150, "min_deformation": 8e-3, "max_deformation": 0.035, "radii": 3,
+                             "accuracy": 2e-2}}
+
+
+def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
+    """From virtual cells of a small combined table; in Python the numbers of the command."""
+    folder = rheocyte.table(BULK_AND_CORTEX, tmp_path / "combined")
+    spec = {"recording": {"cells": 60, "seed": 2}, "channel": {"width_um": 20},
+            "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+            "cell": {"kind": "combined", "radius_um": {"mean": 6.5, "sd": 0.05},
+                     "bulk": {"young_modulus_kPa": {"mean": 2, "sd": 0.1}},
+                     "cortex": {"modulus_mN_per_m": {"mean": 10, "sd": 0.5}}},
+            "shapes": {"table": str(folder)}}
+    assert rheocyte.synth(spec, tmp_path / "cells.rtdc") > 50
+    shares = []
+    frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, progress=shares.append)
+    assert shares[-1] == 1 and frame.attrs["settings"]
+    subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--quiet"], cwd=tmp_path, check=True)
+    written = pandas.read_csv(tmp_path / "cells_moduli.tsv", sep="\t", comment="#").drop(columns="event")
+    pandas.testing.assert_frame_equal(frame, written, check_exact=True)
+    # Of 60 cells with 10 % each; the sum is what the deformation tells.
+    bulk, cortex = frame["young_modulus_kPa"].median(), frame["cortex_modulus_mN_per_m"].median()
+    assert bulk + cortex / 6.5 == pytest.approx(2 + 10 / 6.5, rel=0.05)
+    assert bulk == pytest.approx(2, rel=0.2) and cortex == pytest.approx(10, rel=0.2)
 
 
 ON_THEIR_WAY = {"recording": {"cells": 60, "width_px": 260, "places_um": [15, 55]}, "channel": {"width_um": 20},

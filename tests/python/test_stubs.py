@@ -1,7 +1,11 @@
 """The type stubs say what the package has."""
 
 import ast
+import importlib
+import inspect
 from pathlib import Path
+
+import pytest
 
 import rheocyte
 from rheocyte import case_stub
@@ -21,3 +25,35 @@ def test_the_stub_of_the_package_names_all_that_is_public():
     assert sorted(named) == rheocyte.__all__
     assert named == {name: f"rheocyte.{module}" for name, module in rheocyte._MODULES.items()}
     assert (PACKAGE / "py.typed").exists()
+
+
+def arguments(function):
+    """Names and kinds, and what is optional."""
+    a = function.args
+    first = len(a.args) - len(a.defaults)
+    plain = [(arg.arg, i >= first) for i, arg in enumerate(a.args) if arg.arg not in ("self", "cls")]
+    return plain + [(arg.arg, default is not None) for arg, default in zip(a.kwonlyargs, a.kw_defaults)]
+
+
+def functions(tree):
+    """Functions and methods of a module that users see, by their names; of overloads the last one."""
+    found = {}
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef):
+            found[node.name] = arguments(node)
+        elif isinstance(node, ast.ClassDef):
+            found |= {f"{node.name}.{name}": value for name, value in functions(node).items()}
+    return {name: value for name, value in found.items() if not any(part.startswith("_") for part in name.split("."))}
+
+
+@pytest.mark.parametrize("module", sorted({*rheocyte._MODULES.values()} - {"cases", "errors"}))
+def test_the_stub_of_a_module_has_its_functions_with_their_arguments(module):
+    source = ast.parse(inspect.getsource(importlib.import_module(f"rheocyte.{module}")))
+    typed = functions(ast.parse((PACKAGE / f"{module}.pyi").read_text(encoding="utf-8")))
+    for properties in ("Table.identifier", "Table.is_own"):  # one-line properties
+        typed.pop(properties, None)
+    overloaded = {"Result.fields"}
+    for name, wanted in functions(source).items():
+        if name not in overloaded:
+            assert typed.pop(name) == wanted, name
+    assert set(typed) <= overloaded

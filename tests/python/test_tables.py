@@ -50,6 +50,20 @@ def test_an_array_that_fits_is_not_copied():
     assert np.shares_memory(numbers(values, "values"), values)
 
 
+def test_numbers_of_any_kind_are_taken(table):
+    area, deform = np.array([80.0, 120.0]), np.array([0.01, 0.03])
+    plain = table.modulus(area, deform, **WATERY).young_modulus_kPa
+    frozen = area.copy()
+    frozen.flags.writeable = False
+    for other in (area.astype(">f8"), area.astype(np.longdouble), np.ma.array(area), frozen, area[::-1][::-1]):
+        assert np.array_equal(table.modulus(other, deform, **WATERY).young_modulus_kPa, plain)
+
+
+def test_events_of_impossible_temperature_have_no_modulus(table):
+    found = table.modulus([80] * 4, [0.02] * 4, medium="CellCarrier", temperature_C=[23, -1, 296, np.nan], **SETTING)
+    assert [rheocyte.STATES[k] for k in found.state] == ["valid"] + ["no data"] * 3
+
+
 def test_blocks_do_not_show(table):
     """One call on many events gives what calls on single events give."""
     rng = np.random.default_rng(5)
@@ -97,6 +111,40 @@ def test_lines_are_where_the_modulus_is_constant(table):
     assert border.shape[1] == 2 and len(border) > 10
 
 
+def test_shapes_of_solved_cells_are_those_of_the_table(table):
+    """The excess of a longer cell is what it has more; published tables know no shapes."""
+    state = rheocyte.solve(radius_um=7, young_modulus_kPa=2, cell__bulk__law="linear", flow__density_kg_per_m3=0, **WATERY)
+    at = {"channel_width_um": 20}
+    same = table.shapes(state.area_um2, state.deformation, state.inertia_ratio, **at)
+    assert same.expected == pytest.approx(state.inertia_ratio, rel=2e-3)  # as far as the table interpolates
+    assert same.excess == pytest.approx(0, abs=3e-3) and same.standard_error == 0
+    longer = table.shapes([state.area_um2], [state.deformation], [state.inertia_ratio + 0.1], pixel_size_um=0.34, **at)
+    assert longer.excess.shape == (1,) and longer.excess[0] > 0.05 and longer.standard_error[0] > 0
+    assert np.isnan(table.shapes(100, 0.02, np.nan, **at).excess)
+    with pytest.raises(UserError, match="inertia_ratio 2"):
+        table.shapes([80], [0.02], [1, 2], **at)
+    with pytest.raises(UserError, match="does not know the shapes"):
+        Table(rheocyte.text_tables()["LE-2D-26"].table).shapes(80, 0.02, 1, **at)
+
+
+@pytest.mark.parametrize("name", rheocyte.table_names())
+def test_texts_of_tables_come_with_the_package(name):
+    """Other programs interpolate linearly between their rows: that is 1e-3 off where cells are little deformed."""
+    files = rheocyte.text_tables()[name]
+    text, own = Table(files.table), Table(name)
+    assert text.identifier == own.identifier == name and not text.is_own
+    rng = np.random.default_rng(8)
+    area, deform = rng.uniform(45, 180, 2000), rng.uniform(0.003, 0.04, 2000)
+    ours, theirs = own.modulus(area, deform, **WATERY), text.modulus(area, deform, **WATERY)
+    has = np.isfinite(ours.young_modulus_kPa) & np.isfinite(theirs.young_modulus_kPa)
+    assert has.mean() > 0.9
+    assert np.abs(theirs.young_modulus_kPa[has] / ours.young_modulus_kPa[has] - 1).max() < 2e-3
+    rows = np.loadtxt(files.lines)
+    on_line = own.modulus(rows[:, 0], rows[:, 1], **{**WATERY, "viscosity_mPas": own.origin["viscosity_mPas"]})
+    inside = np.isfinite(on_line.young_modulus_kPa)
+    assert inside.mean() > 0.95 and np.allclose(on_line.young_modulus_kPa[inside], rows[inside, 2], rtol=1e-6)
+
+
 @pytest.mark.parametrize("area, deform, setting, sentence", [
     ([1, 2], [0.1], WATERY, "not equally long: area_um2 2, deform 1"),
     ([[1, 2]], [[1, 2]], WATERY, "one number per event"),
@@ -111,7 +159,13 @@ def test_lines_are_where_the_modulus_is_constant(table):
     ([1], [0.1], {**WATERY, "channel_width_um": -1}, "channel_width_um is -1"),
     ([1], [0.1], {**WATERY, "flow_rate_ul_s": np.nan}, "flow_rate_ul_s"),
     ([1], [0.1], {**WATERY, "pixel_size_um": -0.3}, "pixel_size_um"),
-    ([1, 2], [0.1, 0.1], {**SETTING, "viscosity_mPas": [1, 2, 3]}, "viscosity 3"),
+    ([1, 2], [0.1, 0.1], {**SETTING, "viscosity_mPas": [1, 2, 3]}, "viscosity_mPas 3"),
+    ([1, 2], [0.1, 0.1], {**SETTING, "medium": "water", "temperature_C": [1, 2, 3]}, "temperature_C 3"),
+    ([1], [0.1], {**SETTING, "medium": "water", "temperature_C": 296}, "temperature_C is 296.0; a buffer"),
+    ([1], [0.1], {**SETTING, "viscosity_mPas": -1}, "viscosity_mPas holds -1"),
+    ([1], [0.1], {**SETTING, "viscosity_mPas": object()}, "viscosity_mPas is not an array of numbers"),
+    (np.zeros(1, dtype=[("a", float)]), [0.1], WATERY, "area_um2 is not an array of numbers"),
+    (np.array(["2020"], dtype="M8[D]"), [0.1], WATERY, "area_um2 is not an array of numbers"),
 ])
 def test_what_does_not_fit_is_a_value_error(table, area, deform, setting, sentence):
     with pytest.raises(UserError, match=sentence):
@@ -121,8 +175,12 @@ def test_what_does_not_fit_is_a_value_error(table, area, deform, setting, senten
 def test_a_table_that_is_not_there_or_damaged_is_named(tmp_path):
     with pytest.raises(UserError, match="LE-2D-27.*did you mean.*LE-2D-26"):
         Table("LE-2D-27")
-    with pytest.raises(UserError):
-        Table(5)
+    for wrong in (5, None, "a\0b"):
+        with pytest.raises(UserError, match="the table is .* no path"):
+            Table(wrong)
+    for count in (0, "x", np.nan):
+        with pytest.raises(UserError, match="count"):
+            Table("LE-2D-26").lines(count=count)
     file = tmp_path / "grid_mine.cbor"
     file.write_bytes(b"\x00" * 100)
     with pytest.raises(UserError, match="grid_mine.cbor"):

@@ -60,6 +60,18 @@ TEST_F(Scale, WhatIsNotExactNeedsAWord) {
   EXPECT_NE(content_of(output).find("# Not exact: inertia changes"), std::string::npos);
 }
 
+TEST_F(Scale, TablesThatComeWithTheProgramBecomeTextsAndLines) {
+  const std::string lines = folder.path() / "lines.txt";
+  EXPECT_EQ(scale({"LE-2D-26", "-o", output}).exit_code, 0);
+  EXPECT_EQ(scale({"LE-2D-26", "--lines", "-o", lines}).exit_code, 0);
+  EXPECT_NE(content_of(output).find("\"identifier\": \"LE-2D-26\""), std::string::npos);
+  EXPECT_NE(content_of(lines).find("\"lut identifier\": \"LE-2D-26\""), std::string::npos);
+  EXPECT_EQ(scale({"LE-2D-26", "--channel-width-um", "30", "-o", output}).exit_code, 0);
+  EXPECT_NE(content_of(output).find("\"identifier\": \"LE-2D-26-30um-0.04uls-15mPas\""), std::string::npos);
+  expect_sentence(scale({"LE-2D-27", "-o", output}), "did you mean");
+  expect_refusal({"--lines", "--channel-width-um", "30", "-o", output}, "--lines makes isoelasticity lines");
+}
+
 TEST_F(Scale, MistakesAreNamed) {
   expect_refusal({"-o", output}, "give at least one of");
   expect_refusal({"--channel-width-um", "nan", "-o", output}, "nan is outside its range");

@@ -1,0 +1,55 @@
+// Recordings are read in a child of the process: HDF5 is known to break down on damaged files, and must not take the
+// interpreter along.
+#pragma once
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+
+#include "case/user_error.h"
+#include "store/contained.h"
+
+namespace rheocyte {
+
+using PythonProgress = std::optional<std::function<void(double)>>;
+
+/// Calls the function of a Python program from a thread without the interpreter's lock.
+inline void tell(const PythonProgress& progress, double share) {
+  if (!progress) return;
+  const pybind11::gil_scoped_acquire acquired;
+  (*progress)(share);
+}
+
+/// Addresses that this process has taken, in bytes: what libraries of others have reserved does not count as memory
+/// that reading needs.
+std::size_t taken_addresses();
+
+/// What work(tell_progress) returns in a child, as bytes (store/bytes.h); nothing if it was stopped. UserError for what
+/// is wrong with the file, and if HDF5 broke down on it. What `progress` throws ends the work and comes through.
+template <class Work>
+auto read_contained(const std::filesystem::path& file, const Work& work, const PythonProgress& progress,
+                    const std::atomic<bool>& stop) {
+  std::exception_ptr thrown;
+  Containment limits;
+  limits.memory_bytes += taken_addresses();
+  limits.is_wanted = [&] { return !stop && !thrown; };
+  auto done = run_contained(work, limits, [&](double share) {
+    if (thrown) return;
+    try {
+      tell(progress, share);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+  });
+  if (thrown) std::rethrow_exception(thrown);
+  if (done.end.kind == ContainedEnd::Kind::own_error) throw std::runtime_error(done.end.text);
+  if (!done.finished() && !done.stopped()) throw UserError(sentence_for(file, done.end, limits.patience_s));
+  return std::move(done.result);
+}
+
+}  // namespace rheocyte

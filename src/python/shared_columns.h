@@ -1,0 +1,46 @@
+// Columns of numbers that a child of the process computes and Python reads, without a copy.
+#pragma once
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace rheocyte {
+
+/// One that was written; whole numbers of one byte, or 64-bit ones.
+struct SharedColumn {
+  std::string name;
+  bool is_bytes = false;
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.name, s.is_bytes);
+  }
+};
+
+class SharedColumns {
+ public:
+  /// std::system_error if there is no memory to share.
+  SharedColumns();
+  ~SharedColumns();
+  SharedColumns(const SharedColumns&) = delete;
+  SharedColumns& operator=(const SharedColumns&) = delete;
+
+  /// In the child: behind what was written before.
+  void write(std::span<const double> column) const;
+  void write(std::span<const std::int8_t> column) const;
+
+  /// In the parent: the columns as numpy arrays, by their names, in the order in which they were written; all equally
+  /// long.
+  pybind11::dict arrays(const std::vector<SharedColumn>& columns, std::size_t length) const;
+
+ private:
+  void append(const void* data, std::size_t size) const;
+  int descriptor_;
+};
+
+}  // namespace rheocyte
