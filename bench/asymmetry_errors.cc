@@ -63,16 +63,12 @@ Eigen::VectorXd fitted(const std::vector<Seen>& all, const auto& scale, double S
 
 std::vector<Seen> look_at_shapes(const CellShapes& shapes, const TableSpec& spec, int count, int places) {
   CellRandom random(3, 0, Purpose::place);
-  const auto log_uniform = [&](double low, double high) { return low * std::pow(high / low, random.uniform()); };
   std::vector<Seen> all;
   while (static_cast<int>(all.size()) < count) {
-    const auto radii = sweep_radii_um(spec);
-    const double radius = radii.front() + random.uniform() * (radii.back() - radii.front());
-    const auto shape = shapes.shape({radius, log_uniform(0.5, 60), channel_flow_of(spec.base).viscosity_mPas});
-    const auto* const found = std::get_if<CellShape>(&shape);
-    if (!found || found->deformation < min_deformation || found->deformation > max_deformation) continue;
+    const auto found = random_shape(shapes, spec, random, min_deformation, max_deformation);
+    if (!found) continue;
     const double ellipse = random.uniform() < 0.5 ? 0 : max_ellipse * random.uniform();
-    const double area_px = log_uniform(min_fitted_area_px, max_fitted_area_px);
+    const double area_px = log_uniform(random, min_fitted_area_px, max_fitted_area_px);
     const Eigen::MatrixX2d outline =
         with_ellipse(silhouette(found->meridian), ellipse) * std::sqrt(area_px / found->area_um2);
     const ShapeErrors errors = errors_in_pixels(outline, 1, places, random);

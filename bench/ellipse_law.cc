@@ -43,15 +43,11 @@ StiffnessGrid modes_2(const TableSpec& spec, const std::vector<SampledBranch>& b
 std::vector<Changed> change_shapes(const CellShapes& shapes, const StiffnessGrid& modes_2, const TableSpec& spec,
                                    int count) {
   CellRandom random(3, 0, Purpose::place);
-  const auto log_uniform = [&](double low, double high) { return low * std::pow(high / low, random.uniform()); };
   const double width = channel_flow_of(spec.base).width_um;
   std::vector<Changed> all;
   while (static_cast<int>(all.size()) < count) {
-    const auto radii = sweep_radii_um(spec);
-    const double radius = radii.front() + random.uniform() * (radii.back() - radii.front());
-    const auto shape = shapes.shape({radius, log_uniform(0.5, 60), channel_flow_of(spec.base).viscosity_mPas});
-    const auto* const found = std::get_if<CellShape>(&shape);
-    if (!found || found->deformation < min_deformation || found->deformation > max_deformation) continue;
+    const auto found = random_shape(shapes, spec, random, min_deformation, max_deformation);
+    if (!found) continue;
     const double ellipse = random.uniform() < 0.5 ? 0 : max_ellipse * random.uniform();
     const Eigen::MatrixX2d outline = silhouette(found->meridian), longer = with_ellipse(outline, ellipse);
     const ShapeVector before = shape_vector(outline_shape(outline)), after = shape_vector(outline_shape(longer));
