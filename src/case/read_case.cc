@@ -113,10 +113,9 @@ void check_duct(const Case& c, const KeyReading& keys) {
     refuse("channel.section", "needs channel.width_um, not a radius or a profile");
   if (c.time.scheme != TimeScheme::stationary)
     refuse("channel.section", "is for stationary shapes; leave [time] out, or take the tube");
-  if (c.cell.bulk.law == BulkLaw::none || c.cell.cortex.bending_kBT > 0)
+  if (c.cell.bulk.law == BulkLaw::none)
     refuse("channel.section",
-           "is for an elastic interior, with or without a shell and tension, but without bending stiffness; choose "
-           "cell.bulk.law and leave cell.cortex.bending_kBT out, or take the tube");
+           "is for an elastic interior, with or without a cortex; choose cell.bulk.law, or take the tube");
 }
 
 // One mirror plane is left to a cell off the axis; seen along its offset its outline is symmetric.
@@ -136,7 +135,7 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
     refuse(offset[0] != 0 ? "is along the width, along which the camera must look: give channel.camera_degree = 90"
                           : "is along the height, along which the camera must look: leave channel.camera out");
   if (c.flow.drive != Drive::rate) refuse("is for a given flow rate; give flow.rate_ul_per_s");
-  if (c.cell.cortex.law != CortexLaw::none || tension_mN_per_m(c) > 0)
+  if (c.cell.cortex.law != CortexLaw::none || tension_mN_per_m(c) > 0 || c.cell.cortex.bending_kBT > 0)
     refuse("is for cells without a cortex; leave [cell.cortex] out");
   const Extent extent = extent_of(c);
   const double half = unit_length_um(c) * (offset[0] != 0 ? extent.width : extent.height);

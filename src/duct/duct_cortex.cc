@@ -1,85 +1,280 @@
 #include "duct/duct_cortex.h"
 
+#include <map>
+
 #include "duct/duct_surface.h"
+#include "laws/bending_form.h"
 
 namespace rheocyte {
 namespace {
 
-constexpr int numbers = MembraneFields<double>::count;
-using Numbers = std::array<double, numbers>;
+/// Of the interior penalty, times degree^2: four times what an inverse inequality asks on equal faces, as in the tube.
+constexpr double penalty_factor = 4;
 
-Numbers numbers_at(const MatrixXd& slope_s, const MatrixXd& slope_t, int q) {
-  return {slope_s(q, 0), slope_s(q, 1), slope_s(q, 2), slope_t(q, 0), slope_t(q, 1), slope_t(q, 2)};
+/// Derivatives with respect to s, t, and both twice, of the nodes' functions at some points: points x nodes.
+struct FaceTables {
+  MatrixXd s, t, ss, st, tt;
+};
+
+/// At all pairs of these coordinates, s fastest.
+FaceTables face_tables(const ReferenceElement<2>& reference, const VectorXd& at_s, const VectorXd& at_t) {
+  const auto tables = [&](const VectorXd& at) {
+    const MatrixXd slope = reference.lagrange_derivative(at);
+    return std::array<MatrixXd, 3>{reference.lagrange(at), slope,
+                                   slope * reference.lagrange_derivative(reference.nodes_1d)};
+  };
+  const auto u = tables(at_s), v = tables(at_t);
+  const auto product = [&](int a, int b) {
+    const Eigen::Index points = at_s.size(), nodes = u[a].cols();
+    MatrixXd result(points * at_t.size(), nodes * nodes);
+    for (Eigen::Index q = 0; q < at_t.size(); ++q) {
+      for (Eigen::Index k = 0; k < nodes; ++k) result.block(q * points, k * nodes, points, nodes) = v[b](q, k) * u[a];
+    }
+    return result;
+  };
+  return {product(1, 0), product(0, 1), product(2, 0), product(1, 1), product(0, 2)};
 }
 
-std::array<ceres::Jet<double, numbers>, numbers> duals(const Numbers& values) {
-  std::array<ceres::Jet<double, numbers>, numbers> result;
-  for (int i = 0; i < numbers; ++i) result[i] = {values[i], i};
+template <class T, std::size_t count>
+Vector<T> part(const std::array<T, count>& numbers, int index) {
+  return {numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2]};
+}
+
+/// Energies at a point, of the numbers of its parts.
+struct ShellAtPoint {
+  MembranePoint membrane;
+
+  template <class T>
+  T operator()(const std::array<T, 6>& numbers) const {
+    return membrane(numbers);
+  }
+};
+
+struct BentShellAtPoint {
+  MembranePoint membrane;
+
+  template <class T>
+  T operator()(const std::array<T, 15>& n) const {
+    const SurfaceSlopes<T> slopes{part(n, 0), part(n, 1), part(n, 2), part(n, 3), part(n, 4)};
+    return membrane(MembraneFields<T>{slopes.a, slopes.b}) + BendingPoint{membrane.law}(slopes);
+  }
+};
+
+struct BentEdgeAtPoint {
+  BendingEdge edge;
+
+  template <class T>
+  T operator()(const std::array<T, 24>& n) const {
+    const Vector<T> a = part(n, 0), aa = part(n, 1);
+    return edge(SurfaceSlopes<T>{a, part(n, 2), aa, part(n, 3), part(n, 4)},
+                SurfaceSlopes<T>{a, part(n, 5), aa, part(n, 6), part(n, 7)});
+  }
+};
+
+template <int count>
+std::array<ceres::Jet<double, count>, count> duals(const std::array<double, count>& values) {
+  std::array<ceres::Jet<double, count>, count> result;
+  for (int i = 0; i < count; ++i) result[i] = {values[i], i};
   return result;
 }
 
 }  // namespace
 
-DuctCortex::DuctCortex(const DuctSpace& space)
-    : space_(space), reference_(space.reference().degree()), face_of_element_(space.elements().size(), -1) {
+/// A side of a layer's element's face, seen by coordinates a along it and b outward, so that a x b points out of the
+/// cell as s x t does.
+struct DuctCortex::Edge {
+  int element = 0, side = 0;    ///< side: s = 1, s = 0, t = 1, t = 0
+  std::vector<int> nodes = {};  ///< by a
+
+  /// The derivatives by a, b, both twice, at points of the edge.
+  FaceTables tables(const ReferenceElement<2>& reference) const {
+    const VectorXd one = VectorXd::Constant(1, side % 2 == 0 ? 1 : 0), &points = reference.points_1d;
+    const double outward = side % 2 == 0 ? 1 : -1;
+    if (side < 2) {  // b is s or -s, a is -t or t
+      const VectorXd a = side == 0 ? VectorXd(1 - points.array()) : points;
+      const FaceTables f = face_tables(reference, one, a);
+      return {-outward * f.t, outward * f.s, f.tt, -f.st, f.ss};
+    }
+    const VectorXd a = side == 2 ? points : VectorXd(1 - points.array());
+    const FaceTables f = face_tables(reference, a, one);
+    return {outward * f.s, outward * f.t, f.ss, f.st, f.tt};
+  }
+};
+
+DuctCortex::DuctCortex(const DuctSpace& space, bool bends)
+    : space_(space),
+      reference_(space.reference().degree()),
+      bends_(bends),
+      patches_of_element_(space.elements().size()) {
   for (int e = 0; e < int(space.elements().size()); ++e) {
     if (space.mesh().elements()[e].foot != e) continue;
-    face_of_element_[e] = int(faces_.size());
-    const auto& nodes = space.nodes().of_element[e];
-    Face& face = faces_.emplace_back(Face{{nodes.begin(), nodes.begin() + reference_.nodes()}, {}});
-    const MatrixXd rest = positions(face, VectorXd::Zero(space.unknowns()));
-    const MatrixXd s = reference_.shape.slope[0] * rest, t = reference_.shape.slope[1] * rest;
-    for (int q = 0; q < reference_.points(); ++q)
-      face.rest.push_back({s.row(q).squaredNorm(), s.row(q).dot(t.row(q)), t.row(q).squaredNorm()});
+    patches_of_element_[e].push_back(int(patches_.size()));
+    patches_.push_back(face_patch(e));
+  }
+  if (bends_) find_edges();
+}
+
+DuctCortex::Patch DuctCortex::face_patch(int element) const {
+  const FaceTables tables = face_tables(reference_, reference_.points_1d, reference_.points_1d);
+  Patch patch;
+  append_nodes(element, {}, patch);
+  patch.weights = reference_.weights;
+  patch.parts = {tables.s, tables.t};
+  if (bends_) patch.parts.insert(patch.parts.end(), {tables.ss, tables.st, tables.tt});
+  const MatrixXd s = tables.s * patch.rest, t = tables.t * patch.rest;
+  for (int q = 0; q < reference_.points(); ++q)
+    patch.rest_metric.push_back({s.row(q).squaredNorm(), s.row(q).dot(t.row(q)), t.row(q).squaredNorm()});
+  return patch;
+}
+
+// Behind the edge a and b go on, against those of the other face's own edge. An image has the same a.
+DuctCortex::Patch DuctCortex::edge_patch(const Edge& before, const Edge* behind) const {
+  Patch patch;
+  append_nodes(before.element, {}, patch);
+  append_nodes(behind ? behind->element : before.element, behind ? Image{} : mirror_at(before), patch);
+  patch.weights = behind ? reference_.weights_1d : VectorXd(reference_.weights_1d / 2);
+  const FaceTables here = before.tables(reference_), there = (behind ? *behind : before).tables(reference_);
+  const auto place = [&](const MatrixXd& table, bool second) {
+    MatrixXd both = MatrixXd::Zero(table.rows(), patch.rest.rows());
+    (second ? both.rightCols(table.cols()) : both.leftCols(table.cols())) = table;
+    return both;
+  };
+  const auto same_points = [&](const MatrixXd& table) { return behind ? MatrixXd(table.colwise().reverse()) : table; };
+  patch.parts = {place(here.s, false),
+                 place(here.ss, false),
+                 place(here.t, false),
+                 place(here.st, false),
+                 place(here.tt, false),
+                 place(same_points(-there.t), true),
+                 place(same_points(behind ? there.st : MatrixXd(-there.st)), true),
+                 place(same_points(there.tt), true)};
+  return patch;
+}
+
+void DuctCortex::append_nodes(int element, const Image& image, Patch& patch) const {
+  const auto& nodes = space_.nodes().of_element[element];
+  const Eigen::Index first = patch.rest.rows(), all = first + reference_.nodes();
+  const DuctPoint sign = image({1, 1, 1});
+  patch.rest.conservativeResize(all, 3);
+  patch.unknowns.conservativeResize(all, 3);
+  patch.signs.conservativeResize(all, 3);
+  for (Eigen::Index k = first; k < all; ++k) {
+    const int node = nodes[k - first];
+    patch.rest.row(k) = image(space_.node_points()[node]).transpose();
+    for (int c = 0; c < 3; ++c) patch.unknowns(k, c) = space_.displacement(node, image.swaps && c > 0 ? 3 - c : c);
+    patch.signs.row(k) = sign.transpose();
   }
 }
 
-MatrixXd DuctCortex::positions(const Face& face, const VectorXd& unknowns) const {
-  MatrixXd x(face.nodes.size(), 3);
-  for (int k = 0; k < x.rows(); ++k) x.row(k) = duct_point(space_, unknowns, face.nodes[k]).transpose();
-  return x;
+std::vector<DuctCortex::Edge> DuctCortex::edges_of(int element) const {
+  const auto& nodes = space_.nodes().of_element[element];
+  const int n = reference_.degree() + 1;
+  std::vector<Edge> edges;
+  for (int side = 0; side < 4; ++side) {
+    Edge& edge = edges.emplace_back(Edge{element, side});
+    for (int i = 0; i < n; ++i) {
+      const int across = side % 2 == 0 ? n - 1 : 0, along = side == 0 || side == 3 ? n - 1 - i : i;
+      edge.nodes.push_back(nodes[side < 2 ? across + n * along : along + n * across]);
+    }
+  }
+  return edges;
 }
 
-std::vector<int> DuctCortex::unknowns_of(int face) const {
-  std::vector<int> unknowns;
-  for (int c = 0; c < 3; ++c) {
-    for (const int node : faces_[face].nodes) unknowns.push_back(space_.displacement(node, c));
+/// The mirror plane through an edge at the border of the part that is computed.
+Image DuctCortex::mirror_at(const Edge& edge) const {
+  const DuctPoint& inside = space_.node_points()[edge.nodes[1]];
+  const Across across = across_at(space_.mesh().symmetry(), inside);
+  if (across.ties) return {.swaps = true};
+  return across.holds_z ? Image{false, 1, -1} : Image{false, -1, 1};
+}
+
+void DuctCortex::find_edges() {
+  std::map<std::pair<int, int>, Edge> open;  // by first and last node
+  const auto add = [this](const Edge& before, const Edge* behind) {
+    patches_of_element_[before.element].push_back(int(patches_.size()));
+    patches_.push_back(edge_patch(before, behind));
+  };
+  for (int e = 0; e < int(patches_of_element_.size()); ++e) {
+    if (patches_of_element_[e].empty()) continue;
+    for (const Edge& edge : edges_of(e)) {
+      const auto found = open.find({edge.nodes.back(), edge.nodes.front()});
+      if (found == open.end()) {
+        open.emplace(std::pair{edge.nodes.front(), edge.nodes.back()}, edge);
+        continue;
+      }
+      add(found->second, &edge);
+      open.erase(found);
+    }
   }
-  return unknowns;
+  for (const auto& [ends, edge] : open) add(edge, nullptr);
 }
 
 void DuctCortex::integrate(int index, const Cortex& law, const VectorXd& unknowns, Want want,
-                           FaceSystem& system) const {
-  const Face& face = faces_[index];
-  const MatrixXd x = positions(face, unknowns);
-  const std::array<const MatrixXd*, 2> slopes{&reference_.shape.slope[0], &reference_.shape.slope[1]};
-  const MatrixXd s = *slopes[0] * x, t = *slopes[1] * x;
-  const int points = reference_.points(), n = reference_.nodes();
+                           PatchSystem& system) const {
+  const Patch& patch = patches_[index];
+  if (patch.rest_metric.empty()) {
+    const BendingEdge edge{law, penalty_factor * reference_.degree() * reference_.degree()};
+    integrate<24>(
+        patch, [&](int) { return BentEdgeAtPoint{edge}; }, unknowns, want, system);
+  } else if (bends_) {
+    integrate<15>(
+        patch,
+        [&](int q) {
+          return BentShellAtPoint{{law, patch.rest_metric[q]}};
+        },
+        unknowns, want, system);
+  } else {
+    integrate<6>(
+        patch,
+        [&](int q) {
+          return ShellAtPoint{{law, patch.rest_metric[q]}};
+        },
+        unknowns, want, system);
+  }
+}
+
+template <int numbers, class Energy>
+void DuctCortex::integrate(const Patch& patch, const Energy& energy_at, const VectorXd& unknowns, Want want,
+                           PatchSystem& system) const {
+  const int points = int(patch.weights.size()), n = int(patch.rest.rows()), parts = numbers / 3;
+  MatrixXd x = patch.rest;
+  for (int i = 0; i < 3 * n; ++i) {
+    if (patch.unknowns(i) >= 0) x(i) += patch.signs(i) * unknowns(patch.unknowns(i));
+  }
+  std::vector<MatrixXd> slopes;
+  for (const MatrixXd& table : patch.parts) slopes.push_back(table * x);
   MatrixXd flux(points, numbers), flux_slopes(points, numbers * numbers);
   for (int q = 0; q < points; ++q) {
-    const MembranePoint energy{law, face.rest[q]};
-    const double weight = reference_.weights(q);
+    std::array<double, numbers> values;
+    for (int i = 0; i < numbers; ++i) values[i] = slopes[i / 3](q, i % 3);
+    const auto energy = energy_at(q);
     if (want == Want::residual) {
-      const auto work = value_and_slopes<numbers, double>(energy, numbers_at(s, t, q)).second;
-      for (int i = 0; i < numbers; ++i) flux(q, i) = weight * work[i];
+      const auto work = value_and_slopes<numbers, double>(energy, values).second;
+      for (int i = 0; i < numbers; ++i) flux(q, i) = patch.weights(q) * work[i];
       continue;
     }
-    const auto work = value_and_slopes<numbers, ceres::Jet<double, numbers>>(energy, duals(numbers_at(s, t, q))).second;
+    const auto work = value_and_slopes<numbers, ceres::Jet<double, numbers>>(energy, duals<numbers>(values)).second;
     for (int i = 0; i < numbers; ++i) {
-      flux(q, i) = weight * work[i].a;
-      for (int j = 0; j < numbers; ++j) flux_slopes(q, i * numbers + j) = weight * work[i].v(j);
+      flux(q, i) = patch.weights(q) * work[i].a;
+      for (int j = 0; j < numbers; ++j) flux_slopes(q, i * numbers + j) = patch.weights(q) * work[i].v(j);
     }
   }
   system.residual.setZero(3 * n);
-  for (int i = 0; i < numbers; ++i) system.residual.segment(i % 3 * n, n) += slopes[i / 3]->transpose() * flux.col(i);
+  for (int i = 0; i < numbers; ++i)
+    system.residual.segment(i % 3 * n, n) += patch.parts[i / 3].transpose() * flux.col(i);
+  const VectorXd signs = patch.signs.reshaped();
+  system.residual.array() *= signs.array();
   if (want == Want::residual) return;
   system.tangent.setZero(3 * n, 3 * n);
   for (int i = 0; i < numbers; ++i) {
-    for (int j = 0; j < numbers; ++j) {
-      const MatrixXd weighted = flux_slopes.col(i * numbers + j).asDiagonal() * *slopes[j / 3];
-      system.tangent.block(i % 3 * n, j % 3 * n, n, n).noalias() += slopes[i / 3]->transpose() * weighted;
+    for (int c = 0; c < 3; ++c) {
+      MatrixXd weighted = MatrixXd::Zero(points, n);
+      for (int b = 0; b < parts; ++b)
+        weighted += flux_slopes.col(i * numbers + 3 * b + c).asDiagonal() * patch.parts[b];
+      system.tangent.block(i % 3 * n, c * n, n, n).noalias() += patch.parts[i / 3].transpose() * weighted;
     }
   }
+  system.tangent = signs.asDiagonal() * system.tangent * signs.asDiagonal();
 }
 
 }  // namespace rheocyte

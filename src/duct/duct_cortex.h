@@ -1,40 +1,57 @@
-// The cortex of a cell in a duct: what tension and shell do on the surface's displacements, face by face
-// (docs/theory-square.md, eq:membrane).
+// The cortex of a cell in a duct: what tension, shell and bending do on the surface's displacements, patch by patch
+// (docs/theory-square.md, eq:membrane, eq:edge).
 #pragma once
+#include <array>
+
 #include "duct/duct_integrals.h"
 #include "laws/membrane_form.h"
 
 namespace rheocyte {
 
-/// Residual and tangent of a face: components x, y, z of its nodes.
-struct FaceSystem {
+/// Residual and tangent of a patch, rows and columns as its unknowns.
+struct PatchSystem {
   VectorXd residual;
   MatrixXd tangent;
 };
 
 class DuctCortex {
  public:
-  /// The space must outlive this object.
-  explicit DuctCortex(const DuctSpace&);
+  /// Where it bends, faces that meet in an edge know each other. The space must outlive this object.
+  DuctCortex(const DuctSpace&, bool bends);
 
-  /// The face that a layer's element shares with the cell, -1 if none.
-  int face_of(int element) const { return face_of_element_[element]; }
-  /// Unknowns whose values move the nodes, -1 where fixed; and whose equations their tests belong to.
-  std::vector<int> unknowns_of(int face) const;
+  /// Patches that a layer's element has a share in: the face that it has in common with the cell, and where it bends,
+  /// some of its edges.
+  const std::vector<int>& patches_of(int element) const { return patches_of_element_[element]; }
+  /// x, y, z of the patch's nodes: unknowns that move them, to whose equations their tests belong, -1 where fixed.
+  const Eigen::MatrixXi& unknowns_of(int patch) const { return patches_[patch].unknowns; }
 
-  void integrate(int face, const Cortex&, const VectorXd& unknowns, Want, FaceSystem&) const;
+  void integrate(int patch, const Cortex&, const VectorXd& unknowns, Want, PatchSystem&) const;
 
  private:
-  struct Face {
-    std::vector<int> nodes;
-    std::vector<SurfaceMetric<double>> rest;  ///< at the quadrature points
+  /// A face, or the two that meet in an edge, which in a mirror plane are a face and its image.
+  struct Patch {
+    MatrixXd rest;  ///< nodes x (x, y, z)
+    Eigen::MatrixXi unknowns;
+    MatrixXd signs;                                  ///< of the unknowns in the coordinates: an image may turn them
+    VectorXd weights;                                ///< at the quadrature points
+    std::vector<MatrixXd> parts;                     ///< derivatives of the position: points x nodes each
+    std::vector<SurfaceMetric<double>> rest_metric;  ///< of a face
   };
-  MatrixXd positions(const Face&, const VectorXd& unknowns) const;
+  struct Edge;
+  Patch face_patch(int element) const;
+  Patch edge_patch(const Edge& before, const Edge* behind) const;
+  void append_nodes(int element, const Image&, Patch&) const;
+  std::vector<Edge> edges_of(int element) const;
+  Image mirror_at(const Edge&) const;
+  void find_edges();
+  template <int numbers, class Energy>
+  void integrate(const Patch&, const Energy& energy_at, const VectorXd& unknowns, Want, PatchSystem&) const;
 
   const DuctSpace& space_;
   ReferenceElement<2> reference_;
-  std::vector<Face> faces_;
-  std::vector<int> face_of_element_;
+  bool bends_;
+  std::vector<Patch> patches_;
+  std::vector<std::vector<int>> patches_of_element_;
 };
 
 }  // namespace rheocyte

@@ -14,7 +14,7 @@
 namespace rheocyte {
 namespace {
 
-std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space) {
+std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space, const DuctCortex& cortex) {
   const auto& elements = space.elements();
   std::vector<CoupledUnknowns> coupled(elements.size());
   for (std::size_t e = 0; e < elements.size(); ++e) {
@@ -23,6 +23,9 @@ std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space) {
       for (const Slot& slot : *slots) unknowns.insert(slot.unknown);
     }
     if (space.turns() && touches_cell(space.mesh().elements()[e])) unknowns.insert(space.spin());
+    for (const int patch : cortex.patches_of(int(e))) {
+      for (const int unknown : cortex.unknowns_of(patch).reshaped()) unknowns.insert(unknown);
+    }
     unknowns.erase(-1);
     coupled[e].unknowns.assign(unknowns.begin(), unknowns.end());
     coupled[e].pressure = elements[e].pressure[0].unknown;
@@ -47,13 +50,13 @@ std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space) {
 
 }  // namespace
 
-DuctSystem::DuctSystem(const DuctSpace& space, double drop)
+DuctSystem::DuctSystem(const DuctSpace& space, double drop, bool bends)
     : space_(space),
       drop_(drop),
       element_(space.reference().degree()),
       tangent_(element_, space.reference()),
-      cortex_(space),
-      lu_(space.unknowns(), coupled_unknowns(space)),
+      cortex_(space, bends),
+      lu_(space.unknowns(), coupled_unknowns(space, cortex_)),
       outlet_load_(duct_end_load(space, Face::front)),
       inlet_load_(duct_end_load(space, Face::rear)),
       turning_(space),
@@ -106,16 +109,17 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, cons
 }
 
 void DuctSystem::add_cortex(int element, const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& total) {
-  const int face = cortex_.face_of(element);
-  if (face < 0 || (cortex.law == CortexLaw::none && cortex.tension == 0)) return;
-  cortex_.integrate(face, cortex, unknowns, want, face_);
-  const std::vector<int> rows = cortex_.unknowns_of(face);
-  for (int j = 0; j < int(rows.size()); ++j) {
-    if (rows[j] < 0) continue;
-    total(rows[j]) += face_.residual(j);
-    if (want == Want::residual) continue;
-    for (int i = 0; i < int(rows.size()); ++i) {
-      if (rows[i] >= 0) matrix_(place_[rows[i]], place_[rows[j]]) += float(face_.tangent(i, j));
+  if (cortex.law == CortexLaw::none && cortex.tension == 0 && cortex.bending == 0) return;
+  for (const int patch : cortex_.patches_of(element)) {
+    cortex_.integrate(patch, cortex, unknowns, want, patch_);
+    const Eigen::MatrixXi& rows = cortex_.unknowns_of(patch);
+    for (int j = 0; j < int(rows.size()); ++j) {
+      if (rows(j) < 0) continue;
+      total(rows(j)) += patch_.residual(j);
+      if (want == Want::residual) continue;
+      for (int i = 0; i < int(rows.size()); ++i) {
+        if (rows(i) >= 0) matrix_(place_[rows(i)], place_[rows(j)]) += float(patch_.tangent(i, j));
+      }
     }
   }
 }

@@ -21,8 +21,8 @@ class DuctSystem final : public NonlinearSystem {
   using UseTangent = std::function<bool(int element, const std::vector<int>& order, NestedLU::Matrix& tangent)>;
 
   /// The space must outlive this object. Where the pressure drop is given, it is `drop` times that of the undisturbed
-  /// flow at mean speed 1. Bending stiffness is not for this system.
-  explicit DuctSystem(const DuctSpace&, double drop = 1);
+  /// flow at mean speed 1. A cortex with bending stiffness is for systems that bend.
+  explicit DuctSystem(const DuctSpace&, double drop = 1, bool bends = false);
 
   const DuctSpace& space() const { return space_; }
   const TensorElement& element() const { return element_; }
@@ -55,7 +55,7 @@ class DuctSystem final : public NonlinearSystem {
   void obey(const std::atomic<bool>* stop) { stop_ = stop; }
 
  private:
-  /// Of the face that an element shares with the cell.
+  /// Of the patches of the surface that an element has a share in.
   void add_cortex(int element, const Cortex&, const VectorXd& unknowns, Want, VectorXd& total);
 
   const DuctSpace& space_;
@@ -70,7 +70,7 @@ class DuctSystem final : public NonlinearSystem {
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
   TurningSurface turning_;
   HexahedronPoints points_;
-  FaceSystem face_;
+  PatchSystem patch_;
   NestedLU::Matrix matrix_;  ///< of an element
   std::vector<int> place_;   ///< of each unknown in the matrix of an element
 };

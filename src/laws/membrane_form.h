@@ -28,12 +28,7 @@ struct MembraneFields {
     visit_vector(on, Source::position, s, 1);
     visit_vector(on, Source::position, t, 2);
   }
-  SurfaceMetric<T> metric() const {
-    const auto product = [](const Components<T, 3>& a, const Components<T, 3>& b) {
-      return T(a(0) * b(0) + a(1) * b(1) + a(2) * b(2));
-    };
-    return {product(s, s), product(s, t), product(t, t)};
-  }
+  SurfaceMetric<T> metric() const { return {dot(s, s), dot(s, t), dot(t, t)}; }
 };
 
 /// Elastic energy and surface tension.

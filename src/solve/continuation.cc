@@ -19,6 +19,8 @@ bool is_stopped(const ContinuationOptions& options) { return options.newton.stop
 
 /// Changes of the liquid's thinning in one step, and the least one.
 constexpr double thinning_step = 0.2, min_thinning_step = 0.01;
+/// Of the residual in the liquids between, whose states are but guesses for the next.
+constexpr double tolerance_between = 1e-3;
 
 /// Newton at one compliance from a guess in the Newtonian liquid. A power law is singular where nothing flows yet, so
 /// the liquid is approached from the Newtonian one in steps that halve where Newton fails.
@@ -33,7 +35,9 @@ NewtonReport enter_branch(NonlinearSystem& system, const Problem& problem, const
     const double share = first ? 0 : 1 - reached - step < 1e-9 ? 1 : reached + step;
     media.liquid = at_thinning(problem.liquid, share);
     VectorXd trial = unknowns;
-    report = newton(system, media, options.newton, trial);
+    NewtonOptions newton_options = options.newton;
+    if (way > 0 && share < 1) newton_options.tolerance = std::max(tolerance_between, newton_options.tolerance);
+    report = newton(system, media, newton_options, trial);
     report.iterations = iterations += report.iterations;
     if (report.status == Status::converged) {
       unknowns = trial;

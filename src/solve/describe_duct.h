@@ -22,9 +22,11 @@ struct DuctDiscrete {
       : shared_space(std::make_shared<const DuctSpace>(DuctMesh(DuctGeometry(shape_of(problem)), subdivision, symmetry),
                                                        degree, problem.liquid, problem.drive)),
         space(*shared_space),
-        system(space, problem.drive == Drive::rate
-                          ? 1
-                          : problem.pressure_gradient / space.section().flow(problem.liquid).pressure_gradient) {}
+        system(space,
+               problem.drive == Drive::rate
+                   ? 1
+                   : problem.pressure_gradient / space.section().flow(problem.liquid).pressure_gradient,
+               problem.cortex.bending > 0) {}
   std::shared_ptr<const DuctSpace> shared_space;
   const DuctSpace& space;
   DuctSystem system;

@@ -23,7 +23,7 @@ void explain(const Problem& problem, StationaryState& r) {
                                           .estimated_error = r.estimated_error,
                                           .wanted_error = problem.accuracy,
                                           .surface = surface_kind(problem),
-                                          .can_bend = false});
+                                          .can_have_cortex = problem.offset == 0});
 }
 
 /// Whether the unknowns of both problems mean the same.

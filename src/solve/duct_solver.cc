@@ -13,7 +13,7 @@ namespace {
 constexpr std::array ways = {3, 4, 5};
 /// A tangent takes a third of the time that it takes at the first of the ways.
 constexpr int degree_of_scout = 2;
-constexpr double tolerance_on_the_way = 1e-7, final_tolerance = 1e-9;
+constexpr double tolerance_on_the_way = 1e-7;
 constexpr double min_step_before_refining = 0.03, min_step_at_last = 5e-3;
 
 /// Higher degrees move the end of a branch by a few per cent: where it is farther from the wanted compliance than this,
@@ -31,9 +31,10 @@ int last_degree_of(const Problem& problem) {
   return problem.offset == 0 ? DuctSolver::last_degree : last_degree_off_axis;
 }
 
-/// A factorisation costs as much as tens of chord steps at high degrees.
-NewtonOptions fine_newton(const std::atomic<bool>* stop) {
-  return {.tolerance = final_tolerance, .chord_reduction = 0.5, .stop = stop};
+/// Deformations are known a hundredth as well as the wanted accuracy asks. A factorisation costs as much as tens of
+/// chord steps at high degrees.
+NewtonOptions fine_newton(double accuracy, const std::atomic<bool>* stop) {
+  return {.tolerance = std::min(1e-8, 1e-5 * accuracy), .chord_reduction = 0.5, .stop = stop};
 }
 
 /// While it lives, the system gives up its work once it is to stop.
@@ -102,7 +103,7 @@ Status DuctSolver::climb(DuctState& state, DuctLadder& ladder) {
     if (degree > last_degree_of(problem_)) return Status::accuracy_not_reached;
     // Two degrees' factors at a time would take the most memory.
     if (!ladder.keeps_systems) ladder.rungs.back().discrete->system.drop_factors();
-    DuctState next = at_degree(ladder.rungs.back(), degree, fine_newton(stop_));
+    DuctState next = at_degree(ladder.rungs.back(), degree, fine_newton(problem_.accuracy, stop_));
     if (next.status != Status::converged) return next.status;
     state = next;
     add(std::move(next), ladder);
@@ -128,7 +129,7 @@ Status DuctSolver::carry(const Problem& from, const DuctLadder& ladder, DuctLadd
       const DuctSpace &lower = coarse.discrete->space, &space = next.discrete->space;
       next.branch.unknowns += transfer(lower, coarse.branch.unknowns, space) - transfer(lower, before, space);
     }
-    NewtonOptions options = fine_newton(stop_);
+    NewtonOptions options = fine_newton(problem_.accuracy, stop_);
     options.keep_factors = next.discrete->system.has_factors();
     const DuctState found = solved(next.discrete, next.branch, options);
     const DuctSpace& space = next.discrete->space;

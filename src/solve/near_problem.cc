@@ -12,8 +12,8 @@ double relative_change(double a, double b) { return a == b ? 0 : std::abs(a - b)
 
 bool has_same_laws(const Problem& a, const Problem& b) {
   const bool same_side = (a.offset == 0) == (b.offset == 0) && (a.offset == 0 || a.camera == b.camera);
-  return a.bulk.law == b.bulk.law && a.cortex.law == b.cortex.law && a.liquid.law == b.liquid.law &&
-         (is_power_law(a.liquid.law) || a.liquid == b.liquid) && a.drive == b.drive &&
+  return a.bulk.law == b.bulk.law && a.cortex.law == b.cortex.law && (a.cortex.bending > 0) == (b.cortex.bending > 0) &&
+         a.liquid.law == b.liquid.law && (is_power_law(a.liquid.law) || a.liquid == b.liquid) && a.drive == b.drive &&
          a.channel_length == b.channel_length && a.section == b.section && a.extent.width == b.extent.width &&
          a.extent.height == b.extent.height && same_side;
 }

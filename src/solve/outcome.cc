@@ -16,18 +16,17 @@ SurfaceKind surface_kind(const Problem& problem) {
 namespace {
 
 /// What keeps short waves off the surface.
-std::string stabiliser(const LastState& last) {
-  const std::string tension = "tension (cell.cortex.tension_mN_per_m)";
-  return last.can_bend ? "a little bending stiffness (cell.cortex.bending_kBT = 1e4) or " + tension : tension;
-}
+constexpr std::string_view stabiliser =
+    "a little bending stiffness (cell.cortex.bending_kBT = 1e4) or tension (cell.cortex.tension_mN_per_m)";
 
 std::string unstable_surface(const std::string& where, const LastState& last) {
   const std::string what = last.surface == SurfaceKind::membrane
                                ? "The cortex of so soft a cell is compressed and wrinkles: the smooth branch ends at "
                                : "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder): the "
                                  "smooth branch ends at ";
-  const std::string hold = last.surface == SurfaceKind::held ? "" : ", or stabilise the surface by " + stabiliser(last);
-  return what + where + "; raise the moduli above that, lower flow rate or viscosity" + hold + ".";
+  const bool can_be_held = last.surface != SurfaceKind::held && last.can_have_cortex;
+  return what + where + "; raise the moduli above that, lower flow rate or viscosity" +
+         (can_be_held ? fmt::format(", or stabilise the surface by {}.", stabiliser) : ".");
 }
 
 }  // namespace
@@ -43,8 +42,9 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
   if (outcome.status == Status::stopped && outcome.reached <= 0) return "Stopped by a signal before the first state.";
   if (outcome.reached <= 0) {
     if (outcome.status == Status::surface_unstable)
-      return "The surface of this cell wrinkles at the smallest load already; stabilise it by " + stabiliser(last) +
-             ".";
+      return fmt::format("The surface of this cell wrinkles at the smallest load already; {}.",
+                         last.can_have_cortex ? fmt::format("stabilise it by {}", stabiliser)
+                                              : std::string("raise the moduli, or lower flow rate or viscosity"));
     return "No state was found, not even of a nearly rigid cell: the case is far outside what the solver can follow; "
            "check the units of its numbers.";
   }

@@ -47,8 +47,8 @@ struct LastState {
   double estimated_error = 0;  ///< relative
   double wanted_error = 0;     ///< relative
   SurfaceKind surface = SurfaceKind::bare;
-  bool can_bend = true;  ///< whether bending stiffness may be given; not in ducts
-  double known_end = 0;  ///< least modulus over the wanted one, where it was known beforehand
+  bool can_have_cortex = true;  ///< not off the axis of a duct
+  double known_end = 0;         ///< least modulus over the wanted one, where it was known beforehand
 };
 
 /// One sentence for the user: what happened, where, what to try.

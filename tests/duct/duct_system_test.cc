@@ -12,9 +12,9 @@ namespace {
 
 /// A coarse duct with a cell in it.
 struct SmallDuct {
-  explicit SmallDuct(const Liquid& liquid, int degree = 2)
+  explicit SmallDuct(const Liquid& liquid, int degree = 2, bool bends = false)
       : space(DuctMesh(DuctGeometry(Section::square, 0.6), {.along = 2, .layers = 1, .axial = 1}), degree, liquid),
-        system(space) {}
+        system(space, 1, bends) {}
   DuctSpace space;
   DuctSystem system;
 };
@@ -44,9 +44,10 @@ TEST(DuctSystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
   // And the factors are the tangent's: each correction leaves as little as single precision allows.
   const Liquid newtonian{.reynolds = 0.7},
       power_law{.law = LiquidLaw::power_law, .exponent = 0.6, .shear_rate_floor = 0.3};
-  const Cortex none, shell{CortexLaw::neo_hookean, 2, 0.3, 0};
-  for (const auto& [liquid, cortex] : {std::pair{newtonian, none}, {power_law, none}, {newtonian, shell}}) {
-    SmallDuct duct(liquid);
+  const Cortex none, shell{CortexLaw::neo_hookean, 2, 0.3, 0}, bent{CortexLaw::thin_shell, 2, 0.3, 0.02};
+  for (const auto& [liquid, cortex] :
+       {std::pair{newtonian, none}, {power_law, none}, {newtonian, shell}, {newtonian, bent}}) {
+    SmallDuct duct(liquid, 2, cortex.bending > 0);
     Media law = media(liquid);
     law.cortex = cortex;
     const VectorXd x = deformed_state(duct.system, law);

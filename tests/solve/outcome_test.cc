@@ -70,12 +70,12 @@ TEST(Outcome, AnUnstableSurfaceIsOfferedWhatCouldHoldIt) {
             std::string::npos);
 }
 
-TEST(Outcome, ASurfaceInADuctIsNotOfferedTheBendingStiffnessThatDuctsRefuse) {
+TEST(Outcome, ACellOffTheAxisIsNotOfferedTheCortexThatItCannotHave) {
   for (const double reached : {0.0, 0.4}) {
     const std::string sentence =
-        explanation({Status::surface_unstable, "", reached}, {.surface = SurfaceKind::membrane, .can_bend = false});
-    EXPECT_EQ(sentence.find("bending"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("cell.cortex.tension_mN_per_m"), std::string::npos) << sentence;
+        explanation({Status::surface_unstable, "", reached}, {.surface = SurfaceKind::bare, .can_have_cortex = false});
+    EXPECT_EQ(sentence.find("cell.cortex"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("raise the moduli"), std::string::npos) << sentence;
   }
 }
 

@@ -109,8 +109,10 @@ TEST(SquareChannel, ATubeInThreeDimensionsIsTheTubeInBothViews) {
 }
 
 TEST(SquareChannel, ACortexInThreeDimensionsIsThatOfTheTubeInBothViews) {
-  for (const CortexLaw law : {CortexLaw::none, CortexLaw::linear, CortexLaw::neo_hookean}) {
-    const auto [side, diagonal] = over_the_tube(6, 1e-5, 4, {law, 2, 0.5, 0});
+  const Cortex tension{.tension = 0.5}, bending{.bending = 0.2}, linear{CortexLaw::linear, 2, 0.5, 0},
+      bent_shell{CortexLaw::neo_hookean, 2, 0.5, 0.05};
+  for (const Cortex& cortex : {tension, bending, linear, bent_shell}) {
+    const auto [side, diagonal] = over_the_tube(6, 1e-5, 4, cortex);
     EXPECT_NEAR(side, 1, 1e-3);
     EXPECT_NEAR(diagonal, 1, 1e-3);
   }
@@ -119,9 +121,11 @@ TEST(SquareChannel, ACortexInThreeDimensionsIsThatOfTheTubeInBothViews) {
 TEST(SquareChannelSlow, ACortexInThreeDimensionsIsThatOfTheTubeToOneTenThousandth) {
   // A bulk of 4 within the second shell is at the end of its smooth branch (margin 0.002), where no mesh is fine
   // enough.
-  for (const auto& [law, shear_modulus] :
-       {std::pair{CortexLaw::thin_shell, 4.0}, std::pair{CortexLaw::neo_hookean_reference, 6.0}}) {
-    const auto [side, diagonal] = over_the_tube(shear_modulus, 1e-6, 6, {law, 2, 0.5, 0});
+  const Cortex thin_shell{CortexLaw::thin_shell, 2, 0.5, 0}, membrane{CortexLaw::neo_hookean_reference, 2, 0.5, 0},
+      bending{.bending = 0.05};
+  for (const auto& [cortex, shear_modulus] :
+       {std::pair{thin_shell, 4.0}, std::pair{membrane, 6.0}, std::pair{bending, 4.0}}) {
+    const auto [side, diagonal] = over_the_tube(shear_modulus, 1e-6, 6, cortex);
     EXPECT_NEAR(side, 1, 1e-4);
     EXPECT_NEAR(diagonal, 1, 1e-4);
   }
