@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from rheocyte.arrays import number, positive
+from rheocyte.arrays import number, positive, truth
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
 
@@ -43,16 +43,17 @@ def analytic(radius_um, *, young_modulus_kPa=None, cortex_modulus_mN_per_m=None,
         raise UserError("give either young_modulus_kPa, for a solid, or cortex_modulus_mN_per_m, for a shell.")
     if young_modulus_kPa is not None and tension_ratio is not None:
         raise UserError("tension_ratio belongs to a shell; leave it out, or give cortex_modulus_mN_per_m.")
-    given = {"radius_um": radius_um, "young_modulus_kPa": young_modulus_kPa,
-             "cortex_modulus_mN_per_m": cortex_modulus_mN_per_m, "channel_width_um": channel_width_um,
-             "tube_radius_um": tube_radius_um, "flow_rate_ul_s": flow_rate_ul_s, "viscosity_mPas": viscosity_mPas}
+    radius, rate = positive(radius_um, "radius_um"), positive(flow_rate_ul_s, "flow_rate_ul_s")
+    mPas = positive(viscosity_mPas, "viscosity_mPas")
+    given = {"young_modulus_kPa": young_modulus_kPa, "cortex_modulus_mN_per_m": cortex_modulus_mN_per_m,
+             "channel_width_um": channel_width_um, "tube_radius_um": tube_radius_um}
     good = {name: None if value is None else positive(value, name) for name, value in given.items()}
     tension = number(0.1 if tension_ratio is None else tension_ratio, "tension_ratio")
     if tension < 0:
         raise UserError(f"tension_ratio is {tension:g}; it must be 0 or more.")
-    conditions = native.AnalyticConditions(good["channel_width_um"], good["tube_radius_um"], good["flow_rate_ul_s"],
-                                           good["viscosity_mPas"], bool(square_duct))
-    text, contour = native.analytic(conditions, good["radius_um"], good["young_modulus_kPa"],
+    conditions = native.AnalyticConditions(good["channel_width_um"], good["tube_radius_um"], rate, mPas,
+                                           truth(square_duct, "square_duct"))
+    text, contour = native.analytic(conditions, radius, good["young_modulus_kPa"],
                                     good["cortex_modulus_mN_per_m"], tension)
     points = np.array([[float(value) for value in line.split(",")] for line in contour.splitlines()[1:]])
     return SmallDeformation(json.loads(text), points)

@@ -6,14 +6,16 @@ from rheocyte.errors import UserError
 
 
 def numbers(values, name):
-    """An array of 64-bit numbers; the values themselves, not a copy, if they are such an array already."""
+    """An array of 64-bit numbers; the values themselves, not a copy, if they are such an array already. Those that a
+    numpy mask hides are NaN."""
     try:
         array = np.asarray(values)
         if array.dtype.kind not in "fiub":
             raise TypeError(f"its type is {array.dtype}")
-        return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
-    except (TypeError, ValueError) as error:
+        found = np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+    except (TypeError, ValueError, RuntimeError) as error:  # the last one from arrays of other libraries
         raise UserError(f"{name} is not an array of numbers: {error}.") from error
+    return np.where(np.ma.getmaskarray(values), np.nan, found) if np.ma.isMaskedArray(values) else found
 
 
 def equally_long(**arrays):
@@ -33,6 +35,13 @@ def number(value, name):
     if array.size != 1 or not np.isfinite(array).all():
         raise UserError(f"{name} is {value!r}; one finite number is wanted.")
     return float(array.reshape(())) if array.ndim else float(array)
+
+
+def truth(value, name):
+    """True or False; a text, which Python would take for True, is neither."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise UserError(f"{name} is {value!r}; give True or False.")
+    return bool(value)
 
 
 def positive(value, name):

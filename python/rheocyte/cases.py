@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
+from rheocyte.paths import path
 
 _KEYS = {key["name"]: key for key in native.case_keys()}
 _SECTIONS = {name[:end] for name in _KEYS for end in range(len(name)) if name[end] == "."}
@@ -44,7 +45,7 @@ def _full_name(name):
 def flat_keys(values, prefix=""):
     """Pairs of a dotted key and its value from nested dictionaries."""
     for name, value in values.items():
-        if not isinstance(name, str):
+        if not isinstance(name, str) or not name.isprintable():
             raise UserError(f"Case: the key {name!r} is no text; write \"cell.radius_um\".")
         full = prefix + name
         if isinstance(value, Mapping) and (value or full in _SECTIONS):
@@ -102,9 +103,9 @@ class Case:
             return
         replaced = dict(flat_keys({_full_name(name): value for name, value in overrides.items()}))
         if isinstance(source, (str, os.PathLike)):
-            # Its mistakes are told with their lines.
-            native.CaseValues.from_file(os.fspath(source), list(replaced.items()))
-            stated = dict(native.stated_in_file(os.fspath(source)))
+            file = path(source, "the case")
+            native.CaseValues.from_file(file, list(replaced.items()))  # tells mistakes with their lines
+            stated = dict(native.stated_in_file(file))
         elif isinstance(source, Case):
             stated = dict(source._stated)
         elif source is None or isinstance(source, Mapping):

@@ -3,9 +3,18 @@
 The third kind has no class of its own: it is any other exception, and worth a report.
 """
 
+import re
+
+_LONGEST = 1000  # characters; a text of the user's may be any length
+
 
 class UserError(ValueError):
     """What the user can repair; the text is one sentence: place, key, value, what is allowed, what to do."""
+
+    def __init__(self, sentence=""):
+        line = re.sub(r"\s*[\r\n]\s*", " ", str(sentence)).encode("utf-8", "backslashreplace").decode()
+        half = _LONGEST // 2
+        super().__init__(line if len(line) <= _LONGEST else f"{line[:half]} ... {line[-half:]}")
 
 
 class InputError(UserError):

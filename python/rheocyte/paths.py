@@ -1,8 +1,15 @@
-"""Paths that users give."""
+"""Paths and words that users give."""
 
 import os
 
 from rheocyte.errors import UserError
+
+
+def word(value, name):
+    """A text; UserError for what is none."""
+    if not isinstance(value, str) or not value.isprintable():
+        raise UserError(f"{name} is {value!r}; give a text.")
+    return value
 
 
 def path(value, name):

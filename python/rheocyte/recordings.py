@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from rheocyte.arrays import number, numbers, positive
+from rheocyte.arrays import number, numbers, positive, truth
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
-from rheocyte.paths import path
+from rheocyte.paths import path, word
 from rheocyte.progress import progress_bar
 from rheocyte.specs import read_spec
 from rheocyte.stiffness_tables import place_of_table
@@ -52,12 +52,13 @@ def extract(
     options = native.ExtractOptions()
     options.measuring = _measuring(measuring, "extract")
     options.table = place_of_table(table)
-    if section not in ("tube", "square") or (table and section != "tube"):
+    if word(section, "section") not in ("tube", "square") or (table and section != "tube"):
         raise UserError(f"extract: section = {section!r}: \"tube\" or \"square\", and only without a table.")
     if section == "square":
         options.set_square()
-    options.no_pixelation, options.no_area_correction = not pixelation, not correct_area
-    options.no_asymmetry = not asymmetry
+    options.no_pixelation = not truth(pixelation, "pixelation")
+    options.no_area_correction = not truth(correct_area, "correct_area")
+    options.no_asymmetry = not truth(asymmetry, "asymmetry")
     with progress_bar(progress) as tell:
         columns, attributes = native.extract(_path(recording), options, tell)
     if not len(columns["standard_error_kPa"]) or np.isnan(columns["standard_error_kPa"]).all():
@@ -86,7 +87,8 @@ def moduli(recording, table, *, fit_tension=False, only_figure=False, progress=N
     options = native.ModuliOptions()
     options.measuring = _measuring(measuring, "moduli")
     options.table = path(table, "table")
-    options.fit_tension, options.only_figure = bool(fit_tension), bool(only_figure)
+    options.fit_tension = truth(fit_tension, "fit_tension")
+    options.only_figure = truth(only_figure, "only_figure")
     descriptor = os.memfd_create("rheocyte-moduli")  # memory, not a file
     try:
         with progress_bar(progress) as tell:
@@ -145,7 +147,7 @@ def synth(spec, file, *, replace=False, progress=None, **overrides):
     text, name, settings = read_spec(spec, overrides, "synth")
     if place.suffix != ".rtdc":
         raise UserError(f"{place}: recordings have names that end in .rtdc.")
-    if place.exists() and not (replace and place.is_file()):
+    if place.exists() and not (truth(replace, "replace") and place.is_file()):
         raise UserError(f"{place}: is there already; give another name, or replace=True for a file.")
     with progress_bar(progress) as tell:
         return native.synth(text, name, settings, str(place), tell)
@@ -167,7 +169,7 @@ def features(masks, pixel_size_um):
 
     try:
         array = np.asarray(masks)
-    except ValueError as error:
+    except (TypeError, ValueError, RuntimeError) as error:
         raise UserError(f"masks is no array: {error}.") from error
     if array.dtype.kind not in "biu" or array.ndim not in (2, 3) or 0 in array.shape[-2:]:
         raise UserError(f"masks has the type {array.dtype} and the shape {array.shape}; wanted are booleans or whole "
@@ -188,11 +190,7 @@ _TEXTS = ("medium", "viscosity_model")
 
 def _measuring(given, function):
     options = native.MeasuringOptions()
-    least, greatest = (given.pop(name, None) or {} for name in ("least", "greatest"))
-    polygons = given.pop("polygons", None) or {}
-    for limits in (least, greatest, polygons):
-        if not isinstance(limits, Mapping):
-            raise UserError(f"limits of features are {limits!r}; give a dictionary, such as {{\"area_ratio\": 1.05}}.")
+    least, greatest, polygons = (_limits(given.pop(name, None), name) for name in ("least", "greatest", "polygons"))
     options.set_gates(*([f"{feature}={number(limit, feature)!r}" for feature, limit in limits.items()]
                         for limits in (least, greatest)),
                       [f"{','.join(features)}={_corners(corners)}" for features, corners in polygons.items()])
@@ -202,13 +200,19 @@ def _measuring(given, function):
         if name in _NUMBERS:
             setattr(options, name, positive(value, name))
         elif name in _TEXTS:
-            setattr(options, name, str(value))
+            setattr(options, name, word(value, name))
         elif name == "temperature":
-            options.temperature = value if isinstance(value, str) else repr(number(value, name))
+            options.temperature = word(value, name) if isinstance(value, str) else repr(number(value, name))
         else:
             known = ", ".join((*_NUMBERS, *_TEXTS, "temperature", "least", "greatest", "polygons"))
             raise UserError(f"{function} has no argument {name!r}; there are {known}.")
     return options
+
+
+def _limits(limits, name):
+    if limits is not None and not isinstance(limits, Mapping):
+        raise UserError(f"{name} is {limits!r}; give a dictionary of features, such as {{\"area_ratio\": 1.05}}.")
+    return limits or {}
 
 
 def _corners(corners):

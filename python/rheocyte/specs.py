@@ -7,19 +7,21 @@ from pathlib import Path
 
 from rheocyte.cases import flat_keys
 from rheocyte.errors import UserError
+from rheocyte.paths import path
 
 
 def read_spec(spec, overrides, function):
-    """Text of a spec, what stands for it in messages, and the overrides as lines "key=value"."""
+    """Text of a spec, what stands for it in messages (of a file its name, in bytes), and the overrides as lines "key=value"."""
     settings = _toml(((key.replace("__", "."), value) for key, value in overrides.items()), function).splitlines()
     if isinstance(spec, Mapping):
         return _toml(flat_keys(spec), function), "the dictionary", settings
     if not isinstance(spec, (str, os.PathLike)):
         raise UserError(f"{function}: {type(spec).__name__} is no spec; give a path or a dictionary.")
+    file = path(spec, "the spec")
     try:
-        return Path(spec).read_text(encoding="utf-8"), os.fspath(spec), settings
+        return Path(file).read_text(encoding="utf-8"), os.fsencode(file), settings
     except (OSError, UnicodeDecodeError) as failure:
-        raise UserError(f"{os.fspath(spec)}: cannot be read ({failure}).") from failure
+        raise UserError(f"{file}: cannot be read ({failure}).") from failure
 
 
 def _toml(pairs, function):

@@ -8,6 +8,8 @@ import threading
 
 import numpy as np
 
+from rheocyte import paths
+from rheocyte.arrays import number
 from rheocyte.cases import Case
 from rheocyte.errors import NoStateError, UserError
 from rheocyte.native_module import native
@@ -42,9 +44,10 @@ class Session:
     """
 
     def __init__(self, memory_MB=_DEFAULT_MEMORY_MB):
-        if not isinstance(memory_MB, (int, float)) or not 0 <= memory_MB < 1e9:
-            raise UserError(f"Session: memory_MB is {memory_MB!r}; give a size from 0 on.")
-        self._native = native.Session(int(memory_MB * 2**20))
+        size = number(memory_MB, "memory_MB")
+        if not 0 <= size < 1e9:
+            raise UserError(f"Session: memory_MB is {size:g}; give a size from 0 on.")
+        self._native = native.Session(int(size * 2**20))
 
     def solve(self, case=None, *, check=False, progress=None, **overrides):
         """As rheocyte.solve, from a kept state if one is near; the answer is the same up to rounding and tolerance."""
@@ -165,12 +168,12 @@ class Result:
 
     def save_fields(self, path):
         """Writes the fields as a .vtu file for ParaView, PyVista or meshio."""
-        content = self._vtu()
+        target, content = paths.path(path, "the file of the fields"), self._vtu()
         try:
-            with open(path, "wb") as file:
+            with open(target, "wb") as file:
                 file.write(content)
         except OSError as error:
-            raise UserError(f"{os.fspath(path)} cannot be written: {error.strerror}.") from error
+            raise UserError(f"{target} cannot be written: {error.strerror}.") from error
 
     def _vtu(self):
         if not self._native.has_state():

@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rheocyte.arrays import equally_long, number, numbers, positive
+from rheocyte.arrays import equally_long, number, numbers, positive, truth
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
-from rheocyte.paths import path
+from rheocyte.paths import path, word
 from rheocyte.progress import progress_bar
 from rheocyte.specs import read_spec
 
@@ -57,14 +57,15 @@ def text_tables():
 
 
 def place_of_table(name):
-    """The file of a table of the dclab that is installed for this interpreter; any other name as it is."""
+    """The file of a table of the dclab that is installed for this interpreter; any other name as it is. In bytes: names
+    of files need not be UTF-8."""
     wanted = path(name, "the table")
     dclab = importlib.util.find_spec("dclab")
-    if dclab and dclab.origin and os.sep not in wanted:
-        file = Path(dclab.origin).parent / "features" / "emodulus" / f"lut_{wanted}.txt"
-        if file.is_file():
-            return str(file)
-    return wanted
+    if dclab and dclab.origin:
+        for file in (Path(dclab.origin).parent / "features" / "emodulus").glob("lut_*.txt"):
+            if file.name == f"lut_{wanted}.txt":
+                return os.fsencode(file)
+    return os.fsencode(wanted)
 
 
 def table(spec, folder, *, jobs=None, progress=None, **overrides):
@@ -100,7 +101,7 @@ def viscosity(medium, *, channel_width_um, flow_rate_ul_s, temperature_C, model=
     """
     width, rate = positive(channel_width_um, "channel_width_um"), positive(flow_rate_ul_s, "flow_rate_ul_s")
     celsius = _celsius(temperature_C)
-    found = native.Buffer(str(medium), str(model)).viscosity(width, rate, celsius.ravel())
+    found = _buffer(medium, model).viscosity(width, rate, celsius.ravel())
     return found.reshape(celsius.shape) if celsius.ndim else float(found[0])
 
 
@@ -122,7 +123,7 @@ class Table:
     @classmethod
     def for_medium(cls, medium, *, temperature_C=23.0, model=_MODEL):
         """The shipped table for a buffer, as `rheocyte extract` chooses it."""
-        exponent = native.Buffer(str(medium), str(model)).flow_exponent(number(temperature_C, "temperature_C"))
+        exponent = _buffer(medium, model).flow_exponent(number(temperature_C, "temperature_C"))
         return cls(native.Table.for_exponent(exponent).origin()["identifier"])
 
     identifier = property(lambda self: self._origin["identifier"], doc="For example LE-2D-26.")
@@ -181,12 +182,13 @@ class Table:
         channel_width_um, flow_rate_ul_s, viscosity_mPas    of the measurement; else those of the table
         pixel_size_um   the lines run where cells lie in pictures with such pixels; 0: without pixels
         """
-        levels = [] if levels_kPa is None else np.atleast_1d(numbers(levels_kPa, "levels_kPa")).tolist()
+        levels = [] if levels_kPa is None else numbers(levels_kPa, "levels_kPa").ravel().tolist()
         if not all(np.isfinite(level) and level > 0 for level in levels):
             raise UserError(f"levels_kPa is {levels_kPa!r}; give moduli above 0.")
-        if not 1 <= number(count, "count") <= 1000:
-            raise UserError(f"count is {count!r}; give a number of lines from 1 to 1000.")
-        return self._native.lines(levels, int(count), self._seen(channel_width_um, flow_rate_ul_s, viscosity_mPas,
+        wanted = number(count, "count")
+        if not 1 <= wanted <= 1000:
+            raise UserError(f"count is {wanted:g}; give a number of lines from 1 to 1000.")
+        return self._native.lines(levels, int(wanted), self._seen(channel_width_um, flow_rate_ul_s, viscosity_mPas,
                                                                  pixel_size_um))
 
     def support(self, *, channel_width_um=None, flow_rate_ul_s=None, viscosity_mPas=None, pixel_size_um=0.0):
@@ -206,7 +208,7 @@ class Table:
         if pixel < 0:
             raise UserError(f"pixel_size_um is {pixel:g}; give a size in um, or 0.")
         return native.Conditions(positive(width, "channel_width_um"), positive(rate, "flow_rate_ul_s"), pixel,
-                                 bool(correct_area))
+                                 truth(correct_area, "correct_area"))
 
     def __repr__(self):
         return f"<Table {self._origin['description']}>"
@@ -223,7 +225,11 @@ def _liquid(mPas, medium, temperature_C, model):
         return "viscosity_mPas", given, None
     if medium is None or temperature_C is None:
         raise UserError("the viscosity is missing; give viscosity_mPas, or medium and temperature_C.")
-    return "temperature_C", np.atleast_1d(_celsius(temperature_C)), native.Buffer(str(medium), str(model))
+    return "temperature_C", np.atleast_1d(_celsius(temperature_C)), _buffer(medium, model)
+
+
+def _buffer(medium, model):
+    return native.Buffer(word(medium, "medium"), word(model, "the viscosity model"))
 
 
 def _celsius(temperature_C):

@@ -28,12 +28,12 @@ bool is_list(const py::object& value) {
 
 decltype(GivenKey::value) value_from(const py::object& value) {
   if (py::isinstance<py::bool_>(value)) return Unusable{value.cast<bool>() ? "True" : "False"};
-  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   try {
+    if (py::isinstance<py::str>(value)) return value.cast<std::string>();
     if (is_list(value)) return value.cast<std::vector<double>>();
     if (PyNumber_Check(value.ptr()) != 0) return py::float_(value).cast<double>();
   } catch (const py::cast_error&) {
-    // a list of something else
+    // a list of something else, or a text that is not Unicode
   } catch (const py::error_already_set&) {
     // a number that is not real
   }

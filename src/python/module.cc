@@ -1,4 +1,6 @@
 // rheocyte.lib.native
+#include <string_view>
+
 #include "case/user_error.h"
 #include "python/bindings.h"
 #include "store/build_info.h"
@@ -12,7 +14,10 @@ void translate(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const rheocyte::UserError& error) {
-    py::set_error(py::module_::import("rheocyte.errors").attr("UserError"), error.what());
+    const std::string_view text = error.what();  // with names of files, which need not be UTF-8
+    const auto sentence = py::reinterpret_steal<py::str>(
+        PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
+    py::set_error(py::module_::import("rheocyte.errors").attr("UserError"), sentence);
   }
 }
 

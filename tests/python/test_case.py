@@ -67,6 +67,8 @@ def test_a_key_in_time_makes_the_case_one_in_time(paper):
     ({"cell": 5}, "cell"),
     ({"flow": {"exponent": 0.5}}, "flow.exponent"),
     ({5: 5}, "is no text"),
+    ({"cell": {"radius_um": "a\udcff"}}, "cell.radius_um"),
+    ({"a\udcff": 5}, "is no text"),
 ])
 def test_mistakes_are_value_errors_that_name_the_key(paper, keys, sentence):
     for section, values in keys.items():
@@ -79,7 +81,7 @@ def test_mistakes_are_value_errors_that_name_the_key(paper, keys, sentence):
     assert isinstance(caught.value, ValueError) and "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("source", [5, ["cell"], b"case.toml"])
+@pytest.mark.parametrize("source", [5, ["cell"], b"case.toml", "a\0b"])
 def test_what_is_no_source_is_refused(source):
     with pytest.raises(UserError):
         Case(source)

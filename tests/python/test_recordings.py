@@ -70,15 +70,21 @@ def test_a_file_that_is_none_or_damaged_is_named(tmp_path):
 @pytest.mark.parametrize("call", [
     lambda file: rheocyte.extract(file, table=5), lambda file: rheocyte.extract(file, least=5),
     lambda file: rheocyte.extract(file, least={"area_um": None}), lambda file: rheocyte.extract(file, section="round"),
-    lambda file: rheocyte.extract(file, progress=5), lambda file: rheocyte.moduli(file, None),
+    lambda file: rheocyte.extract(file, progress=5), lambda file: rheocyte.extract(file, pixelation="no"),
+    lambda file: rheocyte.extract(file, medium="a\udcff"), lambda file: rheocyte.extract(file, temperature="a\udcff"),
+    lambda file: rheocyte.moduli(file, file, fit_tension="no"), lambda file: rheocyte.synth("a\0b", file),
+    lambda file: rheocyte.synth("a\nb", file), lambda file: rheocyte.synth({}, file, replace="no"),
+    lambda file: rheocyte.analytic(None, young_modulus_kPa=1),
+    lambda file: rheocyte.analytic(5, young_modulus_kPa=1, square_duct="no"), lambda file: rheocyte.moduli(file, None),
     lambda file: rheocyte.time_course(file, None, 0), lambda file: rheocyte.time_course(file, file, "x"),
     lambda file: rheocyte.synth({}, 5), lambda file: rheocyte.table({}, 5), lambda file: rheocyte.table({}, file, jobs=-1),
     lambda file: rheocyte.solve(radius_um=5, progress=5), lambda file: rheocyte.Session("large"),
     lambda file: rheocyte.features([[True], [True, False]], 0.34), lambda file: rheocyte.features(None, 0.34)])
 def test_arguments_of_the_wrong_kind_are_value_errors(call, tmp_path):
     (tmp_path / "a.rtdc").write_bytes(b"")
-    with pytest.raises(UserError):
+    with pytest.raises(UserError) as caught:
         call(tmp_path / "a.rtdc")
+    assert "\n" not in str(caught.value)
 
 
 def test_no_damaged_file_takes_the_interpreter_along(tmp_path):

@@ -166,3 +166,6 @@ def test_fields_are_saved_as_the_command_line_writes_them(state, tmp_path):
     assert np.array_equal(again.data["pressure"], state.fields().data["pressure"])
     with pytest.raises(UserError, match="cannot be written"):
         state.save_fields(tmp_path / "nowhere" / "fields.vtu")
+    for wrong in (None, 1, "a\0b"):  # 1 would be standard output
+        with pytest.raises(UserError, match="no path"):
+            state.save_fields(wrong)

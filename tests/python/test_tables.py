@@ -1,5 +1,7 @@
 """Tables give moduli of arrays without copies, by the same numbers as the command line, and refuse what does not fit."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -62,6 +64,14 @@ def test_numbers_of_any_kind_are_taken(table):
 def test_events_of_impossible_temperature_have_no_modulus(table):
     found = table.modulus([80] * 4, [0.02] * 4, medium="CellCarrier", temperature_C=[23, -1, 296, np.nan], **SETTING)
     assert [rheocyte.STATES[k] for k in found.state] == ["valid"] + ["no data"] * 3
+
+
+def test_what_a_mask_hides_is_no_measurement(table):
+    """A masked event has no modulus; its hidden number is not taken for one."""
+    found = table.modulus(np.ma.array([80.0, 80.0], mask=[False, True]), [0.02, 0.02], **WATERY)
+    assert [rheocyte.STATES[k] for k in found.state] == ["valid", "no data"]
+    with pytest.raises(UserError, match="one finite number"):
+        table.modulus(80, 0.02, channel_width_um=np.ma.array(20.0, mask=True), flow_rate_ul_s=0.04, viscosity_mPas=15)
 
 
 def test_blocks_do_not_show(table):
@@ -178,6 +188,8 @@ def test_a_table_that_is_not_there_or_damaged_is_named(tmp_path):
     for wrong in (5, None, "a\0b"):
         with pytest.raises(UserError, match="the table is .* no path"):
             Table(wrong)
+    with pytest.raises(UserError, match="there is neither such a file"):
+        Table("x" * 5000)
     for count in (0, "x", np.nan):
         with pytest.raises(UserError, match="count"):
             Table("LE-2D-26").lines(count=count)
@@ -185,6 +197,30 @@ def test_a_table_that_is_not_there_or_damaged_is_named(tmp_path):
     file.write_bytes(b"\x00" * 100)
     with pytest.raises(UserError, match="grid_mine.cbor"):
         Table(file)
+
+
+def test_names_of_files_need_not_be_unicode(table, tmp_path):
+    """Those of older systems come as Python's surrogates; messages spell their bytes."""
+    file = tmp_path / os.fsdecode(b"lut_M\xe4use.txt")
+    file.write_bytes(rheocyte.text_tables()["LE-2D-26"].table.read_bytes())
+    again = Table(file).modulus(80, 0.02, **WATERY).young_modulus_kPa
+    assert again == pytest.approx(table.modulus(80, 0.02, **WATERY).young_modulus_kPa, rel=2e-3)  # straight between rows
+    file.unlink()
+    with pytest.raises(UserError, match=r"lut_M\\xe4use.txt"):
+        Table(file)
+
+
+@pytest.mark.parametrize("call", [
+    lambda table: table.modulus(80, 0.02, correct_area="no", **WATERY),
+    lambda table: table.modulus(80, 0.02, correct_area=np.ones(2, bool), **WATERY),
+    lambda table: table.modulus(80, 0.02, medium="a\udcff", temperature_C=23, **SETTING),
+    lambda table: table.modulus(np.ones((2, 3)), np.ones((2, 3)), **WATERY),
+    lambda table: table.modulus(80, 0.02, channel_width_um=np.ones((2, 3)), flow_rate_ul_s=0.04, viscosity_mPas=15),
+    lambda table: table.lines(np.zeros((2, 3)))])
+def test_what_is_no_switch_no_text_no_number_is_refused_in_a_line(call, table):
+    with pytest.raises(UserError) as caught:
+        call(table)
+    assert "\n" not in str(caught.value) and len(str(caught.value)) < 1100
 
 
 SMALL = {"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
