@@ -271,15 +271,20 @@ def draw_numbers(figure, result, total):
         figure.text(0.5, height / total, gap.join(parts), ha="center", va="baseline", weight=weight, fontsize=size)
 
 
+def written(law):
+    """A case's name of an elastic law as text: people are written with capitals."""
+    return law.replace("hookean", "Hookean").replace("mooney-rivlin", "Mooney-Rivlin")
+
+
 def made_of(result):
     """Laws and moduli of interior and cortex, as far as the cell has them."""
     cell = find(result, "case", "cell")
     bulk, cortex = find(cell, "bulk", "law"), find(cell, "cortex", "law") or "none"
     modulus = (part("E = {:.4g} kPa", result, "young_modulus_reached_kPa")
                or part("E = {:.4g} kPa", cell, "bulk", "young_modulus_kPa"))
-    parts = [] if bulk in (None, "none") else [f"{bulk} solid", modulus]
+    parts = [] if bulk in (None, "none") else [f"{written(bulk)} solid", modulus]
     if cortex != "none":
-        parts += [f"{cortex} {'shell' if bulk == 'none' else 'cortex'}",
+        parts += [f"{written(cortex)} {'shell' if bulk == 'none' else 'cortex'}",
                   part("E2D = {:.4g} mN/m", result, "cortex_modulus_reached_mN_per_m")]
     if find(result, "tension_mN_per_m"):
         parts.append(part("γ = {:.3g} mN/m", result, "tension_mN_per_m"))

@@ -28,7 +28,7 @@ class PlaneLines {
     if (lines_->wanted() == LinesWanted::no) return no_lines_json("No table of the program was found.");
     PlotPanel panel;
     panel.conditions.flow = channel_flow_of(c);
-    return lines_json(lines_->for_panel(panel), "Cells without a cortex, neo-hookean.");
+    return lines_json(lines_->for_panel(panel), "Cells without a cortex, neo-Hookean.");
   }
 
  private:
