@@ -1,7 +1,6 @@
 """Recordings of RT-DC: Young's moduli of their events, moduli of bulk and cortex, features of masks, virtual ones."""
 
 import io
-import os
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -9,6 +8,7 @@ import numpy as np
 
 from rheocyte.arrays import number, numbers, positive, truth
 from rheocyte.errors import UserError
+from rheocyte.memory_file import written
 from rheocyte.native_module import native
 from rheocyte.paths import path, word
 from rheocyte.progress import progress_bar
@@ -82,25 +82,16 @@ def moduli(recording, table, *, fit_tension=False, only_figure=False, progress=N
     Returns a pandas.DataFrame: area_um2, deformation, viscosity_mPas, young_modulus_kPa, cortex_modulus_mN_per_m,
     tension_mN_per_m and stiffness_kPa with their standard errors, chi_squared, status. attrs: settings, warnings.
     """
-    import pandas
-
     options = native.ModuliOptions()
     options.measuring = _measuring(measuring, "moduli")
     options.table = path(table, "table")
     options.fit_tension = truth(fit_tension, "fit_tension")
     options.only_figure = truth(only_figure, "only_figure")
-    descriptor = os.memfd_create("rheocyte-moduli")  # memory, not a file
-    try:
-        with progress_bar(progress) as tell:
-            warnings = native.moduli(_path(recording), f"/proc/self/fd/{descriptor}", options, tell)
-        with open(descriptor, encoding="utf-8", closefd=False) as file:
-            file.seek(0)
-            text = file.read()
-    finally:
-        os.close(descriptor)
-    frame = pandas.read_csv(io.StringIO(text), sep="\t", comment="#").drop(columns="event")
-    settings = [line[2:] for line in text.splitlines() if line.startswith("# ")]
-    frame.attrs.update(settings=settings, warnings=warnings)
+    with progress_bar(progress) as tell:
+        text, warnings = written(lambda place: native.moduli(_path(recording), place, options, tell))
+    frame = _frame(text.decode())
+    del frame["event"]
+    frame.attrs.update(warnings=warnings)
     return frame
 
 
@@ -117,8 +108,6 @@ def time_course(recordings, table, contraction_um, *, progress=None, **measuring
     settings, population (sentences; of at least 50 cells, also of those that were seen once). UserError says why single
     images, or pictures at one place, do not tell a viscosity.
     """
-    import pandas
-
     several = recordings if isinstance(recordings, (list, tuple)) else [recordings]
     places = np.atleast_1d(numbers(contraction_um, "contraction_um"))
     if len(places) not in (1, len(several)):
@@ -127,8 +116,8 @@ def time_course(recordings, table, contraction_um, *, progress=None, **measuring
     with progress_bar(progress) as tell:
         text, lines = native.time_course([_path(recording) for recording in several], path(table, "table"), each,
                                          _measuring(measuring, "time_course"), tell)
-    frame = pandas.read_csv(io.StringIO(text), sep="\t", comment="#")
-    frame.attrs.update(settings=[line[2:] for line in text.splitlines() if line.startswith("# ")], population=lines)
+    frame = _frame(text)
+    frame.attrs.update(population=lines)
     return frame
 
 
@@ -178,6 +167,15 @@ def features(masks, pixel_size_um):
     as_bytes = array.view(np.uint8) if array.dtype.itemsize == 1 else (array != 0).view(np.uint8)
     as_bytes = np.ascontiguousarray(as_bytes).reshape(-1, *array.shape[-2:])
     return pandas.DataFrame(native.features(as_bytes, size))
+
+
+def _frame(text):
+    """The rows of a table of the program; its lines of settings in attrs."""
+    import pandas
+
+    frame = pandas.read_csv(io.StringIO(text), sep="\t", comment="#")
+    frame.attrs.update(settings=[line[2:] for line in text.splitlines() if line.startswith("# ")])
+    return frame
 
 
 def _path(recording):

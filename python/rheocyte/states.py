@@ -12,6 +12,7 @@ from rheocyte import paths
 from rheocyte.arrays import number
 from rheocyte.cases import Case
 from rheocyte.errors import NoStateError, UserError
+from rheocyte.memory_file import written
 from rheocyte.native_module import native
 from rheocyte.progress import told_to
 
@@ -178,15 +179,10 @@ class Result:
     def _vtu(self):
         if not self._native.has_state():
             raise UserError(f"this result has no fields: {self.message}")
-        descriptor = os.memfd_create("rheocyte-fields")  # memory, not a file
-        try:
-            if not self._native.write_fields(f"/proc/self/fd/{descriptor}"):
-                raise MemoryError("the fields do not fit into memory")
-            with open(descriptor, "rb", closefd=False) as file:
-                file.seek(0)
-                return file.read()
-        finally:
-            os.close(descriptor)
+        content, is_whole = written(self._native.write_fields)
+        if not is_whole:
+            raise MemoryError("the fields do not fit into memory")
+        return content
 
     def plot(self):
         """The picture of `rheocyte solve`: cell, flow and stress; a matplotlib figure."""
