@@ -49,6 +49,21 @@ test('A cell that does not fit is refused at its control', { skip: noBrowser }, 
     assert.equal(await field(page, 'cell.radius_um').getAttribute('aria-invalid'), 'true');
   }));
 
+test('What is typed and is no number is marked and dropped; Escape takes back what is typed', { skip: noBrowser }, () =>
+  withCell(async ({ page }) => {
+    const radius = field(page, 'cell.radius_um'), before = await radius.inputValue();
+    await radius.fill('7 or so');
+    assert.equal(await radius.getAttribute('aria-invalid'), 'true');
+    await radius.press('Enter');
+    assert.equal(await radius.inputValue(), before);
+    assert.equal(await radius.getAttribute('aria-invalid'), 'false');
+    await radius.fill('7');
+    await radius.press('Escape');
+    await radius.blur();
+    assert.equal(await radius.inputValue(), before);
+    assert.equal(await page.getByRole('button', { name: 'Undo' }).isDisabled(), true, 'the case is as it was');
+  }));
+
 test('Undo returns to the case before, redo to the one after; a whole movement is one step', { skip: noBrowser }, () =>
   withCell(async ({ page }) => {
     const first = await shownDeformation(page);

@@ -1,7 +1,7 @@
 // One key of the case as a control: a slider with its number and unit, a choice, or a list.
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { Case, KeyDescription, Value } from '../api';
-import { plain, unitText } from '../draw/numbers';
+import { numberIn, plain, unitText } from '../draw/numbers';
 import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
 import { titleOf } from './keys';
@@ -21,37 +21,29 @@ function useWrong(key: KeyDescription): string | null {
   return refusal?.detail.key === key.name ? refusal.message : null;
 }
 
-interface NumberFieldProps extends ControlProps {
+interface NumberFieldProps {
+  of: KeyDescription;
   value: number | undefined;
   wrong: string | null;
 }
 
-/** The number as text: takes effect with Enter or when it is left; Escape takes it back. */
 function NumberField({ of, value, wrong }: NumberFieldProps) {
-  const [text, setText] = useState<string | null>(null);
-  const number = text === null ? value : Number(text.replace(',', '.'));
-  const invalid = text !== null && (text.trim() === '' || !Number.isFinite(number));
-  const take = () => {
-    if (text !== null && !invalid) model.change(of.name, of.whole ? Math.round(number!) : number!);
-    setText(null);
-  };
-  const pressed = (event: KeyboardEvent) => {
-    if (event.key === 'Enter') take();
-    if (event.key === 'Escape') setText(null);
+  const take = (text: string) => {
+    const number = numberIn(text)!;
+    model.change(of.name, of.whole ? Math.round(number) : number);
   };
   return (
-    <input
+    <TypedInput
       id={idOf(of)}
       type="text"
       inputMode="decimal"
       autocomplete="off"
       class="number"
       aria-label={`${titleOf(of)}${of.unit ? ` in ${unitText(of.unit)}` : ''}`}
-      aria-invalid={invalid || wrong !== null}
-      value={text ?? (value === undefined ? '' : plain(value))}
-      onInput={(event) => setText(event.currentTarget.value)}
-      onKeyDown={pressed}
-      onBlur={take}
+      isWrong={wrong !== null}
+      value={value === undefined ? '' : plain(value)}
+      canTake={(text) => numberIn(text) !== null}
+      take={take}
     />
   );
 }
@@ -91,7 +83,7 @@ function NumberControl({ of, values }: ControlProps) {
   return (
     <div class="control" data-key={of.name} title={of.sentence}>
       <label for={idOf(of)}>{titleOf(of)}</label>
-      <NumberField of={of} values={values} value={given} wrong={wrong} />
+      <NumberField of={of} value={given} wrong={wrong} />
       <span class="unit">{unitText(of.unit)}</span>
       <input
         type="range"
@@ -130,10 +122,8 @@ function ChoiceControl({ of, values }: ControlProps) {
 function ListControl({ of, values }: ControlProps) {
   const value = values[of.name] as number[] | undefined;
   const wrong = useWrong(of);
-  const take = (text: string) => {
-    const numbers = text.split(/[\s,;]+/).filter(Boolean).map(Number);
-    if (numbers.length && numbers.every(Number.isFinite)) model.change(of.name, numbers as Value);
-  };
+  const numbersIn = (text: string) => text.split(/[\s,;]+/).filter(Boolean).map(Number);
+  const canTake = (text: string) => numbersIn(text).length > 0 && numbersIn(text).every(Number.isFinite);
   return (
     <div class="control list" data-key={of.name} title={of.sentence}>
       <label for={idOf(of)}>{`${titleOf(of)} (${unitText(of.unit)})`}</label>
@@ -142,7 +132,8 @@ function ListControl({ of, values }: ControlProps) {
         type="text"
         placeholder="numbers, with commas"
         value={value?.map(plain).join(', ') ?? ''}
-        take={take}
+        canTake={canTake}
+        take={(text) => model.change(of.name, numbersIn(text) as Value)}
       />
       {wrong && <p class="wrong">{wrong}</p>}
     </div>

@@ -1,6 +1,7 @@
 // The field's media: choosing one puts its law at a temperature into the case. Changing the law by hand leaves it.
 import { useEffect, useState } from 'preact/hooks';
 import { readMedia, readMediumLaw, type Case, type Medium, type MediumLaw } from '../api';
+import { numberIn } from '../draw/numbers';
 import { notifyFailure } from '../shell/notices';
 import { store, useStore } from '../shell/store';
 import * as model from './model';
@@ -41,8 +42,8 @@ export function MediumControl() {
   }, [list]);
   const held = now && holds(now.law, values) ? now.medium : '';
   const take = (medium: string, text: string) => {
-    const degrees = Number(text.replace(',', '.'));
-    if (Number.isFinite(degrees)) void choose(medium, degrees).catch(notifyFailure);
+    const degrees = numberIn(text);
+    if (degrees !== null) void choose(medium, degrees).catch(notifyFailure);
   };
   return (
     <div class="control medium">

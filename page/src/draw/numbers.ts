@@ -19,6 +19,12 @@ export function plain(value: number): string {
   return String(Number(value.toPrecision(12)));
 }
 
+/** The number that a person wrote, with a point or a comma; null if it is none. */
+export function numberIn(text: string): number | null {
+  const value = Number(text.replace(',', '.'));
+  return text.trim() === '' || !Number.isFinite(value) ? null : value;
+}
+
 export const rounded = (value: number, digits: number) => Number(value.toPrecision(digits));
 
 /** One, two or five times a power of ten, at most `value`. */

@@ -1,15 +1,11 @@
 // The gates as numbers: what is drawn in a plot can be set here as well, and by the keyboard alone.
+import { numberIn } from '../draw/numbers';
 import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
 import { labelOf, nameOf } from './features';
 import type { Gate, PolygonGate, RangeGate } from './gates';
 import { addGate, changeGate, focus, gates, itemOf, items, removeGate } from './model';
 import { FeatureOptions } from './PlotSelects';
-
-const numberOf = (text: string): number | null => {
-  const value = Number(text);
-  return text.trim() === '' || !Number.isFinite(value) ? null : value;
-};
 
 function End({ gate, which }: { gate: RangeGate; which: 'low' | 'high' }) {
   return (
@@ -20,7 +16,8 @@ function End({ gate, which }: { gate: RangeGate; which: 'low' | 'high' }) {
       aria-label={`${which === 'low' ? 'Least' : 'Greatest'} ${nameOf(gate.feature)}`}
       value={gate[which] ?? ''}
       placeholder={which === 'low' ? 'least' : 'greatest'}
-      take={(text) => changeGate(gate.id, { [which]: numberOf(text) })}
+      canTake={(text) => text.trim() === '' || numberIn(text) !== null}
+      take={(text) => changeGate(gate.id, { [which]: numberIn(text) })}
     />
   );
 }
@@ -45,10 +42,8 @@ function Corners({ gate }: { gate: PolygonGate }) {
       class="corners"
       aria-label={`Corners of the polygon, ${nameOf(gate.x)} and ${nameOf(gate.y)}, separated by semicolons`}
       value={written(gate)}
-      take={(text) => {
-        const points = readCorners(text);
-        if (points) changeGate(gate.id, { points });
-      }}
+      canTake={(text) => readCorners(text) !== null}
+      take={(text) => changeGate(gate.id, { points: readCorners(text)! })}
     />
   );
 }

@@ -2,23 +2,32 @@
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 
-interface Props extends Omit<JSX.HTMLAttributes<HTMLInputElement>, 'value' | 'onInput' | 'onChange'> {
+type Own = 'value' | 'onInput' | 'onKeyDown' | 'onChange' | 'onBlur';
+
+interface Props extends Omit<JSX.HTMLAttributes<HTMLInputElement>, Own> {
   value: string | number;
-  /** Gets the text when it is entered or the field is left; the field then shows its value again. */
+  /** Gets the text with Enter or when the field is left, which then shows its value again; Escape takes it back. */
   take(text: string): void;
+  /** Whether a text can be taken; one that cannot is marked, and dropped. All can if this is not given. */
+  canTake?(text: string): boolean;
+  /** Marks the value itself as one that cannot be. */
+  isWrong?: boolean;
 }
 
-export function TypedInput({ value, take, ...rest }: Props) {
+export function TypedInput({ value, take, canTake = () => true, isWrong = false, ...rest }: Props) {
   const [typed, setTyped] = useState<string | null>(null);
   return (
     <input
       {...rest}
       value={typed ?? value}
+      aria-invalid={isWrong || (typed !== null && !canTake(typed))}
       onInput={({ currentTarget }) => setTyped(currentTarget.value)}
+      onKeyDown={({ key }) => key === 'Escape' && setTyped(null)}
       onChange={({ currentTarget }) => {
         setTyped(null);
-        take(currentTarget.value);
+        if (canTake(currentTarget.value)) take(currentTarget.value);
       }}
+      onBlur={() => setTyped(null)}
     />
   );
 }
