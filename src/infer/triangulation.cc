@@ -83,10 +83,10 @@ void Triangulation::make_triangles(std::span<const PlanePoint> points, std::span
   if (points.size() < 3) return;
   const auto [left, right] = std::ranges::minmax(points, {}, &PlanePoint::x);
   const auto [low, high] = std::ranges::minmax(points, {}, &PlanePoint::y);
-  least_ = {left.x, low.y};
-  greatest_ = {right.x, high.y};
+  min_ = {left.x, low.y};
+  max_ = {right.x, high.y};
   std::vector<Corners> kept;
-  for (const Corners& corners : along_curve(delaunay_triangles(points), points, least_, greatest_)) {
+  for (const Corners& corners : along_curve(delaunay_triangles(points), points, min_, max_)) {
     const auto& [first, second, third] = corners;
     const PlanePoint a = points[first], b = points[second], last = points[third];
     const double determinant = (a.x - last.x) * (b.y - last.y) - (b.x - last.x) * (a.y - last.y);
@@ -147,15 +147,15 @@ Triangulation::Border Triangulation::border_at(double x) const {
 
 // Row by row, each cell starts where its neighbour ended.
 void Triangulation::make_start_grid() {
-  cells_per_x_ = grid_side / (greatest_.x - least_.x);
-  cells_per_y_ = grid_side / (greatest_.y - least_.y);
+  cells_per_x_ = grid_side / (max_.x - min_.x);
+  cells_per_y_ = grid_side / (max_.y - min_.y);
   start_grid_.resize(static_cast<std::size_t>(grid_side) * grid_side);
   std::int32_t near = 0;
   std::array<double, 3> weights{};
   for (int j = 0; j < grid_side; ++j) {
     if (j > 0) near = start_grid_[static_cast<std::size_t>(j - 1) * grid_side];
     for (int i = 0; i < grid_side; ++i) {
-      const double x = least_.x + (i + 0.5) / cells_per_x_, y = least_.y + (j + 0.5) / cells_per_y_;
+      const double x = min_.x + (i + 0.5) / cells_per_x_, y = min_.y + (j + 0.5) / cells_per_y_;
       walk(x, y, near, weights);  // outside, it ends at the border, from where the next cell is near, too
       start_grid_[static_cast<std::size_t>(j) * grid_side + i] = near;
     }
@@ -164,13 +164,13 @@ void Triangulation::make_start_grid() {
 
 // Also false for NaN. The margin is that of the tolerance.
 bool Triangulation::is_near(double x, double y) const {
-  return x >= least_.x - inside_tolerance && x <= greatest_.x + inside_tolerance && y >= least_.y - inside_tolerance &&
-         y <= greatest_.y + inside_tolerance;
+  return x >= min_.x - inside_tolerance && x <= max_.x + inside_tolerance && y >= min_.y - inside_tolerance &&
+         y <= max_.y + inside_tolerance;
 }
 
 std::int32_t Triangulation::start_for(double x, double y) const {
-  const int i = std::clamp(static_cast<int>((x - least_.x) * cells_per_x_), 0, grid_side - 1);
-  const int j = std::clamp(static_cast<int>((y - least_.y) * cells_per_y_), 0, grid_side - 1);
+  const int i = std::clamp(static_cast<int>((x - min_.x) * cells_per_x_), 0, grid_side - 1);
+  const int j = std::clamp(static_cast<int>((y - min_.y) * cells_per_y_), 0, grid_side - 1);
   return start_grid_[static_cast<std::size_t>(j) * grid_side + i];
 }
 

@@ -58,7 +58,7 @@ class Triangulation {
   std::vector<Triangle> triangles_;
   bool has_gaps_ = false;                                // triangles without area were left out
   std::vector<PlanePoint> lower_border_, upper_border_;  // ascending in x
-  PlanePoint least_{}, greatest_{};
+  PlanePoint min_{}, max_{};
   double cells_per_x_ = 0, cells_per_y_ = 0;
   std::vector<std::int32_t> start_grid_;  // a triangle at or near each cell's middle
 };
