@@ -21,13 +21,14 @@ _UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "youn
 
 
 def extract(
-    recording, *, table="", section="tube", pixelation=True, correct_area=True, asymmetry=True, progress=None, **measuring
+    recording, *, table="", section=None, pixelation=True, correct_area=True, asymmetry=True, progress=None, **measuring
 ):
     """Young's modulus of each event of a recording, as `rheocyte extract` gives it.
 
     recording       path of an .rtdc file, or an open dclab dataset of one
     table           name or path of a table, as for Table; "": the shipped one that fits the medium
-    section         of the shipped tables: "tube", of equal pressure drop, or "square", the channel itself
+    section         of the shipped tables: "square", the channel itself (the default), or "tube", of equal pressure drop,
+                    which reaches greater deformations
     pixelation      whether pixels are corrected for; correct_area: whether areas are, too
     asymmetry       whether contours or masks are read for the modulus from the asymmetry of the outlines
     progress        called with the share that is done; True: a bar of tqdm where it is installed
@@ -52,10 +53,10 @@ def extract(
     options = native.ExtractOptions()
     options.measuring = _measuring(measuring, "extract")
     options.table = place_of_table(table)
-    if word(section, "section") not in ("tube", "square") or (table and section != "tube"):
+    if (section is not None and word(section, "section") not in ("tube", "square")) or (table and section):
         raise UserError(f"extract: section = {section!r}: \"tube\" or \"square\", and only without a table.")
-    if section == "square":
-        options.set_square()
+    if section:
+        options.set_section(section == "square")
     options.no_pixelation = not truth(pixelation, "pixelation")
     options.no_area_correction = not truth(correct_area, "correct_area")
     options.no_asymmetry = not truth(asymmetry, "asymmetry")

@@ -15,7 +15,7 @@ def extract(
     recording: _Path | _Dataset,
     *,
     table: _Path = "",
-    section: Literal["tube", "square"] = "tube",
+    section: Literal["tube", "square"] | None = None,
     pixelation: bool = True,
     correct_area: bool = True,
     asymmetry: bool = True,

@@ -59,12 +59,13 @@ void declare_measuring_options(CLI::App& command, MeasuringOptions& options) {
                      "give a recording up when nothing was read from it for so many seconds (60)");
 }
 
-void declare_section_option(CLI::App& command, Section& section) {
+void declare_section_option(CLI::App& command, std::optional<Section>& section) {
   static const std::map<std::string, Section> sections{{"tube", Section::tube}, {"square", Section::square}};
   command
-      .add_option("--section", section,
-                  "which of the program's own tables: tube, of equal pressure drop (default), or square, the channel "
-                  "itself in three dimensions")
+      .add_option(
+          "--section", section,
+          "which of the program's own tables: square, the channel itself in three dimensions (default), or tube, "
+          "of equal pressure drop, which reaches greater deformations")
       ->type_name("tube|square")
       ->transform(CLI::CheckedTransformer(sections).description(""))
       ->excludes("--table");

@@ -21,6 +21,6 @@ void declare_measuring_options(CLI::App& command, MeasuringOptions& options);
 void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run);
 
 /// --section, for which the program's own tables are.
-void declare_section_option(CLI::App& command, Section& section);
+void declare_section_option(CLI::App& command, std::optional<Section>& section);
 
 }  // namespace rheocyte

@@ -35,6 +35,7 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
       settings_(extract_settings(options.measuring, pixel_use(options), recording)),
       table_(tables.used(settings_.conditions.flow.exponent)),
       other_table_(tables.other(settings_.conditions.flow.exponent)),
+      are_square_(tables.are_square()),
       shapes_(recording, settings_.pixel_size_um),
       event_shapes_(recording, settings_.conditions,
                     EventShapes::are_measured(recording) ? tables.shapes(settings_.conditions.flow.exponent) : nullptr,
@@ -115,10 +116,24 @@ ExtractSummary Extraction::summary() {
   s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
   if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
   if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
+  if (const auto beyond = beyond_the_square(); !beyond.empty()) s.warnings.push_back(beyond);
   if (other_table_) s.warnings.push_back(comparison());
   if (recording_.has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
   return s;
+}
+
+// Where many cells are softer than the table's last ones.
+std::string Extraction::beyond_the_square() const {
+  constexpr double worth_a_word = 0.01;
+  const auto count = [this](ModulusState state) { return summary_.counts[static_cast<std::size_t>(state)]; };
+  const auto beyond = static_cast<double>(count(ModulusState::unstable) + count(ModulusState::too_soft));
+  const double share = beyond / static_cast<double>(recording_.events());
+  if (!are_square_ || share < worth_a_word) return {};
+  return fmt::format(
+      "{:.0f} % of the events are deformed beyond the smooth shapes of {}; the tables of the tube reach farther "
+      "(section tube).",
+      100 * share, table().origin().identifier);
 }
 
 std::vector<std::string> Extraction::lines() const {

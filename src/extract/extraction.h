@@ -49,6 +49,7 @@ class Extraction {
   };
 
   std::string comparison() const;
+  std::string beyond_the_square() const;
   void collect();
   /// Young's moduli of the events of a block, and what is said about them.
   struct Moduli {
@@ -66,6 +67,7 @@ class Extraction {
   ExtractSettings settings_;
   const ModulusMap& table_;
   const ModulusMap* other_table_;  ///< to compare with
+  bool are_square_;                ///< the tables, of which those of the tube reach farther
   ShapeSource shapes_;
   EventShapes event_shapes_;
   ShapeTally shape_tally_;

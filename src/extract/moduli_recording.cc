@@ -164,7 +164,7 @@ class Fits {
   EventFeatures features_;
   Gates gates_;
   double simulated_exponent_;
-  ModulusTables solids_{std::string()};
+  ModulusTables solids_{std::string(), Section::tube};
   const ShapeMap* shapes_of_solids_;
   EventModuli moduli_;
   std::vector<double> viscosity_;

@@ -29,7 +29,8 @@ const ModulusMap& ModulusTables::Table::ready() const {
   return *map;
 }
 
-ModulusTables::ModulusTables(const std::string& name, Section section) : section_(section), given_(!name.empty()) {
+ModulusTables::ModulusTables(const std::string& name, std::optional<Section> section)
+    : section_(section.value_or(Section::square)), given_(!name.empty()) {
   if (given_) {
     const auto file = find_table(name);
     auto map = read_modulus_map(file);
@@ -38,6 +39,10 @@ ModulusTables::ModulusTables(const std::string& name, Section section) : section
     tables_.push_back({file, origin.identifier, origin.flow.exponent, std::move(map)});
   }
   if (own()) add_shipped();
+  if (tables_.empty() && !section) {
+    section_ = Section::tube;
+    add_shipped();
+  }
   if (tables_.empty())
     throw UserError(fmt::format(
         "rheocyte: the tables{} that come with the program are missing; give one with --table, or name their folder in "

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,9 @@ inline constexpr double flow_exponent_tolerance = 0.035;
 class ModulusTables {
  public:
   /// The table that the user names (as in find_table); if the name is empty those for a section that come with the
-  /// program, of which there is at least one, else UserError.
-  explicit ModulusTables(const std::string& name, Section section = Section::tube);
+  /// program, of which there is at least one, else UserError. Without a section those of the square channel, or of the
+  /// tube where there are no others.
+  explicit ModulusTables(const std::string& name, std::optional<Section> section = {});
 
   /// For a medium with eta ~ (shear rate)^(n - 1) that thins the table whose liquid has its exponent n, if there is
   /// one; else the one of a Newtonian liquid, with the effective viscosity. A table that the user names is used always.
@@ -29,6 +31,9 @@ class ModulusTables {
   /// What cells look like: by the table that is used, or that of a Newtonian liquid that comes with the program; null
   /// if neither knows.
   const ShapeMap* shapes(double flow_exponent) const;
+
+  /// Whether they are the shipped ones of the square channel: those of the tube go on to greater deformations.
+  bool are_square() const { return !given_ && section_ == Section::square; }
 
   /// True if rheocyte's own tables are used, of which areas are corrected and errors known.
   bool own() const { return !given_ || tables_.front().map->is_own(); }

@@ -31,7 +31,7 @@ struct ExtractOptions {
   BatchOptions batch;
   MeasuringOptions measuring;
   std::string table;  ///< a file, a folder of a table, or an identifier; empty: the tables that come with the program
-  Section section = Section::tube;  ///< of these
+  std::optional<Section> section;  ///< of these; not given: the square channel, if there are any
   bool no_pixelation = false, no_area_correction = false, no_tsv = false;
   bool no_asymmetry = false;  ///< contours and masks are not read where areas and deformations are stored
 };

@@ -256,7 +256,7 @@ void bind_options(py::module_& module) {
       .def(py::init<>())
       .def_readwrite("measuring", &ExtractOptions::measuring)
       .def_readwrite("table", &ExtractOptions::table)
-      .def("set_square", [](ExtractOptions& o) { o.section = Section::square; })
+      .def("set_section", [](ExtractOptions& o, bool square) { o.section = square ? Section::square : Section::tube; })
       .def_readwrite("no_pixelation", &ExtractOptions::no_pixelation)
       .def_readwrite("no_asymmetry", &ExtractOptions::no_asymmetry)
       .def_readwrite("no_area_correction", &ExtractOptions::no_area_correction);

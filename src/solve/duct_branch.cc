@@ -40,6 +40,8 @@ class DuctBranchFollower {
     for (int attempt = 0; !softest && attempt <= max_steps_back; ++attempt) {
       if (attempt > 0) last *= step_back;
       softest = state_of(last);
+      // Where no mesh is fine enough the end is too near.
+      if (softest && softest->outcome.status != Status::converged) softest.reset();
     }
     for (const double height : heights) {
       if (!softest || is_stopped()) return {{}, branch.end};

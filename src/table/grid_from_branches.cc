@@ -206,6 +206,14 @@ void add_step_to_error(const GridPatch& bare, GridPatch& held) {
   }
 }
 
+// Errors are known to two digits. Bits beyond would be noise, which fills a third of a compressed grid.
+double in_few_bits(double error) {
+  constexpr int bits = 8;
+  int exponent = 0;
+  const double mantissa = std::frexp(error, &exponent);
+  return std::ldexp(std::ceil(std::ldexp(mantissa, bits)), exponent - bits);
+}
+
 // To the columns that the bare branches cover.
 void trim_to(GridContent& grid, const GridPatch& bare) {
   grid.min_log_area += bare.first_column * grid.column_step;
@@ -240,7 +248,10 @@ std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<
   }
   const int shift = bare->first_column;
   trim_to(grid, *bare);
-  for (auto& patch : grid.patches) patch.first_column -= shift;
+  for (auto& patch : grid.patches) {
+    patch.first_column -= shift;
+    std::ranges::transform(patch.error, patch.error.begin(), in_few_bits);
+  }
   grid.shapes = shapes_from_branches(grid, branches);
   return grid;
 }

@@ -191,7 +191,7 @@ TEST_F(OwnTable, GatesShutEventsOut) {
   EXPECT_NE(unknown.err.find("has no feature bright"), std::string::npos) << unknown.err;
   const auto none = run({"extract", path("a.rtdc"), "--max", "area_um=5"});
   EXPECT_EQ(none.exit_code, 3);
-  EXPECT_NE(none.err.find("outside the table LE-2D-MC049-26 or the gates"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("outside the table HE-3D-MC049-26 or the gates"), std::string::npos) << none.err;
 }
 
 TEST_F(OwnTable, AShearThinningMediumGetsTheTableOfItsLiquid) {
@@ -227,7 +227,7 @@ TEST_F(OwnTable, AShearThinningMediumGetsTheTableOfItsLiquid) {
   EXPECT_EQ(extract({"--viscosity-mPas", "5"}).err, "") << "of a viscosity alone nothing is known";
 }
 
-TEST_F(OwnTable, TablesOfTheSquareChannelAreThereForWhoAsksForThem) {
+TEST_F(OwnTable, TablesOfTheSquareChannelAreTakenWhereThereAreAny) {
   write_recording("a.rtdc");
   write_closed_table("table");
   auto grid = grid_from_bytes(test::content_of(folder_ / "table/grid_CLOSED.cbor"), "grid");
@@ -244,13 +244,18 @@ TEST_F(OwnTable, TablesOfTheSquareChannelAreThereForWhoAsksForThem) {
   };
   ship("TUBE", Section::tube);
   EXPECT_NE(extract({"--section", "square"}).err.find("tables of the square channel"), std::string::npos);
-  for (double& value : grid.patches[0].log_stiffness) value += std::log(1.05);
-  ship("SQUARE", Section::square);
   ASSERT_EQ(extract().exit_code, 0);
   const double tube = column(folder_ / "a_rheocyte.rtdc", "emodulus")[0];
-  ASSERT_EQ(extract({"--section", "square"}).exit_code, 0);
-  EXPECT_NEAR(column(folder_ / "a_rheocyte.rtdc", "emodulus")[0], 1.05 * tube, 1e-9);
+  for (double& value : grid.patches[0].log_stiffness) value += std::log(1.05);
+  ship("SQUARE", Section::square);
+  const auto modulus = [&](const std::vector<std::string>& more) {
+    EXPECT_EQ(extract(more).exit_code, 0);
+    return column(folder_ / "a_rheocyte.rtdc", "emodulus")[0];
+  };
+  EXPECT_NEAR(modulus({}), 1.05 * tube, 1e-9);
   EXPECT_NE(test::content_of(folder_ / "rheocyte_summary.tsv").find("\tSQUARE\t"), std::string::npos);
+  EXPECT_EQ(modulus({"--section", "square"}), modulus({}));
+  EXPECT_EQ(modulus({"--section", "tube"}), tube);
   EXPECT_EQ(extract({"--section", "square", "--table", "TUBE"}).exit_code, 2) << "a table that is named is used";
   EXPECT_EQ(extract({"--section", "round"}).exit_code, 2);
 }
@@ -258,15 +263,18 @@ TEST_F(OwnTable, TablesOfTheSquareChannelAreThereForWhoAsksForThem) {
 TEST_F(OwnTable, EachMediumGetsItsOwnAtEveryTemperature) {
   // Over the temperatures for which the media were measured, 22 to 37 degC; water does not thin.
   write_recording("a.rtdc");
-  const std::map<std::string, std::string> tables{{"CellCarrier", "LE-2D-MC049-26"},
-                                                  {"CellCarrierB", "LE-2D-MC059-26"},
-                                                  {"0.83% MC-PBS", "LE-2D-MC083-26"},
-                                                  {"water", "LE-2D-26"}};
-  for (const auto& [medium, table] : tables)
+  const std::map<std::string, std::string> media{
+      {"CellCarrier", "-MC049-26"}, {"CellCarrierB", "-MC059-26"}, {"0.83% MC-PBS", "-MC083-26"}, {"water", "-26"}};
+  for (const auto& [medium, table] : media)
     for (const std::string temperature : {"22", "37"}) {
-      ASSERT_NE(run({"extract", path("a.rtdc"), "--medium", medium, "--temperature", temperature}).exit_code, 2);
-      const auto summary = test::content_of(folder_ / "rheocyte_summary.tsv");
-      EXPECT_NE(summary.find("\t" + table + "\t"), std::string::npos) << medium << temperature << summary;
+      for (const auto& [section, law] : {std::pair{"square", "HE-3D"}, {"tube", "LE-2D"}}) {
+        ASSERT_NE(
+            run({"extract", path("a.rtdc"), "--medium", medium, "--temperature", temperature, "--section", section})
+                .exit_code,
+            2);
+        const auto summary = test::content_of(folder_ / "rheocyte_summary.tsv");
+        EXPECT_NE(summary.find("\t" + (law + table) + "\t"), std::string::npos) << medium << temperature << summary;
+      }
     }
 }
 

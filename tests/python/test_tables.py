@@ -103,8 +103,8 @@ def test_temperatures_of_events_are_viscosities_of_events(table):
 
 
 def test_the_table_of_a_medium_thins_as_it_does():
-    assert Table.for_medium("CellCarrier").identifier == "LE-2D-MC049-26"
-    assert Table.for_medium("water").identifier == "LE-2D-26"
+    assert Table.for_medium("CellCarrier").identifier == "HE-3D-MC049-26"
+    assert Table.for_medium("water").identifier == "HE-3D-26"
     assert set(rheocyte.table_names()) >= {"LE-2D-26", "LE-2D-MC049-26", "LE-2D-MC059-26", "LE-2D-MC083-26"}
 
 

@@ -152,7 +152,7 @@ class RecordingInTheView(unittest.TestCase):
 
     def test_lines_are_there_and_exports_equal_the_files_of_extract(self):
         lines = self.view.json("GET", "/api/items/1/lines")
-        self.assertEqual(lines["table"][:5], "LE-2D")
+        self.assertEqual(lines["table"][:5], "HE-3D")
         self.assertGreater(len(lines["lines"]), 5)
         written = self.view.json("POST", "/api/export", {"what": "events", "item": 1, "name": "cells.tsv"})
         self.assertEqual(Path(written["file"]).read_text(), (self.folder / "want/cells_rheocyte.tsv").read_text())
