@@ -103,6 +103,14 @@ void check_rectangle(const Case& c, const KeyReading& keys) {
                 fmt::format("{} is for squares; give the angle channel.camera_degree.", keys.stated("channel.camera")));
 }
 
+// So much of the energy that deforms the cell: factors of single precision do not correct stiffer surfaces.
+double max_bending_in_ducts_kBT(const Case& c) {
+  constexpr double share = 4e-3;
+  const double r0 = 1e-6 * c.cell.radius_um, mu = 1e3 * c.cell.bulk.young_modulus_kPa.value_or(0) / 3,
+               shell = 1e-3 * c.cell.cortex.modulus_mN_per_m.value_or(0);
+  return share * (mu * r0 + shell) * r0 * r0 / thermal_energy_J;
+}
+
 // What is computed in tubes alone.
 void check_duct(const Case& c, const KeyReading& keys) {
   if (!is_duct(c.channel.section)) return;
@@ -116,6 +124,12 @@ void check_duct(const Case& c, const KeyReading& keys) {
   if (c.cell.bulk.law == BulkLaw::none)
     refuse("channel.section",
            "is for an elastic interior, with or without a cortex; choose cell.bulk.law, or take the tube");
+  const double most = max_bending_in_ducts_kBT(c);
+  if (c.cell.cortex.bending_kBT > most)
+    keys.refuse("cell.cortex.bending_kBT",
+                fmt::format("{} is more than can be solved for in ducts, {:.2g} kBT for this cell, and far more than "
+                            "cells have; lower it, or take the tube.",
+                            keys.stated("cell.cortex.bending_kBT"), most));
 }
 
 // One mirror plane is left to a cell off the axis; seen along its offset its outline is symmetric.

@@ -109,8 +109,8 @@ TEST(SquareChannel, ATubeInThreeDimensionsIsTheTubeInBothViews) {
 }
 
 TEST(SquareChannel, ACortexInThreeDimensionsIsThatOfTheTubeInBothViews) {
-  const Cortex tension{.tension = 0.5}, bending{.bending = 0.2}, linear{CortexLaw::linear, 2, 0.5, 0},
-      bent_shell{CortexLaw::neo_hookean, 2, 0.5, 0.05};
+  const Cortex tension{.tension = 0.5}, bending{.bending = 0.02}, linear{CortexLaw::linear, 2, 0.5, 0},
+      bent_shell{CortexLaw::neo_hookean, 2, 0.5, 0.01};
   for (const Cortex& cortex : {tension, bending, linear, bent_shell}) {
     const auto [side, diagonal] = over_the_tube(6, 1e-5, 4, cortex);
     EXPECT_NEAR(side, 1, 1e-3);
@@ -122,7 +122,7 @@ TEST(SquareChannelSlow, ACortexInThreeDimensionsIsThatOfTheTubeToOneTenThousandt
   // A bulk of 4 within the second shell is at the end of its smooth branch (margin 0.002), where no mesh is fine
   // enough.
   const Cortex thin_shell{CortexLaw::thin_shell, 2, 0.5, 0}, membrane{CortexLaw::neo_hookean_reference, 2, 0.5, 0},
-      bending{.bending = 0.05};
+      bending{.bending = 0.01};
   for (const auto& [cortex, shear_modulus] :
        {std::pair{thin_shell, 4.0}, std::pair{membrane, 6.0}, std::pair{bending, 4.0}}) {
     const auto [side, diagonal] = over_the_tube(shear_modulus, 1e-6, 6, cortex);
