@@ -11,10 +11,10 @@ namespace rheocyte {
 struct PlotOptions {
   std::vector<std::filesystem::path> inputs;
   MeasuringOptions measuring;
-  std::string table;                  ///< as in ExtractOptions
+  std::string table;               ///< as in ExtractOptions
   std::optional<Section> section;  ///< likewise
-  std::filesystem::path lines;        ///< a file of isoelasticity lines; empty: lines of the table
-  std::vector<double> levels_kPa;     ///< of the lines, in the recording's channel; empty: spread over the picture
+  std::filesystem::path lines;     ///< a file of isoelasticity lines; empty: lines of the table
+  std::vector<double> levels_kPa;  ///< of the lines, in the recording's channel; empty: spread over the picture
   std::string x = "area_um", y = "deform";  ///< features on the axes
   bool shapes = false;                      ///< measured against expected inertia ratio
   bool no_lines = false;                    ///< not even those of the program's own table
