@@ -90,7 +90,8 @@ void estimate(const ModulusMap& map, const MeasuringConditions& conditions, cons
   }
   for (std::size_t first = 0; first < all && !stop; first += block) {
     const std::size_t count = std::min(block, all - first);
-    if (!is_one) liquid.viscosities(conditions.flow, liquid.values.subspan(first, count), viscosity);
+    if (!is_one)
+      liquid.viscosities(conditions.flow, liquid.values.subspan(first, count), std::span(viscosity).first(count));
     map.estimate(conditions,
                  {events.size.subspan(first, count), events.deformation.subspan(first, count),
                   std::span(viscosity).first(count)},
