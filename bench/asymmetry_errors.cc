@@ -15,6 +15,7 @@
 #include "bare_branches.h"
 #include "measurement/pixel_errors.h"
 #include "measurement/shape_in_pixels.h"
+#include "numeric/quantile.h"
 #include "program.h"
 #include "synth/branch_shapes.h"
 #include "synth/outline.h"
@@ -111,13 +112,9 @@ int rheocyte::measure(int argc, char** argv) {
         before.push_back(std::abs(seen.excess / seen.mode_3));
       }
       if (left.empty()) continue;
-      const auto at = [](std::vector<double>& v, double share) {
-        std::ranges::sort(v);
-        return v[static_cast<std::size_t>(share * static_cast<double>(v.size() - 1))];
-      };
+      const auto at = [](const std::vector<double>& v, double share) { return 100 * quantile(v, share); };
       fmt::print(stderr, "{:5.0f} px and more, {}: c_3 off by {:.1f} % ({:.1f}), with the law {:.1f} % ({:.1f})\n", low,
-                 round ? "round    " : "elongated", 100 * at(before, 0.5), 100 * at(before, 0.95), 100 * at(left, 0.5),
-                 100 * at(left, 0.95));
+                 round ? "round    " : "elongated", at(before, 0.5), at(before, 0.95), at(left, 0.5), at(left, 0.95));
     }
   return 0;
 }

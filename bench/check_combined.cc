@@ -19,6 +19,7 @@
 #include "infer/rendered_errors.h"
 #include "infer/several_moduli.h"
 #include "measurement/pixel_errors.h"
+#include "numeric/quantile.h"
 #include "program.h"
 #include "synth/combined_shapes.h"
 #include "synth/outline.h"
@@ -103,11 +104,9 @@ struct Tally {
     cortex.push_back(std::abs(miss(Modulus::cortex, cell.cortex_mN_m) / cell.cortex_mN_m));
   }
 
-  static std::string spread(std::vector<double> numbers) {
+  static std::string spread(const std::vector<double>& numbers) {
     if (numbers.empty()) return "none";
-    std::ranges::sort(numbers);
-    return fmt::format("median {:.2e}, 90 % below {:.2e}", numbers[numbers.size() / 2],
-                       numbers[numbers.size() * 9 / 10]);
+    return fmt::format("median {:.2e}, 90 % below {:.2e}", quantile(numbers, 0.5), quantile(numbers, 0.9));
   }
 
   void print(const std::string& what) const {

@@ -14,6 +14,7 @@
 #include <random>
 #include <vector>
 
+#include "numeric/quantile.h"
 #include "program.h"
 #include "table/grid_from_branches.h"
 #include "table/table_folder.h"
@@ -23,12 +24,9 @@ namespace {
 
 using namespace rheocyte;
 
-void print_differences(const char* what, std::vector<double>& all) {
+void print_differences(const char* what, const std::vector<double>& all) {
   if (all.empty()) return;
-  std::ranges::sort(all);
-  const auto at = [&](double share) {
-    return all[static_cast<std::size_t>(share * static_cast<double>(all.size() - 1))];
-  };
+  const auto at = [&](double share) { return quantile(all, share); };
   fmt::print("{}: {} points, median {:.1e}, 95 % {:.1e}, 99.9 % {:.1e}, greatest {:.1e}\n", what, all.size(), at(0.5),
              at(0.95), at(0.999), at(1));
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "case/scales.h"
+#include "numeric/quantile.h"
 #include "program.h"
 #include "solve/stationary.h"
 #include "table/table_folder.h"
@@ -65,10 +66,9 @@ int rheocyte::measure(int argc, char** argv) {
       fmt::print("area {:.4g}, deformation {:.5g}: stiffness off by {:.2e}, estimated {:.1e}\n", area,
                  state.shape.deformation, differences.back(), answer.error);
   }
-  std::sort(differences.begin(), differences.end());
-  const std::size_t n = differences.size();
-  if (n == 0) return fmt::print("no point lies in the table\n"), 1;
-  fmt::print("{} points, median {:.2e}, 95 % below {:.2e}, greatest {:.2e}; {} beyond the smooth branch\n", n,
-             differences[n / 2], differences[n * 95 / 100], differences.back(), beyond);
+  if (differences.empty()) return fmt::print("no point lies in the table\n"), 1;
+  fmt::print("{} points, median {:.2e}, 95 % below {:.2e}, greatest {:.2e}; {} beyond the smooth branch\n",
+             differences.size(), quantile(differences, 0.5), quantile(differences, 0.95), std::ranges::max(differences),
+             beyond);
   return 0;
 }

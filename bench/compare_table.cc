@@ -11,6 +11,7 @@
 #include <sstream>
 #include <vector>
 
+#include "numeric/quantile.h"
 #include "program.h"
 #include "table/table_folder.h"
 #include "table/table_interpolation.h"
@@ -19,12 +20,10 @@ namespace {
 
 using namespace rheocyte;
 
-void print_distribution(const char* name, std::vector<double> differences) {
+void print_distribution(const char* name, const std::vector<double>& differences) {
   if (differences.empty()) return;
-  std::sort(differences.begin(), differences.end());
-  const std::size_t n = differences.size();
-  fmt::print("{:<12} {:>6} rows, median {:.3f} %, 95 % below {:.3f} %, greatest {:.3f} %\n", name, n,
-             100 * differences[n / 2], 100 * differences[n * 95 / 100], 100 * differences.back());
+  fmt::print("{:<12} {:>6} rows, median {:.3f} %, 95 % below {:.3f} %, greatest {:.3f} %\n", name, differences.size(),
+             100 * quantile(differences, 0.5), 100 * quantile(differences, 0.95), 100 * std::ranges::max(differences));
 }
 
 }  // namespace

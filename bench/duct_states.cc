@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "numeric/quantile.h"
 #include "solve/session.h"
 #include "solve/stationary_duct.h"
 
@@ -66,11 +67,6 @@ double max_memory_GB() {
   return double(usage.ru_maxrss) * 1024e-9;
 }
 
-double median(std::vector<double> values) {
-  std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(values.size() / 2));
-  return values[values.size() / 2];
-}
-
 /// The degrees on the way, and how many states each saw.
 std::string degrees_of(const StationaryState& state) {
   std::string degrees;
@@ -101,7 +97,7 @@ void print_states(double accuracy, int first, int last) {
                state.outcome.status == Status::converged ? "" : fmt::format(" {}", name(state.outcome.status)));
     std::fflush(stdout);
   }
-  fmt::print("\naccuracy {:g}: median {:.2f} s, at most {:.2f} s; {:.2f} GB\n", accuracy, median(times),
+  fmt::print("\naccuracy {:g}: median {:.2f} s, at most {:.2f} s; {:.2f} GB\n", accuracy, median_of(times),
              *std::ranges::max_element(times), max_memory_GB());
 }
 
@@ -174,7 +170,7 @@ void print_warm_starts(double accuracy, int count) {
   fmt::print(
       "\naccuracy {:g}: {} of {} warm, median {:.2f} s (from the sphere {:.2f} s); greatest difference {:.1e}; {:.0f} "
       "MB of factors\n",
-      accuracy, session.warm_starts(), count, median(warm), median(cold), max_difference,
+      accuracy, session.warm_starts(), count, median_of(warm), median_of(cold), max_difference,
       double(session.memory_bytes()) * 1e-6);
 }
 

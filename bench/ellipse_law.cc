@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +13,7 @@
 
 #include "bare_branches.h"
 #include "infer/added_ellipse.h"
+#include "numeric/quantile.h"
 #include "program.h"
 #include "shape/outline_shape.h"
 #include "synth/branch_shapes.h"
@@ -96,10 +96,7 @@ void tell(const std::vector<Changed>& all, const char* what, const EllipseLaw& l
       left.push_back(
           std::abs(one.*member - std::inner_product(law.begin(), law.end(), ellipse_terms(one.outline).begin(), 0.0)));
     }
-    const auto at = [](std::vector<double>& v, double share) {
-      std::ranges::sort(v);
-      return 100 * v[static_cast<std::size_t>(share * static_cast<double>(v.size() - 1))];
-    };
+    const auto at = [](const std::vector<double>& v, double share) { return 100 * quantile(v, share); };
     fmt::print(stderr, "{}, {}: {:.2f} % (95 %: {:.2f} %), with the law {:.2f} % ({:.2f} %)\n", what,
                round ? "as the model" : "elongated", at(before, 0.5), at(before, 0.95), at(left, 0.5), at(left, 0.95));
   }

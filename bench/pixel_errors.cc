@@ -15,6 +15,7 @@
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/mask_from_outline.h"
+#include "numeric/quantile.h"
 #include "program.h"
 #include "synth/branch_shapes.h"
 #include "synth/outline.h"
@@ -187,15 +188,12 @@ int rheocyte::measure(int argc, char** argv) {
       deformation_ratio.push_back(deformation_deviation.at(seen.log_area_px, seen.deformation) / d(1));
     }
     if (area_left.empty()) continue;
-    const auto at = [](std::vector<double>& v, double share) {
-      std::ranges::sort(v);
-      return v[static_cast<std::size_t>(share * static_cast<double>(v.size() - 1))];
-    };
     fmt::print(stderr,
                "{:5.0f} px and more: left of ln(area) {:.1e} (95 % below {:.1e}), of the deformation {:.1e} ({:.1e}); "
                "fitted / seen deviations {:.2f} to {:.2f} and {:.2f} to {:.2f} (5, 95 %)\n",
-               low, at(area_left, 0.5), at(area_left, 0.95), at(excess_left, 0.5), at(excess_left, 0.95),
-               at(area_ratio, 0.05), at(area_ratio, 0.95), at(deformation_ratio, 0.05), at(deformation_ratio, 0.95));
+               low, quantile(area_left, 0.5), quantile(area_left, 0.95), quantile(excess_left, 0.5),
+               quantile(excess_left, 0.95), quantile(area_ratio, 0.05), quantile(area_ratio, 0.95),
+               quantile(deformation_ratio, 0.05), quantile(deformation_ratio, 0.95));
   }
   return 0;
 }

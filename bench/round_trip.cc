@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "columns.h"
+#include "numeric/quantile.h"
 #include "program.h"
 
 namespace {

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "case/scales.h"
-#include "columns.h"
 #include "infer/time_course.h"
 #include "measurement/pixel_errors.h"
 #include "measurement/shape_in_pixels.h"
+#include "numeric/quantile.h"
 #include "program.h"
 #include "synth/course_shapes.h"
 #include "synth/outline.h"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "columns.h"
+#include "numeric/quantile.h"
 #include "program.h"
 
 namespace {

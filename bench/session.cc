@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "case/scales.h"
+#include "numeric/quantile.h"
 
 namespace rheocyte {
 namespace {
@@ -44,11 +45,6 @@ Problem problem_at(const Sliders& s, double accuracy) {
   return problem;
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 void small_steps(double accuracy) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> step(-0.03, 0.03);
@@ -72,7 +68,8 @@ void small_steps(double accuracy) {
   fmt::print(
       "accuracy {:g}: {} of 200 warm, median {:.1f} ms (from the sphere {:.1f} ms); greatest difference {:.1e}; {:.0f} "
       "MB\n",
-      accuracy, session.warm_starts(), median(warm), median(cold), greatest, double(session.memory_bytes()) * 1e-6);
+      accuracy, session.warm_starts(), median_of(warm), median_of(cold), greatest,
+      double(session.memory_bytes()) * 1e-6);
 }
 
 void refusals() {
@@ -91,7 +88,7 @@ void refusals() {
     fmt::print("  r0 {:.2f} um, E {:.3f} kPa: {:6.0f} ms, {}, at {:.3f} of the compliance\n", sliders.radius_um,
                sliders.E_kPa, times.back(), name(state.outcome.status), state.outcome.reached);
   }
-  fmt::print("{} of 40 refused, median {:.0f} ms, at most {:.0f} ms\n", refused, median(times),
+  fmt::print("{} of 40 refused, median {:.0f} ms, at most {:.0f} ms\n", refused, median_of(times),
              *std::max_element(times.begin(), times.end()));
 }
 

@@ -9,12 +9,9 @@
 
 #include "case/scales.h"
 #include "case/user_error.h"
-#include "extract/extract_settings.h"
-#include "extract/gates.h"
-#include "measurement/event_features.h"
-#include "measurement/event_outlines.h"
+#include "extract/event_pass.h"
+#include "extract/outlined_events.h"
 #include "measurement/pixel_errors.h"
-#include "measurement/shape_source.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
@@ -33,45 +30,35 @@ const Recording& checked(const Recording& recording) {
     refuse_course(recording,
                   "has no pos_x, so nobody knows where along the channel its cells were; Young's modulus and "
                   "viscosity follow from how they change from place to place.");
-  if (!ShapeSource::has_outlines(recording))
-    refuse_course(recording, "has neither contours nor masks, from which the third mode of each outline is computed.");
   return recording;
 }
 
 class CourseReader {
  public:
   CourseReader(const Recording& recording, const MeasuringOptions& options)
-      : recording_(checked(recording)),
-        settings_(extract_settings(options, PixelUse::fit, recording)),
-        outlines_(recording, settings_.pixel_size_um),
-        shapes_(recording, settings_.pixel_size_um),
-        features_(recording, shapes_),
-        gates_(options.gates) {
-    gates_.check(features_, recording.file().string());
+      : recording_(checked(recording)), events_(recording, options, "the third mode of each outline is computed") {
     result_.has_time = recording.has_scalar("time");
-    result_.settings = settings_.lines();
-    result_.warnings = settings_.warnings;
+    result_.settings = events_.settings().lines();
+    result_.warnings = events_.settings().warnings;
   }
 
   void take(std::size_t first, std::size_t count) {
-    inside_.resize(count);
-    gates_.apply(features_, first, inside_);
-    viscosity_.resize(count);
-    settings_.viscosities(recording_, first, viscosity_);
+    events_.read(first, count);
+    const auto viscosity = events_.viscosity_mPas();
     const auto x = scalar("pos_x", first, count), y = scalar("pos_y", first, count),
                time = scalar("time", first, count);
     for (std::size_t i = 0; i < count; ++i) {
-      if (!inside_[i] || !std::isfinite(x[i]) || !std::isfinite(viscosity_[i])) continue;
+      if (!events_.is_inside(i) || !std::isfinite(x[i]) || !std::isfinite(viscosity[i])) continue;
       CourseEvent event{double(first + i + 1), x[i], y[i], time[i]};
-      if (!measure(outlines_.features(first + i), event)) continue;
+      if (!measure(events_.shape(first + i), event)) continue;
       result_.events.push_back(event);
-      viscosities_.push_back(viscosity_[i]);
+      viscosities_.push_back(viscosity[i]);
     }
   }
 
   CourseEvents result() {
     if (result_.events.empty()) refuse_course(recording_, "has no event with an outline, a place and a viscosity.");
-    result_.flow = settings_.conditions.flow;
+    result_.flow = events_.settings().conditions.flow;
     result_.flow.viscosity_mPas = median_of(viscosities_);
     return std::move(result_);
   }
@@ -86,7 +73,7 @@ class CourseReader {
   /// Without what the pixels do.
   bool measure(const ShapeVector& seen, CourseEvent& event) const {
     if (!seen.allFinite()) return false;
-    const SmoothAsymmetry smooth = without_pixels(seen, settings_.pixel_size_um);
+    const SmoothAsymmetry smooth = without_pixels(seen, events_.settings().pixel_size_um);
     event.area_um2 = smooth.area_um2;
     event.mode_2 = smooth.mode_2;
     event.mode_3 = smooth.mode_3;
@@ -95,13 +82,8 @@ class CourseReader {
   }
 
   const Recording& recording_;
-  ExtractSettings settings_;
-  EventOutlines outlines_;
-  ShapeSource shapes_;
-  EventFeatures features_;
-  Gates gates_;
-  std::vector<char> inside_;
-  std::vector<double> viscosity_, viscosities_;
+  OutlinedEvents events_;
+  std::vector<double> viscosities_;
   CourseEvents result_;
 };
 
@@ -187,15 +169,9 @@ void check_channel(const ChannelFlow& flow, const std::string& name, const Dynam
 CourseEvents read_course_events(const std::filesystem::path& path, const MeasuringOptions& options,
                                 const TellProgress& tell_progress) {
   Recording recording(path);
-  double done = 0;
-  recording.on_piece(now_and_then([&] { tell_progress(done); }));
+  EventPass pass(recording, tell_progress);
   CourseReader reader(recording, options);
-  const std::size_t events = recording.events();
-  for (std::size_t first = 0; first < events; first += outlines_at_a_time) {
-    const std::size_t count = std::min(outlines_at_a_time, events - first);
-    reader.take(first, count);
-    tell_progress(done = double(first + count) / double(events));
-  }
+  pass.in_blocks(outlines_at_a_time, [&](std::size_t first, std::size_t count) { reader.take(first, count); });
   return reader.result();
 }
 
@@ -241,7 +217,7 @@ void check_places_seen(const std::vector<CourseCell>& cells) {
         "rheocyte: no event lies at a place, and has an area, that the dynamic table has; see "
         "dynamic.first_um, last_um, min_radius_um and max_radius_um in its spec.toml, and --contraction-um.");
   if (sees_a_cell_again) return;
-  const double seen = quantile(places, 0.95) - quantile(places, 0.05);
+  const double seen = central_width(places);
   if (seen < min_seen_um)
     throw UserError(
         fmt::format("rheocyte: all cells were seen at one place, within {:.3g} um: Young's modulus and "

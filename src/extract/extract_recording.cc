@@ -8,6 +8,7 @@
 #include "case/user_error.h"
 #include "extract/companion_origin.h"
 #include "extract/companion_shapes.h"
+#include "extract/event_pass.h"
 #include "extract/event_table.h"
 #include "extract/extraction.h"
 #include "measurement/companion_file.h"
@@ -190,16 +191,11 @@ ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files
                                  const ModulusTables& tables, const TellProgress& on_progress) {
   Recording recording(file);
   check_same_recording(files.place(), recording);
-  double done = 0;
-  recording.on_piece(now_and_then([&] { on_progress(done); }));
+  EventPass pass(recording, on_progress);
   Extraction extraction(recording, options, tables);
   Writers writers(files, recording, extraction);
-  const std::size_t events = recording.events(), block = extraction.block();
-  for (std::size_t first = 0; first < events; first += block) {
-    const std::size_t count = std::min(block, events - first);
-    writers.write(first, extraction.compute(first, count));
-    on_progress(done = static_cast<double>(first + count) / static_cast<double>(events));
-  }
+  pass.in_blocks(extraction.block(),
+                 [&](std::size_t first, std::size_t count) { writers.write(first, extraction.compute(first, count)); });
   writers.close();
   ExtractSummary summary = extraction.summary();
   if (const auto missing = writers.missing(); !missing.empty()) summary.warnings.push_back(missing);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "case/user_error.h"
 #include "extract/companion_origin.h"
+#include "extract/event_pass.h"
 #include "extract/extract_settings.h"
 #include "measurement/shape_source.h"
 
@@ -29,12 +29,9 @@ FeaturesSummary features_of_recording(const fs::path& file, const fs::path& plac
                                       std::optional<double> given_pixel_size_um, const TellProgress& on_progress) {
   Recording recording(file);
   check_same_recording(place, recording);
-  if (!ShapeSource::has_outlines(recording))
-    throw UserError(fmt::format("{}: holds neither contours nor masks, from which features of the shape are computed.",
-                                one_line(file.string(), 300)));
+  ShapeSource::check_outlines(recording, "features of the shape are computed");
   const double size_um = pixel_size_um(recording, given_pixel_size_um, "--pixel-size-um");
-  double done = 0;
-  recording.on_piece(now_and_then([&] { on_progress(done); }));
+  EventPass pass(recording, on_progress);
   ShapeSource shapes(recording, size_um);
   CompanionFile companion(scratch, recording, program());
   for (const OutlineFeature& feature : outline_features()) companion.add_feature(feature.name);
@@ -44,8 +41,7 @@ FeaturesSummary features_of_recording(const fs::path& file, const fs::path& plac
   FeaturesSummary summary{recording.events()};
   std::vector<ContourFeatures> features;
   std::vector<double> values;
-  for (std::size_t first = 0; first < summary.events; first += masks_at_a_time) {
-    const std::size_t count = std::min(masks_at_a_time, summary.events - first);
+  pass.in_blocks(masks_at_a_time, [&](std::size_t first, std::size_t count) {
     features.resize(count);
     values.resize(count);
     shapes.read_features(first, features);
@@ -55,8 +51,7 @@ FeaturesSummary features_of_recording(const fs::path& file, const fs::path& plac
     }
     summary.with_outline += std::size_t(
         std::ranges::count_if(features, [](const ContourFeatures& f) { return std::isfinite(f.area_um2); }));
-    on_progress(done = static_cast<double>(first + count) / static_cast<double>(summary.events));
-  }
+  });
   companion.close();
   return summary;
 }

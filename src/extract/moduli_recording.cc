@@ -7,15 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "case/user_error.h"
+#include "extract/event_pass.h"
 #include "extract/event_table.h"
-#include "extract/extract_settings.h"
-#include "extract/gates.h"
 #include "extract/modulus_tables.h"
+#include "extract/outlined_events.h"
 #include "extract/plausibility.h"
-#include "measurement/event_features.h"
-#include "measurement/event_outlines.h"
-#include "measurement/shape_source.h"
 #include "numeric/no_value.h"
 #include "store/build_info.h"
 #include "store/file_writer.h"
@@ -25,13 +21,6 @@ namespace rheocyte {
 namespace {
 
 constexpr std::size_t events_between_progress = 256;
-
-const Recording& with_outlines(const Recording& recording) {
-  if (!ShapeSource::has_outlines(recording))
-    throw UserError(fmt::format("{}: has neither contours nor masks; several moduli need the shape of each cell.",
-                                one_line(recording.file().string(), 300)));
-  return recording;
-}
 
 constexpr std::string_view more_columns =
     "young_modulus_error_kPa\t"
@@ -51,48 +40,39 @@ std::string line(std::size_t event, const ShapeVector& seen, double viscosity_mP
 class Fits {
  public:
   Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table)
-      : recording_(recording),
-        settings_(extract_settings(options.measuring, PixelUse::fit, recording)),
-        outlines_(with_outlines(recording), settings_.pixel_size_um),
-        shapes_(recording, settings_.pixel_size_um),
-        features_(recording, shapes_),
-        gates_(options.measuring.gates),
+      : events_(recording, options.measuring, "the shape of each cell is fitted"),
         simulated_exponent_(table.simulated.exponent),
-        shapes_of_solids_(solids_.shapes(settings_.conditions.flow.exponent)),
-        moduli_(settings_, options, table) {
-    gates_.check(features_, recording.file().string());
-  }
+        shapes_of_solids_(solids_.shapes(conditions().flow.exponent)),
+        moduli_(events_.settings(), options, table) {}
 
   /// The names of the columns, and the settings.
   std::string header(const ModuliOptions& options) const {
     std::vector<std::string> remarks{
-        fmt::format("rheocyte {} moduli", version), "recording: " + recording_.file().string(),
+        fmt::format("rheocyte {} moduli", version), "recording: " + events_.recording().file().string(),
         "table: " + options.table.string(),
         fmt::format(
             "by {}; {}",
             options.only_figure ? "area, deformation and Lambda1/Lambda2" : "area and modes 2 .. 6 of the contour",
             options.fit_tension ? "the tension is fitted" : "the tension is that of the table")};
-    const auto settings = settings_.lines();
+    const auto settings = events_.settings().lines();
     remarks.insert(remarks.end(), settings.begin(), settings.end());
-    if (!gates_.empty()) remarks.push_back("only events with " + gates_.description());
+    if (!events_.gates().empty()) remarks.push_back("only events with " + events_.gates().description());
     return std::string(first_columns_of_events).append(more_columns) + commented(remarks);
   }
 
   /// The lines of a block of events.
   std::string take(std::size_t first, std::size_t count) {
-    viscosity_.resize(count);
-    outside_temperature_ += settings_.viscosities(recording_, first, viscosity_);
+    events_.read(first, count);
     count_inertial();
-    inside_.resize(count);
-    gates_.apply(features_, first, inside_);
     std::vector<ShapeVector> seen;
-    for (std::size_t i = 0; i < count; ++i) seen.push_back(outlines_.features(first + i));
+    for (std::size_t i = 0; i < count; ++i) seen.push_back(events_.shape(first + i));
     compare(seen);
     std::string text;
+    const auto viscosity = events_.viscosity_mPas();
     for (std::size_t i = 0; i < count; ++i) {
-      const ModuliEstimate estimate = inside_[i] ? moduli_.fit(seen[i], viscosity_[i]) : gated();
+      const ModuliEstimate estimate = events_.is_inside(i) ? moduli_.fit(seen[i], viscosity[i]) : gated();
       tally_.take(estimate);
-      text += line(first + i, seen[i], viscosity_[i], estimate) +
+      text += line(first + i, seen[i], viscosity[i], estimate) +
               fmt::format("\t{:.4g}\t{:.6g}\t{:.3g}\n", excess_[i].excess, solid_kPa_[i], solid_error_kPa_[i]);
     }
     return text;
@@ -100,16 +80,18 @@ class Fits {
 
   ModuliSummary summary() {
     ModuliSummary s = tally_.summary();
-    s.gates = gates_.description();
-    s.warnings = recording_.remarks();
-    s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
-    if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
+    const ExtractSettings& settings = events_.settings();
+    s.gates = events_.gates().description();
+    s.warnings = events_.recording().remarks();
+    s.warnings.insert(s.warnings.end(), settings.warnings.begin(), settings.warnings.end());
+    if (const auto outside = events_.outside_temperature())
+      s.warnings.push_back(settings.outside_temperature_text(outside));
     if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
-    if (std::abs(settings_.conditions.flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
+    if (std::abs(conditions().flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
       s.warnings.push_back(fmt::format(
           "the medium is shear-thinning with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at the "
           "wall stands for both, and moduli are off by up to 5 %, those of large cells most.",
-          settings_.conditions.flow.exponent, simulated_exponent_));
+          conditions().flow.exponent, simulated_exponent_));
     if (s.resolved() == 0 && s.with_stiffness() > 0)
       s.warnings.emplace_back(
           "no event tells bulk and cortex apart; what is known is E + E2D/r0, of some events perhaps single moduli.");
@@ -117,6 +99,8 @@ class Fits {
   }
 
  private:
+  const MeasuringConditions& conditions() const { return events_.settings().conditions; }
+
   /// With the solids of the table that comes with the program.
   void compare(std::span<const ShapeVector> seen) {
     constexpr int mode_2 = int(ShapeFeature::first_mode);
@@ -124,7 +108,7 @@ class Fits {
     for (std::size_t i = 0; i < seen.size(); ++i) {
       area.push_back(std::exp(seen[i](0)));
       deformation.push_back(seen[i](1));
-      ratio.push_back(inside_[i] ? 1 / std::sqrt(seen[i](2)) : no_value);
+      ratio.push_back(events_.is_inside(i) ? 1 / std::sqrt(seen[i](2)) : no_value);
       second.push_back(seen[i](mode_2));
       third.push_back(seen[i](mode_2 + 1));
     }
@@ -132,17 +116,16 @@ class Fits {
     solid_kPa_.assign(seen.size(), no_value);
     solid_error_kPa_.assign(seen.size(), no_value);
     if (!shapes_of_solids_) return;
-    const MeasuredEvents events{area, deformation, viscosity_};
+    const MeasuredEvents events{area, deformation, events_.viscosity_mPas()};
     std::vector<ModulusState> states(seen.size());
-    shapes_of_solids_->compare(settings_.conditions, events, ratio, excess_);
+    shapes_of_solids_->compare(conditions(), events, ratio, excess_);
     if (shapes_of_solids_->has_asymmetry())
-      shapes_of_solids_->estimate(settings_.conditions, events, {second, third},
-                                  {solid_kPa_, solid_error_kPa_, states});
+      shapes_of_solids_->estimate(conditions(), events, {second, third}, {solid_kPa_, solid_error_kPa_, states});
   }
 
   void count_inertial() {
-    ChannelFlow flow = settings_.conditions.flow;
-    for (const double viscosity_mPas : viscosity_) {
+    ChannelFlow flow = conditions().flow;
+    for (const double viscosity_mPas : events_.viscosity_mPas()) {
       flow.viscosity_mPas = viscosity_mPas;
       const double reynolds = reynolds_number(buffer_density_kg_per_m3, flow);
       if (!(reynolds > max_reynolds_number)) continue;
@@ -157,21 +140,14 @@ class Fits {
     return estimate;
   }
 
-  const Recording& recording_;
-  ExtractSettings settings_;
-  EventOutlines outlines_;
-  ShapeSource shapes_;
-  EventFeatures features_;
-  Gates gates_;
+  OutlinedEvents events_;
   double simulated_exponent_;
   ModulusTables solids_{std::string(), Section::tube};
   const ShapeMap* shapes_of_solids_;
   EventModuli moduli_;
-  std::vector<double> viscosity_;
-  std::vector<char> inside_;
   std::vector<ShapeExcess> excess_;
   std::vector<double> solid_kPa_, solid_error_kPa_;  ///< by the asymmetry, as if the cells were solids
-  std::size_t outside_temperature_ = 0, inertial_ = 0;
+  std::size_t inertial_ = 0;
   double max_reynolds_number_ = 0;
   ModuliTally tally_;
 };
@@ -182,17 +158,12 @@ ModuliSummary moduli_of_recording(const std::filesystem::path& path, const std::
                                   const ModuliOptions& options, const ModuliTable& table,
                                   const TellProgress& tell_progress) {
   Recording recording(path);
-  double done = 0;
-  recording.on_piece(now_and_then([&] { tell_progress(done); }));
+  EventPass pass(recording, tell_progress);
   Fits fits(recording, options, table);
   FileWriter writer(file);
   writer.append(fits.header(options));
-  const std::size_t events = recording.events();
-  for (std::size_t first = 0; first < events; first += events_between_progress) {
-    const std::size_t count = std::min(events_between_progress, events - first);
-    writer.append(fits.take(first, count));
-    tell_progress(done = double(first + count) / double(events));
-  }
+  pass.in_blocks(events_between_progress,
+                 [&](std::size_t first, std::size_t count) { writer.append(fits.take(first, count)); });
   writer.close();
   return fits.summary();
 }

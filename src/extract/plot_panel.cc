@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "case/user_error.h"
+#include "extract/event_pass.h"
 #include "extract/extract_settings.h"
 #include "extract/shape_features.h"
 #include "measurement/event_features.h"
@@ -108,8 +109,7 @@ void take_conditions(const Recording& recording, const PlotOptions& options, Plo
 PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWanted lines, const TakePairs& take_pairs,
                      const TellProgress& on_progress) {
   Recording recording(file);
-  double done = 0;
-  recording.on_piece(now_and_then([&] { on_progress(done); }));
+  EventPass pass(recording, on_progress);
   PlotPanel panel;
   panel.events = recording.events();
   panel.sample = one_line(recording.metadata().text("experiment:sample").value_or(""), 60);
@@ -135,16 +135,14 @@ PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWant
   Axes axes(recording, shapes, options);
   Pairs pairs;
   std::vector<double> x, y;
-  for (std::size_t first = 0; first < panel.events; first += events_at_a_time) {
-    const std::size_t count = std::min(events_at_a_time, panel.events - first);
+  pass.in_blocks(events_at_a_time, [&](std::size_t first, std::size_t count) {
     x.resize(count);
     y.resize(count);
     panel.gated += axes.read(first, x, y);
     const auto drawable = pairs.of(x, y);
     take_pairs(drawable);
     panel.drawable += drawable.size() / 2;
-    on_progress(done = static_cast<double>(first + count) / static_cast<double>(panel.events));
-  }
+  });
   if (panel.drawable == 0)
     throw UserError(fmt::format("{}: no event {}has {} and {}, so there is nothing to draw.",
                                 one_line(file.string(), 300), panel.gated > 0 ? "inside the gates " : "", options.x,

@@ -30,11 +30,6 @@ Median median_with_error(std::vector<double> values) {
   return {sample.quantile(0.5), values.size() > 1 ? error : no_value};
 }
 
-double length_seen(std::span<const double> places) {
-  const CountedSample sample(places);
-  return sample.quantile(0.95) - sample.quantile(0.05);
-}
-
 /// Least squares over the places, without what lies four robust deviations from the median.
 Trend trend_of(std::span<const double> x, std::span<const double> y, double length) {
   std::vector<double> finite;
@@ -106,7 +101,7 @@ ShapeVerdict ShapeTally::verdict() const {
   const auto x = column(&Event::x);
   auto places = x;
   std::erase_if(places, [](double place) { return !std::isfinite(place); });
-  v.seen_um = places.empty() ? no_value : length_seen(places);
+  v.seen_um = central_width(places);
   v.inertia_ratio_trend = trend_of(x, column(&Event::inertia_ratio), v.seen_um);
   v.deformation_trend = trend_of(x, column(&Event::deformation), v.seen_um);
   v.asymmetry_trend = trend_of(x, column(&Event::mode_3), v.seen_um);

@@ -41,6 +41,12 @@ ShapeSource::ShapeSource(const Recording& recording, double pixel_size_um)
         fmt::format("{}: its areas are in pixels, and the pixel size is missing; give --pixel-size (um).", name));
 }
 
+void ShapeSource::check_outlines(const Recording& recording, std::string_view use) {
+  if (!has_outlines(recording))
+    throw UserError(fmt::format("{}: has neither contours nor masks, from which {}.",
+                                one_line(recording.file().string(), 300), use));
+}
+
 void ShapeSource::read(std::size_t first, std::span<double> areas_um2, std::span<double> deformations) {
   if (from_outline(area_from_) || from_outline(deformation_from_)) {
     features_.resize(areas_um2.size());

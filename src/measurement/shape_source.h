@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "measurement/contour_features.h"
@@ -34,6 +35,8 @@ class ShapeSource {
   static bool has_outlines(const Recording& recording) {
     return recording.has_contours() || recording.image_size("mask").has_value();
   }
+  /// UserError for recordings without; `use` completes "..., from which".
+  static void check_outlines(const Recording& recording, std::string_view use);
 
  private:
   void make_areas(std::span<double> pixels) const;

@@ -69,9 +69,16 @@ class CountedSample {
   std::array<std::size_t, classes> counts_{};
 };
 
-/// Linear between two of the numbers, at least one.
+/// Linear between two of the numbers. NaN of none.
 inline double quantile(std::span<const double> values, double fraction) {
-  return CountedSample(values).quantile(fraction);
+  return values.empty() ? no_value : CountedSample(values).quantile(fraction);
+}
+
+/// How far the 5 % and the 95 % quantile lie apart: where most are, whatever the outliers do. NaN of none.
+inline double central_width(std::span<const double> values) {
+  if (values.empty()) return no_value;
+  const CountedSample sample(values);
+  return sample.quantile(0.95) - sample.quantile(0.05);
 }
 
 /// The middle one, of an even number the upper one of the two. NaN of none.

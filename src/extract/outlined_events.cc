@@ -1,0 +1,31 @@
+#include "extract/outlined_events.h"
+
+namespace rheocyte {
+
+namespace {
+
+const Recording& with_outlines(const Recording& recording, std::string_view use) {
+  ShapeSource::check_outlines(recording, use);
+  return recording;
+}
+
+}  // namespace
+
+OutlinedEvents::OutlinedEvents(const Recording& recording, const MeasuringOptions& options, std::string_view use)
+    : recording_(with_outlines(recording, use)),
+      settings_(extract_settings(options, PixelUse::fit, recording)),
+      outlines_(recording, settings_.pixel_size_um),
+      shapes_(recording, settings_.pixel_size_um),
+      features_(recording, shapes_),
+      gates_(options.gates) {
+  gates_.check(features_, recording.file().string());
+}
+
+void OutlinedEvents::read(std::size_t first, std::size_t count) {
+  viscosity_mPas_.resize(count);
+  outside_temperature_ += settings_.viscosities(recording_, first, viscosity_mPas_);
+  inside_.resize(count);
+  gates_.apply(features_, first, inside_);
+}
+
+}  // namespace rheocyte
