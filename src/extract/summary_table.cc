@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "case/split.h"
 #include "case/user_error.h"
 #include "store/claim.h"
 #include "store/own_file.h"
@@ -161,16 +162,6 @@ Row row_of(const SummaryLine& line) {
               {"chip", s.labels.chip},
               {"remarks", all_of(s.warnings)}});
   return row;
-}
-
-std::vector<std::string> split(std::string_view text, char separator) {
-  std::vector<std::string> parts;
-  for (;;) {
-    const auto end = text.find(separator);
-    parts.emplace_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
 }
 
 std::vector<Row> rows_in(std::string_view text) {

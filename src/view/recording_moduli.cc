@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "case/user_error.h"
+#include "case/split.h"
 #include "extract/event_table.h"
 #include "extract/summary_table.h"
 #include "store/file_writer.h"
@@ -39,13 +39,6 @@ Json cell(const std::string& column, const std::string& text) {
   return error == std::errc{} && stop == end ? Json(number) : Json(text);
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line + "\t");
-  for (std::string text; std::getline(stream, text, '\t');) cells.push_back(text);
-  return cells;
-}
-
 }  // namespace
 
 Json moduli_report(const fs::path& recording, const ExtractSummary& summary) {
@@ -54,7 +47,7 @@ Json moduli_report(const fs::path& recording, const ExtractSummary& summary) {
   std::string names, values;
   std::getline(table, names);
   std::getline(table, values);
-  const auto columns = cells_of(names), row = cells_of(values);
+  const auto columns = split(names, '\t'), row = split(values, '\t');
   Json columns_json = Json::object(), lines = Json::array({in_one_line(summary)});
   for (std::size_t k = 0; k < columns.size() && k < row.size(); ++k)
     columns_json[columns[k]] = cell(columns[k], row[k]);

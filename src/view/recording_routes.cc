@@ -4,10 +4,10 @@
 #include <atomic>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <system_error>
 
 #include "case/json_guard.h"
+#include "case/split.h"
 #include "case/user_error.h"
 #include "view/moduli_runs.h"
 #include "view/view_items.h"
@@ -18,13 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-std::vector<std::string> names_in(const std::string& list) {
-  std::vector<std::string> names;
-  std::istringstream stream(list);
-  for (std::string name; std::getline(stream, name, ',');) names.push_back(name);
-  return names;
-}
 
 /// A folder for what an export needs on its way.
 class PassingFolder {
@@ -78,9 +71,10 @@ class RecordingAnswers {
 
   Answer columns(const Request& request) const {
     constexpr std::size_t most_features = 64;
-    const auto features = names_in(request.asked("features"));
+    const std::string list = request.asked("features");
+    const auto features = split(list, ',');
     const std::string type = request.asked("type", "float32");
-    if (features.empty() || features.size() > most_features)
+    if (list.empty() || features.size() > most_features)
       throw Refused(400, "input", "features names the columns, one to 64 of them, with commas between them.");
     if (type != "float32" && type != "float64") throw Refused(400, "input", "type is float32 or float64.");
     const auto work =

@@ -5,22 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "case/key_value.h"
+#include "case/split.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
 
 namespace {
-
-/// "/api/items/3" -> "", "api", "items", "3".
-std::vector<std::string> split(std::string_view path) {
-  std::vector<std::string> parts;
-  for (std::size_t at = 0; at <= path.size();) {
-    const std::size_t end = std::min(path.find('/', at), path.size());
-    parts.emplace_back(path.substr(at, end - at));
-    at = end + 1;
-  }
-  return parts;
-}
 
 bool is_placeholder(std::string_view part) { return part.size() > 2 && part.front() == '{' && part.back() == '}'; }
 
@@ -33,11 +23,11 @@ bool fits(const std::vector<std::string>& pattern, const std::vector<std::string
 }  // namespace
 
 void Router::add(std::string_view method, std::string_view pattern, Handler handler, std::size_t body_limit) {
-  routes_.push_back({std::string(method), split(pattern), std::move(handler), body_limit});
+  routes_.push_back({std::string(method), split(pattern, '/'), std::move(handler), body_limit});
 }
 
 const Router::Route* Router::find(std::string_view method, std::string_view path, Request::Names* parts) const {
-  const std::vector<std::string> asked = split(path);
+  const std::vector<std::string> asked = split(path, '/');
   const auto found =
       std::ranges::find_if(routes_, [&](const Route& r) { return r.method == method && fits(r.pattern, asked); });
   if (found == routes_.end()) return nullptr;
@@ -48,7 +38,7 @@ const Router::Route* Router::find(std::string_view method, std::string_view path
 }
 
 bool Router::knows(std::string_view path) const {
-  const std::vector<std::string> asked = split(path);
+  const std::vector<std::string> asked = split(path, '/');
   return std::ranges::any_of(routes_, [&](const Route& r) { return fits(r.pattern, asked); });
 }
 
