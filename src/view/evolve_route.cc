@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
@@ -29,7 +28,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr auto look_for_client_in_time = std::chrono::milliseconds(20);
 constexpr int most_at_once = 4;
 
 /// Fields of so many points and so many frames are given at most: some 30 MB in the browser.
@@ -64,7 +62,7 @@ class Evolution {
   void give(const TakePiece& take, const Client* client) {
     std::unique_lock lock(mutex_);
     for (bool is_last = false; !is_last;) {
-      changed_.wait_for(lock, look_for_client_in_time, [this] { return is_over_ || !lines_.empty(); });
+      changed_.wait_for(lock, Client::asked_every, [this] { return is_over_ || !lines_.empty(); });
       is_last = is_over_;
       const std::deque<std::string> lines = std::move(lines_);
       lines_.clear();

@@ -1,5 +1,6 @@
 // What a page or a script asks and what it gets, as those who answer see it: no sockets, no library of a server.
 #pragma once
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -18,6 +19,8 @@ class Client {
   virtual ~Client() = default;
   /// Whether it has hung up; what is computed for it is then in vain.
   virtual bool has_left() const = 0;
+  /// So often who waits for what is computed asks that.
+  static constexpr std::chrono::milliseconds asked_every{10};
 };
 
 struct Request {

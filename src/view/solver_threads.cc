@@ -1,14 +1,10 @@
 #include "view/solver_threads.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace rheocyte {
 
 namespace {
-
-/// How often somebody who waits looks whether the client is still there.
-constexpr auto look_for_client = std::chrono::milliseconds(10);
 
 /// Whose states a session may still hold.
 constexpr std::size_t most_streams = 8;
@@ -127,7 +123,7 @@ JobEnd SolverThreads::run(const SolverJob& job) {
   if (is_over_) return JobEnd::left;
   waiting_.push_back(&task);
   to_do_.notify_all();
-  while (!ended_.wait_for(lock, look_for_client, [&] { return task.is_over; })) look_after_client(task);
+  while (!ended_.wait_for(lock, Client::asked_every, [&] { return task.is_over; })) look_after_client(task);
   lock.unlock();
   if (task.failure) std::rethrow_exception(task.failure);
   return task.is_superseded ? JobEnd::superseded : task.has_left ? JobEnd::left : JobEnd::done;
