@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "case/read_case.h"
+#include "case/refuse_path.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
@@ -58,10 +59,6 @@ std::string padded(std::string_view text, std::size_t length) {
   return result;
 }
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
-  throw UserError(fmt::format("{}: {}", file.string(), reason));
-}
-
 std::optional<std::string> content_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return {};
@@ -95,12 +92,13 @@ class CheckpointSearch {
   /// UserError that names the folder in which the user wanted it.
   FoundCheckpoint latest(const fs::path& wanted) && {
     if (!latest_ && failure_) throw *failure_;
-    if (!latest_) refuse(wanted, "holds no checkpoint; --continue takes the folder of a result with a [time] section.");
+    if (!latest_)
+      refuse_path(wanted, "holds no checkpoint; --continue takes the folder of a result with a [time] section.");
     const HistoryRow& reached = latest_->checkpoint.record.rows.back();
     const auto refuse_beyond = [&](double at, const std::optional<double>& end, const char* unit) {
       if (end && at > *end * (1 + 1e-8))
-        refuse(wanted,
-               fmt::format("has reached {:g} {} already, time.end_{} = {:g} lies before it.", at, unit, unit, *end));
+        refuse_path(wanted, fmt::format("has reached {:g} {} already, time.end_{} = {:g} lies before it.", at, unit,
+                                        unit, *end));
     };
     refuse_beyond(reached.t_us, case_.time.end_us, "us");
     refuse_beyond(reached.position_um, case_.time.end_um, "um");
@@ -135,17 +133,18 @@ Checkpoint decode_checkpoint(const std::string& content, const Case& c, const fs
   const std::size_t head = magic.size() + version_length + hash.size();
   std::uint64_t sum = 0;
   if (!content.starts_with(magic) || content.size() < head + sizeof sum)
-    refuse(file, "is no checkpoint of rheocyte, or only its beginning.");
+    refuse_path(file, "is no checkpoint of rheocyte, or only its beginning.");
   const std::string_view body = std::string_view(content).substr(0, content.size() - sizeof sum);
   std::memcpy(&sum, content.data() + body.size(), sizeof sum);
-  if (sum != fnv1a(body)) refuse(file, "is damaged, its checksum does not fit; start anew without --continue.");
+  if (sum != fnv1a(body)) refuse_path(file, "is damaged, its checksum does not fit; start anew without --continue.");
   if (body.substr(magic.size(), version_length) != padded(version, version_length))
-    refuse(file, "is of another version of rheocyte; start anew without --continue.");
+    refuse_path(file, "is of another version of rheocyte; start anew without --continue.");
   if (body.substr(magic.size() + version_length, hash.size()) != hash)
-    refuse(file, "is of another case; only time.end_us or time.end_um may differ from the case that it continues.");
+    refuse_path(file,
+                "is of another case; only time.end_us or time.end_um may differ from the case that it continues.");
   auto checkpoint = from_bytes<Checkpoint>(body.substr(head));
   if (!checkpoint || checkpoint->state.levels.empty() || checkpoint->record.rows.empty())
-    refuse(file, "is damaged, its content is incomplete; start anew without --continue.");
+    refuse_path(file, "is damaged, its content is incomplete; start anew without --continue.");
   return std::move(*checkpoint);
 }
 
@@ -164,22 +163,26 @@ Checkpoint read_checkpoint(const fs::path& folder, const Case& c) {
 
 TimeStart read_start(const fs::path& folder, const Case& c) {
   const fs::path file = folder / "case.toml";
-  if (!fs::exists(file)) refuse(folder, "holds no result of rheocyte; --start takes the folder of a result in time.");
+  if (!fs::exists(file))
+    refuse_path(folder, "holds no result of rheocyte; --start takes the folder of a result in time.");
   const Case other = read_case(file);
   if (other.time.scheme == TimeScheme::stationary)
-    refuse(folder, "is a stationary result, which has no checkpoint; --start takes the folder of a result in time.");
+    refuse_path(folder,
+                "is a stationary result, which has no checkpoint; --start takes the folder of a result in time.");
   const bool implicit = c.time.scheme == TimeScheme::monolithic && other.time.scheme == TimeScheme::monolithic;
   const bool straight = c.channel.profile.x_um.empty() && other.channel.profile.x_um.empty();
   if (!implicit || !straight)
-    refuse(folder, "cannot be a start: that is for time.scheme = \"monolithic\" in straight channels, here and there.");
+    refuse_path(folder,
+                "cannot be a start: that is for time.scheme = \"monolithic\" in straight channels, here and there.");
   if (tube_radius_um(c) != tube_radius_um(other) || c.cell.radius_um != other.cell.radius_um ||
       c.time.degree.value_or(other.time.degree.value_or(0)) != other.time.degree.value_or(c.time.degree.value_or(0)) ||
       c.cell.viscoelasticity != other.cell.viscoelasticity || c.flow.drive != other.flow.drive ||
       c.channel.length_um != other.channel.length_um)
-    refuse(folder,
-           "is of another kind; cell.radius_um, the channel, flow.drive, cell.viscoelasticity and time.degree must be "
-           "those of "
-           "the start.");
+    refuse_path(
+        folder,
+        "is of another kind; cell.radius_um, the channel, flow.drive, cell.viscoelasticity and time.degree must be "
+        "those of "
+        "the start.");
   const Scales now = scales_of(c), then = scales_of(other);
   return {read_checkpoint(folder, other).state,
           UnitChange{then.velocity_m_per_s / now.velocity_m_per_s, then.stress_Pa / now.stress_Pa}};

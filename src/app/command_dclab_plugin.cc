@@ -1,6 +1,5 @@
 // `rheocyte dclab-plugin`
 // Prints a file of the Python package.
-#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "store/python_package.h"
 
@@ -20,9 +20,7 @@ void print_plugin() {
   const auto path = python_package_folder() / "rheocyte" / "dclab_plugin.py";
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file || text.empty())
-    throw UserError(fmt::format("{}: cannot be read; it comes with the program, so install that again.",
-                                one_line(path.string(), 300)));
+  if (!file || text.empty()) refuse_path(path, "cannot be read; it comes with the program, so install that again.");
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     throw UserError("rheocyte: standard output cannot be written.");
 }

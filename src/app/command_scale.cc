@@ -14,6 +14,7 @@
 #include "app/key_option.h"
 #include "case/case_keys.h"
 #include "case/joined.h"
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/find_table.h"
 #include "infer/read_modulus_map.h"
@@ -40,9 +41,7 @@ bool is_text(const std::filesystem::path& table) {
 
 TableText read_text(const ScaleOptions& options, const std::filesystem::path& table) {
   if (is_text(table)) {
-    if (options.lines)
-      throw UserError(fmt::format("{}: --lines makes isoelasticity lines of rheocyte's own tables (grid_*.cbor).",
-                                  one_line(table.string(), 300)));
+    if (options.lines) refuse_path(table, "--lines makes isoelasticity lines of rheocyte's own tables (grid_*.cbor).");
     return read_table_text(table);
   }
   const auto map = read_modulus_map(table);

@@ -12,6 +12,7 @@
 #include "app/exit_codes.h"
 #include "case/case_text.h"
 #include "case/key_reading.h"
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
 #include "store/contained.h"
@@ -45,8 +46,7 @@ void check_output(const SynthOptions& options) {
   if (!options.force && fs::exists(options.output, error))
     throw UserError(fmt::format("{}: is there already; give another name with -o, or --force to replace it.", name));
   const auto parent = fs::absolute(options.output, error).parent_path();
-  if (!fs::is_directory(parent, error))
-    throw UserError(fmt::format("{}: there is no such folder.", one_line(parent.string(), 300)));
+  if (!fs::is_directory(parent, error)) refuse_path(parent, "there is no such folder.");
 }
 
 void report(const SynthOptions& options, const VirtualRecording& r) {

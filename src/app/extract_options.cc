@@ -14,12 +14,10 @@ namespace rheocyte {
 namespace {
 
 void declare_gate_options(CLI::App& command, GateOptions& options) {
-  command.add_option("--min", options.least, "take only events whose feature is not below a value, e.g. area_um=40")
+  command.add_option("--min", options.min, "take only events whose feature is not below a value, e.g. area_um=40")
       ->type_name("FEATURE=VALUE")
       ->allow_extra_args(false);
-  command
-      .add_option("--max", options.greatest,
-                  "take only events whose feature is not above a value, e.g. area_ratio=1.05")
+  command.add_option("--max", options.max, "take only events whose feature is not above a value, e.g. area_ratio=1.05")
       ->type_name("FEATURE=VALUE")
       ->allow_extra_args(false);
   command

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/extract_options.h"
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/recording_list.h"
 #include "extract/shape_features.h"
@@ -28,8 +29,7 @@ void check(const PlotOptions& options) {
                                 recordings.size(), max_number_of_panels));
   std::error_code error;
   for (const auto& file : recordings)
-    if (fs::is_directory(file, error))
-      throw UserError(fmt::format("{}: is a folder; give recordings.", one_line(file.string(), 300)));
+    if (fs::is_directory(file, error)) refuse_path(file, "is a folder; give recordings.");
   const bool has_table = !options.table.empty(), has_lines = !options.lines.empty();
   if (options.no_lines && (has_table || has_lines || !options.levels_kPa.empty()))
     throw UserError(
@@ -102,8 +102,7 @@ fs::path picture_stem(const PlotOptions& options) {
   }
   if (stem.extension() == ".png" || stem.extension() == ".svg") stem.replace_extension();
   if (!stem.has_filename() || fs::is_directory(stem))
-    throw UserError(
-        fmt::format("{}: is a folder; give a name for the pictures with -o.", one_line(options.output.string(), 300)));
+    refuse_path(options.output, "is a folder; give a name for the pictures with -o.");
   return stem;
 }
 

@@ -15,9 +15,7 @@ ResultPlace::ResultPlace(const fs::path& folder, const fs::path& of_all) {
   for (fs::path at = folder; !at.empty() && at != top && !fs::exists(at, error); at = at.parent_path())
     missing.push_back(at);
   if (!folder.empty() && !fs::is_directory(folder, error)) fs::create_directories(folder, error);
-  if (error)
-    throw UserError(
-        fmt::format("{}: the folder cannot be made ({}).", one_line(folder.string(), 300), error.message()));
+  if (error) refuse_path(folder, fmt::format("the folder cannot be made ({}).", error.message()));
   made_.assign(missing.rbegin(), missing.rend());
 }
 

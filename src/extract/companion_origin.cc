@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "measurement/basin.h"
 #include "store/build_info.h"
@@ -39,8 +40,7 @@ std::vector<std::string> paths_to(const fs::path& original, const fs::path& fold
 }
 
 [[noreturn]] void refuse_to_replace(const fs::path& place, const char* what) {
-  throw UserError(fmt::format("{}: is there and {}; move it away, or name another folder with -o.",
-                              one_line(place.string(), 300), what));
+  refuse_path(place, fmt::format("is there and {}; move it away, or name another folder with -o.", what));
 }
 
 // Nothing if it is no recording at all.

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "case/refuse_path.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "extract/event_pass.h"
@@ -21,15 +22,11 @@ namespace {
 constexpr std::size_t outlines_at_a_time = 256;
 constexpr double same_width = 0.01;  // relative difference of the channels
 
-[[noreturn]] void refuse_course(const Recording& recording, const std::string& reason) {
-  throw UserError(fmt::format("{}: {}", one_line(recording.file().string(), 300), reason));
-}
-
 const Recording& checked(const Recording& recording) {
   if (!recording.has_scalar("pos_x"))
-    refuse_course(recording,
-                  "has no pos_x, so nobody knows where along the channel its cells were; Young's modulus and "
-                  "viscosity follow from how they change from place to place.");
+    refuse_path(recording.file(),
+                "has no pos_x, so nobody knows where along the channel its cells were; Young's modulus and "
+                "viscosity follow from how they change from place to place.");
   return recording;
 }
 
@@ -57,7 +54,8 @@ class CourseReader {
   }
 
   CourseEvents result() {
-    if (result_.events.empty()) refuse_course(recording_, "has no event with an outline, a place and a viscosity.");
+    if (result_.events.empty())
+      refuse_path(recording_.file(), "has no event with an outline, a place and a viscosity.");
     result_.flow = events_.settings().conditions.flow;
     result_.flow.viscosity_mPas = median_of(viscosities_);
     return std::move(result_);

@@ -9,6 +9,7 @@
 
 #include "case/case_keys.h"
 #include "case/nearest_name.h"
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/plausibility.h"
 #include "numeric/no_value.h"
@@ -16,10 +17,6 @@
 namespace rheocyte {
 
 namespace {
-
-[[noreturn]] void refuse(const Recording& recording, const std::string& reason) {
-  throw UserError(fmt::format("{}: {}", one_line(recording.file().string(), 300), reason));
-}
 
 // A key of the metadata, and what stands for it on the command line and in a case.
 struct Quantity {
@@ -34,20 +31,22 @@ double quantity(const Recording& recording, const std::optional<double>& given, 
   const auto& [key, unit, way_out, range] = wanted;
   const auto stored = recording.metadata().number(key);
   if (stored && *stored > 0 && !range.contains(*stored))
-    refuse(recording, fmt::format("{} is {:g}, outside {}; is its unit another one? Give it with {}.", key, *stored,
-                                  range_text(range, unit), way_out));
+    refuse_path(recording.file(), fmt::format("{} is {:g}, outside {}; is its unit another one? Give it with {}.", key,
+                                              *stored, range_text(range, unit), way_out));
   if (stored && *stored > 0) return *stored;
-  refuse(recording, fmt::format("{} {}; give it with {}.", key,
-                                recording.metadata().has(key) ? "is not a positive number" : "is missing", way_out));
+  refuse_path(recording.file(),
+              fmt::format("{} {}; give it with {}.", key,
+                          recording.metadata().has(key) ? "is not a positive number" : "is missing", way_out));
 }
 
 void check_region(const Recording& recording) {
   std::string region = recording.metadata().text("setup:chip region").value_or("channel");
   std::ranges::transform(region, region.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (region != "channel")
-    refuse(recording, fmt::format("was recorded in the {}, where cells are not deformed by the channel; moduli exist "
-                                  "only for recordings with setup:chip region \"channel\".",
-                                  one_line(region, 40)));
+    refuse_path(recording.file(),
+                fmt::format("was recorded in the {}, where cells are not deformed by the channel; moduli exist "
+                            "only for recordings with setup:chip region \"channel\".",
+                            one_line(region, 40)));
 }
 
 ViscosityModel chosen_model(const MeasuringOptions& options) {
@@ -68,11 +67,11 @@ Medium chosen_medium(const MeasuringOptions& options, const Recording& recording
   const std::string way_out =
       "give the viscosity with --viscosity-mPas, or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, water with "
       "--medium";
-  if (!name) refuse(recording, fmt::format("setup:medium is missing; {}.", way_out));
+  if (!name) refuse_path(recording.file(), fmt::format("setup:medium is missing; {}.", way_out));
   const std::string sentence = fmt::format("the medium \"{}\" has no known viscosity{}; {}.", one_line(*name, 60),
                                            did_you_mean(*name, media), way_out);
   if (options.medium) throw UserError("rheocyte: " + sentence);
-  refuse(recording, sentence);
+  refuse_path(recording.file(), sentence);
 }
 
 std::string outside(const ExtractSettings& settings) {

@@ -42,7 +42,7 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
                     !options.no_asymmetry),
       gates_(options.measuring.gates),
       features_(recording, shapes_) {
-  gates_.check(features_, recording.file().string());
+  gates_.check(features_);
   moduli_.reserve(recording.events());
   if (table_.is_own()) standard_errors_.reserve(recording.events());
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -30,20 +31,20 @@ std::pair<std::string, double> parsed(const std::string& text, const char* optio
 }  // namespace
 
 Gates::Gates(const GateOptions& options) {
-  for (const auto& text : options.least) {
+  for (const auto& text : options.min) {
     const auto [feature, value] = parsed(text, "--min");
-    limit_of(feature).least = value;
+    limit_of(feature).min = value;
   }
-  for (const auto& text : options.greatest) {
+  for (const auto& text : options.max) {
     const auto [feature, value] = parsed(text, "--max");
-    limit_of(feature).greatest = value;
+    limit_of(feature).max = value;
   }
   for (const auto& limit : limits_)
-    if (limit.least > limit.greatest)
+    if (limit.min > limit.max)
       throw UserError(
           fmt::format("rheocyte: --min and --max of {} contradict each other: no number is at least {} and at "
                       "most {}.",
-                      one_line(limit.feature, 60), limit.least, limit.greatest));
+                      one_line(limit.feature, 60), limit.min, limit.max));
   for (const auto& text : options.polygons) polygons_.emplace_back(text);
   events_ = options.events;
   if (events_) std::ranges::sort(*events_);
@@ -57,11 +58,11 @@ Gates::Limit& Gates::limit_of(const std::string& feature) {
 
 std::string Gates::description() const {
   std::string text;
-  for (const auto& [feature, least, greatest] : limits_) {
+  for (const auto& [feature, min, max] : limits_) {
     if (!text.empty()) text += ", ";
-    if (std::isfinite(least)) text += fmt::format("{} <= ", least);
+    if (std::isfinite(min)) text += fmt::format("{} <= ", min);
     text += one_line(feature, 60);
-    if (std::isfinite(greatest)) text += fmt::format(" <= {}", greatest);
+    if (std::isfinite(max)) text += fmt::format(" <= {}", max);
   }
   const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
   for (const auto& polygon : polygons_) add(polygon.description());
@@ -69,12 +70,12 @@ std::string Gates::description() const {
   return text;
 }
 
-void Gates::check(const EventFeatures& features, const std::string& recording) const {
+void Gates::check(const EventFeatures& features) const {
   for (const auto& limit : limits_)
     if (!features.has(limit.feature))
-      throw UserError(fmt::format("{}: has no feature {}, for which --min or --max gives a limit.",
-                                  one_line(recording, 300), one_line(limit.feature, 60)));
-  for (const auto& polygon : polygons_) polygon.check(features, recording);
+      refuse_path(features.recording().file(), fmt::format("has no feature {}, for which --min or --max gives a limit.",
+                                                           one_line(limit.feature, 60)));
+  for (const auto& polygon : polygons_) polygon.check(features);
 }
 
 void Gates::apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const {
@@ -84,10 +85,10 @@ void Gates::apply(EventFeatures& features, std::size_t first, std::vector<char>&
          event != events_->end() && *event < first + inside.size(); ++event)
       inside[*event - first] = 1;
   std::vector<double> values(inside.size());
-  for (const auto& [feature, least, greatest] : limits_) {
+  for (const auto& [feature, min, max] : limits_) {
     features.read(feature, first, values);
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!(values[i] >= least && values[i] <= greatest)) inside[i] = 0;
+      if (!(values[i] >= min && values[i] <= max)) inside[i] = 0;
   }
   for (const auto& polygon : polygons_) polygon.apply(features, first, inside);
 }

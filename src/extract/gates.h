@@ -12,13 +12,13 @@ namespace rheocyte {
 
 /// As on the command line: limits "area_ratio=1.05", polygons "area_um,deform=40,0.01:90,0.01:90,0.1".
 struct GateOptions {
-  std::vector<std::string> least, greatest, polygons = {};
+  std::vector<std::string> min, max, polygons = {};
   std::optional<std::vector<std::size_t>> events = {};  ///< the only ones that are taken, counted from 0
 };
 
 class Gates {
  public:
-  /// UserError: no FEATURE=NUMBER, a least value above the greatest, or no polygon.
+  /// UserError: no FEATURE=NUMBER, a min above the max, or no polygon.
   explicit Gates(const GateOptions& options);
 
   bool empty() const { return limits_.empty() && polygons_.empty() && !events_; }
@@ -26,14 +26,14 @@ class Gates {
   std::string description() const;
 
   /// UserError naming a feature that the recording does not have.
-  void check(const EventFeatures& features, const std::string& recording) const;
+  void check(const EventFeatures& features) const;
   /// Whether events [first, first + inside.size()) lie within all limits and polygons; events without a number do not.
   void apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const;
 
  private:
   struct Limit {
     std::string feature;
-    double least = -std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::infinity();
+    double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   };
   Limit& limit_of(const std::string& feature);
   std::vector<Limit> limits_;

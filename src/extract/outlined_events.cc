@@ -18,7 +18,7 @@ OutlinedEvents::OutlinedEvents(const Recording& recording, const MeasuringOption
       shapes_(recording, settings_.pixel_size_um),
       features_(recording, shapes_),
       gates_(options.gates) {
-  gates_.check(features_, recording.file().string());
+  gates_.check(features_);
 }
 
 void OutlinedEvents::read(std::size_t first, std::size_t count) {

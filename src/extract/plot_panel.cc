@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/event_pass.h"
 #include "extract/extract_settings.h"
@@ -45,7 +46,7 @@ class Axes {
         features_(recording, shapes),
         gates_(options.measuring.gates),
         usual_(has_usual_axes(options)) {
-    gates_.check(features_, recording.file().string());
+    gates_.check(features_);
     if (ShapeFeatures::knows(options.x) || ShapeFeatures::knows(options.y))
       by_shapes_.emplace(recording, shapes, options);
   }
@@ -144,9 +145,8 @@ PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWant
     panel.drawable += drawable.size() / 2;
   });
   if (panel.drawable == 0)
-    throw UserError(fmt::format("{}: no event {}has {} and {}, so there is nothing to draw.",
-                                one_line(file.string(), 300), panel.gated > 0 ? "inside the gates " : "", options.x,
-                                options.y));
+    refuse_path(file, fmt::format("no event {}has {} and {}, so there is nothing to draw.",
+                                  panel.gated > 0 ? "inside the gates " : "", options.x, options.y));
   return panel;
 }
 

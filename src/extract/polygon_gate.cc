@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "numeric/no_value.h"
 
@@ -64,11 +65,11 @@ std::string PolygonGate::description() const {
                      corners_.size());
 }
 
-void PolygonGate::check(const EventFeatures& features, const std::string& recording) const {
+void PolygonGate::check(const EventFeatures& features) const {
   for (const Axis& axis : {x_, y_})
     if (!features.has(axis.feature))
-      throw UserError(fmt::format("{}: has no feature {}, which --polygon names.", one_line(recording, 300),
-                                  one_line(axis.feature, 60)));
+      refuse_path(features.recording().file(),
+                  fmt::format("has no feature {}, which --polygon names.", one_line(axis.feature, 60)));
 }
 
 bool PolygonGate::holds(double x, double y) const {

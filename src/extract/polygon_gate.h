@@ -16,7 +16,7 @@ class PolygonGate {
   /// "area_um,deform in a polygon of 4 corners"
   std::string description() const;
   /// UserError naming a feature that the recording does not have.
-  void check(const EventFeatures& features, const std::string& recording) const;
+  void check(const EventFeatures& features) const;
   /// Takes those of the events [first, first + inside.size()) out that are not within; those without a number are not.
   void apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const;
   /// By the number of edges to the right (even-odd); the lower end of an edge belongs to it, the upper one does not.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -43,8 +44,7 @@ void search(const fs::path& folder, std::vector<Found>& found) {
        at.increment(error))
     if (at->path().extension() == ".rtdc" && at->is_regular_file(error) && !is_companion(at->path()))
       files.push_back(at->path());
-  if (error)
-    throw UserError(fmt::format("{}: cannot be searched ({}).", one_line(folder.string(), 300), error.message()));
+  if (error) refuse_path(folder, fmt::format("cannot be searched ({}).", error.message()));
   std::ranges::sort(files);
   for (const auto& file : files) found.push_back({file, fs::relative(file.parent_path(), folder, error)});
 }
@@ -60,8 +60,7 @@ std::vector<Found> found_by(const BatchOptions& options, std::vector<fs::path>& 
     else if (options.recursive)
       search(input, found);
     else
-      throw UserError(
-          fmt::format("{}: is a folder; give -r to search it for recordings.", one_line(input.string(), 300)));
+      refuse_path(input, "is a folder; give -r to search it for recordings.");
   }
   std::set<fs::path> seen;
   std::erase_if(found, [&](const Found& one) { return !seen.insert(in_full(one.recording)).second; });
@@ -98,10 +97,9 @@ RecordingList list_recordings(const BatchOptions& options) {
   RecordingList list;
   const std::vector<Found> found = found_by(options, list.passed_over);
   if (found.empty() && !list.passed_over.empty())
-    throw UserError(
-        fmt::format("{}: is a result of this program, as its name says; give the recording that it was "
-                    "made from.",
-                    one_line(list.passed_over.front().string(), 300)));
+    refuse_path(list.passed_over.front(),
+                "is a result of this program, as its name says; give the recording that it was "
+                "made from.");
   if (found.empty()) throw UserError("rheocyte: there is no recording (.rtdc) in the given folders.");
   Places plain, used;
   for (const auto& one : found) plain[in_full(results_of(one, options, ""))].push_back(&one);

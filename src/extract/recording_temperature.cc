@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
@@ -84,9 +85,7 @@ class Search {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& reason) const {
-    throw UserError(fmt::format("{}: {}", one_line(recording_.file().string(), 300), reason));
-  }
+  [[noreturn]] void refuse(const std::string& reason) const { refuse_path(recording_.file(), reason); }
 
   double as_given() {
     const double value = given(options_.temperature, "--temperature");

@@ -1,12 +1,10 @@
 #include "extract/shape_features.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
 
-#include "case/user_error.h"
+#include "case/refuse_path.h"
 
 namespace rheocyte {
 
@@ -34,7 +32,7 @@ ShapeFeatures::ShapeFeatures(const Recording& recording, ShapeSource& source, co
               options.x == "mode_3" || options.y == "mode_3") {
   const bool wants_asymmetry = options.x == "mode_3" || options.y == "mode_3";
   if (!shapes_.is_known() || (wants_asymmetry && !shapes_.has_asymmetry()))
-    throw UserError(fmt::format("{}: {}", one_line(recording.file().string(), 300), shapes_.missing()));
+    refuse_path(recording.file(), shapes_.missing());
 }
 
 void ShapeFeatures::compute(std::size_t first, std::size_t count) {

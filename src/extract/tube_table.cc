@@ -1,10 +1,9 @@
 #include "extract/tube_table.h"
 
-#include <fmt/format.h>
-
 #include <fstream>
 #include <iterator>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/find_table.h"
 
@@ -15,7 +14,7 @@ void provide_tube_table(const TableFolder& folder) {
   const auto file = find_table(*folder.spec().tube_table, "table.tube_table =");
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw UserError(fmt::format("{}: cannot be read.", one_line(file.string(), 300)));
+  if (!stream) refuse_path(file, "cannot be read.");
   grid_from_bytes(bytes, one_line(file.string(), 300));
   folder.publish(TableFolder::tube_table_file, bytes);
 }

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "case/user_error.h"
+#include "case/refuse_path.h"
 #include "infer/published_map.h"
 #include "numeric/no_value.h"
 #include "numeric/roots.h"
@@ -143,10 +143,9 @@ IsoelasticityLines read_isoelasticity_lines(const std::filesystem::path& file) {
     by_modulus[rows.modulus_kPa[i]].push_back({rows.size[i], rows.deformation[i]});
   constexpr std::size_t max_number = 200;
   if (by_modulus.size() > max_number)
-    throw UserError(
-        fmt::format("{}: holds {} different moduli; it is a look-up table, not a file of lines: give it "
-                    "with --table.",
-                    one_line(file.string(), 300), by_modulus.size()));
+    refuse_path(file, fmt::format("holds {} different moduli; it is a look-up table, not a file of lines: give it "
+                                  "with --table.",
+                                  by_modulus.size()));
   IsoelasticityLines result{rows.identifier, rows.flow, {}};
   for (auto& [modulus, points] : by_modulus) result.lines.push_back({modulus, std::move(points)});
   return result;

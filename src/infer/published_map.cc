@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "measurement/pixelation.h"
 #include "numeric/no_value.h"
@@ -28,9 +29,7 @@ std::vector<PlanePoint> normalised(const PublishedTable& table, double size, dou
 
 PublishedTable read_published_table(const std::filesystem::path& file, const char* identifier_key) {
   const TableText text = read_table_text(file);
-  const auto refuse = [&](const std::string& reason) {
-    throw UserError(fmt::format("{}: {}", one_line(file.string(), 300), reason));
-  };
+  const auto refuse = [&](const std::string& reason) { refuse_path(file, reason); };
   const auto identifier = text.metadata.find(identifier_key);
   if (identifier == text.metadata.end() || !identifier->is_string())
     refuse(fmt::format("the metadata need a text \"{}\".", identifier_key));

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <vector>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "infer/grid_map.h"
 #include "infer/published_map.h"
@@ -41,9 +42,8 @@ std::string content_of(const fs::path& path) {
   const auto size = fs::file_size(path, error);
   std::ifstream file(path, std::ios::binary);
   if (error || !file || size > max_file)
-    throw UserError(fmt::format(
-        "{}: {}", one_line(path.string(), 300),
-        !error && size > max_file ? "is too large for a grid of a table." : "cannot be read; check its permissions."));
+    refuse_path(path, !error && size > max_file ? "is too large for a grid of a table."
+                                                : "cannot be read; check its permissions.");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

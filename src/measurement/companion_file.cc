@@ -7,7 +7,7 @@
 #include <cstring>
 #include <map>
 
-#include "case/user_error.h"
+#include "case/refuse_path.h"
 #include "measurement/basin.h"
 #include "measurement/hdf5_handle.h"
 #include "measurement/hdf5_reading.h"
@@ -83,8 +83,8 @@ struct CompanionFile::Content {
 
   void check(bool good, const std::string& what) const {
     if (good) return;
-    throw UserError(fmt::format("{}: {} cannot be written; is the disk full, or is writing there not allowed?",
-                                one_line(place_of(path).string(), 300), what));
+    refuse_path(place_of(path),
+                fmt::format("{} cannot be written; is the disk full, or is writing there not allowed?", what));
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -22,9 +23,7 @@ bool EventFeatures::has(const std::string& feature) const {
 }
 
 void EventFeatures::read(const std::string& feature, std::size_t first, std::span<double> values) {
-  if (!has(feature))
-    throw UserError(
-        fmt::format("{}: has no feature {}.", one_line(recording_.file().string(), 300), one_line(feature, 60)));
+  if (!has(feature)) refuse_path(recording_.file(), fmt::format("has no feature {}.", one_line(feature, 60)));
   if (recording_.has_scalar(feature)) return recording_.read_scalar(feature, first, values);
   other_.resize(values.size());
   if (feature == "area_um") return shapes_.read(first, values, other_);

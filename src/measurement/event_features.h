@@ -14,6 +14,8 @@ class EventFeatures {
   /// Both must outlive it.
   EventFeatures(const Recording& recording, ShapeSource& shapes) : recording_(recording), shapes_(shapes) {}
 
+  const Recording& recording() const { return recording_; }
+
   /// Stored features, area_um and deform from whatever tells them, area_ratio from area_cvx and area_msd.
   bool has(const std::string& feature) const;
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "measurement/hdf5_writing.h"
 #include "measurement/recording_content.h"
@@ -18,10 +19,6 @@ namespace rheocyte {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
-  throw UserError(fmt::format("{}: {}", one_line(file.string(), 300), reason));
-}
 
 // By the flags that HDF5 sets in the superblock of a file of its newest version and clears at the end.
 bool is_being_written(const fs::path& file) {
@@ -35,22 +32,22 @@ bool is_being_written(const fs::path& file) {
 Hdf5Handle open_file(const fs::path& file) {
   std::error_code error;
   const auto status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) refuse(file, "there is no such file.");
-  if (!fs::is_regular_file(status)) refuse(file, "is not a file; give an .rtdc recording (a folder needs -r).");
+  if (status.type() == fs::file_type::not_found) refuse_path(file, "there is no such file.");
+  if (!fs::is_regular_file(status)) refuse_path(file, "is not a file; give an .rtdc recording (a folder needs -r).");
   prepare_hdf5();
   const Hdf5Handle access(::H5Pcreate(H5P_FILE_ACCESS));
   // Recordings often lie on network drives that know no locks; nothing is written to them.
   ::H5Pset_file_locking(access.get(), false, true);
   Hdf5Handle opened(::H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.get()));
   if (opened) return opened;
-  if (::access(file.c_str(), R_OK) != 0) refuse(file, "cannot be read; check its permissions.");
+  if (::access(file.c_str(), R_OK) != 0) refuse_path(file, "cannot be read; check its permissions.");
   if (::H5Fis_hdf5(file.c_str()) <= 0)
-    refuse(file, "is not an HDF5 file, or its first bytes are damaged; .rtdc recordings are HDF5 files.");
+    refuse_path(file, "is not an HDF5 file, or its first bytes are damaged; .rtdc recordings are HDF5 files.");
   if (is_being_written(file))
-    refuse(file,
-           "is open for writing: its recording has not ended, or the program that made it broke down; wait for "
-           "the end, or free it with h5clear -s (of the HDF5 tools).");
-  refuse(file, "is damaged or incomplete and cannot be opened; copy it once more from where it was recorded.");
+    refuse_path(file,
+                "is open for writing: its recording has not ended, or the program that made it broke down; wait for "
+                "the end, or free it with h5clear -s (of the HDF5 tools).");
+  refuse_path(file, "is damaged or incomplete and cannot be opened; copy it once more from where it was recorded.");
 }
 
 // Which compression is missing, if that is the reason why data could not be read.
@@ -71,7 +68,7 @@ std::string missing_filter(hid_t dataset) {
 }
 
 [[noreturn]] void refuse_data(const fs::path& file, const std::string& feature, hid_t dataset) {
-  refuse(file, fmt::format("the feature {} cannot be read: {}.", one_line(feature, 60), missing_filter(dataset)));
+  refuse_path(file, fmt::format("the feature {} cannot be read: {}.", one_line(feature, 60), missing_filter(dataset)));
 }
 
 std::size_t number_of_members(hid_t group) {
@@ -120,10 +117,10 @@ Recording::Recording(const fs::path& file, Opening& opening) : content_(std::mak
   c.metadata = read_attributes(c.file.get());
   c.events_group = open_group(c.file.get(), "events");
   if (leads_to_another_file(c.file.get(), "events"))
-    refuse(file, "keeps its events in another file, to which a link leads; such links are not followed.");
-  if (!c.events_group) refuse(file, "has no group \"events\"; is it a recording of RT-DC?");
+    refuse_path(file, "keeps its events in another file, to which a link leads; such links are not followed.");
+  if (!c.events_group) refuse_path(file, "has no group \"events\"; is it a recording of RT-DC?");
   const auto names = member_names(c.events_group.get());
-  if (!names) refuse(file, "is damaged: the list of its features cannot be read.");
+  if (!names) refuse_path(file, "is damaged: the list of its features cannot be read.");
   for (const auto& name : *names)
     if (name != "contour") open_feature(name);
   c.contours = open_group(c.events_group.get(), "contour");
@@ -131,10 +128,10 @@ Recording::Recording(const fs::path& file, Opening& opening) : content_(std::mak
   if (c.events == 0) c.events = usual_length(c.images);
   if (c.events == 0 && c.contours) c.events = number_of_members(c.contours.get());
   open_basins(opening);
-  if (c.events == 0) refuse(file, "holds no events.");
+  if (c.events == 0) refuse_path(file, "holds no events.");
   if (double(c.events) > reading_limits.events_per_byte * double(c.bytes_with_basins))
-    refuse(file, fmt::format("is damaged: it claims {} events, more than its {} bytes can hold.", c.events,
-                             c.bytes_with_basins));
+    refuse_path(file, fmt::format("is damaged: it claims {} events, more than its {} bytes can hold.", c.events,
+                                  c.bytes_with_basins));
   const auto said = c.metadata.number("experiment:event count");
   if (said && *said != static_cast<double>(c.events))
     c.remarks.push_back(fmt::format("experiment:event count is {}, but the data have {} events.", *said, c.events));

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <map>
 
-#include "case/user_error.h"
+#include "case/refuse_path.h"
 #include "measurement/hdf5_writing.h"
 #include "store/whole_file.h"
 
@@ -62,8 +62,8 @@ struct RecordingFile::Content {
 
   void check(bool good, const std::string& what) const {
     if (good) return;
-    throw UserError(fmt::format("{}: {} cannot be written; is the disk full, or is writing there not allowed?",
-                                one_line(place_of(path).string(), 300), what));
+    refuse_path(place_of(path),
+                fmt::format("{} cannot be written; is the disk full, or is writing there not allowed?", what));
   }
 
   // `extent` of one chunk; the dataset is empty at first.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -43,8 +44,7 @@ ShapeSource::ShapeSource(const Recording& recording, double pixel_size_um)
 
 void ShapeSource::check_outlines(const Recording& recording, std::string_view use) {
   if (!has_outlines(recording))
-    throw UserError(fmt::format("{}: has neither contours nor masks, from which {}.",
-                                one_line(recording.file().string(), 300), use));
+    refuse_path(recording.file(), fmt::format("has neither contours nor masks, from which {}.", use));
 }
 
 void ShapeSource::read(std::size_t first, std::span<double> areas_um2, std::span<double> deformations) {

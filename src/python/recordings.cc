@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "case/user_error.h"
+#include "extract/event_pass.h"
 #include "extract/extraction.h"
 #include "extract/moduli_recording.h"
 #include "extract/time_course_table.h"
@@ -66,15 +67,12 @@ struct Events {
 
 Events events_of(const std::filesystem::path& file, const ExtractOptions& options, const TellProgress& tell_progress) {
   const ModulusTables tables(options.table, options.section);
-  const Recording recording(file);
+  Recording recording(file);
+  EventPass pass(recording, tell_progress);
   Extraction extraction(recording, options, tables);
   Events events;
-  const std::size_t all = recording.events(), block = extraction.block();
-  for (std::size_t first = 0; first < all; first += block) {
-    const std::size_t count = std::min(block, all - first);
-    events.append(extraction.compute(first, count));
-    tell_progress(static_cast<double>(first + count) / static_cast<double>(all));
-  }
+  pass.in_blocks(extraction.block(),
+                 [&](std::size_t first, std::size_t count) { events.append(extraction.compute(first, count)); });
   events.summary = extraction.summary();
   events.lines = extraction.lines();
   return events;
@@ -248,9 +246,9 @@ void bind_options(py::module_& module) {
       .def_readwrite("medium", &M::medium)
       .def_readwrite("viscosity_model", &M::viscosity_model)
       .def_readwrite("temperature", &M::temperature)
-      .def("set_gates", [](M& m, const std::vector<std::string>& least, const std::vector<std::string>& greatest,
+      .def("set_gates", [](M& m, const std::vector<std::string>& min, const std::vector<std::string>& max,
                            const std::vector<std::string>& polygons) {
-        m.gates = {least, greatest, polygons};
+        m.gates = {min, max, polygons};
       });
   py::class_<ExtractOptions>(module, "ExtractOptions")
       .def(py::init<>())

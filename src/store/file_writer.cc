@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "case/user_error.h"
+#include "case/refuse_path.h"
 #include "store/whole_file.h"
 
 namespace rheocyte {
@@ -26,8 +26,6 @@ void FileWriter::close() {
   if (std::fclose(std::exchange(file_, nullptr)) != 0) refuse();
 }
 
-void FileWriter::refuse() const {
-  throw UserError(fmt::format("{}: cannot be written; {}", one_line(place_of(path_).string(), 300), advice_));
-}
+void FileWriter::refuse() const { refuse_path(place_of(path_), fmt::format("cannot be written; {}", advice_)); }
 
 }  // namespace rheocyte

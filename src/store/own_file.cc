@@ -6,7 +6,7 @@
 #include <string>
 #include <system_error>
 
-#include "case/user_error.h"
+#include "case/refuse_path.h"
 #include "store/whole_file.h"
 
 namespace rheocyte {
@@ -14,15 +14,6 @@ namespace rheocyte {
 namespace fs = std::filesystem;
 
 namespace {
-
-[[noreturn]] void refuse_file(const fs::path& path, const std::string& reason) {
-  throw UserError(fmt::format("{}: {}", path.string(), reason));
-}
-
-[[noreturn]] void refuse_writing(const fs::path& path, int error_number) {
-  refuse_file(path, fmt::format("cannot be written ({}); an older file is left as it was.",
-                                std::generic_category().message(error_number)));
-}
 
 bool begins_with(const fs::path& path, std::string_view mark) {
   std::ifstream file(path, std::ios::binary);
@@ -37,11 +28,11 @@ void check_replaceable(const fs::path& path, std::string_view mark, Foreign fore
   std::error_code error;
   const auto status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) return;
-  if (error) refuse_file(path, fmt::format("cannot write there ({}).", error.message()));
-  if (fs::is_directory(status)) refuse_file(path, "is a folder; give the name of a file with -o.");
-  if (!fs::is_regular_file(status)) refuse_file(path, "is not a regular file; give another name with -o.");
+  if (error) refuse_path(path, fmt::format("cannot write there ({}).", error.message()));
+  if (fs::is_directory(status)) refuse_path(path, "is a folder; give the name of a file with -o.");
+  if (!fs::is_regular_file(status)) refuse_path(path, "is not a regular file; give another name with -o.");
   if (foreign == Foreign::replace || begins_with(path, mark)) return;
-  refuse_file(path,
+  refuse_path(path,
               foreign == Foreign::keep
                   ? "is there and was not written by rheocyte; move it away, or name another folder with -o."
                   : "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
@@ -50,11 +41,13 @@ void check_replaceable(const fs::path& path, std::string_view mark, Foreign fore
 void write_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, Foreign foreign) {
   std::error_code error;
   const fs::path path = fs::weakly_canonical(fs::absolute(wanted), error);  // a link stays a link
-  if (error) refuse_file(wanted, fmt::format("cannot write there ({}).", error.message()));
+  if (error) refuse_path(wanted, fmt::format("cannot write there ({}).", error.message()));
   check_replaceable(path, mark, foreign);
   fs::create_directories(path.parent_path(), error);
-  if (error) refuse_file(wanted, fmt::format("cannot make its folder ({}).", error.message()));
-  if (const int failed = write_whole_file(path, content)) refuse_writing(wanted, failed);
+  if (error) refuse_path(wanted, fmt::format("cannot make its folder ({}).", error.message()));
+  if (const int failed = write_whole_file(path, content))
+    refuse_path(wanted, fmt::format("cannot be written ({}); an older file is left as it was.",
+                                    std::generic_category().message(failed)));
 }
 
 }  // namespace rheocyte

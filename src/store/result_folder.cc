@@ -12,7 +12,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "case/user_error.h"
+#include "case/refuse_path.h"
 #include "store/foreign_files.h"
 #include "store/whole_file.h"
 
@@ -27,10 +27,6 @@ constexpr std::array<std::string_view, 17> own_files{
     "history.csv", "contours.csv", "fields.pvd", "fields",      "checkpoint-1.bin", "checkpoint-2.bin",
     "time.png",    "time.svg",     "time.gif",   "channel.csv", "outputs.csv"};
 constexpr std::array<const char*, 2> checkpoints{"checkpoint-1.bin", "checkpoint-2.bin"};
-
-[[noreturn]] void refuse_folder(const fs::path& path, const std::string& reason) {
-  throw UserError(fmt::format("{}: {}", path.string(), reason));
-}
 
 std::string reason_of(int error_number) { return std::generic_category().message(error_number); }
 
@@ -52,29 +48,29 @@ void check_replaceable(const fs::path& folder) {
   const auto status = fs::status(folder, error);
   if (status.type() == fs::file_type::not_found) {
     if (fs::is_symlink(folder, error))
-      refuse_folder(folder, "is a link that leads nowhere; give another folder with -o.");
+      refuse_path(folder, "is a link that leads nowhere; give another folder with -o.");
     return;
   }
-  if (error) refuse_folder(folder, fmt::format("cannot write a result there ({}).", error.message()));
-  if (!fs::is_directory(status)) refuse_folder(folder, "is a file; give a folder for the result with -o.");
+  if (error) refuse_path(folder, fmt::format("cannot write a result there ({}).", error.message()));
+  if (!fs::is_directory(status)) refuse_path(folder, "is a file; give a folder for the result with -o.");
   const bool empty = fs::is_empty(folder, error);
-  if (error) refuse_folder(folder, fmt::format("cannot read the folder ({}).", error.message()));
+  if (error) refuse_path(folder, fmt::format("cannot read the folder ({}).", error.message()));
   if (!empty && !holds_a_result(folder))
-    refuse_folder(folder, "holds files but no result of rheocyte; give a new or empty folder with -o.");
+    refuse_path(folder, "holds files but no result of rheocyte; give a new or empty folder with -o.");
   if (is_inside(fs::current_path(error), folder))
-    refuse_folder(folder, "is the current folder or contains it; give another folder with -o.");
+    refuse_path(folder, "is the current folder or contains it; give another folder with -o.");
   struct stat here {
   }, above{};
   if (::stat(folder.c_str(), &here) == 0 && ::stat((folder / "..").c_str(), &above) == 0 && here.st_dev != above.st_dev)
-    refuse_folder(folder, "is a mount point and cannot be replaced as a whole; give a folder inside it with -o.");
+    refuse_path(folder, "is a mount point and cannot be replaced as a whole; give a folder inside it with -o.");
 }
 
 fs::path resolved(const fs::path& folder) {
   std::error_code error;
   fs::path path = fs::weakly_canonical(fs::absolute(folder), error);
-  if (error) refuse_folder(folder, fmt::format("cannot write a result there ({}).", error.message()));
+  if (error) refuse_path(folder, fmt::format("cannot write a result there ({}).", error.message()));
   if (!path.has_filename()) path = path.parent_path();  // a trailing slash
-  if (!path.has_filename()) refuse_folder(folder, "is no folder for a result; give another one with -o.");
+  if (!path.has_filename()) refuse_path(folder, "is no folder for a result; give another one with -o.");
   return path;
 }
 
@@ -82,10 +78,9 @@ fs::path resolved(const fs::path& folder) {
 Scratch make_scratch(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder.parent_path(), error);
-  if (error) refuse_folder(folder, fmt::format("cannot make its parent folder ({}).", error.message()));
+  if (error) refuse_path(folder, fmt::format("cannot make its parent folder ({}).", error.message()));
   Scratch scratch = new_scratch_folder(folder);
-  if (scratch.failed)
-    refuse_folder(folder, fmt::format("cannot write a result there ({}).", reason_of(scratch.failed)));
+  if (scratch.failed) refuse_path(folder, fmt::format("cannot write a result there ({}).", reason_of(scratch.failed)));
   ::chmod(scratch.path.c_str(),
           fs::exists(folder) ? 0777 & static_cast<mode_t>(fs::status(folder).permissions()) : 0755);
   return scratch;
@@ -93,7 +88,7 @@ Scratch make_scratch(const fs::path& folder) {
 
 void keep_on_disk(const fs::path& path) {
   if (const int failed = bring_to_disk(path))
-    refuse_folder(path, fmt::format("cannot be written ({}).", reason_of(failed)));
+    refuse_path(path, fmt::format("cannot be written ({}).", reason_of(failed)));
 }
 
 // Afterwards `folder` is the new result and `scratch` holds the old one, if there was one.
@@ -101,7 +96,7 @@ void swap_in(const fs::path& scratch, const fs::path& folder) {
   const unsigned how = fs::exists(folder) ? RENAME_EXCHANGE : RENAME_NOREPLACE;
   if (::renameat2(AT_FDCWD, scratch.c_str(), AT_FDCWD, folder.c_str(), how) == 0) return;
   if (errno == EINVAL && !fs::exists(folder) && ::rename(scratch.c_str(), folder.c_str()) == 0) return;
-  refuse_folder(folder, fmt::format("cannot put the result in its place ({}).", reason_of(errno)));
+  refuse_path(folder, fmt::format("cannot put the result in its place ({}).", reason_of(errno)));
 }
 
 bool has_checkpoints(const fs::path& folder) {
@@ -140,8 +135,8 @@ ResultFolder::~ResultFolder() { remove(scratch_); }
 
 void ResultFolder::write(const std::string& file_name, std::string_view content) const {
   if (const int failed = write_part(scratch_.path / file_name, content))
-    refuse_folder(
-        folder_, fmt::format("cannot write {} ({}); an older result is left as it was.", file_name, reason_of(failed)));
+    refuse_path(folder_,
+                fmt::format("cannot write {} ({}); an older result is left as it was.", file_name, reason_of(failed)));
 }
 
 void ResultFolder::publish() {

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "case/user_error.h"
+#include "case/refuse_path.h"
 
 namespace rheocyte {
 
@@ -48,8 +48,7 @@ int put_in_place(const fs::path& scratch, const fs::path& wanted, Older older) {
 }
 
 [[noreturn]] void refuse(const fs::path& path, const char* what, int reason) {
-  throw UserError(
-      fmt::format("{}: {} ({}).", one_line(path.string(), 300), what, std::generic_category().message(reason)));
+  refuse_path(path, fmt::format("{} ({}).", what, std::generic_category().message(reason)));
 }
 
 }  // namespace

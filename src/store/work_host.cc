@@ -18,6 +18,7 @@
 #include <system_error>
 #include <utility>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "store/child_process.h"
 
@@ -172,10 +173,9 @@ fs::path new_private_folder() {
   std::error_code error;
   std::string pattern = (fs::temp_directory_path(error) / "rheocyte-view-XXXXXX").string();
   if (error || ::mkdtemp(pattern.data()) == nullptr)
-    throw UserError(
-        fmt::format("{}: no folder for temporary files can be made there; is the disk full? TMPDIR names "
-                    "another place.",
-                    one_line(fs::path(pattern).parent_path().string(), 300)));
+    refuse_path(fs::path(pattern).parent_path(),
+                "no folder for temporary files can be made there; is the disk full? TMPDIR names "
+                "another place.");
   return pattern;
 }
 

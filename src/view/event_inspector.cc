@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/extraction.h"
 #include "measurement/event_outlines.h"
@@ -36,8 +37,8 @@ Json points_json(const Eigen::MatrixX2d& points) {
 
 void check_event(const Recording& recording, std::size_t event) {
   if (event >= recording.events())
-    throw UserError(fmt::format("{}: has no event {}; its {} events are counted from 0.",
-                                one_line(recording.file().string(), 300), event, recording.events()));
+    refuse_path(recording.file(),
+                fmt::format("has no event {}; its {} events are counted from 0.", event, recording.events()));
 }
 
 /// Distance of the outline from its centroid, divided by its mean, less the same of the model's: what is left of the
@@ -232,9 +233,7 @@ Json EventInspector::inspect(std::size_t event) {
 std::string picture_of_event(const Recording& recording, const std::string& feature, std::size_t event) {
   check_event(recording, event);
   const auto size = recording.image_size(feature);
-  if (!size)
-    throw UserError(fmt::format("{}: holds no pictures of the kind {}.", one_line(recording.file().string(), 300),
-                                one_line(feature, 60)));
+  if (!size) refuse_path(recording.file(), fmt::format("holds no pictures of the kind {}.", one_line(feature, 60)));
   std::vector<std::uint8_t> pixels(size->pixels());
   recording.read_images(feature, event, 1, pixels);
   if (feature == "mask")

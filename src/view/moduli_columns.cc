@@ -4,9 +4,9 @@
 #include <array>
 #include <charconv>
 #include <fstream>
-#include <sstream>
 
-#include "case/user_error.h"
+#include "case/refuse_path.h"
+#include "case/split.h"
 #include "infer/several_moduli.h"
 #include "numeric/no_value.h"
 
@@ -22,13 +22,6 @@ constexpr std::array<NamedColumn, 4> offered{{{"young_modulus_with_cortex_kPa", 
                                               {"cortex_modulus_mN_per_m", "cortex_modulus_mN_per_m", true},
                                               {"tension_mN_per_m", "tension_mN_per_m", true},
                                               {"stiffness_kPa", "stiffness_kPa", false}}};
-
-std::vector<std::string> split_line(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string text; std::getline(stream, text, '\t');) cells.push_back(text);
-  return cells;
-}
 
 double number_of(const std::string& text) {
   double number = no_value;
@@ -48,10 +41,10 @@ ModuliColumns::ModuliColumns(const std::filesystem::path& table) {
   std::ifstream stream(table);
   std::string line;
   std::getline(stream, line);
-  const std::vector<std::string> heads = split_line(line);
+  const std::vector<std::string> heads = split(line, '\t');
   const auto place_of = [&](const std::string& head) {
     const auto found = std::ranges::find(heads, head);
-    if (found == heads.end()) throw UserError(one_line(table.string(), 300) + ": is no table of `rheocyte moduli`.");
+    if (found == heads.end()) refuse_path(table, "is no table of `rheocyte moduli`.");
     return std::size_t(found - heads.begin());
   };
   const std::size_t status = place_of("status");
@@ -59,8 +52,8 @@ ModuliColumns::ModuliColumns(const std::filesystem::path& table) {
   std::ranges::transform(offered, places.begin(), [&](const NamedColumn& column) { return place_of(column.in_table); });
   while (std::getline(stream, line)) {
     if (line.starts_with('#')) continue;
-    const std::vector<std::string> cells = split_line(line);
-    if (cells.size() < heads.size()) throw UserError(one_line(table.string(), 300) + ": a line is too short.");
+    const std::vector<std::string> cells = split(line, '\t');
+    if (cells.size() < heads.size()) refuse_path(table, "a line is too short.");
     const bool is_resolved = cells[status] == name_of(ModuliStatus::resolved);
     for (std::size_t k = 0; k < offered.size(); ++k)
       columns_[offered[k].name].push_back(offered[k].only_resolved && !is_resolved ? no_value

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -85,9 +86,7 @@ const std::string* RecordingColumns::computed(const std::string& name) const {
 void RecordingColumns::read(const std::string& name, std::size_t first, std::span<double> values) {
   if (const std::string* feature = computed(name)) return files_.companion->read_scalar(*feature, first, values);
   if (has_modulus(name)) return files_.moduli->read(name, first, values);
-  if (!has(name))
-    throw UserError(
-        fmt::format("{}: has no feature {}.", one_line(recording_.file().string(), 300), one_line(name, 60)));
+  if (!has(name)) refuse_path(recording_.file(), fmt::format("has no feature {}.", one_line(name, 60)));
   if (features_) return features_->read(name, first, values);
   recording_.read_scalar(name, first, values);
 }
