@@ -80,7 +80,7 @@ TEST_F(Plot, NeedsNoTable) {
 
 TEST_F(Plot, WithoutATableTheLinesAreThoseOfTheProgramsOwn) {
   ASSERT_EQ(plot({path("a.rtdc"), "-o", path("own")}).exit_code, 0);
-  ASSERT_EQ(plot({path("a.rtdc"), "-o", path("named"), "--table", "LE-2D-MC049-26"}).exit_code, 0);
+  ASSERT_EQ(plot({path("a.rtdc"), "-o", path("named"), "--table", "HE-3D-MC049-26"}).exit_code, 0);
   ASSERT_EQ(plot({path("a.rtdc"), "-o", path("none"), "--no-lines"}).exit_code, 0);
   EXPECT_EQ(test::content_of(folder_ / "own.svg"), test::content_of(folder_ / "named.svg"));
   EXPECT_NE(test::content_of(folder_ / "own.svg"), test::content_of(folder_ / "none.svg"));

@@ -26,7 +26,8 @@ def test_a_folder_of_recordings_becomes_a_report(program, tmp_path):
     (tmp_path / "in/day 1").mkdir(parents=True)
     for name, modulus in (("a", 1.0), ("day 1/b", 1.5)):
         rheocyte.synth(CELLS, tmp_path / f"in/{name}.rtdc", cell__bulk__young_modulus_kPa=modulus)
-    ended = workflow(program, tmp_path)
+    of_the_tube = "measuring=--section tube"  # as the virtual cells are
+    ended = workflow(program, tmp_path, of_the_tube)
     assert ended.returncode == 0, ended.stdout + ended.stderr
     report = pandas.read_csv(tmp_path / "out/report.tsv", sep="\t")
     assert list(report["recording"]) == ["a", "day 1/b"]
@@ -34,7 +35,7 @@ def test_a_folder_of_recordings_becomes_a_report(program, tmp_path):
     assert ((report["median_kPa"] - [1.0, 1.5]).abs() < 5 * error).all()
     for made in ("report.png", "a_rheocyte.png", "day 1/b_rheocyte.rtdc"):
         assert (tmp_path / "out" / made).stat().st_size > 0
-    again = workflow(program, tmp_path)
+    again = workflow(program, tmp_path, of_the_tube)
     assert again.returncode == 0 and "Nothing to be done" in again.stdout + again.stderr
 
 
