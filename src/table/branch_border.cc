@@ -21,7 +21,10 @@ struct End {
 End end_of(const LogBranch& branch, double greatest) {
   const double s = branch.crossing([&](const LogBranch::Point& p) { return p.log_deformation - greatest; });
   if (std::isfinite(s)) return {{branch.at(s).log_area, greatest}, NoAnswer::too_soft};
-  return {branch.last(), branch.branch().end.is_physical() ? NoAnswer::unstable : NoAnswer::unresolved};
+  const BranchEnd& why = branch.branch().end;
+  // The last state meets the greatest deformation within some per cent in a square channel.
+  if (why.status == Status::covered) return {branch.last(), NoAnswer::too_soft};
+  return {branch.last(), why.is_physical() ? NoAnswer::unstable : NoAnswer::unresolved};
 }
 
 // Without those that were not followed to their end: one to three of them between two that were.
@@ -120,12 +123,8 @@ Border upper_border(std::span<const LogBranch> branches, const TableSpec& spec, 
       weights += weight;
     }
     border.height.push_back(sum / weights);
-    // Where the border is smoothed below the table's greatest deformation, the next states are not in the grid.
     const bool is_highest = border.height.back() > greatest - 1e-9;
-    const NoAnswer beyond = polygon.beyond(columns.at(c));
-    border.beyond.push_back(is_highest                     ? NoAnswer::too_soft
-                            : beyond == NoAnswer::too_soft ? NoAnswer::unstable
-                                                           : beyond);
+    border.beyond.push_back(is_highest ? NoAnswer::too_soft : polygon.beyond(columns.at(c)));
   }
   return border;
 }

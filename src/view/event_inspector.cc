@@ -105,17 +105,15 @@ Json model_json(const FittedCell& cell, const Eigen::MatrixX2d& outline, int dir
   return j;
 }
 
-/// The live solver's case of this cell; section and liquid are those of the table, with the viscosity that it had for the
-/// event.
+/// The live solver's case of this cell; section and liquid are those of the table, with the viscosity that it had for
+/// the event.
 Json case_json(const FittedCell& cell, const TableOrigin& origin, ChannelFlow flow, double young_modulus_kPa) {
   flow.exponent = origin.flow.exponent;
   Json bulk{{"young_modulus_kPa", young_modulus_kPa}};
   if (const auto end = origin.model.find(" solid"); end != std::string::npos) bulk["law"] = origin.model.substr(0, end);
   Json channel{{"width_um", flow.width_um}};
   if (origin.section == Section::square) channel["section"] = "square";
-  return {{"channel", channel},
-          {"flow", flow_json(flow)},
-          {"cell", {{"radius_um", cell.radius_um}, {"bulk", bulk}}}};
+  return {{"channel", channel}, {"flow", flow_json(flow)}, {"cell", {{"radius_um", cell.radius_um}, {"bulk", bulk}}}};
 }
 
 void add_fit(const Extraction& extraction, const EventBlock& block, const ModulusTables& tables,

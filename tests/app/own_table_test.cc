@@ -66,8 +66,8 @@ TEST_F(OwnTable, NothingButTheRecordingIsNeeded) {
   write_recording("a.rtdc");
   const auto square = run({"extract", path("a.rtdc")});
   ASSERT_EQ(square.exit_code, 0) << square.err;
-  EXPECT_EQ(column(folder_ / "a_rheocyte.rtdc", "userdef0"), (std::vector<double>{0, 2, 3, 4, 7, 1, 7}))
-      << "valid, too small, too large, too stiff, no data, and no smooth shape twice";
+  EXPECT_EQ(column(folder_ / "a_rheocyte.rtdc", "userdef0"), (std::vector<double>{0, 2, 3, 4, 5, 1, 5}))
+      << "valid, too small, too large, too stiff, no data, and too soft twice";
   EXPECT_NE(test::content_of(folder_ / "rheocyte_summary.tsv").find("\tHE-3D-MC049-26\t"), std::string::npos);
   EXPECT_NE(square.err.find("29 % of the events are deformed beyond the smooth shapes of HE-3D-MC049-26"),
             std::string::npos)

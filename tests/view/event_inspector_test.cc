@@ -228,21 +228,23 @@ TEST(EventInspector, SaysWhatModuliSaysByACombinedTable) {
 }
 
 TEST(FittedCell, HasTheAreaTheCentroidAndTheVolumeOfItsSphere) {
-  const ModulusTables tables("");
-  const ShapeMap& map = *tables.shapes(1);
-  const MeasuringConditions conditions{map.origin().flow, 0, true};
-  const auto round = fitted_cell(map, conditions, 80, 1e-4);
-  ASSERT_TRUE(round);
-  // To first order in the deformation a nearly round cell is a sphere.
-  EXPECT_NEAR(round->radius_um, std::sqrt(80 / std::numbers::pi), 2e-3);
-  const auto cell = fitted_cell(map, conditions, 80, 0.05);
-  ASSERT_TRUE(cell);
-  const OutlineShape shape = outline_shape(cell->outline);
-  EXPECT_NEAR(shape.area, 80, 0.1) << "180 points";
-  EXPECT_NEAR(shape.x, 0, 1e-9);
-  EXPECT_NEAR(shape.deformation, 0.05, 2.5e-3) << "4 % are in modes beyond c7";
-  EXPECT_FALSE(fitted_cell(map, conditions, 80, -0.01));
-  EXPECT_FALSE(fitted_cell(map, conditions, NAN, 0.05));
+  for (const Section section : {Section::tube, Section::square}) {
+    const ModulusTables tables("", section);
+    const ShapeMap& map = *tables.shapes(1);
+    const MeasuringConditions conditions{map.origin().flow, 0, true};
+    const auto round = fitted_cell(map, conditions, 80, 1e-4);
+    ASSERT_TRUE(round);
+    // To first order in the deformation a nearly round cell is a sphere.
+    EXPECT_NEAR(round->radius_um, std::sqrt(80 / std::numbers::pi), 2e-3);
+    const auto cell = fitted_cell(map, conditions, 80, 0.05);
+    ASSERT_TRUE(cell);
+    const OutlineShape shape = outline_shape(cell->outline);
+    EXPECT_NEAR(shape.area, 80, 0.2) << "180 points, and modes beyond c7";
+    EXPECT_NEAR(shape.x, 0, 1e-9);
+    EXPECT_NEAR(shape.deformation, 0.05, 3e-3) << "4 to 6 % are in modes beyond c7";
+    EXPECT_FALSE(fitted_cell(map, conditions, 80, -0.01));
+    EXPECT_FALSE(fitted_cell(map, conditions, NAN, 0.05));
+  }
 }
 
 TEST(FittedCell, HasAVolumeOfRevolution) {
