@@ -206,12 +206,18 @@ void add_step_to_error(const GridPatch& bare, GridPatch& held) {
   }
 }
 
-// Errors are known to two digits. Bits beyond would be noise, which fills a third of a compressed grid.
-double in_few_bits(double error) {
+// Errors are known to two digits, moduli to nine at best. Bits beyond would be noise, which fills half of a compressed
+// grid.
+double error_in_few_bits(double error) {
   constexpr int bits = 8;
   int exponent = 0;
   const double mantissa = std::frexp(error, &exponent);
   return std::ldexp(std::ceil(std::ldexp(mantissa, bits)), exponent - bits);
+}
+
+double logarithm_in_few_bits(double log_stiffness) {
+  constexpr double unit = 0x1p-30;
+  return std::round(log_stiffness / unit) * unit;
 }
 
 // To the columns that the bare branches cover.
@@ -250,7 +256,8 @@ std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<
   trim_to(grid, *bare);
   for (auto& patch : grid.patches) {
     patch.first_column -= shift;
-    std::ranges::transform(patch.error, patch.error.begin(), in_few_bits);
+    std::ranges::transform(patch.error, patch.error.begin(), error_in_few_bits);
+    std::ranges::transform(patch.log_stiffness, patch.log_stiffness.begin(), logarithm_in_few_bits);
   }
   grid.shapes = shapes_from_branches(grid, branches);
   return grid;
