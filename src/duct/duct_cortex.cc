@@ -2,14 +2,11 @@
 
 #include <map>
 
-#include "duct/duct_surface.h"
+#include "fem/surface_tables.h"
 #include "laws/bending_form.h"
 
 namespace rheocyte {
 namespace {
-
-/// Of the interior penalty, times degree^2: four times what an inverse inequality asks on equal faces, as in the tube.
-constexpr double penalty_factor = 4;
 
 /// Derivatives with respect to s, t, and both twice, of the nodes' functions at some points: points x nodes.
 struct FaceTables {
@@ -18,12 +15,7 @@ struct FaceTables {
 
 /// At all pairs of these coordinates, s fastest.
 FaceTables face_tables(const ReferenceElement<2>& reference, const VectorXd& at_s, const VectorXd& at_t) {
-  const auto tables = [&](const VectorXd& at) {
-    const MatrixXd slope = reference.lagrange_derivative(at);
-    return std::array<MatrixXd, 3>{reference.lagrange(at), slope,
-                                   slope * reference.lagrange_derivative(reference.nodes_1d)};
-  };
-  const auto u = tables(at_s), v = tables(at_t);
+  const auto u = edge_tables(reference, at_s), v = edge_tables(reference, at_t);
   const auto product = [&](int a, int b) {
     const Eigen::Index points = at_s.size(), nodes = u[a].cols();
     MatrixXd result(points * at_t.size(), nodes * nodes);
@@ -106,22 +98,23 @@ DuctCortex::DuctCortex(const DuctSpace& space, bool bends)
       reference_(space.reference().degree()),
       bends_(bends),
       patches_of_element_(space.elements().size()) {
+  const FaceTables tables = face_tables(reference_, reference_.points_1d, reference_.points_1d);
+  std::vector<MatrixXd> parts{tables.s, tables.t};
+  if (bends) parts.insert(parts.end(), {tables.ss, tables.st, tables.tt});
   for (int e = 0; e < int(space.elements().size()); ++e) {
     if (space.mesh().elements()[e].foot != e) continue;
     patches_of_element_[e].push_back(int(patches_.size()));
-    patches_.push_back(face_patch(e));
+    patches_.push_back(face_patch(e, parts));
   }
   if (bends_) find_edges();
 }
 
-DuctCortex::Patch DuctCortex::face_patch(int element) const {
-  const FaceTables tables = face_tables(reference_, reference_.points_1d, reference_.points_1d);
+DuctCortex::Patch DuctCortex::face_patch(int element, const std::vector<MatrixXd>& parts) const {
   Patch patch;
   append_nodes(element, {}, patch);
   patch.weights = reference_.weights;
-  patch.parts = {tables.s, tables.t};
-  if (bends_) patch.parts.insert(patch.parts.end(), {tables.ss, tables.st, tables.tt});
-  const MatrixXd s = tables.s * patch.rest, t = tables.t * patch.rest;
+  patch.parts = parts;
+  const MatrixXd s = parts[0] * patch.rest, t = parts[1] * patch.rest;
   for (int q = 0; q < reference_.points(); ++q)
     patch.rest_metric.push_back({s.row(q).squaredNorm(), s.row(q).dot(t.row(q)), t.row(q).squaredNorm()});
   return patch;
@@ -213,7 +206,7 @@ void DuctCortex::integrate(int index, const Cortex& law, const VectorXd& unknown
                            PatchSystem& system) const {
   const Patch& patch = patches_[index];
   if (patch.rest_metric.empty()) {
-    const BendingEdge edge{law, penalty_factor * reference_.degree() * reference_.degree()};
+    const BendingEdge edge{law, bending_penalty(reference_)};
     integrate<24>(
         patch, [&](int) { return BentEdgeAtPoint{edge}; }, unknowns, want, system);
   } else if (bends_) {

@@ -38,7 +38,7 @@ class DuctCortex {
     std::vector<SurfaceMetric<double>> rest_metric;  ///< of a face
   };
   struct Edge;
-  Patch face_patch(int element) const;
+  Patch face_patch(int element, const std::vector<MatrixXd>& parts) const;
   Patch edge_patch(const Edge& before, const Edge* behind) const;
   void append_nodes(int element, const Image&, Patch&) const;
   std::vector<Edge> edges_of(int element) const;

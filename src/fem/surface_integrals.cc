@@ -4,17 +4,10 @@
 #include <cmath>
 #include <type_traits>
 
+#include "fem/surface_tables.h"
+
 namespace rheocyte {
 namespace {
-
-/// Of the interior penalty, times degree^2: four times what an inverse inequality asks on equal edges.
-constexpr double penalty_factor = 4;
-
-/// Values, slopes and second slopes of the nodes' functions at points in [0, 1].
-std::array<MatrixXd, 3> edge_tables(const ReferenceElement<2>& reference, const VectorXd& at) {
-  const MatrixXd slope = reference.lagrange_derivative(at);
-  return {reference.lagrange(at), slope, slope * reference.lagrange_derivative(reference.nodes_1d)};
-}
 
 template <class T, int N>
 std::array<T, N> numbers(const Eigen::Matrix<double, N, 1>& f) {
@@ -147,8 +140,7 @@ void SurfaceIntegrals::integrate_edge(int edge, const Cortex& cortex, const Vect
 void SurfaceIntegrals::integrate_kink(const Cortex& cortex, const VectorXd& local, Want want,
                                       ElementSystem& system) const {
   constexpr int inputs = KinkFields<double>::count;
-  const int degree = space_->reference().degree();
-  const SurfaceKink energy{cortex, penalty_factor * degree * degree};
+  const SurfaceKink energy{cortex, bending_penalty(space_->reference())};
   const Eigen::Matrix<double, inputs, 1> f = kink_ * local;
   Eigen::Matrix<double, inputs, 1> slope;
   if (want == Want::residual) {

@@ -31,8 +31,8 @@ int last_degree_of(const Problem& problem) {
   return problem.offset == 0 ? DuctSolver::last_degree : last_degree_off_axis;
 }
 
-/// Deformations are known a hundredth as well as the wanted accuracy asks. A factorisation costs as much as tens of
-/// chord steps at high degrees.
+/// A deformation changes by about as much, relative, as the residual that is left: far less than the wanted accuracy. A
+/// factorisation costs as much as tens of chord steps at high degrees.
 NewtonOptions fine_newton(double accuracy, const std::atomic<bool>* stop) {
   return {.tolerance = std::min(1e-8, 1e-5 * accuracy), .chord_reduction = 0.5, .stop = stop};
 }
