@@ -32,7 +32,32 @@ export async function openBrowser(options = {}, more = []) {
   context.setDefaultTimeout(60000);  // machines that run other tests at the same time are slow
   const close = async () => {
     await context.close();
-    await rm(profile, { recursive: true, force: true });
+    await rm(profile, { recursive: true, force: true, maxRetries: 20 }); // its processes may still write
   };
   return { context, close };
+}
+
+/** Opens a browser on what a test asks (of target.mjs); `end` closes both, and so does a failure of `prepare`. */
+export async function openPage(target, options, prepare) {
+  let close = async () => {};
+  const end = async () => {
+    try {
+      await close();
+    } finally {
+      await target.stop();
+    }
+  };
+  try {
+    const browser = await openBrowser(options);
+    close = browser.close;
+    const page = browser.context.pages()[0] ?? (await browser.context.newPage());
+    const failures = [];
+    page.on('pageerror', (failure) => failures.push(failure.message));
+    page.on('console', (message) => /Content Security Policy/.test(message.text()) && failures.push(message.text()));
+    await prepare(page);
+    return { page, target, failures, end };
+  } catch (failure) {
+    await end();
+    throw failure;
+  }
 }

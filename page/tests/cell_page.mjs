@@ -1,27 +1,19 @@
 // The workplace "Cell" as a person uses it, for the tests: its numbers, sliders, and waiting for the answer.
-import { openBrowser } from './browser.mjs';
+import { openPage } from './browser.mjs';
 import { startTarget } from './target.mjs';
 
 /** Opens the workplace and waits for its first state of the wanted accuracy. */
 export async function openCell(options = {}, hash = '', items = []) {
   const target = await startTarget(items);
-  const { context, close } = await openBrowser(options);
-  const page = context.pages()[0] ?? (await context.newPage());
-  const failures = [];
-  page.on('pageerror', (failure) => failures.push(failure.message));
-  page.on('console', (message) => /Content Security Policy/.test(message.text()) && failures.push(message.text()));
-  // Without an address of its own the page begins with what the program was given.
-  await page.goto(items.length ? target.address : `${target.address}#cell`);
-  if (hash) {
-    await page.goto(new URL(hash, target.address).href);
-    await page.reload();
-  }
-  await settled(page);
-  const end = async () => {
-    await close();
-    await target.stop();
-  };
-  return { page, target, failures, end };
+  return openPage(target, options, async (page) => {
+    // Without an address of its own the page begins with what the program was given.
+    await page.goto(items.length ? target.address : `${target.address}#cell`);
+    if (hash) {
+      await page.goto(new URL(hash, target.address).href);
+      await page.reload();
+    }
+    await settled(page);
+  });
 }
 
 /** Nothing is being solved, and a state is shown. */

@@ -1,6 +1,6 @@
 // The workplace "Recordings" as a person uses it, for the tests.
 import { startMock } from '../mock/serve.mjs';
-import { openBrowser } from './browser.mjs';
+import { openPage } from './browser.mjs';
 import { startTarget } from './target.mjs';
 
 /**
@@ -9,20 +9,11 @@ import { startTarget } from './target.mjs';
  */
 export async function openRecordings(options = {}, items = null) {
   const target = items ? await startTarget(items) : await startMock();
-  const { context, close } = await openBrowser(options);
-  const page = context.pages()[0] ?? (await context.newPage());
-  page.setDefaultTimeout(60_000);  // machines that run other tests at the same time are slow
-  const failures = [];
-  page.on('pageerror', (failure) => failures.push(failure.message));
-  page.on('console', (message) => /Content Security Policy/.test(message.text()) && failures.push(message.text()));
-  await page.goto(target.address);
-  await page.getByRole('button', { name: 'Recordings', exact: true }).click();
-  await drawn(page);
-  const end = async () => {
-    await close();
-    await target.stop();
-  };
-  return { page, target, failures, end };
+  return openPage(target, options, async (page) => {
+    await page.goto(target.address);
+    await page.getByRole('button', { name: 'Recordings', exact: true }).click();
+    await drawn(page);
+  });
 }
 
 /** Events of the plot are on the screen. */

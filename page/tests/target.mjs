@@ -8,6 +8,7 @@ import { startMock } from '../mock/serve.mjs';
 
 export const program = process.env.RHEOCYTE;
 const built = process.env.RHEOCYTE_PAGE;
+const patience_ms = 60_000;  // machines that run other tests at the same time are slow
 
 /** The line that the program prints when it is ready; a program that ends before is an error with its last words. */
 function ready(child) {
@@ -23,6 +24,7 @@ function ready(child) {
     read(child.stderr);
     child.on('error', failed);
     child.on('exit', (code) => failed(new Error(`the program ended with ${code}: ${said.join('\n')}`)));
+    setTimeout(() => failed(new Error(`the program is not ready: ${said.join('\n')}`)), patience_ms).unref();
   });
 }
 
@@ -30,14 +32,21 @@ async function startProgram(items) {
   const output = await mkdtemp(join(tmpdir(), 'rheocyte-view-'));
   const environment = built ? { ...process.env, RHEOCYTE_PAGE: built } : process.env;
   const child = spawn(program, ['view', ...items, '--no-browser', '--output', output], { env: environment });
-  const address = await ready(child);
+  const ended = new Promise((done) => child.once('close', done));
   const stop = async () => {
-    const ended = new Promise((done) => child.once('exit', done));
     child.kill('SIGINT');
+    const giveUp = setTimeout(() => child.kill('SIGKILL'), patience_ms);
     await ended;
+    clearTimeout(giveUp);
     await rm(output, { recursive: true, force: true });
+    if (child.signalCode === 'SIGKILL') throw new Error('The program did not end after SIGINT.');
   };
-  return { address, output, stop };
+  try {
+    return { address: await ready(child), output, stop };
+  } catch (failure) {
+    await stop();
+    throw failure;
+  }
 }
 
 /** The address to open first (with its token), the folder of exports (null for the mock), and a way to stop. */

@@ -94,8 +94,8 @@ ContourFeatures ContourMeasurer::measure(std::span<const PixelPoint> contour, do
   if (hull_points.size() < 3) return no_features;
   const PolygonMoments hull = moments_of(hull_points), raw = moments_of(contour);
   if (!(hull.area > 0) || !(raw.area > 0)) return no_features;
-  const auto [left, right] = std::ranges::minmax(contour, {}, &PixelPoint::x);
-  const auto [top, bottom] = std::ranges::minmax(contour, {}, &PixelPoint::y);
+  const auto [left, right] = std::ranges::minmax(hull_points, {}, &PixelPoint::x);
+  const auto [top, bottom] = std::ranges::minmax(hull_points, {}, &PixelPoint::y);
   const auto [ratio, tilt] = principal_axes(raw);
   const double px = pixel_size_um;
   return {.area_um2 = hull.area * px * px,

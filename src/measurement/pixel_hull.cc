@@ -15,11 +15,15 @@ std::int64_t cross(const PixelPoint& o, const PixelPoint& a, const PixelPoint& b
 
 std::span<const PixelPoint> PixelHull::of(std::span<const PixelPoint> contour) {
   // In each column only the highest and the lowest pixel can lie on the hull; this replaces sorting.
-  const auto [left, right] = std::ranges::minmax(contour, {}, &PixelPoint::x);
-  constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
-  columns_.assign(static_cast<std::size_t>(right.x - left.x + 1), {none, -none});
+  std::int32_t left = contour.front().x, right = left;
   for (const PixelPoint& point : contour) {
-    Column& column = columns_[static_cast<std::size_t>(point.x - left.x)];
+    left = std::min(left, point.x);
+    right = std::max(right, point.x);
+  }
+  constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+  columns_.assign(static_cast<std::size_t>(right - left + 1), {none, -none});
+  for (const PixelPoint& point : contour) {
+    Column& column = columns_[static_cast<std::size_t>(point.x - left)];
     column.min_y = std::min(column.min_y, point.y);
     column.max_y = std::max(column.max_y, point.y);
   }
@@ -31,12 +35,12 @@ std::span<const PixelPoint> PixelHull::of(std::span<const PixelPoint> contour) {
     points_.push_back(point);
   };
   for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (columns_[i].min_y != none) push({left.x + static_cast<std::int32_t>(i), columns_[i].min_y});
-  const PixelPoint turn{right.x, columns_.back().max_y};
+    if (columns_[i].min_y != none) push({left + static_cast<std::int32_t>(i), columns_[i].min_y});
+  const PixelPoint turn{right, columns_.back().max_y};
   if (!(turn == points_.back())) points_.push_back(turn);
   bottom = points_.size() - 1;
   for (std::size_t i = columns_.size() - 1; i-- > 0;)
-    if (columns_[i].min_y != none) push({left.x + static_cast<std::int32_t>(i), columns_[i].max_y});
+    if (columns_[i].min_y != none) push({left + static_cast<std::int32_t>(i), columns_[i].max_y});
   if (points_.size() > 1 && points_.back() == points_.front()) points_.pop_back();
   return points_;
 }

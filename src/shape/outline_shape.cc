@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -45,14 +44,16 @@ struct Moments {
 Moments moments_of(const std::vector<Point>& hull) {
   Moments m;
   const Point origin = hull.front();  // near the cell: no cancellation
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Point a = hull[i] - origin, b = hull[(i + 1) % hull.size()] - origin;
+  Point a = hull.back() - origin;
+  for (const Point& corner : hull) {
+    const Point b = corner - origin;
     const double w = cross(a, b);
     m.area += w / 2;
     m.centroid += w * (a + b) / 6;
     m.xx += w * (a.x() * a.x() + a.x() * b.x() + b.x() * b.x()) / 12;
     m.yy += w * (a.y() * a.y() + a.y() * b.y() + b.y() * b.y()) / 12;
     m.perimeter += (b - a).norm();
+    a = b;
   }
   m.centroid /= m.area;
   m.xx -= m.area * m.centroid.x() * m.centroid.x();
@@ -61,37 +62,92 @@ Moments moments_of(const std::vector<Point>& hull) {
   return m;
 }
 
-/// int r cos(k theta) d(theta), k = 0 .. max_mode, once around a hull that runs counterclockwise around `centre`.
-/// Exact: with v = r exp(i theta), n the unit normal of an edge at the distance d, and v = n (d + i s) on it,
-/// F_k = int exp(i k theta) r / d d(theta) obeys F_k = n (2 [exp(i (k-1) theta)] / (i (k-1)) - n F_{k-2}) there,
-/// because the sum of two such integrands, k and k-2, has no denominator any more.
-std::array<double, max_mode + 1> radius_integrals(const std::vector<Point>& hull, const Point& centre) {
-  const auto edges = Eigen::Index(hull.size());
-  Eigen::ArrayXcd vertex(edges + 1);  // the first one closes the hull
-  for (Eigen::Index i = 0; i <= edges; ++i) {
-    const Point from_centre = hull[std::size_t(i % edges)] - centre;
-    vertex(i) = {from_centre.x(), from_centre.y()};
+/// Some edges at once, so that the processor computes them side by side.
+constexpr int lanes = 8;
+using Lanes = Eigen::Array<double, lanes, 1>;
+using Integrals = std::array<double, max_mode + 1>;
+using IntegralsOfLanes = std::array<Lanes, max_mode + 1>;
+
+/// Edges of a hull as they are seen from its centre: the ends at the place `along` from the foot of the perpendicular,
+/// whose length is `distance` and whose direction is (normal_x, normal_y).
+struct Edges {
+  Lanes distance, normal_x, normal_y, along_start, along_end;
+};
+
+/// Of fewer edges than there are lanes the others have the length 1 and no `weight`.
+Edges edges_from(const std::vector<Point>& hull, std::size_t first, const Point& centre, Lanes& weight) {
+  Lanes ax = Lanes::Ones(), ay = Lanes::Zero(), bx = Lanes::Ones(), by = Lanes::Ones();
+  const std::size_t count = std::min<std::size_t>(lanes, hull.size() - first);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = first + i + 1 < hull.size() ? first + i + 1 : 0;
+    const auto lane = Eigen::Index(i);
+    ax(lane) = hull[first + i].x() - centre.x();
+    ay(lane) = hull[first + i].y() - centre.y();
+    bx(lane) = hull[next].x() - centre.x();
+    by(lane) = hull[next].y() - centre.y();
   }
-  const auto change = [edges](const auto& at_vertices) { return at_vertices.tail(edges) - at_vertices.head(edges); };
-  constexpr std::complex<double> i{0, 1};
-  const Eigen::ArrayXcd along = change(vertex) / change(vertex).abs2().sqrt(), normal = -i * along;
-  const Eigen::ArrayXd distance = (vertex.head(edges) * normal.conjugate()).real(), radius = vertex.abs2().sqrt();
-  const Eigen::ArrayXd log_radius = radius.log(), turn = (vertex.tail(edges) * vertex.head(edges).conjugate()).arg();
-  const auto arsinh = [&](const auto& vertices) {  // of s / d
-    const Eigen::ArrayXd t = (vertices * along.conjugate()).real() / distance;
-    const Eigen::ArrayXd of_size = (t.abs() + (1 + t.square()).sqrt()).log();
-    return Eigen::ArrayXd((t < 0).select(-of_size, of_size));
+  const Lanes length = ((bx - ax).square() + (by - ay).square()).sqrt(), tx = (bx - ax) / length,
+              ty = (by - ay) / length;
+  const Lanes distance = ax * ty - ay * tx;
+  weight = distance;
+  weight.tail(lanes - Eigen::Index(count)) = 0;
+  return {distance, ty, -tx, ax * tx + ay * ty, bx * tx + by * ty};
+}
+
+/// cos(k angle) or sin(k angle), k = 0, 1, ..., from the one before.
+struct Multiples {
+  Lanes before, here;
+  void advance(const Lanes& twice_cosine) {
+    const Lanes next = twice_cosine * here - before;
+    before = here;
+    here = next;
+  }
+};
+
+/// Adds int r cos(k theta) d(theta) over some edges, k = 0 .. max_mode. Exact: with phi counted from the normal of an
+/// edge, r = d / cos(phi) and theta = phi + beta, where C_k + i S_k = int exp(i k phi) / cos(phi) d(phi) obeys
+/// C_k + C_{k-2} + i (S_k + S_{k-2}) = 2 [exp(i (k-1) phi)] / (i (k-1)): the sum has no denominator any more.
+void add_radius_integrals(const Edges& e, const Lanes& weight, IntegralsOfLanes& integral) {
+  const Lanes start_radius = (e.distance.square() + e.along_start.square()).sqrt();
+  const Lanes end_radius = (e.distance.square() + e.along_end.square()).sqrt();
+  const auto sum_of = [&](const Lanes& along, const Lanes& radius) {  // along + radius without cancellation
+    const Lanes large = along.abs() + radius;
+    return Lanes((along < 0).select(e.distance.square() / large, large));
   };
-  const Eigen::ArrayXcd direction = vertex / radius;
-  Eigen::ArrayXcd before = arsinh(vertex.tail(edges)) - arsinh(vertex.head(edges));
-  Eigen::ArrayXcd here = normal * (turn + i * change(log_radius)), power = direction;
-  std::array<double, max_mode + 1> integral{};
+  Lanes turn;
+  for (int i = 0; i < lanes; ++i)
+    turn(i) = std::atan2((e.along_end(i) - e.along_start(i)) * e.distance(i),
+                         e.distance(i) * e.distance(i) + e.along_start(i) * e.along_end(i));
+  // C and S of k and of k + 1
+  Lanes c = (sum_of(e.along_end, end_radius) / sum_of(e.along_start, start_radius)).log(), s = Lanes::Zero();
+  Lanes next_c = turn, next_s = (end_radius / start_radius).log();
+  const Lanes start_cosine = e.distance / start_radius, end_cosine = e.distance / end_radius;
+  const Lanes twice_start = 2 * start_cosine, twice_end = 2 * end_cosine, twice_normal = 2 * e.normal_x;
+  Multiples start_cos{Lanes::Ones(), start_cosine}, start_sin{Lanes::Zero(), e.along_start / start_radius};
+  Multiples end_cos{Lanes::Ones(), end_cosine}, end_sin{Lanes::Zero(), e.along_end / end_radius};
+  Multiples normal_cos{e.normal_x, Lanes::Ones()}, normal_sin{-e.normal_y, Lanes::Zero()};  // of -beta, then of 0
   for (int k = 0; k <= max_mode; ++k) {
-    integral[std::size_t(k)] = (distance * before.real()).sum();
-    before = normal * (-2.0 * i / (k + 1.0) * change(power) - normal * before);
-    before.swap(here);
-    power *= direction;
+    integral[std::size_t(k)] += weight * (normal_cos.here * c - normal_sin.here * s);
+    const Lanes after_c = 2.0 / (k + 1) * (end_sin.here - start_sin.here) - c;
+    const Lanes after_s = -2.0 / (k + 1) * (end_cos.here - start_cos.here) - s;
+    c = next_c, s = next_s, next_c = after_c, next_s = after_s;
+    for (Multiples* start : {&start_cos, &start_sin}) start->advance(twice_start);
+    for (Multiples* end : {&end_cos, &end_sin}) end->advance(twice_end);
+    for (Multiples* normal : {&normal_cos, &normal_sin}) normal->advance(twice_normal);
   }
+}
+
+/// Once around a hull that runs counterclockwise around `centre`.
+Integrals radius_integrals(const std::vector<Point>& hull, const Point& centre) {
+  IntegralsOfLanes sums;
+  sums.fill(Lanes::Zero());
+  Lanes weight;
+  for (std::size_t first = 0; first < hull.size(); first += lanes) {
+    const Edges edges = edges_from(hull, first, centre, weight);
+    add_radius_integrals(edges, weight, sums);
+  }
+  Integrals integral;
+  std::ranges::transform(sums, integral.begin(), [](const Lanes& sum) { return sum.sum(); });
   return integral;
 }
 

@@ -206,10 +206,9 @@ TEST(HttpServer, AClientThatHangsUpIsNoticedWhileItsAnswerIsMade) {
   Wire wire(served.port());
   wire.send(request_text(served, "GET", "/api/long"));
   std::unique_lock lock(mutex);
-  changed.wait(lock, [&] { return has_begun; });
+  ASSERT_TRUE(changed.wait_for(lock, std::chrono::minutes(1), [&] { return has_begun; }));
   wire.close();
-  changed.wait(lock, [&] { return was_noticed; });
-  EXPECT_TRUE(was_noticed);
+  EXPECT_TRUE(changed.wait_for(lock, std::chrono::minutes(1), [&] { return was_noticed; }));
 }
 
 TEST(HttpServer, APortInUseIsOneSentence) {
