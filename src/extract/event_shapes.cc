@@ -61,27 +61,26 @@ void EventShapes::find_direction() {
   if (std::abs(mean) > 2 * error) direction_ = mean * map_->sign_of_asymmetry() > 0 ? 1 : -1;
 }
 
-void EventShapes::read_outlines(std::size_t first, std::size_t count) {
+void EventShapes::read_outlines(std::size_t first, ShapeColumns& columns) {
   const int direction = direction_ < 0 ? -1 : 1;
   const bool stored = inertia_ratio_from_ == stored_ratio;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < columns.mode_3.size(); ++i) {
     const PixelContour contour = outlines_->outline(first + i);
     const ShapeVector features = outlines_->features(contour);
-    if (measured_pixel_um_ > 0) columns_.outlines[i] = measurer_.measure(contour, measured_pixel_um_);
-    columns_.mode_2[i] = features(second_mode);
-    columns_.mode_3[i] = direction * features(third_mode);
-    if (!stored) columns_.inertia_ratio[i] = 1 / std::sqrt(features(int(ShapeFeature::moment_ratio)));
+    if (measured_pixel_um_ > 0) columns.outlines[i] = measurer_.measure(contour, measured_pixel_um_);
+    columns.mode_2[i] = features(second_mode);
+    columns.mode_3[i] = direction * features(third_mode);
+    if (!stored) columns.inertia_ratio[i] = 1 / std::sqrt(features(int(ShapeFeature::moment_ratio)));
   }
 }
 
-const ShapeColumns& EventShapes::compute(std::size_t first, const MeasuredEvents& events) {
+void EventShapes::compute(std::size_t first, const MeasuredEvents& events, ShapeColumns& c) {
   const std::size_t count = events.size.size();
-  ShapeColumns& c = columns_;
   if (!is_known()) {  // nothing but NaN ever
     c.inertia_ratio.resize(count, no_value);
     c.x_um.resize(count, no_value);
     c.excess.resize(count, {no_value, no_value, no_value, no_value});
-    return c;
+    return;
   }
   c.inertia_ratio.assign(count, no_value);
   c.x_um.assign(count, no_value);
@@ -93,12 +92,11 @@ const ShapeColumns& EventShapes::compute(std::size_t first, const MeasuredEvents
     if (measured_pixel_um_ > 0) c.outlines.resize(count);
     c.states.assign(count, ModulusState::no_data);
     c.modulus_kPa.assign(count, no_value);
-    read_outlines(first, count);
+    read_outlines(first, c);
     if (map_->has_asymmetry())
       map_->estimate(conditions_, events, {c.mode_2, c.mode_3}, {c.modulus_kPa, c.standard_error_kPa, c.states});
   }
   map_->compare(conditions_, events, c.inertia_ratio, c.excess);
-  return c;
 }
 
 }  // namespace rheocyte

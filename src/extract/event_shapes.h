@@ -42,12 +42,12 @@ class EventShapes {
   /// From now on the features of the outlines are told, too, where contours or masks are read. The size is above 0.
   void measure_outlines(double pixel_size_um) { measured_pixel_um_ = pixel_size_um; }
 
-  /// Of the events from `first` on, until the next call.
-  const ShapeColumns& compute(std::size_t first, const MeasuredEvents& events);
+  /// Of the events from `first` on; between calls the columns are the caller's, but nobody else's.
+  void compute(std::size_t first, const MeasuredEvents& events, ShapeColumns& columns);
 
  private:
   void find_direction();
-  void read_outlines(std::size_t first, std::size_t count);
+  void read_outlines(std::size_t first, ShapeColumns& columns);
 
   const Recording& recording_;
   MeasuringConditions conditions_;
@@ -57,7 +57,6 @@ class EventShapes {
   ContourMeasurer measurer_;
   std::string inertia_ratio_from_, missing_;
   int direction_ = 0;
-  ShapeColumns columns_;
 };
 
 }  // namespace rheocyte

@@ -85,7 +85,7 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
 
 void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events) {
   ShapeColumns& c = columns_.shapes;
-  c = event_shapes_.compute(first, events);
+  event_shapes_.compute(first, events, c);
   if (!event_shapes_.has_asymmetry()) return;
   const Moduli moduli{c.modulus_kPa, c.standard_error_kPa, c.states};
   take_account_of_inertia(moduli);

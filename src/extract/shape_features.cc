@@ -36,22 +36,22 @@ ShapeFeatures::ShapeFeatures(const Recording& recording, ShapeSource& source, co
 }
 
 void ShapeFeatures::compute(std::size_t first, std::size_t count) {
-  if (columns_ && first == first_ && area_.size() == count) return;
+  if (first == first_ && area_.size() == count) return;
   for (auto* column : {&area_, &deformation_, &viscosity_}) column->resize(count);
   source_.read(first, area_, deformation_);
   settings_.viscosities(recording_, first, viscosity_);
-  columns_ = &shapes_.compute(first, {area_, deformation_, viscosity_});
+  shapes_.compute(first, {area_, deformation_, viscosity_}, columns_);
   first_ = first;
 }
 
 void ShapeFeatures::read(const std::string& feature, std::size_t first, std::span<double> values) {
   compute(first, values.size());
   if (feature == ratio_feature)
-    std::ranges::copy(columns_->inertia_ratio, values.begin());
+    std::ranges::copy(columns_.inertia_ratio, values.begin());
   else if (feature == "mode_3")
-    std::ranges::copy(columns_->mode_3, values.begin());
+    std::ranges::copy(columns_.mode_3, values.begin());
   else
-    std::ranges::transform(columns_->excess, values.begin(), member_of(feature));
+    std::ranges::transform(columns_.excess, values.begin(), member_of(feature));
 }
 
 }  // namespace rheocyte

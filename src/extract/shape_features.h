@@ -33,7 +33,7 @@ class ShapeFeatures {
   ModulusTables tables_;
   EventShapes shapes_;
   std::vector<double> area_, deformation_, viscosity_;
-  const ShapeColumns* columns_ = nullptr;
+  ShapeColumns columns_;
   std::size_t first_ = 0;
 };
 

@@ -38,8 +38,7 @@ class CountedSample {
     while (until <= next) until += counts_[++last];
     std::vector<Number> near;
     near.reserve(until - before);
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      if (first <= class_[i] && class_[i] <= last) near.push_back(values_[i]);
+    collect(std::uint16_t(first), std::uint16_t(last), near);
     std::ranges::nth_element(near, near.begin() + std::ptrdiff_t(place - before));
     const double here = near[place - before];
     if (next == place) return {here, here};
@@ -60,6 +59,19 @@ class CountedSample {
   std::uint16_t class_of(Number value) const {
     const double place = (double(value) - start_) * per_class_;
     return std::uint16_t(place < classes - 1 ? place : classes - 1);  // also what is infinite
+  }
+
+  // Most stretches hold none of these classes, which the processor sees for many numbers at once.
+  void collect(std::uint16_t first, std::uint16_t last, std::vector<Number>& found) const {
+    constexpr std::size_t stretch = 128;
+    const auto is_meant = [first, last](std::uint16_t c) { return first <= c && c <= last; };
+    for (std::size_t start = 0; start < class_.size(); start += stretch) {
+      const std::size_t end = std::min(start + stretch, class_.size());
+      std::uint16_t count = 0;
+      for (std::size_t i = start; i < end; ++i) count = std::uint16_t(count + is_meant(class_[i]));
+      for (std::size_t i = start; count > 0 && i < end; ++i)
+        if (is_meant(class_[i])) found.push_back(values_[i]);
+    }
   }
 
   std::span<const Number> values_;
