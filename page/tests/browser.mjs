@@ -4,6 +4,7 @@ import { mkdtemp, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { chromium } from 'playwright-core';
+import { patience_ms } from './target.mjs';
 
 export const program = process.env.CHROMIUM ?? '/usr/bin/chromium';
 /** Why tests in the browser are skipped, or false. */
@@ -27,9 +28,10 @@ export async function openBrowser(options = {}, more = []) {
     executablePath: program,
     args: [...flags, ...more],
     viewport: { width: 1280, height: 800 },
+    timeout: patience_ms,
     ...options,
   });
-  context.setDefaultTimeout(60000);  // machines that run other tests at the same time are slow
+  context.setDefaultTimeout(patience_ms);
   const close = async () => {
     await context.close();
     await rm(profile, { recursive: true, force: true, maxRetries: 20 }); // its processes may still write

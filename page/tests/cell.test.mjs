@@ -146,7 +146,7 @@ test('A case in time is followed and played along its time line', { skip: noBrow
     await page.locator('[data-key="time.scheme"] select').selectOption('monolithic');
     await typeNumber(page, 'time.end_us', '200');
     await page.getByRole('button', { name: 'Follow the cell in time' }).click();
-    await page.getByRole('button', { name: 'Close' }).waitFor({ timeout: 120000 });
+    await page.getByRole('button', { name: 'Close' }).waitFor();
     const last = await shownDeformation(page);
     await page.locator('.channel').focus();
     await page.keyboard.press('ArrowUp');

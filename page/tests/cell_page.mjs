@@ -1,6 +1,6 @@
 // The workplace "Cell" as a person uses it, for the tests: its numbers, sliders, and waiting for the answer.
 import { openPage } from './browser.mjs';
-import { startTarget } from './target.mjs';
+import { patience_ms, startTarget } from './target.mjs';
 
 /** Opens the workplace and waits for its first state of the wanted accuracy. */
 export async function openCell(options = {}, hash = '', items = []) {
@@ -22,7 +22,7 @@ export async function settled(page) {
 }
 
 /** Asks until the answer is yes, or the test's patience ends. */
-export async function until(question, patience_ms = 30000) {
+export async function until(question) {
   for (const end = Date.now() + patience_ms; Date.now() < end; await new Promise((next) => setTimeout(next, 50)))
     if (await question()) return true;
   return false;

@@ -8,7 +8,8 @@ import { startMock } from '../mock/serve.mjs';
 
 export const program = process.env.RHEOCYTE;
 const built = process.env.RHEOCYTE_PAGE;
-const patience_ms = 60_000;  // machines that run other tests at the same time are slow
+/** Machines that run other tests at the same time are slow, most of all at the first start of the browser. */
+export const patience_ms = 180_000;
 
 /** The line that the program prints when it is ready; a program that ends before is an error with its last words. */
 function ready(child) {
