@@ -81,7 +81,8 @@ void ContourFinder::find_runs(const Mask& mask) {
 }
 
 std::int32_t ContourFinder::group_of(std::int32_t run) {
-  while (runs_[run].parent != run) run = runs_[run].parent = runs_[runs_[run].parent].parent;
+  for (std::int32_t parent = runs_[run].parent; parent != run; parent = runs_[run].parent)
+    run = runs_[run].parent = runs_[parent].parent;
   return run;
 }
 
@@ -94,7 +95,12 @@ void ContourFinder::connect_runs() {
            (runs_[above].row < run.row - 1 || (runs_[above].row == run.row - 1 && runs_[above].end < run.first)))
       ++above;
     for (std::size_t k = above; k < i && runs_[k].row == run.row - 1 && runs_[k].first <= run.end; ++k) {
-      const std::int32_t one = group_of(static_cast<std::int32_t>(k)), two = group_of(static_cast<std::int32_t>(i));
+      const std::int32_t one = group_of(static_cast<std::int32_t>(k));
+      if (runs_[i].parent == static_cast<std::int32_t>(i)) {  // as nearly always: its first neighbour
+        runs_[i].parent = one;
+        continue;
+      }
+      const std::int32_t two = group_of(static_cast<std::int32_t>(i));
       runs_[std::max(one, two)].parent = std::min(one, two);
     }
   }

@@ -11,16 +11,22 @@
 
 namespace rheocyte {
 
-ShapeVector shape_of_hull(std::span<const PixelPoint> pixels, double pixel_size_um) {
-  std::vector<Eigen::Vector2d> hull;
-  hull.reserve(pixels.size());
-  for (const PixelPoint& point : pixels) hull.emplace_back(pixel_size_um * point.x, pixel_size_um * point.y);
-  return shape_vector(hull_shape(hull));
+namespace {
+
+std::vector<Eigen::Vector2d> scaled(std::span<const PixelPoint> pixels, double pixel_size) {
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(pixels.size());
+  for (const PixelPoint& point : pixels) points.emplace_back(pixel_size * point.x, pixel_size * point.y);
+  return points;
 }
+
+}  // namespace
+
+RadiusModes modes_of_hull(std::span<const PixelPoint> hull) { return hull_modes(scaled(hull, 1)); }
 
 ShapeVector shape_of_contour(const PixelContour& contour, double pixel_size_um) {
   PixelHull hull;
-  return shape_of_hull(hull.of(contour), pixel_size_um);
+  return shape_vector(hull_shape(scaled(hull.of(contour), pixel_size_um)));
 }
 
 ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um,

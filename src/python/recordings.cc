@@ -198,7 +198,7 @@ using Masks = py::array_t<std::uint8_t, py::array::c_style>;
 
 struct Found {
   std::vector<ContourFeatures> features;
-  std::vector<ShapeVector> shapes;
+  std::vector<RadiusModes> modes;
 };
 
 // Masks (events, rows, columns), not empty; the caller has looked.
@@ -208,15 +208,17 @@ py::dict features(const Masks& masks, double pixel_size_um) {
   const std::uint8_t* const pixels = masks.data();
   const auto found = interruptible([&](const std::atomic<bool>& stop) {
     Found all;
+    RadiusModes no_modes;
+    no_modes.fill(no_value);
     ContourFinder finder;
     ContourMeasurer measurer;
     all.features.reserve(count);
-    all.shapes.reserve(count);
+    all.modes.reserve(count);
     for (std::size_t i = 0; i < count && !stop; ++i) {
       const PixelContour& contour = finder.contour_of({size, {pixels + i * size.pixels(), size.pixels()}});
       all.features.push_back(measurer.measure(contour, pixel_size_um));
       const bool is_cell = std::isfinite(all.features.back().area_um2);
-      all.shapes.push_back(is_cell ? shape_of_hull(measurer.hull(), pixel_size_um) : ShapeVector::Constant(no_value));
+      all.modes.push_back(is_cell ? modes_of_hull(measurer.hull()) : no_modes);
     }
     return all;
   });
@@ -228,8 +230,8 @@ py::dict features(const Masks& masks, double pixel_size_um) {
   }
   for (int k = first_radius_mode; k <= last_radius_mode; ++k) {
     std::vector<double> values(count);
-    const int row = int(ShapeFeature::first_mode) + k - min_mode;
-    std::ranges::transform(found.shapes, values.begin(), [row](const ShapeVector& shape) { return shape(row); });
+    const auto place = std::size_t(k - first_radius_mode);
+    std::ranges::transform(found.modes, values.begin(), [place](const RadiusModes& modes) { return modes[place]; });
     columns[("mode_" + std::to_string(k)).c_str()] = array_of(std::move(values));
   }
   return columns;

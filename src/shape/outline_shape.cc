@@ -65,8 +65,6 @@ Moments moments_of(const std::vector<Point>& hull) {
 /// Some edges at once, so that the processor computes them side by side.
 constexpr int lanes = 8;
 using Lanes = Eigen::Array<double, lanes, 1>;
-using Integrals = std::array<double, max_mode + 1>;
-using IntegralsOfLanes = std::array<Lanes, max_mode + 1>;
 
 /// Edges of a hull as they are seen from its centre: the ends at the place `along` from the foot of the perpendicular,
 /// whose length is `distance` and whose direction is (normal_x, normal_y).
@@ -104,10 +102,11 @@ struct Multiples {
   }
 };
 
-/// Adds int r cos(k theta) d(theta) over some edges, k = 0 .. max_mode. Exact: with phi counted from the normal of an
+/// Adds int r cos(k theta) d(theta) over some edges, k = 0, 1, ... Exact: with phi counted from the normal of an
 /// edge, r = d / cos(phi) and theta = phi + beta, where C_k + i S_k = int exp(i k phi) / cos(phi) d(phi) obeys
 /// C_k + C_{k-2} + i (S_k + S_{k-2}) = 2 [exp(i (k-1) phi)] / (i (k-1)): the sum has no denominator any more.
-void add_radius_integrals(const Edges& e, const Lanes& weight, IntegralsOfLanes& integral) {
+template <std::size_t count>
+void add_radius_integrals(const Edges& e, const Lanes& weight, std::array<Lanes, count>& integral) {
   const Lanes start_radius = (e.distance.square() + e.along_start.square()).sqrt();
   const Lanes end_radius = (e.distance.square() + e.along_end.square()).sqrt();
   const auto sum_of = [&](const Lanes& along, const Lanes& radius) {  // along + radius without cancellation
@@ -126,10 +125,10 @@ void add_radius_integrals(const Edges& e, const Lanes& weight, IntegralsOfLanes&
   Multiples start_cos{Lanes::Ones(), start_cosine}, start_sin{Lanes::Zero(), e.along_start / start_radius};
   Multiples end_cos{Lanes::Ones(), end_cosine}, end_sin{Lanes::Zero(), e.along_end / end_radius};
   Multiples normal_cos{e.normal_x, Lanes::Ones()}, normal_sin{-e.normal_y, Lanes::Zero()};  // of -beta, then of 0
-  for (int k = 0; k <= max_mode; ++k) {
-    integral[std::size_t(k)] += weight * (normal_cos.here * c - normal_sin.here * s);
-    const Lanes after_c = 2.0 / (k + 1) * (end_sin.here - start_sin.here) - c;
-    const Lanes after_s = -2.0 / (k + 1) * (end_cos.here - start_cos.here) - s;
+  for (std::size_t k = 0; k < count; ++k) {
+    integral[k] += weight * (normal_cos.here * c - normal_sin.here * s);
+    const Lanes after_c = 2.0 / double(k + 1) * (end_sin.here - start_sin.here) - c;
+    const Lanes after_s = -2.0 / double(k + 1) * (end_cos.here - start_cos.here) - s;
     c = next_c, s = next_s, next_c = after_c, next_s = after_s;
     for (Multiples* start : {&start_cos, &start_sin}) start->advance(twice_start);
     for (Multiples* end : {&end_cos, &end_sin}) end->advance(twice_end);
@@ -137,16 +136,17 @@ void add_radius_integrals(const Edges& e, const Lanes& weight, IntegralsOfLanes&
   }
 }
 
-/// Once around a hull that runs counterclockwise around `centre`.
-Integrals radius_integrals(const std::vector<Point>& hull, const Point& centre) {
-  IntegralsOfLanes sums;
+/// Of k = 0 .. last, once around a hull that runs counterclockwise around `centre`.
+template <int last>
+std::array<double, last + 1> radius_integrals(const std::vector<Point>& hull, const Point& centre) {
+  std::array<Lanes, last + 1> sums;
   sums.fill(Lanes::Zero());
   Lanes weight;
   for (std::size_t first = 0; first < hull.size(); first += lanes) {
     const Edges edges = edges_from(hull, first, centre, weight);
     add_radius_integrals(edges, weight, sums);
   }
-  Integrals integral;
+  std::array<double, last + 1> integral;
   std::ranges::transform(sums, integral.begin(), [](const Lanes& sum) { return sum.sum(); });
   return integral;
 }
@@ -162,11 +162,21 @@ OutlineShape hull_shape(const std::vector<Eigen::Vector2d>& hull) {
   const Moments m = moments_of(hull);
   OutlineShape shape{m.area, 1 - 2 * std::sqrt(std::numbers::pi * m.area) / m.perimeter, m.yy / m.xx, m.centroid.x(),
                      m.centroid.y()};
-  const auto integral = radius_integrals(hull, m.centroid);
+  const auto integral = radius_integrals<max_mode>(hull, m.centroid);
   shape.mean_radius = integral[0] / (2 * std::numbers::pi);
   for (int k = min_mode; k <= max_mode; ++k)
     shape.modes[std::size_t(k - min_mode)] = 2 * integral[std::size_t(k)] / integral[0];
   return shape;
+}
+
+RadiusModes hull_modes(const std::vector<Eigen::Vector2d>& hull) {
+  RadiusModes modes;
+  modes.fill(no_value);
+  if (hull.size() < 3) return modes;
+  const auto integral = radius_integrals<last_radius_mode>(hull, moments_of(hull).centroid);
+  for (int k = first_radius_mode; k <= last_radius_mode; ++k)
+    modes[std::size_t(k - first_radius_mode)] = 2 * integral[std::size_t(k)] / integral[0];
+  return modes;
 }
 
 OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) { return hull_shape(hull_of(polygon)); }

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "shape/radius_modes.h"
+
 namespace rheocyte {
 
 /// Modes k = min_mode .. max_mode; the first one vanishes about the centroid but for second order.
@@ -38,6 +40,9 @@ OutlineShape outline_shape(const Eigen::MatrixX2d& polygon);
 
 /// The same of a polygon that is its own hull: counterclockwise, without points on its edges. NaN below three points.
 OutlineShape hull_shape(const std::vector<Eigen::Vector2d>& hull);
+
+/// The first of its modes alone.
+RadiusModes hull_modes(const std::vector<Eigen::Vector2d>& hull);
 
 /// The closed polygon of a meridian (x, r) and its mirror image.
 Eigen::MatrixX2d mirrored(const Eigen::MatrixX2d& meridian);
