@@ -13,7 +13,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t block_of_scalars = 1 << 17;   // 1 MiB per column, a chunk of what is written
+constexpr std::size_t block_of_scalars = 1 << 15;   // its columns stay in fast memory; chunks of 1 MiB are kept by HDF5
 constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible when every event takes microseconds
 
 constexpr double max_relative_standard_error = 1;
