@@ -1,21 +1,6 @@
-# What `cmake --install` and `cpack` add beside program, tables and pictures: the tables as the texts that dclab reads, man
-# pages and completions made from the help, documents and examples. cpack -G DEB makes a package for Debian 12.
+# What `cmake --install` and `cpack` add beside program, tables and pictures: man pages and completions made from the help,
+# documents and examples. cpack -G DEB makes a package for Debian 12.
 set(generated_share ${CMAKE_BINARY_DIR}/share)
-set(text_folder ${generated_share}/rheocyte/tables)
-file(MAKE_DIRECTORY ${text_folder})
-file(GLOB grids CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/data/grid_*.cbor)
-foreach(grid IN LISTS grids)
-  string(REGEX REPLACE ".*/grid_(.*)\\.cbor" "\\1" identifier ${grid})
-  set(table ${text_folder}/lut_${identifier}.txt)
-  set(lines ${text_folder}/iso_${identifier}-area_um-deform.txt)
-  add_custom_command(OUTPUT ${table} ${lines}
-                     COMMAND rheocyte scale ${grid} -o ${table}
-                     COMMAND rheocyte scale ${grid} --lines -o ${lines}
-                     DEPENDS rheocyte ${grid} VERBATIM)
-  list(APPEND text_tables ${table} ${lines})
-endforeach()
-add_custom_target(text_tables ALL DEPENDS ${text_tables})
-install(DIRECTORY ${text_folder} DESTINATION share/rheocyte COMPONENT rheocyte)
 add_custom_command(OUTPUT ${generated_share}/man/man1/rheocyte.1.gz
                    COMMAND ${RHEOCYTE_PYTHON_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/man_pages $<TARGET_FILE:rheocyte>
                            ${generated_share}

@@ -1,7 +1,7 @@
 """Cells in the channel of real-time deformability cytometry (RT-DC): shapes, tables, Young's moduli.
 
 Solve a cell          Case, solve, Session, Result, evolve
-Tables                Table, table, table_names, text_tables, viscosity, STATES
+Tables                Table, table, table_names, viscosity, STATES
 Recordings            extract, moduli, time_course, features, synth
 Small deformations    analytic
 Mistakes              UserError (a ValueError), NoStateError
@@ -21,7 +21,7 @@ _MODULES = {
     "Result": "states", "Session": "states", "solve": "states",
     "Evolution": "in_time", "evolve": "in_time",
     "STATES": "stiffness_tables", "Table": "stiffness_tables", "table_names": "stiffness_tables",
-    "table": "stiffness_tables", "text_tables": "stiffness_tables", "viscosity": "stiffness_tables",
+    "table": "stiffness_tables", "viscosity": "stiffness_tables",
     "extract": "recordings", "features": "recordings", "moduli": "recordings", "synth": "recordings",
     "time_course": "recordings",
     "analytic": "analytical_model",

@@ -17,7 +17,6 @@ from rheocyte.stiffness_tables import STATES as STATES
 from rheocyte.stiffness_tables import Table as Table
 from rheocyte.stiffness_tables import table as table
 from rheocyte.stiffness_tables import table_names as table_names
-from rheocyte.stiffness_tables import text_tables as text_tables
 from rheocyte.stiffness_tables import viscosity as viscosity
 
 __version__: str

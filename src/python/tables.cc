@@ -17,11 +17,14 @@
 #include "infer/isoelasticity_lines.h"
 #include "infer/read_modulus_map.h"
 #include "infer/shape_map.h"
+#include "infer/text_of_map.h"
 #include "measurement/viscosity.h"
 #include "numeric/no_value.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
+#include "store/own_file.h"
+#include "table/table_metadata.h"
 
 namespace rheocyte {
 
@@ -156,6 +159,13 @@ py::list lines(const HeldTable& table, std::vector<double> levels_kPa, int count
   return list;
 }
 
+// The table in dclab's format, and its isoelasticity lines.
+void write_texts(const HeldTable& table, const std::string& rows, const std::string& lines) {
+  const py::gil_scoped_release without_interpreter;
+  write_own_file(rows, to_text(text_of_map(*table.map)), table_mark, Foreign::keep);
+  write_own_file(lines, to_text(lines_of_map(*table.map)), table_mark, Foreign::keep);
+}
+
 py::dict origin(const HeldTable& table) {
   const TableOrigin& o = table.map->origin();
   py::dict d;
@@ -216,6 +226,7 @@ void bind_tables(py::module_& module) {
       .def("modulus", &modulus)
       .def("shapes", &shapes)
       .def("lines", &lines)
+      .def("write_texts", &write_texts)
       .def("support",
            [](const HeldTable& t, const MeasuringConditions& c) { return seen(*t.map, c, support(*t.map)); });
   py::class_<Buffer>(module, "Buffer")

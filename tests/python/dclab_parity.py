@@ -33,9 +33,9 @@ MEASURED = ({"width": 20, "rate": 0.04, "mPas": 15}, {"width": 20, "rate": 0.12,
 
 
 def tables():
-    """Published ones by their names, rheocyte's own by the text files that come with the package."""
+    """Published ones by their names, rheocyte's own by their text files."""
     return {**{name: name for name in PUBLISHED},
-            **{name: str(files.table) for name, files in rheocyte.text_tables().items()}}
+            **{name: str(rheocyte.Table(name).texts().table) for name in rheocyte.table_names()}}
 
 
 def pixel_size(path):

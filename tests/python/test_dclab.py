@@ -185,10 +185,10 @@ def test_moduli_of_recordings_are_those_of_dclab(path, table, recorded):
         same(dclab_parity.our_moduli(path, place, **measured), dclab_parity.their_moduli(*seen, place, **measured))
 
 
-@pytest.mark.parametrize("name", rheocyte.text_tables())
+@pytest.mark.parametrize("name", rheocyte.table_names())
 def test_dclab_takes_the_texts_of_our_tables(name):
     """Registered under their names, they give our moduli as far as straight lines between their rows do."""
-    files = rheocyte.text_tables()[name]
+    files = rheocyte.Table(name).texts()
     emodulus.load.register_lut(files.table)
     rng = np.random.default_rng(4)
     area, deform = rng.uniform(50, 150, 500), rng.uniform(0.005, 0.04, 500)

@@ -134,14 +134,15 @@ def test_shapes_of_solved_cells_are_those_of_the_table(table):
     with pytest.raises(UserError, match="inertia_ratio 2"):
         table.shapes([80], [0.02], [1, 2], **at)
     with pytest.raises(UserError, match="does not know the shapes"):
-        Table(rheocyte.text_tables()["LE-2D-26"].table).shapes(80, 0.02, 1, **at)
+        Table(table.texts().table).shapes(80, 0.02, 1, **at)
 
 
 @pytest.mark.parametrize("name", rheocyte.table_names())
-def test_texts_of_tables_come_with_the_package(name):
+def test_texts_are_made_of_tables(name):
     """Other programs interpolate linearly between their rows: that is 1e-3 off where cells are little deformed."""
-    files = rheocyte.text_tables()[name]
-    text, own = Table(files.table), Table(name)
+    own = Table(name)
+    files = own.texts()
+    text = Table(files.table)
     assert text.identifier == own.identifier == name and not text.is_own
     rng = np.random.default_rng(8)
     area, deform = rng.uniform(45, 180, 2000), rng.uniform(0.003, 0.04, 2000)
@@ -153,6 +154,22 @@ def test_texts_of_tables_come_with_the_package(name):
     on_line = own.modulus(rows[:, 0], rows[:, 1], **{**WATERY, "viscosity_mPas": own.origin["viscosity_mPas"]})
     inside = np.isfinite(on_line.young_modulus_kPa)
     assert inside.mean() > 0.95 and np.allclose(on_line.young_modulus_kPa[inside], rows[inside, 2], rtol=1e-6)
+
+
+def test_texts_go_where_they_are_wanted(table, tmp_path):
+    """Twice, because our own files are replaced; those of others are not."""
+    folder = tmp_path / "new" / "folder"
+    for _ in range(2):
+        files = table.texts(folder)
+    assert sorted(folder.iterdir()) == sorted(files)
+    assert files.table.read_bytes() == table.texts().table.read_bytes()
+    files.table.write_text("mine")
+    with pytest.raises(UserError, match="lut_LE-2D-26.txt"):
+        table.texts(folder)
+    with pytest.raises(UserError, match="is no path"):
+        table.texts(3)
+    with pytest.raises(UserError, match="is a text table itself"):
+        Table(table.texts().table).texts(folder)
 
 
 @pytest.mark.parametrize("area, deform, setting, sentence", [
@@ -202,7 +219,7 @@ def test_a_table_that_is_not_there_or_damaged_is_named(tmp_path):
 def test_names_of_files_need_not_be_unicode(table, tmp_path):
     """Those of older systems come as Python's surrogates; messages spell their bytes."""
     file = tmp_path / os.fsdecode(b"lut_M\xe4use.txt")
-    file.write_bytes(rheocyte.text_tables()["LE-2D-26"].table.read_bytes())
+    file.write_bytes(table.texts().table.read_bytes())
     again = Table(file).modulus(80, 0.02, **WATERY).young_modulus_kPa
     assert again == pytest.approx(table.modulus(80, 0.02, **WATERY).young_modulus_kPa, rel=2e-3)  # straight between rows
     file.unlink()
