@@ -26,8 +26,9 @@ struct Slot {
   double value(const VectorXd& unknowns) const { return constant + (unknown >= 0 ? factor * unknowns(unknown) : 0.0); }
 };
 
-/// What fills the cell: an elastic solid, or a liquid at rest of which only the pressure matters (a pure shell).
-enum class Interior { elastic, liquid };
+/// What fills the cell: an elastic solid, a liquid at rest of which only the pressure matters (a pure shell), or one
+/// that carries its mesh along.
+enum class Interior { elastic, liquid, flowing };
 
 /// What the x and r columns of positions do.
 struct PositionShapes {

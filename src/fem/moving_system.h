@@ -17,8 +17,8 @@ struct Motion {
 };
 
 /// Cell and liquid on their way. The cell's velocities are the derivatives of its displacements, in a frame that moves
-/// with v_cell; on the surface they are the liquid's, too. The interior has to be `Interior::elastic`; with modulus
-/// zero it is a viscous liquid that carries its mesh along.
+/// with v_cell; on the surface they are the liquid's, too. The interior has to be `Interior::elastic` or, with
+/// modulus zero, `Interior::flowing`.
 class MovingSystem final : public CoupledSystem {
  public:
   /// The discretisation must outlive this object.

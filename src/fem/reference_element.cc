@@ -47,9 +47,9 @@ void append_products(const MatrixXd& polynomials, int directions, int total, dou
 }  // namespace
 
 template <int dim>
-ReferenceElement<dim>::ReferenceElement(int degree) : degree_(degree) {
+ReferenceElement<dim>::ReferenceElement(int degree, int number_1d) : degree_(degree) {
   nodes_1d = lobatto_nodes(degree);
-  const Quadrature gauss = gauss_legendre(degree + 2);
+  const Quadrature gauss = gauss_legendre(number_1d);
   points_1d = gauss.points;
   weights_1d = gauss.weights;
   weights = tensor<dim>(weights_1d, weights_1d, 0);

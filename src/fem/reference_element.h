@@ -18,14 +18,16 @@ struct ShapeTable {
   const MatrixXd& part(int part) const { return part == 0 ? value : slope[part - 1]; }
 };
 
-/// Q_p on Gauss-Lobatto nodes and P_{p-1} (orthonormal Legendre modes of total degree < p, the constant first) at the
-/// (p+2)^dim Gauss points; first coordinate fastest throughout. For two and three dimensions.
+/// Q_p on Gauss-Lobatto nodes and P_{p-1} (orthonormal Legendre modes of total degree < p, the constant first) at
+/// Gauss points; first coordinate fastest throughout. For two and three dimensions.
 template <int dim>
 class ReferenceElement {
  public:
   using Coordinates = Eigen::Matrix<double, dim, 1>;
 
-  explicit ReferenceElement(int degree);
+  /// With p+2 Gauss points in each direction.
+  explicit ReferenceElement(int degree) : ReferenceElement(degree, degree + 2) {}
+  ReferenceElement(int degree, int number_1d);
 
   int degree() const { return degree_; }
   int nodes() const { return int(shape.value.cols()); }

@@ -11,7 +11,8 @@ namespace rheocyte {
 
 /// What fills the cell.
 inline Interior interior_of(const Problem& problem) {
-  return problem.bulk.law == BulkLaw::none ? Interior::liquid : Interior::elastic;
+  if (problem.bulk.law == BulkLaw::none) return Interior::liquid;
+  return problem.bulk.shear_modulus > 0 ? Interior::elastic : Interior::flowing;
 }
 
 /// Mesh, spaces and system of one resolution; they refer to each other and stay together.
