@@ -18,6 +18,9 @@ namespace {
 // its stability early, so that their table ends at half the deformation.
 constexpr std::string_view standard_tube_table = "LE-2D-26", standard_square_table = "HE-3D-26";
 
+/// "linear" of "linear solid / newtonian fluid"; of other cells the whole model.
+std::string solid_of(const std::string& model) { return model.substr(0, model.find(" solid")); }
+
 std::string_view standard_table(Section section) {
   return section == Section::square ? standard_square_table : standard_tube_table;
 }
@@ -36,7 +39,7 @@ ModulusTables::ModulusTables(const std::string& name, std::optional<Section> sec
     auto map = read_modulus_map(file);
     const TableOrigin& origin = map->origin();
     section_ = origin.section;
-    tables_.push_back({file, origin.identifier, origin.flow.exponent, std::move(map)});
+    tables_.push_back({file, origin.identifier, origin.flow.exponent, solid_of(origin.model), std::move(map)});
   }
   if (own()) add_shipped();
   if (tables_.empty() && !section) {
@@ -50,13 +53,18 @@ ModulusTables::ModulusTables(const std::string& name, std::optional<Section> sec
         section_ == Section::square ? " of the square channel" : ""));
 }
 
-// Of one section alone: moduli of the tube and of the square are not mixed.
+// Of one section and one solid alone: moduli of the tube and of the square, of one law and another are not mixed.
 void ModulusTables::add_shipped() {
+  std::optional<std::string> solid;
+  if (given_) solid = tables_.front().solid;
   for (const auto& [identifier, file] : shipped_tables()) {
     if (given_ && identifier == tables_.front().identifier) continue;
     const GridHead head = read_grid_head(file).value_or(GridHead{});
-    if (head.section == section_) tables_.push_back({file, identifier, head.flow_exponent});
+    if (head.section != section_) continue;
+    tables_.push_back({file, identifier, head.flow_exponent, solid_of(head.model)});
+    if (!given_ && identifier == standard_table(section_)) solid = tables_.back().solid;
   }
+  if (solid) std::erase_if(tables_, [&](const Table& table) { return table.solid != *solid; });
 }
 
 const ModulusTables::Table* ModulusTables::newtonian() const {

@@ -107,6 +107,7 @@ GridContent grid_from_bytes(std::string_view bytes, const std::string& name);
 struct GridHead {
   double flow_exponent = 1;
   Section section = Section::tube;
+  std::string model = {};  ///< of cell and liquid, as in TableOrigin
 };
 std::optional<GridHead> grid_head(std::string_view head);
 inline constexpr std::size_t grid_head_bytes = 4096;

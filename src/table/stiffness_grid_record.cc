@@ -170,17 +170,24 @@ std::string to_bytes(const GridContent& grid) {
   return sealed_record(grid_kind, fingerprint(grid.origin.spec), record_of(grid));
 }
 
-// Keys of a record stand in the order of their letters, so the numbers come behind it.
+// Keys of a record stand in the order of their letters, so the long columns of numbers come behind these.
 std::optional<GridHead> grid_head(std::string_view head) {
-  constexpr std::string_view key = "flow_exponent";
   head = head.substr(0, grid_head_bytes);
-  const auto place = head.find(key);
-  if (place == std::string_view::npos) return {};
-  constexpr std::size_t longest_number = 9;  // bytes of CBOR; more would let the reader nest
-  const auto value = head.substr(place + key.size(), longest_number);
-  const json number = json::from_cbor(value.begin(), value.end(), false, false);
-  if (!number.is_number()) return {};
-  return GridHead{number.get<double>(), head.find(section_key) != head.npos ? Section::square : Section::tube};
+  constexpr std::size_t longest = 200;  // bytes of CBOR
+  const auto value_of = [head](std::string_view key) {
+    const auto place = head.find(key);
+    if (place == std::string_view::npos) return json();
+    const auto value = head.substr(place + key.size(), longest);
+    constexpr unsigned char first_of_lists = 0x80, first_of_numbers = 0xe0;  // lists would let the reader nest
+    if (value.empty() || (static_cast<unsigned char>(value.front()) >= first_of_lists &&
+                          static_cast<unsigned char>(value.front()) < first_of_numbers))
+      return json();
+    return json::from_cbor(value.begin(), value.end(), false, false);
+  };
+  const json exponent = value_of("flow_exponent"), model = value_of("model");
+  if (!exponent.is_number() || !model.is_string()) return {};
+  return GridHead{exponent.get<double>(), head.find(section_key) != head.npos ? Section::square : Section::tube,
+                  model.get<std::string>()};
 }
 
 GridContent grid_from_bytes(std::string_view bytes, const std::string& name) {
