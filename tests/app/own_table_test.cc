@@ -288,6 +288,16 @@ TEST_F(OwnTable, EachMediumGetsItsOwnAtEveryTemperature) {
     }
 }
 
+TEST_F(OwnTable, TablesAreComparedWithThoseOfTheSameSolid) {
+  write_recording("a.rtdc");
+  const std::string linear = "LE-3D-", neo_hookean = "HE-3D-";
+  for (const auto& solid : {linear, neo_hookean}) {
+    const auto ended = run({"extract", path("a.rtdc"), "--table", solid + "26", "--medium", "CellCarrier"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_NE(ended.err.find("those from " + solid + "MC049-26"), std::string::npos) << ended.err;
+  }
+}
+
 TEST_F(OwnTable, ModuliComeBackAndIntervalsHoldWhatTheyPromise) {
   write_closed_table("table");
   struct Population {
