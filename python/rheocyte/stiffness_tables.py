@@ -205,7 +205,8 @@ class Table:
                         None: a folder that is removed when the interpreter ends
 
         Linear interpolation between the rows, as dclab does it, gives the table's modulus to 2e-3 for areas of 50 to 150 um2
-        and deformations of 0.005 to 0.04. UserError for a published table, and where a file of another program stands.
+        and deformations of 0.005 to 0.04 (or nine tenths of the table's greatest). UserError for a published table, and where a
+        file of another program stands.
         """
         place = Path(os.fsdecode(_passing_folder() if folder is None else path(folder, "folder")))
         files = TextFiles(place / f"lut_{self.identifier}.txt", place / f"iso_{self.identifier}-area_um-deform.txt")

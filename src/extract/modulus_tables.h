@@ -43,7 +43,7 @@ class ModulusTables {
     std::filesystem::path file;
     std::string identifier;
     double flow_exponent;
-    std::string solid;  ///< its law
+    std::string solid;                                        ///< its law
     mutable std::unique_ptr<const ModulusMap> map = nullptr;  ///< once it is needed
 
     const ModulusMap& ready() const;

@@ -191,7 +191,8 @@ def test_dclab_takes_the_texts_of_our_tables(name):
     files = rheocyte.Table(name).texts()
     emodulus.load.register_lut(files.table)
     rng = np.random.default_rng(4)
-    area, deform = rng.uniform(50, 150, 500), rng.uniform(0.005, 0.04, 500)
+    greatest = min(0.04, 0.9 * np.loadtxt(files.table)[:, 1].max())  # triangles along the border are long
+    area, deform = rng.uniform(50, 150, 500), rng.uniform(0.005, greatest, 500)
     theirs = emodulus.get_emodulus(area_um=area, deform=deform, medium=15, channel_width=20, flow_rate=0.04, px_um=0,
                                    temperature=None, lut_data=name)
     ours = rheocyte.Table(name).modulus(area, deform, channel_width_um=20, flow_rate_ul_s=0.04, viscosity_mPas=15)

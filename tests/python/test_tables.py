@@ -145,7 +145,8 @@ def test_texts_are_made_of_tables(name):
     text = Table(files.table)
     assert text.identifier == own.identifier == name and not text.is_own
     rng = np.random.default_rng(8)
-    area, deform = rng.uniform(45, 180, 2000), rng.uniform(0.003, 0.04, 2000)
+    greatest = min(0.04, 0.9 * np.loadtxt(files.table)[:, 1].max())  # triangles along the border are long
+    area, deform = rng.uniform(45, 180, 2000), rng.uniform(0.003, greatest, 2000)
     ours, theirs = own.modulus(area, deform, **WATERY), text.modulus(area, deform, **WATERY)
     has = np.isfinite(ours.young_modulus_kPa) & np.isfinite(theirs.young_modulus_kPa)
     assert has.mean() > 0.9
