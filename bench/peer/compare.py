@@ -45,7 +45,7 @@ accuracy = {accuracy}
 def run(command, environment):
     """Standard output, processor time in s and memory in GB of a process."""
     with tempfile.TemporaryFile("w+") as output:
-        actions = [(os.POSIX_SPAWN_DUP2, output.fileno(), 1), (os.POSIX_SPAWN_DUP2, output.fileno(), 2)]
+        actions = [(os.POSIX_SPAWN_DUP2, output.fileno(), 1)]
         process = os.posix_spawn(command[0], [str(word) for word in command], environment, file_actions=actions)
         _, _, used = os.wait4(process, 0)
         output.seek(0)
