@@ -32,8 +32,8 @@ std::string radii_text(const KeyReading& keys) {
 /// That of the wall.
 std::string_view wall_key(const KeyReading& keys) { return keys.has(profile_width) ? profile_width : profile_R; }
 
-// The mesh follows the wall along straight spokes and has elements as wide as the tube.
-constexpr double steepest_wall = 0.5, max_widening = 5;
+// Elements are as wide as the tube.
+constexpr double steepest_wall = 1, max_widening = 5;
 constexpr std::size_t most_places = 1000;
 
 void check_places(const ChannelProfile& wall, const KeyReading& keys) {

@@ -139,7 +139,6 @@ void Discretisation::set_inflow() {
 }
 
 VectorXd Discretisation::wall_motion(const std::function<double(double)>& wall, const VectorXd& unknowns) const {
-  const ChannelGeometry& geometry = mesh_->geometry();
   VectorXd outward = VectorXd::Zero(nodes_.count);
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     if (!elements_[e].liquid) continue;
@@ -147,15 +146,12 @@ VectorXd Discretisation::wall_motion(const std::function<double(double)>& wall, 
     for (int k = 0; k < reference_.nodes(); ++k) {
       const int node = nodes_.of_element[e][k], p = reference_.degree(), i = k % (p + 1), j = k / (p + 1);
       const auto [out, along] = self.parameters(reference_.nodes_1d(i), reference_.nodes_1d(j));
-      // The wall's point at the end of the spoke, and the share of its motion.
+      // Where the node is, and its share of the motion, which grows with r: so it never passes one above it.
       double x = straight_points_[node](0), share = straight_points_[node](1);
-      if (self.block == Block::top) {
+      if (has_spokes(self.block)) {
         const int foot = elements_[e].columns[self.outward_first ? j : i].unknown;
-        x = geometry.map(Block::top, 1, along)(0) + (foot < 0 ? 0 : wall_slide(along) * unknowns(foot));
-        share = out;
-      } else if (has_spokes(self.block)) {
-        x = self.block == Block::front ? geometry.box() : -geometry.box();
-        share = out * along;
+        if (foot >= 0) x += elements_[e].position->at_nodes[0](k, self.outward_first ? j : i) * unknowns(foot);
+        share = self.block == Block::top ? out : out * along;
       }
       outward(node) = share * (wall(x) - 1);
     }

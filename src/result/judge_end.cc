@@ -72,12 +72,14 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
                              const std::atomic<bool>& stop) {
   Outcome& outcome = result.state.outcome;
   const StationaryState stationary = solve_stationary(problem, {}, &stop);
+  const bool failed = record.end == TimeEnd::failure;
   if (stationary.outcome.status == Status::stopped) return;
   if (stationary.outcome.status != Status::converged) {
-    outcome.message += " There is no stationary shape of this cell (" + std::string(name(stationary.outcome.status)) +
-                       "): what seems to settle is held by the mesh.";
+    outcome.message += fmt::format(" There is no stationary shape of this cell ({}){}", name(stationary.outcome.status),
+                                   failed ? "." : ": what seems to settle is held by the mesh.");
     return;
   }
+  if (failed) return;
   record.stationary_deformation = stationary.shape.deformation;
   const double distance = result.state.shape.deformation / stationary.shape.deformation - 1;
   const bool settled =
@@ -100,7 +102,7 @@ bool has_settled(const TimeRecord& record, double distance, double accuracy) {
 void judge_end(Result& result, TimeRecord& record, const std::atomic<bool>& stop) {
   if (record.rows.empty()) return;
   record.end = end_of(record, result);
-  if (record.end != TimeEnd::failure)
+  if (result.state.outcome.status != Status::stopped)
     if (const auto problem = straight_from_here(result, record))
       compare_with_stationary(result, record, *problem, stop);
   result.state.outcome.message += told_of_surface(record, result.problem);

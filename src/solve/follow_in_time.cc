@@ -199,8 +199,9 @@ class TimeFollower {
                           ? "the step is too large for elasticity that is explicit, lower time.step_us, or the cell is "
                             "drawn out or wrinkles"
                           : "the cell is drawn out or wrinkles, raise its moduli or lower flow rate or viscosity";
-    return fmt::format("No step in time succeeds beyond {:.4g} % of the {} ({}): {}; the last good state is kept.",
-                       share, what, name(status), why);
+    const char* coarse = ", or the wall is too steep for the mesh, raise time.degree";
+    return fmt::format("No step in time succeeds beyond {:.4g} % of the {} ({}): {}{}; the last good state is kept.",
+                       share, what, name(status), why, stepper_->has_passed_walls(now) ? "" : coarse);
   }
 
   TimeRun run_;

@@ -171,6 +171,14 @@ TEST_F(InTime, AChannelEntryWritesTheWallAndKeepsWhatItHasWhenItFails) {
   EXPECT_TRUE(fs::exists(at("soft") / "checkpoint-1.bin"));
 }
 
+TEST_F(InTime, ARunThatStopsTellsThatTheCellHasNoStationaryShape) {
+  // The paper's cell with less than a third of its modulus is drawn out in the straight channel.
+  const auto ended = run(solve("soft", {"--set", "cell.bulk.young_modulus_kPa=1", "--set", "time.end_us=2000"}));
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_NE(ended.err.find("There is no stationary shape of this cell (surface-unstable)."), std::string::npos)
+      << ended.err;
+}
+
 TEST_F(InTime, AnotherCaseStartsFromALastState) {
   // From its own end state nothing but the formulas' start changes: d at 40 + 20 us as in one run, within 1e-5. With
   // ten times less flow the cell relaxes towards the sphere. Other sizes are refused.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "laws/developed_flow.h"
+#include "laws/wall_profile.h"
 #include "small_channel.h"
 
 namespace rheocyte {
@@ -109,6 +110,19 @@ TEST(Discretisation, TheMeshFollowsTheSurfaceWithoutGaps) {
     EXPECT_TRUE(!on_box || (points[0] - X).norm() < rounding);
     EXPECT_TRUE(!on_wall || std::abs(points[0](1) - 1) < rounding);
     EXPECT_TRUE(X(1) > 1e-9 || points[0](1) < rounding) << "the axis stays the axis";
+  }
+}
+
+TEST(Discretisation, ASteepWallThatPassesDoesNotFoldTheMesh) {
+  // From 2 R to R within R, wherever it is. Spokes whose nodes all moved as far as the wall at their end folded there.
+  const WallProfile wall({{0, 1}, {2, 1}});
+  SmallChannel channel(0.55, 4, {}, {2, 4, 1, 2});
+  Discretisation& space = channel.space;
+  const VectorXd sphere = VectorXd::Zero(space.unknowns());
+  for (double start = -6; start < 5; start += 0.25) {
+    space.move_nodes(space.wall_motion([&](double x) { return wall.radius(x - start); }, sphere));
+    for (const ElementUnknowns& element : space.elements())
+      for (const PointMap<double, 2>& map : element.undeformed) EXPECT_GT(map.det, 0) << start;
   }
 }
 

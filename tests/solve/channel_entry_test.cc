@@ -158,6 +158,19 @@ TEST(ChannelEntry, AStretchedStandardLinearSolidIsFollowedWhileItsWavesFade) {
   EXPECT_EQ(follow_in_time(problem, {0.6, 1e9, 1e-5, 5}, {}).outcome.status, Status::converged);
 }
 
+TEST(ChannelEntry, ACellPassesAWallOf45Degrees) {
+  // And a contraction of that kind from five times the radius; both end as the stationary cell within 1e-3.
+  Problem problem = entering_cell(), straight = problem;
+  straight.wall = {};
+  const double stationary = solve_stationary(straight).shape.deformation;
+  for (const WallTable& wall : {WallTable{{4, 5}, {2, 1}}, WallTable{{4, 8}, {5, 1}}}) {
+    problem.wall = wall;
+    const StationaryState end = follow_in_time(problem, {1e3, 1e9, 1e-4, 4}, {});
+    ASSERT_EQ(end.outcome.status, Status::converged) << end.outcome.message;
+    EXPECT_NEAR(end.shape.deformation / stationary, 1, 1e-3);
+  }
+}
+
 TEST(ChannelEntry, AFailedRunKeepsItsLastGoodStateAndItsHistory) {
   // A soft cell is drawn out in the contraction until no step succeeds: a named status, a sentence, and finite numbers
   // of the last state with the walls where they were.
