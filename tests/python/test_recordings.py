@@ -113,6 +113,7 @@ def test_ctrl_c_ends_long_work_and_python_goes_on(work, tmp_path):
     """The signal comes with the first word of progress, or once the work has begun."""
     code = """
 import os, signal, sys, threading, numpy as np, rheocyte
+signal.signal(signal.SIGINT, signal.default_int_handler)  # shells start what runs in the background without it
 work, spec = sys.argv[1], eval(sys.argv[2])
 def interrupt(*_):
     if not sent:

@@ -132,6 +132,7 @@ def test_a_way_that_is_stopped_keeps_what_was_computed(paper):
 
 INTERRUPTED = """
 import os, signal, sys, rheocyte
+signal.signal(signal.SIGINT, signal.default_int_handler)  # shells start what runs in the background without it
 case = rheocyte.Case(sys.argv[1], numerics__accuracy=1e-7)
 sent = []
 def interrupt_once(step):
