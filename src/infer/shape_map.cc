@@ -148,13 +148,13 @@ void ShapeMap::remove_ellipses(std::span<const double> mode_2, EventColumn& log_
                                SmoothAsymmetries& asymmetry) const {
   const std::size_t count = mode_2.size();
   const Eigen::Index rows = whole_packets(count);
-  std::array<GridAnswer, event_block_size> of_table;
-  mode_2_->answer({log_area.data(), count}, {asymmetry.log_mode_3.data(), count}, {of_table.data(), count});
-  EventColumn excess;
+  EventColumn excess;  // over that of the table's cell
   excess.head(rows) = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    if (of_table[i].reason == NoAnswer::none)
-      excess[static_cast<Eigen::Index>(i)] = mode_2[i] - of_table[i].log_stiffness;
+  mode_2_->values({log_area.data(), count}, {asymmetry.log_mode_3.data(), count}, {excess.data(), count});
+  for (std::size_t i = 0; i < count; ++i) {
+    double& value = excess[static_cast<Eigen::Index>(i)];
+    value = std::isnan(value) ? 0 : mode_2[i] - value;
+  }
   const double log_half_width = std::log(origin_.flow.width_um / 2);
   for (Eigen::Index k = 0; k < rows; k += packet_size) {
     auto log_mode_3 = packet_at(asymmetry.log_mode_3, k), deviation = packet_at(asymmetry.deviation, k);

@@ -69,6 +69,9 @@ class StiffnessGrid {
   void answer(std::span<const double> log_area, std::span<const double> log_deformation,
               std::span<GridAnswer> answers) const;
   GridAnswer answer(double area_um2, double deformation) const;
+  /// The logarithms of the stiffnesses alone; NaN where there is none.
+  void values(std::span<const double> log_area, std::span<const double> log_deformation,
+              std::span<double> log_stiffness) const;
 
   /// ln(deformation) of the first and the last smooth state of a bare surface at an area; nothing outside the areas.
   struct Range {
@@ -91,8 +94,12 @@ class StiffnessGrid {
   };
   struct Place;
   static Patch ready(const GridPatch& patch);
-  void between(const Patch& patch, const Place& place, double log_deformation, GridAnswer& answer) const;
-  void answer_at(double log_area, double log_deformation, GridAnswer& answer) const;
+  Place place_of(double log_area, double log_deformation) const;
+  double value_at(const Place&) const;
+  void answer_at(const Place&, GridAnswer& answer) const;
+  /// take(number, place of the event) for all.
+  template <class Take>
+  void at_places(std::span<const double> log_area, std::span<const double> log_deformation, const Take& take) const;
 
   GridContent content_;
   std::vector<Patch> patches_;

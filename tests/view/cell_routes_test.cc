@@ -186,7 +186,7 @@ TEST_F(CellRoutes, InASquareChannelPlaneSurfaceAndContourAreOfOneCell) {
   square["channel"]["camera"] = "diagonal";
   const Json state = json("/api/state", square, {{"fields", "1"}, {"accuracy", "1e-2"}});
   const Json &fields = state["fields"], &diagonal = state["contours"]["diagonal"];
-  EXPECT_EQ(state["contour"]["x_um"].front(), diagonal["x_um"].front());
+  EXPECT_DOUBLE_EQ(state["contour"]["x_um"].front().get<double>(), diagonal["x_um"].front().get<double>());
   const auto greatest = [](const std::vector<float>& values, std::size_t first, std::size_t step) {
     float found = values[first];
     for (std::size_t i = first; i < values.size(); i += step) found = std::max(found, values[i]);
