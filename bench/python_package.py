@@ -161,7 +161,7 @@ def time_session():
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--events", type=int, default=1_000_000)
-    parser.add_argument("--masks", type=int, default=2000)
+    parser.add_argument("--masks", type=int, default=8000)
     parser.add_argument("--program", type=Path, default=Path("build/rheocyte"))
     arguments = parser.parse_args()
     os.chdir(Path(__file__).resolve().parent.parent)
