@@ -6,7 +6,7 @@
 
 #include "analytic/sphere_in_tube.h"
 
-namespace rheocyte {
+namespace rheocyte::elastic_response_test {
 namespace {
 
 struct Mode {
@@ -96,4 +96,4 @@ TEST(ElasticResponse, TensionStiffensAShell) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::elastic_response_test

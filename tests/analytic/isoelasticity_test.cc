@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace rheocyte {
+namespace rheocyte::isoelasticity_test {
 namespace {
 
 IsoelasticityGrid grid() { return {{0.2, 0.3, 0.4, 0.5, 0.6, 0.7}, {0.01, 0.1, 0.2, 2.0}, 0.02, Duct::tube}; }
@@ -54,4 +54,4 @@ TEST(Isoelasticity, TheSquareDuctIsASmallerLoad) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::isoelasticity_test

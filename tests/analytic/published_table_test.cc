@@ -16,7 +16,7 @@
 
 #include "analytic/small_deformation.h"
 
-namespace rheocyte {
+namespace rheocyte::published_table_test {
 namespace {
 
 constexpr double R_um = 10.94, polygon_offset = std::numbers::pi * std::numbers::pi / 6 / (5000.0 * 5000.0);
@@ -133,4 +133,4 @@ TEST(PublishedAnalyticalTable, EveryPointOfTheIsoelasticityLinesIsMet) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::published_table_test

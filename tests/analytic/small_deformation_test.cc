@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rheocyte {
+namespace rheocyte::small_deformation_test {
 namespace {
 
 using std::numbers::pi;
@@ -185,4 +185,4 @@ TEST(PeakVelocity, OfTheSquareDuctComesFromItsSeries) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::small_deformation_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace rheocyte {
+namespace rheocyte::sphere_in_tube_test {
 namespace {
 
 struct Reference {
@@ -142,4 +142,4 @@ TEST(SphereInTube, TheChosenNumberOfFunctionsIsEnough) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::sphere_in_tube_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rheocyte {
+namespace rheocyte::wall_reflection_test {
 namespace {
 
 // Sums of 300 terms; the Bessel functions of the library are good to 1e-14.
@@ -73,4 +73,4 @@ TEST(WallReflection, MoreFunctionsLeaveTheFirstEntriesAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::wall_reflection_test

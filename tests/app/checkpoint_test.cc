@@ -12,7 +12,7 @@
 #include "case/read_case.h"
 #include "case/user_error.h"
 
-namespace rheocyte {
+namespace rheocyte::checkpoint_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ TEST_F(Folder, WithoutACheckpointIsRefused) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::checkpoint_test

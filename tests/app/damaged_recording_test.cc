@@ -13,7 +13,7 @@
 #include "measurement/recording_writer.h"
 #include "robustness/run_program.h"
 
-namespace rheocyte {
+namespace rheocyte::damaged_recording_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -175,4 +175,4 @@ TEST(DamagedRecording, BombsAreRefusedBeforeTheyGoOff) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::damaged_recording_test

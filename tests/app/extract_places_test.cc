@@ -5,7 +5,7 @@
 
 #include "extract_fixture.h"
 
-namespace rheocyte {
+namespace rheocyte::extract_places_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -120,4 +120,4 @@ TEST_F(ExtractPlaces, AResultOfAnotherRecordingOfTheSameNameIsKept) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::extract_places_test

@@ -9,7 +9,7 @@
 #include "extract_fixture.h"
 #include "measurement/reference_files.h"
 
-namespace rheocyte {
+namespace rheocyte::extract_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -275,4 +275,4 @@ TEST_F(Extract, GivesTheModuliThatARealRecordingHolds) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::extract_test

@@ -6,7 +6,7 @@
 
 #include "extract_fixture.h"
 
-namespace rheocyte {
+namespace rheocyte::features_test {
 namespace {
 
 class Features : public testing::Test {
@@ -96,4 +96,4 @@ TEST_F(Features, FilesOfOthersAreNotReplaced) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::features_test

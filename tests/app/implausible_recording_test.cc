@@ -10,7 +10,7 @@
 #include "measurement/recording_writer.h"
 #include "robustness/run_program.h"
 
-namespace rheocyte {
+namespace rheocyte::implausible_recording_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -139,4 +139,4 @@ TEST_F(Implausible, NumbersInOtherUnitsAreRefused) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::implausible_recording_test

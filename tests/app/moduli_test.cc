@@ -11,7 +11,7 @@
 #include "measurement/mask_from_outline.h"
 #include "measurement/recording_writer.h"
 
-namespace rheocyte::test {
+namespace rheocyte::test::moduli_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -233,4 +233,4 @@ TEST_F(ModuliCommand, WhatCannotBeUsedIsRefused) {
 }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::moduli_test

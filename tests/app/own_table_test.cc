@@ -16,7 +16,7 @@
 #include "table/grid_from_branches.h"
 #include "table/table_folder.h"
 
-namespace rheocyte {
+namespace rheocyte::own_table_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -388,4 +388,4 @@ TEST_F(OwnTable, WhatARecordingLacksForItsShapesIsNamed) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::own_table_test

@@ -7,7 +7,7 @@
 #include "measurement/reference_files.h"
 #include "robustness/run_program.h"
 
-namespace rheocyte {
+namespace rheocyte::plot_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -160,4 +160,4 @@ TEST_F(Plot, RealRecordingsAreDrawn) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::plot_test

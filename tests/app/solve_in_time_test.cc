@@ -8,7 +8,7 @@
 
 #include "../robustness/run_program.h"
 
-namespace rheocyte::test {
+namespace rheocyte::test::solve_in_time_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -217,4 +217,4 @@ TEST_F(InTime, RefusesWhatCannotBeContinued) {
 }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::solve_in_time_test

@@ -11,7 +11,7 @@
 #include "table/invented_combined.h"
 #include "table/table_folder.h"
 
-namespace rheocyte {
+namespace rheocyte::synth_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -219,4 +219,4 @@ TEST_F(Synth, AFullDiskLeavesNoTornFile) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::synth_test

@@ -8,7 +8,7 @@
 #include "../robustness/run_program.h"
 #include "../table/invented_dynamic.h"
 
-namespace rheocyte::test {
+namespace rheocyte::test::time_course_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ TEST_F(TimeCourseCommand, CellsOnTheirWayNeedADynamicTableWithPlacesAndViscosity
 }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::time_course_test

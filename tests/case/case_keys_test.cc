@@ -10,7 +10,7 @@
 
 #include "case/key_reference.h"
 
-namespace rheocyte {
+namespace rheocyte::case_keys_test {
 namespace {
 
 TEST(CaseKeys, HaveUniqueNamesAndASentence) {
@@ -76,4 +76,4 @@ TEST(CaseReference, InDocsIsUpToDate) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::case_keys_test

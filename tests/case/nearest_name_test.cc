@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace rheocyte {
+namespace rheocyte::nearest_name_test {
 namespace {
 
 constexpr std::array<std::string_view, 5> keys{"channel.width_um", "channel.radius_um", "cell.radius_um",
@@ -42,4 +42,4 @@ TEST(NearestName, IsSilentWhenNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::nearest_name_test

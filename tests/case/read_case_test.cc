@@ -6,7 +6,7 @@
 #include "../refusal.h"
 #include "case/user_error.h"
 
-namespace rheocyte {
+namespace rheocyte::read_case_test {
 namespace {
 
 const std::string shortest = R"(
@@ -108,4 +108,4 @@ TEST(ReadCase, ARefusalIsOneLineHoweverLongTheInput) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::read_case_test

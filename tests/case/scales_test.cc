@@ -8,7 +8,7 @@
 
 #include "case/read_case.h"
 
-namespace rheocyte {
+namespace rheocyte::scales_test {
 namespace {
 
 constexpr double rounding = 1e-13;  // a few operations on doubles
@@ -141,4 +141,4 @@ TEST(Scales, AFunnelBecomesTheTubeWithItsMeanSpeeds) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::scales_test

@@ -7,7 +7,7 @@
 
 #include "case/read_case.h"
 
-namespace rheocyte {
+namespace rheocyte::write_case_test {
 namespace {
 
 std::vector<Case> cases_of_all_laws() {
@@ -66,4 +66,4 @@ TEST(WriteCase, TheHashSeesEveryValueAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::write_case_test

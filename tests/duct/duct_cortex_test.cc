@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-namespace rheocyte {
+namespace rheocyte::duct_cortex_test {
 namespace {
 
 /// A spherical harmonic of a degree, by the direction, and the integral of its square over the whole sphere.
@@ -98,4 +98,4 @@ TEST(DuctCortex, ARigidMotionAlongTheFlowDoesNoWork) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::duct_cortex_test

@@ -7,7 +7,7 @@
 
 #include "laws/developed_flow.h"
 
-namespace rheocyte {
+namespace rheocyte::duct_flow_test {
 namespace {
 
 const DuctGeometry square(Section::square, 0.5), circle(Section::tube, 0.5);
@@ -72,4 +72,4 @@ TEST(DuctFlow, TheCircleIsTheTube) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::duct_flow_test

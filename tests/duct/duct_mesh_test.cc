@@ -8,7 +8,7 @@
 #include "fem/reference_element.h"
 #include "laws/cartesian.h"
 
-namespace rheocyte {
+namespace rheocyte::duct_mesh_test {
 namespace {
 
 /// Volumes of the cell and of everything, by the quadrature of elements of some degree; and the least det of a map.
@@ -92,4 +92,4 @@ TEST(DuctMesh, FirstLayerIsHalfAsHighAsTheSurfacesElementsAreWide) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::duct_mesh_test

@@ -9,7 +9,7 @@
 #include "duct/observe_duct.h"
 #include "shape/measures.h"
 
-namespace rheocyte {
+namespace rheocyte::duct_silhouette_test {
 namespace {
 
 constexpr double radius = 0.6;
@@ -118,4 +118,4 @@ TEST(DuctSilhouette, OfASphereItIsACircleWithItsCurvatureAndNoStretch) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::duct_silhouette_test

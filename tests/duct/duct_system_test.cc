@@ -7,7 +7,7 @@
 #include "duct/observe_duct.h"
 #include "taylor.h"
 
-namespace rheocyte {
+namespace rheocyte::duct_system_test {
 namespace {
 
 /// A coarse duct with a cell in it.
@@ -145,4 +145,4 @@ TEST(DuctSpace, TransferToAHigherDegreeKeepsTheShape) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::duct_system_test

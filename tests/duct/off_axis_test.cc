@@ -10,7 +10,7 @@
 #include "shape/measures.h"
 #include "taylor.h"
 
-namespace rheocyte {
+namespace rheocyte::off_axis_test {
 namespace {
 
 constexpr DuctSubdivision coarse{.along = 2, .layers = 1, .axial = 1, .across = 2};
@@ -173,4 +173,4 @@ TEST(OffAxis, TheLiquidsForceAndTorqueOnTheCellVanish) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::off_axis_test

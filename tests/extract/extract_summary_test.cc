@@ -8,7 +8,7 @@
 
 #include "store/bytes.h"
 
-namespace rheocyte {
+namespace rheocyte::extract_summary_test {
 namespace {
 
 TEST(ExtractSummary, QuartilesAreInterpolatedBetweenValues) {
@@ -50,4 +50,4 @@ TEST(ExtractSummary, ComesBackFromItsBytes) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::extract_summary_test

@@ -11,7 +11,7 @@
 
 #include "case/user_error.h"
 
-namespace rheocyte {
+namespace rheocyte::polygon_gate_test {
 namespace {
 
 TEST(PolygonGate, HoldsThePlacesAroundWhichItsCornersWind) {
@@ -79,4 +79,4 @@ TEST(PolygonGate, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::polygon_gate_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace rheocyte {
+namespace rheocyte::shape_verdict_test {
 namespace {
 
 /// Events that scatter by +-0.01 about an excess, along 60 um; `growth` of the deformation over them.
@@ -96,4 +96,4 @@ TEST(ShapeVerdict, TheFactorIsThatOfBothModuliWhereBothAreKnown) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::shape_verdict_test

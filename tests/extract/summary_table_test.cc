@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace rheocyte {
+namespace rheocyte::summary_table_test {
 namespace {
 
 SummaryLine line_of(const std::string& recording, std::size_t events) {
@@ -48,4 +48,4 @@ TEST(SummaryTable, LinesOfAnOlderVersionKeepWhatTheirColumnsHold) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::summary_table_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rheocyte {
+namespace rheocyte::channel_geometry_test {
 namespace {
 
 constexpr double rounding = 1e-14;  // a few operations on lengths of order one
@@ -99,4 +99,4 @@ TEST(ChannelGeometry, FrontAndRearAreMirrorImages) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::channel_geometry_test

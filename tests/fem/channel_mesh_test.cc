@@ -6,7 +6,7 @@
 
 #include "fem/discretisation.h"
 
-namespace rheocyte {
+namespace rheocyte::channel_mesh_test {
 namespace {
 
 constexpr std::array radius_ratios = {0.05, 0.1, 0.3, 0.5, 0.7, 0.88, 0.95};
@@ -106,4 +106,4 @@ TEST(ChannelMesh, TheFirstLayerOfLiquidIsAboutAsHighAsWideAtMost) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::channel_mesh_test

@@ -8,7 +8,7 @@
 #include "laws/wall_profile.h"
 #include "small_channel.h"
 
-namespace rheocyte {
+namespace rheocyte::discretisation_test {
 namespace {
 
 using test::SmallChannel;
@@ -151,4 +151,4 @@ TEST(Discretisation, InletAndWallsMovePastTheCell) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::discretisation_test

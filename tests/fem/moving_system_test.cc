@@ -7,7 +7,7 @@
 #include "fem/stationary_system.h"
 #include "small_channel.h"
 
-namespace rheocyte {
+namespace rheocyte::moving_system_test {
 namespace {
 
 using test::SmallChannel;
@@ -136,4 +136,4 @@ TEST(MovingSystem, TheVelocityIsContinuousAcrossTheSurface) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::moving_system_test

@@ -6,7 +6,7 @@
 
 #include "fem/triangular_solve.h"
 
-namespace rheocyte {
+namespace rheocyte::nested_lu_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -121,4 +121,4 @@ TEST(NestedLU, CostsNoMoreThanSeparatorsOfAGrid) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::nested_lu_test

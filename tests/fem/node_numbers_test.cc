@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace rheocyte {
+namespace rheocyte::node_numbers_test {
 namespace {
 
 TEST(NodeNumbers, APointKeepsItsNumberUpToRounding) {
@@ -50,4 +50,4 @@ TEST(NodeNumbers, ACubeOfElementsSharesItsFaces) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::node_numbers_test

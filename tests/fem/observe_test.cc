@@ -5,7 +5,7 @@
 #include "shape/measures.h"
 #include "small_channel.h"
 
-namespace rheocyte {
+namespace rheocyte::observe_test {
 namespace {
 
 using test::SmallChannel;
@@ -119,4 +119,4 @@ TEST(Transfer, TheShapeDoesNotChangeOnOtherMeshes) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::observe_test

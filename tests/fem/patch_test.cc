@@ -3,7 +3,7 @@
 
 #include "small_channel.h"
 
-namespace rheocyte {
+namespace rheocyte::patch_test {
 namespace {
 
 using test::SmallChannel;
@@ -143,4 +143,4 @@ TEST(Patch, TheUndeformedCellHasItsBarycentreAtTheOrigin) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::patch_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace rheocyte {
+namespace rheocyte::reference_element_test {
 namespace {
 
 // Sums of up to 1,000 terms of order one.
@@ -121,4 +121,4 @@ TEST(ReferenceElement, TheInteriorNodesAreThoseOffTheFaces) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::reference_element_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace rheocyte {
+namespace rheocyte::sparse_lu_test {
 namespace {
 
 /// A band with some far entries, symmetric in pattern, not in value.
@@ -84,4 +84,4 @@ TEST(SparseLU, NumbersThatAreNotFiniteAreReported) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::sparse_lu_test

@@ -6,7 +6,7 @@
 
 #include "small_channel.h"
 
-namespace rheocyte {
+namespace rheocyte::stationary_system_test {
 namespace {
 
 using test::SmallChannel;
@@ -149,4 +149,4 @@ TEST(StationarySystem, TheWorkMeterCounts) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::stationary_system_test

@@ -6,7 +6,7 @@
 
 #include "small_channel.h"
 
-namespace rheocyte {
+namespace rheocyte::surface_integrals_test {
 namespace {
 
 using test::SmallChannel;
@@ -98,4 +98,4 @@ TEST(SurfaceIntegrals, TheBendingForceConvergesToTheExactLinearOne) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::surface_integrals_test

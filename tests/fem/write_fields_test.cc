@@ -8,7 +8,7 @@
 
 #include "small_channel.h"
 
-namespace rheocyte {
+namespace rheocyte::write_fields_test {
 namespace {
 
 using test::SmallChannel;
@@ -48,4 +48,4 @@ TEST(WriteFields, AFileThatCannotBeWrittenIsReported) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::write_fields_test

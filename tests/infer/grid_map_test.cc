@@ -10,7 +10,7 @@
 #include "measurement/pixel_errors.h"
 #include "table/grid_from_branches.h"
 
-namespace rheocyte {
+namespace rheocyte::grid_map_test {
 namespace {
 
 struct Estimate {
@@ -110,4 +110,4 @@ TEST_F(GridMapOf, AGridOfShellsIsRefused) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::grid_map_test

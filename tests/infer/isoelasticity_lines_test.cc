@@ -17,7 +17,7 @@
 #include "measurement/reference_files.h"
 #include "table/grid_from_branches.h"
 
-namespace rheocyte {
+namespace rheocyte::isoelasticity_lines_test {
 namespace {
 
 // E = 0.001 area / (deformation + 0.01) kPa, so a line is straight: deformation = 0.001 area / E - 0.01.
@@ -164,4 +164,4 @@ TEST_F(GridLines, LevelsFillThePictureAndTheSupportEndsAtTheBorder) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::isoelasticity_lines_test

@@ -11,7 +11,7 @@
 #include "table/invented_branch.h"
 #include "table/lookup_table.h"
 
-namespace rheocyte {
+namespace rheocyte::own_text_table_test {
 namespace {
 
 PublishedTable text_of_own_table(Abscissa abscissa, const std::vector<std::string>& settings) {
@@ -79,4 +79,4 @@ TEST_P(OwnTextTable, ModuliDoNotDependOnWhatIsScaled) {
 INSTANTIATE_TEST_SUITE_P(ByAreaAndByVolume, OwnTextTable, testing::Values(Abscissa::area, Abscissa::volume));
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::own_text_table_test

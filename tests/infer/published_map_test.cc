@@ -10,7 +10,7 @@
 #include "measurement/shape_source.h"
 #include "measurement/viscosity.h"
 
-namespace rheocyte {
+namespace rheocyte::published_map_test {
 namespace {
 
 // Table, formulas and triangulation are the same; what is left is the order of operations, magnified in slivers. dclab
@@ -216,4 +216,4 @@ TEST(PublishedMap, OfAWholePopulationCountsAndMedianAreThoseOfDclab) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::published_map_test

@@ -6,7 +6,7 @@
 #include "infer/published_map.h"
 #include "measurement/reference_files.h"
 
-namespace rheocyte {
+namespace rheocyte::published_table_test {
 namespace {
 
 const std::string metadata =
@@ -89,4 +89,4 @@ TEST(PublishedTable, ThePublishedOnesHaveTheirNumbersOfRows) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::published_table_test

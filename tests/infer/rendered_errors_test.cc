@@ -12,7 +12,7 @@
 #include "synth/analytic_shapes.h"
 #include "synth/outline.h"
 
-namespace rheocyte {
+namespace rheocyte::rendered_errors_test {
 namespace {
 
 constexpr int area = int(ShapeFeature::area_um2), deformation = int(ShapeFeature::deformation);
@@ -86,4 +86,4 @@ TEST(RenderedErrors, BetweenTheCellsOfATableAreThoseOfTheFittedLaw) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::rendered_errors_test

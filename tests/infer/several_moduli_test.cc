@@ -9,7 +9,7 @@
 #include "infer/rendered_errors.h"
 #include "measurement/shape_in_pixels.h"
 
-namespace rheocyte {
+namespace rheocyte::several_moduli_test {
 namespace {
 
 using namespace test;
@@ -154,4 +154,4 @@ TEST_F(SeveralModuliOf, ShapesThatNoCellHasAreSaid) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::several_moduli_test

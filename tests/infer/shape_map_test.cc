@@ -13,7 +13,7 @@
 #include "synth/outline.h"
 #include "table/grid_from_branches.h"
 
-namespace rheocyte {
+namespace rheocyte::shape_map_test {
 namespace {
 
 class ShapeMapOf : public testing::Test {
@@ -122,4 +122,4 @@ TEST(Ellipse, ThatTheTableDoesNotHaveIsTakenAway) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::shape_map_test

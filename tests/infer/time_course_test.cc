@@ -14,7 +14,7 @@
 #include "infer/added_ellipse.h"
 #include "numeric/cell_random.h"
 
-namespace rheocyte {
+namespace rheocyte::time_course_test {
 namespace {
 
 constexpr double noise = 0.003;  // of c_3, that of pixels of 0.34 um
@@ -134,4 +134,4 @@ TEST(TimeCourse, OnePictureDoesNotTellViscosity) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::time_course_test

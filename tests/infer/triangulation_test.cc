@@ -8,7 +8,7 @@
 
 #include "case/user_error.h"
 
-namespace rheocyte {
+namespace rheocyte::triangulation_test {
 namespace {
 
 struct Cloud {
@@ -112,4 +112,4 @@ TEST(Triangulation, AGridOfPointsOnCommonCirclesIsFilled) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::triangulation_test

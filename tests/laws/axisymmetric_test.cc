@@ -4,7 +4,7 @@
 
 #include "random_states.h"
 
-namespace rheocyte {
+namespace rheocyte::axisymmetric_test {
 namespace {
 
 using test::RandomStates;
@@ -101,4 +101,4 @@ TEST(Axisymmetric, ThePullBackGivesTheSameWorkAsTheTensors) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::axisymmetric_test

@@ -7,7 +7,7 @@
 #include "derivative_error.h"
 #include "random_states.h"
 
-namespace rheocyte {
+namespace rheocyte::bulk_test {
 namespace {
 
 using test::RandomStates;
@@ -200,4 +200,4 @@ TEST(MaxwellBranch, SlowShearFindsAViscosity) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::bulk_test

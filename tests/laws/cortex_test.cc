@@ -4,7 +4,7 @@
 #include "laws/surface_form.h"
 #include "random_states.h"
 
-namespace rheocyte {
+namespace rheocyte::cortex_test {
 namespace {
 
 using test::derivative_error;
@@ -99,4 +99,4 @@ TEST(Cortex, ItsDerivativesAreExact) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::cortex_test

@@ -4,7 +4,7 @@
 #include "laws/developed_flow.h"
 #include "random_states.h"
 
-namespace rheocyte {
+namespace rheocyte::liquid_test {
 namespace {
 
 using test::RandomStates;
@@ -220,4 +220,4 @@ TEST(Liquid, UnitsOfTheRateDoNotChangeTheLiquid) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::liquid_test

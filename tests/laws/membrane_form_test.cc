@@ -8,7 +8,7 @@
 #include "laws/surface_form.h"
 #include "random_states.h"
 
-namespace rheocyte {
+namespace rheocyte::membrane_form_test {
 namespace {
 
 using test::RandomStates;
@@ -81,4 +81,4 @@ TEST(MembraneForm, WithoutDeformationOnlyTheTensionPulls) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::membrane_form_test

@@ -5,7 +5,7 @@
 #include "derivative_error.h"
 #include "random_states.h"
 
-namespace rheocyte {
+namespace rheocyte::surface_form_test {
 namespace {
 
 using test::derivative_error;
@@ -131,4 +131,4 @@ TEST(SurfaceKink, ItsDerivativesAreExact) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::surface_form_test

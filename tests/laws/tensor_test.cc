@@ -7,7 +7,7 @@
 #include "derivative_error.h"
 #include "random_states.h"
 
-namespace rheocyte {
+namespace rheocyte::tensor_test {
 namespace {
 
 using test::RandomStates;
@@ -71,4 +71,4 @@ TEST(Tensor, TheInverseHasTheDerivativeOfCentralDifferences) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::tensor_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rheocyte {
+namespace rheocyte::wall_profile_test {
 namespace {
 
 const WallTable table{{-1, 0, 1.5, 4, 5}, {2, 2, 1.4, 1, 1}};
@@ -36,4 +36,4 @@ TEST(WallProfile, TwoPlacesMakeTheSmoothStep) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::wall_profile_test

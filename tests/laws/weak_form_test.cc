@@ -10,7 +10,7 @@
 #include "laws/surface_form.h"
 #include "random_states.h"
 
-namespace rheocyte {
+namespace rheocyte::weak_form_test {
 namespace {
 
 using test::RandomStates;
@@ -133,4 +133,4 @@ TEST(CellPoint, TheFluxIsTheDerivativeOfTheStrainEnergyOfAnIsochoricState) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::weak_form_test

@@ -10,7 +10,7 @@
 #include "measurement/reference_files.h"
 #include "measurement/shape_source.h"
 
-namespace rheocyte {
+namespace rheocyte::basin_test {
 namespace {
 
 using test::RecordingWriter;
@@ -253,4 +253,4 @@ TEST(Basin, AnotherMeasurementAMissingFileOrALoopIsARemark) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::basin_test

@@ -12,7 +12,7 @@
 #include "measurement/hdf5_writing.h"
 #include "measurement/recording_writer.h"
 
-namespace rheocyte {
+namespace rheocyte::companion_file_test {
 namespace {
 
 using test::RecordingWriter;
@@ -194,4 +194,4 @@ TEST(CompanionFile, WhereNothingCanBeWrittenTheUserIsTold) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::companion_file_test

@@ -10,7 +10,7 @@
 #include "measurement/recording.h"
 #include "measurement/reference_files.h"
 
-namespace rheocyte {
+namespace rheocyte::contour_test {
 namespace {
 
 /// A picture drawn with characters; anything but a blank or a point is set.
@@ -240,4 +240,4 @@ TEST(ContourFeatures, VolumeOfARealCellIsTheCorrectOne) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::contour_test

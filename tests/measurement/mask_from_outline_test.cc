@@ -12,7 +12,7 @@
 #include "measurement/contour_from_mask.h"
 #include "numeric/cell_random.h"
 
-namespace rheocyte {
+namespace rheocyte::mask_from_outline_test {
 namespace {
 
 using std::numbers::pi;
@@ -100,4 +100,4 @@ TEST(Mask, RefusesWhatReachesBeyondThePicture) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::mask_from_outline_test

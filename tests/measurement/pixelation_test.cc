@@ -6,7 +6,7 @@
 
 #include "measurement/reference_files.h"
 
-namespace rheocyte {
+namespace rheocyte::pixelation_test {
 namespace {
 
 TEST(Pixelation, MeetsThePublishedValues) {
@@ -44,4 +44,4 @@ TEST(Pixelation, APixelSizeOfZeroMeansNoCorrection) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::pixelation_test

@@ -10,7 +10,7 @@
 #include "measurement/recording_writer.h"
 #include "measurement/reference_files.h"
 
-namespace rheocyte {
+namespace rheocyte::recording_test {
 namespace {
 
 using test::RecordingWriter;
@@ -226,4 +226,4 @@ TEST(Recording, OneThatIsBeingWrittenIsNotCalledDamaged) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::recording_test

@@ -11,7 +11,7 @@
 #include "measurement/recording_writer.h"
 #include "measurement/reference_files.h"
 
-namespace rheocyte {
+namespace rheocyte::untrusted_recording_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -206,4 +206,4 @@ TEST(UntrustedRecording, EventsThatABasinDoesNotHaveEmptyNoOthers) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::untrusted_recording_test

@@ -6,7 +6,7 @@
 #include "case/user_error.h"
 #include "measurement/reference_files.h"
 
-namespace rheocyte {
+namespace rheocyte::viscosity_test {
 namespace {
 
 // Sums and powers in another order than the source of the values: a few units of the last place.
@@ -112,4 +112,4 @@ TEST(Viscosity, AModelThatDoesNotKnowTheMediumIsRefused) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::viscosity_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace rheocyte {
+namespace rheocyte::cell_random_test {
 namespace {
 
 TEST(CellRandom, GivesTheSameNumbersOnEveryMachine) {
@@ -37,4 +37,4 @@ TEST(CellRandom, FirstNumbersOfManyCellsAreIndependentAndNormal) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::cell_random_test

@@ -7,7 +7,7 @@
 
 #include "numeric/hermite.h"
 
-namespace rheocyte {
+namespace rheocyte::lagrange_test {
 namespace {
 
 double cubic(double x) { return 2 - x + 3 * x * x - 0.5 * x * x * x; }
@@ -48,4 +48,4 @@ TEST(Hermite, GivesBackACubicWithItsSlope) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::lagrange_test

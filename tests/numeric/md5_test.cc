@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rheocyte {
+namespace rheocyte::md5_test {
 namespace {
 
 TEST(Md5, IsThatOfTheStandard) {
@@ -23,4 +23,4 @@ TEST(Md5, LengthsAroundABlockArePadded) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::md5_test

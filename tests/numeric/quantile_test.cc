@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace rheocyte {
+namespace rheocyte::quantile_test {
 namespace {
 
 double of_sorted(std::vector<double> values, double fraction) {
@@ -46,4 +46,4 @@ TEST(Quantile, TheMedianOfNumbersSomeOfWhichAreInfinite) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::quantile_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rheocyte {
+namespace rheocyte::roots_test {
 namespace {
 
 TEST(BracketedRoot, FindsZerosToRoundingInFewSteps) {
@@ -34,4 +34,4 @@ TEST(BracketedNewton, StaysInTheBracketWhereNewtonWouldLeaveIt) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::roots_test

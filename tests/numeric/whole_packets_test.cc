@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace rheocyte {
+namespace rheocyte::whole_packets_test {
 namespace {
 
 TEST(Packet, IsClampedAsANumberIsAndANumberThatIsMissingStaysMissing) {
@@ -20,4 +20,4 @@ TEST(Packet, IsClampedAsANumberIsAndANumberThatIsMissingStaysMissing) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::whole_packets_test

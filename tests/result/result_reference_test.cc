@@ -13,7 +13,7 @@
 #include "result/result.h"
 #include "result/time_record.h"
 
-namespace rheocyte {
+namespace rheocyte::result_reference_test {
 namespace {
 
 using Names = std::set<std::string>;
@@ -100,4 +100,4 @@ TEST(StateMeasures, AreScaledByTheirUnits) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::result_reference_test

@@ -9,7 +9,7 @@
 
 #include "run_program.h"
 
-namespace rheocyte::test {
+namespace rheocyte::test::analytic_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -240,4 +240,4 @@ TEST(AnalyticCommand, MistakesInTablesAreNamed) {
 }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::analytic_command_test

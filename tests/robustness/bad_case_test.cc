@@ -7,7 +7,7 @@
 
 #include "run_program.h"
 
-namespace rheocyte::test {
+namespace rheocyte::test::bad_case_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ INSTANTIATE_TEST_SUITE_P(Corpus, EveryBadCase, testing::ValuesIn(corpus()),
 TEST(BadCases, AreMany) { EXPECT_GE(corpus().size(), 60u); }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::bad_case_test

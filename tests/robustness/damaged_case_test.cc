@@ -5,7 +5,7 @@
 
 #include "run_program.h"
 
-namespace rheocyte::test {
+namespace rheocyte::test::damaged_case_test {
 namespace {
 
 const std::string good_text = content_of(std::string(EXAMPLES) + "/paper-cell.toml");
@@ -107,4 +107,4 @@ TEST(DamagedCase, RandomMutationsGiveAResultOrASentence) {
 }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::damaged_case_test

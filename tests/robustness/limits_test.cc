@@ -4,7 +4,7 @@
 
 #include "run_program.h"
 
-namespace rheocyte::test {
+namespace rheocyte::test::limits_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,4 +60,4 @@ TEST(Limits, ALinkThatLeadsNowhereTakesNoResult) {
 }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::limits_test

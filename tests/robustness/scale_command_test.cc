@@ -6,7 +6,7 @@
 
 #include "run_program.h"
 
-namespace rheocyte::test {
+namespace rheocyte::test::scale_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ TEST_F(Scale, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::scale_command_test

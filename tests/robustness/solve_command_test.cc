@@ -6,7 +6,7 @@
 
 #include "run_program.h"
 
-namespace rheocyte::test {
+namespace rheocyte::test::solve_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -221,4 +221,4 @@ TEST_F(SolveCommand, APictureThatFailsIsAWarning) {
 }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::solve_command_test

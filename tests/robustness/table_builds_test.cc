@@ -6,7 +6,7 @@
 
 #include "table_command.h"
 
-namespace rheocyte::test {
+namespace rheocyte::test::table_builds_test {
 namespace {
 
 class TableOfSeveralBuilds : public TableCommand {
@@ -101,4 +101,4 @@ TEST_F(TableOfSeveralBuilds, AnInterruptedBeginningGoesOn) {
 }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::table_builds_test

@@ -10,7 +10,7 @@
 #include <csignal>
 #include <random>
 
-namespace rheocyte::test {
+namespace rheocyte::test::table_command_test {
 namespace {
 
 const std::vector<std::string> none;
@@ -114,4 +114,4 @@ TEST_F(TableCommand, OtherFilesAreNotTouched) {
 }
 
 }  // namespace
-}  // namespace rheocyte::test
+}  // namespace rheocyte::test::table_command_test

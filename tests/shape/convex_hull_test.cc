@@ -5,7 +5,7 @@
 #include "shape/measures.h"
 #include "shapes.h"
 
-namespace rheocyte {
+namespace rheocyte::convex_hull_test {
 namespace {
 
 using std::numbers::pi;
@@ -139,4 +139,4 @@ TEST(ConvexHull, APolygonsNotchIsBridgedFromCornerToCorner) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::convex_hull_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rheocyte {
+namespace rheocyte::curve_test {
 namespace {
 
 // Sums of at most 13 terms of order one; differentiation multiplies rounding by about degree^2.
@@ -68,4 +68,4 @@ TEST(Curve, GaussQuadratureIsExactForDegreeTwoNMinusOne) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::curve_test

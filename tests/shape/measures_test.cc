@@ -7,7 +7,7 @@
 
 #include "shapes.h"
 
-namespace rheocyte {
+namespace rheocyte::measures_test {
 namespace {
 
 using std::numbers::pi;
@@ -172,4 +172,4 @@ TEST(Measures, ADegenerateContourHasNoMeasures) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::measures_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rheocyte {
+namespace rheocyte::outline_shape_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -99,4 +99,4 @@ TEST(OutlineShape, AMeridianClosesWithItsMirrorImage) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::outline_shape_test

@@ -5,7 +5,7 @@
 #include "shape/measures.h"
 #include "shapes.h"
 
-namespace rheocyte {
+namespace rheocyte::wrinkles_test {
 namespace {
 
 using test::interpolate;
@@ -49,4 +49,4 @@ TEST(Wrinkles, AnInvalidContourHidesAnUnknownDeformation) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::wrinkles_test

@@ -8,7 +8,7 @@
 #include "fem/observe.h"
 #include "shape/measures.h"
 
-namespace rheocyte {
+namespace rheocyte::arclength_test {
 namespace {
 
 /// A soft solid whose surface a bending stiffness of 1e4 k_B T holds: its branch has a fold at a compliance of 0.892.
@@ -77,4 +77,4 @@ TEST(Arclength, ItEndsWhereItIsTold) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::arclength_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace rheocyte {
+namespace rheocyte::bdf_test {
 namespace {
 
 const std::vector<double> past = {1.0, 0.7, 0.55, 0.1, -0.3, -0.4, -1.1};  // unequal steps
@@ -70,4 +70,4 @@ TEST(Bdf, TheNextStepFollowsTheError) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::bdf_test

@@ -10,7 +10,7 @@
 #include "solve/follow_in_time.h"
 #include "solve/time_stepper.h"
 
-namespace rheocyte {
+namespace rheocyte::channel_entry_test {
 namespace {
 
 constexpr double unit_us = 102.835;  // R/U of cases.h, R that of the narrow tube
@@ -189,4 +189,4 @@ TEST(ChannelEntry, AFailedRunKeepsItsLastGoodStateAndItsHistory) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::channel_entry_test

@@ -8,7 +8,7 @@
 #include "fem/observe.h"
 #include "solve/resolved_branch.h"
 
-namespace rheocyte {
+namespace rheocyte::continuation_test {
 namespace {
 
 const Resolution resolution = {{2, 4, 1, 2}, 5};
@@ -141,4 +141,4 @@ TEST(Continuation, AStopIsReported) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::continuation_test

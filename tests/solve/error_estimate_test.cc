@@ -14,6 +14,9 @@ void PrintTo(const Problem& problem, std::ostream* out) {
   *out << "radius " << problem.radius_ratio << ", modulus " << problem.bulk.shear_modulus;
 }
 
+}  // namespace rheocyte
+
+namespace rheocyte::error_estimate_test {
 namespace {
 
 class ErrorEstimate : public testing::TestWithParam<Problem> {};
@@ -74,4 +77,4 @@ TEST(ErrorEstimateByChance, OfTwoDegreesThatAgreeByChanceIsNotTheirDifference) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::error_estimate_test

@@ -6,7 +6,7 @@
 #include "cases.h"
 #include "solve/stationary.h"
 
-namespace rheocyte {
+namespace rheocyte::failure_test {
 namespace {
 
 TEST(Failure, ANumberThatIsNotFiniteIsNamed) {
@@ -79,4 +79,4 @@ TEST(Failure, AnAccuracyBeyondReachIsNamed) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::failure_test

@@ -10,7 +10,7 @@
 #include "solve/continuation.h"
 #include "solve/resolved_branch.h"
 
-namespace rheocyte {
+namespace rheocyte::newton_test {
 namespace {
 
 const Resolution resolution = {{2, 4, 1, 2}, 5};
@@ -164,4 +164,4 @@ TEST(Newton, AFoldedMeshIsReported) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::newton_test

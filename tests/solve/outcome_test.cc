@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace rheocyte {
+namespace rheocyte::outcome_test {
 namespace {
 
 constexpr std::array statuses = {Status::not_started,     Status::converged,        Status::iteration_limit,
@@ -80,4 +80,4 @@ TEST(Outcome, ACellOffTheAxisIsNotOfferedTheCortexThatItCannotHave) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::outcome_test

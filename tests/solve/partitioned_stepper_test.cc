@@ -9,7 +9,7 @@
 #include "shape/measures.h"
 #include "solve/time_stepper.h"
 
-namespace rheocyte {
+namespace rheocyte::partitioned_stepper_test {
 namespace {
 
 constexpr double unit_us = 102.835;  // R/U of cases.h
@@ -95,4 +95,4 @@ TEST(PartitionedStepper, ResumingASavedStateChangesNothing) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::partitioned_stepper_test

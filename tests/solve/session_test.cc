@@ -10,7 +10,7 @@
 #include "cases.h"
 #include "solve/duct_solver.h"
 
-namespace rheocyte {
+namespace rheocyte::session_test {
 namespace {
 
 double deformation(const Problem& problem) { return solve_stationary(problem).shape.deformation; }
@@ -224,4 +224,4 @@ TEST(DuctSession, ACancelledSolveLeavesWhatWasKept) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::session_test

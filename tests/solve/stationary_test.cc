@@ -9,7 +9,7 @@
 #include "fem/observe.h"
 #include "solve/continuation.h"
 
-namespace rheocyte {
+namespace rheocyte::stationary_test {
 namespace {
 
 /// All numbers of a state whose bits have to repeat.
@@ -154,4 +154,4 @@ TEST(Stationary, TheFieldsCanBeWrittenAfterTheSolve) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::stationary_test

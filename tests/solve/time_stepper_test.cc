@@ -11,7 +11,7 @@
 #include "solve/stationary.h"
 #include "solve/time_resolution.h"
 
-namespace rheocyte {
+namespace rheocyte::time_stepper_test {
 namespace {
 
 constexpr double stress_Pa = 145.864, unit_us = 102.835;  // S and R/U of cases.h
@@ -323,4 +323,4 @@ TEST(TimeStepper, AStepThatCannotBeSolvedIsANamedFailureAndKeepsTheState) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::time_stepper_test

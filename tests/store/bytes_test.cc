@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-namespace rheocyte {
+namespace rheocyte::bytes_test {
 namespace {
 
 struct Inner {
@@ -65,4 +65,4 @@ TEST(Bytes, ACountBeyondTheBytesMakesNothing) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::bytes_test

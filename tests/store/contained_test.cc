@@ -13,7 +13,7 @@
 #include "case/user_error.h"
 #include "store/stop_signal.h"
 
-namespace rheocyte {
+namespace rheocyte::contained_test {
 namespace {
 
 using Kind = ContainedEnd::Kind;
@@ -123,4 +123,4 @@ TEST(Contained, MemoryBeyondTheLimitIsRefused) {
 #endif
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::contained_test

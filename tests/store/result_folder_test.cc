@@ -9,7 +9,7 @@
 
 #include "case/user_error.h"
 
-namespace rheocyte {
+namespace rheocyte::result_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST_F(ResultFolderTest, ALinkThatLeadsNowhereIsRefusedBeforeTheWork) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::result_folder_test

@@ -12,7 +12,7 @@
 #include "case/user_error.h"
 #include "store/own_file.h"
 
-namespace rheocyte {
+namespace rheocyte::whole_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,4 +123,4 @@ TEST_F(WholeFileTest, AFolderThatIsMissingGivesASentence) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::whole_file_test

@@ -12,7 +12,7 @@
 
 #include "case/user_error.h"
 
-namespace rheocyte {
+namespace rheocyte::work_host_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ TEST(WorkHost, EndsAReaderFromAnotherThread) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::work_host_test

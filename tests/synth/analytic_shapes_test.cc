@@ -7,7 +7,7 @@
 
 #include "case/scales.h"
 
-namespace rheocyte {
+namespace rheocyte::analytic_shapes_test {
 namespace {
 
 constexpr AnalyticPopulation solids{.flow = {20, 0.04}};
@@ -73,4 +73,4 @@ TEST(AnalyticShapes, ScalesWithTheChannel) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::analytic_shapes_test

@@ -8,7 +8,7 @@
 #include "synth/analytic_branches.h"
 #include "synth/analytic_shapes.h"
 
-namespace rheocyte {
+namespace rheocyte::branch_shapes_test {
 namespace {
 
 constexpr double viscosity = 15;
@@ -69,4 +69,4 @@ TEST(BranchShapes, SayWhyThereIsNoShape) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::branch_shapes_test

@@ -8,7 +8,7 @@
 #include "case/user_error.h"
 #include "table/invented_combined.h"
 
-namespace rheocyte {
+namespace rheocyte::combined_shapes_test {
 namespace {
 
 constexpr SimulatedCells same{{20, 0.04, 15}, {20, 0.04}};
@@ -87,4 +87,4 @@ TEST_F(Combined, NeedTwoRadii) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::combined_shapes_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rheocyte {
+namespace rheocyte::outline_test {
 namespace {
 
 using std::numbers::pi;
@@ -67,4 +67,4 @@ TEST(Displacement, NoneLeavesTheOutlineAsItIs) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::outline_test

@@ -13,7 +13,7 @@
 #include "synth/analytic_shapes.h"
 #include "synth/outline.h"
 
-namespace rheocyte {
+namespace rheocyte::pixel_errors_test {
 namespace {
 
 /// What is left of ln(area) and deformation after the correction, over many places of one shape.
@@ -129,4 +129,4 @@ TEST(PixelErrors, SeenThroughPixelsAndCorrectedAShapeIsTheSame) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::pixel_errors_test

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace rheocyte {
+namespace rheocyte::pixel_picture_test {
 namespace {
 
 using std::numbers::pi;
@@ -41,4 +41,4 @@ TEST(Grey, ShowsADarkRimABrightHaloAndTheWalls) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::pixel_picture_test

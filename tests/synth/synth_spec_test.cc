@@ -11,7 +11,7 @@
 #include "case/user_error.h"
 #include "synth/synth_keys.h"
 
-namespace rheocyte {
+namespace rheocyte::synth_spec_test {
 namespace {
 
 const std::string channel = "[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\n";
@@ -155,4 +155,4 @@ TEST(SynthSpec, TheReferenceInDocsIsUpToDate) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::synth_spec_test

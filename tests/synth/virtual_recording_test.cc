@@ -15,7 +15,7 @@
 #include "measurement/shape_source.h"
 #include "synth/analytic_shapes.h"
 
-namespace rheocyte {
+namespace rheocyte::virtual_recording_test {
 namespace {
 
 const std::string base =
@@ -166,4 +166,4 @@ TEST_F(Virtual, APopulationThatCannotBeRecordedIsRefused) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::virtual_recording_test

@@ -5,7 +5,7 @@
 #include "case/user_error.h"
 #include "invented_branch.h"
 
-namespace rheocyte {
+namespace rheocyte::branch_record_test {
 namespace {
 
 using namespace test;
@@ -85,4 +85,4 @@ TEST(BranchRecord, AForeignRecordIsNamed) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::branch_record_test

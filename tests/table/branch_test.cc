@@ -5,7 +5,7 @@
 
 #include "invented_branch.h"
 
-namespace rheocyte {
+namespace rheocyte::branch_test {
 namespace {
 
 using namespace test;
@@ -94,4 +94,4 @@ TEST(Branch, ASingleSampleIsABranch) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::branch_test

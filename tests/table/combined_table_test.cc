@@ -9,7 +9,7 @@
 #include "invented_combined.h"
 #include "table/combined_interpolation.h"
 
-namespace rheocyte {
+namespace rheocyte::combined_table_test {
 namespace {
 
 using namespace test;
@@ -170,4 +170,4 @@ TEST(CombinedSpec, WhatDoesNotGoTogetherIsRefused) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::combined_table_test

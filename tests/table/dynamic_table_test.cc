@@ -13,7 +13,7 @@
 #include "invented_dynamic.h"
 #include "table/dynamic_folder.h"
 
-namespace rheocyte {
+namespace rheocyte::dynamic_table_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -135,4 +135,4 @@ TEST_F(DynamicFolderTest, AFolderOfAnotherContractionOrOfSomethingElseIsRefused)
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::dynamic_table_test

@@ -13,7 +13,7 @@
 #include "table/table_lines.h"
 #include "table/table_metadata.h"
 
-namespace rheocyte {
+namespace rheocyte::lookup_table_test {
 namespace {
 
 using namespace test;
@@ -199,4 +199,4 @@ TEST(LookupTable, LinesHaveTheirStiffnessAndFillThePlane) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::lookup_table_test

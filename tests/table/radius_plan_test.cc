@@ -9,7 +9,7 @@
 
 #include "invented_branch.h"
 
-namespace rheocyte {
+namespace rheocyte::radius_plan_test {
 namespace {
 
 using namespace test;
@@ -135,4 +135,4 @@ TEST(RadiusPlan, TheOrderInWhichBranchesAreFinishedDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::radius_plan_test

@@ -8,7 +8,7 @@
 #include "case/scales.h"
 #include "solve/stationary.h"
 
-namespace rheocyte {
+namespace rheocyte::sample_branch_test {
 namespace {
 
 TableSpec spec(const std::string& cell, const std::string& table) {
@@ -105,4 +105,4 @@ TEST(SampleBranch, AStopEndsItAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::sample_branch_test

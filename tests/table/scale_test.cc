@@ -9,7 +9,7 @@
 #include "case/scales.h"
 #include "case/write_case.h"
 
-namespace rheocyte {
+namespace rheocyte::scale_test {
 namespace {
 
 TableText table_with(nlohmann::ordered_json more = {}) {
@@ -149,4 +149,4 @@ TEST(Scale, DoubtsAreInertiaAndBendingWhereTheyMatter) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::scale_test

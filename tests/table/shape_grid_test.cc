@@ -8,7 +8,7 @@
 #include "table/grid_by_asymmetry.h"
 #include "table/grid_from_branches.h"
 
-namespace rheocyte {
+namespace rheocyte::shape_grid_test {
 namespace {
 
 using namespace test;
@@ -76,4 +76,4 @@ TEST_F(ShapesOfATable, SurviveTheFile) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::shape_grid_test

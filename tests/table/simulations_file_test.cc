@@ -7,7 +7,7 @@
 #include "invented_branch.h"
 #include "measurement/hdf5_handle.h"
 
-namespace rheocyte {
+namespace rheocyte::simulations_file_test {
 namespace {
 
 using namespace test;
@@ -124,4 +124,4 @@ TEST(SimulationsFile, ShellsHaveTheirOwnUnit) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::simulations_file_test

@@ -8,7 +8,7 @@
 #include "invented_branch.h"
 #include "table/grid_from_branches.h"
 
-namespace rheocyte {
+namespace rheocyte::square_branches_test {
 namespace {
 
 const std::string channel = "width_um = 20.0\n[flow]\nrate_ul_per_s = 0.04\nviscosity_mPas = 15.0\n[table]\n";
@@ -123,4 +123,4 @@ TEST(SquareBranches, RectanglesAndOtherAnglesOfTheCameraHaveNoTables) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::square_branches_test

@@ -11,7 +11,7 @@
 #include "invented_branch.h"
 #include "table/grid_from_branches.h"
 
-namespace rheocyte {
+namespace rheocyte::stiffness_grid_test {
 namespace {
 
 using namespace test;
@@ -214,4 +214,4 @@ TEST(StiffnessGrid, ADamagedFileIsRefused) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::stiffness_grid_test

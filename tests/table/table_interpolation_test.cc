@@ -8,7 +8,7 @@
 
 #include "invented_branch.h"
 
-namespace rheocyte {
+namespace rheocyte::table_interpolation_test {
 namespace {
 
 using namespace test;
@@ -120,4 +120,4 @@ TEST(TableInterpolation, ARadiusWithoutStatesIsBridgedAndATableWithoutStatesHasN
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::table_interpolation_test

@@ -15,7 +15,7 @@
 #include "table/dynamic_spec.h"
 #include "table/table_keys.h"
 
-namespace rheocyte {
+namespace rheocyte::table_spec_test {
 namespace {
 
 using test::short_spec;
@@ -190,4 +190,4 @@ TEST(TableSpec, EveryReadySpecIsAGoodOne) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::table_spec_test

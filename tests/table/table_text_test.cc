@@ -6,7 +6,7 @@
 #include "../refusal.h"
 #include "case/user_error.h"
 
-namespace rheocyte {
+namespace rheocyte::table_text_test {
 namespace {
 
 TableText small_table() {
@@ -88,4 +88,4 @@ TEST(TableText, DamageIsNamedWithItsLine) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::table_text_test

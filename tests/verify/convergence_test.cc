@@ -7,7 +7,7 @@
 #include "shape/measures.h"
 #include "solve/resolved_branch.h"
 
-namespace rheocyte {
+namespace rheocyte::convergence_test {
 namespace {
 
 constexpr Subdivision coarse_mesh{2, 4, 1, 2}, fine_mesh{4, 8, 2, 2};
@@ -53,4 +53,4 @@ TEST_F(Convergence, TheCoarsestMeshReachesAMillionth) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::convergence_test

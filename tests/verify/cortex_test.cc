@@ -8,7 +8,7 @@
 #include "laboratory.h"
 #include "solve/stationary.h"
 
-namespace rheocyte {
+namespace rheocyte::cortex_test {
 namespace {
 
 constexpr double tension_ratio = 0.1;  // of Mokbel et al. 2017
@@ -174,4 +174,4 @@ TEST(Regularisation, ALittleBendingHasNoEffectWhereTheBareSurfaceIsStable) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::cortex_test

@@ -6,7 +6,7 @@
 #include "laboratory.h"
 #include "solve/stationary.h"
 
-namespace rheocyte {
+namespace rheocyte::independent_programs_test {
 namespace {
 
 using test::Inertia;
@@ -49,4 +49,4 @@ INSTANTIATE_TEST_SUITE_P(Case, IndependentPrograms, testing::ValuesIn(values),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::independent_programs_test

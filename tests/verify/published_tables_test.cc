@@ -14,7 +14,7 @@
 #include "cell_of_area.h"
 #include "laboratory.h"
 
-namespace rheocyte {
+namespace rheocyte::published_tables_test {
 namespace {
 
 using test::Inertia;
@@ -141,4 +141,4 @@ TEST(PublishedTablesSlow, SoftNeoHookeanCellsOfTheTableOf2022AreMetWithAKnownOff
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::published_tables_test

@@ -7,7 +7,7 @@
 
 #include "solve/stationary.h"
 
-namespace rheocyte {
+namespace rheocyte::random_cells_test {
 namespace {
 
 /// A cell anywhere in the range: bulk laws, cortex with tension, shear-thinning liquid; d mostly 0.01 to 0.1.
@@ -62,4 +62,4 @@ TEST(RandomCellsSlow, TheTrueErrorIsMostlyBelowTwiceTheStatedOneAndNeverAboveFiv
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::random_cells_test

@@ -12,7 +12,7 @@
 #include "solve/resolved_branch.h"
 #include "solve/stationary.h"
 
-namespace rheocyte {
+namespace rheocyte::range_test {
 namespace {
 
 using test::Inertia;
@@ -116,4 +116,4 @@ INSTANTIATE_TEST_SUITE_P(NeoHookean, EndOfTheBranchSlow,
                          name_of);
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::range_test

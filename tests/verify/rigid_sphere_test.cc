@@ -3,7 +3,7 @@
 
 #include "solve/stationary.h"
 
-namespace rheocyte {
+namespace rheocyte::rigid_sphere_test {
 namespace {
 
 /// Speed and additional pressure drop of the force-free sphere of radius `lambda` R, in units of the undisturbed flow's
@@ -47,4 +47,4 @@ INSTANTIATE_TEST_SUITE_P(Lambda, RigidSphereLimit, testing::ValuesIn(exact),
                          [](const auto& test) { return std::to_string(int(100 * test.param.lambda + 0.5)); });
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::rigid_sphere_test

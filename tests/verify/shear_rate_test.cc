@@ -7,7 +7,7 @@
 #include "analytic/sphere_in_tube.h"
 #include "solve/stationary.h"
 
-namespace rheocyte {
+namespace rheocyte::shear_rate_test {
 namespace {
 
 /// Strains of 1e-5 and less.
@@ -76,4 +76,4 @@ TEST(ShearRate, ConvergesWithTheResolution) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::shear_rate_test

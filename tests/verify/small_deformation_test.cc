@@ -6,7 +6,7 @@
 
 #include "solve/stationary.h"
 
-namespace rheocyte {
+namespace rheocyte::small_deformation_test {
 namespace {
 
 /// d / Ca^2 for Ca = eta Q / (R^3 E) -> 0: traction on the rigid sphere (series solution) and the linear elastic sphere
@@ -47,4 +47,4 @@ INSTANTIATE_TEST_SUITE_P(Lambda, SmallDeformation, testing::ValuesIn(exact),
                          [](const auto& test) { return std::to_string(int(100 * test.param.lambda + 0.5)); });
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::small_deformation_test

@@ -13,7 +13,7 @@
 #include "solve/duct_branch.h"
 #include "solve/stationary_duct.h"
 
-namespace rheocyte {
+namespace rheocyte::square_channel_test {
 namespace {
 
 constexpr double half_width_m = 1e-5, mean_velocity = 0.04e-9 / (4 * half_width_m * half_width_m);
@@ -273,4 +273,4 @@ TEST(SquareChannel, TheCellKeepsItsVolumeAndItsImageDoesNotTell) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::square_channel_test

@@ -13,7 +13,7 @@
 #include "solve/stationary.h"
 #include "table/stiffness_grid.h"
 
-namespace rheocyte {
+namespace rheocyte::square_table_test {
 namespace {
 
 struct Cell {
@@ -56,4 +56,4 @@ TEST(SquareTableSlow, CellsBetweenTheComputedOnesHaveTheirModuli) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::square_table_test

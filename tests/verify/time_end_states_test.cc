@@ -8,7 +8,7 @@
 #include "laboratory.h"
 #include "solve/follow_in_time.h"
 
-namespace rheocyte {
+namespace rheocyte::time_end_states_test {
 namespace {
 
 struct Surface {
@@ -94,4 +94,4 @@ TEST(TimeEndStatesSlow, CellsOfAllKindsEndAsTheStationaryOnes) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::time_end_states_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rheocyte {
+namespace rheocyte::access_test {
 namespace {
 
 const Access access("secret", "127.0.0.1", 4711);
@@ -85,4 +85,4 @@ TEST(Access, TokensAreLongAndDiffer) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::access_test

@@ -9,7 +9,7 @@
 #include "../refusal.h"
 #include "view/export_folder.h"
 
-namespace rheocyte {
+namespace rheocyte::assets_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ TEST_F(Page, AnExportFolderThatCannotBeMadeIsOneSentence) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::assets_test

@@ -20,7 +20,7 @@
 #include "view/stated_case.h"
 #include "view/view_session.h"
 
-namespace rheocyte {
+namespace rheocyte::cell_routes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -341,4 +341,4 @@ TEST(Base64, ItGivesBackTheBytesAndRefusesTheRest) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::cell_routes_test

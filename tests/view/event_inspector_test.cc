@@ -22,7 +22,7 @@
 #include "view/recording_columns.h"
 #include "virtual_cells.h"
 
-namespace rheocyte {
+namespace rheocyte::event_inspector_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -258,4 +258,4 @@ TEST(FittedCell, HasAVolumeOfRevolution) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::event_inspector_test

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace rheocyte {
+namespace rheocyte::grey_png_test {
 namespace {
 
 std::string hex(const std::string& bytes) {
@@ -37,4 +37,4 @@ TEST(GreyPng, OfAWholeCameraHasSeveralBlocks) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::grey_png_test

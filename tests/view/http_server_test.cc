@@ -14,7 +14,7 @@
 #include "case/user_error.h"
 #include "served.h"
 
-namespace rheocyte {
+namespace rheocyte::http_server_test {
 namespace {
 
 using test::ask;
@@ -226,4 +226,4 @@ TEST(HttpServer, APortInUseIsOneSentence) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::http_server_test

@@ -7,7 +7,7 @@
 
 #include "case/user_error.h"
 
-namespace rheocyte {
+namespace rheocyte::moduli_settings_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -74,4 +74,4 @@ TEST(ModuliSettings, ThatAreWrongAreNamed) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::moduli_settings_test

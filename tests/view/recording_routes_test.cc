@@ -19,7 +19,7 @@
 #include "view/view_items.h"
 #include "virtual_cells.h"
 
-namespace rheocyte {
+namespace rheocyte::recording_routes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -306,4 +306,4 @@ TEST_F(RecordingRoutes, ExportNothingOutsideTheFolderAndNothingOverOthers) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::recording_routes_test

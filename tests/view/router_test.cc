@@ -4,7 +4,7 @@
 
 #include "case/user_error.h"
 
-namespace rheocyte {
+namespace rheocyte::router_test {
 namespace {
 
 Router router() {
@@ -49,4 +49,4 @@ TEST(Router, BodiesHaveTheLimitOfTheirRoute) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::router_test

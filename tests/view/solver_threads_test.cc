@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace rheocyte {
+namespace rheocyte::solver_threads_test {
 namespace {
 
 constexpr std::size_t little_memory = 1 << 20;
@@ -102,4 +102,4 @@ TEST(SolverThreads, TheirEndStopsWhatRuns) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::solver_threads_test

@@ -11,7 +11,7 @@
 #include "measurement/recording_writer.h"
 #include "view/http.h"
 
-namespace rheocyte {
+namespace rheocyte::view_items_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +127,4 @@ TEST_F(Items, LeaveNoTemporaryFolderBehind) {
 }
 
 }  // namespace
-}  // namespace rheocyte
+}  // namespace rheocyte::view_items_test
