@@ -14,51 +14,6 @@ namespace {
 constexpr ContourFeatures no_features{no_value, no_value, no_value, no_value, no_value, no_value, no_value,
                                       no_value, no_value, no_value, no_value, no_value, no_value, no_value};
 
-/// Integrals over the polygon; the sign of the orientation is removed.
-struct PolygonMoments {
-  double area = 0, x = 0, y = 0;        // area and centroid
-  double mu20 = 0, mu11 = 0, mu02 = 0;  // about the centroid
-};
-
-// Green's theorem about the first point. All terms are whole numbers; for a contour in a picture they and their sums
-// are exact in double precision, and what a damaged file holds does not overflow.
-PolygonMoments moments_of(std::span<const PixelPoint> polygon) {
-  const PixelPoint origin = polygon[0];
-  double twice_area = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
-  double x0 = polygon.back().x - origin.x, y0 = polygon.back().y - origin.y;
-  for (const PixelPoint& point : polygon) {
-    const double x1 = point.x - origin.x, y1 = point.y - origin.y, c = x0 * y1 - x1 * y0;
-    twice_area += c;
-    sx += c * (x0 + x1);
-    sy += c * (y0 + y1);
-    sxx += c * (x0 * x0 + x0 * x1 + x1 * x1);
-    sxy += c * (x0 * (2 * y0 + y1) + x1 * (y0 + 2 * y1));
-    syy += c * (y0 * y0 + y0 * y1 + y1 * y1);
-    x0 = x1;
-    y0 = y1;
-  }
-  if (twice_area == 0) return {};
-  const double sign = twice_area > 0 ? 1 : -1, area = 0.5 * sign * twice_area;
-  const double x = sign * sx / (6 * area), y = sign * sy / (6 * area);
-  return {area,
-          x + origin.x,
-          y + origin.y,
-          sign * sxx / 12 - area * x * x,
-          sign * sxy / 24 - area * x * y,
-          sign * syy / 12 - area * y * y};
-}
-
-double perimeter_of(std::span<const PixelPoint> polygon) {
-  double length = 0;
-  PixelPoint before = polygon.back();
-  for (const PixelPoint& point : polygon) {
-    const double dx = point.x - before.x, dy = point.y - before.y;
-    length += std::sqrt(dx * dx + dy * dy);
-    before = point;
-  }
-  return length;
-}
-
 struct Principal {
   double ratio, tilt;
 };
@@ -70,36 +25,23 @@ Principal principal_axes(const PolygonMoments& m) {
   return {std::sqrt((mean + half) / (mean - half)), tilt};
 }
 
-// The part of the integral of pi r^2 dz below the straight piece from (z0, r0) to (z1, r1), of either sign.
-double frustum(double dz, double r0, double r1) { return dz * (r0 * r0 + r0 * r1 + r1 * r1); }
-
 }  // namespace
-
-double volume_of_rotation(std::span<const PixelPoint> contour, double y) {
-  double right = 0, left = 0;
-  PixelPoint before = contour.back();
-  for (const PixelPoint& point : contour) {
-    const double dz = point.x - before.x;
-    right += frustum(dz, std::max(before.y - y, 0.0), std::max(point.y - y, 0.0));
-    left += frustum(dz, std::max(y - before.y, 0.0), std::max(y - point.y, 0.0));
-    before = point;
-  }
-  // The halves run in opposite directions along the axis; the direction of the contour itself does not count.
-  return std::numbers::pi / 3 * std::abs(right - left) / 2;
-}
 
 ContourFeatures ContourMeasurer::measure(std::span<const PixelPoint> contour, double pixel_size_um) {
   if (contour.size() < 4) return no_features;
   const auto hull_points = hull_.of(contour);
   if (hull_points.size() < 3) return no_features;
-  const PolygonMoments hull = moments_of(hull_points), raw = moments_of(contour);
+  polygon_.assign(hull_points);
+  const PolygonMoments hull = polygon_.moments();
+  polygon_.assign(contour);
+  const PolygonMoments raw = polygon_.moments();
   if (!(hull.area > 0) || !(raw.area > 0)) return no_features;
   const auto [left, right] = std::ranges::minmax(hull_points, {}, &PixelPoint::x);
   const auto [top, bottom] = std::ranges::minmax(hull_points, {}, &PixelPoint::y);
   const auto [ratio, tilt] = principal_axes(raw);
   const double px = pixel_size_um;
   return {.area_um2 = hull.area * px * px,
-          .deformation = 1 - 2 * std::sqrt(std::numbers::pi * hull.area) / perimeter_of(hull_points),
+          .deformation = 1 - 2 * std::sqrt(std::numbers::pi * hull.area) / hull.perimeter,
           .x_um = hull.x * px,
           .y_um = hull.y * px,
           .raw_area_px = raw.area,
@@ -110,8 +52,8 @@ ContourFeatures ContourMeasurer::measure(std::span<const PixelPoint> contour, do
           .inertia_ratio_raw = std::sqrt(raw.mu20 / raw.mu02),
           .inertia_ratio_principal = ratio,
           .tilt = tilt,
-          .volume_um3 = volume_of_rotation(contour, hull.y) * px * px * px,
-          .raw_perimeter_um = perimeter_of(contour) * px};
+          .volume_um3 = polygon_.volume_of_rotation(hull.y) * px * px * px,
+          .raw_perimeter_um = raw.perimeter * px};
 }
 
 namespace {

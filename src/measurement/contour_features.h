@@ -4,6 +4,7 @@
 
 #include "measurement/pixel_contour.h"
 #include "measurement/pixel_hull.h"
+#include "measurement/pixel_polygon.h"
 
 namespace rheocyte {
 
@@ -42,9 +43,7 @@ class ContourMeasurer {
 
  private:
   PixelHull hull_;
+  PixelPolygon polygon_;
 };
-
-/// Rotation of a closed contour about the line y = `y` through each of its halves, then the mean (pixels cubed).
-double volume_of_rotation(std::span<const PixelPoint> contour, double y);
 
 }  // namespace rheocyte
