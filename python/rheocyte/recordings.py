@@ -167,7 +167,8 @@ def features(masks, pixel_size_um):
     size = positive(pixel_size_um, "pixel_size_um")
     as_bytes = array.view(np.uint8) if array.dtype.itemsize == 1 else (array != 0).view(np.uint8)
     as_bytes = np.ascontiguousarray(as_bytes).reshape(-1, *array.shape[-2:])
-    return pandas.DataFrame(native.features(as_bytes, size))
+    names, columns = native.features(as_bytes, size)
+    return pandas.DataFrame(columns.T, columns=names)  # one block, nothing is copied
 
 
 def _frame(text):

@@ -184,11 +184,13 @@ Triangulation::WalkEnd Triangulation::walk(double x, double y, std::int32_t& at,
     weights[0] = t.to_barycentric[0] * dx + t.to_barycentric[1] * dy;
     weights[1] = t.to_barycentric[2] * dx + t.to_barycentric[3] * dy;
     weights[2] = 1 - weights[0] - weights[1];
-    int worst = weights[1] < weights[0] ? 1 : 0;
-    if (weights[2] < weights[worst]) worst = 2;
-    if (weights[worst] >= -inside_tolerance) return WalkEnd::inside;
-    if (t.neighbours[worst] < 0) return WalkEnd::border;
-    at = t.neighbours[worst];
+    const double less = std::min(weights[0], weights[1]);
+    if (std::min(less, weights[2]) >= -inside_tolerance) return WalkEnd::inside;
+    // The least of them, without a branch that the processor could not foresee.
+    const int is_second = weights[1] < weights[0], is_last = weights[2] < less;
+    const std::int32_t next = t.neighbours[2 * is_last + (1 - is_last) * is_second];
+    if (next < 0) return WalkEnd::border;
+    at = next;
   }
   return WalkEnd::lost;
 }

@@ -28,13 +28,13 @@ std::uint64_t bits_of(const std::uint8_t* at) {
     const __m256i values = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(pixels));
     return ~static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_cmpeq_epi8(values, _mm256_setzero_si256())));
   };
-  __builtin_prefetch(at + 48 * word_pixels);  // what the branches below keep the processor from asking for in time
+  __builtin_prefetch(at + 160 * word_pixels);  // what the branches below keep the processor from asking for in time
   return half(at) | std::uint64_t{half(at + word_pixels / 2)} << word_pixels / 2;
 }
 #else
 std::uint64_t bits_of(const std::uint8_t* at) {
   constexpr std::uint64_t low_bits = 0x0101010101010101, all_but_high = 0x7f7f7f7f7f7f7f7f;
-  constexpr std::uint64_t gather = 0x0102040810204080;  // moves the low bits of eight bytes into the highest one
+  constexpr std::uint64_t gather = 0x0102040810204080;        // moves the low bits of eight bytes into the highest one
   static_assert(std::endian::native == std::endian::little);  // the first of eight pixels is the lowest byte
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < word_pixels; i += 8) {

@@ -60,8 +60,8 @@ PolygonMoments PixelPolygon::moments() const {
   return m;
 }
 
-// The integral of pi r^2 dz; the halves run in opposite directions along the axis, and the direction of the chain itself
-// does not count.
+// The integral of pi r^2 dz; the halves run in opposite directions along the axis, and the direction of the chain
+// itself does not count.
 double PixelPolygon::volume_of_rotation(double y) const {
   const double axis = y - origin_.y;
   const auto below_edge = [](const Lanes& r0, const Lanes& r1) { return Lanes(r0 * r0 + r0 * r1 + r1 * r1); };

@@ -201,8 +201,8 @@ struct Found {
   std::vector<RadiusModes> modes;
 };
 
-// Masks (events, rows, columns), not empty; the caller has looked.
-py::dict features(const Masks& masks, double pixel_size_um) {
+// Names and values (names, events) of masks (events, rows, columns), not empty; the caller has looked.
+py::tuple features(const Masks& masks, double pixel_size_um) {
   const auto count = static_cast<std::size_t>(masks.shape(0));
   const ImageSize size{static_cast<std::size_t>(masks.shape(2)), static_cast<std::size_t>(masks.shape(1))};
   const std::uint8_t* const pixels = masks.data();
@@ -222,19 +222,19 @@ py::dict features(const Masks& masks, double pixel_size_um) {
     }
     return all;
   });
-  py::dict columns;
+  py::list names;
+  py::array_t<double> columns({outline_features().size() + std::tuple_size_v<RadiusModes>, count});
+  double* values = columns.mutable_data();
   for (const OutlineFeature& feature : outline_features()) {
-    std::vector<double> values(count);
-    std::ranges::transform(found.features, values.begin(), feature.value);
-    columns[feature.name] = array_of(std::move(values));
+    names.append(feature.name);
+    values = std::ranges::transform(found.features, values, feature.value).out;
   }
   for (int k = first_radius_mode; k <= last_radius_mode; ++k) {
-    std::vector<double> values(count);
+    names.append("mode_" + std::to_string(k));
     const auto place = std::size_t(k - first_radius_mode);
-    std::ranges::transform(found.modes, values.begin(), [place](const RadiusModes& modes) { return modes[place]; });
-    columns[("mode_" + std::to_string(k)).c_str()] = array_of(std::move(values));
+    values = std::ranges::transform(found.modes, values, [place](const RadiusModes& m) { return m[place]; }).out;
   }
-  return columns;
+  return py::make_tuple(names, columns);
 }
 
 void bind_options(py::module_& module) {
