@@ -1,5 +1,5 @@
 // How well Young's modulus and viscosity of cells on their way come back from masks: round_trip_courses DIR
-// [POPULATIONS [CELLS [PIXEL_UM [ADDED_ELLIPSE]]]]
+// [POPULATIONS [CELLS [PIXEL_UM [ADDED_ELLIPSE [SEED]]]]]
 //
 // The dynamic table in DIR shows virtual cells at four places; they are drawn into masks of pixels, whose contours give
 // back single cells from all over the table, and populations of random medians. Times 3 viscosity / E of 0.1 to 5 ms.
@@ -26,6 +26,7 @@ namespace {
 using namespace rheocyte;
 
 constexpr std::array places_um{15., 60., 140., 290.};
+constexpr std::uint64_t seeds_apart = 1000;  // between the random numbers of one seed and the next
 constexpr double modulus_spread = 0.15, viscosity_spread = 0.25, radius_spread = 0.04;
 constexpr std::array times_ms{0.1, 0.3, 1., 3., 5.};
 
@@ -59,12 +60,13 @@ struct Found {
 
 class Laboratory {
  public:
-  Laboratory(const DynamicTable& table, double pixel_um, double added_ellipse)
+  Laboratory(const DynamicTable& table, double pixel_um, double added_ellipse, std::uint64_t seed)
       : table_(table),
         flow_(channel_flow_of(table.spec().base)),
         shapes_(table, flow_),
         pixel_um_(pixel_um),
-        added_ellipse_(added_ellipse) {}
+        added_ellipse_(added_ellipse),
+        seed_(seed) {}
 
   /// Cells from all over the table.
   void look_at_cells(int cells) const {
@@ -72,7 +74,7 @@ class Laboratory {
     std::array<Found, times_ms.size() - 1> by_time;
     Found all;
     for (int i = 0; i < cells; ++i) {
-      CellRandom random(1, std::uint64_t(i), Purpose::population);
+      CellRandom random(seed_, std::uint64_t(i), Purpose::population);
       const DynamicCell cell = random_cell(random, 0, 0.1);
       const CellImages images = images_of(cell, random);
       if (images.empty()) continue;
@@ -92,11 +94,11 @@ class Laboratory {
 
   /// One population; so far inside the table that hardly a cell lies outside.
   void look_at_population(std::uint64_t number, int cells) {
-    CellRandom random(number, 0, Purpose::population);
+    CellRandom random(seeds_apart * seed_ + number, 0, Purpose::population);
     const DynamicCell median = random_cell(random, 3 * modulus_spread, 3 * radius_spread);
     std::vector<CellImages> seen;
     for (int i = 0; i < cells; ++i) {
-      CellRandom own(1000 + number, std::uint64_t(i), Purpose::population);
+      CellRandom own(seeds_apart * (seed_ + 1) + number, std::uint64_t(i), Purpose::population);
       DynamicCell cell = median;
       cell.radius_um *= 1 + radius_spread * own.normal();
       cell.young_modulus_kPa *= std::exp(modulus_spread * own.normal());
@@ -152,16 +154,19 @@ class Laboratory {
   ChannelFlow flow_;
   CourseShapes shapes_;
   double pixel_um_, added_ellipse_;
+  std::uint64_t seed_;
   Found populations_;
 };
 
 }  // namespace
 
 int rheocyte::measure(int argc, char** argv) {
-  if (argc < 2) return fmt::print("round_trip_courses DIR [POPULATIONS [CELLS [PIXEL_UM [ADDED_ELLIPSE]]]]\n"), 2;
+  if (argc < 2)
+    return fmt::print("round_trip_courses DIR [POPULATIONS [CELLS [PIXEL_UM [ADDED_ELLIPSE [SEED]]]]]\n"), 2;
   const DynamicTable table = read_dynamic_table(argv[1]);
   const int populations = argc > 2 ? std::atoi(argv[2]) : 20, cells = argc > 3 ? std::atoi(argv[3]) : 500;
-  Laboratory laboratory(table, argc > 4 ? std::atof(argv[4]) : 0.34, argc > 5 ? std::atof(argv[5]) : 0);
+  Laboratory laboratory(table, argc > 4 ? std::atof(argv[4]) : 0.34, argc > 5 ? std::atof(argv[5]) : 0,
+                        argc > 6 ? std::strtoull(argv[6], nullptr, 10) : 1);
   laboratory.look_at_cells(cells);
   for (int i = 0; i < populations; ++i) laboratory.look_at_population(std::uint64_t(i), cells);
   if (populations > 0) laboratory.report_populations();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extract/shape_verdict.h"
 #include "measurement/shape_source.h"
 #include "numeric/no_value.h"
 
@@ -13,6 +14,8 @@ namespace {
 constexpr const char* stored_ratio = "inert_ratio_cvx";
 constexpr std::size_t outlines_looked_at = 1024, at_a_time = 64;  // events, for the direction
 constexpr int second_mode = int(ShapeFeature::first_mode), third_mode = second_mode + 1;
+
+double inertia_ratio(const ShapeVector& features) { return 1 / std::sqrt(features(int(ShapeFeature::moment_ratio))); }
 
 }  // namespace
 
@@ -49,8 +52,10 @@ void EventShapes::find_direction() {
   for (std::size_t piece = 0; piece < pieces; ++piece) {
     const std::size_t first = piece * events / pieces, last = std::min(first + at_a_time, events);
     for (std::size_t event = first; event < last; ++event) {
-      const double c = outlines_->features(event)(third_mode);
-      if (!(std::abs(c) < 0.3)) continue;  // no cell
+      const ShapeVector features = outlines_->features(event);
+      const double c = features(third_mode);
+      if (!(std::abs(c) < 0.3) || inertia_ratio(features) > max_inertia_ratio_of_cells)
+        continue;  // no cell, or a red one
       sum += c;
       squares += c * c;
       ++count;
@@ -70,7 +75,7 @@ void EventShapes::read_outlines(std::size_t first, ShapeColumns& columns) {
     if (measured_pixel_um_ > 0) columns.outlines[i] = measurer_.measure(contour, measured_pixel_um_);
     columns.mode_2[i] = features(second_mode);
     columns.mode_3[i] = direction * features(third_mode);
-    if (!stored) columns.inertia_ratio[i] = 1 / std::sqrt(features(int(ShapeFeature::moment_ratio)));
+    if (!stored) columns.inertia_ratio[i] = inertia_ratio(features);
   }
 }
 

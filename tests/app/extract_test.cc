@@ -4,6 +4,7 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <numbers>
 #include <sstream>
 
 #include "extract_fixture.h"
@@ -80,6 +81,36 @@ TEST_F(Extract, UsesMasksWhereNothingElseTellsTheShape) {
   const Recording alone(folder_ / "a_rheocyte.rtdc");
   EXPECT_NEAR(column(alone, "area_um")[0], 63.6956, 1e-9) << "also without the original";
   EXPECT_TRUE(alone.has_scalar("deform"));
+}
+
+TEST_F(Extract, RedCellsDoNotTellInWhichDirectionTheOthersMove) {
+  // Ten cells towards -x, and as many three times as long as wide that point the other way, more strongly.
+  const auto closed = [](const std::function<std::pair<double, double>(double)>& point) {
+    std::vector<int> xy;
+    for (int i = 0; i < 120; ++i) {
+      const auto [x, y] = point(2 * std::numbers::pi * i / 120);
+      xy.push_back(static_cast<int>(std::lround(100 + x)));
+      xy.push_back(static_cast<int>(std::lround(40 + y)));
+    }
+    return xy;
+  };
+  {
+    RecordingWriter writer(folder_ / "v.rtdc");
+    test::write_usual_metadata(writer);
+    for (int event = 0; event < 10; ++event) {
+      writer.contour(closed([&](double t) {
+        const double r = (13 + 0.1 * event) * (1 - 0.08 * std::cos(3 * t));
+        return std::pair{r * std::cos(t), r * std::sin(t)};
+      }));
+      writer.contour(closed([](double t) {
+        return std::pair{27 * std::cos(t), 9 * std::sin(t) * (1 - 0.4 * std::cos(t))};
+      }));
+    }
+  }
+  const auto ended = test::run({{RHEOCYTE, "extract", path("v.rtdc")}});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("E from the asymmetry of 10 events"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("10 events have inertia ratios above 2"), std::string::npos) << ended.out;
 }
 
 TEST_F(Extract, ABadRecordingDoesNotKeepTheOthersBack) {
