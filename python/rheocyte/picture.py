@@ -297,7 +297,8 @@ def deformation_with_error(result):
     if not isinstance(deformation, (int, float)):
         return None
     if not isinstance(relative, (int, float)) or not relative > 0 or not deformation > 0:
-        return f"deformation {deformation:.4g}"
+        compared = find(result, "time", "comparison") or "converged"
+        return f"deformation {deformation:.4g}" + ("" if compared == "converged" else ", error not known")
     error = relative * deformation
     digits = int(np.clip(np.ceil(-np.log10(error)), 1, 9))
     return f"deformation {deformation:.{digits}f} ± {error:.{digits}f}"

@@ -12,6 +12,7 @@ import numpy as np
 
 from rheocyte.colours import CELL, LIQUID, to_lab
 from rheocyte.contour import bridges, closed, convex_hull
+from rheocyte.picture import deformation_with_error
 from tests.synthetic import write_result
 
 PACKAGE = Path(__file__).resolve().parents[1]
@@ -88,6 +89,11 @@ class Drawing(unittest.TestCase):
         self.assertAlmostEqual(chord[0, 1], -chord[1, 1], places=12)
         circle = closed(np.stack([np.cos(t), np.sin(t)], axis=1))
         self.assertEqual(bridges(circle, convex_hull(circle), 1e-3), [])
+
+    def test_a_run_in_time_without_one_to_compare_with_says_that_its_error_is_not_known(self):
+        run = {"deformation": 0.0123, "estimated_error": None, "time": {"comparison": "iteration-limit"}}
+        self.assertEqual(deformation_with_error(run), "deformation 0.0123, error not known")
+        self.assertEqual(deformation_with_error({**run, "time": {"comparison": None}}), "deformation 0.0123")
 
     def test_colormaps_darken_evenly(self):
         # Perceptually even: lightness falls in every step, and no step is more than twice the mean (8-bit rounding).

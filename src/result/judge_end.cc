@@ -102,6 +102,7 @@ bool has_settled(const TimeRecord& record, double distance, double accuracy) {
 void judge_end(Result& result, TimeRecord& record, const std::atomic<bool>& stop) {
   if (record.rows.empty()) return;
   record.end = end_of(record, result);
+  record.comparison = result.state.comparison;
   if (result.state.outcome.status != Status::stopped)
     if (const auto problem = straight_from_here(result, record))
       compare_with_stationary(result, record, *problem, stop);

@@ -6,8 +6,6 @@
 
 namespace rheocyte {
 
-namespace {}  // namespace
-
 TimeRun time_run_of(const Case& c, const Scales& scales) {
   const double unit_us = scales.time_us(), unit_um = scales.length_um();
   TimeRun run;

@@ -53,6 +53,11 @@ std::span<const Field<TimeRecord, Json>> time_fields() {
        [](const TimeRecord& r) -> Json { return r.rows.back().position_um; }},
       {"ended_by", "time, place: what the case asks for; settled: nothing came any more; failure: see status",
        [](const TimeRecord& r) -> Json { return name(r.end); }},
+      {"comparison",
+       "how the same run on another mesh ended, which tells the error: converged, or why not; null: there was none",
+       [](const TimeRecord& r) -> Json {
+         return r.comparison == Status::not_started ? Json() : Json(rheocyte::name(r.comparison));
+       }},
       {"least_tension_mN_per_m",
        "least meridional tension of the surface on the way; a shell wrinkles where it is negative",
        [](const TimeRecord& r) -> Json { return min_tension(r).measure("least_tension_mN_per_m"); }},

@@ -43,6 +43,8 @@ struct TimeRecord {
   std::vector<HistoryRow> rows;
   std::vector<ContourFrame> frames;
   TimeEnd end = TimeEnd::failure;
+  /// How the run to compare with ended; not_started: there was none.
+  Status comparison = Status::not_started;
   /// Of the same cell, at the end of the run; NaN if there is none, or none to compare with.
   double stationary_deformation = no_value;
 

@@ -79,6 +79,14 @@ class TimeFollower {
         stepper_(make_stepper(problem, run, resolution, stop)) {}
 
   bool has_settled() const { return settled_; }
+  /// "12 % of the way": how far it has come.
+  std::string share() const {
+    const bool by_place = std::isfinite(run_.end_position);
+    double share = 0;
+    if (!stepper_->state().levels.empty())
+      share = by_place ? stepper_->now().position / run_.end_position : stepper_->now().time / run_.end;
+    return fmt::format("{:.4g} % of the {}", 100 * share, by_place ? "way" : "time");
+  }
 
   StationaryState follow(const TimeStart* from) {
     const auto start = std::chrono::steady_clock::now();
@@ -190,18 +198,15 @@ class TimeFollower {
       return fmt::format("The cell was followed {} on a mesh of degree {}.",
                          settled_ ? "until it had settled" : "to the end", degree_);
     const TimeLevel& now = stepper_->now();
-    const bool by_place = std::isfinite(run_.end_position);
-    const double share = 100 * (by_place ? now.position / run_.end_position : now.time / run_.end);
-    const char* what = by_place ? "way" : "time";
     if (status == Status::stopped)
-      return fmt::format("Stopped by a signal at {:.4g} % of the {}; --continue goes on from there.", share, what);
+      return fmt::format("Stopped by a signal at {}; --continue goes on from there.", share());
     const char* why = run_.scheme == TimeScheme::partitioned
                           ? "the step is too large for elasticity that is explicit, lower time.step_us, or the cell is "
                             "drawn out or wrinkles"
                           : "the cell is drawn out or wrinkles, raise its moduli or lower flow rate or viscosity";
     const char* coarse = ", or the wall is too steep for the mesh, raise time.degree";
-    return fmt::format("No step in time succeeds beyond {:.4g} % of the {} ({}): {}{}; the last good state is kept.",
-                       share, what, name(status), why, stepper_->has_passed_walls(now) ? "" : coarse);
+    return fmt::format("No step in time succeeds beyond {} ({}): {}{}; the last good state is kept.", share(),
+                       name(status), why, stepper_->has_passed_walls(now) ? "" : coarse);
   }
 
   TimeRun run_;
@@ -229,8 +234,15 @@ void estimate_error(const Problem& problem, const TimeRun& run, const Resolution
   const Resolution other = to_compare_with(resolution);
   Deformations compared;
   const TimeObserver observer = noting(compared, {});
-  const StationaryState end = TimeFollower(problem, run, other, observer, stop).follow(nullptr);
-  if (end.outcome.status != Status::converged) return;
+  TimeFollower follower(problem, run, other, observer, stop);
+  const StationaryState end = follower.follow(nullptr);
+  result.comparison = end.outcome.status;
+  if (result.comparison != Status::converged) {
+    result.outcome.message += fmt::format(
+        " How far it is off is not known: the run to compare with, on a mesh of degree {}, ended at {} ({}).",
+        other.degree, follower.share(), name(result.comparison));
+    return;
+  }
   double greatest = 0, difference = 0;
   for (std::size_t i = 0; i < std::min(deformations.size(), compared.size()); ++i) {
     greatest = std::max(greatest, deformations[i]);

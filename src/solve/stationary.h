@@ -62,6 +62,8 @@ struct StationaryState : StateNumbers {
   std::vector<DuctView> views;        ///< in a square channel both, in a rectangle the one along the height
   double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
   double estimated_error = no_value;  ///< relative, of the deformation
+  /// In time, how the same run on another mesh ended, which tells the error; not_started: there was none.
+  Status comparison = Status::not_started;
   SolveStatistics statistics;
   std::vector<BranchStep> branch;
   /// Writes fields.vtu (velocity, pressure, stress, displacement on the deformed mesh, high-order cells) in

@@ -54,6 +54,8 @@ TEST_F(InTime, TheEndIsComparedWithTheStationaryShape) {
   EXPECT_NE(early["message"].get<std::string>().find("A mesh of degree 2 changes its last deformation by"),
             std::string::npos)
       << early["message"];
+  EXPECT_EQ(early["time"]["comparison"], "converged");
+  EXPECT_TRUE(late["time"]["comparison"].is_null());
   EXPECT_GT(early["estimated_error"], 1e-5);
   EXPECT_LT(early["estimated_error"], 0.1);
   EXPECT_NE(early["message"].get<std::string>().find("it has not settled"), std::string::npos) << early["message"];
