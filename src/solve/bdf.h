@@ -5,8 +5,9 @@
 
 namespace rheocyte {
 
-inline constexpr int max_bdf_order = 5;       ///< of the stable formulas that are of use; 6 is nearly unstable
-inline constexpr int max_a_stable_order = 2;  ///< of those in which no oscillation grows, however long the step
+inline constexpr int max_bdf_order = 5;              ///< of the stable formulas that are of use; 6 is nearly unstable
+inline constexpr int max_a_stable_order = 2;         ///< of those in which no oscillation grows, however long the step
+inline constexpr int max_nearly_a_stable_order = 3;  ///< only those grow that fade by less than a third in a period
 
 /// Values at the new time and at past times make a polynomial; weights of its derivative at the new time.
 struct BdfFormula {

@@ -27,8 +27,10 @@ struct TimeStepper::Trial {
 TimeStepper::TimeStepper(const Problem& problem, const Resolution& resolution, const TimeStepOptions& options)
     : Stepper(problem, resolution), options_(options), system_(space()) {
   options_.newton.residual_scale = residual_scale(system_, media_);
-  // A viscosity in series with a spring does not damp the short waves of a cell that is let go.
-  if (media_.bulk.branch_modulus > 0) options_.max_order = std::min(options_.max_order, max_a_stable_order);
+  // A viscosity in series with a spring does not damp short waves, least of all those of a cell that is let go.
+  if (media_.bulk.branch_modulus > 0)
+    options_.max_order =
+        std::min(options_.max_order, problem_.start_stretch == 1 ? max_nearly_a_stable_order : max_a_stable_order);
   if (!problem_.wall.is_straight()) wall_.emplace(problem_.wall);
 }
 
