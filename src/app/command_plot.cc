@@ -83,7 +83,7 @@ class Plot {
       const auto write = [&](std::span<const float> pairs) {
         file.append({reinterpret_cast<const char*>(pairs.data()), pairs.size_bytes()});
       };
-      const PlotPanel panel = plot_panel(recording, options_, lines_.wanted(), write, on_progress);
+      PlotPanel panel = plot_panel(recording, options_, lines_.wanted(), write, on_progress);
       file.close();
       return panel;
     };

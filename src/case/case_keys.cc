@@ -16,8 +16,7 @@ constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "p
     has_pressure_drop{"flow.drive", "pressure-drop"};
 
 // The member of a case is the name of its key; behind it stand the other parts of its KeyDescription in their order.
-#define FIELD(member) \
-  [](auto& c) -> auto& { return c.member; }
+#define FIELD(member) ([](auto& c) -> auto& { return c.member; })
 #define KEY(member, ...) key_of<Case, FIELD(member)>({#member, __VA_ARGS__})
 
 // The options of a choice stand in the order of its enumeration (case/problem.h, laws/).

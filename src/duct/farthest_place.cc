@@ -37,8 +37,9 @@ Eigen::Vector2d step_within(const SurfaceJet& here, const SurfacePlace& at, cons
 FarthestPlace::FarthestPlace(const DuctSurfaceMap& surface) : surface_(surface) {
   constexpr double step = 1.0 / (samples_per_edge - 1);
   for (int f = 0; f < int(surface.faces().size()); ++f) {
-    for (int i = 0; i < samples_per_edge * samples_per_edge; ++i)
-      samples_.push_back({f, step * (i % samples_per_edge), step * (i / samples_per_edge)});
+    for (int row = 0; row < samples_per_edge; ++row) {
+      for (int column = 0; column < samples_per_edge; ++column) samples_.push_back({f, step * column, step * row});
+    }
   }
   sampled_.resize(Eigen::Index(samples_.size()), 3);
   for (std::size_t i = 0; i < samples_.size(); ++i)

@@ -21,7 +21,7 @@ class Appended {
  public:
   template <class Number>
   std::string add(std::span<const Number> values) {
-    const std::string place = " format=\"appended\" offset=\"" + std::to_string(bytes_) + "\"";
+    std::string place = " format=\"appended\" offset=\"" + std::to_string(bytes_) + "\"";
     blocks_.push_back(std::as_bytes(values));
     bytes_ += sizeof(std::uint64_t) + values.size_bytes();
     return place;

@@ -36,9 +36,11 @@ class NumericFlow {
   /// Trapezoidal rule in t, rate = from + (to - from) / (1 + exp(-pi sinh t)): steep or singular ends do no harm.
   template <class Function>
   static double integral(double from, double to, const Function& f) {
-    constexpr double step = 1.0 / 16, end = 3.25;
+    constexpr double step = 1.0 / 16;
+    constexpr int end = 52;
     double sum = 0;
-    for (double t = -end; t <= end; t += step) {
+    for (int i = -end; i <= end; ++i) {
+      const double t = i * step;
       const double share = 1 / (1 + std::exp(-std::numbers::pi * std::sinh(t)));
       const double weight = std::numbers::pi * std::cosh(t) * share / (1 + std::exp(std::numbers::pi * std::sinh(t)));
       sum += weight * f(from + (to - from) * share);

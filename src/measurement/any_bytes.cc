@@ -45,7 +45,8 @@ std::string replaced(std::string_view text, const Replace& replace) {
 std::string with_stand_ins(const std::string& bytes) {
   return replaced(bytes, [](std::string_view rest, std::string& result) -> std::size_t {
     const std::size_t length = sequence_length(rest[0]);
-    const bool valid = length > 0 && length <= rest.size() && first_bad_byte(rest.substr(0, length)) == rest.npos;
+    const bool valid =
+        length > 0 && length <= rest.size() && first_bad_byte(rest.substr(0, length)) == std::string_view::npos;
     if (valid && !is_stand_in(rest)) return result.append(rest.substr(0, length)), length;
     return result.append(stand_in(static_cast<unsigned char>(rest[0]))), 1;
   });

@@ -23,8 +23,8 @@ bool fill_mask(const Eigen::MatrixX2d& outline, ImageSize size, std::span<std::u
     }
     std::ranges::sort(crossings);
     for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
-      for (double x = std::ceil(crossings[k]); x <= crossings[k + 1]; ++x)
-        mask[y * size.width + static_cast<std::size_t>(x)] = 1;
+      for (auto x = static_cast<std::size_t>(std::ceil(crossings[k])); static_cast<double>(x) <= crossings[k + 1]; ++x)
+        mask[y * size.width + x] = 1;
   }
   return true;
 }

@@ -36,7 +36,7 @@ ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_
   constexpr double margin = 3;
   const ImageSize size{std::size_t(std::ceil(extent.x() + 2 * margin)) | 1U,
                        std::size_t(std::ceil(extent.y() + 2 * margin)) | 1U};
-  const Eigen::RowVector2d middle(double(size.width / 2), double(size.height / 2));
+  const Eigen::RowVector2d middle((double(size.width) - 1) / 2, (double(size.height) - 1) / 2);
   const Eigen::MatrixX2d outline_px =
       (outline_um.rowwise() - (low + high) / 2) / pixel_size_um + (middle + place_px).replicate(outline_um.rows(), 1);
   std::vector<std::uint8_t> mask(size.pixels());

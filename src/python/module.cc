@@ -1,5 +1,6 @@
 // rheocyte.lib.native
 #include <string_view>
+#include <utility>
 
 #include "case/user_error.h"
 #include "python/bindings.h"
@@ -12,7 +13,7 @@ namespace py = pybind11;
 // The classes of exceptions are Python's own (rheocyte.errors), so that they exist without this module, too.
 void translate(std::exception_ptr thrown) {
   try {
-    std::rethrow_exception(thrown);
+    std::rethrow_exception(std::move(thrown));
   } catch (const rheocyte::UserError& error) {
     const std::string_view text = error.what();  // with names of files, which need not be UTF-8
     const auto sentence = py::reinterpret_steal<py::str>(

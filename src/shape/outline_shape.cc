@@ -43,7 +43,7 @@ struct Moments {
 
 Moments moments_of(const std::vector<Point>& hull) {
   Moments m;
-  const Point origin = hull.front();  // near the cell: no cancellation
+  const Point& origin = hull.front();  // near the cell: no cancellation
   Point a = hull.back() - origin;
   for (const Point& corner : hull) {
     const Point b = corner - origin;

@@ -72,7 +72,7 @@ double TimeStepper::combine(const VectorXd& weights, double TimeLevel::*field) c
 
 VectorXd TimeStepper::meet_walls(double position, const VectorXd& unknowns) {
   const auto wall = [&](double x) { return wall_->radius(position + x); };
-  const VectorXd outward = space().wall_motion(wall, unknowns);
+  VectorXd outward = space().wall_motion(wall, unknowns);
   discrete_->space.move_nodes(outward);
   return outward;
 }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -17,7 +18,7 @@ constexpr int width = 30;
 constexpr double seconds_between_lines = 10, seconds_between_shares = 2, seconds_between_words = 0.2;
 
 std::string duration(double seconds) {
-  const int s = int(seconds + 0.5);
+  const int s = int(std::lround(seconds));
   if (s < 90) return fmt::format("{} s", s);
   if (s < 5400) return fmt::format("{} min", (s + 30) / 60);
   return fmt::format("{:.1f} h", s / 3600.0);

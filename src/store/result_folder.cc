@@ -112,7 +112,7 @@ void remove(const Scratch& scratch) {
 }  // namespace
 
 fs::path check_result_folder(const fs::path& folder) {
-  const fs::path path = resolved(folder);
+  fs::path path = resolved(folder);
   check_replaceable(path);
   remove(make_scratch(path));
   return path;

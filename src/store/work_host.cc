@@ -262,7 +262,7 @@ std::string HostedWork::all(const TellProgress& on_progress) {
   return text;
 }
 
-WorkHost::WorkHost(Work work, const std::function<void()>& prepare) : folder_(new_private_folder()) {
+WorkHost::WorkHost(const Work& work, const std::function<void()>& prepare) : folder_(new_private_folder()) {
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) refuse_more();
   std::fflush(nullptr);

@@ -69,7 +69,7 @@ class WorkHost {
   using Work = std::function<void(const std::string& request, const WorkReply&)>;
 
   /// Forks; the process must have a single thread. The host calls `prepare` once.
-  explicit WorkHost(Work work, const std::function<void()>& prepare = {});
+  explicit WorkHost(const Work& work, const std::function<void()>& prepare = {});
   /// Work that is not finished is stopped.
   ~WorkHost();
   WorkHost(const WorkHost&) = delete;

@@ -27,11 +27,12 @@ Key<SynthSpec> shared(std::string_view name, std::string_view sentence, std::opt
 
 // The same, spread over the population.
 template <auto field>
-Key<SynthSpec> spread(std::string_view name, std::string_view sentence, Fallback fallback, std::string_view former_name,
-                      std::optional<Condition> only_for = {}, std::string_view alternative = {}) {
+Key<SynthSpec> spread(std::string_view name, std::string_view sentence, const Fallback& fallback,
+                      std::string_view former_name, std::optional<Condition> only_for = {},
+                      std::string_view alternative = {}) {
   auto description = shared<field>(name, sentence, only_for, alternative);
   description.kind = Scatter{std::get<Number>(description.kind).range};
-  description.fallback = std::move(fallback);
+  description.fallback = fallback;
   description.former_name = former_name;
   return description;
 }

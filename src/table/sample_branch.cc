@@ -86,7 +86,7 @@ class BranchSampler {
           continue;
         }
         unsampled = 0;
-        next = moved ? std::move(way.last) : before;
+        next = moved ? way.last : before;
         if (way.status != Status::converged) last = next, failure = way.status;
       }
       const double moved = next.u - before.u, allowed = moved > 0 ? allowed_step(before, next) : h;

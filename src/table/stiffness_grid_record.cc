@@ -186,7 +186,8 @@ std::optional<GridHead> grid_head(std::string_view head) {
   };
   const json exponent = value_of("flow_exponent"), model = value_of("model");
   if (!exponent.is_number() || !model.is_string()) return {};
-  return GridHead{exponent.get<double>(), head.find(section_key) != head.npos ? Section::square : Section::tube,
+  return GridHead{exponent.get<double>(),
+                  head.find(section_key) != std::string_view::npos ? Section::square : Section::tube,
                   model.get<std::string>()};
 }
 

@@ -103,7 +103,7 @@ std::filesystem::path export_case(const Json& wish, ExportFolder& folder) {
 /// The folder that `rheocyte solve` writes; solved from nothing, so that all its digits are the same.
 std::filesystem::path export_result(const Json& wish, ExportFolder& folder) {
   Result result = stationary(stated_case(object_member(wish, "case")));
-  const auto path = folder.claim(text_member(wish, "name", "result"));
+  auto path = folder.claim(text_member(wish, "name", "result"));
   result.state = solve_stationary(result.problem, {}, &stop_wanted());
   if (result.state.outcome.status == Status::stopped) throw Refused(503, "left", "The computation was stopped.");
   refuse_unfinite_numbers(result);

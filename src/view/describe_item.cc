@@ -28,7 +28,7 @@ Json describe_recording(const fs::path& file) {
   const RecordingColumns columns(recording);
   Json metadata = Json::object();
   for (const auto& [key, value] : recording.metadata().values())
-    std::visit([&](const auto& stored) { metadata[key] = stored; }, value);
+    std::visit([&member = metadata[key]](const auto& stored) { member = stored; }, value);
   Json pictures = Json::array();
   for (const char* feature : {"image", "mask"})
     if (recording.image_size(feature)) pictures.push_back(feature);

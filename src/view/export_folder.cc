@@ -44,7 +44,7 @@ fs::path ExportFolder::claim(std::string_view name) {
                   fmt::format("{} is no name for a file: give one without folders that does not begin "
                               "with a point.",
                               one_line(name, 60)));
-  const fs::path path = (folder_ / name).lexically_normal();
+  fs::path path = (folder_ / name).lexically_normal();
   const std::scoped_lock lock(mutex_);
   std::error_code error;
   const bool is_there = fs::symlink_status(path, error).type() != fs::file_type::not_found;
@@ -57,7 +57,7 @@ fs::path ExportFolder::claim(std::string_view name) {
 }
 
 fs::path ExportFolder::write(std::string_view name, std::string_view content) {
-  const fs::path path = claim(name);
+  fs::path path = claim(name);
   if (const int failed = write_whole_file(path, content))
     throw Refused(507, "disk",
                   fmt::format("{} cannot be written ({}).", path.string(), std::generic_category().message(failed)));

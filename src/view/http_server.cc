@@ -51,7 +51,7 @@ Request plain_request(const httplib::Request& from) {
 
 void give(Answer answer, httplib::Response& response) {
   response.status = answer.status;
-  for (const auto& [name, value] : answer.headers) response.set_header(name.c_str(), value);
+  for (const auto& [name, value] : answer.headers) response.set_header(name, value);
   if (!answer.give_pieces) {
     response.set_header("Content-Type", answer.type);
     response.body = std::move(answer.body);

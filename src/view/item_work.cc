@@ -182,7 +182,8 @@ void do_item_work(const std::string& text, const WorkReply& reply) {
   for (const auto& [name, work, limits] : contained_work)
     if (wanted == name)
       return reply.run_contained(
-          path_in(request, "file"), [&](const TellProgress& tell) { work(request, reply, tell); }, limits);
+          path_in(request, "file"), [&, do_work = work](const TellProgress& tell) { do_work(request, reply, tell); },
+          limits);
   if (wanted == "moduli") return compute_moduli(request, reply);
   throw UserError("There is no such work on an item.");
 }

@@ -62,7 +62,7 @@ std::shared_ptr<KeptInspectors::Kept> KeptInspectors::begin(const Json& recordin
   Json request = recording;
   request["do"] = "inspect";
   const std::string file = recording.value("file", std::string());
-  const auto fresh = std::make_shared<Kept>(file, key, host_.ask(json_text(request)));
+  auto fresh = std::make_shared<Kept>(file, key, host_.ask(json_text(request)));
   const std::scoped_lock lock(mutex_);
   std::erase_if(kept_, [&](const auto& kept) { return kept->file == file; });
   kept_.push_front(fresh);

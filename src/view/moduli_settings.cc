@@ -168,7 +168,10 @@ std::string named_table(const Json& table, const TableItem& table_item) {
   const auto shipped = shipped_tables();
   std::string names;
   for (const auto& [identifier, file] : shipped) names += (names.empty() ? "" : ", ") + identifier;
-  if (table.is_string() && (table == "" || shipped.contains(table.get<std::string>()))) return table.get<std::string>();
+  if (table.is_string()) {
+    auto identifier = table.get<std::string>();
+    if (identifier.empty() || shipped.contains(identifier)) return identifier;
+  }
   throw UserError(fmt::format(
       "The setting table is the identifier of a table that comes with the program ({}), or the number of an item.",
       names));
@@ -180,7 +183,7 @@ ExtractOptions options_of_settings(const Json& settings) {
   if (!settings.is_object()) throw UserError("The settings are no object.");
   ExtractOptions options;
   for (const auto& [name, value] : settings.items()) {
-    const auto setting = std::ranges::find_if(all(), [&](const Setting& one) { return name == one.name; });
+    const auto setting = std::ranges::find(all(), name, &Setting::name);
     if (setting == all().end()) throw UserError(fmt::format("There is no setting {}.", one_line(name, 60)));
     if (!value.is_null()) visit(*setting, options, FromJson{*setting, value});
   }

@@ -128,14 +128,14 @@ class RecordingAnswers {
   /// With the settings of the item's moduli, as `rheocyte extract` writes the file.
   fs::path write_companion(const Json& request, ExportFolder& folder) const {
     const Json wanted = export_request(request);
-    const fs::path place = folder.claim(file_name(request, ".rtdc"));
+    fs::path place = folder.claim(file_name(request, ".rtdc"));
     write(wanted, {{"companion", place.string()}});
     return place;
   }
 
   fs::path write_events(const Json& request, ExportFolder& folder) const {
     const Json wanted = export_request(request);
-    const fs::path place = folder.claim(file_name(request, ".tsv"));
+    fs::path place = folder.claim(file_name(request, ".tsv"));
     const PassingFolder passing(items_.host());
     Json places{{"companion", passing / "companion.rtdc"}};
     if (wanted.contains("gate")) {
