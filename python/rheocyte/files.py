@@ -69,7 +69,7 @@ def read_column(path, column):
     return np.array([number(row, column, path) for row in read_table(path, [column])])
 
 
-def save_figure(figure, stem, dpi, palette=False, svg_dpi=300):
+def save_figure(figure, stem, dpi=400, palette=False, svg_dpi=300):
     """Writes `stem`.png and `stem`.svg.
 
     A palette of 256 colours makes the PNG of a drawing some three times smaller; `svg_dpi` is that of images inside

@@ -23,6 +23,8 @@ from rheocyte.page import COLUMN_IN
 from rheocyte.raster import PixelGrid, Raster, extended, mirrored, rasterise, stream_function
 from rheocyte.vtu import read_vtu
 
+COLUMNS = 720  # of pixels of the fields
+SVG_DPI = COLUMNS / COLUMN_IN  # an SVG keeps the fields as they are
 VIEW = 2.2  # half the length shown, in channel radii
 WALL = 0.17  # thickness of the drawn wall, in channel radii
 SIDE_IN = 0.06  # margin beside the channel
@@ -61,8 +63,7 @@ def story_of(result, contour, fields, tension):
     """A result with its contour (n, 2), the fields of its mesh and, of a shell, the tension along the contour."""
     radius = float(fields.points[:, 1].max())
     length = min(VIEW * radius, *np.abs([fields.points[:, 0].min(), fields.points[:, 0].max()]))
-    columns = 720
-    grid = PixelGrid(np.linspace(-length, length, columns), np.linspace(0, radius, columns // 4))
+    grid = PixelGrid(np.linspace(-length, length, COLUMNS), np.linspace(0, radius, COLUMNS // 4))
     return Story(result, contour, radius, grid, *pixels(fields, grid), tension)
 
 
@@ -342,9 +343,9 @@ def main():
     if find(read_result(folder / "result.json"), "case", "channel", "section") in ("square", "rectangle"):
         from rheocyte import duct_picture
 
-        save_figure(duct_picture.draw(duct_picture.read_story(folder)), folder / "picture", dpi=400)
+        save_figure(duct_picture.draw(duct_picture.read_story(folder)), folder / "picture")
         return
-    save_figure(draw(read_story(folder)), folder / "picture", dpi=600)
+    save_figure(draw(read_story(folder)), folder / "picture", svg_dpi=SVG_DPI)
     if (folder / "history.csv").exists():
         from rheocyte import time_picture  # which imports this module
 

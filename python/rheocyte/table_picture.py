@@ -267,7 +267,7 @@ def main():
     grid = grid_of(table)
     for name, figure in (("lines", draw_lines(table, grid)), ("coverage", draw_coverage(table)),
                          ("error", draw_error(table, grid))):
-        save_figure(figure, folder / name, dpi=400)
+        save_figure(figure, folder / name)
 
 
 if __name__ == "__main__":

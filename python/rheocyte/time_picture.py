@@ -131,7 +131,7 @@ def draw_folder(folder):
     """All pictures of a result in time."""
     result = read_result(folder / "result.json")
     history, contours = read_history(folder / "history.csv"), read_contours(folder / "contours.csv")
-    save_figure(draw(result, history, contours), folder / "time", dpi=400)
+    save_figure(draw(result, history, contours), folder / "time")
     write_file(folder / "time.gif", animation(result, history, contours, read_wall(folder)))
 
 
