@@ -24,7 +24,7 @@ constexpr double steep = 4;
 /// Change of ln d between two samples against the trapezoidal rule of its slopes.
 constexpr double max_mismatch = 0.15;
 /// Between two samples the error of the interpolation may be this share of the accuracy.
-constexpr double share_of_interpolation = 0.25;
+constexpr double share_of_interpolation = 0.15;
 
 /// Newton's failure at the end of a branch is the end of the branch.
 BranchEnd end_after(Status failure) {
