@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t fewest_radii = 4;
 /// Samples of a branch in equal ratios of sqrt(d); cubics between them are good to 1e-6.
 constexpr int dense_samples = 48;
+/// How far a branch counts as longer or shorter than its states, in sqrt(d), see Surface::set_ends.
+constexpr double max_continuation = 0.04;
 /// Of the miss of polynomials that leave a node out: between nodes that they have, they miss a tenth.
 constexpr double share_of_miss = 0.1;
 constexpr double max_exponent_difference = 0.01;
@@ -81,16 +83,15 @@ class ReferenceStiffness {
   double log_area_factor_ = 0, log_modulus_factor_ = 0;
 };
 
-/// The polynomials along one computed branch over t in (0, 1].
+/// The polynomials along one computed branch over s = sqrt(d).
 class Curve {
  public:
   Curve(const SampledBranch& branch, const ReferenceStiffness& reference) : branch_(&branch) {
     const int samples = branch.samples();
-    last_ = sqrt_deformation(branch, samples - 1);
-    for (int k = 0; k < samples; ++k) t_.push_back(sqrt_deformation(branch, k) / last_);
+    for (int k = 0; k < samples; ++k) s_.push_back(sqrt_deformation(branch, k));
     numbers_.resize(samples, measure_count + 1);
     for (int k = 0; k < samples; ++k) {
-      const double s = t_[std::size_t(k)] * last_;
+      const double s = s_[std::size_t(k)];
       for (int m = 0; m < measure_count; ++m) {
         const Scaling scaling = scaling_of(m);
         numbers_(k, m) = (branch.value(k, m) - scaling.base) / std::pow(s, scaling.power);
@@ -102,8 +103,8 @@ class Curve {
   }
 
   const SampledBranch& branch() const { return *branch_; }
-  double last() const { return last_; }
-  const std::vector<double>& t() const { return t_; }
+  double last() const { return s_.back(); }
+  const std::vector<double>& s() const { return s_; }
 
   /// Measures as `Scaling` has them, and ln(E) less that of the reference.
   Eigen::VectorXd numbers(const std::vector<double>& weights) const {
@@ -120,10 +121,10 @@ class Curve {
     std::vector<double> nodes, values;
     for (int k = 0; k < branch_->samples(); ++k) {
       if (k == sample) continue;
-      nodes.push_back(t_[std::size_t(k)]);
+      nodes.push_back(s_[std::size_t(k)]);
       values.push_back(log_ratio(k));
     }
-    const auto weights = lagrange_weights(nodes, t_[std::size_t(sample)]).value;
+    const auto weights = lagrange_weights(nodes, s_[std::size_t(sample)]).value;
     double sum = 0;
     for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] * values[k];
     return sum;
@@ -131,8 +132,7 @@ class Curve {
 
  private:
   const SampledBranch* branch_;
-  double last_ = 0;
-  std::vector<double> t_;
+  std::vector<double> s_;
   Eigen::MatrixXd numbers_;  ///< samples x (measures, ln of the ratio)
 };
 
@@ -154,42 +154,48 @@ class Surface {
           fmt::format("only {} of {} computed branches have states; a table needs {}. Choose smaller cells or "
                       "a lower table.max_deformation.",
                       curves_.size(), computed.size(), fewest_radii));
+    set_ends();
   }
 
   const std::vector<Curve>& curves() const { return curves_; }
 
-  /// sqrt(d) where the branch of a radius ends.
+  /// sqrt(d) of the last state of a radius: on the straight line between those of the computed neighbours.
   double last(double radius_um) const {
-    const auto weights = across(radius_um);
-    double sum = 0;
-    for (std::size_t i = 0; i < curves_.size(); ++i) sum += weights[i] * curves_[i].last();
-    return sum;
+    std::size_t right = 1;
+    while (right + 1 < curves_.size() && curves_[right].branch().radius_um < radius_um) ++right;
+    const Curve &a = curves_[right - 1], &b = curves_[right];
+    const double share = (radius_um - a.branch().radius_um) / (b.branch().radius_um - a.branch().radius_um);
+    return a.last() + share * (b.last() - a.last());
   }
 
-  DenseState at(double radius_um, double t) const {
+  DenseState at(double radius_um, double s) const {
     const auto weights = across(radius_um);
-    Eigen::VectorXd q = Eigen::VectorXd::Zero(measure_count + 1), by_t = q;
+    double end = 0;
+    for (std::size_t i = 0; i < curves_.size(); ++i) end += weights[i] * ends_[i];
+    Eigen::VectorXd q = Eigen::VectorXd::Zero(measure_count + 1), by_s = q;
     const Eigen::Index points = curves_.front().branch().contour.front().rows();
     DenseState state;
     state.contour = state.contour_slope = Eigen::MatrixX2d::Zero(points, 2);
     for (std::size_t i = 0; i < curves_.size(); ++i) {
-      const auto along = lagrange_weights(curves_[i].t(), t);
+      const double length = ends_[i] / end;
+      const auto along = lagrange_weights(curves_[i].s(), length * s);
       q += weights[i] * curves_[i].numbers(along.value);
-      by_t += weights[i] * curves_[i].numbers(along.slope);
+      by_s += weights[i] * length * curves_[i].numbers(along.slope);
       state.contour += weights[i] * curves_[i].contour(along.value);
-      state.contour_slope += weights[i] * curves_[i].contour(along.slope);
+      state.contour_slope += weights[i] * length * curves_[i].contour(along.slope);
     }
-    finish(last(radius_um) * t, t, q, by_t, state);
+    finish(s, q, by_s, state);
     return state;
   }
 
-  /// ln(E) over the reference at a share of a branch by the branches of all other radii.
-  double log_ratio_without(std::size_t left_out, double t) const {
+  /// ln(E) over the reference at a place on a branch by the branches of all other radii.
+  double log_ratio_without(std::size_t left_out, double s) const {
     std::vector<double> radii, values;
     for (std::size_t i = 0; i < curves_.size(); ++i) {
       if (i == left_out) continue;
       radii.push_back(curves_[i].branch().radius_um);
-      values.push_back(curves_[i].numbers(lagrange_weights(curves_[i].t(), t).value)(measure_count));
+      const auto along = lagrange_weights(curves_[i].s(), ends_[i] / ends_[left_out] * s);
+      values.push_back(curves_[i].numbers(along.value)(measure_count));
     }
     const auto weights = lagrange_weights(radii, curves_[left_out].branch().radius_um).value;
     double sum = 0;
@@ -198,34 +204,53 @@ class Surface {
   }
 
  private:
+  /// Branches are compared at equal shares of their length, which must not change abruptly from one radius to the next:
+  /// a last state lies where the cell of a modulus happens to be, so lengths are those of a parabola through all of
+  /// them as far as polynomials may go on beyond the states.
+  void set_ends() {
+    const auto count = std::ssize(curves_);
+    Eigen::MatrixX3d powers(count, 3);
+    Eigen::VectorXd last(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Curve& curve = curves_[std::size_t(i)];
+      const double x = curve.branch().radius_um / curves_.back().branch().radius_um;
+      powers.row(i) << 1, x, x * x;
+      last(i) = curve.last();
+    }
+    const Eigen::VectorXd smooth = powers * powers.colPivHouseholderQr().solve(last);
+    for (Eigen::Index i = 0; i < count; ++i)
+      ends_.push_back(std::clamp(smooth(i), (1 - max_continuation) * last(i), (1 + max_continuation) * last(i)));
+  }
+
   std::vector<double> across(double radius_um) const {
     std::vector<double> radii;
     for (const Curve& curve : curves_) radii.push_back(curve.branch().radius_um);
     return lagrange_weights(radii, radius_um).value;
   }
 
-  /// From scaled numbers and their derivatives with t to values and derivatives with ln(E).
-  void finish(double s, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& by_t, DenseState& state) const {
+  /// From scaled numbers and their derivatives with s to values and derivatives with ln(E).
+  void finish(double s, const Eigen::VectorXd& q, const Eigen::VectorXd& by_s, DenseState& state) const {
     state.value.resize(measure_count);
     state.slope.resize(measure_count);
     for (int m = 0; m < measure_count; ++m) {
       const auto [base, power] = scaling_of(m);
       const double factor = std::pow(s, power);
       state.value(m) = base + factor * q(m);
-      state.slope(m) = factor * (power / t * q(m) + by_t(m));
+      state.slope(m) = factor * (power / s * q(m) + by_s(m));
     }
     const auto area = int(Measure::area_um2);
     const auto reference = reference_(std::log(state.value(area)), 2 * std::log(s));
     state.stiffness = std::exp(reference.log_stiffness + q(measure_count));
     const double by_log_stiffness =
-        1 / (by_t(measure_count) + reference.by_log_area * state.slope(area) / state.value(area) +
-             reference.by_log_deformation * 2 / t);
+        1 / (by_s(measure_count) + reference.by_log_area * state.slope(area) / state.value(area) +
+             reference.by_log_deformation * 2 / s);
     state.slope *= by_log_stiffness;
     state.contour_slope *= by_log_stiffness;
   }
 
   ReferenceStiffness reference_;
   std::vector<Curve> curves_;
+  std::vector<double> ends_;  ///< sqrt(d), one for each curve
 };
 
 LeftOut left_out(const Surface& surface) {
@@ -234,7 +259,7 @@ LeftOut left_out(const Surface& surface) {
   for (std::size_t i = 1; i + 1 < curves.size(); ++i)
     for (int k = 0; k < curves[i].branch().samples(); ++k)
       miss.radius = std::max(
-          miss.radius, std::abs(surface.log_ratio_without(i, curves[i].t()[std::size_t(k)]) - curves[i].log_ratio(k)));
+          miss.radius, std::abs(surface.log_ratio_without(i, curves[i].s()[std::size_t(k)]) - curves[i].log_ratio(k)));
   for (const Curve& curve : curves)
     for (int k = 1; k + 1 < curve.branch().samples(); ++k)
       miss.state = std::max(miss.state, std::abs(curve.log_ratio_without(k) - curve.log_ratio(k)));
@@ -254,10 +279,10 @@ SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double
   branch.end = near.end;
   branch.value.resize(dense_samples, measure_count);
   branch.slope.resize(dense_samples, measure_count);
-  const double first = 0.98 * std::sqrt(spec.min_deformation) / surface.last(radius_um);
+  const double last = surface.last(radius_um), first = 0.98 * std::sqrt(spec.min_deformation) / last;
   const double worst = *std::ranges::max_element(near.error);
   for (int k = 0; k < dense_samples; ++k) {
-    DenseState state = surface.at(radius_um, std::pow(first, 1 - double(k) / (dense_samples - 1)));
+    DenseState state = surface.at(radius_um, last * std::pow(first, 1 - double(k) / (dense_samples - 1)));
     branch.value.row(k) = state.value.transpose();
     branch.slope.row(k) = state.slope.transpose();
     branch.stiffness.push_back(state.stiffness);
