@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "extract/shape_verdict.h"
+#include "measurement/shape_in_pixels.h"
 #include "measurement/shape_source.h"
 #include "numeric/no_value.h"
 
@@ -13,9 +14,8 @@ namespace {
 
 constexpr const char* stored_ratio = "inert_ratio_cvx";
 constexpr std::size_t outlines_looked_at = 1024, at_a_time = 64;  // events, for the direction
-constexpr int second_mode = int(ShapeFeature::first_mode), third_mode = second_mode + 1;
 
-double inertia_ratio(const ShapeVector& features) { return 1 / std::sqrt(features(int(ShapeFeature::moment_ratio))); }
+double inertia_ratio(const HullAsymmetry& hull) { return 1 / std::sqrt(hull.moment_ratio); }
 
 }  // namespace
 
@@ -52,10 +52,9 @@ void EventShapes::find_direction() {
   for (std::size_t piece = 0; piece < pieces; ++piece) {
     const std::size_t first = piece * events / pieces, last = std::min(first + at_a_time, events);
     for (std::size_t event = first; event < last; ++event) {
-      const ShapeVector features = outlines_->features(event);
-      const double c = features(third_mode);
-      if (!(std::abs(c) < 0.3) || inertia_ratio(features) > max_inertia_ratio_of_cells)
-        continue;  // no cell, or a red one
+      const HullAsymmetry hull = asymmetry(event, nullptr);
+      const double c = hull.mode_3;
+      if (!(std::abs(c) < 0.3) || inertia_ratio(hull) > max_inertia_ratio_of_cells) continue;  // no cell, or a red one
       sum += c;
       squares += c * c;
       ++count;
@@ -66,16 +65,21 @@ void EventShapes::find_direction() {
   if (std::abs(mean) > 2 * error) direction_ = mean * map_->sign_of_asymmetry() > 0 ? 1 : -1;
 }
 
+HullAsymmetry EventShapes::asymmetry(std::size_t event, ContourFeatures* measured) {
+  const PixelContour contour = outlines_->outline(event);
+  if (measured) *measured = measurer_.measure(contour, measured_pixel_um_);
+  if (contour.size() < fewest_outline_points) return {no_value, no_value, no_value};
+  return asymmetry_of_hull(measured ? measurer_.hull() : hull_.of(contour));
+}
+
 void EventShapes::read_outlines(std::size_t first, ShapeColumns& columns) {
   const int direction = direction_ < 0 ? -1 : 1;
   const bool stored = inertia_ratio_from_ == stored_ratio;
   for (std::size_t i = 0; i < columns.mode_3.size(); ++i) {
-    const PixelContour contour = outlines_->outline(first + i);
-    const ShapeVector features = outlines_->features(contour);
-    if (measured_pixel_um_ > 0) columns.outlines[i] = measurer_.measure(contour, measured_pixel_um_);
-    columns.mode_2[i] = features(second_mode);
-    columns.mode_3[i] = direction * features(third_mode);
-    if (!stored) columns.inertia_ratio[i] = inertia_ratio(features);
+    const HullAsymmetry hull = asymmetry(first + i, measured_pixel_um_ > 0 ? &columns.outlines[i] : nullptr);
+    columns.mode_2[i] = hull.mode_2;
+    columns.mode_3[i] = direction * hull.mode_3;
+    if (!stored) columns.inertia_ratio[i] = inertia_ratio(hull);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "infer/shape_map.h"
 #include "measurement/contour_features.h"
 #include "measurement/event_outlines.h"
+#include "measurement/pixel_hull.h"
 #include "measurement/recording.h"
 
 namespace rheocyte {
@@ -48,6 +49,8 @@ class EventShapes {
  private:
   void find_direction();
   void read_outlines(std::size_t first, ShapeColumns& columns);
+  /// NaN where there is no cell. The features are told, too, if `measured` is given.
+  HullAsymmetry asymmetry(std::size_t event, ContourFeatures* measured);
 
   const Recording& recording_;
   MeasuringConditions conditions_;
@@ -55,6 +58,7 @@ class EventShapes {
   std::optional<EventOutlines> outlines_;
   double measured_pixel_um_ = 0;  ///< 0: outlines are not measured
   ContourMeasurer measurer_;
+  PixelHull hull_;
   std::string inertia_ratio_from_, missing_;
   int direction_ = 0;
 };

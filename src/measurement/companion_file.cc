@@ -63,14 +63,36 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* tar
   return 0;
 }
 
+// One chunk after the other as it is stored. (H5Ocopy writes past the end of its memory when it meets a chunk that was
+// read before and that compresses to less than its size: HDF5 1.10.)
+bool copy_chunks(hid_t original, hid_t copy, hsize_t rows, hsize_t chunk) {
+  std::vector<unsigned char> bytes;
+  for (hsize_t row = 0; row < rows; row += chunk) {
+    hsize_t size = 0;
+    std::uint32_t skipped_filters = 0;
+    if (::H5Dget_chunk_storage_size(original, &row, &size) < 0) return false;
+    if (size == 0) continue;  // never written
+    bytes.resize(size);
+    if (::H5Dread_chunk(original, H5P_DEFAULT, &row, &skipped_filters, bytes.data()) < 0 ||
+        ::H5Dwrite_chunk(copy, H5P_DEFAULT, skipped_filters, &row, size, bytes.data()) < 0)
+      return false;
+  }
+  return true;
+}
+
 // As it is stored, without its attributes. All of it has been read, and thus checked, by now.
 bool copy_original(CompanionFeature& feature, hid_t file, const std::string& path) {
-  const Hdf5Handle properties(::H5Pcreate(H5P_OBJECT_COPY));
-  ::H5Pset_copy_object(properties.get(), H5O_COPY_WITHOUT_ATTR_FLAG);
-  if (::H5Ocopy(feature.original.get(), ".", file, path.c_str(), properties.get(), H5P_DEFAULT) < 0) return false;
+  const hid_t original = feature.original.get();
+  const Hdf5Handle type(::H5Dget_type(original)), space(::H5Dget_space(original)),
+      properties(::H5Dget_create_plist(original));
+  hsize_t rows = 0, chunk = 0;
+  if (::H5Sget_simple_extent_dims(space.get(), &rows, nullptr) != 1 || ::H5Pget_chunk(properties.get(), 1, &chunk) != 1)
+    return false;
+  feature.dataset =
+      Hdf5Handle(::H5Dcreate2(file, path.c_str(), type.get(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT));
+  if (!feature.dataset || !copy_chunks(original, feature.dataset.get(), rows, chunk)) return false;
   feature.original = {};
-  feature.dataset = Hdf5Handle(::H5Dopen2(file, path.c_str(), H5P_DEFAULT));
-  return bool(feature.dataset);
+  return true;
 }
 
 }  // namespace

@@ -9,12 +9,6 @@
 
 namespace rheocyte {
 
-namespace {
-
-constexpr std::size_t fewest_points = 12;  // of an outline that is a cell
-
-}  // namespace
-
 EventOutlines::EventOutlines(const Recording& recording, double pixel_um) : recording_(recording), pixel_um_(pixel_um) {
   if (recording.has_contours()) return;
   size_ = recording.image_size("mask");
@@ -22,8 +16,9 @@ EventOutlines::EventOutlines(const Recording& recording, double pixel_um) : reco
   block_ = recording.image_rows_per_chunk("mask");
 }
 
-ShapeVector EventOutlines::features(const PixelContour& contour) const {
-  if (contour.size() < fewest_points) return ShapeVector::Constant(no_value);
+ShapeVector EventOutlines::features(std::size_t event) {
+  const PixelContour contour = outline(event);
+  if (contour.size() < fewest_outline_points) return ShapeVector::Constant(no_value);
   return shape_of_contour(contour, pixel_um_);
 }
 

@@ -10,14 +10,15 @@
 
 namespace rheocyte {
 
+inline constexpr std::size_t fewest_outline_points = 12;  ///< of an outline that is a cell
+
 class EventOutlines {
  public:
   /// The recording, which must outlive it, has contours or masks (asserted): see ShapeSource::has_outlines().
   EventOutlines(const Recording& recording, double pixel_um);
 
   /// NaN where there is no cell. UserError if the data are damaged.
-  ShapeVector features(std::size_t event) { return features(outline(event)); }
-  ShapeVector features(const PixelContour& contour) const;
+  ShapeVector features(std::size_t event);
   /// Empty where there is no cell. UserError if the data are damaged.
   PixelContour outline(std::size_t event);
 

@@ -24,6 +24,8 @@ std::vector<Eigen::Vector2d> scaled(std::span<const PixelPoint> pixels, double p
 
 RadiusModes modes_of_hull(std::span<const PixelPoint> hull) { return hull_modes(scaled(hull, 1)); }
 
+HullAsymmetry asymmetry_of_hull(std::span<const PixelPoint> hull) { return hull_asymmetry(scaled(hull, 1)); }
+
 ShapeVector shape_of_contour(const PixelContour& contour, double pixel_size_um) {
   PixelHull hull;
   return shape_vector(hull_shape(scaled(hull.of(contour), pixel_size_um)));

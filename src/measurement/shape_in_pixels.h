@@ -10,8 +10,9 @@ namespace rheocyte {
 
 /// Features of the polygon through the centres of a contour's pixels.
 ShapeVector shape_of_contour(const PixelContour& contour, double pixel_size_um);
-/// The first modes, if the polygon's hull is known (measurement/pixel_hull.h).
+/// The first modes, or less, if the polygon's hull is known (measurement/pixel_hull.h).
 RadiusModes modes_of_hull(std::span<const PixelPoint> hull);
+HullAsymmetry asymmetry_of_hull(std::span<const PixelPoint> hull);
 
 /// Renders the outline (um, x along the flow) at `draws` random positions, as fill_mask does, and measures each mask's
 /// contour. Sizes are spread over one pixel of the height, because a cell that is a whole number of pixels high counts

@@ -179,6 +179,13 @@ RadiusModes hull_modes(const std::vector<Eigen::Vector2d>& hull) {
   return modes;
 }
 
+HullAsymmetry hull_asymmetry(const std::vector<Eigen::Vector2d>& hull) {
+  if (hull.size() < 3) return {no_value, no_value, no_value};
+  const Moments m = moments_of(hull);
+  const auto integral = radius_integrals<3>(hull, m.centroid);
+  return {m.yy / m.xx, 2 * integral[2] / integral[0], 2 * integral[3] / integral[0]};
+}
+
 OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) { return hull_shape(hull_of(polygon)); }
 
 ShapeVector shape_vector(const OutlineShape& shape) {

@@ -44,6 +44,12 @@ OutlineShape hull_shape(const std::vector<Eigen::Vector2d>& hull);
 /// The first of its modes alone.
 RadiusModes hull_modes(const std::vector<Eigen::Vector2d>& hull);
 
+/// Of the same polygon, what tells a cell of the model from any other; NaN below three points.
+struct HullAsymmetry {
+  double moment_ratio, mode_2, mode_3;
+};
+HullAsymmetry hull_asymmetry(const std::vector<Eigen::Vector2d>& hull);
+
 /// The closed polygon of a meridian (x, r) and its mirror image.
 Eigen::MatrixX2d mirrored(const Eigen::MatrixX2d& meridian);
 

@@ -156,6 +156,26 @@ TEST(CompanionFile, FeaturesOfTheOriginalAreTakenOverAsTheyAreStored) {
   EXPECT_TRUE(std::isnan(column(recording, "deform")[1]));
 }
 
+TEST(CompanionFile, FeaturesOfManyChunksAreTakenOverWhole) {
+  // Chunks that were read before, that compress well, and that differ in size.
+  std::vector<double> values(5000);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = i < 3000 ? 20 : std::sin(double(i));
+  const ScratchFolder folder;
+  {
+    RecordingWriter writer(folder / "a.rtdc");
+    test::write_usual_metadata(writer);
+    writer.scalar("area_um", values, H5T_IEEE_F64LE, {test::Storage::Filter::zstd, true, 300});
+  }
+  {
+    const Recording original(folder / "a.rtdc");
+    CompanionFile companion(folder / "b.rtdc", original, "rheocyte");
+    companion.add_feature_of(original, "area_um");
+    companion.write("area_um", 0, column(original, "area_um"));
+    companion.close();
+  }
+  EXPECT_EQ(column(Recording(folder / "b.rtdc"), "area_um"), values);
+}
+
 TEST(CompanionFile, LogsAndTheBasinAreCompressedToo) {
   // dclab's check of integrity counts every dataset.
   const ScratchFolder folder;

@@ -80,6 +80,18 @@ TEST(OutlineShape, TheModesOfATriangleAreIntegralsOfItsRadius) {
     EXPECT_NEAR(shape.modes[std::size_t(k - min_mode)], 2 * integral[std::size_t(k)] / integral[0], 1e-11) << k;
 }
 
+TEST(OutlineShape, PartsOfAShapeAreThoseOfTheWhole) {
+  const std::vector<Eigen::Vector2d> hull{{-1, -1}, {2, 0.3}, {1.7, 0.9}, {0.5, 1.5}};
+  const OutlineShape whole = hull_shape(hull);
+  const RadiusModes modes = hull_modes(hull);
+  const HullAsymmetry asymmetry = hull_asymmetry(hull);
+  for (std::size_t i = 0; i < modes.size(); ++i) EXPECT_EQ(modes[i], whole.modes[i]) << i;
+  EXPECT_EQ(asymmetry.moment_ratio, whole.moment_ratio);
+  EXPECT_EQ(asymmetry.mode_2, whole.modes[0]);
+  EXPECT_EQ(asymmetry.mode_3, whole.modes[1]);
+  EXPECT_TRUE(std::isnan(hull_asymmetry({{0, 0}, {1, 1}}).mode_3));
+}
+
 TEST(OutlineShape, PointsOnALineHaveNoShape) {
   // NaN, not a crash: masks of one row of pixels occur.
   Eigen::MatrixX2d line(4, 2);
