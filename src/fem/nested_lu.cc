@@ -10,6 +10,13 @@ namespace rheocyte {
 
 using Eigen::VectorXd;
 
+void NestedLU::append(int in_part, int in_whole, std::vector<Run>& runs) {
+  const bool goes_on = !runs.empty() && in_part == runs.back().in_part + runs.back().size &&
+                       in_whole == runs.back().in_whole + runs.back().size;
+  if (!goes_on) runs.push_back({in_part, in_whole, 0});
+  ++runs.back().size;
+}
+
 NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
   std::vector<int> place(unknowns, -1);
   for (const Subdomain& subdomain : nested_order(unknowns, elements)) {
@@ -26,9 +33,8 @@ NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
       part.whole = int(fronts_.size()) - 1;
       for (int i = part.eliminated; i < int(part.unknowns.size()); ++i) {
         const int at = place[part.unknowns[i]];
-        Same& same = at < front.eliminated ? front.ended[side] : front.left[side];
-        same.in_part.push_back(i - part.eliminated);
-        same.in_whole.push_back(at < front.eliminated ? at : at - front.eliminated);
+        const bool ends = at < front.eliminated;
+        append(i - part.eliminated, ends ? at : at - front.eliminated, ends ? front.ended[side] : front.left[side]);
       }
     }
   }
@@ -53,7 +59,8 @@ bool NestedLU::eliminate(Front& front, Blocks matrix, const std::atomic<bool>* s
   if (is_stopped()) return false;
   front.lu.compute(matrix.own);
   front.rows = std::move(matrix.rows);
-  front.solved_columns = front.lu.permutationP() * matrix.columns;
+  front.solved_columns.resizeLike(matrix.columns);
+  front.solved_columns(front.lu.permutationP().indices(), Eigen::all) = matrix.columns;  // Eigen's product goes row by row
   if (is_stopped()) return false;
   solve_triangular(front.lu.matrixLU(), front.solved_columns);
   if (is_stopped()) return false;
@@ -81,14 +88,14 @@ NestedLU::Blocks NestedLU::joined(const Front& whole) {
   Blocks sum{Matrix::Zero(f, f), Matrix::Zero(f, o), Matrix::Zero(o, f), Matrix::Zero(o, o)};
   for (int side = 0; side < 2; ++side) {
     Front& part = fronts_[whole.parts[side]];
-    const auto add = [&](const Same& rows, const Same& columns, Matrix& to) {
-      for (std::size_t j = 0; j < columns.in_part.size(); ++j) {
-        const auto from = part.schur.col(columns.in_part[j]);
-        auto column = to.col(columns.in_whole[j]);
-        for (std::size_t i = 0; i < rows.in_part.size(); ++i) column(rows.in_whole[i]) += from(rows.in_part[i]);
-      }
+    const auto add = [&](const std::vector<Run>& rows, const std::vector<Run>& columns, Matrix& to) {
+      for (const Run& across : columns)
+        for (int j = 0; j < across.size; ++j)
+          for (const Run& down : rows)
+            to.col(across.in_whole + j).segment(down.in_whole, down.size) +=
+                part.schur.col(across.in_part + j).segment(down.in_part, down.size);
     };
-    const Same &ended = whole.ended[side], &left = whole.left[side];
+    const std::vector<Run>&ended = whole.ended[side], &left = whole.left[side];
     add(ended, ended, sum.own);
     add(ended, left, sum.columns);
     add(left, ended, sum.rows);

@@ -51,9 +51,9 @@ class NestedLU {
   std::size_t memory_bytes() const { return std::size_t(entries()) * sizeof(Matrix::Scalar); }
 
  private:
-  /// Which unknowns of a part are which of the whole.
-  struct Same {
-    std::vector<int> in_part, in_whole;
+  /// Unknowns of a part, one after the other, that follow each other in the whole as well: those of a face, say.
+  struct Run {
+    int in_part, in_whole, size;
   };
   struct Front {
     std::vector<int> unknowns;  ///< those that are eliminated first
@@ -62,7 +62,7 @@ class NestedLU {
     int whole = -1;                    ///< the front that this one is a part of; -1: none
     bool waits = false;                ///< condensed, for the other part
     /// Of the parts' remaining unknowns: those that are eliminated here, and the others, counted from 0 as well.
-    std::array<Same, 2> ended, left;
+    std::array<std::vector<Run>, 2> ended, left;
     Eigen::PartialPivLU<Matrix> lu;
     Matrix solved_columns, rows;  ///< K_ff^-1 K_fo and K_of
     Matrix schur;                 ///< of the remaining unknowns, until it is joined
@@ -74,6 +74,7 @@ class NestedLU {
   };
   static bool eliminate(Front&, Blocks, const std::atomic<bool>* stop);
   Blocks joined(const Front&);
+  static void append(int in_part, int in_whole, std::vector<Run>& runs);
 
   std::vector<Front> fronts_;  ///< elements first, each after its parts, the whole last
   std::vector<int> elements_;
