@@ -183,7 +183,8 @@ int main(int count, char** words) {
   } else if (count > 1 && std::string_view(words[1]) == "warm") {
     print_warm_starts(word(2, 1e-3), int(word(3, 12)));
   } else if (count > 1 && word(1, 0) <= 0) {
-    fmt::print(stderr, "bench_duct_states [ACCURACY [FIRST [LAST]]], random [COUNT [SEED]] or warm [ACCURACY [COUNT]]\n");
+    fmt::print(stderr,
+               "bench_duct_states [ACCURACY [FIRST [LAST]]], random [COUNT [SEED]] or warm [ACCURACY [COUNT]]\n");
     return 2;
   } else {
     print_states(word(1, 1e-3), int(word(2, 0)), int(word(3, std::size(cells))));

@@ -50,6 +50,7 @@ class _CellCortex:
 class _Cell:
     radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the lesser width
     offset_um: list[float] | None  # place of a cell off the axis of a duct, [along the width, along the height]; one of the two is 0, and the camera looks along the other
+    place: Literal["given", "equilibrium"] | None  # where a cell off the axis is, given: at its offset; equilibrium: where it does not drift, sought from there along the drift
     viscosity_mPas: float | None  # viscosity of the cell's interior; a stationary shape does not depend on it
     viscoelasticity: Literal["kelvin-voigt", "maxwell", "standard-linear-solid"] | None  # what the viscosity is to the elastic interior, kelvin-voigt: beside it; maxwell: in series with it; standard-linear-solid: in series with a spring of its own, both beside it
     branch_modulus_kPa: float | None  # Young's modulus of the spring in series with the viscosity

@@ -86,6 +86,7 @@ struct Cell {
   std::optional<Viscoelasticity> viscoelasticity = {};      ///< likewise
   std::optional<double> branch_modulus_kPa = {};            ///< only of a standard linear solid
   std::vector<double> offset_um = {};                       ///< in a duct: along width and height; empty: centred
+  CellPlace place = CellPlace::given;
 };
 
 /// Whether the cell is on the axis of the channel.

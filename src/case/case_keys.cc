@@ -96,6 +96,10 @@ const std::array table = {
         "place of a cell off the axis of a duct, [along the width, along the height]; one of the two is 0, and the "
         "camera looks along the other",
         List{{-5000, 5000}}, absent, in_duct),
+    KEY(cell.place, "",
+        "where a cell off the axis is, given: at its offset; equilibrium: where it does not drift, sought from there "
+        "along the drift",
+        Choice{{"given", "equilibrium"}}, 0, in_duct),
     KEY(cell.viscosity_mPas, "mPa s", "viscosity of the cell's interior; a stationary shape does not depend on it",
         Number{{1e-3, 1e9}}, required, in_time),
     KEY(cell.viscoelasticity, "",

@@ -38,6 +38,9 @@ struct Camera {
 };
 inline constexpr Camera Camera::side{0}, Camera::diagonal{45};
 
+/// Where a cell off the axis of a duct is: at the given place, or where it does not drift, sought from there.
+enum class CellPlace { given, equilibrium };
+
 /// What drives the liquid: a given flow rate, a given pressure drop over the channel, or a pressure drop that is
 /// adapted in each step in time until the flow rate is the wanted one (Mokbel et al. 2017).
 enum class Drive { rate, pressure_drop, controlled_pressure };
@@ -78,6 +81,7 @@ struct Problem : Media {
   Camera camera = Camera::side;  ///< in a duct
   double radius_ratio = 0.5;     ///< r0 / R, in (0, 0.95)
   double offset = 0;             ///< in a duct: of the cell from the axis, towards the camera, in h
+  CellPlace place = CellPlace::given;
   Drive drive = Drive::rate;     ///< the given rate is 1; the given pressure drop that of the undisturbed flow
   double pressure_gradient = 0;  ///< in a duct the given one, in S/h, where U is a nominal speed
   double channel_length = 0;     ///< simulated, in R; 0: the shortest, 2 min_half_length()

@@ -137,6 +137,10 @@ void check_duct(const Case& c, const KeyReading& keys) {
 // One mirror plane is left to a cell off the axis; seen along its offset its outline is symmetric.
 void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
   const std::vector<double>& offset = c.cell.offset_um;
+  if (c.cell.place == CellPlace::equilibrium && is_centred(c.cell))
+    keys.refuse("cell.place", fmt::format("{} is for cells off the axis; give cell.offset_um, from where the place is "
+                                          "sought, or leave it out.",
+                                          keys.stated("cell.place")));
   if (offset.empty()) return;
   constexpr std::string_view key = "cell.offset_um";
   const auto refuse = [&](std::string_view reason) {

@@ -120,6 +120,7 @@ Problem problem_of(const Case& c) {
   problem.camera = camera_of(c.channel);
   problem.radius_ratio = c.cell.radius_um / unit_length_um(c);
   if (!is_centred(c.cell)) problem.offset = (c.cell.offset_um[0] + c.cell.offset_um[1]) / unit_length_um(c);
+  problem.place = c.cell.place;
   problem.drive = c.flow.drive;
   if (c.flow.drive == Drive::pressure_drop) problem.pressure_gradient = given_gradient(c) * R / S;
   problem.channel_length = c.channel.length_um.value_or(0) / unit_length_um(c);

@@ -60,7 +60,8 @@ bool NestedLU::eliminate(Front& front, Blocks matrix, const std::atomic<bool>* s
   front.lu.compute(matrix.own);
   front.rows = std::move(matrix.rows);
   front.solved_columns.resizeLike(matrix.columns);
-  front.solved_columns(front.lu.permutationP().indices(), Eigen::all) = matrix.columns;  // Eigen's product goes row by row
+  front.solved_columns(front.lu.permutationP().indices(), Eigen::all) =
+      matrix.columns;  // Eigen's product goes row by row
   if (is_stopped()) return false;
   solve_triangular(front.lu.matrixLU(), front.solved_columns);
   if (is_stopped()) return false;

@@ -96,6 +96,11 @@ std::string summary(const Result& result, const std::string& folder) {
                  fmt::format("{:.6f} diagonal", state.deformation_diagonal));
   text += line("cell velocity", fmt::format("{:.5g} m/s", state.cell_velocity * scales.velocity_m_per_s),
                fmt::format("mean velocity of the liquid {:.5g}", scales.velocity_m_per_s));
+  if (std::isfinite(state.offset))
+    text += line("off the axis", fmt::format("{:.4g} um", state.offset * R),
+                 std::isfinite(state.offset_error)
+                     ? fmt::format("+- {:.2g}, where it does not drift", state.offset_error * R)
+                     : fmt::format("drift {:.3g} m/s", state.drift_velocity * scales.velocity_m_per_s));
   text += line("pressure drop", fmt::format("{:.5g} Pa", state.pressure_drop * scales.stress_Pa),
                std::isfinite(state.additional_pressure_drop)
                    ? fmt::format("{:.4g} due to the cell", state.additional_pressure_drop * scales.stress_Pa)

@@ -86,6 +86,7 @@ const char* name(Status status) {
     case Status::not_finite: return "not-finite";
     case Status::accuracy_not_reached: return "accuracy-not-reached";
     case Status::stopped: return "stopped";
+    case Status::no_equilibrium: return "no-equilibrium";
     case Status::covered: return "covered";
     case Status::dented: return "dented";
   }

@@ -20,6 +20,7 @@ enum class Status {
   not_finite,            ///< NaN or infinity in residual or state
   accuracy_not_reached,  ///< converged on every mesh that was tried, but the error estimate stays above the wanted one
   stopped,               ///< by a signal
+  no_equilibrium,        ///< the cell drifts on to the wall
   covered,               ///< of a table's branch: it leaves the table's ranges
   dented,                ///< of a table's branch: the dent at the rear is as deep as the table admits
 };

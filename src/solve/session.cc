@@ -8,6 +8,7 @@
 #include "fem/write_fields.h"
 #include "solve/branch_ends.h"
 #include "solve/describe.h"
+#include "solve/equilibrium_offset.h"
 #include "solve/near_problem.h"
 
 namespace rheocyte {
@@ -160,7 +161,9 @@ void Session::take_back(Kept kept, const Problem& from) {
 StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress,
                                const std::atomic<bool>* stop) {
   if (is_duct(problem.section)) {
-    StationaryState state = ducts_.solve(problem, progress, stop);
+    const SolveAtOffset solve = [&](const Problem& p) { return ducts_.solve(p, progress, stop); };
+    StationaryState state =
+        problem.place == CellPlace::equilibrium ? solve_at_equilibrium(problem, solve) : solve(problem);
     forget_tubes();
     return state;
   }

@@ -24,6 +24,7 @@ struct StateNumbers {
   double drift_velocity = no_value;            ///< of a cell off the axis, along its offset, in U
   double spin = no_value;                      ///< rate at which its material turns, in U/R
   double offset = no_value;                    ///< of its barycentre, in R
+  double offset_error = no_value;              ///< of the place of equilibrium, likewise
   double flow_rate = no_value;                 ///< mean velocity in U
   double volume_flow = no_value;               ///< in R^2 U
   double pressure_drop = no_value;             ///< over the simulated channel, in S
@@ -125,6 +126,8 @@ inline constexpr StateMeasure state_measures[] = {
      &StateNumbers::spin, AlsoIn::none, "for a cell on the axis"},
     {"offset_um", "place of its barycentre off the axis", &StateNumbers::offset, AlsoIn::none,
      "for a cell on the axis"},
+    {"offset_error_um", "error of the place where it does not drift (cell.place = \"equilibrium\")",
+     &StateNumbers::offset_error, AlsoIn::none, "for a given place, and on the axis"},
     {"mean_velocity_m_per_s", "flow rate over the area of the channel", &StateNumbers::flow_rate},
     {.name = "flow_rate_ul_per_s",
      .sentence = "flow rate through the channel; the given one unless the pressure drop is given",

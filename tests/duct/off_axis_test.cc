@@ -144,6 +144,17 @@ TEST(OffAxis, AnElasticCellDriftsTowardsTheAxisInProportionToItsCompliance) {
   EXPECT_NEAR(soft(duct.space.drift()) / stiff(duct.space.drift()), 2, 0.1);
 }
 
+TEST(OffAxis, InertiaDrivesAStiffCellFromTheAxisAndTheWallDrivesItBack) {
+  const Liquid liquid{.reynolds = 5};
+  const Media media{.liquid = liquid, .bulk = {.shear_modulus = 67}};
+  const auto drift = [&](double offset) {
+    HalfDuct duct(0.4, offset, 3, coarse, liquid);
+    return solved(duct.system, media)(duct.space.drift());
+  };
+  EXPECT_GT(drift(0.1), 3e-3);
+  EXPECT_LT(drift(0.5), -1e-2);
+}
+
 TEST(OffAxis, TheLiquidsForceAndTorqueOnTheCellVanish) {
   const Liquid liquid{.law = LiquidLaw::power_law, .exponent = 0.8, .shear_rate_floor = 0.3};
   HalfDuct duct(0.4, 0.3, 2, coarse, liquid);

@@ -1,0 +1,153 @@
+#include "solve/equilibrium_offset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "case/scales.h"
+#include "numeric/roots.h"
+
+namespace rheocyte {
+namespace {
+
+// In h.
+constexpr double place_tolerance = 1e-3, first_step = 0.1, nearly_on_axis = 0.02;
+constexpr double coarse_accuracy = 1e-2;
+constexpr int max_corrections = 6;
+
+bool is_solved(const StationaryState& state) {
+  return state.outcome.status == Status::converged || state.outcome.status == Status::accuracy_not_reached;
+}
+
+/// Between which offsets the outward drift changes from positive to negative.
+struct Bracket {
+  double inner, outer;
+};
+
+class OffsetSearch {
+ public:
+  OffsetSearch(const Problem& problem, const SolveAtOffset& solve)
+      : problem_(problem), solve_(solve), side_(problem.offset > 0 ? 1 : -1) {
+    problem_.place = CellPlace::given;
+    const Extent& extent = problem.extent;
+    const double half = problem.camera == Camera::side ? extent.height : extent.width;
+    max_offset_ = max_radius_ratio * half - problem.radius_ratio;
+  }
+
+  /// Away from the axis; 0 where no state is found, which ends every search.
+  double drift_at(double offset) {
+    const auto [known, is_new] = drifts_.try_emplace(offset);
+    if (!is_new) return known->second;
+    problem_.offset = side_ * offset;
+    solve();
+    return known->second = is_solved(last_) ? side_ * last_.drift_velocity : 0;
+  }
+
+  /// Steps along the drift until it turns round; nothing at the axis, at the wall, and where no state is found.
+  std::optional<Bracket> bracket() {
+    double offset = std::abs(problem_.offset), drift = drift_at(offset);
+    for (double step = first_step; drift != 0; step *= 1.5) {
+      const bool outward = drift > 0;
+      if (outward ? offset >= max_offset_ : offset <= nearly_on_axis) return std::nullopt;
+      const double next = std::clamp(outward ? offset + step : offset - step, nearly_on_axis, max_offset_);
+      drift = drift_at(next);
+      if (drift != 0 && (drift > 0) != outward) return outward ? Bracket{offset, next} : Bracket{next, offset};
+      offset = next;
+    }
+    return std::nullopt;
+  }
+
+  void set_accuracy(double accuracy) {
+    problem_.accuracy = accuracy;
+    drifts_.clear();
+  }
+  const StationaryState& last() const { return last_; }
+  double offset() const { return std::abs(problem_.offset); }
+
+  StationaryState on_axis() {
+    problem_.offset = 0;
+    solve();
+    last_.offset = last_.drift_velocity = 0;
+    return result();
+  }
+  /// The last state, with the work of all.
+  StationaryState result() {
+    const SolveStatistics last = last_.statistics;
+    last_.statistics = work_;
+    last_.statistics.unknowns = last.unknowns;
+    last_.statistics.degree = last.degree;
+    last_.statistics.elements = last.elements;
+    return last_;
+  }
+
+ private:
+  void solve() {
+    last_ = solve_(problem_);
+    const SolveStatistics& s = last_.statistics;
+    work_.newton_iterations += s.newton_iterations;
+    work_.factorisations += s.factorisations;
+    work_.continuation_steps += s.continuation_steps;
+    work_.assembly_s += s.assembly_s;
+    work_.factorisation_s += s.factorisation_s;
+    work_.substitution_s += s.substitution_s;
+    work_.total_s += s.total_s;
+  }
+
+  Problem problem_;
+  const SolveAtOffset& solve_;
+  double side_, max_offset_;
+  std::map<double, double> drifts_;  ///< outwards, at the places where they are known
+  StationaryState last_;
+  SolveStatistics work_;
+};
+
+/// The place, from that and the slope of a coarser solution; false where no state is found.
+bool correct(double offset, double slope, OffsetSearch& search) {
+  double drift = search.drift_at(offset);
+  for (int i = 0; i < max_corrections && is_solved(search.last()); ++i) {
+    const double next = offset - drift / slope;
+    if (std::abs(next - offset) < place_tolerance) return true;
+    const double drift_there = search.drift_at(next);
+    slope = (drift_there - drift) / (next - offset);
+    offset = next, drift = drift_there;
+  }
+  return is_solved(search.last());
+}
+
+}  // namespace
+
+StationaryState solve_at_equilibrium(const Problem& problem, const SolveAtOffset& solve) {
+  OffsetSearch search(problem, solve);
+  search.set_accuracy(std::max(10 * problem.accuracy, coarse_accuracy));
+  const std::optional<Bracket> bracket = search.bracket();
+  if (!bracket) {
+    if (!is_solved(search.last())) return search.result();
+    search.set_accuracy(problem.accuracy);
+    if (search.offset() <= nearly_on_axis) {
+      StationaryState state = search.on_axis();
+      if (is_solved(state)) state.outcome.message += " The cell drifts to the axis.";
+      return state;
+    }
+    StationaryState state = search.result();
+    state.outcome.status = Status::no_equilibrium;
+    state.outcome.message = fmt::format(
+        "The cell drifts towards the wall beyond the greatest offset that can be solved for, {:.3g} of its "
+        "radius; there is no equilibrium before.",
+        search.offset() / problem.radius_ratio);
+    return state;
+  }
+  const auto drift = [&](double offset) { return search.drift_at(offset); };
+  const double slope = (drift(bracket->outer) - drift(bracket->inner)) / (bracket->outer - bracket->inner);
+  const double coarse = bracketed_root(drift, bracket->inner, bracket->outer, place_tolerance);
+  if (!is_solved(search.last())) return search.result();
+  search.set_accuracy(problem.accuracy);
+  if (!correct(coarse, slope, search)) return search.result();
+  StationaryState state = search.result();
+  state.offset_error = std::abs(search.offset() - coarse) + place_tolerance;
+  return state;
+}
+
+}  // namespace rheocyte
