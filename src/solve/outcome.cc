@@ -48,13 +48,14 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
     return "No state was found, not even of a nearly rigid cell: the case is far outside what the solver can follow; "
            "check the units of its numbers.";
   }
-  const std::string where =
+  const std::string state =
       fmt::format("{:.4g} times the wanted moduli (deformation {:.4f})", 1 / outcome.reached, last.deformation);
+  const std::string where = last.is_coarse ? state + ", on finer meshes up to a fifth lower" : state;
   switch (outcome.status) {
     case Status::surface_unstable:
       if (last.known_end > 0)
         return unstable_surface(
-            fmt::format("{:.4g} times the wanted moduli (the last state kept has {})", last.known_end, where), last);
+            fmt::format("{:.4g} times the wanted moduli (the last state kept has {})", last.known_end, state), last);
       return unstable_surface(where, last);
     case Status::branch_ended:
       return "The branch of stationary shapes ends at " + where +

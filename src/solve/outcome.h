@@ -49,6 +49,7 @@ struct LastState {
   double wanted_error = 0;     ///< relative
   SurfaceKind surface = SurfaceKind::bare;
   bool can_have_cortex = true;  ///< not off the axis of a duct
+  bool is_coarse = false;       ///< the end was seen on coarse meshes alone
   double known_end = 0;         ///< least modulus over the wanted one, where it was known beforehand
 };
 

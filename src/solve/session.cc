@@ -99,12 +99,14 @@ void explain(const Problem& problem, const ResolvedState& state, StationaryState
   } else if (outcome.status == Status::iteration_limit && state.branch.parameter > 0) {
     outcome.status = Status::branch_ended;
   }
-  const double known_end =
-      is_far_too_soft(problem) ? min_shear_modulus(problem).value() / problem.bulk.shear_modulus : 0;
+  // The branch that was not followed to its end on a fine mesh ends later than it was seen to.
+  const bool is_early = is_far_too_soft(problem) || state.gave_up;
+  const double known_end = is_early ? min_shear_modulus(problem).value_or(0) / problem.bulk.shear_modulus : 0;
   outcome.message = explanation(outcome, {.deformation = r.shape.deformation,
                                           .estimated_error = r.estimated_error,
                                           .wanted_error = problem.accuracy,
                                           .surface = surface_kind(problem),
+                                          .is_coarse = is_early,
                                           .known_end = known_end});
 }
 

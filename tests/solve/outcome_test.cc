@@ -79,5 +79,18 @@ TEST(Outcome, ACellOffTheAxisIsNotOfferedTheCortexThatItCannotHave) {
   }
 }
 
+TEST(Outcome, AnEndThatWasSeenOnCoarseMeshesSaysSo) {
+  const Outcome outcome{.status = Status::surface_unstable, .message = {}, .reached = 0.8};
+  const std::string known = explanation(outcome, {.deformation = 0.05, .is_coarse = true, .known_end = 1.165});
+  EXPECT_NE(known.find("ends at 1.165 times the wanted moduli (the last state kept has 1.25"), std::string::npos)
+      << known;
+  EXPECT_EQ(known.find("finer meshes"), std::string::npos);
+  const std::string unknown = explanation(outcome, {.deformation = 0.05, .is_coarse = true});
+  EXPECT_NE(
+      unknown.find("ends at 1.25 times the wanted moduli (deformation 0.0500), on finer meshes up to a fifth lower"),
+      std::string::npos)
+      << unknown;
+}
+
 }  // namespace
 }  // namespace rheocyte::outcome_test
