@@ -159,7 +159,7 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
     refuse("is for cells without a cortex; leave [cell.cortex] out");
   const Extent extent = extent_of(c);
   const double half = unit_length_um(c) * (offset[0] != 0 ? extent.width : extent.height);
-  const double most = max_radius_ratio * half - c.cell.radius_um;
+  const double most = max_offset(half, c.cell.radius_um);
   if (std::abs(offset[0] + offset[1]) > most)
     refuse(fmt::format("is too near to the wall for cell.radius_um = {:g}; at most {:.4g} um are possible",
                        c.cell.radius_um, most));

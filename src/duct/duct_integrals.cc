@@ -28,7 +28,7 @@ std::vector<int> places(const int* unknowns, int count, const std::vector<int>& 
 
 /// Adds the block of one pair of components.
 void scatter(const TensorTangent& block, int nodes_1d, const std::vector<int>& rows, const Slot* columns,
-             const std::vector<int>& place, NestedLU::Matrix& matrix) {
+             const std::vector<int>& place, Eigen::MatrixXf& matrix) {
   const int n = nodes_1d;
   for (int j = 0; j < n * n * n; ++j) {
     const Slot& slot = columns[j];
@@ -118,7 +118,7 @@ VectorXd integrate_hexahedron(const DuctSpace& space, const TensorElement& eleme
 /// Adds what the pressure modes do to the momentum a, and the displacements or velocities b to the tests of pressures.
 template <class Fields>
 void HexahedronTangent::add_pressures(const HexahedronUnknowns& self, const HexahedronPoints& points,
-                                      const std::vector<int>& place, NestedLU::Matrix& matrix) {
+                                      const std::vector<int>& place, Eigen::MatrixXf& matrix) {
   const MatrixXd& modes = element_modes_;
   const int n = int(self.rows.size() - self.pressure.size()) / 3, m = int(self.pressure.size());
   const auto slope = [&](int flux, int input) { return points.fluxes.flux_slopes.col(flux * Fields::count + input); };
@@ -155,7 +155,7 @@ void HexahedronTangent::add_pressures(const HexahedronUnknowns& self, const Hexa
 
 template <class Fields>
 void HexahedronTangent::add_fields(const HexahedronUnknowns& self, bool has_inertia, const HexahedronPoints& points,
-                                   const std::vector<int>& place, NestedLU::Matrix& matrix) {
+                                   const std::vector<int>& place, Eigen::MatrixXf& matrix) {
   const int n = int(self.rows.size() - self.pressure.size()) / 3;
   const auto add = [&](Source source, const std::vector<Slot>& columns, int a, int b) {
     TensorTangent::Coefficients coefficients{};
@@ -179,7 +179,7 @@ void HexahedronTangent::add_fields(const HexahedronUnknowns& self, bool has_iner
 }
 
 void HexahedronTangent::add(const HexahedronUnknowns& self, bool has_inertia, const HexahedronPoints& points,
-                            const std::vector<int>& place, NestedLU::Matrix& matrix) {
+                            const std::vector<int>& place, Eigen::MatrixXf& matrix) {
   if (self.liquid) {
     add_fields<Moving>(self, has_inertia, points, place, matrix);
   } else {

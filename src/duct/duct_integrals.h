@@ -35,15 +35,15 @@ class HexahedronTangent {
   HexahedronTangent(const TensorElement& element, const ReferenceElement<3>& reference)
       : element_(element), element_modes_(reference.pressure.value), tangent_(element) {}
   void add(const HexahedronUnknowns&, bool has_inertia, const HexahedronPoints&, const std::vector<int>& place,
-           NestedLU::Matrix& matrix);
+           Eigen::MatrixXf& matrix);
 
  private:
   template <class Fields>
   void add_fields(const HexahedronUnknowns&, bool has_inertia, const HexahedronPoints&, const std::vector<int>& place,
-                  NestedLU::Matrix& matrix);
+                  Eigen::MatrixXf& matrix);
   template <class Fields>
   void add_pressures(const HexahedronUnknowns&, const HexahedronPoints&, const std::vector<int>& place,
-                     NestedLU::Matrix& matrix);
+                     Eigen::MatrixXf& matrix);
 
   const TensorElement& element_;
   const MatrixXd& element_modes_;

@@ -31,20 +31,8 @@ std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space, const Duct
     coupled[e].pressure = elements[e].pressure[0].unknown;
     coupled[e].medium = elements[e].liquid;
   }
-  // Neighbours share the nodes of a face.
-  const std::size_t face = std::size_t(space.reference().degree() + 1) * (space.reference().degree() + 1);
-  std::vector<std::vector<int>> sorted = space.nodes().of_element;
-  for (auto& nodes : sorted) std::sort(nodes.begin(), nodes.end());
-  for (std::size_t e = 0; e < sorted.size(); ++e) {
-    for (std::size_t f = 0; f < e; ++f) {
-      std::vector<int> common;
-      std::set_intersection(sorted[e].begin(), sorted[e].end(), sorted[f].begin(), sorted[f].end(),
-                            std::back_inserter(common));
-      if (common.size() < face) continue;
-      coupled[e].neighbours.push_back(int(f));
-      coupled[f].neighbours.push_back(int(e));
-    }
-  }
+  const auto nodes_1d = std::size_t(space.reference().degree()) + 1;
+  set_neighbours(space.nodes().of_element, nodes_1d * nodes_1d, coupled);
   return coupled;
 }
 
@@ -101,7 +89,7 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, cons
       turning_.add_tangent(e, unknowns, place_, matrix_);
       add_cortex(e, media.cortex, unknowns, want, total);
     }
-    const Stopwatch watch(work_.condensation_s);
+    const Stopwatch watch(work_.factorisation_s);
     if (!use(e, lu_.order(e), matrix_)) return VectorXd::Constant(total.size(), no_value);
   }
   turning_.add_residual(unknowns, total);
@@ -129,7 +117,7 @@ VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, doub
 }
 
 VectorXd DuctSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
-  const auto condense = [this](int e, const std::vector<int>&, NestedLU::Matrix& tangent) {
+  const auto condense = [this](int e, const std::vector<int>&, Eigen::MatrixXf& tangent) {
     return lu_.condense(e, tangent, stop_);
   };
   VectorXd total = assemble(media, unknowns, condense, min_det);
@@ -152,7 +140,7 @@ void DuctSystem::drop_factors() {
 }
 
 VectorXd DuctSystem::solve(const VectorXd& rhs) {
-  const Stopwatch watch(work_.solve_s);
+  const Stopwatch watch(work_.substitution_s);
   return lu_.solve(rhs);
 }
 

@@ -70,7 +70,7 @@ void TurningSurface::add_residual(const VectorXd& unknowns, VectorXd& total) con
 }
 
 void TurningSurface::add_tangent(int element, const VectorXd& unknowns, const std::vector<int>& place,
-                                 NestedLU::Matrix& matrix) const {
+                                 Eigen::MatrixXf& matrix) const {
   if (face_of_element_[element] < 0) return;
   const Face& face = faces_[face_of_element_[element]];
   const Eigen::MatrixX3d rate = velocity(face, unknowns);

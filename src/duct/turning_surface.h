@@ -19,8 +19,7 @@ class TurningSurface {
 
   void add_residual(const VectorXd& unknowns, VectorXd& total) const;
   /// What the face of an element of the liquid adds to its matrix, whose rows and columns are numbered by `place`.
-  void add_tangent(int element, const VectorXd& unknowns, const std::vector<int>& place,
-                   NestedLU::Matrix& matrix) const;
+  void add_tangent(int element, const VectorXd& unknowns, const std::vector<int>& place, Eigen::MatrixXf& matrix) const;
 
  private:
   struct Face {

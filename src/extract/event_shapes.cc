@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "extract/shape_verdict.h"
-#include "measurement/shape_in_pixels.h"
 #include "measurement/shape_source.h"
 #include "numeric/no_value.h"
 
@@ -69,7 +68,7 @@ HullAsymmetry EventShapes::asymmetry(std::size_t event, ContourFeatures* measure
   const PixelContour contour = outlines_->outline(event);
   if (measured) *measured = measurer_.measure(contour, measured_pixel_um_);
   if (contour.size() < fewest_outline_points) return {no_value, no_value, no_value};
-  return asymmetry_of_hull(measured ? measurer_.hull() : hull_.of(contour));
+  return hull_asymmetry(measured ? measurer_.hull() : measurer_.find_hull(contour));
 }
 
 void EventShapes::read_outlines(std::size_t first, ShapeColumns& columns) {

@@ -7,7 +7,6 @@
 #include "infer/shape_map.h"
 #include "measurement/contour_features.h"
 #include "measurement/event_outlines.h"
-#include "measurement/pixel_hull.h"
 #include "measurement/recording.h"
 
 namespace rheocyte {
@@ -58,7 +57,6 @@ class EventShapes {
   std::optional<EventOutlines> outlines_;
   double measured_pixel_um_ = 0;  ///< 0: outlines are not measured
   ContourMeasurer measurer_;
-  PixelHull hull_;
   std::string inertia_ratio_from_, missing_;
   int direction_ = 0;
 };

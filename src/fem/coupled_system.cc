@@ -2,83 +2,76 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "fem/end_loads.h"
 #include "fem/observe.h"
 
 namespace rheocyte {
-/// One element's elimination: inner unknowns belong to it alone, outer ones couple it to others.
-struct CoupledSystem::Condensed {
-  std::vector<int> inner_row, inner_column, inner_unknown;  ///< slots, and the unknown of each
-  std::vector<int> outer_row, outer_equation;               ///< slots, and the equation of each
-  std::vector<int> outer_unknown;                           ///< each once
-  struct Gather {
-    int slot, outer;
-  };
-  std::vector<Gather> outer_column;  ///< column slots that add to an outer unknown
-  std::vector<int> position;         ///< in the sparse matrix: outer_equation x outer_unknown
+namespace {
 
-  Eigen::PartialPivLU<MatrixXd> lu;
-  MatrixXd inner_outer, outer_inner, schur;  ///< Kii^-1 Kio, Koi, Koo - Koi Kii^-1 Kio
-  VectorXd inner_solution;
+/// The first part whose element has all these nodes.
+template <class Parts>
+auto part_with(const Discretisation& space, Parts& parts, const std::vector<int>& nodes) {
+  return std::find_if(parts.begin(), parts.end(), [&](const auto& part) {
+    const std::vector<int>& own = space.nodes().of_element[part.element];
+    return std::all_of(nodes.begin(), nodes.end(),
+                       [&](int node) { return std::find(own.begin(), own.end(), node) != own.end(); });
+  });
+}
 
-  Condensed(const ElementUnknowns&, int outer_unknowns);
-};
+}  // namespace
 
-CoupledSystem::Condensed::Condensed(const ElementUnknowns& element, int outer_unknowns) {
-  const int offset = element.liquid ? 2 * element.position_columns : 0;
-  for (int i = 0; i < int(element.rows.size()); ++i) {
-    const int unknown = element.rows[i];
-    if (unknown >= outer_unknowns) {
-      inner_row.push_back(i);
-      inner_column.push_back(i + offset);
-      inner_unknown.push_back(unknown);
-    } else if (unknown >= 0) {
-      outer_row.push_back(i);
-      outer_equation.push_back(unknown);
-    }
+CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnknowns> elements)
+    : space_(space), elements_(std::move(elements)), surface_(space), place_(space.unknowns(), -1) {
+  for (int e = 0; e < int(elements_.size()); ++e) {
+    if (!elements_[e].is_empty()) parts_.push_back({e});
   }
-  for (int j = 0; j < int(element.columns.size()); ++j) {
-    const Slot& slot = element.columns[j];
-    if (slot.unknown < 0 || slot.unknown >= outer_unknowns) continue;
-    const auto it = std::find(outer_unknown.begin(), outer_unknown.end(), slot.unknown);
-    outer_column.push_back({j, int(it - outer_unknown.begin())});
-    if (it == outer_unknown.end()) outer_unknown.push_back(slot.unknown);
+  share_out_surface();
+  share_out_inlet(inlet_load(space));
+  lu_ = std::make_unique<NestedLU<double>>(space.unknowns(), couple());
+  for (int k = 0; k < int(parts_.size()); ++k)
+    places_.emplace_back(elements_[parts_[k].element], lu_->order(k), space.unknowns());
+}
+
+/// Each patch goes to an element at it: with liquid inside to one outside.
+void CoupledSystem::share_out_surface() {
+  const auto& edges = space_.surface();
+  for (int k = 0; k < int(surface_.patches().size()); ++k) {
+    const BoundaryEdge& edge = edges[k % edges.size()];  // vertices after the edges that they follow
+    part_with(space_, parts_, edge.nodes)->patches.push_back(k);
   }
 }
 
-CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnknowns> elements)
-    : space_(space), elements_(std::move(elements)), surface_(space) {
-  std::vector<std::pair<int, int>> entries;
-  for (const ElementUnknowns& element : elements_) {
-    const Condensed& c = condensed_.emplace_back(element, space.outer_unknowns());
-    for (const int i : c.outer_equation) {
-      for (const int j : c.outer_unknown) entries.emplace_back(i, j);
+void CoupledSystem::share_out_inlet(const VectorXd& load) {
+  for (int i = 0; i < load.size(); ++i) {
+    if (load(i) == 0) continue;
+    const auto owner = std::find_if(parts_.begin(), parts_.end(), [&](const Part& part) {
+      const std::vector<int>& rows = elements_[part.element].rows;
+      return std::find(rows.begin(), rows.end(), i) != rows.end();
+    });
+    owner->inlet.push_back(i);
+  }
+}
+
+std::vector<CoupledUnknowns> CoupledSystem::couple() {
+  std::vector<CoupledUnknowns> coupled;
+  std::vector<std::vector<int>> nodes;
+  for (const Part& part : parts_) {
+    const ElementUnknowns& element = elements_[part.element];
+    std::set<int> unknowns(element.rows.begin(), element.rows.end());
+    for (const Slot& slot : element.columns) unknowns.insert(slot.unknown);
+    for (const int patch : part.patches) {
+      const std::vector<int>& of_patch = surface_.patches()[patch].unknowns;
+      unknowns.insert(of_patch.begin(), of_patch.end());
     }
+    if (!part.inlet.empty()) unknowns.insert(space_.cell_velocity());
+    unknowns.erase(-1);
+    coupled.push_back({{unknowns.begin(), unknowns.end()}, space_.pressure(part.element, 0), element.liquid, {}});
+    nodes.push_back(space_.nodes().of_element[part.element]);
   }
-  for (int i = 0; i < space.outer_unknowns(); ++i) entries.emplace_back(i, i);
-  const VectorXd inlet = inlet_load(space);
-  for (int i = 0; i < inlet.size(); ++i) {
-    if (inlet(i) != 0) inlet_equation_.push_back(i);
-  }
-  for (const int i : inlet_equation_) entries.emplace_back(i, space.cell_velocity());
-  for (const SurfacePatch& patch : surface_.patches()) {
-    for (const int i : patch.unknowns) {
-      for (const int j : patch.unknowns) {
-        if (i >= 0 && j >= 0) entries.emplace_back(i, j);
-      }
-    }
-  }
-  matrix_ = std::make_unique<SparseMatrix>(space.outer_unknowns(), entries);
-  for (Condensed& c : condensed_) matrix_->append_positions(c.outer_equation, c.outer_unknown, c.position);
-  for (const SurfacePatch& patch : surface_.patches()) {
-    auto& positions = surface_position_.emplace_back();
-    for (const int i : patch.unknowns) {
-      for (const int j : patch.unknowns) positions.push_back(i < 0 || j < 0 ? -1 : matrix_->position(i, j));
-    }
-  }
-  for (const int i : inlet_equation_) inlet_position_.push_back(matrix_->position(i, space.cell_velocity()));
-  lu_ = std::make_unique<SparseLU>(*matrix_);
+  set_neighbours(std::move(nodes), std::size_t(space_.reference().degree()) + 1, coupled);
+  return coupled;
 }
 
 CoupledSystem::~CoupledSystem() = default;
@@ -89,15 +82,13 @@ void CoupledSystem::follow_space(std::vector<ElementUnknowns> elements) {
 }
 
 std::size_t CoupledSystem::memory_bytes() const {
-  std::size_t numbers = matrix_->value.size() + std::size_t(1.5 * lu_->entries());  // with the places of the entries
-  for (const Condensed& c : condensed_)
-    numbers += c.lu.matrixLU().size() + c.inner_outer.size() + c.outer_inner.size() + c.schur.size();
+  std::size_t numbers = 0;
   for (const ElementUnknowns& element : elements_) {
     if (!element.liquid || !element.position) continue;  // elements of the cell share theirs
     for (const auto& table : element.position->at_points)
       numbers += table.value.size() + table.slope[0].size() + table.slope[1].size();
   }
-  return numbers * sizeof(double);
+  return lu_->memory_bytes() + numbers * sizeof(double);
 }
 
 VectorXd CoupledSystem::sphere() const {
@@ -120,48 +111,81 @@ double CoupledSystem::stretch_change(const VectorXd& from, const VectorXd& to) c
   return rheocyte::stretch_change(space_, from, to);
 }
 
-VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, double& min_det) {
-  const Stopwatch watch(work_.assembly_s);
-  VectorXd total = VectorXd::Zero(space_.unknowns());
-  min_det = std::numeric_limits<double>::infinity();
-  for (int e = 0; e < int(condensed_.size()); ++e) {
-    if (elements_[e].is_empty()) continue;
-    integrate(e, media, unknowns, Want::residual, element_);
-    min_det = std::min(min_det, element_.min_det);
-    const auto& rows = elements_[e].rows;
-    for (int i = 0; i < int(rows.size()); ++i) {
-      if (rows[i] >= 0) total(rows[i]) += element_.residual(i);
-    }
+VectorXd CoupledSystem::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use, double& min_det) {
+  const Want want = use ? Want::residual_and_tangent : Want::residual;
+  // Loads are those of this moment: the ends of a channel with walls that are not straight change their size.
+  VectorXd total = -undisturbed_pressure(media.liquid) * outlet_load(space_);
+  const VectorXd load = inlet_load(space_);
+  InletPressure inlet;
+  if (space_.has_open_inlet()) {
+    inlet = inlet_pressure(media);
+    total += (inlet.fixed + inlet.slope * unknowns(space_.cell_velocity())) * load;
   }
-  add_ends(media, unknowns, Want::residual, total);
-  add_surface(media.cortex, unknowns, Want::residual, total);
+  min_det = std::numeric_limits<double>::infinity();
+  for (const int k : lu_->elements()) {
+    const std::vector<int>& order = lu_->order(k);
+    {
+      const Stopwatch watch(work_.assembly_s);
+      if (use) {
+        const auto size = Eigen::Index(order.size());
+        matrix_.setZero(size, size);
+        for (int i = 0; i < int(size); ++i) place_[order[i]] = i;
+      }
+      add_element(k, media, unknowns, want, total);
+      min_det = std::min(min_det, element_.min_det);
+      add_surface(parts_[k], media.cortex, unknowns, want, total);
+    }
+    if (!use) continue;
+    for (const int i : parts_[k].inlet) matrix_(place_[i], place_[space_.cell_velocity()]) += inlet.slope * load(i);
+    const Stopwatch watch(work_.factorisation_s);
+    use(k, order, matrix_);
+  }
   return total;
 }
 
-VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
-  VectorXd total = VectorXd::Zero(space_.unknowns());
-  std::fill(matrix_->value.begin(), matrix_->value.end(), 0.0);
-  min_det = std::numeric_limits<double>::infinity();
-  for (int e = 0; e < int(condensed_.size()); ++e) {
-    if (elements_[e].is_empty()) continue;
-    {
-      const Stopwatch watch(work_.assembly_s);
-      integrate(e, media, unknowns, Want::residual_and_tangent, element_);
-    }
-    min_det = std::min(min_det, element_.min_det);
-    const auto& rows = elements_[e].rows;
-    for (int i = 0; i < int(rows.size()); ++i) {
-      if (rows[i] >= 0) total(rows[i]) += element_.residual(i);
-    }
-    const Stopwatch watch(work_.condensation_s);
-    condense(elements_[e], condensed_[e], element_.tangent);
+void CoupledSystem::add_element(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
+  const ElementUnknowns& element = elements_[parts_[part].element];
+  integrate(parts_[part].element, media, unknowns, want, element_);
+  for (int i = 0; i < int(element.rows.size()); ++i) {
+    if (element.rows[i] >= 0) total(element.rows[i]) += element_.residual(i);
   }
-  add_ends(media, unknowns, Want::residual_and_tangent, total);
-  add_surface(media.cortex, unknowns, Want::residual_and_tangent, total);
-  const Stopwatch watch(work_.sparse_s);
-  factorised = lu_->factorise();
+  if (want == Want::residual_and_tangent) places_[part].add(element, element_.tangent, matrix_);
+}
+
+void CoupledSystem::add_surface(const Part& part, const Cortex& cortex, const VectorXd& unknowns, Want want,
+                                VectorXd& total) {
+  for (const int k : part.patches) {
+    if (k >= surface_.active(cortex)) continue;
+    surface_.integrate(k, cortex, unknowns, want, element_);
+    const std::vector<int>& rows = surface_.patches()[k].unknowns;
+    for (int j = 0; j < int(rows.size()); ++j) {
+      if (rows[j] < 0) continue;
+      total(rows[j]) += element_.residual(j);
+      if (want == Want::residual) continue;
+      for (int i = 0; i < int(rows.size()); ++i) {
+        if (rows[i] >= 0) matrix_(place_[rows[i]], place_[rows[j]]) += element_.tangent(i, j);
+      }
+    }
+  }
+}
+
+VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, double& min_det) {
+  return assemble(media, unknowns, {}, min_det);
+}
+
+VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
+  const auto condense = [this](int part, const std::vector<int>&, const MatrixXd& tangent) {
+    lu_->condense(part, tangent);
+  };
+  VectorXd total = assemble(media, unknowns, condense, min_det);
+  factorised = total.allFinite() && lu_->is_regular();
   ++work_.factorisations;
   return total;
+}
+
+VectorXd CoupledSystem::solve(const VectorXd& rhs) {
+  const Stopwatch watch(work_.substitution_s);
+  return lu_->solve(rhs);
 }
 
 double CoupledSystem::undisturbed_pressure(const Liquid& liquid) const {
@@ -174,101 +198,13 @@ CoupledSystem::InletPressure CoupledSystem::inlet_pressure(const Media& media) c
   return {undisturbed_pressure(media.liquid), 0};
 }
 
-void CoupledSystem::add_ends(const Media& media, const VectorXd& unknowns, Want want, VectorXd& residual) {
-  // Loads are those of this moment: the ends of a channel with walls that are not straight change their size.
-  residual -= undisturbed_pressure(media.liquid) * outlet_load(space_);
-  if (!space_.has_open_inlet()) return;
-  const InletPressure pressure = inlet_pressure(media);
-  const VectorXd load = inlet_load(space_);
-  residual += (pressure.fixed + pressure.slope * unknowns(space_.cell_velocity())) * load;
-  if (want == Want::residual) return;
-  for (std::size_t k = 0; k < inlet_equation_.size(); ++k) {
-    matrix_->value[inlet_position_[k]] += pressure.slope * load(inlet_equation_[k]);
-  }
-}
-
-void CoupledSystem::condense(const ElementUnknowns& element, Condensed& c, const MatrixXd& tangent) {
-  const int inner = int(c.inner_row.size()), rows = int(c.outer_row.size()), columns = int(c.outer_unknown.size());
-  const MatrixXd inner_inner = tangent(c.inner_row, c.inner_column);
-  c.outer_inner = tangent(c.outer_row, c.inner_column);
-  c.inner_outer.setZero(inner, columns);
-  c.schur.setZero(rows, columns);
-  for (const auto& [slot, outer] : c.outer_column) {
-    const double factor = element.columns[slot].factor;
-    for (int i = 0; i < inner; ++i) c.inner_outer(i, outer) += factor * tangent(c.inner_row[i], slot);
-    for (int i = 0; i < rows; ++i) c.schur(i, outer) += factor * tangent(c.outer_row[i], slot);
-  }
-  if (inner > 0) {
-    c.lu.compute(inner_inner);
-    c.inner_outer = c.lu.solve(c.inner_outer);
-    c.schur.noalias() -= c.outer_inner * c.inner_outer;
-  }
-  const double* value = c.schur.data();
-  for (const int position : c.position) matrix_->value[position] += *value++;
-}
-
-VectorXd CoupledSystem::solve(const VectorXd& rhs) {
-  const Stopwatch watch(work_.solve_s);
-  VectorXd outer = rhs.head(space_.outer_unknowns());
-  for (Condensed& c : condensed_) {
-    if (c.inner_unknown.empty()) continue;
-    c.inner_solution = c.lu.solve(VectorXd(rhs(c.inner_unknown)));
-    const VectorXd correction = c.outer_inner * c.inner_solution;
-    for (int i = 0; i < correction.size(); ++i) outer(c.outer_equation[i]) -= correction(i);
-  }
-  VectorXd x(space_.unknowns());
-  x.head(space_.outer_unknowns()) = lu_->solve(outer);
-  for (const Condensed& c : condensed_) {
-    if (c.inner_unknown.empty()) continue;
-    const VectorXd inner = c.inner_solution - c.inner_outer * x(c.outer_unknown);
-    for (int i = 0; i < inner.size(); ++i) x(c.inner_unknown[i]) = inner(i);
-  }
-  return x;
-}
-
-void CoupledSystem::add_surface(const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& residual) {
-  const Stopwatch watch(work_.assembly_s);
-  for (int k = 0; k < surface_.active(cortex); ++k) {
-    surface_.integrate(k, cortex, unknowns, want, element_);
-    const auto& rows = surface_.patches()[k].unknowns;
-    for (int i = 0; i < int(rows.size()); ++i) {
-      if (rows[i] < 0) continue;
-      residual(rows[i]) += element_.residual(i);
-      if (want == Want::residual) continue;
-      for (int j = 0; j < int(rows.size()); ++j) {
-        if (rows[j] >= 0) matrix_->value[surface_position_[k][i * rows.size() + j]] += element_.tangent(i, j);
-      }
-    }
-  }
-}
-
 VectorXd CoupledSystem::apply_tangent(const Media& media, const VectorXd& unknowns, const VectorXd& direction) {
   VectorXd product = VectorXd::Zero(space_.unknowns());
-  for (int e = 0; e < int(condensed_.size()); ++e) {
-    const ElementUnknowns& element = elements_[e];
-    if (element.is_empty()) continue;
-    integrate(e, media, unknowns, Want::residual_and_tangent, element_);
-    VectorXd local(element.columns.size());
-    for (int j = 0; j < local.size(); ++j) {
-      const Slot& slot = element.columns[j];
-      local(j) = slot.unknown >= 0 ? slot.factor * direction(slot.unknown) : 0.0;
-    }
-    const VectorXd change = element_.tangent * local;
-    for (int i = 0; i < change.size(); ++i) {
-      if (element.rows[i] >= 0) product(element.rows[i]) += change(i);
-    }
-  }
-  if (space_.has_open_inlet())
-    product += inlet_pressure(media).slope * direction(space_.cell_velocity()) * inlet_load(space_);
-  for (int k = 0; k < surface_.active(media.cortex); ++k) {
-    surface_.integrate(k, media.cortex, unknowns, Want::residual_and_tangent, element_);
-    const auto& rows = surface_.patches()[k].unknowns;
-    for (int i = 0; i < int(rows.size()); ++i) {
-      for (int j = 0; j < int(rows.size()); ++j) {
-        if (rows[i] >= 0 && rows[j] >= 0) product(rows[i]) += element_.tangent(i, j) * direction(rows[j]);
-      }
-    }
-  }
+  double min_det = 0;
+  const auto apply = [&](int, const std::vector<int>& order, const MatrixXd& tangent) {
+    product(order) += tangent * direction(order);
+  };
+  assemble(media, unknowns, apply, min_det);
   return product;
 }
 

@@ -1,13 +1,14 @@
-// The nonlinear system of cell and liquid: residual, exact tangent, and its factorisation with the unknowns inside
-// elements condensed (docs/theory.md, eq:condensation). What an element contributes, the derived systems say.
+// The nonlinear system of cell and liquid: residual, exact tangent, and its factorisation subdomain by subdomain
+// (docs/theory.md, eq:condensation). What an element contributes, the derived systems say.
 #pragma once
-#include <Eigen/LU>
+#include <functional>
 #include <optional>
 #include <utility>
 
 #include "fem/element_integrals.h"
+#include "fem/element_places.h"
+#include "fem/nested_lu.h"
 #include "fem/nonlinear_system.h"
-#include "fem/sparse_lu.h"
 #include "fem/surface_integrals.h"
 
 namespace rheocyte {
@@ -54,26 +55,36 @@ class CoupledSystem : public NonlinearSystem {
   const std::vector<ElementUnknowns>& elements() const { return elements_; }
 
  private:
-  struct Condensed;
+  /// An element that is not empty, and what is integrated with it.
+  struct Part {
+    int element = 0;
+    std::vector<int> patches = {};  ///< of the surface
+    std::vector<int> inlet = {};    ///< equations with the load of an open inlet
+  };
+  /// Is given the tangent of a part, with rows and columns in the order of these unknowns.
+  using UseTangent = std::function<void(int part, const std::vector<int>& order, const MatrixXd& tangent)>;
+
+  std::vector<CoupledUnknowns> couple();
+  void share_out_surface();
+  void share_out_inlet(const VectorXd& load);
+  /// The residual; the tangent, if it is used, is given part by part, and is the sum of these.
+  VectorXd assemble(const Media&, const VectorXd& unknowns, const UseTangent&, double& min_det);
+  void add_element(int part, const Media&, const VectorXd& unknowns, Want, VectorXd& total);
   /// Cortex, volume of a pure shell, and barycentre.
-  void add_surface(const Cortex&, const VectorXd& unknowns, Want, VectorXd& residual);
+  void add_surface(const Part&, const Cortex&, const VectorXd& unknowns, Want, VectorXd& total);
   /// Of the last liquid that was asked for: most have to integrate for it.
   double undisturbed_pressure(const Liquid&) const;
-  /// Tractions of the open ends.
-  void add_ends(const Media&, const VectorXd& unknowns, Want, VectorXd& residual);
-  void condense(const ElementUnknowns&, Condensed&, const MatrixXd& tangent);
 
   const Discretisation& space_;
   std::vector<ElementUnknowns> elements_;
   SurfaceIntegrals surface_;
-  std::vector<Condensed> condensed_;
-  std::vector<std::vector<int>> surface_position_;  ///< in the sparse matrix, patch by patch: unknowns x unknowns
+  std::vector<Part> parts_;
+  std::vector<ElementPlaces> places_;  ///< of each part's element in its matrix
+  std::unique_ptr<NestedLU<double>> lu_;
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
-  std::vector<int> inlet_equation_;  ///< where the load of an open inlet is not zero
-  std::vector<int> inlet_position_;  ///< of these equations' entries for v_cell in the sparse matrix
-  std::unique_ptr<SparseMatrix> matrix_;
-  std::unique_ptr<SparseLU> lu_;
   ElementSystem element_;
+  MatrixXd matrix_;         ///< of a part
+  std::vector<int> place_;  ///< of each unknown in it
 };
 
 /// Of a system with axial symmetry.

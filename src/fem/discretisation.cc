@@ -76,7 +76,6 @@ std::vector<Discretisation::NodeFlags> Discretisation::flag_nodes() const {
     for (int k = 0; k < reference_.nodes(); ++k) {
       NodeFlags& f = flags[nodes_.of_element[e][k]];
       (cell ? f.cell : f.liquid) = true;
-      f.interior = f.interior || reference_.is_interior(k);
     }
   }
   for (NodeFlags& f : flags) f.surface = f.cell && f.liquid;
@@ -88,34 +87,23 @@ void Discretisation::number_unknowns(const std::vector<NodeFlags>& flags) {
   displacement_.assign(2 * nodes_.count, -1);
   velocity_.assign(2 * nodes_.count, Slot{});
   pressure_.assign(elements * modes, -1);
-  const auto number_nodes = [&](bool interior) {
-    for (int i = 0; i < nodes_.count; ++i) {
-      const NodeFlags& f = flags[i];
-      if (f.interior != interior) continue;
-      if (f.cell) {
-        if (interior_ == Interior::liquid && !f.surface) continue;
-        displacement_[2 * i] = unknowns_++;
-        if (!f.axis) displacement_[2 * i + 1] = unknowns_++;
-      } else {
-        if (!f.wall && (!f.inlet || open_inlet_)) velocity_[2 * i].unknown = unknowns_++;
-        if (!f.wall && !f.inlet && !f.outlet && !f.axis) velocity_[2 * i + 1].unknown = unknowns_++;
-      }
+  for (int i = 0; i < nodes_.count; ++i) {
+    const NodeFlags& f = flags[i];
+    if (f.cell) {
+      if (interior_ == Interior::liquid && !f.surface) continue;
+      displacement_[2 * i] = unknowns_++;
+      if (!f.axis) displacement_[2 * i + 1] = unknowns_++;
+    } else {
+      if (!f.wall && (!f.inlet || open_inlet_)) velocity_[2 * i].unknown = unknowns_++;
+      if (!f.wall && !f.inlet && !f.outlet && !f.axis) velocity_[2 * i + 1].unknown = unknowns_++;
     }
-  };
-  const auto has_pressures = [&](int e) {
-    return interior_ != Interior::liquid || !is_cell(mesh_->elements()[e].block);
-  };
-  number_nodes(false);
+  }
   for (int e = 0; e < elements; ++e) {
-    if (has_pressures(e)) pressure_[e * modes] = unknowns_++;
+    if (interior_ == Interior::liquid && is_cell(mesh_->elements()[e].block)) continue;
+    for (int k = 0; k < modes; ++k) pressure_[e * modes + k] = unknowns_++;
   }
   cell_velocity_ = unknowns_++;
   if (interior_ == Interior::liquid) inner_pressure_ = unknowns_++;
-  outer_unknowns_ = unknowns_;
-  number_nodes(true);
-  for (int e = 0; e < elements; ++e) {
-    for (int k = 1; k < modes && has_pressures(e); ++k) pressure_[e * modes + k] = unknowns_++;
-  }
   // Walls and inlet move backwards past the cell.
   for (int i = 0; i < nodes_.count; ++i) {
     if (flags[i].cell || !(flags[i].wall || (flags[i].inlet && !open_inlet_))) continue;

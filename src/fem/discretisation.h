@@ -75,8 +75,6 @@ class Discretisation {
   void move_nodes(const VectorXd& outward);
 
   int unknowns() const { return unknowns_; }
-  /// Unknowns up to this number couple elements; the others belong to one element and are condensed.
-  int outer_unknowns() const { return outer_unknowns_; }
   int cell_velocity() const { return cell_velocity_; }
   /// Pressure of a liquid interior, above that of the sphere at rest; -1 in an elastic one.
   int inner_pressure() const { return inner_pressure_; }
@@ -92,8 +90,7 @@ class Discretisation {
 
  private:
   struct NodeFlags {
-    bool cell = false, liquid = false, surface = false, axis = false, wall = false, inlet = false, outlet = false,
-         interior = false;
+    bool cell = false, liquid = false, surface = false, axis = false, wall = false, inlet = false, outlet = false;
   };
   std::vector<NodeFlags> flag_nodes() const;
   void number_unknowns(const std::vector<NodeFlags>&);
@@ -113,7 +110,7 @@ class Discretisation {
   std::vector<Point> points_, straight_points_;
   std::vector<int> displacement_, pressure_;
   std::vector<Slot> velocity_;
-  int unknowns_ = 0, outer_unknowns_ = 0, cell_velocity_ = -1, inner_pressure_ = -1;
+  int unknowns_ = 0, cell_velocity_ = -1, inner_pressure_ = -1;
   std::vector<BoundaryEdge> surface_, inlet_, outlet_;
   std::vector<ElementUnknowns> elements_;
 };

@@ -5,6 +5,7 @@
 // fluxes of the form are tested with the nodes' functions and with the pressure modes.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -143,29 +144,103 @@ void differentiate_flux(const ColumnGroup<dim>& group, const std::vector<Feed>& 
   }
 }
 
-/// Group by group, so that the derivatives of the fluxes stay in the cache until they are tested.
-template <class Form, int dim>
-void test_tangent(const ReferenceElement<dim>& reference, const std::vector<ColumnGroup<dim>>& groups,
-                  ElementSystem& system) {
-  const int n = reference.nodes(), m = reference.pressures(), points = reference.points();
-  int columns = 0;
-  for (const ColumnGroup<dim>& group : groups) columns = std::max(columns, group.first + group.count);
-  system.tangent.resize(dim * n + m, columns);
-  for (const ColumnGroup<dim>& group : groups) {
-    const std::vector<Feed> fed = feeds<typename Form::template Fields<double>>(group);
-    system.weighted.resize((1 + dim) * points, group.count);
-    for (int c = 0; c < dim; ++c) {
-      for (int k = 0; k <= dim; ++k) {
-        differentiate_flux(group, fed, ((1 + dim) * c + k) * inputs<Form>, system,
-                           system.weighted.middleRows(k * points, points));
-      }
-      system.tangent.block(c * n, group.first, n, group.count).noalias() =
-          reference.shape_stack.transpose() * system.weighted;
+/// sums <- P^T C P with products P of functions of one coordinate and `coefficients` C at the points: each coordinate
+/// is summed by itself (docs/theory.md, eq:sums-2d).
+inline void sum_by_directions(const MatrixXd& products, ElementSystem& system) {
+  system.weighted.noalias() = system.coefficients * products;
+  system.sums.noalias() = products.transpose() * system.weighted;
+}
+
+/// block(i, j) = sum_q sum_kl (part k of phi_i)(q) C_kl(q) (part l of phi_j)(q) with the slopes C of the fluxes of one
+/// component.
+inline void test_nodes_with_nodes(const ReferenceElement<2>& reference, const std::vector<Feed>& feeds, int first_slope,
+                                  int inputs, ElementSystem& system, Eigen::Ref<MatrixXd> block) {
+  const Eigen::Index m = reference.points_1d.size(), n = reference.degree() + 1;
+  system.coefficients.setZero(4 * m, 4 * m);
+  for (int k = 0; k <= 2; ++k) {
+    for (const auto& [input, part] : feeds) {
+      const auto slope = system.flux_slopes.col(first_slope + k * inputs + input).reshaped(m, m);
+      system.coefficients.block(m * ((k == 1) + 2 * (part == 1)), m * ((k == 2) + 2 * (part == 2)), m, m) = slope;
     }
-    auto weighted = system.weighted.topRows(points);
-    differentiate_flux(group, fed, (1 + dim) * dim * inputs<Form>, system, weighted);
-    system.tangent.block(dim * n, group.first, m, group.count).noalias() =
-        reference.pressure.value.transpose() * weighted;
+  }
+  sum_by_directions(reference.products_1d, system);  // (i1, j1) x (i2, j2)
+  for (Eigen::Index j = 0; j < n * n; ++j) {
+    for (Eigen::Index i2 = 0; i2 < n; ++i2)
+      block.col(j).segment(n * i2, n) = system.sums.col(i2 + n * (j / n)).segment(n * (j % n), n);
+  }
+}
+
+/// block(i, j) = sum_q sum_k (part k of phi_i)(q) C_k(q) psi_j(q) with the pressure modes psi, where C_k is a column of
+/// the slopes, -1: none.
+inline void test_nodes_with_modes(const ReferenceElement<2>& reference, const std::array<int, 3>& slopes,
+                                  ElementSystem& system, Eigen::Ref<MatrixXd> block) {
+  const Eigen::Index m = reference.points_1d.size(), n = reference.degree() + 1;
+  system.coefficients.setZero(2 * m, 2 * m);
+  for (int k = 0; k <= 2; ++k) {
+    if (slopes[k] < 0) continue;
+    system.coefficients.block(m * (k == 1), m * (k == 2), m, m) = system.flux_slopes.col(slopes[k]).reshaped(m, m);
+  }
+  sum_by_directions(reference.mode_products_1d, system);  // (i1, j1) x (i2, j2)
+  for (int total = 0, j = 0; total < reference.degree(); ++total) {
+    for (int j2 = 0; j2 <= total; ++j2, ++j) {
+      const auto of_mode = system.sums.block(n * (total - j2), n * j2, n, n);
+      block.col(j) = of_mode.reshaped();
+    }
+  }
+}
+
+/// The columns of one group in the rows of the nodes.
+template <class Form>
+void test_with_nodes(const ReferenceElement<2>& reference, const ColumnGroup<2>& group, const std::vector<Feed>& fed,
+                     ElementSystem& system) {
+  const int n = reference.nodes(), points = reference.points();
+  for (int c = 0; c < 2; ++c) {
+    const int first_slope = 3 * c * inputs<Form>;
+    auto block = system.tangent.block(c * n, group.first, n, group.count);
+    if (group.shape == &reference.shape) {
+      test_nodes_with_nodes(reference, fed, first_slope, inputs<Form>, system, block);
+    } else if (group.shape == &reference.pressure) {
+      const int p = first_slope + fed.front().input;
+      test_nodes_with_modes(reference, {p, p + inputs<Form>, p + 2 * inputs<Form>}, system, block);
+    } else {
+      system.weighted.resize(3 * points, group.count);
+      for (int k = 0; k <= 2; ++k)
+        differentiate_flux(group, fed, first_slope + k * inputs<Form>, system,
+                           system.weighted.middleRows(k * points, points));
+      block.noalias() = reference.shape_stack.transpose() * system.weighted;
+    }
+  }
+}
+
+/// The columns of one group in the rows of the pressure modes.
+template <class Form>
+void test_with_modes(const ReferenceElement<2>& reference, const ColumnGroup<2>& group, const std::vector<Feed>& fed,
+                     ElementSystem& system) {
+  const int first_slope = 6 * inputs<Form>;
+  auto block = system.tangent.block(2 * reference.nodes(), group.first, reference.pressures(), group.count);
+  if (group.shape == &reference.shape) {
+    std::array<int, 3> slopes{-1, -1, -1};
+    for (const auto& [input, part] : fed) slopes[part] = first_slope + input;
+    MatrixXd transposed(group.count, reference.pressures());
+    test_nodes_with_modes(reference, slopes, system, transposed);
+    block = transposed.transpose();
+  } else {
+    system.weighted.resize(reference.points(), group.count);
+    differentiate_flux(group, fed, first_slope, system, system.weighted);
+    block.noalias() = reference.pressure.value.transpose() * system.weighted;
+  }
+}
+
+template <class Form>
+void test_tangent(const ReferenceElement<2>& reference, const std::vector<ColumnGroup<2>>& groups,
+                  ElementSystem& system) {
+  int columns = 0;
+  for (const ColumnGroup<2>& group : groups) columns = std::max(columns, group.first + group.count);
+  system.tangent.resize(2 * reference.nodes() + reference.pressures(), columns);
+  for (const ColumnGroup<2>& group : groups) {
+    const std::vector<Feed> fed = feeds<typename Form::template Fields<double>>(group);
+    test_with_nodes<Form>(reference, group, fed, system);
+    test_with_modes<Form>(reference, group, fed, system);
   }
 }
 

@@ -1,6 +1,8 @@
 #include "fem/nested_lu.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "fem/nested_order.h"
@@ -10,14 +12,31 @@ namespace rheocyte {
 
 using Eigen::VectorXd;
 
-void NestedLU::append(int in_part, int in_whole, std::vector<Run>& runs) {
+void set_neighbours(std::vector<std::vector<int>> nodes, std::size_t nodes_of_face,
+                    std::vector<CoupledUnknowns>& elements) {
+  for (auto& of_element : nodes) std::sort(of_element.begin(), of_element.end());
+  for (std::size_t e = 0; e < nodes.size(); ++e) {
+    for (std::size_t f = 0; f < e; ++f) {
+      std::vector<int> common;
+      std::set_intersection(nodes[e].begin(), nodes[e].end(), nodes[f].begin(), nodes[f].end(),
+                            std::back_inserter(common));
+      if (common.size() < nodes_of_face) continue;
+      elements[e].neighbours.push_back(int(f));
+      elements[f].neighbours.push_back(int(e));
+    }
+  }
+}
+
+template <class Scalar>
+void NestedLU<Scalar>::append(int in_part, int in_whole, std::vector<Run>& runs) {
   const bool goes_on = !runs.empty() && in_part == runs.back().in_part + runs.back().size &&
                        in_whole == runs.back().in_whole + runs.back().size;
   if (!goes_on) runs.push_back({in_part, in_whole, 0});
   ++runs.back().size;
 }
 
-NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
+template <class Scalar>
+NestedLU<Scalar>::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
   std::vector<int> place(unknowns, -1);
   for (const Subdomain& subdomain : nested_order(unknowns, elements)) {
     Front& front = fronts_.emplace_back();
@@ -52,7 +71,8 @@ NestedLU::NestedLU(int unknowns, const std::vector<CoupledUnknowns>& elements) {
   }
 }
 
-bool NestedLU::eliminate(Front& front, Blocks matrix, const std::atomic<bool>* stop) {
+template <class Scalar>
+bool NestedLU<Scalar>::eliminate(Front& front, Blocks matrix, const std::atomic<bool>* stop) {
   const auto is_stopped = [stop] { return stop && *stop; };
   front.schur = std::move(matrix.rest);
   if (front.eliminated == 0) return true;
@@ -69,7 +89,8 @@ bool NestedLU::eliminate(Front& front, Blocks matrix, const std::atomic<bool>* s
   return !is_stopped();
 }
 
-bool NestedLU::condense(int element, const Matrix& matrix, const std::atomic<bool>* stop) {
+template <class Scalar>
+bool NestedLU<Scalar>::condense(int element, const Matrix& matrix, const std::atomic<bool>* stop) {
   const Eigen::Index f = fronts_[element].eliminated, o = matrix.rows() - f;
   Blocks blocks{matrix.topLeftCorner(f, f), matrix.topRightCorner(f, o), matrix.bottomLeftCorner(o, f),
                 matrix.bottomRightCorner(o, o)};
@@ -84,7 +105,8 @@ bool NestedLU::condense(int element, const Matrix& matrix, const std::atomic<boo
 }
 
 /// The matrix of a subdomain from those of its parts, which are given up.
-NestedLU::Blocks NestedLU::joined(const Front& whole) {
+template <class Scalar>
+typename NestedLU<Scalar>::Blocks NestedLU<Scalar>::joined(const Front& whole) {
   const Eigen::Index f = whole.eliminated, o = Eigen::Index(whole.unknowns.size()) - f;
   Blocks sum{Matrix::Zero(f, f), Matrix::Zero(f, o), Matrix::Zero(o, f), Matrix::Zero(o, o)};
   for (int side = 0; side < 2; ++side) {
@@ -108,24 +130,27 @@ NestedLU::Blocks NestedLU::joined(const Front& whole) {
 }
 
 // What is not finite anywhere makes all that is joined with it NaN, up to the pivots of the whole.
-bool NestedLU::is_regular() const {
+template <class Scalar>
+bool NestedLU<Scalar>::is_regular() const {
   const Front& whole = fronts_.back();
   if (whole.eliminated == 0) return true;
   const auto pivots = whole.lu.matrixLU().diagonal().array().abs();
   return pivots.allFinite() && pivots.minCoeff() > 0;
 }
 
-VectorXd NestedLU::solve(const VectorXd& rhs) const {
+template <class Scalar>
+VectorXd NestedLU<Scalar>::solve(const VectorXd& rhs) const {
+  using Vector = Eigen::VectorX<Scalar>;
   // Residuals far below the smallest number of single precision are corrected as well as others.
   const double size = rhs.cwiseAbs().maxCoeff();
   if (size == 0 || !std::isfinite(size)) return rhs;
-  Eigen::VectorXf x = (rhs / size).cast<float>();
+  Vector x = (rhs / size).template cast<Scalar>();
   for (const Front& front : fronts_) {
     if (front.eliminated == 0) continue;
     const std::vector<int>& all = front.unknowns;
     const std::vector<int> first(all.begin(), all.begin() + front.eliminated),
         rest(all.begin() + front.eliminated, all.end());
-    const Eigen::VectorXf y = front.lu.solve(Eigen::VectorXf(x(first)));
+    const Vector y = front.lu.solve(Vector(x(first)));
     x(first) = y;
     if (!rest.empty()) x(rest) -= front.rows * y;
   }
@@ -133,12 +158,13 @@ VectorXd NestedLU::solve(const VectorXd& rhs) const {
     const std::vector<int>& all = front->unknowns;
     const std::vector<int> first(all.begin(), all.begin() + front->eliminated),
         rest(all.begin() + front->eliminated, all.end());
-    if (front->eliminated > 0 && !rest.empty()) x(first) -= front->solved_columns * Eigen::VectorXf(x(rest));
+    if (front->eliminated > 0 && !rest.empty()) x(first) -= front->solved_columns * Vector(x(rest));
   }
-  return size * x.cast<double>();
+  return size * x.template cast<double>();
 }
 
-void NestedLU::drop_factors() {
+template <class Scalar>
+void NestedLU<Scalar>::drop_factors() {
   for (Front& front : fronts_) {
     front.lu = {};
     front.waits = false;
@@ -146,11 +172,15 @@ void NestedLU::drop_factors() {
   }
 }
 
-double NestedLU::entries() const {
+template <class Scalar>
+double NestedLU<Scalar>::entries() const {
   double sum = 0;
   for (const Front& front : fronts_)
     sum += double(front.eliminated) * (2 * double(front.unknowns.size()) - front.eliminated);
   return sum;
 }
+
+template class NestedLU<float>;
+template class NestedLU<double>;
 
 }  // namespace rheocyte

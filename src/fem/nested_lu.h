@@ -3,7 +3,7 @@
 // (docs/theory-square.md, eq:nested). With 50 to 150 elements of high degree the faces between subdomains are large
 // dense blocks by themselves, so that no ordering of single unknowns could do better, and no library is needed.
 //
-// Matrices and factors have single precision, which halves memory and time: they only correct a state, and Newton's
+// Matrices and factors may have single precision, which halves memory and time: they only correct a state, and Newton's
 // method, whose residuals have double precision, goes on with the same factors until nothing is left to correct.
 #pragma once
 #include <Eigen/LU>
@@ -23,9 +23,13 @@ struct CoupledUnknowns {
   std::vector<int> neighbours;  ///< elements that share a face
 };
 
+/// Sets the neighbours of elements with these nodes, where a face has so many.
+void set_neighbours(std::vector<std::vector<int>> nodes, std::size_t nodes_of_face, std::vector<CoupledUnknowns>&);
+
+template <class Scalar>
 class NestedLU {
  public:
-  using Matrix = Eigen::MatrixXf;
+  using Matrix = Eigen::MatrixX<Scalar>;
 
   /// Chooses the order of joining. The elements must hang together through their faces.
   NestedLU(int unknowns, const std::vector<CoupledUnknowns>&);
@@ -40,7 +44,7 @@ class NestedLU {
   bool condense(int element, const Matrix& matrix, const std::atomic<bool>* stop = nullptr);
   /// Once all elements are condensed: whether the sum of their matrices is finite and regular.
   bool is_regular() const;
-  /// To the digits of single precision.
+  /// To the digits of `Scalar`.
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
 
   /// Frees the memory of the factors; the order stays.
@@ -48,7 +52,7 @@ class NestedLU {
 
   double flops() const { return flops_; }  ///< of one factorisation, elements included
   double entries() const;                  ///< of the factors
-  std::size_t memory_bytes() const { return std::size_t(entries()) * sizeof(Matrix::Scalar); }
+  std::size_t memory_bytes() const { return std::size_t(entries()) * sizeof(Scalar); }
 
  private:
   /// Unknowns of a part, one after the other, that follow each other in the whole as well: those of a face, say.

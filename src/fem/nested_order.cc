@@ -23,7 +23,6 @@ struct Region {
   std::vector<int> groups;      ///< that remain, ascending
   std::vector<int> pressures;   ///< elements whose pressures remain: one per connected part of a medium
   std::vector<int> eliminated;  ///< groups
-  bool joined = false;
 };
 
 /// Operations and sizes of joining two regions.
@@ -73,21 +72,21 @@ class Joining {
     for (int a = 0; a < n; ++a) {
       for (int b = a + 1; b < n; ++b) rank_with(a, b);
     }
+    std::vector<int> left(n);  // regions that are not joined yet
+    std::iota(left.begin(), left.end(), 0);
     for (int joined = n; joined < 2 * n - 1; ++joined) {
       int first = -1, second = -1;
       double least = forbidden;
-      for (int a = 0; a < joined; ++a) {
-        for (int b = a + 1; b < joined; ++b) {
-          if (regions[a].joined || regions[b].joined || ranks[a][b] >= least) continue;
-          least = ranks[a][b], first = a, second = b;
+      for (auto a = left.begin(); a != left.end(); ++a) {
+        for (auto b = a + 1; b != left.end(); ++b) {
+          if (ranks[*a][*b] < least) least = ranks[*a][*b], first = *a, second = *b;
         }
       }
       if (first < 0) return {};
       regions.push_back(together(regions[first], regions[second], {first, second}));
-      regions[first].joined = regions[second].joined = true;
-      for (int a = 0; a < joined; ++a) {
-        if (!regions[a].joined) rank_with(a, joined);
-      }
+      std::erase_if(left, [&](int a) { return a == first || a == second; });
+      for (const int a : left) rank_with(a, joined);
+      left.push_back(joined);
     }
     return regions;
   }

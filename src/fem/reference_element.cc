@@ -26,6 +26,14 @@ MatrixXd tensor(const MatrixXd& common, const MatrixXd& other, int direction) {
   return product;
 }
 
+/// Products of two functions at each point, the first function fastest.
+MatrixXd products_of(const MatrixXd& first, const MatrixXd& second) {
+  MatrixXd products(first.rows(), first.cols() * second.cols());
+  for (int j = 0; j < second.cols(); ++j)
+    products.middleCols(j * first.cols(), first.cols()) = second.col(j).asDiagonal() * first;
+  return products;
+}
+
 /// Legendre polynomials of degree < count, orthonormal on [0, 1].
 VectorXd orthonormal_legendre(int count, double x) {
   VectorXd values(count);
@@ -59,6 +67,13 @@ ReferenceElement<dim>::ReferenceElement(int degree, int number_1d) : degree_(deg
   for (int k = 0; k < dim; ++k) shape.slope[k] = tensor<dim>(value, slope, k);
   shape_stack.resize((1 + dim) * points(), nodes());
   for (int k = 0; k <= dim; ++k) shape_stack.middleRows(k * points(), points()) = shape.part(k);
+  MatrixXd modes_1d(points_1d.size(), degree);
+  for (int q = 0; q < points_1d.size(); ++q) modes_1d.row(q) = orthonormal_legendre(degree, points_1d(q));
+  products_1d.resize(4 * points_1d.size(), nodes_1d.size() * nodes_1d.size());
+  products_1d << products_of(value, value), products_of(slope, value), products_of(value, slope),
+      products_of(slope, slope);
+  mode_products_1d.resize(2 * points_1d.size(), nodes_1d.size() * degree);
+  mode_products_1d << products_of(value, modes_1d), products_of(slope, modes_1d);
   const int n = int(points_1d.size());
   for (int q = 0; q < points(); ++q) {
     Coordinates xi;

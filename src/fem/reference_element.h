@@ -40,6 +40,12 @@ class ReferenceElement {
   ShapeTable<dim> shape;
   MatrixXd shape_stack;      ///< the parts of `shape` below each other
   ShapeTable<dim> pressure;  ///< values only
+  /// Products of two of the 1D functions at the 1D points, the first function fastest: values of both, derivatives of
+  /// the first, of the second, of both, below each other.
+  MatrixXd products_1d;
+  /// Products of one of the 1D functions, which is fastest, and a 1D Legendre mode: values, and below them those with
+  /// the function's derivative.
+  MatrixXd mode_products_1d;
 
   /// Values of the 1D Lagrange functions of the nodes at given points in [0,1]: points x (p+1).
   MatrixXd lagrange(const VectorXd& at) const;

@@ -8,20 +8,6 @@
 namespace rheocyte {
 namespace {
 
-/// Marks displacements and pressures of the cell, or velocities and pressures of the liquid.
-std::vector<bool> members(const Discretisation& space, bool cell) {
-  std::vector<bool> wanted(space.unknowns(), false);
-  for (int e = 0; e < int(space.elements().size()); ++e) {
-    if (space.elements()[e].liquid == cell) continue;
-    for (int k = 0; k < space.reference().pressures(); ++k) wanted[space.pressure(e, k)] = true;
-  }
-  for (int i = 0; i < 2 * space.nodes().count; ++i) {
-    const int unknown = cell ? space.displacement(i / 2, i % 2) : space.velocity(i / 2, i % 2).unknown;
-    if (unknown >= 0 && unknown != space.cell_velocity()) wanted[unknown] = true;
-  }
-  return wanted;
-}
-
 void add_residual(const ElementUnknowns& element, const VectorXd& residual, VectorXd& total) {
   for (int i = 0; i < residual.size(); ++i) {
     if (element.rows[i] >= 0) total(element.rows[i]) += residual(i);
@@ -31,11 +17,7 @@ void add_residual(const ElementUnknowns& element, const VectorXd& residual, Vect
 }  // namespace
 
 SplitSystem::SplitSystem(const Discretisation& space)
-    : space_(space),
-      elements_(space.elements()),
-      surface_(space),
-      liquid_(elements_, members(space, false)),
-      cell_(elements_, members(space, true)) {}
+    : space_(space), elements_(space.elements()), surface_(space), liquid_(space, true), cell_(space, false) {}
 
 void SplitSystem::set_surface_velocity(const SplitState& state) {
   const int n = space_.reference().nodes();
@@ -111,7 +93,6 @@ bool SplitSystem::step_liquid(const Media& media, double step, SplitState& state
   set_surface_velocity(state);
   const double undisturbed = undisturbed_inlet_pressure(space_, media.liquid);
   VectorXd residual = (undisturbed + state.inlet_pressure) * inlet_load(space_) - undisturbed * outlet_load(space_);
-  liquid_.clear();
   for (int e = 0; e < int(elements_.size()); ++e) {
     if (!elements_[e].liquid) continue;
     integrate_liquid(e, media, step, state, state.unknowns, Want::residual_and_tangent);
@@ -119,7 +100,7 @@ bool SplitSystem::step_liquid(const Media& media, double step, SplitState& state
     liquid_.add(e, element_.tangent);
   }
   ++factorisations_;
-  if (!liquid_.factorise()) return false;
+  if (!liquid_.is_regular()) return false;
   state.unknowns -= liquid_.solve(residual);
   load = VectorXd::Zero(space_.unknowns());
   for (int e = 0; e < int(elements_.size()); ++e) {
@@ -145,7 +126,6 @@ bool SplitSystem::step_liquid(const Media& media, double step, SplitState& state
 
 bool SplitSystem::step_cell(const Media& media, double step, SplitState& state) {
   VectorXd residual = state.traction;
-  cell_.clear();
   for (int e = 0; e < int(elements_.size()); ++e) {
     if (elements_[e].liquid) continue;
     integrate_cell(e, media, step, state);
@@ -153,7 +133,7 @@ bool SplitSystem::step_cell(const Media& media, double step, SplitState& state) 
     cell_.add(e, element_.tangent);
   }
   ++factorisations_;
-  if (!cell_.factorise()) return false;
+  if (!cell_.is_regular()) return false;
   const VectorXd correction = cell_.solve(residual);  // of velocities in the places of displacements, and of pressures
   for (int i = 0; i < 2 * space_.nodes().count; ++i) {
     const int unknown = space_.displacement(i / 2, i % 2);

@@ -1,59 +1,45 @@
 #include "fem/subset_matrix.h"
 
-#include <algorithm>
+#include <set>
 
 namespace rheocyte {
 
-SubsetMatrix::SubsetMatrix(const std::vector<ElementUnknowns>& elements, const std::vector<bool>& wanted) {
-  std::vector<int> number(wanted.size(), -1);
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (!wanted[i]) continue;
-    number[i] = int(members_.size());
-    members_.push_back(int(i));
+SubsetMatrix::SubsetMatrix(const Discretisation& space, bool liquid) : number_(space.elements().size(), -1) {
+  std::vector<CoupledUnknowns> coupled;
+  std::vector<std::vector<int>> nodes;
+  std::set<int> members;
+  for (int e = 0; e < int(space.elements().size()); ++e) {
+    const ElementUnknowns& element = space.elements()[e];
+    if (element.liquid != liquid) continue;
+    number_[e] = int(elements_.size());
+    elements_.push_back(&element);
+    std::set<int> unknowns;
+    for (int j = element.liquid ? 2 * element.position_columns : 0; j < int(element.columns.size()); ++j)
+      unknowns.insert(element.columns[j].unknown);
+    unknowns.erase(-1);
+    unknowns.erase(space.cell_velocity());
+    members.insert(unknowns.begin(), unknowns.end());
+    coupled.push_back({{unknowns.begin(), unknowns.end()}, space.pressure(e, 0), liquid, {}});
+    nodes.push_back(space.nodes().of_element[e]);
   }
-  const auto number_of = [&](int unknown) { return unknown < 0 ? -1 : number[unknown]; };
-  std::vector<std::pair<int, int>> entries;
-  for (const ElementUnknowns& element : elements) {
-    Pattern& pattern = patterns_.emplace_back();
-    for (int i = 0; i < int(element.rows.size()); ++i) {
-      if (number_of(element.rows[i]) >= 0) pattern.row_slot.push_back(i);
-    }
-    // The columns of positions are known in any splitting.
-    for (int j = element.liquid ? 2 * element.position_columns : 0; j < int(element.columns.size()); ++j) {
-      if (number_of(element.columns[j].unknown) >= 0) pattern.column_slot.push_back(j);
-    }
-    for (const int i : pattern.row_slot) {
-      for (const int j : pattern.column_slot)
-        entries.emplace_back(number_of(element.rows[i]), number_of(element.columns[j].unknown));
-    }
-  }
-  matrix_ = std::make_unique<SparseMatrix>(int(members_.size()), entries);
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    Pattern& pattern = patterns_[e];
-    for (const int i : pattern.row_slot) {
-      for (const int j : pattern.column_slot)
-        pattern.position.push_back(
-            matrix_->position(number_of(elements[e].rows[i]), number_of(elements[e].columns[j].unknown)));
-    }
-  }
-  lu_ = std::make_unique<SparseLU>(*matrix_);
+  members_.assign(members.begin(), members.end());
+  set_neighbours(std::move(nodes), std::size_t(space.reference().degree()) + 1, coupled);
+  lu_ = std::make_unique<NestedLU<double>>(space.unknowns(), coupled);
+  for (int k = 0; k < int(elements_.size()); ++k) places_.emplace_back(*elements_[k], lu_->order(k), space.unknowns());
 }
 
-void SubsetMatrix::clear() { std::fill(matrix_->value.begin(), matrix_->value.end(), 0.0); }
-
 void SubsetMatrix::add(int element, const MatrixXd& tangent) {
-  const Pattern& pattern = patterns_[element];
-  const int* position = pattern.position.data();
-  for (const int i : pattern.row_slot) {
-    for (const int j : pattern.column_slot) matrix_->value[*position++] += tangent(i, j);
-  }
+  const int k = number_[element];
+  const auto size = Eigen::Index(lu_->order(k).size());
+  MatrixXd matrix = MatrixXd::Zero(size, size);
+  places_[k].add(*elements_[k], tangent, matrix);
+  lu_->condense(k, matrix);
 }
 
 VectorXd SubsetMatrix::solve(const VectorXd& rhs) const {
-  const VectorXd solution = lu_->solve(rhs(members_));
-  VectorXd result = VectorXd::Zero(rhs.size());
-  result(members_) = solution;
-  return result;
+  VectorXd wanted = VectorXd::Zero(rhs.size());
+  wanted(members_) = rhs(members_);
+  return lu_->solve(wanted);
 }
 
 }  // namespace rheocyte

@@ -1,34 +1,29 @@
-// A sparse linear system for some of the unknowns of a discretisation, the others being known.
+// The linear system of the velocities and pressures of cell or liquid alone, those of the other being known.
 #pragma once
-#include <memory>
-#include <vector>
-
-#include "fem/discretisation.h"
-#include "fem/sparse_lu.h"
+#include "fem/element_places.h"
+#include "fem/nested_lu.h"
 
 namespace rheocyte {
 
 class SubsetMatrix {
  public:
-  /// `wanted[unknown]` says which belong to the subset; `elements` which of the elements couple them. Rows and columns
-  /// of an element's matrix are its slots.
-  SubsetMatrix(const std::vector<ElementUnknowns>& elements, const std::vector<bool>& wanted);
+  /// Unknowns of the subset are all columns of these elements but positions of the liquid and v_cell; in the cell
+  /// velocities stand in the places of displacements.
+  SubsetMatrix(const Discretisation&, bool liquid);
 
-  void clear();
+  /// The tangent of an element of the subset, each of which has to be given once.
   void add(int element, const MatrixXd& tangent);
-  bool factorise() { return lu_->factorise(); }
+  /// Once all are given: whether the matrix is finite and regular.
+  bool is_regular() const { return lu_->is_regular(); }
   /// Solves for the subset; the other entries of the result are zero, those of the right-hand side are ignored.
   VectorXd solve(const VectorXd& rhs) const;
 
  private:
-  struct Pattern {
-    std::vector<int> row_slot, column_slot;
-    std::vector<int> position;  ///< in the sparse matrix: row_slot x column_slot
-  };
-  std::vector<int> members_;  ///< unknown of each number of the subset
-  std::vector<Pattern> patterns_;
-  std::unique_ptr<SparseMatrix> matrix_;
-  std::unique_ptr<SparseLU> lu_;
+  std::vector<const ElementUnknowns*> elements_;
+  std::vector<int> number_;  ///< of each element of the space in the subset, -1: not in it
+  std::vector<int> members_;
+  std::vector<ElementPlaces> places_;
+  std::unique_ptr<NestedLU<double>> lu_;
 };
 
 }  // namespace rheocyte

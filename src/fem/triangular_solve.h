@@ -5,6 +5,7 @@
 namespace rheocyte {
 
 /// columns <- U^-1 L^-1 columns, with both factors in one square matrix, the unit diagonal of L left out.
-void solve_triangular(const Eigen::MatrixXf& factors, Eigen::MatrixXf& columns);
+template <class Scalar>
+void solve_triangular(const Eigen::MatrixX<Scalar>& factors, Eigen::MatrixX<Scalar>& columns);
 
 }  // namespace rheocyte

@@ -6,23 +6,21 @@ namespace rheocyte {
 
 /// Seconds and counts of the parts of the work.
 struct WorkMeter {
-  double assembly_s = 0;      ///< integrals over elements, with and without tangent
-  double condensation_s = 0;  ///< dense elimination inside elements
-  double sparse_s = 0;        ///< numeric sparse factorisation
-  double solve_s = 0;
+  double assembly_s = 0;  ///< integrals over elements: residuals and tangents
+  double factorisation_s = 0;
+  double substitution_s = 0;  ///< solutions with the factors
   int factorisations = 0;
 
   WorkMeter& operator+=(const WorkMeter& other) {
     assembly_s += other.assembly_s;
-    condensation_s += other.condensation_s;
-    sparse_s += other.sparse_s;
-    solve_s += other.solve_s;
+    factorisation_s += other.factorisation_s;
+    substitution_s += other.substitution_s;
     factorisations += other.factorisations;
     return *this;
   }
   WorkMeter operator-(const WorkMeter& other) const {
-    return {assembly_s - other.assembly_s, condensation_s - other.condensation_s, sparse_s - other.sparse_s,
-            solve_s - other.solve_s, factorisations - other.factorisations};
+    return {assembly_s - other.assembly_s, factorisation_s - other.factorisation_s,
+            substitution_s - other.substitution_s, factorisations - other.factorisations};
   }
 };
 

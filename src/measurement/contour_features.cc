@@ -27,15 +27,19 @@ Principal principal_axes(const PolygonMoments& m) {
 
 }  // namespace
 
+const Polygon& ContourMeasurer::find_hull(std::span<const PixelPoint> contour) {
+  hull_polygon_.assign(hull_.of(contour));
+  return hull_polygon_;
+}
+
 ContourFeatures ContourMeasurer::measure(std::span<const PixelPoint> contour, double pixel_size_um) {
   if (contour.size() < 4) return no_features;
-  const auto hull_points = hull_.of(contour);
-  if (hull_points.size() < 3) return no_features;
-  polygon_.assign(hull_points);
-  const PolygonMoments hull = polygon_.moments();
+  const PolygonMoments hull = find_hull(contour).moments();
+  if (hull_polygon_.corners() < 3) return no_features;
   polygon_.assign(contour);
   const PolygonMoments raw = polygon_.moments();
   if (!(hull.area > 0) || !(raw.area > 0)) return no_features;
+  const auto hull_points = hull_.points();
   const auto [left, right] = std::ranges::minmax(hull_points, {}, &PixelPoint::x);
   const auto [top, bottom] = std::ranges::minmax(hull_points, {}, &PixelPoint::y);
   const auto [ratio, tilt] = principal_axes(raw);

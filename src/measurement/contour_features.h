@@ -4,7 +4,7 @@
 
 #include "measurement/pixel_contour.h"
 #include "measurement/pixel_hull.h"
-#include "measurement/pixel_polygon.h"
+#include "shape/polygon.h"
 
 namespace rheocyte {
 
@@ -38,12 +38,14 @@ class ContourMeasurer {
   /// `pixel_size_um` > 0. Fewer than four points, or all on a line, give NaN everywhere.
   ContourFeatures measure(std::span<const PixelPoint> contour, double pixel_size_um);
 
-  /// The hull of the outline that was measured last, if it has features.
-  std::span<const PixelPoint> hull() const { return hull_.points(); }
+  /// The hull alone, of one point at least. Valid until the next call.
+  const Polygon& find_hull(std::span<const PixelPoint> contour);
+  /// That of the outline that was measured last, if it has features.
+  const Polygon& hull() const { return hull_polygon_; }
 
  private:
   PixelHull hull_;
-  PixelPolygon polygon_;
+  Polygon hull_polygon_, polygon_;
 };
 
 }  // namespace rheocyte

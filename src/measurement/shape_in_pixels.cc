@@ -5,30 +5,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/mask_from_outline.h"
-#include "measurement/pixel_hull.h"
 
 namespace rheocyte {
 
-namespace {
-
-std::vector<Eigen::Vector2d> scaled(std::span<const PixelPoint> pixels, double pixel_size) {
-  std::vector<Eigen::Vector2d> points;
-  points.reserve(pixels.size());
-  for (const PixelPoint& point : pixels) points.emplace_back(pixel_size * point.x, pixel_size * point.y);
-  return points;
-}
-
-}  // namespace
-
-RadiusModes modes_of_hull(std::span<const PixelPoint> hull) { return hull_modes(scaled(hull, 1)); }
-
-HullAsymmetry asymmetry_of_hull(std::span<const PixelPoint> hull) { return hull_asymmetry(scaled(hull, 1)); }
-
 ShapeVector shape_of_contour(const PixelContour& contour, double pixel_size_um) {
-  PixelHull hull;
-  return shape_vector(hull_shape(scaled(hull.of(contour), pixel_size_um)));
+  ContourMeasurer measurer;
+  OutlineShape shape = hull_shape(measurer.find_hull(contour));
+  shape.area *= pixel_size_um * pixel_size_um;
+  return shape_vector(shape);
 }
 
 ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um,

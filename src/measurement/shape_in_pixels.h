@@ -1,7 +1,5 @@
 // What pixels do to the features of a shape: mean and covariance over all positions of the cell on the camera.
 #pragma once
-#include <span>
-
 #include "measurement/pixel_contour.h"
 #include "numeric/cell_random.h"
 #include "shape/outline_shape.h"
@@ -10,9 +8,6 @@ namespace rheocyte {
 
 /// Features of the polygon through the centres of a contour's pixels.
 ShapeVector shape_of_contour(const PixelContour& contour, double pixel_size_um);
-/// The first modes, or less, if the polygon's hull is known (measurement/pixel_hull.h).
-RadiusModes modes_of_hull(std::span<const PixelPoint> hull);
-HullAsymmetry asymmetry_of_hull(std::span<const PixelPoint> hull);
 
 /// Renders the outline (um, x along the flow) at `draws` random positions, as fill_mask does, and measures each mask's
 /// contour. Sizes are spread over one pixel of the height, because a cell that is a whole number of pixels high counts

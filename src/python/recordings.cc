@@ -17,13 +17,13 @@
 #include "extract/time_course_table.h"
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
-#include "measurement/shape_in_pixels.h"
 #include "numeric/no_value.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/contained_reading.h"
 #include "python/interruptible.h"
 #include "python/shared_columns.h"
+#include "shape/outline_shape.h"
 #include "shape/radius_modes.h"
 #include "store/build_info.h"
 #include "store/whole_file.h"
@@ -218,7 +218,7 @@ py::tuple features(const Masks& masks, double pixel_size_um) {
       const PixelContour& contour = finder.contour_of({size, {pixels + i * size.pixels(), size.pixels()}});
       all.features.push_back(measurer.measure(contour, pixel_size_um));
       const bool is_cell = std::isfinite(all.features.back().area_um2);
-      all.modes.push_back(is_cell ? modes_of_hull(measurer.hull()) : no_modes);
+      all.modes.push_back(is_cell ? hull_modes(measurer.hull()) : no_modes);
     }
     return all;
   });

@@ -35,36 +35,7 @@ std::vector<Point> hull_of(const Eigen::MatrixX2d& polygon) {
   return hull;
 }
 
-/// Area, centroid and moments of a polygon (docs/theory.md, eq:shape).
-struct Moments {
-  double area = 0, xx = 0, yy = 0, perimeter = 0;
-  Point centroid = Point::Zero();
-};
-
-Moments moments_of(const std::vector<Point>& hull) {
-  Moments m;
-  const Point& origin = hull.front();  // near the cell: no cancellation
-  Point a = hull.back() - origin;
-  for (const Point& corner : hull) {
-    const Point b = corner - origin;
-    const double w = cross(a, b);
-    m.area += w / 2;
-    m.centroid += w * (a + b) / 6;
-    m.xx += w * (a.x() * a.x() + a.x() * b.x() + b.x() * b.x()) / 12;
-    m.yy += w * (a.y() * a.y() + a.y() * b.y() + b.y() * b.y()) / 12;
-    m.perimeter += (b - a).norm();
-    a = b;
-  }
-  m.centroid /= m.area;
-  m.xx -= m.area * m.centroid.x() * m.centroid.x();
-  m.yy -= m.area * m.centroid.y() * m.centroid.y();
-  m.centroid += origin;
-  return m;
-}
-
-/// Some edges at once, so that the processor computes them side by side.
-constexpr int lanes = 8;
-using Lanes = Eigen::Array<double, lanes, 1>;
+using Lanes = Eigen::Array<double, Polygon::block, 1>;
 
 /// Edges of a hull as they are seen from its centre: the ends at the place `along` from the foot of the perpendicular,
 /// whose length is `distance` and whose direction is (normal_x, normal_y).
@@ -72,24 +43,17 @@ struct Edges {
   Lanes distance, normal_x, normal_y, along_start, along_end;
 };
 
-/// Of fewer edges than there are lanes the others have the length 1 and no `weight`.
-Edges edges_from(const std::vector<Point>& hull, std::size_t first, const Point& centre, Lanes& weight) {
-  Lanes ax = Lanes::Ones(), ay = Lanes::Zero(), bx = Lanes::Ones(), by = Lanes::Ones();
-  const std::size_t count = std::min<std::size_t>(lanes, hull.size() - first);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t next = first + i + 1 < hull.size() ? first + i + 1 : 0;
-    const auto lane = Eigen::Index(i);
-    ax(lane) = hull[first + i].x() - centre.x();
-    ay(lane) = hull[first + i].y() - centre.y();
-    bx(lane) = hull[next].x() - centre.x();
-    by(lane) = hull[next].y() - centre.y();
-  }
-  const Lanes length = ((bx - ax).square() + (by - ay).square()).sqrt(), tx = (bx - ax) / length,
-              ty = (by - ay) / length;
-  const Lanes distance = ax * ty - ay * tx;
-  weight = distance;
-  weight.tail(lanes - Eigen::Index(count)) = 0;
-  return {distance, ty, -tx, ax * tx + ay * ty, bx * tx + by * ty};
+/// Edges without length have the distance 1 and no `weight`. The centre counts from the polygon's origin.
+Edges edges_from(const Polygon& polygon, std::size_t first, const Point& centre, Lanes& weight) {
+  const auto block = [first](const double* values, double middle) {
+    return Lanes(Eigen::Map<const Lanes>(values + first) - middle);
+  };
+  const Lanes ax = block(polygon.x(), centre.x()), ay = block(polygon.y(), centre.y()),
+              bx = block(polygon.x() + 1, centre.x()), by = block(polygon.y() + 1, centre.y());
+  const Lanes length = ((bx - ax).square() + (by - ay).square()).sqrt();
+  const Lanes divisor = (length > 0).select(length, 1), tx = (bx - ax) / divisor, ty = (by - ay) / divisor;
+  weight = ax * ty - ay * tx;
+  return {(length > 0).select(weight, 1), ty, -tx, ax * tx + ay * ty, bx * tx + by * ty};
 }
 
 /// cos(k angle) or sin(k angle), k = 0, 1, ..., from the one before.
@@ -114,7 +78,7 @@ void add_radius_integrals(const Edges& e, const Lanes& weight, std::array<Lanes,
     return Lanes((along < 0).select(e.distance.square() / large, large));
   };
   Lanes turn;
-  for (int i = 0; i < lanes; ++i)
+  for (int i = 0; i < int(Polygon::block); ++i)
     turn(i) = std::atan2((e.along_end(i) - e.along_start(i)) * e.distance(i),
                          e.distance(i) * e.distance(i) + e.along_start(i) * e.along_end(i));
   // C and S of k and of k + 1
@@ -136,13 +100,14 @@ void add_radius_integrals(const Edges& e, const Lanes& weight, std::array<Lanes,
   }
 }
 
-/// Of k = 0 .. last, once around a hull that runs counterclockwise around `centre`.
+/// Of k = 0 .. last, once around a hull that runs counterclockwise about its centroid.
 template <int last>
-std::array<double, last + 1> radius_integrals(const std::vector<Point>& hull, const Point& centre) {
+std::array<double, last + 1> radius_integrals(const Polygon& hull, const PolygonMoments& moments) {
+  const Point centre = Point(moments.x, moments.y) - hull.origin();
   std::array<Lanes, last + 1> sums;
   sums.fill(Lanes::Zero());
   Lanes weight;
-  for (std::size_t first = 0; first < hull.size(); first += lanes) {
+  for (std::size_t first = 0; first < hull.edges(); first += Polygon::block) {
     const Edges edges = edges_from(hull, first, centre, weight);
     add_radius_integrals(edges, weight, sums);
   }
@@ -153,40 +118,43 @@ std::array<double, last + 1> radius_integrals(const std::vector<Point>& hull, co
 
 }  // namespace
 
-OutlineShape hull_shape(const std::vector<Eigen::Vector2d>& hull) {
-  if (hull.size() < 3) {
+OutlineShape hull_shape(const Polygon& hull) {
+  if (hull.corners() < 3) {
     OutlineShape none{no_value, no_value, no_value, no_value, no_value, no_value, {}};
     none.modes.fill(no_value);
     return none;
   }
-  const Moments m = moments_of(hull);
-  OutlineShape shape{m.area, 1 - 2 * std::sqrt(std::numbers::pi * m.area) / m.perimeter, m.yy / m.xx, m.centroid.x(),
-                     m.centroid.y()};
-  const auto integral = radius_integrals<max_mode>(hull, m.centroid);
+  const PolygonMoments m = hull.moments();
+  OutlineShape shape{m.area, 1 - 2 * std::sqrt(std::numbers::pi * m.area) / m.perimeter, m.mu02 / m.mu20, m.x, m.y};
+  const auto integral = radius_integrals<max_mode>(hull, m);
   shape.mean_radius = integral[0] / (2 * std::numbers::pi);
   for (int k = min_mode; k <= max_mode; ++k)
     shape.modes[std::size_t(k - min_mode)] = 2 * integral[std::size_t(k)] / integral[0];
   return shape;
 }
 
-RadiusModes hull_modes(const std::vector<Eigen::Vector2d>& hull) {
+RadiusModes hull_modes(const Polygon& hull) {
   RadiusModes modes;
   modes.fill(no_value);
-  if (hull.size() < 3) return modes;
-  const auto integral = radius_integrals<last_radius_mode>(hull, moments_of(hull).centroid);
+  if (hull.corners() < 3) return modes;
+  const auto integral = radius_integrals<last_radius_mode>(hull, hull.moments());
   for (int k = first_radius_mode; k <= last_radius_mode; ++k)
     modes[std::size_t(k - first_radius_mode)] = 2 * integral[std::size_t(k)] / integral[0];
   return modes;
 }
 
-HullAsymmetry hull_asymmetry(const std::vector<Eigen::Vector2d>& hull) {
-  if (hull.size() < 3) return {no_value, no_value, no_value};
-  const Moments m = moments_of(hull);
-  const auto integral = radius_integrals<3>(hull, m.centroid);
-  return {m.yy / m.xx, 2 * integral[2] / integral[0], 2 * integral[3] / integral[0]};
+HullAsymmetry hull_asymmetry(const Polygon& hull) {
+  if (hull.corners() < 3) return {no_value, no_value, no_value};
+  const PolygonMoments m = hull.moments();
+  const auto integral = radius_integrals<3>(hull, m);
+  return {m.mu02 / m.mu20, 2 * integral[2] / integral[0], 2 * integral[3] / integral[0]};
 }
 
-OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) { return hull_shape(hull_of(polygon)); }
+OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) {
+  Polygon hull;
+  hull.assign(hull_of(polygon));
+  return hull_shape(hull);
+}
 
 ShapeVector shape_vector(const OutlineShape& shape) {
   ShapeVector vector;

@@ -2,8 +2,8 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
-#include <vector>
 
+#include "shape/polygon.h"
 #include "shape/radius_modes.h"
 
 namespace rheocyte {
@@ -39,16 +39,16 @@ struct ShapeErrors {
 OutlineShape outline_shape(const Eigen::MatrixX2d& polygon);
 
 /// The same of a polygon that is its own hull: counterclockwise, without points on its edges. NaN below three points.
-OutlineShape hull_shape(const std::vector<Eigen::Vector2d>& hull);
+OutlineShape hull_shape(const Polygon& hull);
 
 /// The first of its modes alone.
-RadiusModes hull_modes(const std::vector<Eigen::Vector2d>& hull);
+RadiusModes hull_modes(const Polygon& hull);
 
 /// Of the same polygon, what tells a cell of the model from any other; NaN below three points.
 struct HullAsymmetry {
   double moment_ratio, mode_2, mode_3;
 };
-HullAsymmetry hull_asymmetry(const std::vector<Eigen::Vector2d>& hull);
+HullAsymmetry hull_asymmetry(const Polygon& hull);
 
 /// The closed polygon of a meridian (x, r) and its mirror image.
 Eigen::MatrixX2d mirrored(const Eigen::MatrixX2d& meridian);

@@ -92,9 +92,9 @@ class DuctBranchFollower {
     DuctState state = solver_.at_compliance(first_, guess.compliance, guess.unknowns);
     DuctLadder ladder;
     if (state.status == Status::converged) result.outcome.status = solver_.climb(state, ladder);
-    const bool has_state =
-        result.outcome.status == Status::converged || result.outcome.status == Status::accuracy_not_reached;
-    if (!has_state || duct_stability_margin(problem_, state.discrete->space, state.branch.unknowns) < 0) return {};
+    if (!has_state(result.outcome.status) ||
+        duct_stability_margin(problem_, state.discrete->space, state.branch.unknowns) < 0)
+      return {};
     describe_duct(problem_, media_at(problem_, guess.compliance), *state.discrete, state.branch.unknowns, result);
     result.write_fields = {};
     result.outcome.reached = guess.compliance;

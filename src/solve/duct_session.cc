@@ -12,8 +12,7 @@ namespace {
 /// Settles the reason and says it in a sentence.
 void explain(const Problem& problem, StationaryState& r) {
   Outcome& outcome = r.outcome;
-  const bool failed = outcome.status != Status::converged && outcome.status != Status::stopped &&
-                      outcome.status != Status::accuracy_not_reached;
+  const bool failed = !has_state(outcome.status) && outcome.status != Status::stopped;
   if (failed && r.stability_margin < small_margin) {
     outcome.status = Status::surface_unstable;
   } else if (outcome.status == Status::iteration_limit && outcome.reached > 0) {

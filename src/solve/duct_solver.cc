@@ -183,7 +183,7 @@ DuctState DuctSolver::enter(int degree) {
   const Obedience obedience(state.discrete->system, stop_);
   const WorkMeter before = state.discrete->system.work();
   take(state, start_branch(state.discrete->system, problem_, options(false)));
-  count(state.discrete->system.work() - before);
+  result_->statistics += state.discrete->system.work() - before;
   return state;
 }
 
@@ -193,7 +193,7 @@ void DuctSolver::advance(DuctState& state, double compliance, const Continuation
   Path path = stiffness_path(state.discrete->system, problem_);
   path.end = compliance;
   take(state, continue_branch(path, options, state.branch));
-  count(state.discrete->system.work() - before);
+  result_->statistics += state.discrete->system.work() - before;
 }
 
 DuctState DuctSolver::at_degree(const DuctState& from, int degree, const NewtonOptions& options) {
@@ -217,7 +217,7 @@ DuctState DuctSolver::solved(std::shared_ptr<DuctDiscrete> at, BranchState guess
   to.residual = report.residual;
   to.branch.newton_iterations = report.iterations;
   result_->statistics.newton_iterations += report.iterations;
-  count(system.work() - before);
+  result_->statistics += system.work() - before;
   return to;
 }
 
@@ -227,14 +227,6 @@ void DuctSolver::take(DuctState& state, const ContinuationReport& report) {
   state.residual = report.residual;
   result_->statistics.newton_iterations += report.newton_iterations;
   result_->statistics.continuation_steps += report.steps;
-}
-
-void DuctSolver::count(const WorkMeter& work) {
-  SolveStatistics& statistics = result_->statistics;
-  statistics.factorisations += work.factorisations;
-  statistics.assembly_s += work.assembly_s;
-  statistics.factorisation_s += work.condensation_s + work.sparse_s;
-  statistics.substitution_s += work.solve_s;
 }
 
 void DuctSolver::report(const BranchState& state, double deformation, int degree) {

@@ -70,7 +70,6 @@ class DuctSolver {
   void add(DuctState, DuctLadder&);
   DuctState moved(const Problem& from, const DuctState&);
   void take(DuctState&, const ContinuationReport&);
-  void count(const WorkMeter&);
   void report(const BranchState&, double deformation, int degree);
 
   const Problem& problem_;

@@ -18,9 +18,7 @@ constexpr double place_tolerance = 1e-3, first_step = 0.1, nearly_on_axis = 0.02
 constexpr double coarse_accuracy = 1e-2;
 constexpr int max_corrections = 6;
 
-bool is_solved(const StationaryState& state) {
-  return state.outcome.status == Status::converged || state.outcome.status == Status::accuracy_not_reached;
-}
+bool is_solved(const StationaryState& state) { return has_state(state.outcome.status); }
 
 /// Between which offsets the outward drift changes from positive to negative.
 struct Bracket {
@@ -34,7 +32,8 @@ class OffsetSearch {
     problem_.place = CellPlace::given;
     const Extent& extent = problem.extent;
     const double half = problem.camera == Camera::side ? extent.height : extent.width;
-    max_offset_ = max_radius_ratio * half - problem.radius_ratio;
+    max_offset_ = max_offset(half, problem.radius_ratio);
+    min_offset_ = std::min(nearly_on_axis, max_offset_ / 2);
   }
 
   /// Away from the axis; 0 where no state is found, which ends every search.
@@ -51,8 +50,8 @@ class OffsetSearch {
     double offset = std::abs(problem_.offset), drift = drift_at(offset);
     for (double step = first_step; drift != 0; step *= 1.5) {
       const bool outward = drift > 0;
-      if (outward ? offset >= max_offset_ : offset <= nearly_on_axis) return std::nullopt;
-      const double next = std::clamp(outward ? offset + step : offset - step, nearly_on_axis, max_offset_);
+      if (outward ? offset >= max_offset_ : is_on_axis()) return std::nullopt;
+      const double next = std::clamp(outward ? offset + step : offset - step, min_offset_, max_offset_);
       drift = drift_at(next);
       if (drift != 0 && (drift > 0) != outward) return outward ? Bracket{offset, next} : Bracket{next, offset};
       offset = next;
@@ -66,6 +65,7 @@ class OffsetSearch {
   }
   const StationaryState& last() const { return last_; }
   double offset() const { return std::abs(problem_.offset); }
+  bool is_on_axis() const { return offset() <= min_offset_; }
 
   StationaryState on_axis() {
     problem_.offset = 0;
@@ -75,46 +75,37 @@ class OffsetSearch {
   }
   /// The last state, with the work of all.
   StationaryState result() {
-    const SolveStatistics last = last_.statistics;
     last_.statistics = work_;
-    last_.statistics.unknowns = last.unknowns;
-    last_.statistics.degree = last.degree;
-    last_.statistics.elements = last.elements;
     return last_;
   }
 
  private:
   void solve() {
     last_ = solve_(problem_);
-    const SolveStatistics& s = last_.statistics;
-    work_.newton_iterations += s.newton_iterations;
-    work_.factorisations += s.factorisations;
-    work_.continuation_steps += s.continuation_steps;
-    work_.assembly_s += s.assembly_s;
-    work_.factorisation_s += s.factorisation_s;
-    work_.substitution_s += s.substitution_s;
-    work_.total_s += s.total_s;
+    work_ += last_.statistics;
   }
 
   Problem problem_;
   const SolveAtOffset& solve_;
-  double side_, max_offset_;
+  double side_, min_offset_, max_offset_;
   std::map<double, double> drifts_;  ///< outwards, at the places where they are known
   StationaryState last_;
   SolveStatistics work_;
 };
 
-/// The place, from that and the slope of a coarser solution; false where no state is found.
-bool correct(double offset, double slope, OffsetSearch& search) {
+/// Goes to the place, from that and the slope of a coarser solution, and says how far off it may be still; nothing
+/// where no state is found.
+std::optional<double> correct(double offset, double slope, OffsetSearch& search) {
   double drift = search.drift_at(offset);
   for (int i = 0; i < max_corrections && is_solved(search.last()); ++i) {
     const double next = offset - drift / slope;
-    if (std::abs(next - offset) < place_tolerance) return true;
+    if (std::abs(next - offset) < place_tolerance) return place_tolerance;
     const double drift_there = search.drift_at(next);
     slope = (drift_there - drift) / (next - offset);
     offset = next, drift = drift_there;
   }
-  return is_solved(search.last());
+  if (!is_solved(search.last())) return std::nullopt;
+  return std::abs(drift / slope);
 }
 
 }  // namespace
@@ -126,7 +117,7 @@ StationaryState solve_at_equilibrium(const Problem& problem, const SolveAtOffset
   if (!bracket) {
     if (!is_solved(search.last())) return search.result();
     search.set_accuracy(problem.accuracy);
-    if (search.offset() <= nearly_on_axis) {
+    if (search.is_on_axis()) {
       StationaryState state = search.on_axis();
       if (is_solved(state)) state.outcome.message += " The cell drifts to the axis.";
       return state;
@@ -144,9 +135,9 @@ StationaryState solve_at_equilibrium(const Problem& problem, const SolveAtOffset
   const double coarse = bracketed_root(drift, bracket->inner, bracket->outer, place_tolerance);
   if (!is_solved(search.last())) return search.result();
   search.set_accuracy(problem.accuracy);
-  if (!correct(coarse, slope, search)) return search.result();
+  const std::optional<double> left = correct(coarse, slope, search);
   StationaryState state = search.result();
-  state.offset_error = std::abs(search.offset() - coarse) + place_tolerance;
+  if (left) state.offset_error = std::abs(search.offset() - coarse) + *left;
   return state;
 }
 

@@ -144,11 +144,7 @@ class TimeFollower {
       show_frames(before);
       if (observer_.step) observer_.step(describe(report), stepper_->state());
     }
-    const WorkMeter work = stepper_->work();
-    statistics.factorisations = work.factorisations;
-    statistics.assembly_s = work.assembly_s;
-    statistics.factorisation_s = work.condensation_s + work.sparse_s;
-    statistics.substitution_s = work.solve_s;
+    statistics += stepper_->work();
   }
 
   TimePoint describe(const TimeStepReport& report) const {

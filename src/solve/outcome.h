@@ -25,6 +25,9 @@ enum class Status {
   dented,                ///< of a table's branch: the dent at the rear is as deep as the table admits
 };
 
+/// Whether there is a state, be it less accurate than wanted.
+inline bool has_state(Status status) { return status == Status::converged || status == Status::accuracy_not_reached; }
+
 /// What happened to the user's case.
 struct Outcome {
   Status status = Status::not_started;

@@ -23,17 +23,10 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void add_work(const WorkMeter& work, SolveStatistics& statistics) {
-  statistics.factorisations += work.factorisations;
-  statistics.assembly_s += work.assembly_s;
-  statistics.factorisation_s += work.condensation_s + work.sparse_s;
-  statistics.substitution_s += work.solve_s;
-}
-
 void add_work(const ResolvedState& state, SolveStatistics& statistics) {
   statistics.newton_iterations += state.newton_iterations;
   statistics.continuation_steps += state.steps;
-  add_work(state.work, statistics);
+  statistics += state.work;
 }
 
 /// Whether the unknowns of both problems mean the same at any resolution.
@@ -61,7 +54,7 @@ bool move_rung(const Problem& from, const Problem& to, NewtonOptions options, Re
   const NewtonReport report = newton(discrete.system, to, options, rung.branch.unknowns);
   rung.residual = report.residual;
   statistics.newton_iterations += report.iterations;
-  add_work(discrete.system.work() - work, statistics);
+  statistics += discrete.system.work() - work;
   return report.status == Status::converged &&
          stretch_change(discrete.space, before, rung.branch.unknowns) < max_stretch_change &&
          !is_wrinkled(to, discrete.space, rung.branch.unknowns);
@@ -91,8 +84,7 @@ void describe(const Problem& problem, const ResolvedState& state, StationaryStat
 /// Settles the reason and says it in a sentence.
 void explain(const Problem& problem, const ResolvedState& state, StationaryState& r) {
   Outcome& outcome = r.outcome;
-  const bool failed_on_the_way = outcome.status != Status::converged && outcome.status != Status::stopped &&
-                                 outcome.status != Status::accuracy_not_reached;
+  const bool failed_on_the_way = !has_state(outcome.status) && outcome.status != Status::stopped;
   const double margin = state.gave_up ? margin_at_coarse_ends : small_margin;
   if (failed_on_the_way && state.discrete && r.stability_margin < margin) {
     outcome.status = Status::surface_unstable;

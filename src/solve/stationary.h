@@ -9,6 +9,7 @@
 
 #include "case/problem.h"
 #include "fem/sampled_fields.h"
+#include "fem/work_meter.h"
 #include "shape/contour.h"
 #include "solve/outcome.h"
 #include "solve/state_measures.h"
@@ -16,17 +17,24 @@
 namespace rheocyte {
 
 /// Where the time went and how large the systems were.
-struct SolveStatistics {
+struct SolveStatistics : WorkMeter {
   int unknowns = 0;           ///< of the finest system
   int newton_iterations = 0;  ///< over all continuation steps and meshes
-  int factorisations = 0;
   int continuation_steps = 0;
   int degree = 0;  ///< polynomial degree of the finest system
   int elements = 0;
-  double assembly_s = 0;       ///< integrals over elements: residuals and tangents
-  double factorisation_s = 0;  ///< condensation of elements and sparse LU, numeric
-  double substitution_s = 0;   ///< solves with the factors
-  double total_s = 0;          ///< wall time, set-up included
+  double total_s = 0;  ///< wall time, set-up included
+
+  using WorkMeter::operator+=;
+  /// Adds the work of a later solution, whose system becomes the finest one.
+  SolveStatistics& operator+=(const SolveStatistics& later) {
+    WorkMeter::operator+=(later);
+    newton_iterations += later.newton_iterations;
+    continuation_steps += later.continuation_steps;
+    total_s += later.total_s;
+    unknowns = later.unknowns, degree = later.degree, elements = later.elements;
+    return *this;
+  }
 };
 
 /// One step along the branch, for progress and for later use.

@@ -20,9 +20,7 @@ constexpr double first_displacement = 0.006;
 /// Step in u for slopes of the measures along the tangent.
 constexpr double slope_step = 1e-4;
 
-double factorisation_seconds_of(const Discrete& discrete) {
-  return discrete.system.work().condensation_s + discrete.system.work().sparse_s;
-}
+double factorisation_seconds_of(const Discrete& discrete) { return discrete.system.work().factorisation_s; }
 
 }  // namespace
 

@@ -25,10 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool exists(const Result& result) {
-  const Status status = result.state.outcome.status;
-  return status == Status::converged || status == Status::accuracy_not_reached;
-}
+bool exists(const Result& result) { return has_state(result.state.outcome.status); }
 
 /// Why there is none, and the nearest case that has one.
 Answer no_state(const Result& result) {

@@ -12,7 +12,7 @@ namespace rheocyte {
 inline VectorXd tangent_times(DuctSystem& system, const Media& media, const VectorXd& unknowns,
                               const VectorXd& direction) {
   VectorXd product = VectorXd::Zero(direction.size());
-  const auto add = [&](int, const std::vector<int>& order, const NestedLU::Matrix& tangent) {
+  const auto add = [&](int, const std::vector<int>& order, const Eigen::MatrixXf& tangent) {
     product(order) += tangent.cast<double>() * direction(order);
     return true;
   };

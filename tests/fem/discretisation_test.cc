@@ -62,20 +62,6 @@ TEST(Discretisation, EveryUnknownHasItsEquation) {
   }
   for (int i = 0; i < channel.space.unknowns(); ++i) {
     EXPECT_EQ(owners[i] > 0, i != channel.space.cell_velocity()) << i;
-    const bool condensed = i >= channel.space.outer_unknowns();
-    EXPECT_TRUE(!condensed || owners[i] == 1) << "a condensed unknown belongs to one element";
-  }
-}
-
-TEST(Discretisation, RowsAreTheTailOfTheColumnsOfTheSameUnknown) {
-  // The condensation relies on it: inner unknown i of the rows is the column at the same place from the end.
-  const SmallChannel channel(0.5);
-  for (const ElementUnknowns& element : channel.space.elements()) {
-    const std::size_t offset = element.columns.size() - element.rows.size();
-    for (std::size_t i = 0; i < element.rows.size(); ++i) {
-      if (element.rows[i] < channel.space.outer_unknowns()) continue;
-      EXPECT_EQ(element.rows[i], element.columns[i + offset].unknown);
-    }
   }
 }
 

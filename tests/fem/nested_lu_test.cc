@@ -36,24 +36,36 @@ struct Grid {
   }
 };
 
-TEST(NestedLU, SolvesTheSumOfTheElementsMatricesAndCorrectionsMakeUpForSinglePrecision) {
-  const Grid grid(5, 4);
-  NestedLU lu(grid.unknowns, grid.elements);
-  std::mt19937 engine(7);
+/// Condenses random matrices and returns their sum: not symmetric; dominant enough for every part to be regular.
+template <class Scalar>
+MatrixXd condense_random(const Grid& grid, NestedLU<Scalar>& lu, std::mt19937& engine) {
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const auto random = [&](double) { return uniform(engine); };
   MatrixXd whole = MatrixXd::Zero(grid.unknowns, grid.unknowns);
   for (int e = 0; e < int(grid.elements.size()); ++e) {
     const std::vector<int>& order = lu.order(e);
-    ASSERT_EQ(order.size(), grid.elements[e].unknowns.size());
-    // Not symmetric; dominant enough for every part to be regular.
-    NestedLU::Matrix matrix = MatrixXd::Zero(order.size(), order.size()).unaryExpr(random).cast<float>();
+    EXPECT_EQ(order.size(), grid.elements[e].unknowns.size());
+    const MatrixXd random =
+        MatrixXd::Zero(order.size(), order.size()).unaryExpr([&](double) { return uniform(engine); });
+    Eigen::MatrixX<Scalar> matrix = random.cast<Scalar>();
     matrix.diagonal().array() += 5;
-    whole(order, order) += matrix.cast<double>();
+    whole(order, order) += matrix.template cast<double>();
     lu.condense(e, matrix);
   }
-  ASSERT_TRUE(lu.is_regular());
-  const VectorXd rhs = VectorXd::Zero(grid.unknowns).unaryExpr(random);
+  EXPECT_TRUE(lu.is_regular());
+  return whole;
+}
+
+VectorXd random_vector(int size, std::mt19937& engine) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  return VectorXd::Zero(size).unaryExpr([&](double) { return uniform(engine); });
+}
+
+TEST(NestedLU, SolvesTheSumOfTheElementsMatricesAndCorrectionsMakeUpForSinglePrecision) {
+  const Grid grid(5, 4);
+  NestedLU<float> lu(grid.unknowns, grid.elements);
+  std::mt19937 engine(7);
+  const MatrixXd whole = condense_random(grid, lu, engine);
+  const VectorXd rhs = random_vector(grid.unknowns, engine);
   // The matrix itself has single precision here. Rounding of a hundred unknowns: in single precision, then in double.
   VectorXd x = lu.solve(rhs);
   EXPECT_LT((whole * x - rhs).norm(), 3e-6 * rhs.norm());
@@ -61,6 +73,15 @@ TEST(NestedLU, SolvesTheSumOfTheElementsMatricesAndCorrectionsMakeUpForSinglePre
   EXPECT_LT((whole * x - rhs).norm(), 1e-13 * rhs.norm());
   // However small the right-hand side is.
   EXPECT_LT((lu.solve(1e-60 * rhs) - 1e-60 * lu.solve(rhs)).norm(), 3e-6 * 1e-60 * x.norm());
+}
+
+TEST(NestedLU, InDoublePrecisionNothingIsLeftToCorrect) {
+  const Grid grid(5, 4);
+  NestedLU<double> lu(grid.unknowns, grid.elements);
+  std::mt19937 engine(7);
+  const MatrixXd whole = condense_random(grid, lu, engine);
+  const VectorXd rhs = random_vector(grid.unknowns, engine);
+  EXPECT_LT((whole * lu.solve(rhs) - rhs).norm(), 1e-14 * rhs.norm());
 }
 
 TEST(NestedLU, TriangularFactorsAreSolvedBlockByBlock) {
@@ -75,17 +96,16 @@ TEST(NestedLU, TriangularFactorsAreSolvedBlockByBlock) {
     factors.triangularView<Eigen::UnitLower>().solveInPlace(expected);
     factors.triangularView<Eigen::Upper>().solveInPlace(expected);
     Eigen::MatrixXf solved = columns.cast<float>();
-    solve_triangular(factors.cast<float>(), solved);
+    solve_triangular<float>(factors.cast<float>(), solved);
     EXPECT_LT((solved.cast<double>() - expected).norm(), 1e-6 * expected.norm()) << n;
   }
 }
 
 TEST(NestedLU, AZeroMatrixIsNotFactorised) {
   const Grid grid(2, 2);
-  NestedLU lu(grid.unknowns, grid.elements);
+  NestedLU<float> lu(grid.unknowns, grid.elements);
   for (int e = 0; e < 4; ++e) {
-    NestedLU::Matrix matrix =
-        NestedLU::Matrix::Zero(Eigen::Index(lu.order(e).size()), Eigen::Index(lu.order(e).size()));
+    Eigen::MatrixXf matrix = Eigen::MatrixXf::Zero(Eigen::Index(lu.order(e).size()), Eigen::Index(lu.order(e).size()));
     lu.condense(e, matrix);
   }
   EXPECT_FALSE(lu.is_regular());
@@ -93,10 +113,10 @@ TEST(NestedLU, AZeroMatrixIsNotFactorised) {
 
 TEST(NestedLU, GivesUpWhenItIsToStopAndBeginsAnew) {
   const Grid grid(3, 2);
-  NestedLU lu(grid.unknowns, grid.elements);
+  NestedLU<float> lu(grid.unknowns, grid.elements);
   const auto matrix_of = [&](int e) {
     const auto n = Eigen::Index(lu.order(e).size());
-    return NestedLU::Matrix(NestedLU::Matrix::Identity(n, n));
+    return Eigen::MatrixXf(Eigen::MatrixXf::Identity(n, n));
   };
   std::atomic<bool> stop = false;
   for (const int e : lu.elements()) {
@@ -117,7 +137,7 @@ TEST(NestedLU, CostsNoMoreThanSeparatorsOfAGrid) {
   // A dense matrix of all unknowns would take 2/3 n^3 operations; separators of a long grid take a small share of it.
   const Grid grid(20, 4);
   const double n = grid.unknowns;
-  EXPECT_LT(NestedLU(grid.unknowns, grid.elements).flops(), 0.03 * 2 / 3 * n * n * n);
+  EXPECT_LT(NestedLU<float>(grid.unknowns, grid.elements).flops(), 0.03 * 2 / 3 * n * n * n);
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST(ContourFeatures, VolumeOfADoubleConeDoesNotDependOnTheDirection) {
   for (int i = 0; i < 6; ++i) diamond.push_back({8 + i, 10 - i});
   for (int i = 0; i < 6; ++i) diamond.push_back({14 + i, 4 + i});
   const double cones = 2 * std::numbers::pi / 3 * 6 * 6 * 6;
-  PixelPolygon polygon;
+  Polygon polygon;
   polygon.assign(diamond);
   EXPECT_NEAR(polygon.volume_of_rotation(10), cones, 1e-11);
   std::ranges::reverse(diamond);

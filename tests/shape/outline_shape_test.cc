@@ -81,7 +81,9 @@ TEST(OutlineShape, TheModesOfATriangleAreIntegralsOfItsRadius) {
 }
 
 TEST(OutlineShape, PartsOfAShapeAreThoseOfTheWhole) {
-  const std::vector<Eigen::Vector2d> hull{{-1, -1}, {2, 0.3}, {1.7, 0.9}, {0.5, 1.5}};
+  Polygon hull, line;
+  hull.assign(std::vector<Eigen::Vector2d>{{-1, -1}, {2, 0.3}, {1.7, 0.9}, {0.5, 1.5}});
+  line.assign(std::vector<Eigen::Vector2d>{{0, 0}, {1, 1}});
   const OutlineShape whole = hull_shape(hull);
   const RadiusModes modes = hull_modes(hull);
   const HullAsymmetry asymmetry = hull_asymmetry(hull);
@@ -89,7 +91,7 @@ TEST(OutlineShape, PartsOfAShapeAreThoseOfTheWhole) {
   EXPECT_EQ(asymmetry.moment_ratio, whole.moment_ratio);
   EXPECT_EQ(asymmetry.mode_2, whole.modes[0]);
   EXPECT_EQ(asymmetry.mode_3, whole.modes[1]);
-  EXPECT_TRUE(std::isnan(hull_asymmetry({{0, 0}, {1, 1}}).mode_3));
+  EXPECT_TRUE(std::isnan(hull_asymmetry(line).mode_3));
 }
 
 TEST(OutlineShape, PointsOnALineHaveNoShape) {

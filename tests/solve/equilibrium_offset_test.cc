@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
+
+#include "case/scales.h"
 
 namespace rheocyte::equilibrium_offset_test {
 namespace {
@@ -82,6 +85,38 @@ TEST(EquilibriumOffset, AStateThatIsNotFoundEndsTheSearch) {
     EXPECT_EQ(drift.calls, calls + 1);
     EXPECT_TRUE(std::isnan(state.offset_error));
   }
+}
+
+TEST(EquilibriumOffset, WhereCorrectionsDoNotSettleTheErrorSaysSo) {
+  // Secants of a cube root lead away from its zero.
+  const double place = 0.35;
+  const auto drift = [&](const Problem& problem) {
+    StationaryState state;
+    state.outcome.status = Status::converged;
+    state.offset = problem.offset;
+    const double short_of = place - problem.offset;
+    state.drift_velocity = problem.accuracy > 5e-3 ? short_of + 0.01 : std::cbrt(short_of);
+    return state;
+  };
+  const StationaryState state = solve_at_equilibrium(problem_at(0.3), drift);
+  EXPECT_EQ(state.outcome.status, Status::converged);
+  EXPECT_GT(std::abs(state.offset - place), 2e-3) << "else there is nothing to say";
+  EXPECT_GT(state.offset_error, std::abs(state.offset - place));
+}
+
+TEST(EquilibriumOffset, CellsThatNearlyFillTheDuctHaveLittleWayToTheAxis) {
+  Problem problem = problem_at(0.008);
+  problem.radius_ratio = 0.94;
+  std::vector<double> offsets;
+  const auto drift = [&](const Problem& at) {
+    offsets.push_back(at.offset);
+    StationaryState state;
+    state.outcome.status = Status::converged;
+    state.drift_velocity = -0.1 * at.offset;
+    return state;
+  };
+  EXPECT_EQ(solve_at_equilibrium(problem, drift).offset, 0);
+  EXPECT_EQ(offsets, (std::vector<double>{0.008, 0.5 * max_offset(1, 0.94), 0}));
 }
 
 }  // namespace
