@@ -48,7 +48,8 @@ std::unique_ptr<Stepper> make_stepper(const Problem& problem, const TimeRun& run
 /// r tau, is small against what it has gone (docs/theory-time.md, sec. "settling"). Seen by the last levels alone, so
 /// that a run that was continued ends where it would have ended in one go.
 bool has_settled(const Stepper& stepper) {
-  constexpr double share_left = 1e-4, share_of_noise = 1e-6;
+  // Steps that become as short as this, in the time gone, end a run that finds no more states: they show no rate.
+  constexpr double share_left = 1e-4, share_of_noise = 1e-6, share_of_time = 1e-4;
   constexpr int intervals = 4;
   const Discretisation& space = stepper.space();
   const std::vector<TimeLevel>& levels = stepper.state().levels;
@@ -57,6 +58,7 @@ bool has_settled(const Stepper& stepper) {
   double rate_after = 0, middle_after = 0;
   for (int i = 0; i < intervals; ++i) {
     const double step = levels[i].time - levels[i + 1].time, middle = (levels[i].time + levels[i + 1].time) / 2;
+    if (step < share_of_time * levels[0].time) return false;
     const double moved = largest_displacement(space, levels[i].unknowns - levels[i + 1].unknowns);
     const double rate = moved / step;
     const bool falls = i > 0 && rate > rate_after && rate_after > 0;
