@@ -24,7 +24,7 @@ ACCURACIES = (3e-2, 3e-3, 3e-4)
 HALF_WIDTH_UM, STRESS_KPA = 10.0, 0.150  # 15 mPa s x (0.04 ul/s in 20 um x 20 um = 0.1 m/s) / 10 um
 TOLERANCE = 1e-4
 # Rings in the cell, layers of liquid and their growth, layers to each end, by edges to 45 degrees of the surface.
-MESHES = {4: (2, 8, 1.2, 3), 5: (2, 8, 1.2, 3), 6: (2, 9, 1.1, 4), 8: (2, 12, 1.15, 5), 10: (3, 14, 1.15, 6)}
+MESHES = {4: (2, 8, 1.2, 3), 5: (2, 8, 1.2, 3), 6: (2, 9, 1.1, 4), 7: (2, 10, 1.12, 4), 8: (2, 12, 1.15, 5), 10: (3, 14, 1.15, 6)}
 CASE = """[channel]
 section = "square"
 width_um = 20.0

@@ -31,6 +31,7 @@ class CoupledSystem : public NonlinearSystem {
   /// Tangent times a vector at given unknowns (for tests; assembles anew).
   VectorXd apply_tangent(const Media&, const VectorXd& unknowns, const VectorXd& direction);
 
+  double factorisation_flops() const { return lu_->flops(); }
   /// Of the factors and tables that it holds, about.
   std::size_t memory_bytes() const;
 
