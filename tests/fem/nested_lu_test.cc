@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "fem/triangular_solve.h"
@@ -36,36 +38,40 @@ struct Grid {
   }
 };
 
-/// Condenses random matrices and returns their sum: not symmetric; dominant enough for every part to be regular.
+/// Random matrices of the elements, not symmetric, dominant enough for every part to be regular; their sum; and a
+/// right-hand side.
 template <class Scalar>
-MatrixXd condense_random(const Grid& grid, NestedLU<Scalar>& lu, std::mt19937& engine) {
-  std::uniform_real_distribution<double> uniform(-1, 1);
+struct RandomSystem {
+  Grid grid{5, 4};
+  NestedLU<Scalar> lu{grid.unknowns, grid.elements};
+  std::vector<Eigen::MatrixX<Scalar>> matrices;
   MatrixXd whole = MatrixXd::Zero(grid.unknowns, grid.unknowns);
-  for (int e = 0; e < int(grid.elements.size()); ++e) {
-    const std::vector<int>& order = lu.order(e);
-    EXPECT_EQ(order.size(), grid.elements[e].unknowns.size());
-    const MatrixXd random =
-        MatrixXd::Zero(order.size(), order.size()).unaryExpr([&](double) { return uniform(engine); });
-    Eigen::MatrixX<Scalar> matrix = random.cast<Scalar>();
-    matrix.diagonal().array() += 5;
-    whole(order, order) += matrix.template cast<double>();
-    lu.condense(e, matrix);
-  }
-  EXPECT_TRUE(lu.is_regular());
-  return whole;
-}
+  VectorXd rhs;
 
-VectorXd random_vector(int size, std::mt19937& engine) {
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  return VectorXd::Zero(size).unaryExpr([&](double) { return uniform(engine); });
-}
+  RandomSystem() {
+    std::mt19937 engine(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const auto random = [&](double) { return uniform(engine); };
+    for (int e = 0; e < int(grid.elements.size()); ++e) {
+      const std::vector<int>& order = lu.order(e);
+      EXPECT_EQ(order.size(), grid.elements[e].unknowns.size());
+      const MatrixXd matrix = MatrixXd::Zero(order.size(), order.size()).unaryExpr(random);
+      matrices.push_back(matrix.cast<Scalar>());
+      matrices.back().diagonal().array() += 5;
+      whole(order, order) += matrices.back().template cast<double>();
+    }
+    rhs = VectorXd::Zero(grid.unknowns).unaryExpr(random);
+    condense();
+    EXPECT_TRUE(lu.is_regular());
+  }
+  void condense() {
+    for (std::size_t e = 0; e < matrices.size(); ++e) lu.condense(int(e), matrices[e]);
+  }
+};
 
 TEST(NestedLU, SolvesTheSumOfTheElementsMatricesAndCorrectionsMakeUpForSinglePrecision) {
-  const Grid grid(5, 4);
-  NestedLU<float> lu(grid.unknowns, grid.elements);
-  std::mt19937 engine(7);
-  const MatrixXd whole = condense_random(grid, lu, engine);
-  const VectorXd rhs = random_vector(grid.unknowns, engine);
+  const RandomSystem<float> system;
+  const auto& [grid, lu, matrices, whole, rhs] = system;
   // The matrix itself has single precision here. Rounding of a hundred unknowns: in single precision, then in double.
   VectorXd x = lu.solve(rhs);
   EXPECT_LT((whole * x - rhs).norm(), 3e-6 * rhs.norm());
@@ -76,12 +82,22 @@ TEST(NestedLU, SolvesTheSumOfTheElementsMatricesAndCorrectionsMakeUpForSinglePre
 }
 
 TEST(NestedLU, InDoublePrecisionNothingIsLeftToCorrect) {
-  const Grid grid(5, 4);
-  NestedLU<double> lu(grid.unknowns, grid.elements);
-  std::mt19937 engine(7);
-  const MatrixXd whole = condense_random(grid, lu, engine);
-  const VectorXd rhs = random_vector(grid.unknowns, engine);
-  EXPECT_LT((whole * lu.solve(rhs) - rhs).norm(), 1e-14 * rhs.norm());
+  const RandomSystem<double> system;
+  EXPECT_LT((system.whole * system.lu.solve(system.rhs) - system.rhs).norm(), 1e-14 * system.rhs.norm());
+}
+
+TEST(NestedLU, NumbersThatAreNotFiniteAreReportedAndTheNextGoodOnesFactoriseAgain) {
+  RandomSystem<double> system;
+  const double good = system.matrices[3](0, 0);
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    system.matrices[3](0, 0) = bad;
+    system.condense();
+    EXPECT_FALSE(system.lu.is_regular()) << bad;
+  }
+  system.matrices[3](0, 0) = good;
+  system.condense();
+  EXPECT_TRUE(system.lu.is_regular());
+  EXPECT_LT((system.whole * system.lu.solve(system.rhs) - system.rhs).norm(), 1e-14 * system.rhs.norm());
 }
 
 TEST(NestedLU, TriangularFactorsAreSolvedBlockByBlock) {
