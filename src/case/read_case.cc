@@ -123,9 +123,6 @@ void check_duct(const Case& c, const KeyReading& keys) {
     refuse("channel.section", "needs channel.width_um, not a radius or a profile");
   if (c.time.scheme != TimeScheme::stationary)
     refuse("channel.section", "is for stationary shapes; leave [time] out, or take the tube");
-  if (c.cell.bulk.law == BulkLaw::none)
-    refuse("channel.section",
-           "is for an elastic interior, with or without a cortex; choose cell.bulk.law, or take the tube");
   const double most = max_bending_in_ducts_kBT(c);
   if (c.cell.cortex.bending_kBT > most)
     keys.refuse("cell.cortex.bending_kBT",

@@ -11,10 +11,7 @@ CellMoments cell_moments(const DuctSpace& space, const TensorElement& element, c
   for (int e = 0; e < int(space.elements().size()); ++e) {
     if (space.elements()[e].liquid) continue;
     const MatrixXd G = numbers_at_points<MapFields<double, 3>>(space, element, e, unknowns);
-    MatrixXd nodes(space.reference().nodes(), 3);
-    for (int k = 0; k < nodes.rows(); ++k)
-      nodes.row(k) = duct_point(space, unknowns, space.nodes().of_element[e][k]).transpose();
-    const MatrixXd at = element.at_points(0, nodes);
+    const MatrixXd at = element.at_points(0, points_of_nodes(space, e, unknowns));
     for (int q = 0; q < G.rows(); ++q) {
       const Eigen::Map<const Eigen::Matrix3d, 0, Eigen::InnerStride<>> map(&G(q, 0), Eigen::InnerStride<>(G.rows()));
       const double volume = space.reference().weights(q) * map.determinant();

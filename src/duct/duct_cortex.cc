@@ -1,5 +1,6 @@
 #include "duct/duct_cortex.h"
 
+#include <Eigen/Geometry>
 #include <map>
 
 #include "fem/surface_tables.h"
@@ -105,6 +106,9 @@ DuctCortex::DuctCortex(const DuctSpace& space, bool bends)
     if (space.mesh().elements()[e].foot != e) continue;
     patches_of_element_[e].push_back(int(patches_.size()));
     patches_.push_back(face_patch(e, parts));
+    if (space.inner_pressure() < 0) continue;
+    patches_of_element_[e].push_back(int(patches_.size()));
+    patches_.push_back(inflated_patch(patches_.back()));
   }
   if (bends_) find_edges();
 }
@@ -117,6 +121,34 @@ DuctCortex::Patch DuctCortex::face_patch(int element, const std::vector<MatrixXd
   const MatrixXd s = parts[0] * patch.rest, t = parts[1] * patch.rest;
   for (int q = 0; q < reference_.points(); ++q)
     patch.rest_metric.push_back({s.row(q).squaredNorm(), s.row(q).dot(t.row(q)), t.row(q).squaredNorm()});
+  return patch;
+}
+
+DuctCortex::Patch DuctCortex::inflated_patch(const Patch& face) const {
+  const Eigen::Index n = face.rest.rows(), points = face.weights.size();
+  const auto with_row = [](const auto& rows, const auto& last) {
+    auto longer = rows;
+    longer.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+    longer.bottomRows(1) = last;
+    return longer;
+  };
+  const Eigen::RowVector3i pressure(space_.inner_pressure(), -1, -1);
+  Patch patch{.rest = with_row(face.rest, Eigen::RowVector3d::Zero()),
+              .unknowns = with_row(face.unknowns, pressure),
+              .equations = with_row(face.equations, pressure),
+              .signs = with_row(face.signs, Eigen::RowVector3d::Ones()),
+              .weights = face.weights,
+              .parts = {},
+              .rest_metric = {},
+              .rest_volume = VectorXd(points)};
+  for (const MatrixXd* table : {&reference_.shape.value, &face.parts[0], &face.parts[1]}) {
+    MatrixXd& part = patch.parts.emplace_back(MatrixXd::Zero(points, n + 1));
+    part.leftCols(n) = *table;
+  }
+  patch.parts.emplace_back(MatrixXd::Zero(points, n + 1)).col(n).setOnes();
+  const Eigen::MatrixX3d x = patch.parts[0] * patch.rest, s = patch.parts[1] * patch.rest,
+                         t = patch.parts[2] * patch.rest;
+  for (Eigen::Index q = 0; q < points; ++q) patch.rest_volume(q) = x.row(q).dot(s.row(q).cross(t.row(q))) / 3;
   return patch;
 }
 
@@ -150,11 +182,16 @@ void DuctCortex::append_nodes(int element, const Image& image, Patch& patch) con
   const DuctPoint sign = image({1, 1, 1});
   patch.rest.conservativeResize(all, 3);
   patch.unknowns.conservativeResize(all, 3);
+  patch.equations.conservativeResize(all, 3);
   patch.signs.conservativeResize(all, 3);
   for (Eigen::Index k = first; k < all; ++k) {
     const int node = nodes[k - first];
     patch.rest.row(k) = image(space_.node_points()[node]).transpose();
-    for (int c = 0; c < 3; ++c) patch.unknowns(k, c) = space_.displacement(node, image.swaps && c > 0 ? 3 - c : c);
+    for (int c = 0; c < 3; ++c) {
+      const int of_node = image.swaps && c > 0 ? 3 - c : c;
+      patch.unknowns(k, c) = space_.displacement(node, of_node);
+      patch.equations(k, c) = space_.momentum_row(node, of_node);
+    }
     patch.signs.row(k) = sign.transpose();
   }
 }
@@ -205,7 +242,15 @@ void DuctCortex::find_edges() {
 void DuctCortex::integrate(int index, const Cortex& law, const VectorXd& unknowns, Want want,
                            PatchSystem& system) const {
   const Patch& patch = patches_[index];
-  if (patch.rest_metric.empty()) {
+  if (patch.rest_volume.size() > 0) {
+    const double rest_pressure = 2 * law.tension / space_.mesh().geometry().radius();
+    integrate<12>(
+        patch,
+        [&](int q) {
+          return InflationPoint{rest_pressure, patch.rest_volume(q)};
+        },
+        unknowns, want, system);
+  } else if (patch.rest_metric.empty()) {
     const BendingEdge edge{law, bending_penalty(reference_)};
     integrate<24>(
         patch, [&](int) { return BentEdgeAtPoint{edge}; }, unknowns, want, system);

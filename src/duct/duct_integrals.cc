@@ -55,10 +55,18 @@ VectorXd values_of(const std::vector<Slot>& slots, const VectorXd& unknowns) {
   return values;
 }
 
+MatrixXd points_of_nodes(const DuctSpace& space, int e, const VectorXd& unknowns) {
+  const HexahedronUnknowns& self = space.elements()[e];
+  const auto& nodes = space.nodes().of_element[e];
+  MatrixXd x(nodes.size(), 3);
+  for (int k = 0; k < x.rows(); ++k) x.row(k) = space.node_points()[nodes[k]].transpose();
+  if (self.moves) x += values_of(self.displacement, unknowns).reshaped(x.rows(), 3);
+  return x;
+}
+
 template <class Fields>
 MatrixXd numbers_at_points(const DuctSpace& space, const TensorElement& element, int e, const VectorXd& unknowns) {
   const HexahedronUnknowns& self = space.elements()[e];
-  const auto& nodes = space.nodes().of_element[e];
   const int n = space.reference().nodes();
   MatrixXd numbers = MatrixXd::Zero(space.reference().points(), Fields::count);
   const auto add = [&](Source source, const MatrixXd& nodal) {
@@ -68,10 +76,7 @@ MatrixXd numbers_at_points(const DuctSpace& space, const TensorElement& element,
       for (int c = 0; c < 3; ++c) numbers.col(input_of<Fields>(source, c, part)) = values.col(c);
     }
   };
-  MatrixXd x(n, 3);
-  for (int k = 0; k < n; ++k) x.row(k) = space.node_points()[nodes[k]].transpose();
-  if (self.moves) x += values_of(self.displacement, unknowns).reshaped(n, 3);
-  add(Source::position, x);
+  add(Source::position, points_of_nodes(space, e, unknowns));
   if (const int p = input_of<Fields>(Source::pressure, 0, 0); p >= 0)
     numbers.col(p) = space.reference().pressure.value * values_of(self.pressure, unknowns);
   if (input_of<Fields>(Source::velocity, 0, 1) >= 0)

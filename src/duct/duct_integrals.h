@@ -18,6 +18,9 @@ struct HexahedronPoints {
 /// Local values of slots.
 VectorXd values_of(const std::vector<Slot>&, const VectorXd& unknowns);
 
+/// Where the nodes of an element are now: nodes x (x, y, z).
+MatrixXd points_of_nodes(const DuctSpace&, int element, const VectorXd& unknowns);
+
 /// Fields at the quadrature points: LiquidFields or CellFields as the element is, or the MapFields that both begin
 /// with.
 template <class Fields>

@@ -3,10 +3,10 @@
 #include <cmath>
 
 namespace rheocyte {
-namespace {}  // namespace
 
-DuctSpace::DuctSpace(const DuctMesh& mesh, int degree)
+DuctSpace::DuctSpace(const DuctMesh& mesh, Interior interior, int degree)
     : mesh_(mesh),
+      interior_(interior),
       reference_(degree),
       section_(mesh.geometry(), degree, mesh.symmetry(), mesh.subdivision().across),
       nodes_(mesh.number_nodes(degree)),
@@ -20,7 +20,8 @@ DuctSpace::DuctSpace(const DuctMesh& mesh, int degree)
   find_held_nodes();
 }
 
-DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid, Drive drive) : DuctSpace(mesh, degree) {
+DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid, Drive drive, Interior interior)
+    : DuctSpace(mesh, interior, degree) {
   open_inlet_ = drive != Drive::rate;
   const DuctFlow inflow = open_inlet_ ? DuctFlow{} : section_.flow(liquid);
   number_unknowns([&](const Eigen::Vector2d& at) {
@@ -28,19 +29,24 @@ DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid, Dri
   });
 }
 
-DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const GivenFlow& flow) : DuctSpace(mesh, degree) {
+DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const GivenFlow& flow)
+    : DuctSpace(mesh, Interior::elastic, degree) {
   given_flow_ = true;
   number_unknowns(flow.velocity);
 }
 
-/// The node on the cell's axis that is nearest to its centre, and the one at its front pole.
+/// The node on the cell's axis, or on its surface, that is nearest to its middle, and the one at its front pole.
 void DuctSpace::find_held_nodes() {
-  double nearest = mesh_.geometry().radius();
+  const double radius = mesh_.geometry().radius();
+  double nearest = radius;
   const Eigen::Vector2d centre(mesh_.geometry().shape().offset, 0);
   for (int i = 0; i < nodes_.count; ++i) {
-    if ((points_[i].tail<2>() - centre).norm() > same_place) continue;
-    if (std::abs(points_[i](0) - mesh_.geometry().radius()) < same_place) held_pole_ = i;
-    if (std::abs(points_[i](0)) >= nearest - same_place) continue;
+    const double off = (points_[i].tail<2>() - centre).norm();
+    if (off < same_place && std::abs(points_[i](0) - radius) < same_place) held_pole_ = i;
+    const bool is_candidate = interior_ == Interior::liquid
+                                  ? std::abs(std::hypot(points_[i](0), off) - radius) < same_place
+                                  : off < same_place;
+    if (!is_candidate || std::abs(points_[i](0)) >= nearest - same_place) continue;
     held_node_ = i;
     nearest = std::abs(points_[i](0));
   }
@@ -79,6 +85,7 @@ void DuctSpace::number_unknowns(const std::function<double(const Eigen::Vector2d
       if (!holds_y) at(1) = unknowns_++;
       if (!f.across.holds_z) at(2) = f.across.ties ? at(1) : unknowns_++;
     };
+    if (f.cell && !f.liquid && interior_ == Interior::liquid) continue;
     if (f.cell) {
       if (i != held_node_) displacement_[3 * i] = unknowns_++;
       const bool is_held = f.across.holds_y || (turns() && (i == held_node_ || i == held_pole_));
@@ -96,13 +103,15 @@ void DuctSpace::number_unknowns(const std::function<double(const Eigen::Vector2d
     if (!f.outlet && !f.inlet)
       number_across(f.across.holds_y, [&](int c) -> int& { return velocity_[3 * i + c].unknown; });
   }
-  pressure_.resize(nodes_.of_element.size() * std::size_t(reference_.pressures()));
-  for (int& unknown : pressure_) unknown = unknowns_++;
+  const int modes = reference_.pressures();
+  pressure_.assign(nodes_.of_element.size() * std::size_t(modes), -1);
+  for (int k = 0; k < int(pressure_.size()); ++k) {
+    if (interior_ != Interior::liquid || !mesh_.elements()[k / modes].in_cell()) pressure_[k] = unknowns_++;
+  }
+  if (interior_ == Interior::liquid) inner_pressure_ = unknowns_++;
   for (int e = 0; e < int(mesh_.elements().size()); ++e) elements_.push_back(unknowns_of(e));
 }
 
-/// Unknown to whose equation the momentum of a node of the cell belongs: where a displacement is held, a velocity of
-/// the whole cell.
 int DuctSpace::momentum_row(int node, int c) const {
   if (node == held_node_ && c == 0) return cell_velocity_;
   if (turns() && node == held_node_ && c == 1) return drift_;
@@ -125,8 +134,8 @@ std::vector<PointMap<double, 3>> DuctSpace::undeformed_maps(int element) const {
   return maps;
 }
 
-/// In the cell the nodes' own; along a spoke those of its foot on the surface, which die away outward
-/// (docs/theory.md, eq:spokes).
+/// In an elastic cell the nodes' own; along a spoke those of its foot on the surface, which die away outward
+/// (docs/theory.md, eq:spokes), and in a liquid interior inward.
 void DuctSpace::add_displacements(int element, HexahedronUnknowns& unknowns) const {
   const DuctElement& self = mesh_.elements()[element];
   const auto& nodes = nodes_.of_element[element];
@@ -135,11 +144,13 @@ void DuctSpace::add_displacements(int element, HexahedronUnknowns& unknowns) con
   const int p = reference_.degree(), n = p + 1;
   for (int c = 0; c < 3; ++c) {
     for (int k = 0; k < reference_.nodes(); ++k) {
+      const VectorXd& s = reference_.nodes_1d;
       if (self.in_cell()) {
-        unknowns.displacement.push_back({displacement(nodes[k], c)});
+        const bool follows = interior_ == Interior::liquid && self.part == Part::ring;
+        unknowns.displacement.push_back(follows ? Slot{displacement(nodes[k % (n * n) + p * n * n], c), s(k / (n * n))}
+                                                : Slot{displacement(nodes[k], c)});
         continue;
       }
-      const VectorXd& s = reference_.nodes_1d;
       const double outward = self.outward_at(s(k / (n * n)));
       const double slide = c == 0 ? wall_slide(self.on_cube(s(k % n), s(k / n % n), 1)) : 0;
       const int foot = nodes_.of_element[self.foot][k % (n * n)];
@@ -152,6 +163,7 @@ HexahedronUnknowns DuctSpace::unknowns_of(int element) const {
   const auto& nodes = nodes_.of_element[element];
   HexahedronUnknowns unknowns;
   unknowns.liquid = !mesh_.elements()[element].in_cell();
+  unknowns.is_empty = !unknowns.liquid && interior_ == Interior::liquid;
   unknowns.undeformed = undeformed_maps(element);
   add_displacements(element, unknowns);
   for (int c = 0; c < 3; ++c) {
@@ -161,11 +173,12 @@ HexahedronUnknowns DuctSpace::unknowns_of(int element) const {
       const bool in_cell = displacement(node, 0) >= 0 || node == held_node_;
       if (unknowns.liquid) unknowns.velocity.push_back(velocity(node, c));
       const int own = is_motion(velocity(node, c).unknown) ? -1 : velocity(node, c).unknown;
-      unknowns.rows.push_back(in_cell ? momentum_row(node, c) : own);
+      unknowns.rows.push_back(unknowns.is_empty ? -1 : in_cell ? momentum_row(node, c) : own);
     }
   }
   for (int k = 0; k < reference_.pressures(); ++k) {
-    unknowns.pressure.push_back({pressure(element, k)});
+    // The first mode is the constant 1.
+    unknowns.pressure.push_back({unknowns.is_empty && k == 0 ? inner_pressure_ : pressure(element, k)});
     unknowns.rows.push_back(pressure(element, k));
   }
   return unknowns;

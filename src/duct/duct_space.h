@@ -23,6 +23,7 @@ struct HexahedronUnknowns {
   std::vector<PointMap<double, 3>> undeformed;  ///< map at the quadrature points
   std::vector<Slot> displacement, velocity, pressure;
   std::vector<int> rows;  ///< unknown whose equation the row belongs to, or -1
+  bool is_empty = false;  ///< of a liquid interior: nothing to integrate, its mesh follows the surface
 };
 
 /// A velocity along x, of (y, z).
@@ -34,7 +35,7 @@ struct GivenFlow {
 class DuctSpace {
  public:
   /// The liquid's undisturbed flow enters, or, where the pressure drop is given, what flows through an open inlet.
-  DuctSpace(const DuctMesh&, int degree, const Liquid&, Drive = Drive::rate);
+  DuctSpace(const DuctMesh&, int degree, const Liquid&, Drive = Drive::rate, Interior = Interior::elastic);
   /// A given velocity along x enters, and the walls move with it.
   DuctSpace(const DuctMesh&, int degree, const GivenFlow&);
 
@@ -49,6 +50,8 @@ class DuctSpace {
 
   int unknowns() const { return unknowns_; }
   int cell_velocity() const { return cell_velocity_; }
+  /// Pressure of a liquid interior, above that of the sphere at rest; -1 in an elastic one.
+  int inner_pressure() const { return inner_pressure_; }
   /// Of a cell off the axis: its velocity along y, and the rate at which its material turns about z; else -1.
   int drift() const { return drift_; }
   int spin() const { return spin_; }
@@ -59,9 +62,13 @@ class DuctSpace {
   }
   /// Unknown of a component of a node's displacement, -1 if fixed or not in the cell.
   int displacement(int node, int c) const { return displacement_[3 * node + c]; }
+  /// Unknown to whose equation the momentum of a node of the cell belongs: where a displacement is held, a velocity of
+  /// the whole cell.
+  int momentum_row(int node, int c) const;
   const Slot& velocity(int node, int c) const { return velocity_[3 * node + c]; }
   int pressure(int element, int mode) const { return pressure_[element * reference_.pressures() + mode]; }
-  /// The node on the axis whose axial displacement is held, which fixes the cell's place.
+  /// The node whose axial displacement is held, which fixes the cell's place: on the axis, or, round a liquid interior,
+  /// on the surface.
   int held_node() const { return held_node_; }
 
  private:
@@ -70,15 +77,15 @@ class DuctSpace {
     Across across;
   };
   std::vector<NodeFlags> flag_nodes() const;
-  DuctSpace(const DuctMesh&, int degree);
+  DuctSpace(const DuctMesh&, Interior, int degree);
   void number_unknowns(const std::function<double(const Eigen::Vector2d&)>& inflow);
   void find_held_nodes();
-  int momentum_row(int node, int c) const;
   HexahedronUnknowns unknowns_of(int element) const;
   void add_displacements(int element, HexahedronUnknowns&) const;
   std::vector<PointMap<double, 3>> undeformed_maps(int element) const;
 
   DuctMesh mesh_;
+  Interior interior_;
   bool open_inlet_ = false, given_flow_ = false;
   ReferenceElement<3> reference_;
   CrossSection section_;
@@ -86,7 +93,8 @@ class DuctSpace {
   std::vector<DuctPoint> points_;
   std::vector<int> displacement_, pressure_;
   std::vector<Slot> velocity_;
-  int unknowns_ = 0, cell_velocity_ = -1, drift_ = -1, spin_ = -1, held_node_ = -1, held_pole_ = -1;
+  int unknowns_ = 0, cell_velocity_ = -1, inner_pressure_ = -1, drift_ = -1, spin_ = -1, held_node_ = -1,
+      held_pole_ = -1;
   std::vector<HexahedronUnknowns> elements_;
 };
 

@@ -14,25 +14,38 @@
 namespace rheocyte {
 namespace {
 
-std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space, const DuctCortex& cortex) {
+std::vector<int> filled_elements(const DuctSpace& space) {
+  std::vector<int> filled;
+  for (int e = 0; e < int(space.elements().size()); ++e) {
+    if (!space.elements()[e].is_empty) filled.push_back(e);
+  }
+  return filled;
+}
+
+std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space, const DuctCortex& cortex,
+                                              const std::vector<int>& filled) {
   const auto& elements = space.elements();
-  std::vector<CoupledUnknowns> coupled(elements.size());
-  for (std::size_t e = 0; e < elements.size(); ++e) {
+  std::vector<CoupledUnknowns> coupled(filled.size());
+  std::vector<std::vector<int>> nodes;
+  for (std::size_t part = 0; part < filled.size(); ++part) {
+    const int e = filled[part];
+    nodes.push_back(space.nodes().of_element[e]);
     std::set<int> unknowns(elements[e].rows.begin(), elements[e].rows.end());
     for (const auto* slots : {&elements[e].displacement, &elements[e].velocity}) {
       for (const Slot& slot : *slots) unknowns.insert(slot.unknown);
     }
     if (space.turns() && touches_cell(space.mesh().elements()[e])) unknowns.insert(space.spin());
-    for (const int patch : cortex.patches_of(int(e))) {
+    for (const int patch : cortex.patches_of(e)) {
       for (const int unknown : cortex.unknowns_of(patch).reshaped()) unknowns.insert(unknown);
+      for (const int unknown : cortex.equations_of(patch).reshaped()) unknowns.insert(unknown);
     }
     unknowns.erase(-1);
-    coupled[e].unknowns.assign(unknowns.begin(), unknowns.end());
-    coupled[e].pressure = elements[e].pressure[0].unknown;
-    coupled[e].medium = elements[e].liquid;
+    coupled[part].unknowns.assign(unknowns.begin(), unknowns.end());
+    coupled[part].pressure = elements[e].pressure[0].unknown;
+    coupled[part].medium = elements[e].liquid;
   }
   const auto nodes_1d = std::size_t(space.reference().degree()) + 1;
-  set_neighbours(space.nodes().of_element, nodes_1d * nodes_1d, coupled);
+  set_neighbours(std::move(nodes), nodes_1d * nodes_1d, coupled);
   return coupled;
 }
 
@@ -44,7 +57,8 @@ DuctSystem::DuctSystem(const DuctSpace& space, double drop, bool bends)
       element_(space.reference().degree()),
       tangent_(element_, space.reference()),
       cortex_(space, bends),
-      lu_(space.unknowns(), coupled_unknowns(space, cortex_)),
+      filled_(filled_elements(space)),
+      lu_(space.unknowns(), coupled_unknowns(space, cortex_, filled_)),
       outlet_load_(duct_end_load(space, Face::front)),
       inlet_load_(duct_end_load(space, Face::rear)),
       turning_(space),
@@ -69,7 +83,8 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, cons
   VectorXd total = -end_pressure * outlet_load_;
   if (space_.has_open_inlet()) total -= end_pressure * inlet_load_;
   min_det = std::numeric_limits<double>::infinity();
-  for (const int e : lu_.elements()) {
+  for (const int part : lu_.elements()) {
+    const int e = filled_[part];
     const HexahedronUnknowns& self = space_.elements()[e];
     {
       const Stopwatch watch(work_.assembly_s);
@@ -82,7 +97,7 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, cons
         add_cortex(e, media.cortex, unknowns, want, total);
         continue;
       }
-      const std::vector<int>& order = lu_.order(e);
+      const std::vector<int>& order = lu_.order(part);
       for (int i = 0; i < int(order.size()); ++i) place_[order[i]] = i;
       matrix_.setZero(Eigen::Index(order.size()), Eigen::Index(order.size()));
       tangent_.add(self, media.liquid.reynolds != 0, points_, place_, matrix_);
@@ -90,23 +105,25 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, cons
       add_cortex(e, media.cortex, unknowns, want, total);
     }
     const Stopwatch watch(work_.factorisation_s);
-    if (!use(e, lu_.order(e), matrix_)) return VectorXd::Constant(total.size(), no_value);
+    if (!use(part, lu_.order(part), matrix_)) return VectorXd::Constant(total.size(), no_value);
   }
   turning_.add_residual(unknowns, total);
   return total;
 }
 
 void DuctSystem::add_cortex(int element, const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& total) {
-  if (cortex.law == CortexLaw::none && cortex.tension == 0 && cortex.bending == 0) return;
+  const bool is_bare = cortex.law == CortexLaw::none && cortex.tension == 0 && cortex.bending == 0;
+  if (is_bare && space_.inner_pressure() < 0) return;
   for (const int patch : cortex_.patches_of(element)) {
     cortex_.integrate(patch, cortex, unknowns, want, patch_);
-    const Eigen::MatrixXi& rows = cortex_.unknowns_of(patch);
-    for (int j = 0; j < int(rows.size()); ++j) {
-      if (rows(j) < 0) continue;
-      total(rows(j)) += patch_.residual(j);
-      if (want == Want::residual) continue;
+    const Eigen::MatrixXi &rows = cortex_.equations_of(patch), &columns = cortex_.unknowns_of(patch);
+    for (int i = 0; i < int(rows.size()); ++i) {
+      if (rows(i) >= 0) total(rows(i)) += patch_.residual(i);
+    }
+    for (int j = 0; j < int(columns.size()) && want == Want::residual_and_tangent; ++j) {
+      if (columns(j) < 0) continue;
       for (int i = 0; i < int(rows.size()); ++i) {
-        if (rows(i) >= 0) matrix_(place_[rows(i)], place_[rows(j)]) += float(patch_.tangent(i, j));
+        if (rows(i) >= 0) matrix_(place_[rows(i)], place_[columns(j)]) += float(patch_.tangent(i, j));
       }
     }
   }
@@ -117,8 +134,8 @@ VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, doub
 }
 
 VectorXd DuctSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
-  const auto condense = [this](int e, const std::vector<int>&, Eigen::MatrixXf& tangent) {
-    return lu_.condense(e, tangent, stop_);
+  const auto condense = [this](int part, const std::vector<int>&, Eigen::MatrixXf& tangent) {
+    return lu_.condense(part, tangent, stop_);
   };
   VectorXd total = assemble(media, unknowns, condense, min_det);
   const bool is_stopped = stop_ && *stop_;

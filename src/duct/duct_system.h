@@ -18,7 +18,7 @@ class DuctSystem final : public NonlinearSystem {
  public:
   /// Is given the tangent of an element, with rows and columns in the order of these unknowns.
   /// False: no more is wanted.
-  using UseTangent = std::function<bool(int element, const std::vector<int>& order, Eigen::MatrixXf& tangent)>;
+  using UseTangent = std::function<bool(int part, const std::vector<int>& order, Eigen::MatrixXf& tangent)>;
 
   /// The space must outlive this object. Where the pressure drop is given, it is `drop` times that of the undisturbed
   /// flow at mean speed 1. A cortex with bending stiffness is for systems that bend.
@@ -63,6 +63,7 @@ class DuctSystem final : public NonlinearSystem {
   TensorElement element_;
   HexahedronTangent tangent_;
   DuctCortex cortex_;
+  std::vector<int> filled_;  ///< elements that are not empty: the parts of the factorisation
   NestedLU<float> lu_;
   bool has_factors_ = false;
   const std::atomic<bool>* stop_ = nullptr;

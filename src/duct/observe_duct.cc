@@ -93,9 +93,7 @@ CellVolume cell_volume(const DuctSpace& space, const TensorElement& element, con
   for (int e = 0; e < int(space.elements().size()); ++e) {
     if (space.elements()[e].liquid) continue;
     const MatrixXd G = numbers_at_points<MapFields<double, 3>>(space, element, e, unknowns);
-    VectorXd x(space.reference().nodes());
-    for (int k = 0; k < x.size(); ++k) x(k) = duct_point(space, unknowns, space.nodes().of_element[e][k])(0);
-    const MatrixXd at = element.at_points(0, x);
+    const MatrixXd at = element.at_points(0, points_of_nodes(space, e, unknowns).col(0));
     for (int q = 0; q < G.rows(); ++q) {
       const Eigen::Map<const Eigen::Matrix3d, 0, Eigen::InnerStride<>> map(&G(q, 0), Eigen::InnerStride<>(G.rows()));
       const double volume = copies * space.reference().weights(q) * map.determinant();
@@ -136,9 +134,10 @@ VectorXd transfer(const DuctSpace& from, const VectorXd& unknowns, const DuctSpa
       }
     }
     // The modes are orthonormal, and those of a degree begin with those of lower ones.
-    for (int k = 0; k < std::min(source.pressures(), target.pressures()); ++k)
+    for (int k = 0; k < std::min(source.pressures(), target.pressures()) && !to.elements()[e].is_empty; ++k)
       result(to.pressure(e, k)) = unknowns(from.pressure(e, k));
   }
+  if (to.inner_pressure() >= 0) result(to.inner_pressure()) = unknowns(from.inner_pressure());
   for (int i = 0; i < to.nodes().count; ++i) {
     if (const int unknown = to.displacement(i, 0); unknown >= 0) result(unknown) -= shift;
   }

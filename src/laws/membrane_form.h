@@ -56,4 +56,20 @@ struct MembranePoint {
   }
 };
 
+/// The pressure of a liquid interior against the volume: its parts of all faces of a closed surface, and of the faces
+/// of a part of it that mirror planes through the centre cut out, are integrals of x . (s x t) / 3.
+struct InflationPoint {
+  double rest_pressure = 0;  ///< Laplace's pressure of the sphere at rest
+  double rest_volume = 0;    ///< per d(s) d(t)
+
+  /// Of x, s, t and the pressure above that at rest, which is the first of the last three numbers.
+  template <class T>
+  T operator()(const std::array<T, 12>& n) const {
+    const T volume =
+        (n[0] * (n[4] * n[8] - n[5] * n[7]) + n[1] * (n[5] * n[6] - n[3] * n[8]) + n[2] * (n[3] * n[7] - n[4] * n[6])) *
+        constant<T>(1.0 / 3);
+    return (n[9] + constant<T>(rest_pressure)) * (constant<T>(rest_volume) - volume);
+  }
+};
+
 }  // namespace rheocyte

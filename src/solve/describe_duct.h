@@ -4,6 +4,7 @@
 
 #include "duct/duct_system.h"
 #include "duct/observe_duct.h"
+#include "solve/path.h"
 #include "solve/stationary.h"
 
 namespace rheocyte {
@@ -20,7 +21,7 @@ struct DuctDiscrete {
       : DuctDiscrete(problem, subdivision, degree, symmetry_of(problem)) {}
   DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree, Symmetry symmetry)
       : shared_space(std::make_shared<const DuctSpace>(DuctMesh(DuctGeometry(shape_of(problem)), subdivision, symmetry),
-                                                       degree, problem.liquid, problem.drive)),
+                                                       degree, problem.liquid, problem.drive, interior_of(problem))),
         space(*shared_space),
         system(space,
                problem.drive == Drive::rate

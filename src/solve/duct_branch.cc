@@ -68,9 +68,8 @@ class DuctBranchFollower {
       way_.push_back({state.parameter, d, state.unknowns});
       return true;
     };
-    first_ = solver_.enter(DuctSolver::first_degree);
+    first_ = solver_.enter(DuctSolver::first_degree, options);
     if (first_.status != Status::converged) return first_.status;
-    options.accept(first_.discrete->system, first_.branch);
     DuctState state = first_;
     while (state.status == Status::converged && !is_covered_)
       solver_.advance(state, 1.5 * state.branch.parameter, options);

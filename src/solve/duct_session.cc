@@ -13,7 +13,8 @@ namespace {
 void explain(const Problem& problem, StationaryState& r) {
   Outcome& outcome = r.outcome;
   const bool failed = !has_state(outcome.status) && outcome.status != Status::stopped;
-  if (failed && r.stability_margin < small_margin) {
+  const double margin = outcome.reached > 0 ? r.stability_margin : margin_at_rest(problem);
+  if (failed && margin < small_margin) {
     outcome.status = Status::surface_unstable;
   } else if (outcome.status == Status::iteration_limit && outcome.reached > 0) {
     outcome.status = Status::branch_ended;

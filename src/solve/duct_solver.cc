@@ -66,8 +66,8 @@ DuctState DuctSolver::follow() {
   if (state.status == Status::converged || state.status == Status::stopped) return state;
   state = {};
   for (const int degree : ways) {
-    DuctState next =
-        state.discrete ? at_degree(state, degree, {.tolerance = tolerance_on_the_way, .stop = stop_}) : enter(degree);
+    DuctState next = state.discrete ? at_degree(state, degree, {.tolerance = tolerance_on_the_way, .stop = stop_})
+                                    : enter(degree, options(false));
     if (next.status == Status::converged && next.branch.parameter < 1) advance(next, 1, options(degree == ways.back()));
     if (next.branch.unknowns.size() > 0 && next.branch.parameter >= state.branch.parameter) {
       state = std::move(next);
@@ -82,7 +82,7 @@ DuctState DuctSolver::follow() {
 
 /// The state at the first of the ways by a way that is coarser still; not converged if that is too coarse.
 DuctState DuctSolver::scout() {
-  DuctState coarse = enter(degree_of_scout);
+  DuctState coarse = enter(degree_of_scout, options(false));
   if (coarse.status == Status::converged && coarse.branch.parameter < 1) advance(coarse, 1, options(false));
   if (coarse.status != Status::converged) return coarse;
   DuctState state = at_degree(coarse, ways.front(), {.tolerance = tolerance_on_the_way, .stop = stop_});
@@ -177,12 +177,12 @@ std::shared_ptr<DuctDiscrete> DuctSolver::discrete(int degree) {
   return made;
 }
 
-DuctState DuctSolver::enter(int degree) {
+DuctState DuctSolver::enter(int degree, const ContinuationOptions& options) {
   DuctState state;
   state.discrete = discrete(degree);
   const Obedience obedience(state.discrete->system, stop_);
   const WorkMeter before = state.discrete->system.work();
-  take(state, start_branch(state.discrete->system, problem_, options(false)));
+  take(state, start_branch(state.discrete->system, problem_, options));
   result_->statistics += state.discrete->system.work() - before;
   return state;
 }

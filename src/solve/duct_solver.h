@@ -46,8 +46,8 @@ class DuctSolver {
 
   /// From the sphere to the wanted compliance, or as far as the branch goes.
   DuctState follow();
-  /// The first state of the branch at a degree.
-  DuctState enter(int degree);
+  /// The first state of the branch at a degree that the options accept.
+  DuctState enter(int degree, const ContinuationOptions&);
   /// As far as the branch goes, or to a compliance; `accept` as in ContinuationOptions.
   void advance(DuctState&, double compliance, const ContinuationOptions&);
   /// The same state at another degree.

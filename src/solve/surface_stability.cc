@@ -37,6 +37,8 @@ double stability_margin(const Problem& problem, const Discretisation& space, con
   return stability_margin(problem, surface_state(space, unknowns, 2 * space.reference().degree() + 1));
 }
 
+double margin_at_rest(const Problem& problem) { return stability_margin(problem, 1, problem.cortex.tension); }
+
 bool is_wrinkled(const Problem& problem, const Discretisation& space, const VectorXd& unknowns) {
   constexpr int max_sign_changes = 3;  // a rear dent makes one, a hollow flank two
   const double margin = stability_margin(problem, space, unknowns);

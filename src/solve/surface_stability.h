@@ -13,6 +13,8 @@ double stability_margin(const Problem&, const SurfaceState&);
 /// The same of the least ratio of a tangential to the normal stretch, and of the least principal tension.
 double stability_margin(const Problem&, double biot_ratio, double min_tension);
 double stability_margin(const Problem&, const Discretisation&, const VectorXd& unknowns);
+/// Of the sphere: 0 for a shell without tension, which some load compresses somewhere at once.
+double margin_at_rest(const Problem&);
 
 /// So close to the limit the surface is the reason if Newton fails: no mesh resolves the last stretch.
 inline constexpr double small_margin = 0.1;

@@ -6,6 +6,8 @@
 #include <functional>
 #include <numbers>
 
+#include "duct/observe_duct.h"
+
 namespace rheocyte::duct_cortex_test {
 namespace {
 
@@ -46,7 +48,7 @@ double work(const DuctCortex& surface, const DuctSpace& space, const Cortex& cor
     for (const int patch : surface.patches_of(e)) {
       PatchSystem system;
       surface.integrate(patch, cortex, unknowns, Want::residual, system);
-      const Eigen::MatrixXi& of_patch = surface.unknowns_of(patch);
+      const Eigen::MatrixXi& of_patch = surface.equations_of(patch);
       for (int i = 0; i < int(of_patch.size()); ++i) {
         if (of_patch(i) >= 0) sum += system.residual(i) * change(of_patch(i));
       }
@@ -95,6 +97,33 @@ TEST(DuctCortex, ARigidMotionAlongTheFlowDoesNoWork) {
   const VectorXd state = 0.1 * bulge(space, third);
   const Cortex cortex{CortexLaw::neo_hookean, 2, 0.3, 0.1};
   EXPECT_NEAR(work(surface, space, cortex, state, shift), 0, 1e-11);
+}
+
+TEST(DuctCortex, TheSurfaceOfALiquidInteriorHasTheVolumeThatTheInteriorHas) {
+  // The one equation of the inner pressure is a sum over the faces; the volume itself is an integral over the interior.
+  for (const Symmetry symmetry : {Symmetry::eighth, Symmetry::quarter}) {
+    const DuctSpace space(DuctMesh(DuctGeometry(Section::square, radius), {.along = 2, .layers = 1}, symmetry), 4,
+                          Liquid{}, Drive::rate, Interior::liquid);
+    const DuctCortex surface(space, false);
+    const VectorXd sphere = VectorXd::Zero(space.unknowns()), state = 0.1 * bulge(space, third);
+    VectorXd pressure = sphere;
+    pressure(space.inner_pressure()) = 1;
+    const TensorElement element(space.reference().degree());
+    const double lost = cell_volume(space, element, sphere).volume - cell_volume(space, element, state).volume,
+                 parts = symmetry == Symmetry::eighth ? 8 : 4;
+    EXPECT_GT(std::abs(lost), 1e-3);
+    EXPECT_NEAR(parts * work(surface, space, {}, state, pressure), lost, 1e-12);
+  }
+}
+
+TEST(DuctCortex, LaplacesPressureHoldsTheSphere) {
+  const DuctSpace space(DuctMesh(DuctGeometry(Section::square, radius), {.along = 2, .layers = 1}), 6, Liquid{},
+                        Drive::rate, Interior::liquid);
+  const DuctCortex surface(space, false);
+  const VectorXd sphere = VectorXd::Zero(space.unknowns());
+  const Cortex cortex{CortexLaw::neo_hookean, 2, 0.3, 0};
+  for (const Harmonic& harmonic : {third, cubic})
+    EXPECT_NEAR(work(surface, space, cortex, sphere, bulge(space, harmonic)), 0, 1e-7);
 }
 
 }  // namespace

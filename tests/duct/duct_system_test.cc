@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "duct/observe_duct.h"
 #include "taylor.h"
@@ -12,8 +13,9 @@ namespace {
 
 /// A coarse duct with a cell in it.
 struct SmallDuct {
-  explicit SmallDuct(const Liquid& liquid, int degree = 2, bool bends = false)
-      : space(DuctMesh(DuctGeometry(Section::square, 0.6), {.along = 2, .layers = 1, .axial = 1}), degree, liquid),
+  explicit SmallDuct(const Liquid& liquid, int degree = 2, bool bends = false, Interior interior = Interior::elastic)
+      : space(DuctMesh(DuctGeometry(Section::square, 0.6), {.along = 2, .layers = 1, .axial = 1}), degree, liquid,
+              Drive::rate, interior),
         system(space, 1, bends) {}
   DuctSpace space;
   DuctSystem system;
@@ -45,9 +47,14 @@ TEST(DuctSystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
   const Liquid newtonian{.reynolds = 0.7},
       power_law{.law = LiquidLaw::power_law, .exponent = 0.6, .shear_rate_floor = 0.3};
   const Cortex none, shell{CortexLaw::neo_hookean, 2, 0.3, 0}, bent{CortexLaw::thin_shell, 2, 0.3, 0.02};
-  for (const auto& [liquid, cortex] :
-       {std::pair{newtonian, none}, {power_law, none}, {newtonian, shell}, {newtonian, bent}}) {
-    SmallDuct duct(liquid, 2, cortex.bending > 0);
+  const Interior solid = Interior::elastic, inside = Interior::liquid;
+  for (const auto& [liquid, cortex, interior] : {std::tuple{newtonian, none, solid},
+                                                 {power_law, none, solid},
+                                                 {newtonian, shell, solid},
+                                                 {newtonian, bent, solid},
+                                                 {newtonian, shell, inside},
+                                                 {power_law, bent, inside}}) {
+    SmallDuct duct(liquid, 2, cortex.bending > 0, interior);
     Media law = media(liquid);
     law.cortex = cortex;
     const VectorXd x = deformed_state(duct.system, law);

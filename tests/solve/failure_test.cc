@@ -70,6 +70,21 @@ TEST(Failure, ACellFarTooSoftKeepsTheLastStateOfTheBranch) {
   }
 }
 
+TEST(Failure, AShellWithoutTensionWrinklesAtOnce) {
+  // In the tube and in the square: to first order the mean tension of a sphere does not change.
+  for (const Section section : {Section::tube, Section::square}) {
+    Problem problem;
+    problem.section = section;
+    problem.radius_ratio = 0.55;
+    problem.bulk = {BulkLaw::none, 0};
+    problem.cortex = {CortexLaw::neo_hookean, 20, 0, 0};
+    const StationaryState state = solve_stationary(problem);
+    EXPECT_EQ(state.outcome.status, Status::surface_unstable) << name(state.outcome.status);
+    EXPECT_EQ(state.outcome.reached, 0);
+    EXPECT_NE(state.outcome.message.find("tension"), std::string::npos) << state.outcome.message;
+  }
+}
+
 TEST(Failure, AnAccuracyBeyondReachIsNamed) {
   // 1e-15 is below rounding: the state is kept, its error is estimated, the status is not `converged`.
   const StationaryState state = solve_stationary(test::problem({6, 20, 1}, 1e-15));
