@@ -34,6 +34,16 @@ class SolveCommand : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(SolveCommand, EveryExampleIsSolved) {
+  for (const auto& entry : fs::directory_iterator(EXAMPLES)) {
+    if (entry.path().extension() != ".toml") continue;
+    const auto ended = run({{RHEOCYTE, "solve", entry.path(), "-o", folder_.path() / entry.path().stem(),
+                             "--no-picture", "--quiet", "--set", "numerics.accuracy=1e-2"}});
+    EXPECT_EQ(ended.exit_code, 0) << entry.path() << ended.err;
+  }
+  EXPECT_GE(entries_beside(), 10);
+}
+
 TEST_F(SolveCommand, ASquareChannelHasBothViewsAndTheCamerasOne) {
   const Command command{{RHEOCYTE, "solve", std::string(EXAMPLES) + "/square-channel.toml", "-o", result(), "--set",
                          "numerics.accuracy=0.05"}};
