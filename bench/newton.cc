@@ -68,7 +68,7 @@ void warm_started_state(benchmark::State& state) {
   }
   Discrete discrete(problem, {{2, 4, 1, 2}, 6});
   StationarySystem& system = discrete.system;
-  ContinuationReport start = start_branch(system, problem, {});
+  ContinuationReport start = start_branch(stiffness_path(system, problem), {});
   Path path = stiffness_path(system, problem);
   path.end = 0.95;
   const BranchState neighbour = continue_branch(path, {}, start.last).last;

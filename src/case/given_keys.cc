@@ -25,6 +25,9 @@ std::string name_of_type(const toml::node& node) {
   }
 }
 
+// 0 for -0: written as an integer, a negative zero would come back as another number.
+double one_zero(double number) { return number + 0.0; }
+
 // Nothing unless every element is a number.
 std::optional<std::vector<double>> numbers_of(const toml::node& node) {
   const auto* array = node.as_array();
@@ -32,13 +35,13 @@ std::optional<std::vector<double>> numbers_of(const toml::node& node) {
   std::vector<double> numbers;
   for (const auto& element : *array) {
     if (!element.is_number()) return {};
-    numbers.push_back(element.value_or(0.0));
+    numbers.push_back(one_zero(element.value_or(0.0)));
   }
   return numbers;
 }
 
 decltype(GivenKey::value) value_of(const toml::node& node) {
-  if (const auto number = node.value_exact<double>()) return *number;
+  if (const auto number = node.value_exact<double>()) return one_zero(*number);
   if (const auto integer = node.value_exact<int64_t>()) return static_cast<double>(*integer);
   if (const auto text = node.value_exact<std::string>()) return *text;
   if (const auto numbers = numbers_of(node)) return *numbers;
@@ -76,7 +79,7 @@ std::optional<double> as_number(std::string_view text) {
   const auto* start = text.data() + (text.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(start, text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size()) return {};
-  return number;
+  return one_zero(number);
 }
 
 // "[0, 0.5]"; nothing if it is no list of numbers.

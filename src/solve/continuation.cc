@@ -24,20 +24,20 @@ constexpr double tolerance_between = 1e-3;
 
 /// Newton at one compliance from a guess in the Newtonian liquid. A power law is singular where nothing flows yet, so
 /// the liquid is approached from the Newtonian one in steps that halve where Newton fails.
-NewtonReport enter_branch(NonlinearSystem& system, const Problem& problem, const ContinuationOptions& options,
-                          double compliance, VectorXd& unknowns) {
+NewtonReport enter_branch(const Path& path, const ContinuationOptions& options, double compliance, VectorXd& unknowns) {
   NewtonReport report;
-  Media media = media_at(problem, compliance);
-  const double way = thinning(problem.liquid);
+  Media media = path.media(compliance);
+  const Liquid liquid = media.liquid;
+  const double way = thinning(liquid);
   double reached = 0, step = way > 0 ? std::min(1.0, thinning_step / way) : 1;
   int iterations = 0;
   for (bool first = true; first || (way > 0 && reached < 1);) {
     const double share = first ? 0 : 1 - reached - step < 1e-9 ? 1 : reached + step;
-    media.liquid = at_thinning(problem.liquid, share);
+    media.liquid = at_thinning(liquid, share);
     VectorXd trial = unknowns;
     NewtonOptions newton_options = options.newton;
     if (way > 0 && share < 1) newton_options.tolerance = std::max(tolerance_between, newton_options.tolerance);
-    report = newton(system, media, newton_options, trial);
+    report = newton(path.system(compliance), media, newton_options, trial);
     report.iterations = iterations += report.iterations;
     if (report.status == Status::converged) {
       unknowns = trial;
@@ -70,10 +70,11 @@ VectorXd branch_tangent(const Path& path, const BranchState& state) {
   return path.system(state.parameter).solve(-parameter_slope(path, state));
 }
 
-ContinuationReport start_branch(NonlinearSystem& system, const Problem& problem, const ContinuationOptions& options) {
+ContinuationReport start_branch(const Path& path, const ContinuationOptions& options) {
   ContinuationReport report;
-  Media wanted = problem;
-  wanted.liquid = at_thinning(problem.liquid, 0);
+  NonlinearSystem& system = path.system(path.end);
+  Media wanted = path.media(path.end);
+  wanted.liquid = at_thinning(wanted.liquid, 0);
   double det = 0;
   bool factorised = false;
   const VectorXd sphere = system.sphere();
@@ -94,7 +95,7 @@ ContinuationReport start_branch(NonlinearSystem& system, const Problem& problem,
   system.scale_displacement(state.parameter, state.unknowns);
   for (; state.parameter > 1e-6; state.parameter /= 4, system.scale_displacement(0.25, state.unknowns)) {
     VectorXd unknowns = state.unknowns;
-    const NewtonReport newton_report = enter_branch(system, problem, options, state.parameter, unknowns);
+    const NewtonReport newton_report = enter_branch(path, options, state.parameter, unknowns);
     report.newton_iterations += newton_report.iterations;
     report.status = newton_report.status;
     report.residual = newton_report.residual;
@@ -105,7 +106,7 @@ ContinuationReport start_branch(NonlinearSystem& system, const Problem& problem,
       report.status = Status::surface_unstable;
       continue;
     }
-    found.tangent = branch_tangent(stiffness_path(system, problem), found);
+    found.tangent = branch_tangent(path, found);
     state = std::move(found);
     report.steps = 1;
     return report;

@@ -34,9 +34,9 @@ struct ContinuationReport {
   double residual = 0;
 };
 
-/// First state on the branch of a problem, in its compliance: Newton from the sphere where the response is still
+/// First state of a branch in the compliance (`stiffness_path`): Newton from the sphere where the response is still
 /// nearly linear.
-ContinuationReport start_branch(NonlinearSystem&, const Problem&, const ContinuationOptions&);
+ContinuationReport start_branch(const Path&, const ContinuationOptions&);
 
 /// Continues from a converged state to the end of the path as far as it goes.
 ContinuationReport continue_branch(const Path&, const ContinuationOptions&, BranchState from);

@@ -129,14 +129,13 @@ double duct_stability_margin(const Problem& problem, const DuctSpace& space, con
   return stability_margin(problem, surface.biot_ratio, surface.min_tension);
 }
 
-void describe_duct(const Problem& problem, const Media& media, const DuctDiscrete& discrete, const VectorXd& unknowns,
-                   StationaryState& r) {
+void describe_duct(const Problem& problem, const DuctDiscrete& discrete, const VectorXd& unknowns, StationaryState& r) {
   const DuctSpace& space = discrete.space;
   const CellVolume volume = cell_volume(space, discrete.system.element(), unknowns);
   for (const auto& [name, camera] : views_of(problem))
-    r.views.push_back({name, profile(space, unknowns, media.cortex, camera, volume.barycentre)});
+    r.views.push_back({name, profile(space, unknowns, problem.cortex, camera, volume.barycentre)});
   const Camera seen_from = camera_in_mesh(problem);
-  r.surface = profile(space, unknowns, media.cortex, seen_from, volume.barycentre);
+  r.surface = profile(space, unknowns, problem.cortex, seen_from, volume.barycentre);
   const auto contour_at = [&](Camera camera) {
     Contour contour = duct_contour(space, unknowns, camera);
     shift(-volume.barycentre, contour);
@@ -152,17 +151,18 @@ void describe_duct(const Problem& problem, const Media& media, const DuctDiscret
     r.deformation_diagonal = measure(contour_at(Camera::diagonal)).deformation;
   const double a = space.mesh().geometry().radius();
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
-  read_flow(media, discrete, unknowns, r);
-  const SurfaceExtremes surface = surface_extremes(media.cortex, space, unknowns);
+  read_flow(problem, discrete, unknowns, r);
+  const SurfaceExtremes surface = surface_extremes(problem.cortex, space, unknowns);
   r.min_meridional_stretch = surface.min_stretch;
   r.biot_ratio = surface.biot_ratio;
   r.stability_margin = duct_stability_margin(problem, space, unknowns);
   r.min_tension = surface.min_tension;
   if (const int p = space.inner_pressure(); p >= 0)
-    r.inner_pressure = unknowns(p) + 2 * media.cortex.tension / problem.radius_ratio;
+    r.inner_pressure = unknowns(p) + 2 * problem.cortex.tension / problem.radius_ratio;
   r.statistics.unknowns = space.unknowns();
   r.statistics.elements = int(space.elements().size());
   r.statistics.degree = space.reference().degree();
+  const Media media = problem;
   r.write_fields = [shared = discrete.shared_space, media, unknowns](const std::string& path, const Scales& scales) {
     return write_duct_fields(*shared, media, unknowns, scales, path);
   };

@@ -26,8 +26,9 @@ struct Milestone {
 
 class DuctBranchFollower {
  public:
-  DuctBranchFollower(const Problem& problem, double max_deformation, const std::atomic<bool>* stop)
-      : problem_(problem), greatest_(max_deformation), solver_(problem, nobody_, stop, counts_), stop_(stop) {
+  DuctBranchFollower(const Problem& problem, const MediaAt& media, double max_deformation,
+                     const std::atomic<bool>* stop)
+      : problem_(problem), greatest_(max_deformation), solver_(problem, media, nobody_, stop, counts_), stop_(stop) {
     solver_.keep_systems();
   }
 
@@ -61,7 +62,7 @@ class DuctBranchFollower {
     options.min_step = min_step;
     options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
       const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
-      if (duct_stability_margin(problem_, space, state.unknowns) < 0) return false;
+      if (duct_stability_margin(solver_.problem_at(state.parameter), space, state.unknowns) < 0) return false;
       const double d = duct_deformation(space, state.unknowns, problem_.camera);
       if (d > 1.3 * greatest_) return false;  // rather a nearer one
       is_covered_ = d > greatest_;
@@ -78,7 +79,8 @@ class DuctBranchFollower {
 
   Status reason(const DuctState& state) const {
     if (state.status == Status::stopped) return state.status;
-    if (duct_stability_margin(problem_, state.discrete->space, way_.back().unknowns) < small_margin)
+    const Milestone& last = way_.back();
+    if (duct_stability_margin(solver_.problem_at(last.compliance), state.discrete->space, last.unknowns) < small_margin)
       return Status::surface_unstable;
     return state.status == Status::iteration_limit ? Status::branch_ended : state.status;
   }
@@ -91,10 +93,11 @@ class DuctBranchFollower {
     DuctState state = solver_.at_compliance(first_, guess.compliance, guess.unknowns);
     DuctLadder ladder;
     if (state.status == Status::converged) result.outcome.status = solver_.climb(state, ladder);
+    const Problem here = solver_.problem_at(guess.compliance);
     if (!has_state(result.outcome.status) ||
-        duct_stability_margin(problem_, state.discrete->space, state.branch.unknowns) < 0)
+        duct_stability_margin(here, state.discrete->space, state.branch.unknowns) < 0)
       return {};
-    describe_duct(problem_, media_at(problem_, guess.compliance), *state.discrete, state.branch.unknowns, result);
+    describe_duct(here, *state.discrete, state.branch.unknowns, result);
     result.write_fields = {};
     result.outcome.reached = guess.compliance;
     return result;
@@ -130,9 +133,9 @@ class DuctBranchFollower {
 
 }  // namespace
 
-DuctBranch follow_in_duct(const Problem& problem, double max_deformation, std::span<const double> heights,
-                          const std::atomic<bool>* stop) {
-  return DuctBranchFollower(problem, max_deformation, stop).follow(heights);
+DuctBranch follow_in_duct(const Problem& problem, const MediaAt& media, double max_deformation,
+                          std::span<const double> heights, const std::atomic<bool>* stop) {
+  return DuctBranchFollower(problem, media, max_deformation, stop).follow(heights);
 }
 
 }  // namespace rheocyte

@@ -83,7 +83,7 @@ void DuctSession::solve(DuctSolver& solver, const Problem& problem, StationarySt
   if (status == Status::converged) status = solver.climb(state, answer.ladder);
   if (!answer.ladder.rungs.empty()) state = answer.ladder.rungs.back();
   if (state.discrete && state.branch.parameter > 0) {
-    describe_duct(problem, media_at(problem, state.branch.parameter), *state.discrete, state.branch.unknowns, result);
+    describe_duct(solver.problem_at(state.branch.parameter), *state.discrete, state.branch.unknowns, result);
     result.residual = state.residual;
     result.outcome.reached = state.branch.parameter;
   }
@@ -98,7 +98,7 @@ StationaryState DuctSession::solve(const Problem& problem, const ProgressCallbac
   {
     const Stopwatch watch(result.statistics.total_s);
     result.shape = measure(Contour{});  // not a number until there is a shape
-    DuctSolver solver(problem, progress, stop, result);
+    DuctSolver solver(problem, softening(problem), progress, stop, result);
     solve(solver, problem, result);
     explain(problem, result);
   }

@@ -61,6 +61,12 @@ void DuctLadder::add(DuctState state, double deformation) {
   if (rungs.size() == 2) estimated_error = std::max(estimated_error, min_error_of_two_rungs);
 }
 
+Problem DuctSolver::problem_at(double compliance) const {
+  Problem problem = problem_;
+  static_cast<Media&>(problem) = media_(compliance);
+  return problem;
+}
+
 DuctState DuctSolver::follow() {
   DuctState state = scout();
   if (state.status == Status::converged || state.status == Status::stopped) return state;
@@ -91,7 +97,7 @@ DuctState DuctSolver::scout() {
     return coarse;
   }
   if (state.status == Status::converged &&
-      duct_stability_margin(problem_, state.discrete->space, state.branch.unknowns) < 0)
+      duct_stability_margin(problem_at(state.branch.parameter), state.discrete->space, state.branch.unknowns) < 0)
     state.status = Status::surface_unstable;
   return state;
 }
@@ -163,7 +169,7 @@ ContinuationOptions DuctSolver::options(bool last) {
   options.min_step = last ? min_step_at_last : min_step_before_refining;
   options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
     const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
-    if (duct_stability_margin(problem_, space, state.unknowns) < 0) return false;
+    if (duct_stability_margin(problem_at(state.parameter), space, state.unknowns) < 0) return false;
     report(state, duct_deformation(space, state.unknowns, camera_in_mesh(problem_)), space.reference().degree());
     return true;
   };
@@ -182,7 +188,7 @@ DuctState DuctSolver::enter(int degree, const ContinuationOptions& options) {
   state.discrete = discrete(degree);
   const Obedience obedience(state.discrete->system, stop_);
   const WorkMeter before = state.discrete->system.work();
-  take(state, start_branch(state.discrete->system, problem_, options));
+  take(state, start_branch(stiffness_path(state.discrete->system, media_), options));
   result_->statistics += state.discrete->system.work() - before;
   return state;
 }
@@ -190,7 +196,7 @@ DuctState DuctSolver::enter(int degree, const ContinuationOptions& options) {
 void DuctSolver::advance(DuctState& state, double compliance, const ContinuationOptions& options) {
   const Obedience obedience(state.discrete->system, stop_);
   const WorkMeter before = state.discrete->system.work();
-  Path path = stiffness_path(state.discrete->system, problem_);
+  Path path = stiffness_path(state.discrete->system, media_);
   path.end = compliance;
   take(state, continue_branch(path, options, state.branch));
   result_->statistics += state.discrete->system.work() - before;
@@ -212,7 +218,7 @@ DuctState DuctSolver::solved(std::shared_ptr<DuctDiscrete> at, BranchState guess
   DuctSystem& system = to.discrete->system;
   const Obedience obedience(system, stop_);
   const WorkMeter before = system.work();
-  const NewtonReport report = newton(system, media_at(problem_, to.branch.parameter), options, to.branch.unknowns);
+  const NewtonReport report = newton(system, media_(to.branch.parameter), options, to.branch.unknowns);
   to.status = report.status;
   to.residual = report.residual;
   to.branch.newton_iterations = report.iterations;

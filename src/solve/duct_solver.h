@@ -3,6 +3,7 @@
 #pragma once
 #include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "solve/continuation.h"
@@ -29,16 +30,18 @@ struct DuctLadder {
   void add(DuctState, double deformation);
 };
 
-/// What steps and work there are is counted in a result, which must outlive the solver as problem, callback and stop
-/// must.
+/// Along the branch the cell softens to what the problem says (`softening`), or as the caller says. What steps and work
+/// there are is counted in a result, which must outlive the solver as problem, callback and stop must.
 class DuctSolver {
  public:
-  DuctSolver(const Problem& problem, const ProgressCallback& progress, const std::atomic<bool>* stop,
+  DuctSolver(const Problem& problem, MediaAt media, const ProgressCallback& progress, const std::atomic<bool>* stop,
              StationaryState& result)
-      : problem_(problem), progress_(progress), stop_(stop), result_(&result) {}
+      : problem_(problem), media_(std::move(media)), progress_(progress), stop_(stop), result_(&result) {}
 
   static constexpr int first_degree = 3, last_degree = 7;
 
+  /// The problem of a state of the branch.
+  Problem problem_at(double compliance) const;
   /// Systems of all degrees are kept for the next states.
   void keep_systems() { keeps_systems_ = true; }
   /// From now on steps, errors and work belong to this result.
@@ -73,6 +76,7 @@ class DuctSolver {
   void report(const BranchState&, double deformation, int degree);
 
   const Problem& problem_;
+  MediaAt media_;
   const ProgressCallback& progress_;
   const std::atomic<bool>* stop_;
   StationaryState* result_;

@@ -1,6 +1,7 @@
 #include "solve/path.h"
 
 #include <cmath>
+#include <utility>
 
 namespace rheocyte {
 Discrete::Discrete(const Problem& problem, const Resolution& resolution)
@@ -16,9 +17,16 @@ void Discrete::move_to(const Problem& problem, const Resolution& resolution) {
 
 double Path::unit(double parameter) const { return std::isfinite(origin) ? parameter - origin : 1; }
 
+MediaAt softening(const Media& media) {
+  return [media](double compliance) { return media_at(media, compliance); };
+}
+
+Path stiffness_path(NonlinearSystem& system, MediaAt media) {
+  return {[&system](double) -> NonlinearSystem& { return system; }, std::move(media)};
+}
+
 Path stiffness_path(NonlinearSystem& system, const Problem& problem) {
-  return {[&system](double) -> NonlinearSystem& { return system; },
-          [problem](double compliance) { return media_at(problem, compliance); }};
+  return stiffness_path(system, softening(problem));
 }
 
 }  // namespace rheocyte

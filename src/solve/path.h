@@ -26,10 +26,16 @@ struct Discrete {
   StationarySystem system;
 };
 
+/// Media as functions of a branch's parameter.
+using MediaAt = std::function<Media(double)>;
+
+/// Of a cell in which everything that is elastic is divided by the compliance.
+MediaAt softening(const Media&);
+
 /// Media, and the system if the geometry moves, as functions of the parameter.
 struct Path {
   std::function<NonlinearSystem&(double)> system;
-  std::function<Media(double)> media;
+  MediaAt media;
   double end = 1;     ///< the wanted value
   double origin = 0;  ///< steps are limited relative to the distance from here; -infinity: not limited
 
@@ -37,8 +43,9 @@ struct Path {
   double unit(double parameter) const;
 };
 
-/// From the rigid cell (0) to the problem (1) in the compliance of everything that is elastic. The system must outlive
-/// the path.
+/// From the rigid cell (0) to a compliance of 1. The system must outlive the path.
+Path stiffness_path(NonlinearSystem&, MediaAt);
+/// Everything that is elastic softens to what the problem says.
 Path stiffness_path(NonlinearSystem&, const Problem&);
 
 }  // namespace rheocyte

@@ -57,7 +57,7 @@ ResolvedState start(const Problem& problem, const ContinuationOptions& options, 
   ResolvedState state;
   state.resolution = resolution;
   state.discrete = discretise(problem, resolution);
-  const ContinuationReport report = start_branch(state.discrete->system, problem, options);
+  const ContinuationReport report = start_branch(stiffness_path(state.discrete->system, problem), options);
   state.status = report.status;
   state.branch = report.last;
   state.residual = report.residual;

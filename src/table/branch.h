@@ -54,7 +54,7 @@ BranchEnd end_of(Status status);
 /// Samples from stiff to soft; every row of the matrices is one converged state within the wanted accuracy.
 struct SampledBranch {
   double radius_um = 0;    ///< of the sphere at rest
-  double bending_kBT = 0;  ///< that holds the surface beyond the end of the bare branch; 0: the case's own branch
+  double bending_kBT = 0;  ///< that holds the last sample's surface beyond the bare branch; 0: the case's own branch
   std::vector<double> stiffness;                ///< value of the swept parameter, falling
   Eigen::MatrixXd value;                        ///< samples x measures
   Eigen::MatrixXd slope;                        ///< d(value)/d(ln stiffness)

@@ -77,7 +77,7 @@ BranchStates::Way BranchStates::enter() {
   start.accept = {};
   start.displacement_per_step = first_displacement;
   for (int attempt = 0; attempt < 30; ++attempt) {
-    const ContinuationReport report = start_branch(discrete.system, problem(0), start);
+    const ContinuationReport report = start_branch(stiffness_path(discrete.system, problem(0)), start);
     count(report.newton_iterations);
     if (report.status != Status::converged) return {report.status, {}};
     const double d = deformation(0, report.last.unknowns);

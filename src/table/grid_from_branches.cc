@@ -243,7 +243,7 @@ std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<
   const auto bare = PatchMaker(own, columns).patch(least, border, resolution.rows);
   if (!bare) return {};
   GridContent grid{origin_of(spec, version), columns.first, columns.step, columns.count, {*bare}};
-  if (spec.bending_beyond_kBT > 0 && held.size() > 1) {
+  if (spec.wants_held() && held.size() > 1) {
     auto above =
         PatchMaker(held, columns).patch(border.height, upper_border(held, spec, columns), resolution.held_rows);
     if (above) {

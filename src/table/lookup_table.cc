@@ -25,7 +25,7 @@ std::vector<TableRow> rows_at(const TableSpec& spec, const RadiusBranches& radiu
   std::vector<TableRow> rows;
   for (const double level : levels) {
     const auto state = radius.at_deformation(level);
-    if (!state || (state->regularised && spec.bending_beyond_kBT == 0)) continue;
+    if (!state || (state->regularised && !spec.wants_held())) continue;
     rows.push_back(row_at(radius, *state));
     rows.back().value(int(Measure::deformation)) = level;
   }
@@ -92,7 +92,7 @@ std::vector<LutPoint> points_by_area(const LookupTable& table) {
     if (const auto answer = table.between.by_area(area, level); answer.reason == NoAnswer::none)
       points.push_back({{area, level, answer.stiffness}, answer.regularised});
   for (const auto& row : table.rows)
-    if (row.is_end && spec.bending_beyond_kBT == 0)
+    if (row.is_end && !spec.wants_held())
       points.push_back({{row.at(Measure::area_um2), row.at(Measure::deformation), row.state.stiffness}, false});
   return points;
 }
@@ -151,6 +151,11 @@ LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBran
   return table;
 }
 
+std::string held_bending_text(const TableSpec& spec) {
+  if (spec.bending_beyond_ratio == 0) return fmt::format("{:g} kBT", spec.bending_beyond_kBT);
+  return fmt::format("{:g} {}", spec.bending_beyond_ratio, spec.sweeps_cortex() ? "E2D r0^2" : "E r0^3");
+}
+
 TableText empty_text(const TableSpec& spec, const std::string& program, bool has_regularised) {
   TableText text;
   text.comments = {
@@ -164,7 +169,7 @@ TableText empty_text(const TableSpec& spec, const std::string& program, bool has
   if (has_regularised) {
     text.comments.push_back(
         "Beyond the curve regularised_beyond_* the bare surface is unstable; the rows there have a");
-    text.comments.push_back(fmt::format("bending stiffness of {:g} kBT.", spec.bending_beyond_kBT));
+    text.comments.push_back(fmt::format("bending stiffness of {}.", held_bending_text(spec)));
   }
   text.comments.emplace_back();
   text.metadata = table_metadata(spec, program);
@@ -196,8 +201,8 @@ std::string full_table_csv(const LookupTable& table) {
   for (const auto& row : table.rows) {
     text += fmt::format("{},{}", row.radius_um, row.state.stiffness);
     for (const double value : row.value) text += fmt::format(",{}", value);
-    const double bending =
-        row.state.regularised ? row.state.branch->bending_kBT : table.spec.base.cell.cortex.bending_kBT;
+    const double bending = row.state.regularised ? held_bending_kBT(table.spec, row.radius_um, row.state.stiffness)
+                                                 : table.spec.base.cell.cortex.bending_kBT;
     text += fmt::format(",{},{},{},{:d},{:d}\n", row.state.error, row.stiffness_error, bending, row.state.regularised,
                         row.is_end);
   }
@@ -229,7 +234,8 @@ std::string regularisation_csv(const LookupTable& table) {
       if (stiffness > bare->stiffness.front() || stiffness < bare->stiffness.back()) continue;
       const double d = interpolate(*bare, Measure::deformation, stiffness), with = held->at(i, Measure::deformation);
       text += fmt::format("{},{},{},{},{},{},{:.3g}\n", radius.radius_um(), stiffness,
-                          interpolate(*bare, Measure::area_um2, stiffness), held->bending_kBT, d, with, with / d - 1);
+                          interpolate(*bare, Measure::area_um2, stiffness),
+                          held_bending_kBT(table.spec, radius.radius_um(), stiffness), d, with, with / d - 1);
     }
   }
   return text;
@@ -246,7 +252,7 @@ std::vector<TableFile> table_files(const LookupTable& table, std::span<const dou
       {fmt::format("table_{}.csv", id), full_table_csv(table)},
       {"end-of-branch.csv", end_of_branch_csv(table)},
       {"spec.toml", to_toml(table.spec)}};
-  if (table.spec.bending_beyond_kBT > 0) files.push_back({"regularisation.csv", regularisation_csv(table)});
+  if (table.spec.wants_held()) files.push_back({"regularisation.csv", regularisation_csv(table)});
   return files;
 }
 

@@ -25,7 +25,7 @@ std::vector<int> first_places(int count) {
 }  // namespace
 
 bool can_be_held(const TableSpec& spec, const SampledBranch& own) {
-  return spec.bending_beyond_kBT > 0 && !own.empty() && own.end.status == Status::surface_unstable;
+  return spec.wants_held() && !own.empty() && own.end.status == Status::surface_unstable;
 }
 
 RadiusPlan::RadiusPlan(const TableSpec& spec, Records records)
@@ -39,7 +39,7 @@ RadiusPlan::Branch RadiusPlan::branch(const BranchTask& task) const {
 bool RadiusPlan::update() {
   if (complete_) return true;
   missing_.clear();
-  const bool own = settle(false), held = spec_.bending_beyond_kBT <= 0 || settle(true);
+  const bool own = settle(false), held = !spec_.wants_held() || settle(true);
   return complete_ = own && held;
 }
 
@@ -58,17 +58,28 @@ std::vector<int> RadiusPlan::places_at_first() const {
   return all;
 }
 
+/// In a square channel polynomials run through the branches of all radii: all are held as soon as one needs it.
+std::optional<bool> RadiusPlan::wants_held(int place) const {
+  bool wants = false;
+  for (const int other : spec_.is_square() ? places_at_first() : std::vector{place}) {
+    const Branch own = branch({other, false});
+    if (!own) return {};
+    wants = wants || can_be_held(spec_, *own);
+  }
+  return wants;
+}
+
 bool RadiusPlan::find(const std::vector<int>& places, bool held, Nodes& nodes) {
   bool has_all = true;
   for (const int place : places) {
     const BranchTask task{place, held};
-    const Branch own = held ? branch({place, false}) : nullptr;
+    const std::optional<bool> wanted = held ? wants_held(place) : true;
     Branch found = branch(task);
-    if (!found && own && !can_be_held(spec_, *own)) found = std::make_shared<SampledBranch>();
+    if (!found && wanted == false) found = std::make_shared<SampledBranch>();
     if (!found) found = records_(task);
     if (found)
       nodes[place] = known_[task] = found;
-    else if (has_all = false; own || !held)
+    else if (has_all = false; wanted)
       missing_.push_back(task);
   }
   return has_all;

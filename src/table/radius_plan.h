@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "table/branch_line.h"
@@ -44,6 +45,8 @@ class RadiusPlan {
   /// Round by round; true if no branch of this kind is unknown any more.
   bool settle(bool held);
   std::vector<int> places_at_first() const;
+  /// Whether the held branch of a place is wanted; nothing while that is not known.
+  std::optional<bool> wants_held(int place) const;
   /// Adds the branches of some places to the nodes; false if some are missing.
   bool find(const std::vector<int>& places, bool held, Nodes& nodes);
   /// The places that are computed next; none once the branches between the nodes are known.

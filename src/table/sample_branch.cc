@@ -192,11 +192,9 @@ SampledBranch sample_branch(const TableSpec& spec, const BranchPlace& place, con
 SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own, const std::atomic<bool>* stop) {
   constexpr double overlap = 1.25;  // of the stiffness
   if (!can_be_held(spec, own)) return {};
-  TableSpec held = spec;
-  held.base.cell.cortex.bending_kBT = spec.bending_beyond_kBT;
   const double stiffness = std::min(overlap * own.stiffness.back(), own.stiffness.front());
   const BranchPlace place{own.radius_um, own.cortex_share, own.tension_ratio};
-  SampledBranch branch = BranchSampler(held, place, stop).from_stiffness(stiffness);
+  SampledBranch branch = BranchSampler(held_spec(spec), place, stop).from_stiffness(stiffness);
   branch.bending_kBT = spec.bending_beyond_kBT;
   return branch;
 }

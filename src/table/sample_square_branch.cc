@@ -28,9 +28,10 @@ SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& pla
   const auto start = std::chrono::steady_clock::now();
   // Any stiffness: that of the liquid's stress makes the first states of the branch stiffer by a factor of 10 to 100.
   const Scales scales = scales_of(case_at(spec, place, 1));
-  const double stiffness_kPa = 1e-3 * scales.stress_Pa;
-  const Problem problem = problem_of(case_at(spec, place, stiffness_kPa));
-  const auto found = follow_in_duct(problem, spec.max_deformation, heights(spec.computed_states.value()), stop);
+  const double stiffness = 1e-3 * scales.stress_Pa;
+  const auto problem_at = [&](double compliance) { return problem_of(case_at(spec, place, stiffness / compliance)); };
+  const auto found =
+      follow_in_duct(problem_at(1), problem_at, spec.max_deformation, heights(spec.computed_states.value()), stop);
 
   SampledBranch branch;
   branch.radius_um = place.radius_um;
@@ -40,7 +41,7 @@ SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& pla
   for (const StationaryState& state : found.states) {
     MeasuredState measured = measure_state(state, scales);
     branch.value.row(branch.samples()) = measured.value.transpose();
-    branch.stiffness.push_back(stiffness_kPa / state.outcome.reached);
+    branch.stiffness.push_back(stiffness / state.outcome.reached);
     branch.contour.push_back(std::move(measured.contour));
     branch.error.push_back(state.estimated_error);
     branch.newton_iterations += state.statistics.newton_iterations;
@@ -49,6 +50,13 @@ SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& pla
   branch.solves = branch.samples();
   set_slopes(branch);
   branch.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return branch;
+}
+
+SampledBranch sample_held_square_branch(const TableSpec& spec, const BranchPlace& place,
+                                        const std::atomic<bool>* stop) {
+  SampledBranch branch = sample_square_branch(held_spec(spec), place, stop);
+  if (!branch.empty()) branch.bending_kBT = held_bending_kBT(spec, place.radius_um, branch.stiffness.back());
   return branch;
 }
 

@@ -11,4 +11,8 @@ namespace rheocyte {
 /// are those of the polynomials through them. Empty if there are none.
 SampledBranch sample_square_branch(const TableSpec&, const BranchPlace& place, const std::atomic<bool>* stop = nullptr);
 
+/// The same of the cells whose surface is held by bending.
+SampledBranch sample_held_square_branch(const TableSpec&, const BranchPlace& place,
+                                        const std::atomic<bool>* stop = nullptr);
+
 }  // namespace rheocyte

@@ -16,7 +16,7 @@
 namespace rheocyte {
 namespace {
 
-constexpr std::size_t fewest_radii = 4;
+constexpr std::ptrdiff_t fewest_radii = 4;
 /// Samples of a branch in equal ratios of sqrt(d); cubics between them are good to 1e-6.
 constexpr int dense_samples = 48;
 /// How far a branch counts as longer or shorter than its states, in sqrt(d), see Surface::set_ends.
@@ -137,6 +137,8 @@ class Curve {
   Eigen::MatrixXd numbers_;  ///< samples x (measures, ln of the ratio)
 };
 
+bool has_curve(const SampledBranch& branch) { return branch.samples() > 2; }
+
 /// One state between the computed ones.
 struct DenseState {
   double stiffness = 0;
@@ -149,8 +151,8 @@ class Surface {
   Surface(const TableSpec& spec, std::span<const SampledBranch> computed, const GridContent* tube)
       : reference_(spec, tube) {
     for (const auto& branch : computed)
-      if (branch.samples() > 2) curves_.emplace_back(branch, reference_);
-    if (curves_.size() < fewest_radii)
+      if (has_curve(branch)) curves_.emplace_back(branch, reference_);
+    if (!can_lie_between(computed))
       throw UserError(
           fmt::format("only {} of {} computed branches have states; a table needs {}. Choose smaller cells or "
                       "a lower table.max_deformation.",
@@ -278,6 +280,7 @@ SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double
   SampledBranch branch;
   branch.radius_um = radius_um;
   branch.end = near.end;
+  branch.bending_kBT = near.bending_kBT;
   branch.value.resize(dense_samples, measure_count);
   branch.slope.resize(dense_samples, measure_count);
   const double last = surface.last(radius_um), first = 0.98 * std::sqrt(spec.min_deformation) / last;
@@ -315,6 +318,10 @@ void set_slopes(SampledBranch& branch) {
     branch.slope.row(k) /= of_log_stiffness;
     contour /= of_log_stiffness;
   }
+}
+
+bool can_lie_between(std::span<const SampledBranch> computed) {
+  return std::ranges::count_if(computed, has_curve) >= fewest_radii;
 }
 
 std::vector<SampledBranch> square_branches(const TableSpec& spec, std::span<const SampledBranch> computed,

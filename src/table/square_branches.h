@@ -12,11 +12,14 @@ namespace rheocyte {
 /// Slopes along a branch from its values alone: those of the polynomials through all samples over sqrt(deformation).
 void set_slopes(SampledBranch&);
 
+/// Whether enough radii have states.
+bool can_lie_between(std::span<const SampledBranch> computed);
+
 /// The branches of all radii of the spec with dense samples. In the coordinates r0 and sqrt(d) over the length of the
 /// branch, polynomials run through the computed states: of the measures, of the contours, and of ln(E / E_tube), where
 /// E_tube is the modulus that the tube's table gives to a cell of this area and deformation; of ln(E sqrt(d)) without a
-/// tube. The error of a sample is that of the computed states and that of the polynomials. UserError if fewer than four
-/// radii have states, or the tube's table is that of another liquid.
+/// tube. The error of a sample is that of the computed states and that of the polynomials. UserError if too few radii
+/// have states, or the tube's table is that of another liquid.
 std::vector<SampledBranch> square_branches(const TableSpec&, std::span<const SampledBranch> computed,
                                            const GridContent* tube);
 

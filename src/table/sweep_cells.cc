@@ -35,9 +35,10 @@ void set_moduli(Case& c, const BranchPlace& place, double stiffness) {
   }
 }
 
-double bending_kBT(double ratio, double radius_um, double stiffness_kPa) {
-  const double radius = radius_um * 1e-6, stiffness = stiffness_kPa * 1e3;
-  return ratio * stiffness * radius * radius * radius / thermal_energy_J;
+double bending_kBT(const TableSpec& spec, const BranchPlace& place, double stiffness) {
+  const double radius = place.radius_um * 1e-6;
+  const double modulus = 1e3 * (spec.sweeps_cortex() ? stiffness / place.radius_um : stiffness);
+  return spec.bending_ratio * modulus * radius * radius * radius / thermal_energy_J;
 }
 
 std::pair<double, double> first_and_last_radius_um(const TableSpec& spec) {
@@ -85,9 +86,19 @@ Case case_at(const TableSpec& spec, const BranchPlace& place, double stiffness) 
     set_moduli(c, place, stiffness);
   else
     case_key(spec.stiffness_key).set(c, stiffness);
-  if (spec.bending_ratio > 0) c.cell.cortex.bending_kBT = bending_kBT(spec.bending_ratio, place.radius_um, stiffness);
+  if (spec.bending_ratio > 0) c.cell.cortex.bending_kBT = bending_kBT(spec, place, stiffness);
   c.numerics.accuracy = spec.accuracy;
   return c;
+}
+
+TableSpec held_spec(TableSpec spec) {
+  if (spec.bending_beyond_kBT > 0) spec.base.cell.cortex.bending_kBT = spec.bending_beyond_kBT;
+  if (spec.bending_beyond_ratio > 0) spec.bending_ratio = spec.bending_beyond_ratio;
+  return spec;
+}
+
+double held_bending_kBT(const TableSpec& spec, double radius_um, double stiffness) {
+  return case_at(held_spec(spec), {radius_um}, stiffness).cell.cortex.bending_kBT;
 }
 
 }  // namespace rheocyte

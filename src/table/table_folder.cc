@@ -90,7 +90,7 @@ std::string TableFolder::layout() const {
   std::string text = branch_record_format() + "\n";
   for (int i = 0; i < branches(); ++i)
     text += fmt::format("{} {:.6g} {:.6g} {:.6g}{}\n", record(i, false).filename().string(), place(i).radius_um,
-                        place(i).cortex_share, place(i).tension_ratio, wants_held() ? " held" : "");
+                        place(i).cortex_share, place(i).tension_ratio, spec_.wants_held() ? " held" : "");
   return text;
 }
 
@@ -157,7 +157,8 @@ int TableFolder::done() const {
   const std::lock_guard lock(plan_mutex_);
   if (update_plan()) return branches();
   int count = 0;
-  for (int i = 0; i < branches(); ++i) count += plan_.branch({i, false}) && (!wants_held() || plan_.branch({i, true}));
+  for (int i = 0; i < branches(); ++i)
+    count += plan_.branch({i, false}) && (!spec_.wants_held() || plan_.branch({i, true}));
   return std::min(count, branches() - 1);
 }
 
@@ -195,7 +196,7 @@ std::vector<SampledBranch> TableFolder::read_all() const {
   std::vector<SampledBranch> all;
   for (int i = 0; i < branches(); ++i) {
     all.push_back(branch(i, false));
-    if (wants_held()) all.push_back(branch(i, true));
+    if (spec_.wants_held()) all.push_back(branch(i, true));
   }
   return all;
 }
@@ -215,7 +216,13 @@ std::vector<SampledBranch> TableFolder::all_branches() const {
   auto branches = read_all();
   if (!spec_.is_square()) return branches;
   const auto tube_table = tube();
-  return square_branches(spec_, branches, tube_table ? &*tube_table : nullptr);
+  const GridContent* reference = tube_table ? &*tube_table : nullptr;
+  const auto is_own = [](const SampledBranch& branch) { return branch.bending_kBT == 0; };
+  const auto first_held = std::ranges::stable_partition(branches, is_own).begin();
+  auto all = square_branches(spec_, {branches.begin(), first_held}, reference);
+  if (can_lie_between({first_held, branches.end()}))
+    std::ranges::move(square_branches(spec_, {first_held, branches.end()}, reference), std::back_inserter(all));
+  return all;
 }
 
 void TableFolder::tidy() const {

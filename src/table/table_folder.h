@@ -29,8 +29,6 @@ class TableFolder {
   /// Of the table; not all of them are computed (radius_plan.h).
   int branches() const { return int(places_.size()); }
   const BranchPlace& place(int i) const { return places_[i]; }
-  /// Whether the branches beyond the ends of the bare ones are wanted, too.
-  bool wants_held() const { return spec_.bending_beyond_kBT > 0; }
 
   /// Before work goes on: reads every record that is there. UserError naming the first one that cannot be used, and how
   /// many there are; otherwise programs that want other records are refused from now on.

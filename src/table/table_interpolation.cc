@@ -136,7 +136,7 @@ class TableInterpolation::Query {
 
 TableInterpolation::TableInterpolation(const TableSpec& spec, std::span<const SampledBranch> branches)
     : spec_(spec), radii_(by_radius(branches)) {
-  if (spec.bending_beyond_kBT > 0) return;
+  if (spec.wants_held()) return;
   std::erase_if(radii_, [](const RadiusBranches& radius) { return !radius.own(); });
   for (auto& radius : radii_) radius = RadiusBranches(*radius.own());
 }

@@ -42,6 +42,10 @@ const std::array table = {
                                     "bending stiffness with which branches go on where the bare surface is unstable, "
                                     "0 = they end there",
                                     Number{{0, 1e12}}, 0.0}),
+    key<&Spec::bending_beyond_ratio>({"table.bending_beyond_ratio", "",
+                                      "the same in a square channel, over E r0^3 or E2D r0^2 of the cell; 3e-5 changes "
+                                      "d by less than 0.5 % where both exist",
+                                      Number{{0, 1}}, 0.0, square}),
     key<&Spec::cortex_shares>({"table.cortex_share", "",
                                "shares of the cortex in the stiffness of combined cells, one sheet for each",
                                List{{0, 1}, true}, absent}),

@@ -69,6 +69,7 @@ ordered_json table_metadata(const TableSpec& spec, std::string_view program) {
   metadata["stiffness_unit"] = stiffness_unit(spec);
   metadata["accuracy"] = spec.accuracy;
   metadata["bending_beyond_kBT"] = spec.bending_beyond_kBT;
+  if (spec.bending_beyond_ratio > 0) metadata["bending_beyond_ratio"] = spec.bending_beyond_ratio;
   metadata["case"] = case_without_swept(spec);
   return metadata;
 }

@@ -28,7 +28,8 @@ constexpr std::string_view radius_key = "cell.radius_um", accuracy_key = "numeri
 constexpr std::string_view bulk_modulus_key = "cell.bulk.young_modulus_kPa",
                            cortex_modulus_key = "cell.cortex.modulus_mN_per_m",
                            tension_key = "cell.cortex.tension_mN_per_m", ratio_key = "cell.cortex.tension_ratio",
-                           bending_key = "cell.cortex.bending_kBT";
+                           bending_key = "cell.cortex.bending_kBT", beyond_key = "table.bending_beyond_kBT",
+                           beyond_ratio_key = "table.bending_beyond_ratio", section_key = "channel.section";
 constexpr std::array<std::string_view, 3> stiffness_keys{bulk_modulus_key, cortex_modulus_key, combined_stiffness};
 // Those that programs know already; they must not appear on other numbers.
 constexpr std::array<std::string_view, 4> foreign_identifiers{"LE-2D-FEM-19", "HE-2D-FEM-22", "HE-3D-FEM-22",
@@ -46,7 +47,7 @@ bool has_cortex(const KeyReading& keys) { return keys.chosen(cortex_law_key) != 
 
 // Bulk and cortex, all moduli along the sweep, tension as a share of the cortex.
 void check_combined(TableSpec& spec, const KeyReading& keys) {
-  constexpr std::string_view shares = "table.cortex_share", beyond = "table.bending_beyond_kBT";
+  constexpr std::string_view shares = "table.cortex_share";
   if (keys.has("table.stiffness") && !spec.is_combined())
     keys.refuse("table.stiffness", fmt::format("{} does not go with {}; write \"{}\" or leave it out.",
                                                keys.stated("table.stiffness"), shares, combined_stiffness));
@@ -64,10 +65,12 @@ void check_combined(TableSpec& spec, const KeyReading& keys) {
   };
   exclude(ratio_key, "table.tension_ratio");
   if (spec.bending_ratio > 0) exclude(bending_key, "table.bending_ratio");
-  if (spec.bending_beyond_kBT > 0)
-    keys.refuse(beyond, fmt::format("{} has no effect on combined cells; give table.bending_ratio or {}, which all "
-                                    "have.",
-                                    beyond, bending_key));
+  for (const auto& [key, value] :
+       {std::pair(beyond_key, spec.bending_beyond_kBT), std::pair(beyond_ratio_key, spec.bending_beyond_ratio)})
+    if (value > 0)
+      keys.refuse(key, fmt::format("{} has no effect on combined cells; give table.bending_ratio or {}, which all "
+                                   "have.",
+                                   key, bending_key));
   const auto* ratio = keys.value(ratio_key);
   if (spec.tension_ratios.empty()) spec.tension_ratios = {ratio ? std::get<double>(*ratio) : 0};
 }
@@ -104,7 +107,7 @@ std::vector<std::string_view> swept_keys(const TableSpec& spec) {
 
 // What the sweep itself gives must not be given as well.
 void refuse_swept_keys(const TableSpec& spec, const KeyReading& keys) {
-  const auto refuse = [&](std::string_view key, std::string_view reason) {
+  const auto refuse = [&](std::string_view key, const std::string& reason) {
     if (keys.has(key)) keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
   };
   refuse(radius_key, "must not be given, because a table sweeps it; choose table.min_area_um2 and table.max_area_um2");
@@ -114,6 +117,12 @@ void refuse_swept_keys(const TableSpec& spec, const KeyReading& keys) {
            "must not be given, because a table sweeps it; choose table.min_deformation and "
            "table.max_deformation");
   refuse("channel.camera_degree", "is not for tables; choose channel.camera");
+  const auto* bending = keys.value(bending_key);
+  if (keys.chosen(section_key) == "square" && bending && std::get<double>(*bending) > 0)
+    refuse(bending_key,
+           fmt::format("is not for tables of square channels, whose small cells it would hold far more than "
+                       "large ones; choose {}",
+                       beyond_ratio_key));
   for (const auto key : {drive_key, std::string_view("flow.pressure_drop_Pa")})
     refuse(key, "must not be given, because a table is that of one flow rate; choose flow.rate_ul_per_s");
 }
@@ -158,28 +167,21 @@ void check_areas(const TableSpec& spec, const KeyReading& keys) {
 }
 
 void check_bending(const TableSpec& spec, const KeyReading& keys) {
-  constexpr std::string_view key = "table.bending_beyond_kBT";
-  const double own = spec.base.cell.cortex.bending_kBT;
-  if (spec.bending_beyond_kBT > 0 && spec.bending_beyond_kBT <= own)
-    keys.refuse(
-        key, fmt::format("{} = {:g} does not exceed {} = {:g}, which all states have; raise it or leave it out.", key,
-                         spec.bending_beyond_kBT, bending_key, own));
-}
-
-void check_square_table(const TableSpec& spec, const KeyReading& keys) {
-  if (!spec.is_square()) return;
-  constexpr std::string_view beyond = "table.bending_beyond_kBT";
-  if (spec.bending_beyond_kBT > 0)
-    keys.refuse(beyond, fmt::format("{} is for tubes; in a square channel branches end where the bare surface does. "
-                                    "Leave it out.",
-                                    keys.stated(beyond)));
+  if (spec.bending_beyond_kBT == 0) return;
+  if (spec.is_square())
+    keys.refuse(beyond_key, fmt::format("{} is for tubes, because a polynomial over the radius needs cells that are "
+                                        "alike; give {}, such as 3e-5, or leave it out.",
+                                        keys.stated(beyond_key), beyond_ratio_key));
+  if (const double own = spec.base.cell.cortex.bending_kBT; spec.bending_beyond_kBT <= own)
+    keys.refuse(beyond_key,
+                fmt::format("{} = {:g} does not exceed {} = {:g}, which all states have; raise it or leave it out.",
+                            beyond_key, spec.bending_beyond_kBT, bending_key, own));
 }
 
 void check_section(const Case& c, const KeyReading& keys) {
-  constexpr std::string_view key = "channel.section";
   if (c.channel.section == Section::rectangle)
-    keys.refuse(
-        key, fmt::format("{} is not for tables, which are those of tubes and of square channels.", keys.stated(key)));
+    keys.refuse(section_key, fmt::format("{} is not for tables, which are those of tubes and of square channels.",
+                                         keys.stated(section_key)));
 }
 
 void check_liquid(const Case& c, const KeyReading& keys) {
@@ -213,7 +215,6 @@ TableSpec parse_table_spec(std::string_view text, const std::string& name, std::
   spec.base = case_at(spec, middle_of(spec), 1);
   check_areas(spec, keys);
   check_bending(spec, keys);
-  check_square_table(spec, keys);
   return spec;
 }
 
@@ -227,6 +228,7 @@ std::string to_toml(const TableSpec& spec) {
   if (spec.is_combined()) left_out.push_back(ratio_key);
   // What only combined cells have is written where it is given.
   left_out.push_back(spec.bending_ratio > 0 ? bending_key : "table.bending_ratio");
+  if (spec.bending_beyond_ratio == 0) left_out.emplace_back("table.bending_beyond_ratio");
   if (spec.max_deformation_raw == TableSpec{}.max_deformation_raw) left_out.emplace_back("table.max_deformation_raw");
   auto values = values_of(spec.base, case_keys());
   std::ranges::move(values_of(spec, table_keys()), std::back_inserter(values));

@@ -31,10 +31,11 @@ struct TableSpec {
   int radii = 0;  ///< branches, equally spaced in the radius of the sphere
   int rows_per_radius = 0;
   double accuracy = 0;  ///< relative, of the deformation
-  /// Bending stiffness of the branches that go on where the bare surface has lost its stability; 0: none.
-  double bending_beyond_kBT = 0;
+  /// Bending stiffness of the branches that go on where the bare surface has lost its stability, in a square channel
+  /// over S r0^3; 0: none.
+  double bending_beyond_kBT = 0, bending_beyond_ratio = 0;
   std::vector<double> cortex_shares, tension_ratios;  ///< of combined cells, ascending; else empty
-  double bending_ratio = 0;        ///< c_b / (S r0^3) of combined cells; 0: the base's bending stiffness for all
+  double bending_ratio = 0;        ///< c_b / (S r0^3), S = E or E2D / r0; 0: the base's bending stiffness for all
   double max_deformation_raw = 1;  ///< of the contour itself, dent included: where branches of combined cells end
   /// In a square channel: branches and states on each that are computed, between which the others lie, and the tube's
   /// table by whose ratio they are interpolated, as the user names it; without one the moduli themselves are.
@@ -44,6 +45,7 @@ struct TableSpec {
   bool is_combined() const { return stiffness_key == combined_stiffness; }
   bool sweeps_cortex() const { return stiffness_key == "cell.cortex.modulus_mN_per_m"; }
   bool is_square() const { return base.channel.section == Section::square; }
+  bool wants_held() const { return bending_beyond_kBT > 0 || bending_beyond_ratio > 0; }
 };
 
 /// Reads a spec: the keys of a case and those of the section [table]. UserError as read_case.
@@ -66,5 +68,10 @@ std::vector<BranchPlace> sweep_places(const TableSpec&);
 
 /// The case of one cell of the table.
 Case case_at(const TableSpec&, const BranchPlace& place, double stiffness);
+
+/// The same cells, all with the bending stiffness that holds their surface.
+TableSpec held_spec(TableSpec);
+/// Bending stiffness of such a cell.
+double held_bending_kBT(const TableSpec&, double radius_um, double stiffness);
 
 }  // namespace rheocyte

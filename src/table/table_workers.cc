@@ -91,9 +91,11 @@ class Workers {
 
   void sample(const BranchTask& task) {
     const TableSpec& spec = folder_.spec();
-    const SampledBranch branch = task.held ? sample_held_branch(spec, folder_.branch(task.place, false), &stop_)
-                                 : spec.is_square() ? sample_square_branch(spec, folder_.place(task.place), &stop_)
-                                                    : sample_branch(spec, folder_.place(task.place), &stop_);
+    const BranchPlace place = folder_.place(task.place);
+    const SampledBranch branch = spec.is_square() ? (task.held ? sample_held_square_branch(spec, place, &stop_)
+                                                               : sample_square_branch(spec, place, &stop_))
+                                 : task.held      ? sample_held_branch(spec, folder_.branch(task.place, false), &stop_)
+                                                  : sample_branch(spec, place, &stop_);
     if (!is_stopped(branch)) folder_.keep(task.place, branch, task.held);
   }
 

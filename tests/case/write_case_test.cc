@@ -48,6 +48,18 @@ TEST(WriteCase, WhatIsWrittenIsReadBackToTheSameBits) {
   }
 }
 
+TEST(WriteCase, ANegativeZeroIsZero) {
+  // Written without a point, -0.0 would come back as the integer 0.
+  const std::string text =
+      "channel.profile.x_um = [-0.0, 100]\nchannel.profile.R_um = [21.88, 10.94]\n"
+      "cell.radius_um = 7.66\ncell.bulk.young_modulus_kPa = 3\nflow.rate_ul_per_s = 0.04\n"
+      "flow.viscosity_mPas = 15\ncell.viscosity_mPas = 15\ntime.end_us = 500\n";
+  const std::string written = to_toml(parse_case(text, "case"));
+  EXPECT_EQ(to_toml(parse_case(written, "copy")), written);
+  const std::vector<std::string> setting{"channel.profile.x_um=[-0.0, 100]"};
+  EXPECT_EQ(to_toml(parse_case(text, "case", setting)), written);
+}
+
 TEST(WriteCase, OnlyKeysWithAnEffectAreWritten) {
   const auto json = to_json(cases_of_all_laws()[0]);
   EXPECT_FALSE(json["flow"].contains("exponent"));

@@ -19,7 +19,7 @@ struct Folded {
     return problem;
   }
   ArcReport trace(int steps) {
-    const ContinuationReport first = start_branch(discrete.system, problem, {});
+    const ContinuationReport first = start_branch(stiffness_path(discrete.system, problem), {});
     Path path = stiffness_path(discrete.system, problem);
     Path to_start = path;
     to_start.end = 0.8;
@@ -67,7 +67,7 @@ TEST(Arclength, AwayFromFoldsItFindsTheStatesOfTheParameter) {
 TEST(Arclength, ItEndsWhereItIsTold) {
   // The observer's refusal ends the trace with success; the state that it saw is kept.
   Folded folded;
-  const ContinuationReport first = start_branch(folded.discrete.system, folded.problem, {});
+  const ContinuationReport first = start_branch(stiffness_path(folded.discrete.system, folded.problem), {});
   ArcOptions options;
   int seen = 0;
   options.go_on = [&](const Discretisation&, const BranchState&) { return ++seen < 2; };

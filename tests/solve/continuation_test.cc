@@ -16,7 +16,7 @@ const Resolution resolution = {{2, 4, 1, 2}, 5};
 struct CoarseProblem {
   explicit CoarseProblem(const Problem& p) : problem(p), discrete(p, resolution) {}
   ContinuationReport start(const ContinuationOptions& options) {
-    return start_branch(discrete.system, problem, options);
+    return start_branch(stiffness_path(discrete.system, problem), options);
   }
   ContinuationReport follow(const ContinuationOptions& options) {
     const ContinuationReport first = start(options);

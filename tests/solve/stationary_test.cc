@@ -120,7 +120,7 @@ TEST(Stationary, InACarreauLiquidTheDeformationConvergesWithTheDegree) {
   const Problem problem = test::in_carreau_liquid(test::problem({6, 4.58, 0}));
   const auto deformation = [&](int degree) {
     Discrete discrete(problem, {{2, 4, 1, 2}, degree});
-    const ContinuationReport first = start_branch(discrete.system, problem, {});
+    const ContinuationReport first = start_branch(stiffness_path(discrete.system, problem), {});
     const auto report = continue_branch(stiffness_path(discrete.system, problem), {}, first.last);
     EXPECT_EQ(report.status, Status::converged);
     return measure(contour(discrete.space, report.last.unknowns)).deformation;

@@ -134,5 +134,26 @@ TEST(RadiusPlan, TheOrderInWhichBranchesAreFinishedDoesNotMatter) {
       EXPECT_EQ(to_bytes(*first.branch({i, held}), "x"), to_bytes(*second.branch({i, held}), "x")) << i << held;
 }
 
+TEST(RadiusPlan, InASquareChannelAllBranchesAreHeldOrNone) {
+  // Polynomials run through the branches of all radii: held ones of some radii alone would be of no use.
+  const auto spec = parse_table_spec(
+      short_spec, "spec.toml",
+      std::vector<std::string>{"channel.section=square", "table.max_area_um2=260", "table.bending_beyond_ratio=3e-5"});
+  const auto radii = computed_radii_um(spec);
+  for (const bool is_one_unstable : {false, true}) {
+    int asked = 0;
+    RadiusPlan plan(spec, [&](const BranchTask& task) -> RadiusPlan::Branch {
+      InventedSweep sweep = covering(spec, radii[std::size_t(task.place)]);
+      sweep.end = is_one_unstable && task.place == 2 ? Status::surface_unstable : Status::covered;
+      sweep.bending = task.held ? 1e4 : 0;
+      asked += task.held;
+      return std::make_shared<SampledBranch>(invented_branch(radii[std::size_t(task.place)], sweep));
+    });
+    EXPECT_TRUE(plan.update());
+    EXPECT_EQ(asked, is_one_unstable ? std::ssize(radii) : 0);
+    for (int i = 0; i < std::ssize(radii); ++i) EXPECT_EQ(plan.branch({i, true})->empty(), !is_one_unstable);
+  }
+}
+
 }  // namespace
 }  // namespace rheocyte::radius_plan_test

@@ -144,6 +144,8 @@ TEST(Scale, DoubtsAreInertiaAndBendingWhereTheyMatter) {
   const auto bent = table_with({{"regularised_rows", 7}, {"fluid_density", 0}});
   EXPECT_TRUE(doubts_of_scaling(bent, {25, 0.04, 15}).empty());  // c_b / (eta Q) is what counts
   EXPECT_EQ(doubts_of_scaling(bent, {20, 0.08, 15}).size(), 1u);
+  const auto alike = table_with({{"regularised_rows", 7}, {"fluid_density", 0}, {"bending_beyond_ratio", 3e-5}});
+  EXPECT_TRUE(doubts_of_scaling(alike, {20, 0.08, 15}).empty());
   const auto text = scaled(bent, {20, 0.08, 15}, "0").comments;
   EXPECT_NE(text[1].find("Not exact: its bending stiffness"), std::string::npos);
 }

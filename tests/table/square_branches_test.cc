@@ -114,6 +114,15 @@ TEST(SquareBranches, TheStatedErrorHoldsThatOfTheComputedStatesAndOfThePolynomia
   EXPECT_LT(left_out(spec, computed, &tube).state, miss.state);
 }
 
+TEST(SquareBranches, BetweenBranchesThatBendingHoldsAllAreHeld) {
+  const TableSpec spec = square_spec();
+  auto computed = computed_branches(spec);
+  for (SampledBranch& branch : computed) branch.bending_kBT = 100 * branch.radius_um;
+  for (const SampledBranch& branch : square_branches(spec, computed, nullptr)) EXPECT_GT(branch.bending_kBT, 0);
+  EXPECT_TRUE(can_lie_between(computed));
+  EXPECT_FALSE(can_lie_between(std::span(computed).first(3)));
+}
+
 TEST(SquareBranches, TheTubesTableMustBeThatOfTheLiquid) {
   const TableSpec spec = square_spec();
   GridContent tube = tube_grid();

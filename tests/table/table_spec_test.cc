@@ -108,6 +108,31 @@ TEST(TableSpec, BendingOfCombinedCellsGoesWithTheirStiffness) {
   EXPECT_NE(refusal(short_spec, both).find("exclude each other"), std::string::npos);
 }
 
+TEST(TableSpec, InASquareChannelBendingBeyondTheEndGoesWithStiffnessAndSize) {
+  // c_b = 3e-5 E r0^3 in k_B T of 4.11643e-21 J: 2 kPa and 6 um have 1.296e-17 J, as 12 mN/m have for shells.
+  const std::string ratio = "table.bending_beyond_ratio=3e-5", square = "channel.section=square",
+                    areas = "table.max_area_um2=260";
+  const auto solid = read(short_spec, {square, areas, ratio});
+  EXPECT_EQ(case_at(solid, {6}, 2).cell.cortex.bending_kBT, 0);
+  EXPECT_NEAR(held_bending_kBT(solid, 6, 2), 1.296e-17 / 4.11643e-21, 0.1);
+  EXPECT_EQ(case_at(held_spec(solid), {6}, 2).cell.cortex.bending_kBT, held_bending_kBT(solid, 6, 2));
+  const auto shell = read(short_spec, {square, areas, ratio, "cell.bulk.law=none", "cell.cortex.law=linear"});
+  EXPECT_NEAR(held_bending_kBT(shell, 6, 12), held_bending_kBT(solid, 6, 2), 1e-9);
+  EXPECT_EQ(to_toml(read(to_toml(solid))), to_toml(solid));
+  EXPECT_EQ(to_toml(read(short_spec, {square, areas})).find("bending_beyond_ratio"), std::string::npos);
+}
+
+TEST(TableSpec, WhatHoldsTheSurfaceBeyondTheEndIsThatOfTheSection) {
+  expect_refusal("table.bending_beyond_ratio=3e-5", "has no effect, because channel.section is \"tube\"");
+  const auto refused = [](std::vector<std::string> settings) {
+    settings.insert(settings.end(), {"channel.section=square", "table.max_area_um2=260"});
+    return refusal(short_spec, std::move(settings));
+  };
+  EXPECT_NE(refused({"table.bending_beyond_kBT=1e4"}).find("give table.bending_beyond_ratio, such as 3e-5"),
+            std::string::npos);
+  EXPECT_NE(refused({"cell.cortex.bending_kBT=1e4"}).find("choose table.bending_beyond_ratio"), std::string::npos);
+}
+
 TEST(TableSpec, SweptKeysMustNotBeGiven) {
   expect_refusal("cell.radius_um=5", "cell.radius_um = 5 must not be given, because a table sweeps it");
   expect_refusal("cell.bulk.young_modulus_kPa=5", "young_modulus_kPa = 5 must not be given");

@@ -50,7 +50,7 @@ CoarseState coarse_state(const Problem& problem) {
   const auto discrete = std::make_shared<DuctDiscrete>(problem, DuctSubdivision{}, 3);
   ContinuationOptions options;
   options.newton.tolerance = 1e-7;
-  ContinuationReport report = start_branch(discrete->system, problem, options);
+  ContinuationReport report = start_branch(stiffness_path(discrete->system, problem), options);
   if (report.last.parameter < 1)
     report = continue_branch(stiffness_path(discrete->system, problem), options, report.last);
   EXPECT_EQ(report.last.parameter, 1);
@@ -184,7 +184,7 @@ TEST(SquareChannelSlow, StatesOfABranchAreThoseOfTheCellsThemselves) {
   Problem problem = newtonian_cell(0.4, 0.15);
   problem.accuracy = 0.05;
   const std::vector heights{0.6, 1.0};
-  const DuctBranch branch = follow_in_duct(problem, 0.01, heights);
+  const DuctBranch branch = follow_in_duct(problem, softening(problem), 0.01, heights);
   EXPECT_EQ(branch.end, Status::converged);
   ASSERT_EQ(branch.states.size(), heights.size());
   EXPECT_NEAR(branch.states[1].shape.deformation / 0.01, 1, 0.1);
@@ -197,10 +197,32 @@ TEST(SquareChannelSlow, StatesOfABranchAreThoseOfTheCellsThemselves) {
   EXPECT_NEAR(branch.states[0].shape.deformation / state.shape.deformation, 1, 1e-7);
 }
 
+TEST(SquareChannelSlow, AlongABranchWhatDoesNotSoftenStaysAsItIs) {
+  // A bending stiffness that all cells of a branch share changes the softest one's deformation by several per cent.
+  Problem problem = newtonian_cell(0.4, 0.15);
+  problem.accuracy = 0.05;
+  problem.cortex.bending = 0.02 * problem.bulk.shear_modulus * std::pow(problem.radius_ratio, 3);
+  const auto media = [&](double compliance) {
+    Media at = problem;
+    at.bulk.shear_modulus /= compliance;
+    return at;
+  };
+  const DuctBranch branch = follow_in_duct(problem, media, 0.01, std::array{0.6, 1.0});
+  ASSERT_EQ(branch.states.size(), 2);
+  Problem one = problem;
+  static_cast<Media&>(one) = media(branch.states[1].outcome.reached);
+  const StationaryState state = solve_stationary(one);
+  ASSERT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
+  ASSERT_EQ(state.statistics.degree, branch.states[1].statistics.degree);
+  EXPECT_NEAR(branch.states[1].shape.deformation / state.shape.deformation, 1, 1e-7);
+  one.cortex.bending = 0;
+  EXPECT_GT(std::abs(solve_stationary(one).shape.deformation / state.shape.deformation - 1), 1e-3);
+}
+
 TEST(SquareChannel, ABranchMayEndBeforeTheFirstStepOfAWayWould) {
   Problem problem = newtonian_cell(0.6, 1);
   problem.accuracy = 0.05;
-  const DuctBranch branch = follow_in_duct(problem, 1e-4, std::array{0.5, 1.0}, nullptr);
+  const DuctBranch branch = follow_in_duct(problem, softening(problem), 1e-4, std::array{0.5, 1.0}, nullptr);
   ASSERT_EQ(branch.end, Status::converged);
   ASSERT_EQ(branch.states.size(), 2);
   EXPECT_NEAR(branch.states[1].shape.deformation, 1e-4, 1e-5);
