@@ -218,7 +218,7 @@ std::vector<SampledBranch> TableFolder::all_branches() const {
   const auto tube_table = tube();
   const GridContent* reference = tube_table ? &*tube_table : nullptr;
   const auto is_own = [](const SampledBranch& branch) { return branch.bending_kBT == 0; };
-  const auto first_held = std::ranges::stable_partition(branches, is_own).begin();
+  const auto first_held = std::stable_partition(branches.begin(), branches.end(), is_own);
   auto all = square_branches(spec_, {branches.begin(), first_held}, reference);
   if (can_lie_between({first_held, branches.end()}))
     std::ranges::move(square_branches(spec_, {first_held, branches.end()}, reference), std::back_inserter(all));
