@@ -29,7 +29,7 @@ constexpr std::string_view bulk_modulus_key = "cell.bulk.young_modulus_kPa",
                            cortex_modulus_key = "cell.cortex.modulus_mN_per_m",
                            tension_key = "cell.cortex.tension_mN_per_m", ratio_key = "cell.cortex.tension_ratio",
                            bending_key = "cell.cortex.bending_kBT", beyond_key = "table.bending_beyond_kBT",
-                           beyond_ratio_key = "table.bending_beyond_ratio", section_key = "channel.section";
+                           beyond_ratio_key = "table.bending_beyond_ratio", channel_section_key = "channel.section";
 constexpr std::array<std::string_view, 3> stiffness_keys{bulk_modulus_key, cortex_modulus_key, combined_stiffness};
 // Those that programs know already; they must not appear on other numbers.
 constexpr std::array<std::string_view, 4> foreign_identifiers{"LE-2D-FEM-19", "HE-2D-FEM-22", "HE-3D-FEM-22",
@@ -118,7 +118,7 @@ void refuse_swept_keys(const TableSpec& spec, const KeyReading& keys) {
            "table.max_deformation");
   refuse("channel.camera_degree", "is not for tables; choose channel.camera");
   const auto* bending = keys.value(bending_key);
-  if (keys.chosen(section_key) == "square" && bending && std::get<double>(*bending) > 0)
+  if (keys.chosen(channel_section_key) == "square" && bending && std::get<double>(*bending) > 0)
     refuse(bending_key,
            fmt::format("is not for tables of square channels, whose small cells it would hold far more than "
                        "large ones; choose {}",
@@ -180,8 +180,9 @@ void check_bending(const TableSpec& spec, const KeyReading& keys) {
 
 void check_section(const Case& c, const KeyReading& keys) {
   if (c.channel.section == Section::rectangle)
-    keys.refuse(section_key, fmt::format("{} is not for tables, which are those of tubes and of square channels.",
-                                         keys.stated(section_key)));
+    keys.refuse(channel_section_key,
+                fmt::format("{} is not for tables, which are those of tubes and of square channels.",
+                            keys.stated(channel_section_key)));
 }
 
 void check_liquid(const Case& c, const KeyReading& keys) {
