@@ -1,8 +1,8 @@
-// The workplace "Cell" as a person uses it, for the tests: its numbers, sliders, and waiting for the answer.
+// The workspace "Cell" as a person uses it, for the tests: its numbers, sliders, and waiting for the answer.
 import { openPage } from './browser.mjs';
 import { patience_ms, startTarget } from './target.mjs';
 
-/** Opens the workplace and waits for its first state of the wanted accuracy. */
+/** Opens the workspace and waits for its first state of the wanted accuracy. */
 export async function openCell(options = {}, hash = '', items = []) {
   const target = await startTarget(items);
   return openPage(target, options, async (page) => {

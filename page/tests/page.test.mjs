@@ -34,11 +34,11 @@ async function findings(page) {
 }
 
 for (const colorScheme of ['light', 'dark']) {
-  for (const workplace of ['Cell', 'Recordings']) {
-    test(`axe-core has no serious finding: ${workplace}, ${colorScheme}`, { skip: noBrowser }, async () => {
+  for (const workspace of ['Cell', 'Recordings']) {
+    test(`axe-core has no serious finding: ${workspace}, ${colorScheme}`, { skip: noBrowser }, async () => {
       const { page, end } = await openCell({ colorScheme });
       try {
-        await page.getByRole('button', { name: workplace, exact: true }).click();
+        await page.getByRole('button', { name: workspace, exact: true }).click();
         assert.deepEqual(await findings(page), []);
       } finally {
         await end();

@@ -88,7 +88,7 @@ test('An event without a modulus says why', { skip }, () =>
   }),
 );
 
-test('"Open in Cell" hands the case of the event to the other workplace', { skip }, () =>
+test('"Open in Cell" hands the case of the event to the other workspace', { skip }, () =>
   inPage(async (page) => {
     const { x, y } = await recordings.pixelIn(page, 0.4, 0.65);
     await page.mouse.click(x, y);

@@ -1,10 +1,10 @@
-// The workplace "Recordings" as a person uses it, for the tests.
+// The workspace "Recordings" as a person uses it, for the tests.
 import { startMock } from '../mock/serve.mjs';
 import { openPage } from './browser.mjs';
 import { startTarget } from './target.mjs';
 
 /**
- * Opens the workplace and waits until the events of the recording in focus are drawn: in the program with these items, or
+ * Opens the workspace and waits until the events of the recording in focus are drawn: in the program with these items, or
  * in the mock, whose events the tests know.
  */
 export async function openRecordings(options = {}, items = null) {

@@ -20,7 +20,8 @@ void add_view_command(CLI::App& app, int&) {
   command->add_option("--host", options->place.host, "the address to serve at; others than this machine may reach it")
       ->type_name("ADDRESS")
       ->capture_default_str();
-  command->add_flag("!--no-browser", options->opens_browser, "only print the address, open no browser");
+  command->add_flag_callback(
+      "--no-browser", [options] { options->opens_browser = false; }, "only print the address, open no browser");
   command->add_option("-o,--output", options->output, "the folder that exports go to; the current one otherwise")
       ->type_name("DIR");
   command->callback([options] { serve_view(*options); });

@@ -1,4 +1,4 @@
-// What the workplace "Cell" knows: the case, its state as solved last, the way there, and what can be undone.
+// What the workspace "Cell" knows: the case, its state as solved last, the way there, and what can be undone.
 import { caseText, readCaseLines, readKeys, streamOf, type Case, type EncodedFields, type Lines, type Refusal, type State, type Value } from '../api';
 import { decodeFields, type Fields } from '../draw/fields';
 import { place, replacePlace } from '../shell/place';
@@ -100,7 +100,7 @@ function show(next: Case): void {
 
 function settle(): void {
   steps.set({ canUndo: history.canUndo, canRedo: history.canRedo });
-  replacePlace({ workplace: 'cell', query: queryOf(values.get()) });
+  replacePlace({ workspace: 'cell', query: queryOf(values.get()) });
   sessionChanged();
   void updateLines();
 }
@@ -177,7 +177,7 @@ export async function startCell(): Promise<void> {
   solve();
   settle();
   place.subscribe((now) => {
-    if (now.workplace === 'cell' && [...now.query].length) replaceCase(caseOfAddress());
+    if (now.workspace === 'cell' && [...now.query].length) replaceCase(caseOfAddress());
   });
 }
 
@@ -186,7 +186,7 @@ function resume(): void {
   if (!sameCase(asked, values.get())) replaceCase(asked);
 }
 
-/** A case from the other workplace or from a file: shown here, and the address says so. */
+/** A case from the other workspace or from a file: shown here, and the address says so. */
 export function openCase(next: Case): void {
   if (keys.get().size) replaceCase(next);
   else values.set(next);

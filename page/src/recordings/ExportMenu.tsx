@@ -1,4 +1,4 @@
-// What the workplace writes into the output folder: events, companion, picture, session.
+// What the workspace writes into the output folder: events, companion, picture, session.
 import { useState } from 'preact/hooks';
 import { exportFile, type ExportRequest, type Item } from '../api';
 import { notify, notifyFailure } from '../shell/notices';

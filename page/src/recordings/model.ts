@@ -1,4 +1,4 @@
-// What the workplace shows and keeps in the session: recordings, plots, gates, the event under inspection.
+// What the workspace shows and keeps in the session: recordings, plots, gates, the event under inspection.
 import { changeItem, readItem, readItems, type Item } from '../api';
 import { notifyFailure } from '../shell/notices';
 import { nextPicture } from '../shell/next_picture';
@@ -63,7 +63,7 @@ export const moduliSettings = store<Record<string, string>>({});
 
 const saved = { focus, plots, gates, choice, panel, measured, moduliSettings };
 
-/** To be called once, when the workplace is first shown. */
+/** To be called once, when the workspace is first shown. */
 export function keepModel(): void {
   keepInSession('recordings', {
     save: () => Object.fromEntries(Object.entries(saved).map(([name, part]) => [name, part.get()])),

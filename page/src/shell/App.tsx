@@ -1,13 +1,13 @@
-// The frame of the page: name, workplaces, theme.
+// The frame of the page: name, workspaces, theme.
 import { CellTools } from '../cell/CellTools';
-import { CellWorkplace } from '../cell/CellWorkplace';
-import { RecordingsWorkplace } from '../recordings/RecordingsWorkplace';
+import { CellWorkspace } from '../cell/CellWorkspace';
+import { RecordingsWorkspace } from '../recordings/RecordingsWorkspace';
 import { Notices } from './notices';
-import { goTo, place, type Workplace } from './place';
+import { goTo, place, type Workspace } from './place';
 import { useStore } from './store';
 import { themeChoice, type ThemeChoice } from './theme';
 
-const workplaces: [Workplace, string][] = [
+const workspaces: [Workspace, string][] = [
   ['cell', 'Cell'],
   ['recordings', 'Recordings'],
 ];
@@ -17,14 +17,14 @@ const themes: [ThemeChoice, string][] = [
   ['dark', 'Dark'],
 ];
 
-// Each workplace keeps its own part of the address while the other one is shown.
-const queries = new Map<Workplace, URLSearchParams>();
+// Each workspace keeps its own part of the address while the other one is shown.
+const queries = new Map<Workspace, URLSearchParams>();
 
-function open(workplace: Workplace): void {
+function open(workspace: Workspace): void {
   const now = place.get();
-  if (now.workplace === workplace) return;
-  queries.set(now.workplace, now.query);
-  goTo({ workplace, query: queries.get(workplace) ?? new URLSearchParams() });
+  if (now.workspace === workspace) return;
+  queries.set(now.workspace, now.query);
+  goTo({ workspace, query: queries.get(workspace) ?? new URLSearchParams() });
 }
 
 function ThemeSelect() {
@@ -44,26 +44,26 @@ function ThemeSelect() {
 }
 
 export function App() {
-  const { workplace } = useStore(place);
+  const { workspace } = useStore(place);
   return (
     <>
       <a class="skip" href="#main" onClick={(event) => (event.preventDefault(), document.getElementById('main')?.focus())}>
-        Skip to the workplace
+        Skip to the workspace
       </a>
       <header class="bar">
         <h1>rheocyte</h1>
-        <nav aria-label="Workplaces">
-          {workplaces.map(([name, title]) => (
-            <button key={name} aria-current={name === workplace ? 'page' : undefined} onClick={() => open(name)}>
+        <nav aria-label="Workspaces">
+          {workspaces.map(([name, title]) => (
+            <button key={name} aria-current={name === workspace ? 'page' : undefined} onClick={() => open(name)}>
               {title}
             </button>
           ))}
         </nav>
-        <div class="bar-place">{workplace === 'cell' && <CellTools />}</div>
+        <div class="bar-place">{workspace === 'cell' && <CellTools />}</div>
         <ThemeSelect />
       </header>
       <main id="main" tabIndex={-1}>
-        {workplace === 'cell' ? <CellWorkplace /> : <RecordingsWorkplace />}
+        {workspace === 'cell' ? <CellWorkspace /> : <RecordingsWorkspace />}
       </main>
       <Notices />
     </>

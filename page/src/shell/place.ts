@@ -1,22 +1,22 @@
 // The address of the page: #cell?cell.radius_um=7.66&... or #recordings?item=0. A link restores what it says.
 import { store } from './store';
 
-export type Workplace = 'cell' | 'recordings';
+export type Workspace = 'cell' | 'recordings';
 export interface Place {
-  workplace: Workplace;
+  workspace: Workspace;
   query: URLSearchParams;
 }
 
 export function parsePlace(hash: string): Place {
   const [name, query] = hash.replace(/^#/, '').split('?', 2);
-  return { workplace: name === 'recordings' ? 'recordings' : 'cell', query: new URLSearchParams(query ?? '') };
+  return { workspace: name === 'recordings' ? 'recordings' : 'cell', query: new URLSearchParams(query ?? '') };
 }
 
 export const place = store<Place>(parsePlace(window.location.hash));
 
-const written = ({ workplace, query }: Place) => {
+const written = ({ workspace, query }: Place) => {
   const text = query.toString();
-  return `#${workplace}${text ? `?${text}` : ''}`;
+  return `#${workspace}${text ? `?${text}` : ''}`;
 };
 
 /** Changes the address in its place: no entry in the browser's history, no reloading. */
@@ -25,7 +25,7 @@ export function replacePlace(next: Place): void {
   place.set(next);
 }
 
-/** Goes to another workplace; the browser's back button returns. */
+/** Goes to another workspace; the browser's back button returns. */
 export function goTo(next: Place): void {
   window.history.pushState(null, '', written(next));
   place.set(next);

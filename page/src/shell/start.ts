@@ -22,7 +22,7 @@ async function openItem(item: number): Promise<void> {
 export async function startAtItems(): Promise<void> {
   if (window.location.hash) return;
   const items = await readItems().catch((): Item[] => []);
-  if (items.some(({ kind }) => kind === 'recording')) return replacePlace({ workplace: 'recordings', query: new URLSearchParams() });
+  if (items.some(({ kind }) => kind === 'recording')) return replacePlace({ workspace: 'recordings', query: new URLSearchParams() });
   const first = items.find(({ kind }) => kind === 'case' || kind === 'result');
   if (first) await openItem(first.item).catch(() => undefined);
 }

@@ -1,4 +1,4 @@
-// The workplace "Recordings": events of recordings, their moduli, and the model beside each image.
+// The workspace "Recordings": events of recordings, their moduli, and the model beside each image.
 import { useEffect } from 'preact/hooks';
 import { notifyFailure } from '../shell/notices';
 import { Progress, useLasting } from '../shell/Progress';
@@ -131,7 +131,7 @@ function Results() {
   );
 }
 
-export function RecordingsWorkplace() {
+export function RecordingsWorkspace() {
   useStart();
   const shown = useStore(plots);
   useStore(focus);

@@ -1,4 +1,4 @@
-// The workplace "Cell": controls, the picture, the numbers, and the plane of area and deformation.
+// The workspace "Cell": controls, the picture, the numbers, and the plane of area and deformation.
 import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { notifyFailure } from '../shell/notices';
@@ -20,7 +20,7 @@ function Frame({ children }: { children: ComponentChildren }) {
   );
 }
 
-export function CellWorkplace() {
+export function CellWorkspace() {
   useEffect(() => void model.startCell().catch(notifyFailure), []);
   return (
     <Frame>
