@@ -243,11 +243,11 @@ void DuctCortex::integrate(int index, const Cortex& law, const VectorXd& unknown
                            PatchSystem& system) const {
   const Patch& patch = patches_[index];
   if (patch.rest_volume.size() > 0) {
-    const double rest_pressure = 2 * law.tension / space_.mesh().geometry().radius();
+    const double at_rest = rest_pressure(law, space_.mesh().geometry().radius());
     integrate<12>(
         patch,
         [&](int q) {
-          return InflationPoint{rest_pressure, patch.rest_volume(q)};
+          return InflationPoint{at_rest, patch.rest_volume(q)};
         },
         unknowns, want, system);
   } else if (patch.rest_metric.empty()) {

@@ -63,9 +63,9 @@ MatrixXd DuctNodalFields::of_element(int e) const {
   if (self.liquid) fields.middleCols(w, 3) = U * values_of(self.velocity, unknowns_).reshaped(n, 3);
   fields.middleCols(v, 3) = fields.middleCols(w, 3);
   fields.col(v).array() += U * unknowns_(space_.cell_velocity());
-  const double rest_pressure = self.liquid ? 0 : 2 * media_.cortex.tension / space_.mesh().geometry().radius();
+  const double at_rest = self.liquid ? 0 : rest_pressure(media_.cortex, space_.mesh().geometry().radius());
   const VectorXd p = space_.reference().pressure.value * values_of(self.pressure, unknowns_);
-  fields.col(pressure) = scales_.stress_Pa * (at_nodes(p).array() + rest_pressure);
+  fields.col(pressure) = scales_.stress_Pa * (at_nodes(p).array() + at_rest);
   if (self.liquid) {
     add_liquid_stress(e, fields);
   } else if (!self.is_empty) {

@@ -92,7 +92,7 @@ void NodalFields::add_cell_stress(int e, MatrixXd& fields) const {
 MatrixXd NodalFields::in_liquid_interior(int e) const {
   const auto& nodes = space_.nodes().of_element[e];
   const double um = scales_.length_um();
-  const double rest_pressure = 2 * media_.cortex.tension / space_.mesh().geometry().radius();
+  const double at_rest = rest_pressure(media_.cortex, space_.mesh().geometry().radius());
   MatrixXd fields = MatrixXd::Zero(Eigen::Index(nodes.size()), columns);
   fields.col(region).setOnes();
   fields.middleCols(ux, 2) = um * spoke_displacement(space_, unknowns_, e);
@@ -100,7 +100,7 @@ MatrixXd NodalFields::in_liquid_interior(int e) const {
     for (int c = 0; c < 2; ++c) fields(k, x + c) = um * space_.node_points()[nodes[k]](c) + fields(k, ux + c);
   }
   fields.col(vx).setConstant(scales_.velocity_m_per_s * unknowns_(space_.cell_velocity()));
-  fields.col(pressure).setConstant(scales_.stress_Pa * (rest_pressure + unknowns_(space_.inner_pressure())));
+  fields.col(pressure).setConstant(scales_.stress_Pa * (at_rest + unknowns_(space_.inner_pressure())));
   return fields;
 }
 
@@ -111,7 +111,7 @@ MatrixXd NodalFields::of_element(int e) const {
   const int n = int(nodes.size()), m = element.position_columns;
   const VectorXd local = local_values(element, unknowns_);
   const double um = scales_.length_um(), v_cell = unknowns_(space_.cell_velocity());
-  const double rest_pressure = 2 * media_.cortex.tension / space_.mesh().geometry().radius();
+  const double at_rest = rest_pressure(media_.cortex, space_.mesh().geometry().radius());
 
   MatrixXd fields = MatrixXd::Zero(n, columns);
   fields.col(region).setConstant(element.liquid ? 0 : 1);
@@ -123,7 +123,7 @@ MatrixXd NodalFields::of_element(int e) const {
   fields.col(vx) = fields.col(wx).array() + scales_.velocity_m_per_s * v_cell;
   fields.col(vr) = fields.col(wr);
   const VectorXd p = space_.reference().pressure.value * local.tail(space_.reference().pressures());
-  fields.col(pressure) = scales_.stress_Pa * (at_nodes(p).array() + (element.liquid ? 0 : rest_pressure));
+  fields.col(pressure) = scales_.stress_Pa * (at_nodes(p).array() + (element.liquid ? 0 : at_rest));
   element.liquid ? add_liquid_stress(e, fields) : add_cell_stress(e, fields);
   return fields;
 }

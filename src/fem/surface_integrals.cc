@@ -112,9 +112,9 @@ void SurfaceIntegrals::integrate_edge(int edge, const Cortex& cortex, const Vect
                                       ElementSystem& system) const {
   constexpr int inputs = SurfaceFields<double>::count, outputs = SurfaceFlux<double>::count;
   using Dual = ceres::Jet<double, inputs>;
-  const double rest_pressure = 2 * cortex.tension / space_->mesh().geometry().radius();
+  const double at_rest = rest_pressure(cortex, space_->mesh().geometry().radius());
   for (std::size_t q = 0; q < edge_.size(); ++q) {
-    const SurfacePoint form{cortex, rest_pressure, references_[edge][q]};
+    const SurfacePoint form{cortex, at_rest, references_[edge][q]};
     const double weight = space_->reference().weights_1d(int(q));
     const Eigen::Matrix<double, inputs, 1> f = edge_[q].inputs * local;
     Eigen::Matrix<double, outputs, 1> flux;

@@ -18,6 +18,9 @@ struct Cortex {
   double bending = 0;  ///< stiffness c_b / (S R^3)
 };
 
+/// By which the pressure in a sphere at rest exceeds that around it (Laplace).
+inline double rest_pressure(const Cortex& cortex, double radius) { return 2 * cortex.tension / radius; }
+
 /// Elastic energy of the shell per CURRENT area, zero at rest, of two invariants: the sum of the principal stretches
 /// and their product, the stretch of the area. Poisson's ratio 1/2, K = 4/3 E2D. linear: the energy whose tensions are
 /// eq. 19 of Mokbel et al. 2017 (there is one for this Poisson's ratio alone); thin_shell, neo_hookean: their eqs. 8a

@@ -25,7 +25,7 @@ void read_flow(const StateView& state, StateNumbers& r) {
   const double undisturbed = undisturbed_pressure_gradient(state.media.liquid, r.flow_rate) * r.channel_length;
   if (state.problem.wall.is_straight()) r.additional_pressure_drop = r.pressure_drop - undisturbed;
   if (const int p = state.space.inner_pressure(); p >= 0)
-    r.inner_pressure = state.unknowns(p) + 2 * state.media.cortex.tension / state.problem.radius_ratio;
+    r.inner_pressure = state.unknowns(p) + rest_pressure(state.media.cortex, state.problem.radius_ratio);
 }
 
 /// 2 D:D in U/R squared at the quadrature points of an element of the liquid, the first coordinate along the columns.

@@ -158,7 +158,7 @@ void describe_duct(const Problem& problem, const DuctDiscrete& discrete, const V
   r.stability_margin = duct_stability_margin(problem, space, unknowns);
   r.min_tension = surface.min_tension;
   if (const int p = space.inner_pressure(); p >= 0)
-    r.inner_pressure = unknowns(p) + 2 * problem.cortex.tension / problem.radius_ratio;
+    r.inner_pressure = unknowns(p) + rest_pressure(problem.cortex, problem.radius_ratio);
   r.statistics.unknowns = space.unknowns();
   r.statistics.elements = int(space.elements().size());
   r.statistics.degree = space.reference().degree();
