@@ -103,6 +103,11 @@ std::string csv_text(std::string_view text) {
   return quoted + "\"";
 }
 
+std::string held_bending_text(const TableSpec& spec) {
+  if (spec.bending_beyond_ratio == 0) return fmt::format("{:g} kBT", spec.bending_beyond_kBT);
+  return fmt::format("{:g} {}", spec.bending_beyond_ratio, spec.sweeps_cortex() ? "E2D r0^2" : "E r0^3");
+}
+
 }  // namespace
 
 TableRow row_at(const RadiusBranches& radius, const BranchPoint& state) {
@@ -149,11 +154,6 @@ LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBran
   for (const auto& radius : table.radii)
     std::ranges::move(rows_at(spec, radius, levels), std::back_inserter(table.rows));
   return table;
-}
-
-std::string held_bending_text(const TableSpec& spec) {
-  if (spec.bending_beyond_ratio == 0) return fmt::format("{:g} kBT", spec.bending_beyond_kBT);
-  return fmt::format("{:g} {}", spec.bending_beyond_ratio, spec.sweeps_cortex() ? "E2D r0^2" : "E r0^3");
 }
 
 TableText empty_text(const TableSpec& spec, const std::string& program, bool has_regularised) {
