@@ -245,8 +245,7 @@ std::string to_toml(const DynamicSpec& spec) {
   std::vector<std::string_view> left_out(cell_keys.begin(), cell_keys.end());
   left_out.insert(left_out.end(), keys_of_way.begin(), keys_of_way.end());
   left_out.insert(left_out.end(), {"flow.drive", "time.scheme"});
-  auto values = values_of(spec.base, case_keys());
-  std::ranges::move(values_of(spec, dynamic_keys()), std::back_inserter(values));
+  const auto values = values_of(spec.base, case_keys(), spec, dynamic_keys());
   return to_toml(values, left_out);
 }
 

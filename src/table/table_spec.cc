@@ -231,9 +231,7 @@ std::string to_toml(const TableSpec& spec) {
   left_out.push_back(spec.bending_ratio > 0 ? bending_key : "table.bending_ratio");
   if (spec.bending_beyond_ratio == 0) left_out.emplace_back("table.bending_beyond_ratio");
   if (spec.max_deformation_raw == TableSpec{}.max_deformation_raw) left_out.emplace_back("table.max_deformation_raw");
-  auto values = values_of(spec.base, case_keys());
-  std::ranges::move(values_of(spec, table_keys()), std::back_inserter(values));
-  return to_toml(values, left_out);
+  return to_toml(values_of(spec.base, case_keys(), spec, table_keys()), left_out);
 }
 
 std::string spec_hash(const TableSpec& spec) { return fingerprint(to_toml(spec)); }
