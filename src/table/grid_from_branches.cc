@@ -72,7 +72,9 @@ class PatchMaker {
   PatchMaker(std::vector<LogBranch> branches, const Columns& columns)
       : branches_(std::move(branches)), columns_(columns) {}
 
-  std::optional<GridPatch> patch(const std::vector<double>& lower, const Border& upper, int rows) const {
+  /// In the columns [from, to).
+  std::optional<GridPatch> patch(const std::vector<double>& lower, const Border& upper, int rows, int from,
+                                 int to) const {
     const auto count = static_cast<std::size_t>(columns_.count);
     std::vector<std::vector<NodeValue>> lines(count), values(count);  // by column
     for (int row = 0; row < rows; ++row) {
@@ -80,7 +82,7 @@ class PatchMaker {
       for (std::size_t c = 0; c < count; ++c)
         if (const auto value = value_at(line, columns_.at(static_cast<double>(c)))) lines[c].push_back(*value);
     }
-    for (std::size_t c = 0; c < count; ++c)
+    for (auto c = static_cast<std::size_t>(from); c < static_cast<std::size_t>(to); ++c)
       if (upper.height[c] - lower[c] >= min_height)
         values[c] = column_of(c, lines[c], {lower[c], upper.height[c]}, rows);
     const auto is_whole = [&](std::size_t c) { return values[c].size() == static_cast<std::size_t>(rows); };
@@ -240,12 +242,13 @@ std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<
   const Columns columns{first, (last - first) / (resolution.columns - 1), resolution.columns};
   const Border border = upper_border(own, spec, columns);
   const std::vector<double> least(static_cast<std::size_t>(columns.count), std::log(spec.min_deformation));
-  const auto bare = PatchMaker(own, columns).patch(least, border, resolution.rows);
+  const auto bare = PatchMaker(own, columns).patch(least, border, resolution.rows, 0, columns.count);
   if (!bare) return {};
   GridContent grid{origin_of(spec, version), columns.first, columns.step, columns.count, {*bare}};
   if (spec.wants_held() && held.size() > 1) {
-    auto above =
-        PatchMaker(held, columns).patch(border.height, upper_border(held, spec, columns), resolution.held_rows);
+    auto above = PatchMaker(held, columns)
+                     .patch(border.height, upper_border(held, spec, columns), resolution.held_rows, bare->first_column,
+                            bare->first_column + bare->columns);
     if (above) {
       above->regularised = true;
       add_step_to_error(*bare, *above);

@@ -126,6 +126,23 @@ TEST(StiffnessGrid, JaggedEndsMakeNoWrongNumbers) {
   EXPECT_GT(held, 100);
 }
 
+TEST(StiffnessGrid, BranchesThatBendingHoldsCoverNoAreasButThoseOfTheBareOnes) {
+  const auto spec = spec_of_fifty_radii({"table.bending_beyond_kBT=1e4"});
+  auto branches = invented_unstable_branches(spec, [](double) { return 0.05; });
+  // The bare branches of the largest cells lack their stiff end.
+  const double last = sweep_radii_um(spec)[46];
+  for (SampledBranch& branch : branches)
+    if (branch.bending_kBT == 0 && branch.radius_um > last)
+      branch = invented_branch(branch.radius_um, {.stiffest = invented_stiffness(branch.radius_um, 0.01),
+                                                  .softest = branch.stiffness.back(),
+                                                  .end = Status::surface_unstable});
+  const GridContent grid = make_stiffness_grid(spec, branches, "test").value();
+  ASSERT_EQ(grid.patches.size(), 2U);
+  EXPECT_GE(grid.patches[1].first_column, 0);
+  EXPECT_LE(grid.patches[1].first_column + grid.patches[1].columns, grid.columns);
+  EXPECT_EQ(to_bytes(grid_from_bytes(to_bytes(grid), "grid")), to_bytes(grid));
+}
+
 TEST(StiffnessGrid, ABranchThatStopsShortBetweenOthersIsBridged) {
   const auto spec = spec_of_fifty_radii({});
   auto branches = invented_branches(spec);
