@@ -12,6 +12,8 @@ Key<TableSpec> key(KeyDescription description) {
 }
 
 using Spec = TableSpec;
+/// What can be solved for in ducts (src/case/read_case.cc), for solids and shells.
+constexpr double max_bending_ratio = 1e-3;
 constexpr Condition combined{"table.cortex_share", ""}, square{"channel.section", "square"};
 
 const std::array table = {
@@ -45,7 +47,7 @@ const std::array table = {
     key<&Spec::bending_beyond_ratio>({"table.bending_beyond_ratio", "",
                                       "the same in a square channel, over E r0^3 or E2D r0^2 of the cell; 3e-5 changes "
                                       "d by less than 0.5 % where both exist",
-                                      Number{{0, 1}}, 0.0, square}),
+                                      Number{{0, max_bending_ratio}}, 0.0, square}),
     key<&Spec::cortex_shares>({"table.cortex_share", "",
                                "shares of the cortex in the stiffness of combined cells, one sheet for each",
                                List{{0, 1}, true}, absent}),

@@ -146,6 +146,7 @@ TEST(TableSpec, WhatHoldsTheSurfaceBeyondTheEndIsThatOfTheSection) {
   };
   EXPECT_NE(refused({"table.bending_beyond_kBT=1e4"}).find("give table.bending_beyond_ratio, such as 3e-5"),
             std::string::npos);
+  EXPECT_NE(refused({"table.bending_beyond_ratio=0.1"}).find("outside its range 0 .. 0.001"), std::string::npos);
   EXPECT_NE(refused({"cell.cortex.bending_kBT=1e4"}).find("choose table.bending_beyond_ratio"), std::string::npos);
 }
 
