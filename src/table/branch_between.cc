@@ -55,7 +55,8 @@ std::vector<Heights> heights_of(const TableSpec& spec, Branches near) {
     const auto end = [&] {
       if (family == "deformation") return last;
       if (family != "area") return last_of(*branch, Measure::deformation);
-      return interpolate(*branch, Measure::deformation, stiffness_at(*branch, Measure::area_um2, area));
+      const double stiffness = stiffness_at(*branch, Measure::area_um2, area);
+      return std::isfinite(stiffness) ? interpolate(*branch, Measure::deformation, stiffness) : no_value;
     };
     heights.push_back({std::log(is_own ? first : first_of(*branch, Measure::deformation)), std::log(end())});
   }
