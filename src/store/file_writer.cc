@@ -19,6 +19,7 @@ FileWriter::~FileWriter() {
 }
 
 void FileWriter::append(std::string_view content) {
+  if (content.empty()) return;  // it may have no address
   if (std::fwrite(content.data(), 1, content.size(), file_) != content.size()) refuse();
 }
 
