@@ -5,7 +5,7 @@
 // the source, and how well they describe the masks.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +15,7 @@
 #include "bare_branches.h"
 #include "measurement/pixel_errors.h"
 #include "measurement/shape_in_pixels.h"
+#include "numeric/dense_solve.h"
 #include "numeric/quantile.h"
 #include "program.h"
 #include "synth/branch_shapes.h"
@@ -59,7 +60,7 @@ Eigen::VectorXd fitted(const std::vector<Seen>& all, const auto& scale, double S
     matrix.row(row) = basis(all[k]) * scale(all[k]) / square_of_s(all[k]);
     wanted(row) = all[k].*member / square_of_s(all[k]);
   }
-  return matrix.colPivHouseholderQr().solve(wanted);
+  return least_squares(matrix, wanted);
 }
 
 std::vector<Seen> look_at_shapes(const CellShapes& shapes, const TableSpec& spec, int count, int places) {

@@ -4,7 +4,7 @@
 // are compared. Prints the coefficients as they stand in the source, and how well they describe the shapes.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -13,6 +13,7 @@
 
 #include "bare_branches.h"
 #include "infer/added_ellipse.h"
+#include "numeric/dense_solve.h"
 #include "numeric/quantile.h"
 #include "program.h"
 #include "shape/outline_shape.h"
@@ -77,7 +78,7 @@ EllipseLaw fitted(const std::vector<Changed>& all, double Changed::*member) {
     wanted(row) = one.*member;
   }
   EllipseLaw law;
-  Eigen::VectorXd::Map(law.data(), Eigen::Index(law.size())) = matrix.colPivHouseholderQr().solve(wanted);
+  Eigen::VectorXd::Map(law.data(), Eigen::Index(law.size())) = least_squares(matrix, wanted);
   return law;
 }
 

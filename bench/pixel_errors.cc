@@ -5,7 +5,7 @@
 // contour. Prints the coefficients as they stand in the source, and how well they describe the masks.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -15,6 +15,7 @@
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/mask_from_outline.h"
+#include "numeric/dense_solve.h"
 #include "numeric/quantile.h"
 #include "program.h"
 #include "synth/branch_shapes.h"
@@ -92,7 +93,7 @@ class Law {
       matrix.row(row) = basis(all[k].log_area_px, all[k].deformation);
       wanted(row) = value(all[k]) / (by_square ? s * s : 1);
     }
-    coefficients_ = matrix.colPivHouseholderQr().solve(wanted);
+    coefficients_ = least_squares(matrix, wanted);
   }
 
   double at(double log_area_px, double deformation) const {

@@ -1,10 +1,10 @@
 #include "analytic/sphere_in_tube.h"
 
-#include <Eigen/LU>
 #include <cassert>
 #include <cmath>
 
 #include "analytic/wall_reflection.h"
+#include "numeric/dense_solve.h"
 
 namespace rheocyte {
 namespace {
@@ -89,7 +89,7 @@ SphereInTube sphere_in_tube(double lambda, int functions) {
   assert(lambda > 0 && lambda <= max_sphere_in_tube);
   assert(functions >= 2 && functions <= functions_for(max_sphere_in_tube));
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(2 * functions, 2 * functions);
-  const Eigen::MatrixX2d x = (identity - echo(lambda, functions)).partialPivLu().solve(incident(lambda, functions));
+  const Eigen::MatrixX2d x = solve_dense(identity - echo(lambda, functions), incident(lambda, functions));
   const auto flow_of = [&](const Eigen::VectorXd& regular) {
     return with_no_slip(regular.head(functions), regular.tail(functions));
   };

@@ -64,13 +64,6 @@ struct BentEdgeAtPoint {
   }
 };
 
-template <int count>
-std::array<ceres::Jet<double, count>, count> duals(const std::array<double, count>& values) {
-  std::array<ceres::Jet<double, count>, count> result;
-  for (int i = 0; i < count; ++i) result[i] = {values[i], i};
-  return result;
-}
-
 }  // namespace
 
 /// A side of a layer's element's face, seen by coordinates a along it and b outward, so that a x b points out of the
@@ -287,14 +280,14 @@ void DuctCortex::integrate(const Patch& patch, const Energy& energy_at, const Ve
     for (int i = 0; i < numbers; ++i) values[i] = slopes[i / 3](q, i % 3);
     const auto energy = energy_at(q);
     if (want == Want::residual) {
-      const auto work = value_and_slopes<numbers, double>(energy, values).second;
+      const auto work = value_and_slopes(energy, values).second;
       for (int i = 0; i < numbers; ++i) flux(q, i) = patch.weights(q) * work[i];
       continue;
     }
-    const auto work = value_and_slopes<numbers, ceres::Jet<double, numbers>>(energy, duals<numbers>(values)).second;
+    const auto work = value_and_slopes(energy, independent(values)).second;
     for (int i = 0; i < numbers; ++i) {
-      flux(q, i) = patch.weights(q) * work[i].a;
-      for (int j = 0; j < numbers; ++j) flux_slopes(q, i * numbers + j) = patch.weights(q) * work[i].v(j);
+      flux(q, i) = patch.weights(q) * work[i].value;
+      for (int j = 0; j < numbers; ++j) flux_slopes(q, i * numbers + j) = patch.weights(q) * work[i].slope(j);
     }
   }
   system.residual.setZero(3 * n);

@@ -6,6 +6,7 @@
 
 #include "laws/developed_flow.h"
 #include "laws/tensor.h"
+#include "numeric/dense_solve.h"
 #include "numeric/no_value.h"
 
 namespace rheocyte {
@@ -70,7 +71,6 @@ int CrossSection::node_at(const Eigen::Vector2d& at) const {
 }
 
 bool CrossSection::improve(const Liquid& liquid, DuctFlow& flow) const {
-  using Dual = ceres::Jet<double, 2>;
   const int n = int(points_.size());
   for (int iteration = 0; iteration < iteration_limit; ++iteration) {
     // The last equation: mean speed 1.
@@ -82,10 +82,10 @@ bool CrossSection::improve(const Liquid& liquid, DuctFlow& flow) const {
       Eigen::MatrixX2d fluxes(dy.size(), 2);
       Eigen::MatrixX4d flux_slopes(dy.size(), 4);
       for (int q = 0; q < dy.size(); ++q) {
-        const auto stress = shear_stress<Dual>(liquid, {Dual(dy(q), 0), Dual(dz(q), 1)});
+        const auto stress = shear_stress<Dual<double, 2>>(liquid, {Dual<double, 2>(dy(q), 0), Dual<double, 2>(dz(q), 1)});
         for (int c = 0; c < 2; ++c) {
-          fluxes(q, c) = element.weights(q) * stress(c).a;
-          for (int d = 0; d < 2; ++d) flux_slopes(q, 2 * c + d) = element.weights(q) * stress(c).v(d);
+          fluxes(q, c) = element.weights(q) * stress(c).value;
+          for (int d = 0; d < 2; ++d) flux_slopes(q, 2 * c + d) = element.weights(q) * stress(c).slope(d);
         }
       }
       for (int c = 0; c < 2; ++c) {
@@ -106,7 +106,7 @@ bool CrossSection::improve(const Liquid& liquid, DuctFlow& flow) const {
       tangent(i, i) = 1;
       residual(i) = 0;
     }
-    const VectorXd correction = tangent.partialPivLu().solve(-residual);
+    const VectorXd correction = solve_dense(tangent, -residual);
     if (!correction.allFinite()) return false;
     flow.velocity += correction.head(n);
     flow.pressure_gradient += correction(n);

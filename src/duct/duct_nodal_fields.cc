@@ -1,6 +1,5 @@
 #include "duct/duct_nodal_fields.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "fem/element_quadrature.h"
@@ -11,11 +10,8 @@ namespace rheocyte {
 
 DuctNodalFields::DuctNodalFields(const DuctSpace& space, const Media& media, const VectorXd& unknowns,
                                  const Scales& scales)
-    : space_(space), media_(media), unknowns_(unknowns), scales_(scales), element_(space.reference().degree()) {
-  const MatrixXd at_points = space.reference().lagrange(space.reference().points_1d);
-  const MatrixXd tested = at_points.transpose() * space.reference().weights_1d.asDiagonal();
-  to_nodes_ = (tested * at_points).partialPivLu().solve(tested);
-}
+    : space_(space), media_(media), unknowns_(unknowns), scales_(scales), element_(space.reference().degree()),
+      to_nodes_(space.reference().points_to_nodes()) {}
 
 VectorXd DuctNodalFields::at_nodes(const VectorXd& at_points) const {
   return apply_in_each_direction(to_nodes_, at_points);

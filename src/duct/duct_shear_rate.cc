@@ -1,4 +1,3 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -13,9 +12,7 @@ double max_shear_rate(const DuctSpace& space, const TensorElement& element, cons
   using Fields = LiquidFields<double, 3>;
   const ReferenceElement<3>& reference = space.reference();
   const VectorXd grid = VectorXd::LinSpaced(2 * reference.degree() + 1, 0, 1);
-  const MatrixXd nodes_to_grid = reference.lagrange(grid), at_points = reference.lagrange(reference.points_1d);
-  const MatrixXd tested = at_points.transpose() * reference.weights_1d.asDiagonal();
-  const MatrixXd points_to_grid = nodes_to_grid * (tested * at_points).ldlt().solve(tested);
+  const MatrixXd nodes_to_grid = reference.lagrange(grid), points_to_grid = nodes_to_grid * reference.points_to_nodes();
   const Contour contour = duct_contour(space, unknowns, Camera::side);
   const double front = contour.pieces.front()(0, 0), rear = contour.pieces.back()(contour.pieces.back().rows() - 1, 0);
   double greatest = 0;

@@ -128,7 +128,7 @@ std::vector<PointMap<double, 3>> DuctSpace::undeformed_maps(int element) const {
   std::vector<PointMap<double, 3>> maps;
   for (int q = 0; q < reference_.points(); ++q) {
     MapFields<double, 3> map;
-    for (int k = 0; k < 3; ++k) map.G.col(k) = G[k].row(q).transpose();
+    for (int i = 0; i < 9; ++i) map.G(i) = G[i / 3](q, i % 3);
     maps.emplace_back(map);
   }
   return maps;

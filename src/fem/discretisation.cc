@@ -191,7 +191,7 @@ std::vector<PointMap<double, 2>> Discretisation::undeformed_maps(int element) co
   std::vector<PointMap<double, 2>> maps;
   for (int q = 0; q < reference_.points(); ++q) {
     MapFields<double, 2> map;
-    map.G << x1(q, 0), x2(q, 0), x1(q, 1), x2(q, 1);
+    map.G = {x1(q, 0), x2(q, 0), x1(q, 1), x2(q, 1)};
     map.r = r(q);
     maps.emplace_back(map);
   }

@@ -93,7 +93,7 @@ template <class Form, class MakeForm>
 void evaluate_points(const MatrixXd& numbers, const VectorXd& weights, const MakeForm& form_at, Want want,
                      ElementSystem& system) {
   constexpr int n = inputs<Form>;
-  using Dual = ceres::Jet<double, n>;
+  using Number = Dual<double, n>;
   const int points = int(numbers.rows());
   system.fluxes.resize(points, outputs<Form>);
   system.flux_slopes.resize(points, outputs<Form> * n);
@@ -106,10 +106,10 @@ void evaluate_points(const MatrixXd& numbers, const VectorXd& weights, const Mak
       continue;
     }
     const auto fields =
-        read_fields<typename Form::template Fields<Dual>>([&](int i) { return Dual(numbers(q, i), i); });
-    form(fields).visit([&](const Dual& flux) {
-      system.fluxes(q, k) = flux.a * weights(q);
-      for (int i = 0; i < n; ++i) system.flux_slopes(q, k * n + i) = flux.v(i) * weights(q);
+        read_fields<typename Form::template Fields<Number>>([&](int i) { return Number(numbers(q, i), i); });
+    form(fields).visit([&](const Number& flux) {
+      system.fluxes(q, k) = flux.value * weights(q);
+      for (int i = 0; i < n; ++i) system.flux_slopes(q, k * n + i) = flux.slope(i) * weights(q);
       ++k;
     });
   }

@@ -31,9 +31,7 @@ std::vector<ElementUnknowns> moving_elements(const Discretisation& space) {
 Eigen::Vector4d components(const Tensor<double>& A) { return {A(0, 0), A(0, 1), A(1, 1), A(2, 2)}; }
 
 Tensor<double> from_components(const Eigen::Vector4d& a) {
-  Tensor<double> A;
-  A << a(0), a(1), 0, a(1), a(2), 0, 0, 0, a(3);
-  return A;
+  return {a(0), a(1), 0.0, a(1), a(2), 0.0, 0.0, 0.0, a(3)};
 }
 
 }  // namespace

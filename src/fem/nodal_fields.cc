@@ -35,10 +35,6 @@ Eigen::MatrixX2d spoke_displacement(const Discretisation& space, const VectorXd&
   return displacement;
 }
 
-MatrixXd mass_of(const ReferenceElement<2>& reference) {
-  return reference.shape.value.transpose() * reference.weights.asDiagonal() * reference.shape.value;
-}
-
 }  // namespace
 
 double von_mises(Tensor<double> sigma) {
@@ -48,8 +44,8 @@ double von_mises(Tensor<double> sigma) {
 }
 
 double max_stretch(const Tensor<double>& F) {
-  Eigen::SelfAdjointEigenSolver<Tensor<double>> squares;
-  squares.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares;
+  squares.computeDirect((F.transpose() * F).eigen(), Eigen::EigenvaluesOnly);
   return std::sqrt(squares.eigenvalues()(2));
 }
 
@@ -57,11 +53,12 @@ double shear_rate(const Tensor<double>& L) { return (L + L.transpose()).norm() /
 
 NodalFields::NodalFields(const Discretisation& space, const Media& media, const VectorXd& unknowns,
                          const Scales& scales)
-    : space_(space), media_(media), unknowns_(unknowns), scales_(scales), mass_(mass_of(space.reference())) {}
+    : space_(space), media_(media), unknowns_(unknowns), scales_(scales), to_nodes_(space.reference().points_to_nodes()) {}
 
 VectorXd NodalFields::at_nodes(const VectorXd& at_points) const {
-  const ReferenceElement<2>& reference = space_.reference();
-  return mass_.solve(reference.shape.value.transpose() * reference.weights.cwiseProduct(at_points));
+  const Eigen::Index m = to_nodes_.cols();
+  const MatrixXd nodal = to_nodes_ * at_points.reshaped(m, m) * to_nodes_.transpose();
+  return nodal.reshaped();
 }
 
 void NodalFields::add_liquid_stress(int e, MatrixXd& fields) const {

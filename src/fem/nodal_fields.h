@@ -1,6 +1,5 @@
 // All fields of a state at the nodes of an element, in physical units: what files and pictures are made from.
 #pragma once
-#include <Eigen/LU>
 
 #include "fem/discretisation.h"
 #include "laws/media.h"
@@ -37,7 +36,7 @@ class NodalFields {
   const Media& media_;
   const VectorXd& unknowns_;
   Scales scales_;
-  Eigen::PartialPivLU<MatrixXd> mass_;
+  MatrixXd to_nodes_;  ///< from the 1D quadrature points
 };
 
 }  // namespace rheocyte

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "numeric/dense_solve.h"
 #include "shape/curve.h"
 
 namespace rheocyte {
@@ -101,6 +102,12 @@ MatrixXd ReferenceElement<dim>::lagrange(const VectorXd& at) const {
 template <int dim>
 MatrixXd ReferenceElement<dim>::lagrange_derivative(const VectorXd& at) const {
   return lagrange_slopes(degree_, at);
+}
+
+template <int dim>
+MatrixXd ReferenceElement<dim>::points_to_nodes() const {
+  const MatrixXd at_points = lagrange(points_1d), tested = at_points.transpose() * weights_1d.asDiagonal();
+  return solve_dense(tested * at_points, tested);
 }
 
 template <int dim>

@@ -51,6 +51,8 @@ class ReferenceElement {
   MatrixXd lagrange(const VectorXd& at) const;
   /// Their derivatives.
   MatrixXd lagrange_derivative(const VectorXd& at) const;
+  /// Nodal values of the 1D polynomials that fit values at the 1D quadrature points best: (p+1) x points.
+  MatrixXd points_to_nodes() const;
   /// Value at a point of the Q_p function with the given nodal values.
   double interpolate(const VectorXd& nodal, const Coordinates& xi) const;
   /// Values of the pressure modes at one point.

@@ -2,25 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <type_traits>
 
 #include "fem/surface_tables.h"
 
 namespace rheocyte {
 namespace {
-
-template <class T, int N>
-std::array<T, N> numbers(const Eigen::Matrix<double, N, 1>& f) {
-  std::array<T, N> result;
-  for (int i = 0; i < N; ++i) {
-    if constexpr (std::is_same_v<T, double>) {
-      result[i] = f(i);
-    } else {
-      result[i] = T(f(i), i);
-    }
-  }
-  return result;
-}
 
 void append_nodes(const Discretisation& space, const BoundaryEdge& edge, SurfacePatch& patch) {
   const int n = int(edge.nodes.size()), first = int(patch.rest.size());
@@ -111,7 +97,7 @@ int SurfaceIntegrals::active(const Cortex& cortex) const {
 void SurfaceIntegrals::integrate_edge(int edge, const Cortex& cortex, const VectorXd& local, Want want,
                                       ElementSystem& system) const {
   constexpr int inputs = SurfaceFields<double>::count, outputs = SurfaceFlux<double>::count;
-  using Dual = ceres::Jet<double, inputs>;
+  using Number = Dual<double, inputs>;
   const double at_rest = rest_pressure(cortex, space_->mesh().geometry().radius());
   for (std::size_t q = 0; q < edge_.size(); ++q) {
     const SurfacePoint form{cortex, at_rest, references_[edge][q]};
@@ -125,11 +111,12 @@ void SurfaceIntegrals::integrate_edge(int edge, const Cortex& cortex, const Vect
       });
     } else {
       Eigen::Matrix<double, outputs, inputs> slope;
-      form(read_fields<SurfaceFields<Dual>>([&](int i) {
-        return Dual(f(i), i);
-      })).visit([&](const Input&, const Dual& value) {
-        flux(k) = weight * value.a;
-        slope.row(k++) = weight * value.v.transpose();
+      form(read_fields<SurfaceFields<Number>>([&](int i) {
+        return Number(f(i), i);
+      })).visit([&](const Input&, const Number& value) {
+        flux(k) = weight * value.value;
+        for (int i = 0; i < inputs; ++i) slope(k, i) = weight * value.slope(i);
+        ++k;
       });
       system.tangent.noalias() += edge_[q].tests.transpose() * (slope * edge_[q].inputs);
     }
@@ -141,18 +128,18 @@ void SurfaceIntegrals::integrate_kink(const Cortex& cortex, const VectorXd& loca
                                       ElementSystem& system) const {
   constexpr int inputs = KinkFields<double>::count;
   const SurfaceKink energy{cortex, bending_penalty(space_->reference())};
-  const Eigen::Matrix<double, inputs, 1> f = kink_ * local;
+  std::array<double, inputs> f;
+  Eigen::Map<Eigen::Matrix<double, inputs, 1>>(f.data()) = kink_ * local;
   Eigen::Matrix<double, inputs, 1> slope;
   if (want == Want::residual) {
-    const auto [value, slopes] = value_and_slopes<inputs, double>(energy, numbers<double>(f));
+    const auto [value, slopes] = value_and_slopes(energy, f);
     for (int i = 0; i < inputs; ++i) slope(i) = slopes[i];
   } else {
-    const auto [value, slopes] =
-        value_and_slopes<inputs, ceres::Jet<double, inputs>>(energy, numbers<ceres::Jet<double, inputs>>(f));
+    const auto [value, slopes] = value_and_slopes(energy, independent(f));
     Eigen::Matrix<double, inputs, inputs> curvature;
     for (int i = 0; i < inputs; ++i) {
-      slope(i) = slopes[i].a;
-      curvature.row(i) = slopes[i].v.transpose();
+      slope(i) = slopes[i].value;
+      for (int j = 0; j < inputs; ++j) curvature(i, j) = slopes[i].slope(j);
     }
     system.tangent.noalias() += kink_.transpose() * (curvature * kink_);
   }

@@ -38,7 +38,7 @@ struct PointMap<T, 2> : MapFields<T, 2> {
     const auto& A = fields.G;
     det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
     const T s = T(1) / det;
-    inverse << A(1, 1) * s, -A(0, 1) * s, -A(1, 0) * s, A(0, 0) * s;
+    inverse = {A(1, 1) * s, -A(0, 1) * s, -A(1, 0) * s, A(0, 0) * s};
   }
   /// Volume per d(xi) and per radian: r det G.
   T volume() const { return this->r * det; }
@@ -48,7 +48,10 @@ struct PointMap<T, 2> : MapFields<T, 2> {
 template <class T>
 Tensor<T> gradient(const PointMap<T, 2>& map, const Components<T, 2>& v, const Slopes<T, 2>& v_xi) {
   Tensor<T> L = Tensor<T>::Zero();
-  L.template topLeftCorner<2, 2>() = v_xi * map.inverse;
+  const Slopes<T, 2> plane = v_xi * map.inverse;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) L(i, j) = plane(i, j);
+  }
   L(2, 2) = v(1) / map.r;
   return L;
 }
@@ -70,8 +73,8 @@ Tensor<T> deformation_gradient(const PointMap<T, 2>& map, const PointMap<double,
 template <class T>
 Flux<T, 2> pull_back(const PointMap<T, 2>& map, const Tensor<T>& sigma) {
   Flux<T, 2> flux;
-  flux.value << T(0), sigma(2, 2) * map.det;
-  const Slopes<T, 2> plane = sigma.template topLeftCorner<2, 2>();
+  flux.value = {T(0), sigma(2, 2) * map.det};
+  const Slopes<T, 2> plane{sigma(0, 0), sigma(0, 1), sigma(1, 0), sigma(1, 1)};
   flux.slope = plane * map.inverse.transpose() * map.volume();
   return flux;
 }

@@ -23,15 +23,9 @@ struct PointMap<T, 3> : MapFields<T, 3> {
 
   explicit PointMap(const MapFields<T, 3>& fields) : MapFields<T, 3>(fields) {
     const auto& A = fields.G;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        const int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-        inverse(i, j) = A(a, c) * A(b, d) - A(a, d) * A(b, c);
-      }
-    }
+    inverse = adjugate(A);
     det = A(0, 0) * inverse(0, 0) + A(0, 1) * inverse(1, 0) + A(0, 2) * inverse(2, 0);
-    const T s = T(1) / det;
-    for (int i = 0; i < 9; ++i) inverse(i) *= s;
+    inverse = inverse / det;
   }
   /// Volume per d(xi).
   T volume() const { return det; }
@@ -60,7 +54,7 @@ Tensor<T> deformation_gradient(const PointMap<T, 3>& map, const PointMap<double,
 template <class T>
 Flux<T, 3> pull_back(const PointMap<T, 3>& map, const Tensor<T>& sigma) {
   Flux<T, 3> flux;
-  flux.value << T(0), T(0), T(0);
+  flux.value = Components<T, 3>::Zero();
   flux.slope = sigma * map.inverse.transpose() * map.det;
   return flux;
 }

@@ -17,7 +17,7 @@ namespace rheocyte {
 template <class T>
 std::array<T, 2> principal_tensions(const Cortex& cortex, const T& l1, const T& l2) {
   const auto energy = [&](const auto& l) { return shell_energy(cortex, l[0], l[1]); };
-  const auto [f, slope] = value_and_slopes<2, T>(energy, {l1, l2});
+  const auto [f, slope] = value_and_slopes(energy, std::array<T, 2>{l1, l2});
   return {f + l1 * slope[0] + constant<T>(cortex.tension), f + l2 * slope[1] + constant<T>(cortex.tension)};
 }
 
@@ -94,9 +94,9 @@ struct SurfacePoint {
     // Work -p delta(volume) of the inner pressure, volume = -r^2/2 x_t.
     const T p = f.p + constant<T>(rest_pressure), half_r2 = r * r * constant<T>(0.5);
     SurfaceFlux<T> flux;
-    flux.value << constant<T>(0), T2 * speed + p * r * here.x_t;
-    flux.slope << pull * here.x_t + p * half_r2, pull * here.r_t;
-    flux.second << constant<T>(0), constant<T>(0);
+    flux.value = {constant<T>(0), T2 * speed + p * r * here.x_t};
+    flux.slope = {pull * here.x_t + p * half_r2, pull * here.r_t};
+    flux.second = Components<T, 2>::Zero();
     flux.volume = half_r2 * here.x_t + constant<T>(reference.volume);
     flux.moment = x * x * r * here.r_t * constant<T>(0.5);
     if (law.bending != 0) add_bending(here, flux);
@@ -107,12 +107,12 @@ struct SurfacePoint {
   template <class T>
   void add_bending(const Meridian<T>& here, SurfaceFlux<T>& flux) const {
     const auto energy = [this](const auto& m) {
-      using Dual = typename std::decay_t<decltype(m)>::value_type;
-      const Meridian<Dual> meridian{m[0], m[1], m[2], m[3], m[4]};
+      using Number = typename std::decay_t<decltype(m)>::value_type;
+      const Meridian<Number> meridian{m[0], m[1], m[2], m[3], m[4]};
       const auto curvature = meridian.curvatures();
-      return bending_energy(law, Dual(curvature[0] + curvature[1])) * meridian.r * meridian.speed();
+      return bending_energy(law, Number(curvature[0] + curvature[1])) * meridian.r * meridian.speed();
     };
-    const auto [density, work] = value_and_slopes<5, T>(energy, {here.x_t, here.r_t, here.x_tt, here.r_tt, here.r});
+    const auto [density, work] = value_and_slopes(energy, std::array<T, 5>{here.x_t, here.r_t, here.x_tt, here.r_tt, here.r});
     flux.slope(0) += work[0];
     flux.slope(1) += work[1];
     flux.second(0) += work[2];

@@ -57,7 +57,7 @@ struct LiquidPoint {
     const T volume = map.volume();
     if (law.reynolds != 0) {
       Vector<T> w = Vector<T>::Zero();
-      w.template head<dim>() = f.w;
+      for (int c = 0; c < dim; ++c) w(c) = f.w(c);
       const Vector<T> a = inertia(law, w, L);
       for (int c = 0; c < dim; ++c) flux.value(c) += a(c) * volume;
     }

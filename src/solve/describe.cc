@@ -1,6 +1,5 @@
 #include "solve/describe.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -57,9 +56,7 @@ MatrixXd axial_coordinates(const StateView& state, int e) {
 double max_shear_rate(const StateView& state, const Contour& contour) {
   const ReferenceElement<2>& reference = state.space.reference();
   const VectorXd grid = VectorXd::LinSpaced(4 * reference.degree() + 1, 0, 1);
-  const MatrixXd nodes_to_grid = reference.lagrange(grid), at_points = reference.lagrange(reference.points_1d);
-  const MatrixXd tested = at_points.transpose() * reference.weights_1d.asDiagonal();
-  const MatrixXd points_to_grid = nodes_to_grid * (tested * at_points).ldlt().solve(tested);
+  const MatrixXd nodes_to_grid = reference.lagrange(grid), points_to_grid = nodes_to_grid * reference.points_to_nodes();
   const double front = contour.pieces.front()(0, 0), rear = contour.pieces.back()(contour.pieces.back().rows() - 1, 0);
   double greatest = 0;
   for (int e = 0; e < int(state.space.elements().size()); ++e) {

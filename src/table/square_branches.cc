@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,6 +10,7 @@
 
 #include "case/channel_flow.h"
 #include "case/user_error.h"
+#include "numeric/dense_solve.h"
 #include "numeric/lagrange.h"
 
 namespace rheocyte {
@@ -220,7 +220,7 @@ class Surface {
       powers.row(i) << 1, x, x * x;
       last(i) = curve.last();
     }
-    const Eigen::VectorXd smooth = powers * powers.colPivHouseholderQr().solve(last);
+    const Eigen::VectorXd smooth = powers * least_squares(powers, last);
     for (Eigen::Index i = 0; i < count; ++i)
       ends_.push_back(std::clamp(smooth(i), (1 - max_continuation) * last(i), (1 + max_continuation) * last(i)));
   }

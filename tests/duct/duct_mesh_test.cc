@@ -30,7 +30,7 @@ Volumes volumes(const DuctMesh& mesh, int degree) {
     for (int k = 0; k < 3; ++k) G[k] = reference.shape.slope[k] * X;
     for (int q = 0; q < reference.points(); ++q) {
       MapFields<double, 3> map;
-      for (int k = 0; k < 3; ++k) map.G.col(k) = G[k].row(q).transpose();
+      for (int i = 0; i < 9; ++i) map.G(i) = G[i / 3](q, i % 3);
       const double det = PointMap<double, 3>(map).det;
       sum.min_det = std::min(sum.min_det, det);
       (mesh.elements()[e].in_cell() ? sum.cell : sum.all) += reference.weights(q) * det;

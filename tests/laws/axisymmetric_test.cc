@@ -47,10 +47,9 @@ TEST(Axisymmetric, AStretchingFlowIsFreeOfDivergence) {
   RandomStates random;
   for (int i = 0; i < states; ++i) {
     const PointMap<double, 2> map = random.map();
-    Slopes<double, 2> v_xi = map.G;
-    v_xi.row(1) *= -0.5;
+    const Slopes<double, 2> v_xi{map.G(0, 0), map.G(0, 1), -0.5 * map.G(1, 0), -0.5 * map.G(1, 1)};
     const Tensor<double> L = gradient(map, Components<double, 2>(0.4, -0.5 * map.r), v_xi);
-    EXPECT_LT((L - Tensor<double>(Eigen::Vector3d(1, -0.5, -0.5).asDiagonal())).norm(), rounding);
+    EXPECT_LT((L - test::diagonal(1, -0.5, -0.5)).norm(), rounding);
   }
 }
 
@@ -95,8 +94,8 @@ TEST(Axisymmetric, ThePullBackGivesTheSameWorkAsTheTensors) {
     const Components<double, 2> phi(random.number(-1, 1), random.number(-1, 1));
     const Slopes<double, 2> phi_xi = random.element_map();
     const Flux<double, 2> flux = pull_back(map, sigma);
-    const double direct = sigma.cwiseProduct(gradient(map, phi, phi_xi)).sum() * map.volume();
-    EXPECT_NEAR(flux.value.dot(phi) + flux.slope.cwiseProduct(phi_xi).sum(), direct, 10 * rounding);
+    const double direct = dot(sigma, gradient(map, phi, phi_xi)) * map.volume();
+    EXPECT_NEAR(dot(flux.value, phi) + dot(flux.slope, phi_xi), direct, 10 * rounding);
   }
 }
 

@@ -1,7 +1,5 @@
 // Dual numbers against central differences.
 #pragma once
-#include <ceres/jet.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,10 +17,7 @@ inline constexpr double derivative_tolerance = 1e-7;
 /// central differences, relative to the largest derivative where that is above 1.
 template <std::size_t N, class Law>
 double derivative_error(const Law& law, const std::array<double, N>& at) {
-  using Dual = ceres::Jet<double, int(N)>;
-  std::array<Dual, N> dual_input;
-  for (std::size_t i = 0; i < N; ++i) dual_input[i] = Dual(at[i], int(i));
-  const auto dual = law(dual_input);
+  const auto dual = law(independent(at));
   double error = 0, largest = 1;
   for (std::size_t i = 0; i < N; ++i) {
     auto above = at, below = at;
@@ -30,8 +25,8 @@ double derivative_error(const Law& law, const std::array<double, N>& at) {
     below[i] -= difference_step;
     const auto plus = law(above), minus = law(below);
     for (std::size_t k = 0; k < plus.size(); ++k) {
-      error = std::max(error, std::abs(dual[k].v(int(i)) - (plus[k] - minus[k]) / (2 * difference_step)));
-      largest = std::max(largest, std::abs(dual[k].v(int(i))));
+      error = std::max(error, std::abs(dual[k].slope(int(i)) - (plus[k] - minus[k]) / (2 * difference_step)));
+      largest = std::max(largest, std::abs(dual[k].slope(int(i))));
     }
   }
   return error / largest;
@@ -64,19 +59,8 @@ template <class TensorLaw>
 auto entrywise(const TensorLaw& law) {
   return [law](const auto& entries) {
     using T = std::decay_t<decltype(entries[0])>;
-    const Eigen::Matrix<T, 3, 3> A = Eigen::Map<const Eigen::Matrix<T, 3, 3>>(entries.data());
-    const Eigen::Matrix<T, 3, 3> value = law(A);
-    std::array<T, 9> result;
-    for (int i = 0; i < 9; ++i) result[i] = value.data()[i];
-    return result;
+    return law(Tensor<T>{entries}).entries;
   };
-}
-
-template <class Matrix>
-std::array<double, 9> entries(const Matrix& A) {
-  std::array<double, 9> result;
-  for (int i = 0; i < 9; ++i) result[i] = A.data()[i];
-  return result;
 }
 
 }  // namespace rheocyte::test

@@ -12,17 +12,21 @@ namespace rheocyte::test {
 /// States per law (R1 of the promises: 1,000).
 inline constexpr int states = 1000;
 
+inline Tensor<double> diagonal(double x, double y, double z) { return {x, 0, 0, 0, y, 0, 0, 0, z}; }
+
 class RandomStates {
  public:
   double number(double low, double high) { return std::uniform_real_distribution(low, high)(engine_); }
 
   /// Entries in [-size, size].
   Tensor<double> tensor(double size) {
-    return Tensor<double>::NullaryExpr([&] { return number(-size, size); });
+    Tensor<double> A;
+    for (double& entry : A.entries) entry = number(-size, size);
+    return A;
   }
 
   Tensor<double> rotation() {
-    const Vector<double> axis = Vector<double>::NullaryExpr([&] { return number(-1, 1); }).normalized();
+    const Eigen::Vector3d axis = Eigen::Vector3d::NullaryExpr([&] { return number(-1, 1); }).normalized();
     return Eigen::AngleAxisd(number(-3, 3), axis).toRotationMatrix();
   }
 
@@ -48,9 +52,7 @@ class RandomStates {
 
   /// d(x, r)/d(xi) of an element that is not folded.
   Slopes<double, 2> element_map() {
-    Slopes<double, 2> G;
-    G << number(0.5, 1.5), number(-0.3, 0.3), number(-0.3, 0.3), number(0.5, 1.5);
-    return G;
+    return {number(0.5, 1.5), number(-0.3, 0.3), number(-0.3, 0.3), number(0.5, 1.5)};
   }
 
   PointMap<double, 2> map() {

@@ -45,7 +45,7 @@ TEST(SurfacePoint, ASphereUnderTensionIsHeldByThePressureOfLaplace) {
       f.p = p;
       const auto flux = form(f);
       const Components<double, 2> normal(std::cos(t), std::sin(t)), turned(-std::sin(t), std::cos(t));
-      return flux.value.dot(normal) + flux.slope.dot(turned);
+      return dot(flux.value, normal) + dot(flux.slope, turned);
     };
     EXPECT_NEAR(over_sphere(a, 0, work), -p * 2 * a * a, 1e-11);  // - p dV, dV / (2 pi) = 2 a^2
   }
@@ -57,7 +57,7 @@ TEST(SurfacePoint, BendingNeitherMovesNorSwellsASphere) {
   const auto inflate = [&](const auto& f, double t) {
     const auto flux = form(f);
     const Components<double, 2> normal(std::cos(t), std::sin(t)), turned(-std::sin(t), std::cos(t));
-    return flux.value.dot(normal) + flux.slope.dot(turned) - flux.second.dot(normal);
+    return dot(flux.value, normal) + dot(flux.slope, turned) - dot(flux.second, normal);
   };
   EXPECT_NEAR(over_sphere(0.8, 0, inflate), 0, 1e-11);
   for (const double radius : {0.5, 2.0}) {
@@ -119,8 +119,7 @@ TEST(SurfaceKink, ItsDerivativesAreExact) {
   RandomStates random;
   const SurfaceKink energy{{CortexLaw::none, 0, 0, 1}, 1};
   const auto slopes = [&](const auto& f) {
-    using T = typename std::decay_t<decltype(f)>::value_type;
-    return value_and_slopes<9, T>(energy, f).second;
+    return value_and_slopes(energy, f).second;
   };
   const auto value = [&](const auto& f) { return std::array{energy(f)}; };
   for (int i = 0; i < states; ++i) {

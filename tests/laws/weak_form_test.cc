@@ -119,12 +119,10 @@ TEST(CellPoint, TheFluxIsTheDerivativeOfTheStrainEnergyOfAnIsochoricState) {
       const PointMap<double, 2> X = random.map();
       // phi = e (x, -r/2) at the undeformed map scaled isochorically by (l, 1/sqrt(l)).
       const double l = random.number(0.7, 1.4), s = 1 / std::sqrt(l);
-      Slopes<double, 2> G = X.G;
-      G.row(0) *= l;
-      G.row(1) *= s;
+      const Slopes<double, 2> G{l * X.G(0, 0), l * X.G(0, 1), s * X.G(1, 0), s * X.G(1, 1)};
+      const Slopes<double, 2> slope{G(0, 0), G(0, 1), -0.5 * G(1, 0), -0.5 * G(1, 1)};
       const auto flux = CellPoint<2>{bulk, X}(Cell2<double>{{G, s * X.r}, random.number(-1, 1)});
-      const double work =
-          flux.slope.row(0).dot(G.row(0)) - 0.5 * (flux.value(1) * s * X.r) - 0.5 * flux.slope.row(1).dot(G.row(1));
+      const double work = dot(flux.slope, slope) - 0.5 * (flux.value(1) * s * X.r);
       const double a = neo_hookean_share(bulk), mu = bulk.shear_modulus;
       const double tension = mu * (a * (l * l - 1 / l) + (1 - a) * (l - 1 / (l * l)));
       EXPECT_NEAR(work, tension * X.volume(), 10 * rounding);
