@@ -23,9 +23,9 @@ struct Dual {
 
   Dual() = default;
   /// A constant.
-  explicit Dual(const T& value) : value(value), packs{} {}
+  explicit Dual(const T& constant_value) : value(constant_value), packs{} {}
   /// The number with respect to which derivative `index` is.
-  Dual(const T& value, int index) : value(value), packs{} {
+  Dual(const T& here, int index) : value(here), packs{} {
     if constexpr (width == 1) {
       packs[index] = constant<T>(1);
     } else {
