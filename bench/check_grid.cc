@@ -31,6 +31,71 @@ void print_differences(const char* what, const std::vector<double>& all) {
              at(0.95), at(0.999), at(1));
 }
 
+/// What the grid and the branches answer at places drawn at random.
+class Comparison {
+ public:
+  void add(double area, double deformation, const StiffnessAnswer& exact, const GridAnswer& ours) {
+    if (exact.reason == NoAnswer::none && ours.reason == NoAnswer::none && exact.regularised == ours.regularised) {
+      const double difference = std::abs(std::exp(ours.log_stiffness) / exact.stiffness - 1);
+      ours.regularised ? add_held(difference, ours.error) : add_bare(area, deformation, difference, exact, ours);
+    } else if (const auto names = std::pair{name(exact), name(ours)}; names.first != names.second) {
+      ++disagreements_[names];
+    }
+  }
+
+  void print(int places) const {
+    print_differences("bare surface", bare_);
+    print_differences("of these, deformations of 0.003 to 0.1", usual_);
+    print_differences("regularised", held_);
+    fmt::print("regularised, beyond three stated errors: {} of {}, at most {:.1f} of them\n", beyond_error_,
+               held_.size(), worst_held_);
+    for (const auto& [names, count] : disagreements_)
+      fmt::print("{:.3f} %: {} between the branches, {} in the grid\n", 100.0 * count / places, names.first,
+                 names.second);
+  }
+
+ private:
+  template <class Answer>
+  static std::string name(const Answer& answer) {
+    if (answer.reason == NoAnswer::none) return answer.regularised ? "regularised" : "bare";
+    return std::string(name_of(answer.reason));
+  }
+  void add_held(double difference, double error) {
+    held_.push_back(difference);
+    if (difference <= 3 * error) return;
+    ++beyond_error_;
+    worst_held_ = std::max(worst_held_, difference / error);
+  }
+  void add_bare(double area, double deformation, double difference, const StiffnessAnswer& exact, const GridAnswer& ours) {
+    bare_.push_back(difference);
+    if (deformation > 0.003 && deformation < 0.1) usual_.push_back(difference);
+    if (difference <= worst_) return;
+    worst_ = difference;
+    fmt::print("  {:.1e} at {:.4g} um2, deformation {:.4g}, errors stated {:.1e} and {:.1e}\n", worst_, area,
+               deformation, exact.error, ours.error);
+  }
+
+  std::vector<double> bare_, held_, usual_;
+  std::map<std::pair<std::string, std::string>, int> disagreements_;
+  double worst_ = 0, worst_held_ = 0;
+  int beyond_error_ = 0;
+};
+
+void compare_at_random(const TableSpec& spec, const std::vector<SampledBranch>& branches, const GridContent& content) {
+  constexpr int places = 200000;
+  const StiffnessGrid grid(content);
+  const TableInterpolation table(spec, branches);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> log_area(std::log(spec.min_area_um2), std::log(spec.max_area_um2)),
+      log_deformation(std::log(spec.min_deformation), std::log(spec.max_deformation));
+  Comparison comparison;
+  for (int i = 0; i < places; ++i) {
+    const double area = std::exp(log_area(random)), deformation = std::exp(log_deformation(random));
+    comparison.add(area, deformation, table.by_area(area, deformation), grid.answer(area, deformation));
+  }
+  comparison.print(places);
+}
+
 }  // namespace
 
 int rheocyte::measure(int argc, char** argv) {
@@ -52,48 +117,6 @@ int rheocyte::measure(int argc, char** argv) {
     same.origin.program = grid_from_bytes(bytes, argv[2]).origin.program;
     fmt::print("{} is {}this table's grid\n", argv[2], to_bytes(same) == bytes ? "" : "not ");
   }
-  const StiffnessGrid grid(*content);
-  const TableInterpolation table(spec, branches);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> area(std::log(spec.min_area_um2), std::log(spec.max_area_um2)),
-      deformation(std::log(spec.min_deformation), std::log(spec.max_deformation));
-  std::vector<double> bare, held, usual;
-  std::map<std::pair<std::string, std::string>, int> disagreements;
-  double worst = 0, worst_held = 0;
-  int beyond_error = 0;
-  for (int i = 0; i < 200000; ++i) {
-    const double a = std::exp(area(random)), d = std::exp(deformation(random));
-    const auto exact = table.by_area(a, d);
-    const auto ours = grid.answer(a, d);
-    const bool has = exact.reason == NoAnswer::none;
-    if (has && ours.reason == NoAnswer::none && exact.regularised == ours.regularised) {
-      const double difference = std::abs(std::exp(ours.log_stiffness) / exact.stiffness - 1);
-      (ours.regularised ? held : bare).push_back(difference);
-      if (!ours.regularised && d > 0.003 && d < 0.1) usual.push_back(difference);
-      if (ours.regularised && difference > 3 * ours.error)
-        ++beyond_error, worst_held = std::max(worst_held, difference / ours.error);
-      fmt::print("  held {:.4g} {:.4g}: grid {:.4g} table {:.4g}, errors {:.2e} {:.2e}\n", a, d,
-                 std::exp(ours.log_stiffness), exact.stiffness, ours.error, exact.error);
-      if (!ours.regularised && difference > worst) {
-        worst = difference;
-        fmt::print("  {:.1e} at {:.4g} um2, deformation {:.4g}, errors stated {:.1e} and {:.1e}\n", worst, a, d,
-                   exact.error, ours.error);
-      }
-    } else {
-      const auto name = [](NoAnswer reason, bool regularised) {
-        return reason == NoAnswer::none ? std::string(regularised ? "regularised" : "bare")
-                                        : std::string(name_of(reason));
-      };
-      const std::pair key{name(exact.reason, exact.regularised), name(ours.reason, ours.regularised)};
-      if (key.first != key.second) ++disagreements[key];
-    }
-  }
-  print_differences("bare surface", bare);
-  print_differences("of these, deformations of 0.003 to 0.1", usual);
-  print_differences("regularised", held);
-  fmt::print("regularised, beyond three stated errors: {} of {}, at most {:.1f} of them\n", beyond_error, held.size(),
-             worst_held);
-  for (const auto& [names, count] : disagreements)
-    fmt::print("{:.3f} %: {} between the branches, {} in the grid\n", count / 2000.0, names.first, names.second);
+  compare_at_random(spec, branches, *content);
   return 0;
 }

@@ -3,13 +3,14 @@
 #include <ceres/tiny_solver.h>
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 #include <span>
 #include <utility>
+
+#include "numeric/dense_solve.h"
 
 namespace rheocyte {
 
@@ -47,10 +48,10 @@ class Misfit {
       measured_(i) = shape.features(f) - shape.errors.bias(f);
       for (Eigen::Index k = 0; k < n; ++k) covariance(i, k) = shape.errors.covariance(f, features[std::size_t(k)]);
     }
-    whitening_.compute(covariance);
+    whitening_ = whitening(covariance);
   }
 
-  bool is_usable() const { return measured_.allFinite() && whitening_.info() == Eigen::Success; }
+  bool is_usable() const { return measured_.allFinite() && whitening_.size() > 0; }
   int NumResiduals() const { return int(features_.size()) + coordinate_count; }
   int NumParameters() const { return int(free_.size()); }
 
@@ -83,9 +84,8 @@ class Misfit {
       residual(i) = value + gradient.dot(beyond) - measured_(i);
       jacobian.row(i) = gradient.transpose();
     }
-    whitening_.matrixL().solveInPlace(residual.head(n));
-    auto block = jacobian.topRows(n);
-    whitening_.matrixL().solveInPlace(block);
+    residual.head(n) = whitening_ * residual.head(n);
+    jacobian.topRows(n) = whitening_ * jacobian.topRows(n);
     const CellCoordinates fence = fence_widths * widths(box);
     for (int x = 0; x < coordinate_count; ++x) {
       residual(n + x) = beyond(x) / fence(x);
@@ -118,7 +118,7 @@ class Misfit {
   std::span<const int> features_;
   bool size_is_volume_;
   Eigen::VectorXd measured_;
-  Eigen::LLT<Eigen::MatrixXd> whitening_;
+  Eigen::MatrixXd whitening_;
   std::vector<int> free_;
   CellCoordinates cell_ = CellCoordinates::Zero();
 };

@@ -7,6 +7,10 @@ namespace rheocyte {
 /// The solution of A x = b, column by column; not finite if A is singular.
 Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 
+/// L^-1 of the covariance L L^T of some numbers, which turns them into independent ones of variance 1; empty if the
+/// covariance is not positive definite.
+Eigen::MatrixXd whitening(const Eigen::MatrixXd& covariance);
+
 /// The x that minimises |A x - b|.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
