@@ -9,7 +9,7 @@ build_packages=(g++ cmake ninja-build libeigen3-dev libceres-dev
   python3 python3-matplotlib python3-numpy git)
 
 # What the largest compilation needs, with some room on top.
-readonly memory_per_job_MB=1024
+readonly memory_per_job_MB=2048
 
 step_number=0
 

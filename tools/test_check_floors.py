@@ -85,8 +85,8 @@ class Lengths(TreeTest):
             self.reject({name: "\n" * 401}, (name, 401), "401 lines")
 
     def test_functions_end_at_the_limit(self):
-        self.accept({"src/case/a.cc": f"int f() {{\n{body(78)}\n}}\n"})
-        self.reject({"src/case/a.cc": f"\nint f() {{\n{body(79)}\n}}\n"}, ("src/case/a.cc", 2), "81 lines")
+        self.accept({"src/case/a.cc": f"int f() {{\n{body(58)}\n}}\n"})
+        self.reject({"src/case/a.cc": f"\nint f() {{\n{body(59)}\n}}\n"}, ("src/case/a.cc", 2), "61 lines")
 
     def test_each_kind_of_function_is_measured(self):
         heads = ("template <class T = int>\nbool operator==(const T& a, const T& b) {", "TEST(Mesh, IsClosed) {",
