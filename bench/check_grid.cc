@@ -66,7 +66,8 @@ class Comparison {
     ++beyond_error_;
     worst_held_ = std::max(worst_held_, difference / error);
   }
-  void add_bare(double area, double deformation, double difference, const StiffnessAnswer& exact, const GridAnswer& ours) {
+  void add_bare(double area, double deformation, double difference, const StiffnessAnswer& exact,
+                const GridAnswer& ours) {
     bare_.push_back(difference);
     if (deformation > 0.003 && deformation < 0.1) usual_.push_back(difference);
     if (difference <= worst_) return;

@@ -82,7 +82,8 @@ bool CrossSection::improve(const Liquid& liquid, DuctFlow& flow) const {
       Eigen::MatrixX2d fluxes(dy.size(), 2);
       Eigen::MatrixX4d flux_slopes(dy.size(), 4);
       for (int q = 0; q < dy.size(); ++q) {
-        const auto stress = shear_stress<Dual<double, 2>>(liquid, {Dual<double, 2>(dy(q), 0), Dual<double, 2>(dz(q), 1)});
+        const auto stress =
+            shear_stress<Dual<double, 2>>(liquid, {Dual<double, 2>(dy(q), 0), Dual<double, 2>(dz(q), 1)});
         for (int c = 0; c < 2; ++c) {
           fluxes(q, c) = element.weights(q) * stress(c).value;
           for (int d = 0; d < 2; ++d) flux_slopes(q, 2 * c + d) = element.weights(q) * stress(c).slope(d);

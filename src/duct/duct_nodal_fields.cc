@@ -10,7 +10,11 @@ namespace rheocyte {
 
 DuctNodalFields::DuctNodalFields(const DuctSpace& space, const Media& media, const VectorXd& unknowns,
                                  const Scales& scales)
-    : space_(space), media_(media), unknowns_(unknowns), scales_(scales), element_(space.reference().degree()),
+    : space_(space),
+      media_(media),
+      unknowns_(unknowns),
+      scales_(scales),
+      element_(space.reference().degree()),
       to_nodes_(space.reference().points_to_nodes()) {}
 
 VectorXd DuctNodalFields::at_nodes(const VectorXd& at_points) const {

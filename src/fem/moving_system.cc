@@ -30,9 +30,7 @@ std::vector<ElementUnknowns> moving_elements(const Discretisation& space) {
 /// The numbers of a symmetric tensor in axial symmetry: xx, xr, rr, hoop.
 Eigen::Vector4d components(const Tensor<double>& A) { return {A(0, 0), A(0, 1), A(1, 1), A(2, 2)}; }
 
-Tensor<double> from_components(const Eigen::Vector4d& a) {
-  return {a(0), a(1), 0.0, a(1), a(2), 0.0, 0.0, 0.0, a(3)};
-}
+Tensor<double> from_components(const Eigen::Vector4d& a) { return {a(0), a(1), 0.0, a(1), a(2), 0.0, 0.0, 0.0, a(3)}; }
 
 }  // namespace
 

@@ -53,7 +53,11 @@ double shear_rate(const Tensor<double>& L) { return (L + L.transpose()).norm() /
 
 NodalFields::NodalFields(const Discretisation& space, const Media& media, const VectorXd& unknowns,
                          const Scales& scales)
-    : space_(space), media_(media), unknowns_(unknowns), scales_(scales), to_nodes_(space.reference().points_to_nodes()) {}
+    : space_(space),
+      media_(media),
+      unknowns_(unknowns),
+      scales_(scales),
+      to_nodes_(space.reference().points_to_nodes()) {}
 
 VectorXd NodalFields::at_nodes(const VectorXd& at_points) const {
   const Eigen::Index m = to_nodes_.cols();

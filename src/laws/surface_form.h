@@ -112,7 +112,8 @@ struct SurfacePoint {
       const auto curvature = meridian.curvatures();
       return bending_energy(law, Number(curvature[0] + curvature[1])) * meridian.r * meridian.speed();
     };
-    const auto [density, work] = value_and_slopes(energy, std::array<T, 5>{here.x_t, here.r_t, here.x_tt, here.r_tt, here.r});
+    const auto [density, work] =
+        value_and_slopes(energy, std::array<T, 5>{here.x_t, here.r_t, here.x_tt, here.r_tt, here.r});
     flux.slope(0) += work[0];
     flux.slope(1) += work[1];
     flux.second(0) += work[2];

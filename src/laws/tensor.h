@@ -27,15 +27,13 @@ struct Matrix {
   Matrix() = default;
   /// From its entries, row by row.
   template <class... Entries>
-    requires(sizeof...(Entries) == row_count * column_count && sizeof...(Entries) > 1)
-  Matrix(const Entries&... by_rows) {
+  requires(sizeof...(Entries) == row_count * column_count && sizeof...(Entries) > 1) Matrix(const Entries&... by_rows) {
     int i = 0;
     ((entries[i % column_count * row_count + i / column_count] = by_rows, ++i), ...);
   }
   explicit Matrix(const std::array<T, std::size_t(row_count* column_count)>& by_columns) : entries(by_columns) {}
   template <class Derived>
-    requires std::is_same_v<T, double>
-  Matrix(const Eigen::MatrixBase<Derived>& numbers) {
+  requires std::is_same_v<T, double> Matrix(const Eigen::MatrixBase<Derived>& numbers) {
     Eigen::Map<Eigen::Matrix<double, row_count, column_count>>(entries.data()) = numbers;
   }
   static Matrix Zero() {

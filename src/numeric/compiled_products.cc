@@ -38,9 +38,8 @@ void add_product(const MatrixInMemory<Scalar>& a, const MatrixInMemory<Scalar>& 
     const Vector<Scalar> column = B.col(0);
     Eigen::Map<Vector<Scalar>>(c, a.rows).noalias() += scale * (A * column);
   } else if (a.rows + b.rows + b.columns < small || a.rows == 1) {
-    Eigen::Map<Dense<Scalar, Eigen::ColMajor>, 0, Eigen::OuterStride<>>(c, a.rows, b.columns,
-                                                                         Eigen::OuterStride<>(stride)) +=
-        scale * A.lazyProduct(B);
+    Eigen::Map<Dense<Scalar, Eigen::ColMajor>, 0, Eigen::OuterStride<>>(
+        c, a.rows, b.columns, Eigen::OuterStride<>(stride)) += scale * A.lazyProduct(B);
   } else {
     add_large<order_a, order_b>(a, b, scale, c, stride);
   }

@@ -42,8 +42,7 @@ TEST(Bulk, TheStressHasTheDerivativeOfCentralDifferences) {
   for (const Bulk& bulk : laws) {
     const auto law = test::entrywise([&](const auto& F) { return elastic_stress(bulk, F); });
     for (int i = 0; i < states; ++i) {
-      EXPECT_LT(test::derivative_error<9>(law, random.deformation_gradient().entries),
-                test::derivative_tolerance);
+      EXPECT_LT(test::derivative_error<9>(law, random.deformation_gradient().entries), test::derivative_tolerance);
     }
   }
 }

@@ -63,7 +63,8 @@ TEST(MembraneForm, ItsForcesAreTheTensionsOfTheMeridian) {
       const Cortex cortex{law, 3, 0.4, 0};
       const double l1 = random.number(0.6, 1.6), l2 = random.number(0.6, 1.6);
       const auto [T1, T2] = principal_tensions<double>(cortex, l1, l2);
-      const auto work = value_and_slopes(MembranePoint{cortex, {1, 0, 1}}, std::array{l1, 0.0, 0.0, 0.0, l2, 0.0}).second;
+      const auto work =
+          value_and_slopes(MembranePoint{cortex, {1, 0, 1}}, std::array{l1, 0.0, 0.0, 0.0, l2, 0.0}).second;
       const std::array expected{T1 * l2, 0.0, 0.0, 0.0, T2 * l1, 0.0};
       for (int k = 0; k < 6; ++k) EXPECT_NEAR(work[k], expected[k], 1e-11);
     }

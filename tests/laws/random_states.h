@@ -51,9 +51,7 @@ class RandomStates {
   }
 
   /// d(x, r)/d(xi) of an element that is not folded.
-  Slopes<double, 2> element_map() {
-    return {number(0.5, 1.5), number(-0.3, 0.3), number(-0.3, 0.3), number(0.5, 1.5)};
-  }
+  Slopes<double, 2> element_map() { return {number(0.5, 1.5), number(-0.3, 0.3), number(-0.3, 0.3), number(0.5, 1.5)}; }
 
   PointMap<double, 2> map() {
     const Slopes<double, 2> G = element_map();

@@ -118,9 +118,7 @@ TEST(SurfaceKink, ItsDerivativesAreExact) {
   // Slopes of the energy by dual numbers, and their derivatives by dual numbers of dual numbers.
   RandomStates random;
   const SurfaceKink energy{{CortexLaw::none, 0, 0, 1}, 1};
-  const auto slopes = [&](const auto& f) {
-    return value_and_slopes(energy, f).second;
-  };
+  const auto slopes = [&](const auto& f) { return value_and_slopes(energy, f).second; };
   const auto value = [&](const auto& f) { return std::array{energy(f)}; };
   for (int i = 0; i < states; ++i) {
     const auto f = random_kink(random);
