@@ -180,8 +180,8 @@ def test_moduli_of_recordings_are_those_of_dclab(path, table, recorded):
     if not dclab_parity.has_events(path):
         pytest.skip(f"{path.name} holds no area or deformation")
     seen = *dclab_parity.events(path), dclab_parity.pixel_size(path)
+    place = dclab_parity.tables()[table]
     for measured in dclab_parity.MEASURED:
-        place = dclab_parity.tables()[table]
         same(dclab_parity.our_moduli(path, place, **measured), dclab_parity.their_moduli(*seen, place, **measured))
 
 
