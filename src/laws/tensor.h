@@ -50,8 +50,6 @@ struct Matrix {
   static constexpr int rows() { return row_count; }
   static constexpr int cols() { return column_count; }
   static constexpr int size() { return row_count * column_count; }
-  T* data() { return entries.data(); }
-  const T* data() const { return entries.data(); }
   T& operator()(int i) { return entries[std::size_t(i)]; }
   const T& operator()(int i) const { return entries[std::size_t(i)]; }
   T& operator()(int i, int j) { return entries[std::size_t(i + row_count * j)]; }

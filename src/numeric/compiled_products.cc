@@ -1,5 +1,7 @@
 #include "numeric/compiled_products.h"
 
+#include <algorithm>
+
 namespace rheocyte {
 namespace {
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace rheocyte::compiled_products_test {
 namespace {
 
