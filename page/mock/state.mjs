@@ -16,7 +16,7 @@ export function physicsOf(sections) {
   return { wall, radius, deformation: 0.0361 * load, speed: rate / (Math.PI * wall * wall * 1e-3), sections };
 }
 
-export const wrongKey = ({ wall, radius }) => (radius > 0.95 * wall || radius < 0.05 * wall ? 'cell.radius_um' : null);
+export const wrongKey = ({ wall, radius }) => (radius > 0.965 * wall || radius < 0.05 * wall ? 'cell.radius_um' : null);
 
 function surfaceRadius({ radius, deformation }, angle) {
   const c = Math.cos(angle);

@@ -48,7 +48,7 @@ class _CellCortex:
     bending_kBT: float | None  # bending stiffness c_b of the cell's surface in units of k_B T at 25 degrees C (4.116e-21 J)
 
 class _Cell:
-    radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the lesser width
+    radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.965 of the tube radius or of half the lesser width
     offset_um: list[float] | None  # place of a cell off the axis of a duct, [along the width, along the height]; one of the two is 0, and the camera looks along the other
     place: Literal["given", "equilibrium"] | None  # where a cell off the axis is, given: at its offset; equilibrium: where it does not drift, sought from there along the drift
     viscosity_mPas: float | None  # viscosity of the cell's interior; a stationary shape does not depend on it

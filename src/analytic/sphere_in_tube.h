@@ -6,7 +6,7 @@
 namespace rheocyte {
 
 /// Radii of the sphere, in tube radii, for which the series below are good to 1e-10.
-inline constexpr double max_sphere_in_tube = 0.95;
+inline constexpr double max_sphere_in_tube = 0.965;
 
 /// Lengths in R, velocities in u_max, the velocity of the undisturbed flow on the axis, stresses in eta u_max / R.
 struct SphereInTube {

@@ -7,12 +7,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/plot_options.h"
+#include "case/json_guard.h"
 #include "case/user_error.h"
 #include "extract/plot_lines.h"
 #include "extract/plot_panel.h"
@@ -29,7 +29,7 @@ namespace rheocyte {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 /// A folder for what goes to the drawing program; removed with the object.
 class HandOver {
@@ -68,7 +68,7 @@ class Plot {
       panels.push_back(described(recording, read.result));
       panels.back()["events_file"] = name;
     }
-    const auto text = json{{"panels", panels}}.dump(-1, ' ', false, json::error_handler_t::replace);
+    const auto text = json_line({{"panels", panels}});
     if (write_part(folder_.path() / "plot.json", text))
       throw UserError("rheocyte: the disk for temporary files is full; TMPDIR names another folder.");
     return draw();

@@ -90,7 +90,7 @@ const std::array table = {
         1000.0),
 
     KEY(cell.radius_um, "um",
-        "radius of the unstressed, spherical cell, 0.05 .. 0.95 of the tube radius or of half the lesser width",
+        "radius of the unstressed, spherical cell, 0.05 .. 0.965 of the tube radius or of half the lesser width",
         Number{{0.01, 5000}}, required, {}, {}, "--radius-um"),
     KEY(cell.offset_um, "um",
         "place of a cell off the axis of a duct, [along the width, along the height]; one of the two is 0, and the "

@@ -79,7 +79,7 @@ struct Problem : Media {
   Section section = Section::tube;
   Extent extent = {};
   Camera camera = Camera::side;  ///< in a duct
-  double radius_ratio = 0.5;     ///< r0 / R, in (0, 0.95)
+  double radius_ratio = 0.5;     ///< r0 / R, in (0, 0.965)
   double offset = 0;             ///< in a duct: of the cell from the axis, towards the camera, in h
   CellPlace place = CellPlace::given;
   Drive drive = Drive::rate;     ///< the given rate is 1; the given pressure drop that of the undisturbed flow

@@ -42,8 +42,8 @@ DuctPoint DuctGeometry::core(const DuctPoint& cube) const {
 }
 
 DuctPoint DuctGeometry::box_side(const DuctPoint& cube) const {
-  // Denser spokes opposite the equator, where the gap is narrow.
-  const double X = cube(0), Y = cube(1), Z = cube(2), centre_slope = 1 - 0.45 * shape_.radius;
+  // Denser spokes opposite the equator, where the gap is narrow: the nearer the wall, the more they cross it straight.
+  const double X = cube(0), Y = cube(1), Z = cube(2), centre_slope = 1 - 0.75 * shape_.radius * shape_.radius;
   const double x = box_ * (centre_slope * X + (1 - centre_slope) * X * X * X);
   if (shape_.section == Section::tube) return {x, Y * std::sqrt(1 - Z * Z / 2), Z * std::sqrt(1 - Y * Y / 2)};
   return {x, shape_.extent.width * Y, shape_.extent.height * Z};

@@ -17,6 +17,11 @@ inline std::span<const double> span_of(const Numbers& numbers) {
   return {numbers.data(), static_cast<std::size_t>(numbers.size())};
 }
 
+template <class Number>
+std::span<Number> span_to_fill(pybind11::array_t<Number>& array) {
+  return {array.mutable_data(), static_cast<std::size_t>(array.size())};
+}
+
 /// The array takes the numbers over; nothing is copied.
 template <class Number>
 pybind11::array_t<Number> array_of(std::vector<Number>&& numbers) {

@@ -6,11 +6,16 @@
 namespace rheocyte {
 
 void bind_cases(pybind11::module_& module);
+void bind_results(pybind11::module_& module);
 void bind_states(pybind11::module_& module);
 void bind_evolution(pybind11::module_& module);
+void bind_media(pybind11::module_& module);
 void bind_tables(pybind11::module_& module);
 void bind_table_computation(pybind11::module_& module);
 void bind_recordings(pybind11::module_& module);
+void bind_events(pybind11::module_& module);
+void bind_courses(pybind11::module_& module);
+void bind_masks(pybind11::module_& module);
 void bind_analysis(pybind11::module_& module);
 
 }  // namespace rheocyte

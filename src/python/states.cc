@@ -1,40 +1,19 @@
-// Stationary states: one, and a session of many.
+// Sessions of stationary states.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <mutex>
-#include <nlohmann/json.hpp>
 
 #include "case/scales.h"
 #include "case/user_error.h"
-#include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
-#include "python/result_object.h"
+#include "result/result.h"
 #include "solve/session.h"
 
 namespace rheocyte {
 
 namespace py = pybind11;
-
-std::string json_text(const Result& result) {
-  return to_json(result).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-py::dict surface_columns(const Result& result) {
-  const SurfaceProfile& surface = result.state.surface;
-  std::vector<Eigen::Index> rows;  // the first point of a piece is the last one of the piece before
-  for (Eigen::Index i = 0; i < surface.point.rows(); ++i)
-    if (i == 0 || i % SurfaceProfile::points_per_piece != 0) rows.push_back(i);
-  py::dict columns;
-  for (const auto& field : contour_fields()) {
-    std::vector<double> values;
-    const double unit = dimensionless_one(unit_of(field.name), result.scales);
-    for (const auto i : rows) values.push_back(field.value({surface, i}) * unit);
-    columns[py::str(field.name)] = array_of(std::move(values));
-  }
-  return columns;
-}
 
 namespace {
 
@@ -79,16 +58,6 @@ class SharedSession {
 }  // namespace
 
 void bind_states(py::module_& module) {
-  py::class_<Result>(module, "Result")
-      .def("json", [](const Result& r) { return json_text(r); })
-      .def("surface", &surface_columns)
-      .def("has_state", [](const Result& r) { return bool(r.state.write_fields); })
-      .def("write_fields",
-           [](const Result& r, const std::string& path) {
-             const py::gil_scoped_release released;
-             return r.state.write_fields && r.state.write_fields(path, r.scales);
-           })
-      .def("status", [](const Result& r) { return name(r.state.outcome.status); });
   py::class_<SharedSession>(module, "Session")
       .def(py::init<std::size_t>())
       .def("solve", &SharedSession::solve)

@@ -1,4 +1,4 @@
-// Tables of moduli: events in numpy arrays, lines, and the viscosity of buffers.
+// Tables of moduli: events in numpy arrays, and lines.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -12,16 +12,14 @@
 #include "case/user_error.h"
 #include "extract/find_table.h"
 #include "extract/modulus_tables.h"
-#include "extract/recording_temperature.h"
 #include "extract/shipped_tables.h"
 #include "infer/isoelasticity_lines.h"
 #include "infer/read_modulus_map.h"
 #include "infer/shape_map.h"
 #include "infer/text_of_map.h"
-#include "measurement/viscosity.h"
-#include "numeric/no_value.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/buffer.h"
 #include "python/interruptible.h"
 #include "store/own_file.h"
 #include "table/table_metadata.h"
@@ -54,19 +52,6 @@ struct Estimates {
   std::span<double> modulus_kPa, standard_error_kPa;
   std::span<std::int8_t> state;
 };
-
-template <class Number>
-std::span<Number> written(py::array_t<Number>& array) {
-  return {array.mutable_data(), static_cast<std::size_t>(array.size())};
-}
-
-/// As Buffer::viscosity; NaN at temperatures that no buffer in a channel has.
-void viscosities_at(const Buffer& buffer, const ChannelFlow& flow, std::span<const double> celsius,
-                    std::span<double> mPas) {
-  buffer.viscosity(flow, celsius, mPas);
-  for (std::size_t i = 0; i < celsius.size(); ++i)
-    if (!is_possible_temperature(celsius[i])) mPas[i] = no_value;
-}
 
 /// What tells the viscosity of each event, or of all: itself (mPa s), or the temperature (degC) of a buffer.
 struct LiquidOfEvents {
@@ -114,7 +99,7 @@ py::tuple modulus(const HeldTable& table, const Numbers& area, const Numbers& de
                   const Buffer* buffer, const MeasuringConditions& conditions) {
   const MeasuredEvents events{span_of(area), span_of(deformation), {}};
   Columns columns(events.size.size());
-  const Estimates found{written(columns.modulus_kPa), written(columns.standard_error_kPa), written(columns.state)};
+  const Estimates found{span_to_fill(columns.modulus_kPa), span_to_fill(columns.standard_error_kPa), span_to_fill(columns.state)};
   interruptible([&](const std::atomic<bool>& stop) {
     estimate(*table.map, conditions, events, {buffer, span_of(liquid)}, found, stop);
     return 0;
@@ -182,26 +167,6 @@ py::dict origin(const HeldTable& table) {
   return d;
 }
 
-Buffer buffer_of(const std::string& medium_name, const std::string& model_name) {
-  const auto medium = medium_of_name(medium_name);
-  if (!medium)
-    throw UserError(
-        "the medium \"" + one_line(medium_name, 60) +
-        "\" has no known viscosity; give viscosity_mPas, or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, "
-        "water.");
-  const auto model = viscosity_model_of_name(model_name);
-  if (!model)
-    throw UserError("unknown viscosity model " + one_line(model_name, 60) +
-                    "; there are buyukurganci-2022 and herold-2017.");
-  return {*medium, *model};
-}
-
-py::array_t<double> viscosities(const Buffer& buffer, double width_um, double rate_ul_s, const Numbers& celsius) {
-  py::array_t<double> result(celsius.size());
-  viscosities_at(buffer, {.width_um = width_um, .rate_ul_s = rate_ul_s}, span_of(celsius), written(result));
-  return result;
-}
-
 std::map<std::string, std::string> table_files() {
   std::map<std::string, std::string> files;
   for (const auto& [name, file] : shipped_tables()) files.emplace(name, file.string());
@@ -229,12 +194,7 @@ void bind_tables(py::module_& module) {
       .def("write_texts", &write_texts)
       .def("support",
            [](const HeldTable& t, const MeasuringConditions& c) { return seen(*t.map, c, support(*t.map)); });
-  py::class_<Buffer>(module, "Buffer")
-      .def(py::init(&buffer_of))
-      .def("flow_exponent", &Buffer::flow_exponent)
-      .def("viscosity", &viscosities);
   module.def("table_files", &table_files);
-  module.attr("possible_temperatures_C") = py::make_tuple(lowest_temperature_C, highest_temperature_C);
   module.attr("state_names") =
       std::vector<std::string_view>(names_of_modulus_states.begin(), names_of_modulus_states.end());
 }

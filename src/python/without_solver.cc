@@ -17,6 +17,7 @@ void refuse(py::module_& module, const char* name, const char* what) {
 
 }  // namespace
 
+void bind_results(py::module_&) {}
 void bind_states(py::module_& module) { refuse(module, "Session", "solve"); }
 void bind_evolution(py::module_& module) { refuse(module, "Evolution", "evolve"); }
 void bind_table_computation(py::module_& module) { refuse(module, "compute_table", "table"); }

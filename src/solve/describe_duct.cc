@@ -116,7 +116,8 @@ Symmetry symmetry_of(const Problem& problem) {
 Camera camera_in_mesh(const Problem& problem) { return problem.offset == 0 ? problem.camera : Camera{90}; }
 
 DuctSubdivision subdivision_of(const Problem& problem) {
-  if (problem.offset == 0) return {};
+  constexpr double narrow_gap = 0.88;
+  if (problem.offset == 0) return {.along = problem.radius_ratio > narrow_gap ? 4 : 3};
   return {.along = 2, .across = 2};
 }
 

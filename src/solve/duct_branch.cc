@@ -15,6 +15,8 @@ namespace {
 /// back where it is beyond.
 constexpr double share_of_end = 0.97, step_back = 0.94;
 constexpr int max_steps_back = 4;
+/// The last state of a thin gap may be so much less accurate than wanted; its error goes with it.
+constexpr double max_error = 3;
 /// Of the compliance: so closely the end is looked for.
 constexpr double min_step = 0.01;
 
@@ -41,8 +43,8 @@ class DuctBranchFollower {
     for (int attempt = 0; !softest && attempt <= max_steps_back; ++attempt) {
       if (attempt > 0) last *= step_back;
       softest = state_of(last);
-      // Where no mesh is fine enough the end is too near.
-      if (softest && softest->outcome.status != Status::converged) softest.reset();
+      // Where no degree is high enough the end is too near.
+      if (softest && softest->estimated_error > max_error * problem_.accuracy) softest.reset();
     }
     for (const double height : heights) {
       if (!softest || is_stopped()) return {{}, branch.end};

@@ -28,7 +28,7 @@ void explain(const Problem& problem, StationaryState& r) {
 
 /// Whether the unknowns of both problems mean the same.
 bool has_same_unknowns(const Problem& a, const Problem& b) {
-  return has_same_laws(a, b) && distance(a, b) < max_change &&
+  return has_same_laws(a, b) && distance(a, b) < max_change && subdivision_of(a) == subdivision_of(b) &&
          duct_layers_for(DuctGeometry(shape_of(a)), subdivision_of(a)) ==
              duct_layers_for(DuctGeometry(shape_of(b)), subdivision_of(b));
 }

@@ -22,8 +22,8 @@ constexpr double hopeful_share = 0.85;
 
 /// A degree more costs three times as much here, and less caution than in the tube has to do (eq:square-error).
 constexpr double share_of_change_before = 0.1;
-/// Degrees 3 and 4 may agree by chance, while the latter's error is several 1e-4.
-constexpr double min_error_of_two_rungs = 3e-4;
+/// Degrees 3 and 4 may agree by chance, while the latter's error is up to 1e-3.
+constexpr double min_error_of_two_rungs = 6e-4;
 
 /// The half of a cell off the axis has four times the unknowns of the eighth.
 constexpr int last_degree_off_axis = 6;

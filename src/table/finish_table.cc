@@ -44,7 +44,7 @@ std::vector<std::string> finish_table(const TableFolder& folder, std::span<const
 }
 
 std::string summary(const TableFolder& folder) {
-  int samples = 0, refused = 0, solves = 0, unstable = 0, short_of_range = 0;
+  int samples = 0, refused = 0, solves = 0, unstable = 0, short_of_range = 0, without_states = 0;
   double seconds = 0, factorisation = 0;
   for (const SampledBranch& branch : folder.read_all()) {
     samples += branch.samples();
@@ -52,6 +52,7 @@ std::string summary(const TableFolder& folder) {
     solves += branch.solves;
     seconds += branch.seconds;
     factorisation += branch.factorisation_seconds;
+    without_states += folder.spec().is_square() && branch.empty();
     if (branch.bending_kBT > 0 || branch.empty()) continue;  // those that go on where others have ended
     const Status end = branch.end.status;
     unstable += end == Status::surface_unstable;
@@ -60,9 +61,10 @@ std::string summary(const TableFolder& folder) {
   return fmt::format(
       "{} states on {} branches, {} solves, {:.0f} s of one processor ({:.0f} % factorisation)\n"
       "{} branches end at the instability of the surface, {} short of the range for other reasons (end-of-branch.csv); "
-      "{} states refused\n",
+      "{} states refused{}\n",
       samples, folder.branches(), solves, seconds, 100 * factorisation / std::max(seconds, 1e-9), unstable,
-      short_of_range, refused);
+      short_of_range, refused,
+      without_states > 0 ? fmt::format("; {} branches have no states and are left out", without_states) : "");
 }
 
 }  // namespace rheocyte

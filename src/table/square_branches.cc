@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "case/channel_flow.h"
+#include "case/scales.h"
 #include "case/user_error.h"
 #include "numeric/dense_solve.h"
 #include "numeric/lagrange.h"
@@ -43,8 +44,9 @@ Scaling scaling_of(int measure) {
   return {};
 }
 
-/// ln(E) as a function of ln(area) and ln(d) that takes most of its changes away: the tube's table, continued in
-/// straight lines beyond its rims, or -ln(d) / 2.
+/// ln(E) as a function of r0 and ln(d) that takes most of its changes away: the tube's table at the area of the sphere,
+/// continued in straight lines beyond its rims, or -ln(d) / 2. At the cell's own area, which grows with d, large cells
+/// would cross the rim on their way.
 class ReferenceStiffness {
  public:
   ReferenceStiffness(const TableSpec& spec, const GridContent* tube) {
@@ -63,20 +65,20 @@ class ReferenceStiffness {
   }
 
   struct Value {
-    double log_stiffness, by_log_area, by_log_deformation;
+    double log_stiffness, by_log_deformation;
   };
-  Value operator()(double log_area, double log_deformation) const {
-    if (!grid_) return {-log_deformation / 2, 0, -0.5};
+  Value operator()(double radius_um, double log_deformation) const {
+    if (!grid_) return {-log_deformation / 2, -0.5};
     constexpr double rim = 1e-6;
     const GridContent& content = grid_->content();
     const double first = content.min_log_area, last = first + content.column_step * (content.columns - 1);
-    const double x = std::clamp(log_area - log_area_factor_, first + rim, last - rim);
+    const double log_area = std::log(std::numbers::pi * radius_um * radius_um) - log_area_factor_;
+    const double x = std::clamp(log_area, first + rim, last - rim);
     const auto range = *grid_->smooth_range(std::exp(x));
     const double y = std::clamp(log_deformation, range.lower + rim, range.upper - rim);
     const GridAnswer at = grid_->answer(std::exp(x), std::exp(y));
-    const double beyond =
-        (log_area - log_area_factor_ - x) * at.by_log_area + (log_deformation - y) * at.by_log_deformation;
-    return {log_modulus_factor_ + at.log_stiffness + beyond, at.by_log_area, at.by_log_deformation};
+    const double beyond = (log_area - x) * at.by_log_area + (log_deformation - y) * at.by_log_deformation;
+    return {log_modulus_factor_ + at.log_stiffness + beyond, at.by_log_deformation};
   }
 
  private:
@@ -97,9 +99,8 @@ class Curve {
         const Scaling scaling = scaling_of(m);
         numbers_(k, m) = (branch.value(k, m) - scaling.base) / std::pow(s, scaling.power);
       }
-      const double log_area = std::log(branch.at(k, Measure::area_um2));
       numbers_(k, measure_count) =
-          std::log(branch.stiffness[std::size_t(k)]) - reference(log_area, 2 * std::log(s)).log_stiffness;
+          std::log(branch.stiffness[std::size_t(k)]) - reference(branch.radius_um, 2 * std::log(s)).log_stiffness;
     }
   }
 
@@ -115,6 +116,13 @@ class Curve {
     Eigen::MatrixX2d sum = weights[0] * branch_->contour[0];
     for (std::size_t k = 1; k < weights.size(); ++k) sum += weights[k] * branch_->contour[k];
     return sum;
+  }
+  /// Relative, of the deformation: what the polynomial makes of the independent errors of the states.
+  double error(double s) const {
+    const auto weights = lagrange_weights(s_, std::clamp(s, s_.front(), s_.back())).value;
+    double squares = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) squares += std::pow(weights[k] * branch_->error[k], 2);
+    return std::sqrt(squares);
   }
   double log_ratio(int sample) const { return numbers_(sample, measure_count); }
   /// ln(E) over the reference at a sample by the others.
@@ -149,7 +157,7 @@ struct DenseState {
 class Surface {
  public:
   Surface(const TableSpec& spec, std::span<const SampledBranch> computed, const GridContent* tube)
-      : reference_(spec, tube) {
+      : reference_(spec, tube), half_width_um_(unit_length_um(spec.base)) {
     for (const auto& branch : computed)
       if (has_curve(branch)) curves_.emplace_back(branch, reference_);
     if (!can_lie_between(computed))
@@ -161,6 +169,13 @@ class Surface {
   }
 
   const std::vector<Curve>& curves() const { return curves_; }
+
+  /// Polynomials do not go on beyond the computed radii.
+  bool reaches(double radius_um) const {
+    constexpr double rounding = 1e-9;
+    return radius_um > curves_.front().branch().radius_um * (1 - rounding) &&
+           radius_um < curves_.back().branch().radius_um * (1 + rounding);
+  }
 
   /// sqrt(d) of the last state of a radius: on the straight line between those of the computed neighbours.
   double last(double radius_um) const {
@@ -187,20 +202,19 @@ class Surface {
       state.contour += weights[i] * curves_[i].contour(along.value);
       state.contour_slope += weights[i] * length * curves_[i].contour(along.slope);
     }
-    finish(s, q, by_s, state);
+    finish(radius_um, s, q, by_s, state);
     return state;
   }
 
   /// ln(E) over the reference at a place on a branch by the branches of all other radii.
   double log_ratio_without(std::size_t left_out, double s) const {
-    std::vector<double> radii, values;
+    std::vector<double> values;
     for (std::size_t i = 0; i < curves_.size(); ++i) {
       if (i == left_out) continue;
-      radii.push_back(curves_[i].branch().radius_um);
       const auto along = lagrange_weights(curves_[i].s(), ends_[i] / ends_[left_out] * s);
       values.push_back(curves_[i].numbers(along.value)(measure_count));
     }
-    const auto weights = lagrange_weights(radii, curves_[left_out].branch().radius_um).value;
+    const auto weights = across(curves_[left_out].branch().radius_um, std::ptrdiff_t(left_out));
     double sum = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) sum += weights[i] * values[i];
     return sum;
@@ -225,14 +239,18 @@ class Surface {
       ends_.push_back(std::clamp(smooth(i), (1 - max_continuation) * last(i), (1 + max_continuation) * last(i)));
   }
 
-  std::vector<double> across(double radius_um) const {
-    std::vector<double> radii;
-    for (const Curve& curve : curves_) radii.push_back(curve.branch().radius_um);
-    return lagrange_weights(radii, radius_um).value;
+  double coordinate(double radius_um) const { return radius_coordinate(radius_um / half_width_um_); }
+
+  std::vector<double> across(double radius_um, std::ptrdiff_t left_out = -1) const {
+    std::vector<double> at;
+    for (std::ptrdiff_t i = 0; i < std::ssize(curves_); ++i)
+      if (i != left_out) at.push_back(coordinate(curves_[std::size_t(i)].branch().radius_um));
+    return lagrange_weights(at, coordinate(radius_um)).value;
   }
 
   /// From scaled numbers and their derivatives with s to values and derivatives with ln(E).
-  void finish(double s, const Eigen::VectorXd& q, const Eigen::VectorXd& by_s, DenseState& state) const {
+  void finish(double radius_um, double s, const Eigen::VectorXd& q, const Eigen::VectorXd& by_s,
+              DenseState& state) const {
     state.value.resize(measure_count);
     state.slope.resize(measure_count);
     for (int m = 0; m < measure_count; ++m) {
@@ -241,17 +259,15 @@ class Surface {
       state.value(m) = base + factor * q(m);
       state.slope(m) = factor * (power / s * q(m) + by_s(m));
     }
-    const auto area = int(Measure::area_um2);
-    const auto reference = reference_(std::log(state.value(area)), 2 * std::log(s));
+    const auto reference = reference_(radius_um, 2 * std::log(s));
     state.stiffness = std::exp(reference.log_stiffness + q(measure_count));
-    const double by_log_stiffness =
-        1 / (by_s(measure_count) + reference.by_log_area * state.slope(area) / state.value(area) +
-             reference.by_log_deformation * 2 / s);
+    const double by_log_stiffness = 1 / (by_s(measure_count) + reference.by_log_deformation * 2 / s);
     state.slope *= by_log_stiffness;
     state.contour_slope *= by_log_stiffness;
   }
 
   ReferenceStiffness reference_;
+  double half_width_um_;
   std::vector<Curve> curves_;
   std::vector<double> ends_;  ///< sqrt(d), one for each curve
 };
@@ -269,14 +285,14 @@ LeftOut left_out(const Surface& surface) {
   return miss;
 }
 
-const SampledBranch& nearest(const std::vector<Curve>& curves, double radius_um) {
-  return std::ranges::min_element(curves, {},
-                                  [&](const Curve& curve) { return std::abs(curve.branch().radius_um - radius_um); })
-      ->branch();
+const Curve& nearest(const std::vector<Curve>& curves, double radius_um) {
+  return *std::ranges::min_element(curves, {},
+                                   [&](const Curve& curve) { return std::abs(curve.branch().radius_um - radius_um); });
 }
 
 SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double radius_um, double miss) {
-  const SampledBranch& near = nearest(surface.curves(), radius_um);
+  const Curve& curve = nearest(surface.curves(), radius_um);
+  const SampledBranch& near = curve.branch();
   SampledBranch branch;
   branch.radius_um = radius_um;
   branch.end = near.end;
@@ -284,16 +300,16 @@ SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double
   branch.value.resize(dense_samples, measure_count);
   branch.slope.resize(dense_samples, measure_count);
   const double last = surface.last(radius_um), first = 0.98 * std::sqrt(spec.min_deformation) / last;
-  const double worst = *std::ranges::max_element(near.error);
   for (int k = 0; k < dense_samples; ++k) {
-    DenseState state = surface.at(radius_um, last * std::pow(first, 1 - double(k) / (dense_samples - 1)));
+    const double share = std::pow(first, 1 - double(k) / (dense_samples - 1));
+    DenseState state = surface.at(radius_um, last * share);
     branch.value.row(k) = state.value.transpose();
     branch.slope.row(k) = state.slope.transpose();
     branch.stiffness.push_back(state.stiffness);
     branch.contour.push_back(std::move(state.contour));
     branch.contour_slope.push_back(std::move(state.contour_slope));
     const double response = std::abs(branch.slope(k, 0) / branch.value(k, 0));  // d ln(d) / d ln(E)
-    branch.error.push_back(worst + miss * response);
+    branch.error.push_back(curve.error(share * curve.last()) + miss * response);
   }
   return branch;
 }
@@ -330,7 +346,8 @@ std::vector<SampledBranch> square_branches(const TableSpec& spec, std::span<cons
   const LeftOut miss = left_out(surface);
   std::vector<SampledBranch> branches;
   for (const double radius : sweep_radii_um(spec))
-    branches.push_back(dense_branch(spec, surface, radius, share_of_miss * std::max(miss.radius, miss.state)));
+    if (surface.reaches(radius))
+      branches.push_back(dense_branch(spec, surface, radius, share_of_miss * std::max(miss.radius, miss.state)));
   return branches;
 }
 

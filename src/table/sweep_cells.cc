@@ -15,6 +15,9 @@ namespace {
 // Deformed cells of a table have up to a tenth more area than the sphere.
 constexpr double min_share_of_sphere = 0.9;
 
+// The singularity of radius_coordinate, in h.
+constexpr double beyond_wall = 1.05;
+
 // A share of 0 or 1 leaves nothing of the other one: not even a modulus of zero.
 void set_moduli(Case& c, const BranchPlace& place, double stiffness) {
   const double bulk = (1 - place.cortex_share) * stiffness, cortex = place.cortex_share * stiffness * place.radius_um;
@@ -58,13 +61,21 @@ std::vector<double> sweep_radii_um(const TableSpec& spec) {
 }
 
 std::vector<double> computed_radii_um(const TableSpec& spec) {
-  const auto [first, last] = first_and_last_radius_um(spec);
+  const auto [first_um, last_um] = first_and_last_radius_um(spec);
+  const double h = unit_length_um(spec.base), first = radius_coordinate(first_um / h),
+               last = radius_coordinate(last_um / h);
   const int count = spec.computed_radii.value();
   std::vector<double> radii;
-  for (int i = 0; i < count; ++i)
-    radii.push_back((first + last) / 2 - (last - first) / 2 * std::cos(std::numbers::pi * i / (count - 1)));
+  for (int i = 0; i < count; ++i) {
+    const double at = (first + last) / 2 - (last - first) / 2 * std::cos(std::numbers::pi * i / (count - 1));
+    radii.push_back(h * (beyond_wall - std::exp(-at)));
+  }
+  radii.front() = first_um;
+  radii.back() = last_um;
   return radii;
 }
+
+double radius_coordinate(double radius_ratio) { return -std::log(beyond_wall - radius_ratio); }
 
 std::vector<BranchPlace> sweep_places(const TableSpec& spec) {
   std::vector<BranchPlace> places;

@@ -59,8 +59,11 @@ std::string spec_hash(const TableSpec&);
 
 /// The spheres of the sweep, in um, ascending.
 std::vector<double> sweep_radii_um(const TableSpec&);
-/// Those that are computed in a square channel, denser towards both ends (Chebyshev).
+/// Those that are computed in a square channel: Chebyshev's points in `radius_coordinate`, denser towards both ends.
 std::vector<double> computed_radii_um(const TableSpec&);
+/// Over which cells of a square channel vary smoothly up to the largest: where the gap to the wall closes it is nearly
+/// the gap's logarithm. For r0 / h.
+double radius_coordinate(double radius_ratio);
 
 /// All branches of the sweep: radius by radius within each share, share by share within each tension. Cells without a
 /// cortex have no tension: they stand once, with the first one.

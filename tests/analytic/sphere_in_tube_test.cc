@@ -45,6 +45,17 @@ TEST(SphereInTube, NoForceActsOnIt) {
   }
 }
 
+TEST(SphereInTube, TheLargestSphereHasConverged) {
+  const int functions = functions_for(max_sphere_in_tube);
+  const SphereInTube sphere = sphere_in_tube(max_sphere_in_tube),
+                     fewer = sphere_in_tube(max_sphere_in_tube, functions - 2);
+  EXPECT_NEAR(fewer.velocity / sphere.velocity, 1, 1e-9);
+  EXPECT_NEAR(fewer.drag_towed / sphere.drag_towed, 1, 1e-9);
+  EXPECT_NEAR(fewer.pressure_drop / sphere.pressure_drop, 1, 1e-9);
+  EXPECT_NEAR(sphere.traction.normal(0), -2 * sphere.traction.tangential(0),
+              1e-11 * std::abs(sphere.traction.normal(0)));
+}
+
 TEST(SphereInTube, ASmallSphereFollowsTheKnownLimits) {
   // U = 1 - 2/3 lambda^2, N_1 = 4 lambda, T_1 = -2 lambda, N_3 = 7/2 lambda, T_3 = 7/6 lambda, drop = 8 lambda^5; the
   // next orders are lambda^3 relative and more. Drag of the towed sphere: 1 + 2.10444 lambda + 2.10444^2 lambda^2.

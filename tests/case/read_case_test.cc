@@ -79,9 +79,9 @@ TEST(ReadCase, TheEndsOfARangeBelongToIt) {
 }
 
 TEST(ReadCase, TheCellMustFitIntoTheTubeThatIsMeant) {
-  EXPECT_EQ(refusal(shortest, {"cell.radius_um=10.39"}), "accepted");  // 0.9497 of 10.94 um
-  EXPECT_NE(refusal(shortest, {"cell.radius_um=10.40"}).find("of the tube radius 10.94 um"), std::string::npos);
-  EXPECT_EQ(refusal(shortest, {"cell.radius_um=10.40", "channel.width_um=30"}), "accepted");
+  EXPECT_EQ(refusal(shortest, {"cell.radius_um=10.55"}), "accepted");  // 0.9644 of 10.94 um
+  EXPECT_NE(refusal(shortest, {"cell.radius_um=10.56"}).find("of the tube radius 10.94 um"), std::string::npos);
+  EXPECT_EQ(refusal(shortest, {"cell.radius_um=10.56", "channel.width_um=30"}), "accepted");
 }
 
 TEST(ReadCase, ACellOffTheAxisIsSeenAlongItsOffsetAndDoesNotTouchTheWall) {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double rounding = 1e-14;  // a few operations on lengths of order one
 constexpr int samples = 20;
-constexpr std::array radius_ratios = {0.05, 0.1, 0.3, 0.5, 0.7, 0.88, 0.95};
+constexpr std::array radius_ratios = {0.05, 0.1, 0.3, 0.5, 0.7, 0.88, 0.965};
 
 /// Largest distance between the points of two parametrised sides.
 template <class Side>

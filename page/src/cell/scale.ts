@@ -41,7 +41,7 @@ export function sliderScale(key: KeyDescription, values: Case, anchor: number): 
   const { least = 0, greatest = 1 } = key;
   if (key.name === 'cell.radius_um') {
     const wall = tubeRadius(values);
-    return { low: rounded(0.2 * wall, 3), high: rounded(0.95 * wall, 3), kind: 'linear' };
+    return { low: rounded(0.2 * wall, 3), high: rounded(0.965 * wall, 3), kind: 'linear' };
   }
   if (least <= 0) return fromZero(key, values, anchor);
   if (greatest / least <= 30) return { low: least, high: greatest, kind: 'linear' };

@@ -1,0 +1,77 @@
+// Measured time courses of recordings, and virtual recordings.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <string>
+
+#include "extract/time_course_table.h"
+#include "python/bindings.h"
+#include "python/contained_reading.h"
+#include "python/interruptible.h"
+#include "store/build_info.h"
+#include "store/whole_file.h"
+#include "synth/synth_shapes.h"
+#include "synth/virtual_recording.h"
+
+namespace rheocyte {
+
+namespace py = pybind11;
+
+namespace {
+
+// The file of `rheocyte time-course` as text, and what it says in sentences; a contraction for each recording.
+py::tuple time_course(const std::vector<std::filesystem::path>& recordings, const std::filesystem::path& place,
+                      const std::vector<double>& contraction_um, const MeasuringOptions& measuring,
+                      const PythonProgress& progress) {
+  check_measuring_options(measuring);
+  const auto report = interruptible([&](const std::atomic<bool>& stop) -> CourseReport {
+    const DynamicTable table = read_dynamic_table(place);
+    CourseTable courses(table);
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+      const auto work = [&](const TellProgress& tell_progress) {
+        return read_course_events(recordings[i], measuring, [&](double share) {
+          tell_progress((double(i) + share) / double(recordings.size()));
+        });
+      };
+      const auto events = read_contained(recordings[i], work, progress, stop);
+      if (stop) return {};
+      courses.add(events, recordings[i].string(), contraction_um[i]);
+    }
+    return courses.report();
+  });
+  return py::make_tuple(report.text, report.lines);
+}
+
+// The file appears whole or not at all; the caller has looked whether one is there. The number of its events.
+std::size_t synth(const std::string& text, const std::string& name, const std::vector<std::string>& settings,
+                  const std::filesystem::path& place, const PythonProgress& progress) {
+  SynthSpec spec = parse_synth_spec(text, name, settings);
+  if (!spec.table.empty()) spec.table = std::filesystem::path(name).parent_path() / spec.table;
+  const RecordingProvenance provenance{std::string("rheocyte ") + version, text};
+  struct Stopped {};
+  return interruptible([&](const std::atomic<bool>& stop) -> std::size_t {
+    const auto shapes = shapes_of(spec);
+    WholeFile file(place);
+    try {
+      const auto made = write_virtual_recording(spec, *shapes, provenance, file.scratch(), [&](double share) {
+        tell(progress, share);
+        if (stop) throw Stopped{};
+      });
+      file.publish();
+      return made.events;
+    } catch (const Stopped&) {
+      return 0;
+    }
+  });
+}
+
+}  // namespace
+
+void bind_courses(py::module_& module) {
+  module.def("time_course", &time_course);
+  module.def("synth", &synth);
+}
+
+}  // namespace rheocyte
