@@ -99,7 +99,8 @@ py::tuple modulus(const HeldTable& table, const Numbers& area, const Numbers& de
                   const Buffer* buffer, const MeasuringConditions& conditions) {
   const MeasuredEvents events{span_of(area), span_of(deformation), {}};
   Columns columns(events.size.size());
-  const Estimates found{span_to_fill(columns.modulus_kPa), span_to_fill(columns.standard_error_kPa), span_to_fill(columns.state)};
+  const Estimates found{span_to_fill(columns.modulus_kPa), span_to_fill(columns.standard_error_kPa),
+                        span_to_fill(columns.state)};
   interruptible([&](const std::atomic<bool>& stop) {
     estimate(*table.map, conditions, events, {buffer, span_of(liquid)}, found, stop);
     return 0;
