@@ -11,8 +11,9 @@ inline constexpr double tube_radius_per_channel_width = 0.547;
 /// The cell's radius must lie between these shares of the tube's.
 inline constexpr double min_radius_ratio = 0.05, max_radius_ratio = 0.965;
 
-/// How far off the axis a cell may be where the half width is `half`, in the same unit.
+/// Share of the half width that a cell off the axis may reach.
 inline constexpr double max_reach_off_axis = 0.95;
+/// How far off the axis a cell may be where the half width is `half`, in the same unit.
 inline double max_offset(double half, double cell_radius) { return max_reach_off_axis * half - cell_radius; }
 
 /// Surface tension of the cell, given or a share of the modulus of its cortex.

@@ -1,6 +1,8 @@
-// The polynomial through some points.
+// The polynomial through some points, and good points for it.
 #pragma once
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -10,6 +12,16 @@ namespace rheocyte {
 struct LagrangeWeights {
   std::vector<double> value, slope;
 };
+
+/// Extrema of Chebyshev's polynomial with both ends, ascending: nodes for polynomials over [first, last].
+inline std::vector<double> chebyshev_points(double first, double last, int count) {
+  std::vector<double> points;
+  for (int i = 0; i < count; ++i)
+    points.push_back((first + last) / 2 - (last - first) / 2 * std::cos(std::numbers::pi * i / (count - 1)));
+  points.front() = first;
+  points.back() = last;
+  return points;
+}
 
 inline LagrangeWeights lagrange_weights(std::span<const double> nodes, double x) {
   LagrangeWeights weights{std::vector<double>(nodes.size(), 1), std::vector<double>(nodes.size(), 0)};

@@ -17,6 +17,7 @@ inline std::span<const double> span_of(const Numbers& numbers) {
   return {numbers.data(), static_cast<std::size_t>(numbers.size())};
 }
 
+/// Where the numbers of an array that is ours are written.
 template <class Number>
 std::span<Number> span_to_fill(pybind11::array_t<Number>& array) {
   return {array.mutable_data(), static_cast<std::size_t>(array.size())};

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "case/case_keys.h"
@@ -13,6 +12,7 @@
 #include "case/scales.h"
 #include "case/write_keys.h"
 #include "numeric/fingerprint.h"
+#include "numeric/lagrange.h"
 
 namespace rheocyte {
 
@@ -121,15 +121,6 @@ void check_dynamic_identifier(const DynamicSpec& spec, const KeyReading& keys) {
                                                   keys.stated("dynamic.identifier")));
 }
 
-std::vector<double> chebyshev(double first, double last, int count) {
-  std::vector<double> places;
-  for (int i = 0; i < count; ++i)
-    places.push_back((first + last) / 2 - (last - first) / 2 * std::cos(std::numbers::pi * i / (count - 1)));
-  places.front() = first;
-  places.back() = last;
-  return places;
-}
-
 /// Digits of a number in a base behind the point, mirrored: evenly spread over (0, 1) (van der Corput).
 double spread_number(int number, int base) {
   double value = 0, digit = 1;
@@ -182,9 +173,9 @@ DynamicCell cell_at(const DynamicSpec& spec, const DynamicCoordinates& at) {
 }
 
 std::array<std::vector<double>, 3> nodes_of(const DynamicSpec& spec) {
-  return {chebyshev(spec.min_radius_um, spec.max_radius_um, spec.radii),
-          chebyshev(std::log(spec.min_young_modulus_kPa), std::log(spec.max_young_modulus_kPa), spec.moduli),
-          chebyshev(std::log(spec.min_time_ms), std::log(spec.max_time_ms), spec.times)};
+  return {chebyshev_points(spec.min_radius_um, spec.max_radius_um, spec.radii),
+          chebyshev_points(std::log(spec.min_young_modulus_kPa), std::log(spec.max_young_modulus_kPa), spec.moduli),
+          chebyshev_points(std::log(spec.min_time_ms), std::log(spec.max_time_ms), spec.times)};
 }
 
 int nodes(const DynamicSpec& spec) { return spec.radii * spec.moduli * spec.times; }

@@ -1,10 +1,9 @@
 #include "table/sample_square_branch.h"
 
 #include <chrono>
-#include <cmath>
-#include <numbers>
 
 #include "case/scales.h"
+#include "numeric/lagrange.h"
 #include "solve/duct_branch.h"
 #include "table/measured_state.h"
 #include "table/square_branches.h"
@@ -15,11 +14,7 @@ namespace {
 /// Shares of sqrt(d) at the last state: the points of Chebyshev's polynomials between the least one and 1.
 std::vector<double> heights(int count) {
   constexpr double least = 0.05;
-  std::vector<double> all;
-  for (int i = 0; i < count; ++i)
-    all.push_back((1 + least) / 2 - (1 - least) / 2 * std::cos(std::numbers::pi * i / (count - 1)));
-  all.back() = 1;
-  return all;
+  return chebyshev_points(least, 1, count);
 }
 
 }  // namespace

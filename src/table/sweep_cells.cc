@@ -6,6 +6,7 @@
 
 #include "case/case_keys.h"
 #include "case/scales.h"
+#include "numeric/lagrange.h"
 #include "table/table_spec.h"
 
 namespace rheocyte {
@@ -62,14 +63,11 @@ std::vector<double> sweep_radii_um(const TableSpec& spec) {
 
 std::vector<double> computed_radii_um(const TableSpec& spec) {
   const auto [first_um, last_um] = first_and_last_radius_um(spec);
-  const double h = unit_length_um(spec.base), first = radius_coordinate(first_um / h),
-               last = radius_coordinate(last_um / h);
-  const int count = spec.computed_radii.value();
+  const double h = unit_length_um(spec.base);
   std::vector<double> radii;
-  for (int i = 0; i < count; ++i) {
-    const double at = (first + last) / 2 - (last - first) / 2 * std::cos(std::numbers::pi * i / (count - 1));
+  for (const double at :
+       chebyshev_points(radius_coordinate(first_um / h), radius_coordinate(last_um / h), spec.computed_radii.value()))
     radii.push_back(h * (beyond_wall - std::exp(-at)));
-  }
   radii.front() = first_um;
   radii.back() = last_um;
   return radii;

@@ -29,9 +29,10 @@ double ratio(double radius, double deformation) {
 
 /// Of the invented tube, at moduli that are `ratio` times as great. The last state of one of the branches lies at a
 /// `share` of the others' sqrt(d).
-std::vector<SampledBranch> computed_branches(const TableSpec& spec, double share_of_one = 1) {
+std::vector<SampledBranch> computed_branches(const TableSpec& spec, const std::vector<double>& radii_um,
+                                             double share_of_one = 1) {
   std::vector<SampledBranch> branches;
-  for (const double radius : computed_radii_um(spec)) {
+  for (const double radius : radii_um) {
     auto sweep = test::covering(spec, radius, *spec.computed_states);
     SampledBranch branch = test::invented_branch(radius, sweep);
     // The states are those of points of Chebyshev's polynomials in sqrt(d).
@@ -49,6 +50,10 @@ std::vector<SampledBranch> computed_branches(const TableSpec& spec, double share
     branches.push_back(std::move(branch));
   }
   return branches;
+}
+
+std::vector<SampledBranch> computed_branches(const TableSpec& spec, double share_of_one = 1) {
+  return computed_branches(spec, computed_radii_um(spec), share_of_one);
 }
 
 GridContent tube_grid() {
@@ -119,10 +124,12 @@ TEST(SquareBranches, ABranchWhoseLastStateLiesElsewhereDoesNotSpoilItsNeighbours
 
 TEST(SquareBranches, AtTheComputedStatesTheyAreThese) {
   const TableSpec spec = square_spec("computed_radii = 5\nradii = 3\n");
-  const auto computed = computed_branches(spec);
+  auto radii_um = computed_radii_um(spec);
+  radii_um[2] = sweep_radii_um(spec)[1];
+  const auto computed = computed_branches(spec, radii_um);
   const GridContent tube = tube_grid();
   const auto branches = square_branches(spec, computed, &tube);
-  for (const auto& [radius, place] : {std::pair(0, 0), {4, 2}}) {
+  for (const auto& [radius, place] : {std::pair(0, 0), {2, 1}, {4, 2}}) {
     const SampledBranch& own = computed[std::size_t(radius)];
     const double E = own.stiffness[3];
     // Cubics between dense samples.
