@@ -4,6 +4,8 @@
 
 #include <system_error>
 
+#include "case/refuse_path.h"
+
 namespace rheocyte {
 
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "infer/modulus_state.h"
-#include "infer/shape_map.h"
+#include "infer/shape_excess.h"
 #include "measurement/contour_features.h"
 #include "store/file_writer.h"
 

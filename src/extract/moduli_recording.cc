@@ -12,6 +12,7 @@
 #include "extract/modulus_tables.h"
 #include "extract/outlined_events.h"
 #include "extract/plausibility.h"
+#include "infer/shape_map.h"
 #include "numeric/no_value.h"
 #include "store/build_info.h"
 #include "store/file_writer.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "extract/distribution.h"
-#include "infer/shape_map.h"
+#include "infer/shape_excess.h"
 
 namespace rheocyte {
 

@@ -6,7 +6,7 @@
 #include "infer/modulus_state.h"
 #include "infer/triangulation.h"
 #include "numeric/no_value.h"
-#include "table/stiffness_grid.h"
+#include "table/table_origin.h"
 
 namespace rheocyte {
 
@@ -32,6 +32,7 @@ struct EstimatedModuli {
 };
 
 class ShapeMap;
+struct GridAnswer;
 
 /// What is said about an event with this answer of a grid.
 ModulusState state_of(const GridAnswer& answer);

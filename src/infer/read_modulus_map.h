@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "infer/modulus_map.h"
-#include "table/stiffness_grid.h"
+#include "table/table_origin.h"
 
 namespace rheocyte {
 

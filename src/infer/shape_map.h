@@ -4,24 +4,16 @@
 #include <optional>
 
 #include "infer/modulus_map.h"
+#include "infer/shape_excess.h"
 #include "infer/smooth_events.h"
 #include "table/shape_grid.h"
+#include "table/stiffness_grid.h"
 
 namespace rheocyte {
 
 /// Cosine modes of the outline's radius, c_2 and c_3, one value per event; those of a cell that moves towards +x.
 struct MeasuredModes {
   std::span<const double> mode_2, mode_3;
-};
-
-/// A measured shape against that of the table's cell of the same area and deformation.
-struct ShapeExcess {
-  double expected = 0;   ///< inertia ratio of the table's cell
-  double excess = 0;     ///< measured - expected inertia ratio
-  double error = 0;      ///< its standard deviation by pixels
-  double odd_share = 0;  ///< share of the deformation that no ellipse of this inertia ratio has; NaN if there is none
-  /// Whether no cell of the table can have such a shape.
-  bool is_elongated() const;
 };
 
 class ShapeMap {

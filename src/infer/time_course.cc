@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "case/channel_flow.h"
 #include "infer/added_ellipse.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/quantile.h"

@@ -21,6 +21,14 @@ namespace py = pybind11;
 
 namespace {
 
+py::array_t<double> rows_of(const Eigen::MatrixX2d& points) {
+  py::array_t<double> array({static_cast<py::ssize_t>(points.rows()), py::ssize_t{2}});
+  auto rows = array.mutable_unchecked<2>();
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    for (int c = 0; c < 2; ++c) rows(i, c) = points(i, c);
+  return array;
+}
+
 /// What is told of a time of output.
 struct SeenFrame {
   ContourFrame contour;
@@ -118,7 +126,7 @@ class Evolution {
   py::dict described(const SeenFrame& frame) const {
     py::dict d;
     d["t_us"] = frame.contour.t_us;
-    d["contour"] = array_of(frame.contour.point_um);
+    d["contour"] = rows_of(frame.contour.point_um);
     d["position_um"] = frame.contour.position_um;
     for (const auto& measure : state_measures)
       d[py::str(measure.name)] = measure.physical(frame.numbers, result_.scales);

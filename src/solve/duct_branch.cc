@@ -11,10 +11,13 @@
 namespace rheocyte {
 namespace {
 
+/// At the same compliance cells of higher degrees deform a few per cent less: the way goes so far beyond what is
+/// wanted.
+constexpr double share_beyond = 1.06;
 /// The end found at the first degree is not quite that of the higher ones: the last state stays before it, and steps
 /// back where it is beyond.
-constexpr double share_of_end = 0.97, step_back = 0.94;
-constexpr int max_steps_back = 4;
+constexpr double share_of_end = 0.97, step_back = 0.96;
+constexpr int max_steps_back = 6;
 /// The last state of a thin gap may be so much less accurate than wanted; its error goes with it.
 constexpr double max_error = 3;
 /// Of the compliance: so closely the end is looked for.
@@ -30,7 +33,10 @@ class DuctBranchFollower {
  public:
   DuctBranchFollower(const Problem& problem, const MediaAt& media, double max_deformation,
                      const std::atomic<bool>* stop)
-      : problem_(problem), greatest_(max_deformation), solver_(problem, media, nobody_, stop, counts_), stop_(stop) {
+      : problem_(problem),
+        greatest_(share_beyond * max_deformation),
+        solver_(problem, media, nobody_, stop, counts_),
+        stop_(stop) {
     solver_.keep_systems();
   }
 
@@ -38,7 +44,7 @@ class DuctBranchFollower {
     DuctBranch branch;
     branch.end = walk();
     if (way_.empty() || is_stopped()) return branch;
-    double last = std::min(share_of_end * way_.back().deformation, greatest_);
+    double last = is_covered_ ? greatest_ : share_of_end * way_.back().deformation;
     std::optional<StationaryState> softest;
     for (int attempt = 0; !softest && attempt <= max_steps_back; ++attempt) {
       if (attempt > 0) last *= step_back;

@@ -6,26 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "case/channel_flow.h"
 #include "numeric/whole_packets.h"
 #include "table/shape_grid.h"
 #include "table/table_interpolation.h"
+#include "table/table_origin.h"
 
 namespace rheocyte {
-
-/// For what a table was computed, and by what; of published tables only identifier and flow are known.
-struct TableOrigin {
-  std::string identifier;  ///< e.g. "LE-2D-26"
-  std::string model;       ///< e.g. "linear solid / newtonian fluid"
-  std::string program;     ///< name and version
-  std::string spec;        ///< the complete spec of the table
-  ChannelFlow flow;
-  bool is_shell = false;            ///< the stiffness is the modulus of a cortex (mN/m), not Young's modulus (kPa)
-  Section section = Section::tube;  ///< of the channel
-
-  /// In one line.
-  std::string description() const;
-};
 
 /// Between two curves in the plane of ln(area) and ln(deformation), rows at equal distances in each column. Vectors
 /// with one value per column, or columns x rows with the rows of a column behind each other.
@@ -109,13 +95,7 @@ class StiffnessGrid {
 std::string to_bytes(const GridContent&);
 /// UserError naming `name` if the bytes are damaged or no grid.
 GridContent grid_from_bytes(std::string_view bytes, const std::string& name);
-/// What tells which recordings a grid is for, from the beginning of its file, of which grid_head_bytes are enough;
-/// nothing if that is none.
-struct GridHead {
-  double flow_exponent = 1;
-  Section section = Section::tube;
-  std::string model = {};  ///< of cell and liquid, as in TableOrigin
-};
+/// From the beginning of its file, of which grid_head_bytes are enough; nothing if that is none.
 std::optional<GridHead> grid_head(std::string_view head);
 inline constexpr std::size_t grid_head_bytes = 4096;
 
