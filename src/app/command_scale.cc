@@ -23,6 +23,7 @@
 #include "store/own_file.h"
 #include "table/scale.h"
 #include "table/table_metadata.h"
+#include "table/table_text.h"
 
 namespace rheocyte {
 

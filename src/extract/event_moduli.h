@@ -1,20 +1,10 @@
 // Moduli of bulk and cortex of single events of one recording, by a combined table.
 #pragma once
-#include <filesystem>
-
 #include "extract/extract_settings.h"
 #include "infer/rendered_errors.h"
 #include "infer/several_moduli.h"
 
 namespace rheocyte {
-
-struct ModuliOptions {
-  BatchOptions batch;
-  MeasuringOptions measuring;
-  std::filesystem::path table;  ///< folder of a combined table
-  bool fit_tension = false;     ///< as a third unknown
-  bool only_figure = false;     ///< by deformation and Lambda1 / Lambda2 in place of the whole contour
-};
 
 /// A combined table, ready for use.
 struct ModuliTable {

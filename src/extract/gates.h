@@ -5,16 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "extract/gate_options.h"
 #include "extract/polygon_gate.h"
 #include "measurement/event_features.h"
 
 namespace rheocyte {
-
-/// As on the command line: limits "area_ratio=1.05", polygons "area_um,deform=40,0.01:90,0.01:90,0.1".
-struct GateOptions {
-  std::vector<std::string> min, max, polygons = {};
-  std::optional<std::vector<std::size_t>> events = {};  ///< the only ones that are taken, counted from 0
-};
 
 class Gates {
  public:

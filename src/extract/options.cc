@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "case/user_error.h"
+#include "extract/gates.h"
 #include "extract/plausibility.h"
 
 namespace rheocyte {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "case/problem.h"
-#include "extract/gates.h"
+#include "extract/gate_options.h"
 
 namespace rheocyte {
 
@@ -34,6 +34,14 @@ struct ExtractOptions {
   std::optional<Section> section;  ///< of these; not given: the square channel, if there are any
   bool no_pixelation = false, no_area_correction = false, no_tsv = false;
   bool no_asymmetry = false;  ///< contours and masks are not read where areas and deformations are stored
+};
+
+struct ModuliOptions {
+  BatchOptions batch;
+  MeasuringOptions measuring;
+  std::filesystem::path table;  ///< folder of a combined table
+  bool fit_tension = false;     ///< as a third unknown
+  bool only_figure = false;     ///< by deformation and Lambda1 / Lambda2 in place of the whole contour
 };
 
 /// UserError if a value is not positive or two of them contradict.

@@ -10,6 +10,7 @@
 #include "case/user_error.h"
 #include "extract/event_pass.h"
 #include "extract/extract_settings.h"
+#include "extract/gates.h"
 #include "extract/shape_features.h"
 #include "measurement/event_features.h"
 #include "measurement/shape_source.h"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "infer/added_ellipse.h"
+#include "infer/smooth_events.h"
 #include "numeric/no_value.h"
 #include "table/grid_by_asymmetry.h"
 
@@ -31,6 +32,11 @@ MeasuredEvents part(const MeasuredEvents& events, std::size_t first, std::size_t
 }
 
 }  // namespace
+
+/// ln|c_3| and its standard deviation.
+struct ShapeMap::SmoothAsymmetries {
+  EventColumn log_mode_3, deviation;
+};
 
 bool ShapeExcess::is_elongated() const {
   constexpr double least = 0.05, deviations = 3;
@@ -103,7 +109,7 @@ void ShapeMap::estimate_block(const MeasuringConditions& conditions, const Measu
   std::array<GridAnswer, event_block_size> answers;
   remove_pixels(conditions, origin_.flow, block, smooth);
   smooth_modes(conditions.pixel_size_um, modes, smooth, asymmetry);
-  remove_ellipses(modes.mode_2, smooth.log_area, asymmetry);
+  remove_ellipses(modes.mode_2, smooth, asymmetry);
   by_asymmetry_->answer({smooth.log_area.data(), count}, {asymmetry.log_mode_3.data(), count}, {answers.data(), count});
   modulus.head(rows) = 0;
   for (std::size_t i = 0; i < count; ++i) modulus[static_cast<Eigen::Index>(i)] = answers[i].log_stiffness;
@@ -144,13 +150,13 @@ void ShapeMap::smooth_modes(double pixel_size_um, const MeasuredModes& modes, co
   asymmetry.log_mode_3.head(rows) = mode_3.head(rows).log();
 }
 
-void ShapeMap::remove_ellipses(std::span<const double> mode_2, EventColumn& log_area,
+void ShapeMap::remove_ellipses(std::span<const double> mode_2, SmoothEvents& smooth,
                                SmoothAsymmetries& asymmetry) const {
   const std::size_t count = mode_2.size();
   const Eigen::Index rows = whole_packets(count);
   EventColumn excess;  // over that of the table's cell
   excess.head(rows) = 0;
-  mode_2_->values({log_area.data(), count}, {asymmetry.log_mode_3.data(), count}, {excess.data(), count});
+  mode_2_->values({smooth.log_area.data(), count}, {asymmetry.log_mode_3.data(), count}, {excess.data(), count});
   for (std::size_t i = 0; i < count; ++i) {
     double& value = excess[static_cast<Eigen::Index>(i)];
     value = std::isnan(value) ? 0 : mode_2[i] - value;
@@ -159,9 +165,9 @@ void ShapeMap::remove_ellipses(std::span<const double> mode_2, EventColumn& log_
   for (Eigen::Index k = 0; k < rows; k += packet_size) {
     auto log_mode_3 = packet_at(asymmetry.log_mode_3, k), deviation = packet_at(asymmetry.deviation, k);
     const WithoutEllipse change =
-        without_ellipse({packet_at(excess, k), log_mode_3.exp(), packet_at(log_area, k) - 2 * log_half_width});
+        without_ellipse({packet_at(excess, k), log_mode_3.exp(), packet_at(smooth.log_area, k) - 2 * log_half_width});
     log_mode_3 += change.log_mode_3;
-    packet_at(log_area, k) += change.log_area;
+    packet_at(smooth.log_area, k) += change.log_area;
     deviation = (deviation.square() + change.deviation.square()).sqrt();
   }
 }

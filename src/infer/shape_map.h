@@ -5,7 +5,6 @@
 
 #include "infer/modulus_map.h"
 #include "infer/shape_excess.h"
-#include "infer/smooth_events.h"
 #include "table/shape_grid.h"
 #include "table/stiffness_grid.h"
 
@@ -15,6 +14,8 @@ namespace rheocyte {
 struct MeasuredModes {
   std::span<const double> mode_2, mode_3;
 };
+
+struct SmoothEvents;
 
 class ShapeMap {
  public:
@@ -44,17 +45,14 @@ class ShapeMap {
   const ShapeGrid& shapes() const { return shapes_; }
 
  private:
-  /// ln|c_3| and its standard deviation.
-  struct SmoothAsymmetries {
-    EventColumn log_mode_3, deviation;
-  };
+  struct SmoothAsymmetries;
   void estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block, const MeasuredModes& modes,
                       const EstimatedModuli& moduli) const;
   /// Without what the pixels do.
   void smooth_modes(double pixel_size_um, const MeasuredModes& modes, const SmoothEvents& smooth,
                     SmoothAsymmetries& asymmetry) const;
   /// Changes ln(area), in the table's channel, and the asymmetry.
-  void remove_ellipses(std::span<const double> mode_2, EventColumn& log_area, SmoothAsymmetries& asymmetry) const;
+  void remove_ellipses(std::span<const double> mode_2, SmoothEvents& smooth, SmoothAsymmetries& asymmetry) const;
 
   TableOrigin origin_;
   ShapeGrid shapes_;

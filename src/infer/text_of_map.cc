@@ -7,8 +7,11 @@
 
 #include "case/user_error.h"
 #include "infer/isoelasticity_lines.h"
+#include "store/own_file.h"
 #include "table/lookup_table.h"
 #include "table/table_lines.h"
+#include "table/table_metadata.h"
+#include "table/table_text.h"
 
 namespace rheocyte {
 
@@ -97,6 +100,11 @@ TableText lines_of_map(const ModulusMap& map) {
   for (const auto& line : isoelasticity_lines(map, levels_of_lines(map)).lines)
     for (const auto& point : line.points) text.rows.push_back({point.x, point.y, line.modulus_kPa});
   return text;
+}
+
+void write_texts_of_map(const ModulusMap& map, const std::filesystem::path& rows, const std::filesystem::path& lines) {
+  write_own_file(rows, to_text(text_of_map(map)), table_mark, Foreign::keep);
+  write_own_file(lines, to_text(lines_of_map(map)), table_mark, Foreign::keep);
 }
 
 }  // namespace rheocyte

@@ -12,6 +12,7 @@ void bind_evolution(pybind11::module_& module);
 void bind_media(pybind11::module_& module);
 void bind_tables(pybind11::module_& module);
 void bind_table_computation(pybind11::module_& module);
+void bind_options(pybind11::module_& module);
 void bind_recordings(pybind11::module_& module);
 void bind_events(pybind11::module_& module);
 void bind_courses(pybind11::module_& module);

@@ -35,6 +35,7 @@ PYBIND11_MODULE(native, module) {
   rheocyte::bind_media(module);
   rheocyte::bind_tables(module);
   rheocyte::bind_table_computation(module);
+  rheocyte::bind_options(module);
   rheocyte::bind_recordings(module);
   rheocyte::bind_events(module);
   rheocyte::bind_courses(module);

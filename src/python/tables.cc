@@ -21,8 +21,6 @@
 #include "python/bindings.h"
 #include "python/buffer.h"
 #include "python/interruptible.h"
-#include "store/own_file.h"
-#include "table/table_metadata.h"
 
 namespace rheocyte {
 
@@ -148,8 +146,7 @@ py::list lines(const HeldTable& table, std::vector<double> levels_kPa, int count
 // The table in dclab's format, and its isoelasticity lines.
 void write_texts(const HeldTable& table, const std::string& rows, const std::string& lines) {
   const py::gil_scoped_release without_interpreter;
-  write_own_file(rows, to_text(text_of_map(*table.map)), table_mark, Foreign::keep);
-  write_own_file(lines, to_text(lines_of_map(*table.map)), table_mark, Foreign::keep);
+  write_texts_of_map(*table.map, rows, lines);
 }
 
 py::dict origin(const HeldTable& table) {

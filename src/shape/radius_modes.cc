@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "shape/convex_hull.h"
 #include "shape/curve.h"
 
 namespace rheocyte {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <ranges>
 
 #include "solve/duct_solver.h"
 #include "solve/surface_stability.h"
@@ -16,10 +17,12 @@ namespace {
 constexpr double share_beyond = 1.06;
 /// The end found at the first degree is not quite that of the higher ones: the last state stays before it, and steps
 /// back where it is beyond.
-constexpr double share_of_end = 0.97, step_back = 0.96;
-constexpr int max_steps_back = 6;
-/// The last state of a thin gap may be so much less accurate than wanted; its error goes with it.
+constexpr double share_of_end = 0.97, step_back = 0.95;
+constexpr int max_steps_back = 8;
+/// A soft state may be so much less accurate than wanted; its error goes with it.
 constexpr double max_error = 3;
+/// A branch whose last state is closer than this to what is wanted covers it.
+constexpr double share_covered = 0.97;
 /// Of the compliance: so closely the end is looked for.
 constexpr double min_step = 0.01;
 
@@ -34,35 +37,44 @@ class DuctBranchFollower {
   DuctBranchFollower(const Problem& problem, const MediaAt& media, double max_deformation,
                      const std::atomic<bool>* stop)
       : problem_(problem),
-        greatest_(share_beyond * max_deformation),
+        wanted_(max_deformation),
         solver_(problem, media, nobody_, stop, counts_),
         stop_(stop) {
     solver_.keep_systems();
+    solver_.want_stable();
   }
 
   DuctBranch follow(std::span<const double> heights) {
     DuctBranch branch;
     branch.end = walk();
     if (way_.empty() || is_stopped()) return branch;
-    double last = is_covered_ ? greatest_ : share_of_end * way_.back().deformation;
-    std::optional<StationaryState> softest;
-    for (int attempt = 0; !softest && attempt <= max_steps_back; ++attempt) {
+    double last = is_passed() ? share_beyond * wanted_ : share_of_end * way_.back().deformation;
+    for (int attempt = 0; branch.states.empty() && !is_stopped() && attempt <= max_steps_back; ++attempt) {
       if (attempt > 0) last *= step_back;
-      softest = state_of(last);
-      // Where no degree is high enough the end is too near.
-      if (softest && softest->estimated_error > max_error * problem_.accuracy) softest.reset();
+      branch.states = states_to(last, heights);
     }
-    for (const double height : heights) {
-      if (!softest || is_stopped()) return {{}, branch.end};
-      auto state = height < 1 ? state_of(height * height * last) : softest;
-      if (!state) return {{}, branch.end};
-      branch.states.push_back(std::move(*state));
-    }
+    if (branch.states.empty()) return branch;
+    const StationaryState& softest = branch.states.back();
+    if (branch.end == Status::converged && softest.shape.deformation < share_covered * wanted_)
+      branch.end = softest.stability_margin < small_margin ? Status::surface_unstable : Status::accuracy_not_reached;
     return branch;
   }
 
  private:
   bool is_stopped() const { return stop_ && *stop_; }
+  bool is_passed() const { return !way_.empty() && way_.back().deformation > share_beyond * wanted_; }
+
+  /// Nothing if one of the states has no solution, or none that is accurate enough: the end is too near.
+  std::vector<StationaryState> states_to(double last, std::span<const double> heights) {
+    std::vector<StationaryState> states;
+    for (const double height : std::views::reverse(heights)) {
+      auto state = state_of(height * height * last);
+      if (!state || state->estimated_error > max_error * problem_.accuracy || is_stopped()) return {};
+      states.push_back(std::move(*state));
+    }
+    std::ranges::reverse(states);
+    return states;
+  }
 
   /// At the first degree from the sphere on.
   Status walk() {
@@ -72,17 +84,16 @@ class DuctBranchFollower {
       const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
       if (duct_stability_margin(solver_.problem_at(state.parameter), space, state.unknowns) < 0) return false;
       const double d = duct_deformation(space, state.unknowns, problem_.camera);
-      if (d > 1.3 * greatest_) return false;  // rather a nearer one
-      is_covered_ = d > greatest_;
+      if (d > 1.3 * share_beyond * wanted_) return false;  // rather a nearer one
       way_.push_back({state.parameter, d, state.unknowns});
       return true;
     };
     first_ = solver_.enter(DuctSolver::first_degree, options);
     if (first_.status != Status::converged) return first_.status;
     DuctState state = first_;
-    while (state.status == Status::converged && !is_covered_)
+    while (state.status == Status::converged && !is_passed())
       solver_.advance(state, 1.5 * state.branch.parameter, options);
-    return is_covered_ ? Status::converged : reason(state);
+    return way_.back().deformation > wanted_ ? Status::converged : reason(state);
   }
 
   Status reason(const DuctState& state) const {
@@ -102,9 +113,7 @@ class DuctBranchFollower {
     DuctLadder ladder;
     if (state.status == Status::converged) result.outcome.status = solver_.climb(state, ladder);
     const Problem here = solver_.problem_at(guess.compliance);
-    if (!has_state(result.outcome.status) ||
-        duct_stability_margin(here, state.discrete->space, state.branch.unknowns) < 0)
-      return {};
+    if (!has_state(result.outcome.status)) return {};
     describe_duct(here, *state.discrete, state.branch.unknowns, result);
     result.write_fields = {};
     result.outcome.reached = guess.compliance;
@@ -129,14 +138,13 @@ class DuctBranchFollower {
   }
 
   const Problem& problem_;
-  double greatest_;
+  double wanted_;
   StationaryState counts_;
   ProgressCallback nobody_;
   DuctSolver solver_;
   const std::atomic<bool>* stop_;
   DuctState first_;
   std::vector<Milestone> way_;
-  bool is_covered_ = false;
 };
 
 }  // namespace

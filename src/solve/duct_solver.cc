@@ -32,9 +32,10 @@ int last_degree_of(const Problem& problem) {
 }
 
 /// A deformation changes by about as much, relative, as the residual that is left: far less than the wanted accuracy. A
-/// factorisation costs as much as tens of chord steps at high degrees.
+/// factorisation costs as much as tens of chord steps at high degrees. From one degree to the next, or to a nearby case,
+/// a state takes one to three; beyond the end of the branch Newton wanders.
 NewtonOptions fine_newton(double accuracy, const std::atomic<bool>* stop) {
-  return {.tolerance = std::min(1e-8, 1e-5 * accuracy), .chord_reduction = 0.5, .stop = stop};
+  return {.tolerance = std::min(1e-8, 1e-5 * accuracy), .iteration_limit = 5, .chord_reduction = 0.5, .stop = stop};
 }
 
 /// While it lives, the system gives up its work once it is to stop.
@@ -96,9 +97,7 @@ DuctState DuctSolver::scout() {
     coarse.status = state.status;
     return coarse;
   }
-  if (state.status == Status::converged &&
-      duct_stability_margin(problem_at(state.branch.parameter), state.discrete->space, state.branch.unknowns) < 0)
-    state.status = Status::surface_unstable;
+  if (state.status == Status::converged && !is_stable(state)) state.status = Status::surface_unstable;
   return state;
 }
 
@@ -111,10 +110,15 @@ Status DuctSolver::climb(DuctState& state, DuctLadder& ladder) {
     if (!ladder.keeps_systems) ladder.rungs.back().discrete->system.drop_factors();
     DuctState next = at_degree(ladder.rungs.back(), degree, fine_newton(problem_.accuracy, stop_));
     if (next.status != Status::converged) return next.status;
+    if (wants_stable_ && !is_stable(next)) return Status::surface_unstable;
     state = next;
     add(std::move(next), ladder);
   }
   return Status::converged;
+}
+
+bool DuctSolver::is_stable(const DuctState& state) const {
+  return duct_stability_margin(problem_at(state.branch.parameter), state.discrete->space, state.branch.unknowns) >= 0;
 }
 
 void DuctSolver::add(DuctState state, DuctLadder& ladder) {

@@ -44,6 +44,8 @@ class DuctSolver {
   Problem problem_at(double compliance) const;
   /// Systems of all degrees are kept for the next states.
   void keep_systems() { keeps_systems_ = true; }
+  /// A state beyond the limit of stability at any higher degree is none: near the limit those degrees take turns.
+  void want_stable() { wants_stable_ = true; }
   /// From now on steps, errors and work belong to this result.
   void count_in(StationaryState& result) { result_ = &result; }
 
@@ -70,6 +72,7 @@ class DuctSolver {
   DuctState scout();
   std::shared_ptr<DuctDiscrete> discrete(int degree);
   DuctState solved(std::shared_ptr<DuctDiscrete>, BranchState, const NewtonOptions&);
+  bool is_stable(const DuctState&) const;
   void add(DuctState, DuctLadder&);
   DuctState moved(const Problem& from, const DuctState&);
   void take(DuctState&, const ContinuationReport&);
@@ -81,7 +84,7 @@ class DuctSolver {
   const std::atomic<bool>* stop_;
   StationaryState* result_;
   std::map<int, std::shared_ptr<DuctDiscrete>> discrete_;  ///< by degree
-  bool keeps_systems_ = false;
+  bool keeps_systems_ = false, wants_stable_ = false;
 };
 
 }  // namespace rheocyte

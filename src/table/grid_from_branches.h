@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "table/branch.h"
 #include "table/stiffness_grid.h"
 #include "table/table_spec.h"
 

@@ -7,6 +7,7 @@
 
 #include "numeric/hermite.h"
 #include "numeric/no_value.h"
+#include "numeric/whole_packets.h"
 #include "table/node_slopes.h"
 
 namespace rheocyte {
@@ -19,7 +20,7 @@ StiffnessGrid::Patch StiffnessGrid::ready(const GridPatch& patch) {
   const auto by_row = slopes_by_row(values, rows), by_column = slopes_by_column(values, rows),
              by_both = slopes_by_column(by_row, rows);
   for (std::size_t i = 0; i < values.size(); ++i)
-    made.nodes.emplace_back(values[i], by_column[i], by_row[i], by_both[i]);
+    made.nodes.push_back({{values[i], by_column[i], by_row[i], by_both[i]}});
   const auto lower = node_slopes(patch.lower), upper = node_slopes(patch.upper);
   for (std::size_t c = 0; c < columns; ++c) {
     made.lower.push_back({patch.lower[c], lower[c]});
@@ -65,8 +66,10 @@ namespace {
 Packet among_columns(double value, double slope) { return {value, slope, value, slope}; }
 Packet among_rows(double value, double slope) { return {value, value, slope, slope}; }
 
-Packet along(const HermiteWeights& up, const Packet* node) {
-  return among_rows(up.first, up.first_slope) * node[0] + among_rows(up.last, up.last_slope) * node[1];
+Packet along(const HermiteWeights& up, const auto* node) {
+  using Values = Eigen::Map<const Packet, Eigen::Aligned32>;
+  return among_rows(up.first, up.first_slope) * Values(node[0].values.data()) +
+         among_rows(up.last, up.last_slope) * Values(node[1].values.data());
 }
 
 double across(const HermiteWeights& weight, const Packet& in_a, const Packet& in_b) {

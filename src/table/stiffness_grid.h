@@ -1,14 +1,14 @@
 // The stiffness of a cell from its area and deformation, millions of times a second: a table as a structured grid.
 #pragma once
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "numeric/whole_packets.h"
+#include "table/no_answer.h"
 #include "table/shape_grid.h"
-#include "table/table_interpolation.h"
 #include "table/table_origin.h"
 
 namespace rheocyte {
@@ -66,7 +66,9 @@ class StiffnessGrid {
   std::optional<Range> smooth_range(double area_um2) const;
 
  private:
-  using Node = Packet;  ///< value, its slopes by the column and by the row, and by both
+  struct alignas(32) Node {
+    std::array<double, 4> values;  ///< value, its slopes by the column and by the row, and by both
+  };
   struct Edge {
     double value, by_column;
   };

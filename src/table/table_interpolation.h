@@ -1,29 +1,14 @@
 // The stiffness of a cell from its area (or volume) and deformation, directly from the branches.
 #pragma once
-#include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include "table/no_answer.h"
 #include "table/radius_branches.h"
 #include "table/table_spec.h"
 #include "table/table_text.h"
 
 namespace rheocyte {
-
-/// Why a table has no answer.
-enum class NoAnswer {
-  none,        ///< there is one
-  invalid,     ///< a number that is not finite or not positive
-  too_small,   ///< area or volume below the table's
-  too_large,   ///< above
-  too_stiff,   ///< deformation below the table's
-  too_soft,    ///< above
-  unstable,    ///< beyond the end of the smooth branches of a bare surface
-  unresolved,  ///< a gap between the branches: states that did not converge
-};
-/// "too-stiff" etc.; "" for none.
-std::string_view name_of(NoAnswer reason);
 
 struct StiffnessAnswer {
   double stiffness;  ///< NaN without an answer

@@ -10,6 +10,7 @@
 #include "case/user_error.h"
 #include "invented_branch.h"
 #include "table/grid_from_branches.h"
+#include "table/table_interpolation.h"
 
 namespace rheocyte::stiffness_grid_test {
 namespace {
