@@ -1,11 +1,12 @@
 // What commands that read recordings are asked for.
+#include "extract/options.h"
+
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <string>
 #include <vector>
 
-#include "extract/options.h"
 #include "python/bindings.h"
 
 namespace rheocyte {

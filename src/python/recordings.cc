@@ -32,8 +32,6 @@ std::vector<std::string> moduli(const std::filesystem::path& recording, const st
 
 }  // namespace
 
-void bind_recordings(py::module_& module) {
-  module.def("moduli", &moduli);
-}
+void bind_recordings(py::module_& module) { module.def("moduli", &moduli); }
 
 }  // namespace rheocyte

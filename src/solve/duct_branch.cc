@@ -36,10 +36,7 @@ class DuctBranchFollower {
  public:
   DuctBranchFollower(const Problem& problem, const MediaAt& media, double max_deformation,
                      const std::atomic<bool>* stop)
-      : problem_(problem),
-        wanted_(max_deformation),
-        solver_(problem, media, nobody_, stop, counts_),
-        stop_(stop) {
+      : problem_(problem), wanted_(max_deformation), solver_(problem, media, nobody_, stop, counts_), stop_(stop) {
     solver_.keep_systems();
     solver_.want_stable();
   }

@@ -32,8 +32,8 @@ int last_degree_of(const Problem& problem) {
 }
 
 /// A deformation changes by about as much, relative, as the residual that is left: far less than the wanted accuracy. A
-/// factorisation costs as much as tens of chord steps at high degrees. From one degree to the next, or to a nearby case,
-/// a state takes one to three; beyond the end of the branch Newton wanders.
+/// factorisation costs as much as tens of chord steps at high degrees. From one degree to the next, or to a nearby
+/// case, a state takes one to three; beyond the end of the branch Newton wanders.
 NewtonOptions fine_newton(double accuracy, const std::atomic<bool>* stop) {
   return {.tolerance = std::min(1e-8, 1e-5 * accuracy), .iteration_limit = 5, .chord_reduction = 0.5, .stop = stop};
 }

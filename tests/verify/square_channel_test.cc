@@ -228,6 +228,25 @@ TEST(SquareChannel, ABranchMayEndBeforeTheFirstStepOfAWayWould) {
   EXPECT_NEAR(branch.states[1].shape.deformation, 1e-4, 1e-5);
 }
 
+TEST(SquareChannelSlow, ABranchEndsWhereHigherDegreesHaveNoStableState) {
+  // In 0.83 % methyl cellulose: at degree 3 the surface of this small cell is stable up to d = 0.067.
+  Problem problem = newtonian_cell(0.34, 1);
+  problem.liquid = {.law = LiquidLaw::power_law, .exponent = 0.5149};
+  problem.bulk.shear_modulus = 1e3 / 3 / (1.4936 * std::pow(mean_velocity / half_width_m, problem.liquid.exponent));
+  problem.accuracy = 2e-3;
+  const DuctBranch bare = follow_in_duct(problem, softening(problem), 0.06, std::array{1.0});
+  EXPECT_EQ(bare.end, Status::surface_unstable);
+  ASSERT_EQ(bare.states.size(), 1);
+  EXPECT_LT(bare.states[0].shape.deformation, 0.058);
+  EXPECT_GT(bare.states[0].stability_margin, 0);
+  EXPECT_LT(bare.states[0].estimated_error, 3 * problem.accuracy);
+  problem.cortex.bending = 3e-5 * 3 * problem.bulk.shear_modulus * std::pow(problem.radius_ratio, 3);
+  const DuctBranch held = follow_in_duct(problem, softening(problem), 0.06, std::array{1.0});
+  EXPECT_EQ(held.end, Status::converged);
+  ASSERT_EQ(held.states.size(), 1);
+  EXPECT_GT(held.states[0].shape.deformation, 0.06);
+}
+
 TEST(SquareChannelSlow, OnTheCoarsestMeshTheSurfaceIsAsFarFromItsLimitAsOnFineOnes) {
   // lambda_min^2 lambda_max is 0.358 by degree 5 with twice as many elements along the cell, and 0.357 by degree 6 with
   // these; degree 3 has 0.344 at Gauss points, but 0.325 at the borders of its elements.
