@@ -18,9 +18,9 @@ constexpr double share_beyond = 1.06;
 /// The end found at the first degree is not quite that of the higher ones: the last state stays before it, and steps
 /// back where it is beyond.
 constexpr double share_of_end = 0.97, step_back = 0.95;
-constexpr int max_steps_back = 8;
-/// A soft state may be so much less accurate than wanted; its error goes with it.
-constexpr double max_error = 3;
+constexpr int max_steps_back = 14;
+/// States above are more accurate where the last one is farther from the end; an error of those below stays with them.
+constexpr double soft_height = 0.5;
 /// A branch whose last state is closer than this to what is wanted covers it.
 constexpr double share_covered = 0.97;
 /// Of the compliance: so closely the end is looked for.
@@ -61,12 +61,13 @@ class DuctBranchFollower {
   bool is_stopped() const { return stop_ && *stop_; }
   bool is_passed() const { return !way_.empty() && way_.back().deformation > share_beyond * wanted_; }
 
-  /// Nothing if one of the states has no solution, or none that is accurate enough: the end is too near.
+  /// Nothing if the end is too near for one of the states.
   std::vector<StationaryState> states_to(double last, std::span<const double> heights) {
     std::vector<StationaryState> states;
     for (const double height : std::views::reverse(heights)) {
       auto state = state_of(height * height * last);
-      if (!state || state->estimated_error > max_error * problem_.accuracy || is_stopped()) return {};
+      const bool gains = height > soft_height;
+      if (!state || is_stopped() || (gains && state->outcome.status != Status::converged)) return {};
       states.push_back(std::move(*state));
     }
     std::ranges::reverse(states);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -20,7 +21,7 @@ namespace {
 constexpr std::ptrdiff_t fewest_radii = 4;
 /// Samples of a branch in equal ratios of sqrt(d); cubics between them are good to 1e-6.
 constexpr int dense_samples = 48;
-/// How far a branch counts as longer or shorter than its states, in sqrt(d), see Surface::set_ends.
+/// How far polynomials may go on beyond the last state of a branch, in sqrt(d).
 constexpr double max_continuation = 0.04;
 /// Of the miss of polynomials that leave a node out: between nodes that they have, they miss a tenth.
 constexpr double share_of_miss = 0.1;
@@ -177,25 +178,25 @@ class Surface {
            radius_um < curves_.back().branch().radius_um * (1 + rounding);
   }
 
-  /// sqrt(d) of the last state of a radius: on the straight line between those of the computed neighbours.
+  /// sqrt(d) of the last state of a radius: on the straight line between those of the computed neighbours, as far as no
+  /// branch goes on too far beyond its states.
   double last(double radius_um) const {
     std::size_t right = 1;
     while (right + 1 < curves_.size() && curves_[right].branch().radius_um < radius_um) ++right;
     const Curve &a = curves_[right - 1], &b = curves_[right];
     const double share = (radius_um - a.branch().radius_um) / (b.branch().radius_um - a.branch().radius_um);
-    return a.last() + share * (b.last() - a.last());
+    return std::min(a.last() + share * (b.last() - a.last()), reach_ * end(across(radius_um)));
   }
 
   DenseState at(double radius_um, double s) const {
     const auto weights = across(radius_um);
-    double end = 0;
-    for (std::size_t i = 0; i < curves_.size(); ++i) end += weights[i] * ends_[i];
+    const double own_end = end(weights);
     Eigen::VectorXd q = Eigen::VectorXd::Zero(measure_count + 1), by_s = q;
     const Eigen::Index points = curves_.front().branch().contour.front().rows();
     DenseState state;
     state.contour = state.contour_slope = Eigen::MatrixX2d::Zero(points, 2);
     for (std::size_t i = 0; i < curves_.size(); ++i) {
-      const double length = ends_[i] / end;
+      const double length = ends_[i] / own_end;
       const auto along = lagrange_weights(curves_[i].s(), length * s);
       q += weights[i] * curves_[i].numbers(along.value);
       by_s += weights[i] * length * curves_[i].numbers(along.slope);
@@ -222,8 +223,7 @@ class Surface {
 
  private:
   /// Branches are compared at equal shares of their length, which must not change abruptly from one radius to the next:
-  /// a last state lies where the cell of a modulus happens to be, so lengths are those of a parabola through all of
-  /// them as far as polynomials may go on beyond the states.
+  /// a last state lies where a cell happens to be accurate, so lengths are those of a parabola through all of them.
   void set_ends() {
     const auto count = std::ssize(curves_);
     Eigen::MatrixX3d powers(count, 3);
@@ -235,8 +235,13 @@ class Surface {
       last(i) = curve.last();
     }
     const Eigen::VectorXd smooth = powers * least_squares(powers, last);
-    for (Eigen::Index i = 0; i < count; ++i)
-      ends_.push_back(std::clamp(smooth(i), (1 - max_continuation) * last(i), (1 + max_continuation) * last(i)));
+    ends_.assign(smooth.begin(), smooth.end());
+    reach_ = (1 + max_continuation) * (last.array() / smooth.array()).minCoeff();
+  }
+
+  /// The length of a radius by its weights.
+  double end(const std::vector<double>& weights) const {
+    return std::inner_product(weights.begin(), weights.end(), ends_.begin(), 0.0);
   }
 
   double coordinate(double radius_um) const { return radius_coordinate(radius_um / half_width_um_); }
@@ -270,6 +275,7 @@ class Surface {
   double half_width_um_;
   std::vector<Curve> curves_;
   std::vector<double> ends_;  ///< sqrt(d), one for each curve
+  double reach_ = 1;          ///< so many lengths are within the states of all curves, or little beyond
 };
 
 LeftOut left_out(const Surface& surface) {
