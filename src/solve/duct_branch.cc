@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <ranges>
 
 #include "solve/duct_solver.h"
 #include "solve/surface_stability.h"
@@ -64,9 +63,9 @@ class DuctBranchFollower {
   /// Nothing if the end is too near for one of the states.
   std::vector<StationaryState> states_to(double last, std::span<const double> heights) {
     std::vector<StationaryState> states;
-    for (const double height : std::views::reverse(heights)) {
-      auto state = state_of(height * height * last);
-      const bool gains = height > soft_height;
+    for (auto height = heights.rbegin(); height != heights.rend(); ++height) {
+      auto state = state_of(*height * *height * last);
+      const bool gains = *height > soft_height;
       if (!state || is_stopped() || (gains && state->outcome.status != Status::converged)) return {};
       states.push_back(std::move(*state));
     }
