@@ -27,15 +27,18 @@ constexpr double min_step = 0.01;
 
 /// A state of the way at the first degree.
 struct Milestone {
-  double compliance, deformation;
+  double compliance, deformation, margin;
   VectorXd unknowns;
 };
 
 class DuctBranchFollower {
  public:
-  DuctBranchFollower(const Problem& problem, const MediaAt& media, double max_deformation,
+  DuctBranchFollower(const Problem& problem, const MediaAt& media, double max_deformation, double least_margin,
                      const std::atomic<bool>* stop)
-      : problem_(problem), wanted_(max_deformation), solver_(problem, media, nobody_, stop, counts_), stop_(stop) {
+      : wanted_(max_deformation),
+        least_margin_(least_margin),
+        solver_(problem, media, nobody_, stop, counts_),
+        stop_(stop) {
     solver_.keep_systems();
     solver_.want_stable();
   }
@@ -52,12 +55,13 @@ class DuctBranchFollower {
     if (branch.states.empty()) return branch;
     const StationaryState& softest = branch.states.back();
     if (branch.end == Status::converged && softest.shape.deformation < share_covered * wanted_)
-      branch.end = softest.stability_margin < small_margin ? Status::surface_unstable : Status::accuracy_not_reached;
+      branch.end = is_at_limit(softest.stability_margin) ? Status::surface_unstable : Status::accuracy_not_reached;
     return branch;
   }
 
  private:
   bool is_stopped() const { return stop_ && *stop_; }
+  bool is_at_limit(double margin) const { return margin < least_margin_ + small_margin; }
   bool is_passed() const { return !way_.empty() && way_.back().deformation > share_beyond * wanted_; }
 
   /// Nothing if the end is too near for one of the states.
@@ -77,12 +81,13 @@ class DuctBranchFollower {
   Status walk() {
     ContinuationOptions options = solver_.options(false);
     options.min_step = min_step;
-    options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
+    options.accept = [this, is_good = options.accept](const NonlinearSystem& system, const BranchState& state) {
       const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
-      if (duct_stability_margin(solver_.problem_at(state.parameter), space, state.unknowns) < 0) return false;
-      const double d = duct_deformation(space, state.unknowns, problem_.camera);
+      const double margin = solver_.stability_margin(state.parameter, space, state.unknowns);
+      if (margin < least_margin_ || !is_good(system, state)) return false;
+      const double d = counts_.branch.back().deformation;
       if (d > 1.3 * share_beyond * wanted_) return false;  // rather a nearer one
-      way_.push_back({state.parameter, d, state.unknowns});
+      way_.push_back({state.parameter, d, margin, state.unknowns});
       return true;
     };
     first_ = solver_.enter(DuctSolver::first_degree, options);
@@ -95,9 +100,7 @@ class DuctBranchFollower {
 
   Status reason(const DuctState& state) const {
     if (state.status == Status::stopped) return state.status;
-    const Milestone& last = way_.back();
-    if (duct_stability_margin(solver_.problem_at(last.compliance), state.discrete->space, last.unknowns) < small_margin)
-      return Status::surface_unstable;
+    if (is_at_limit(way_.back().margin)) return Status::surface_unstable;
     return state.status == Status::iteration_limit ? Status::branch_ended : state.status;
   }
 
@@ -123,7 +126,7 @@ class DuctBranchFollower {
     if (beyond == way_.begin()) {
       // d goes with the square of the compliance, displacements with the compliance.
       Milestone guess{way_.front().compliance * std::sqrt(deformation / way_.front().deformation), deformation,
-                      way_.front().unknowns};
+                      way_.front().margin, way_.front().unknowns};
       first_.discrete->system.scale_displacement(guess.compliance / way_.front().compliance, guess.unknowns);
       return guess;
     }
@@ -131,11 +134,10 @@ class DuctBranchFollower {
     const double share = std::log(deformation / a.deformation) / std::log(b.deformation / a.deformation);
     const double compliance = a.compliance * std::pow(b.compliance / a.compliance, share);
     const double way = (compliance - a.compliance) / (b.compliance - a.compliance);
-    return {compliance, deformation, (1 - way) * a.unknowns + way * b.unknowns};
+    return {compliance, deformation, b.margin, (1 - way) * a.unknowns + way * b.unknowns};
   }
 
-  const Problem& problem_;
-  double wanted_;
+  double wanted_, least_margin_;
   StationaryState counts_;
   ProgressCallback nobody_;
   DuctSolver solver_;
@@ -147,8 +149,8 @@ class DuctBranchFollower {
 }  // namespace
 
 DuctBranch follow_in_duct(const Problem& problem, const MediaAt& media, double max_deformation,
-                          std::span<const double> heights, const std::atomic<bool>* stop) {
-  return DuctBranchFollower(problem, media, max_deformation, stop).follow(heights);
+                          std::span<const double> heights, double least_margin, const std::atomic<bool>* stop) {
+  return DuctBranchFollower(problem, media, max_deformation, least_margin, stop).follow(heights);
 }
 
 }  // namespace rheocyte

@@ -15,11 +15,12 @@ struct DuctBranch {
 };
 
 /// The branch of a problem, whose media are those given at a compliance of 1, is followed from the sphere to its end,
-/// or a little past the greatest deformation d. Then it has one state for each height, a share of sqrt(d) at the last
+/// or a little past the greatest deformation d, or to where its surface is closer to its limit than the least margin
+/// (surface_stability.h; end: surface_unstable). Then it has one state for each height, a share of sqrt(d) at the last
 /// state (ascending, the last one 1; met within some per cent), with a stable surface at all degrees. Those above a
 /// height of 0.5 are as accurate as the problem says, the others where the finest mesh allows. Without states if there
 /// are none such, and when it was stopped.
 DuctBranch follow_in_duct(const Problem&, const MediaAt&, double max_deformation, std::span<const double> heights,
-                          const std::atomic<bool>* stop = nullptr);
+                          double least_margin = 0, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace rheocyte

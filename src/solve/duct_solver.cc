@@ -117,8 +117,12 @@ Status DuctSolver::climb(DuctState& state, DuctLadder& ladder) {
   return Status::converged;
 }
 
+double DuctSolver::stability_margin(double compliance, const DuctSpace& space, const VectorXd& unknowns) const {
+  return duct_stability_margin(problem_at(compliance), space, unknowns);
+}
+
 bool DuctSolver::is_stable(const DuctState& state) const {
-  return duct_stability_margin(problem_at(state.branch.parameter), state.discrete->space, state.branch.unknowns) >= 0;
+  return stability_margin(state.branch.parameter, state.discrete->space, state.branch.unknowns) >= 0;
 }
 
 void DuctSolver::add(DuctState state, DuctLadder& ladder) {
@@ -142,10 +146,9 @@ Status DuctSolver::carry(const Problem& from, const DuctLadder& ladder, DuctLadd
     NewtonOptions options = fine_newton(problem_.accuracy, stop_);
     options.keep_factors = next.discrete->system.has_factors();
     const DuctState found = solved(next.discrete, next.branch, options);
-    const DuctSpace& space = next.discrete->space;
     const bool is_good = found.status == Status::converged &&
                          found.discrete->system.stretch_change(kept, found.branch.unknowns) < max_stretch_change &&
-                         duct_stability_margin(problem_, space, found.branch.unknowns) >= 0;
+                         is_stable(found);
     if (!is_good) {
       carried.rungs.push_back(found);  // it holds the factors
       return found.status == Status::stopped ? Status::stopped : Status::branch_ended;
@@ -173,7 +176,7 @@ ContinuationOptions DuctSolver::options(bool last) {
   options.min_step = last ? min_step_at_last : min_step_before_refining;
   options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
     const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
-    if (duct_stability_margin(problem_at(state.parameter), space, state.unknowns) < 0) return false;
+    if (stability_margin(state.parameter, space, state.unknowns) < 0) return false;
     report(state, duct_deformation(space, state.unknowns, camera_in_mesh(problem_)), space.reference().degree());
     return true;
   };

@@ -42,6 +42,8 @@ class DuctSolver {
 
   /// The problem of a state of the branch.
   Problem problem_at(double compliance) const;
+  /// Its distance from the limit of stability (describe_duct.h).
+  double stability_margin(double compliance, const DuctSpace&, const VectorXd& unknowns) const;
   /// Systems of all degrees are kept for the next states.
   void keep_systems() { keeps_systems_ = true; }
   /// A state beyond the limit of stability at any higher degree is none: near the limit those degrees take turns.

@@ -52,8 +52,7 @@ std::string summary(const TableFolder& folder) {
     solves += branch.solves;
     seconds += branch.seconds;
     factorisation += branch.factorisation_seconds;
-    const bool is_computed = branch.end.status != Status::not_started;  // held ones are not where all bare ones go on
-    without_states += folder.spec().is_square() && is_computed && branch.empty();
+    without_states += folder.spec().is_square() && branch.empty();
     if (branch.bending_kBT > 0 || branch.empty()) continue;  // those that go on where others have ended
     const Status end = branch.end.status;
     unstable += end == Status::surface_unstable;

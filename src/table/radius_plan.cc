@@ -60,13 +60,14 @@ std::vector<int> RadiusPlan::places_at_first() const {
 
 /// In a square channel polynomials run through the branches of all radii: all are held as soon as one needs it.
 std::optional<bool> RadiusPlan::wants_held(int place) const {
-  bool wants = false;
+  bool knows_all = true;
   for (const int other : spec_.is_square() ? places_at_first() : std::vector{place}) {
     const Branch own = branch({other, false});
-    if (!own) return {};
-    wants = wants || can_be_held(spec_, *own);
+    if (own && can_be_held(spec_, *own)) return true;
+    knows_all = knows_all && own;
   }
-  return wants;
+  if (!knows_all) return {};
+  return false;
 }
 
 bool RadiusPlan::find(const std::vector<int>& places, bool held, Nodes& nodes) {

@@ -155,6 +155,13 @@ struct DenseState {
   Eigen::MatrixX2d contour, contour_slope;
 };
 
+/// A radius between the computed ones: their weights, and the length of its branch in sqrt(d).
+struct Radius {
+  double um;
+  std::vector<double> weights;
+  double length = 0;
+};
+
 class Surface {
  public:
   Surface(const TableSpec& spec, std::span<const SampledBranch> computed, const GridContent* tube)
@@ -178,32 +185,36 @@ class Surface {
            radius_um < curves_.back().branch().radius_um * (1 + rounding);
   }
 
-  /// sqrt(d) of the last state of a radius: on the straight line between those of the computed neighbours, as far as no
-  /// branch goes on too far beyond its states.
-  double last(double radius_um) const {
-    std::size_t right = 1;
-    while (right + 1 < curves_.size() && curves_[right].branch().radius_um < radius_um) ++right;
-    const Curve &a = curves_[right - 1], &b = curves_[right];
-    const double share = (radius_um - a.branch().radius_um) / (b.branch().radius_um - a.branch().radius_um);
-    return std::min(a.last() + share * (b.last() - a.last()), reach_ * end(across(radius_um)));
+  Radius at(double radius_um) const {
+    Radius radius{radius_um, across(radius_um)};
+    radius.length = std::inner_product(radius.weights.begin(), radius.weights.end(), ends_.begin(), 0.0);
+    return radius;
   }
 
-  DenseState at(double radius_um, double s) const {
-    const auto weights = across(radius_um);
-    const double own_end = end(weights);
+  /// sqrt(d) of the last state of a radius: on the straight line between those of the computed neighbours, as far as no
+  /// branch goes on too far beyond its states.
+  double last(const Radius& radius) const {
+    std::size_t right = 1;
+    while (right + 1 < curves_.size() && curves_[right].branch().radius_um < radius.um) ++right;
+    const Curve &a = curves_[right - 1], &b = curves_[right];
+    const double share = (radius.um - a.branch().radius_um) / (b.branch().radius_um - a.branch().radius_um);
+    return std::min(a.last() + share * (b.last() - a.last()), reach_ * radius.length);
+  }
+
+  DenseState state(const Radius& radius, double s) const {
     Eigen::VectorXd q = Eigen::VectorXd::Zero(measure_count + 1), by_s = q;
     const Eigen::Index points = curves_.front().branch().contour.front().rows();
     DenseState state;
     state.contour = state.contour_slope = Eigen::MatrixX2d::Zero(points, 2);
     for (std::size_t i = 0; i < curves_.size(); ++i) {
-      const double length = ends_[i] / own_end;
+      const double weight = radius.weights[i], length = ends_[i] / radius.length;
       const auto along = lagrange_weights(curves_[i].s(), length * s);
-      q += weights[i] * curves_[i].numbers(along.value);
-      by_s += weights[i] * length * curves_[i].numbers(along.slope);
-      state.contour += weights[i] * curves_[i].contour(along.value);
-      state.contour_slope += weights[i] * length * curves_[i].contour(along.slope);
+      q += weight * curves_[i].numbers(along.value);
+      by_s += weight * length * curves_[i].numbers(along.slope);
+      state.contour += weight * curves_[i].contour(along.value);
+      state.contour_slope += weight * length * curves_[i].contour(along.slope);
     }
-    finish(radius_um, s, q, by_s, state);
+    finish(radius.um, s, q, by_s, state);
     return state;
   }
 
@@ -237,11 +248,6 @@ class Surface {
     const Eigen::VectorXd smooth = powers * least_squares(powers, last);
     ends_.assign(smooth.begin(), smooth.end());
     reach_ = (1 + max_continuation) * (last.array() / smooth.array()).minCoeff();
-  }
-
-  /// The length of a radius by its weights.
-  double end(const std::vector<double>& weights) const {
-    return std::inner_product(weights.begin(), weights.end(), ends_.begin(), 0.0);
   }
 
   double coordinate(double radius_um) const { return radius_coordinate(radius_um / half_width_um_); }
@@ -305,10 +311,11 @@ SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double
   branch.bending_kBT = near.bending_kBT;
   branch.value.resize(dense_samples, measure_count);
   branch.slope.resize(dense_samples, measure_count);
-  const double last = surface.last(radius_um), first = 0.98 * std::sqrt(spec.min_deformation) / last;
+  const Radius radius = surface.at(radius_um);
+  const double last = surface.last(radius), first = 0.98 * std::sqrt(spec.min_deformation) / last;
   for (int k = 0; k < dense_samples; ++k) {
     const double share = std::pow(first, 1 - double(k) / (dense_samples - 1));
-    DenseState state = surface.at(radius_um, last * share);
+    DenseState state = surface.state(radius, last * share);
     branch.value.row(k) = state.value.transpose();
     branch.slope.row(k) = state.slope.transpose();
     branch.stiffness.push_back(state.stiffness);

@@ -196,7 +196,9 @@ std::vector<SampledBranch> TableFolder::read_all() const {
   std::vector<SampledBranch> all;
   for (int i = 0; i < branches(); ++i) {
     all.push_back(branch(i, false));
-    if (spec_.wants_held()) all.push_back(branch(i, true));
+    if (!spec_.wants_held()) continue;
+    SampledBranch held = branch(i, true);
+    if (!held.empty() || has(i, true)) all.push_back(std::move(held));
   }
   return all;
 }

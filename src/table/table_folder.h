@@ -47,8 +47,8 @@ class TableFolder {
   SampledBranch read(int i, bool held) const;
   /// Computed or interpolated; only once that is known (asserted).
   SampledBranch branch(int i, bool held) const;
-  /// All branches of a complete table, in the order of the places. UserError naming the file if a record is damaged or
-  /// missing.
+  /// All branches of a complete table, in the order of the places; held ones where they are wanted. UserError naming
+  /// the file if a record is damaged or missing.
   std::vector<SampledBranch> read_all() const;
   /// Removes what claims and interrupted writes have left.
   void tidy() const;

@@ -155,5 +155,23 @@ TEST(RadiusPlan, InASquareChannelAllBranchesAreHeldOrNone) {
   }
 }
 
+TEST(RadiusPlan, InASquareChannelOneUnstableBranchTellsThatAllAreHeldBeforeTheOthersAreKnown) {
+  const auto spec = parse_table_spec(
+      short_spec, "spec.toml",
+      std::vector<std::string>{"channel.section=square", "table.max_area_um2=260", "table.bending_beyond_ratio=3e-5"});
+  const auto radii = computed_radii_um(spec);
+  RadiusPlan plan(spec, [&](const BranchTask& task) -> RadiusPlan::Branch {
+    if (task.held || task.place == 3) return nullptr;
+    InventedSweep sweep = covering(spec, radii[std::size_t(task.place)]);
+    sweep.end = task.place == 2 ? Status::surface_unstable : Status::covered;
+    return std::make_shared<SampledBranch>(invented_branch(radii[std::size_t(task.place)], sweep));
+  });
+  EXPECT_FALSE(plan.update());
+  const auto& missing = plan.missing();
+  ASSERT_EQ(missing.size(), radii.size() + 1);
+  EXPECT_EQ(missing.front(), (BranchTask{3, false}));
+  for (int i = 0; i < std::ssize(radii); ++i) EXPECT_EQ(missing[std::size_t(i) + 1], (BranchTask{i, true}));
+}
+
 }  // namespace
 }  // namespace rheocyte::radius_plan_test

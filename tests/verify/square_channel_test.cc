@@ -222,10 +222,21 @@ TEST(SquareChannelSlow, AlongABranchWhatDoesNotSoftenStaysAsItIs) {
 TEST(SquareChannel, ABranchMayEndBeforeTheFirstStepOfAWayWould) {
   Problem problem = newtonian_cell(0.6, 1);
   problem.accuracy = 0.05;
-  const DuctBranch branch = follow_in_duct(problem, softening(problem), 1e-4, std::array{0.5, 1.0}, nullptr);
+  const DuctBranch branch = follow_in_duct(problem, softening(problem), 1e-4, std::array{0.5, 1.0});
   ASSERT_EQ(branch.end, Status::converged);
   ASSERT_EQ(branch.states.size(), 2);
   EXPECT_NEAR(branch.states[1].shape.deformation, 1e-4, 1e-5);
+}
+
+TEST(SquareChannel, ABranchEndsWhereItsSurfaceIsAsNearToTheLimitAsItMayBe) {
+  Problem problem = newtonian_cell(0.6, 1);
+  problem.accuracy = 0.05;
+  constexpr double least_margin = 0.6;
+  const DuctBranch branch = follow_in_duct(problem, softening(problem), 0.05, std::array{1.0}, least_margin);
+  EXPECT_EQ(branch.end, Status::surface_unstable);
+  ASSERT_EQ(branch.states.size(), 1);
+  EXPECT_GT(branch.states[0].stability_margin, least_margin);
+  EXPECT_LT(branch.states[0].stability_margin, least_margin + 0.04);
 }
 
 TEST(SquareChannelSlow, ABranchEndsWhereHigherDegreesHaveNoStableState) {
