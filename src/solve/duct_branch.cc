@@ -19,7 +19,7 @@ constexpr double share_beyond = 1.06;
 constexpr double share_of_end = 0.97, step_back = 0.95;
 constexpr int max_steps_back = 14;
 /// States above are more accurate where the last one is farther from the end; an error of those below stays with them.
-constexpr double soft_height = 0.5;
+constexpr double soft_height = 0.6;
 /// A branch whose last state is closer than this to what is wanted covers it.
 constexpr double share_covered = 0.97;
 /// Of the compliance: so closely the end is looked for.

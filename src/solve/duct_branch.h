@@ -18,7 +18,7 @@ struct DuctBranch {
 /// or a little past the greatest deformation d, or to where its surface is closer to its limit than the least margin
 /// (surface_stability.h; end: surface_unstable). Then it has one state for each height, a share of sqrt(d) at the last
 /// state (ascending, the last one 1; met within some per cent), with a stable surface at all degrees. Those above a
-/// height of 0.5 are as accurate as the problem says, the others where the finest mesh allows. Without states if there
+/// height of 0.6 are as accurate as the problem says, the others where the finest mesh allows. Without states if there
 /// are none such, and when it was stopped.
 DuctBranch follow_in_duct(const Problem&, const MediaAt&, double max_deformation, std::span<const double> heights,
                           double least_margin = 0, const std::atomic<bool>* stop = nullptr);

@@ -63,6 +63,10 @@ class EndPolygon {
     return a.log_deformation + share * (b.log_deformation - a.log_deformation);
   }
 
+  bool is_between_ends(double log_area) const {
+    return !ends_.empty() && log_area >= ends_.front().point.log_area && log_area <= ends_.back().point.log_area;
+  }
+
   NoAnswer beyond(double log_area) const {
     const End* nearest = &ends_.front();
     for (const End& end : ends_)
@@ -102,8 +106,10 @@ Border upper_border(std::span<const LogBranch> branches, const TableSpec& spec, 
   const int margin = 2 * reach * points_per_column, count = (columns.count - 1) * points_per_column + 1 + 2 * margin;
   std::vector<double> line(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    const double column = std::clamp(static_cast<double>(i - margin) / points_per_column, 0.0, columns.count - 1.0);
-    line[static_cast<std::size_t>(i)] = std::min(polygon.at(columns.at(column)), greatest);
+    const double column = static_cast<double>(i - margin) / points_per_column;
+    const double inner = std::clamp(column, 0.0, columns.count - 1.0);
+    const double log_area = columns.at(polygon.is_between_ends(columns.at(column)) ? column : inner);
+    line[static_cast<std::size_t>(i)] = std::min(polygon.at(log_area), greatest);
   }
   const auto window = [&](const std::vector<double>& values, int middle) {
     return std::span(values).subspan(static_cast<std::size_t>(middle - reach * points_per_column),

@@ -17,10 +17,6 @@ std::vector<double> heights(int count) {
   return chebyshev_points(least, 1, count);
 }
 
-/// Nearer to the limit of stability the degrees disagree: a bare branch whose states are held there ends before, at
-/// much the same deformation for all radii.
-constexpr double least_bare_margin = 0.25;
-
 }  // namespace
 
 SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop) {
@@ -29,10 +25,8 @@ SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& pla
   const Scales scales = scales_of(case_at(spec, place, 1));
   const double stiffness = 1e-3 * scales.stress_Pa;
   const auto problem_at = [&](double compliance) { return problem_of(case_at(spec, place, stiffness / compliance)); };
-  const bool is_held_beyond = spec.wants_held() && spec.bending_ratio == 0;
-  const auto found =
-      follow_in_duct(problem_at(1), problem_at, spec.max_deformation, heights(spec.computed_states.value()),
-                     is_held_beyond ? least_bare_margin : 0, stop);
+  const auto found = follow_in_duct(problem_at(1), problem_at, spec.max_deformation,
+                                    heights(spec.computed_states.value()), spec.bending_from_margin, stop);
 
   SampledBranch branch;
   branch.radius_um = place.radius_um;

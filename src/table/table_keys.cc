@@ -48,6 +48,10 @@ const std::array table = {
                                       "the same in a square channel, over E r0^3 or E2D r0^2 of the cell; 3e-5 changes "
                                       "d by less than 0.5 % where both exist",
                                       Number{{0, max_bending_ratio}}, 0.0, square}),
+    key<&Spec::bending_from_margin>({"table.bending_from_margin", "",
+                                     "margin of the bare surface, 1 at rest and 0 where it loses stability, from which "
+                                     "on bending_beyond_ratio holds it",
+                                     Number{{0, 0.9}}, 0.0, square}),
     key<&Spec::cortex_shares>({"table.cortex_share", "",
                                "shares of the cortex in the stiffness of combined cells, one sheet for each",
                                List{{0, 1}, true}, absent}),

@@ -29,7 +29,8 @@ constexpr std::string_view bulk_modulus_key = "cell.bulk.young_modulus_kPa",
                            cortex_modulus_key = "cell.cortex.modulus_mN_per_m",
                            tension_key = "cell.cortex.tension_mN_per_m", ratio_key = "cell.cortex.tension_ratio",
                            bending_key = "cell.cortex.bending_kBT", beyond_key = "table.bending_beyond_kBT",
-                           beyond_ratio_key = "table.bending_beyond_ratio", channel_section_key = "channel.section";
+                           beyond_ratio_key = "table.bending_beyond_ratio",
+                           from_margin_key = "table.bending_from_margin", channel_section_key = "channel.section";
 constexpr std::array<std::string_view, 3> stiffness_keys{bulk_modulus_key, cortex_modulus_key, combined_stiffness};
 // Those that programs know already; they must not appear on other numbers.
 constexpr std::array<std::string_view, 4> foreign_identifiers{"LE-2D-FEM-19", "HE-2D-FEM-22", "HE-3D-FEM-22",
@@ -167,6 +168,10 @@ void check_areas(const TableSpec& spec, const KeyReading& keys) {
 }
 
 void check_bending(const TableSpec& spec, const KeyReading& keys) {
+  if (spec.bending_from_margin > 0 && spec.bending_beyond_ratio == 0)
+    keys.refuse(from_margin_key,
+                fmt::format("{} has no effect without {}; give that too, such as 3e-5, or leave it out.",
+                            keys.stated(from_margin_key), beyond_ratio_key));
   if (spec.bending_beyond_kBT == 0) return;
   if (spec.is_square())
     keys.refuse(beyond_key, fmt::format("{} is for tubes, because a polynomial over the radius needs cells that are "
@@ -229,7 +234,8 @@ std::string to_toml(const TableSpec& spec) {
   if (spec.is_combined()) left_out.push_back(ratio_key);
   // What only combined cells have is written where it is given.
   left_out.push_back(spec.bending_ratio > 0 ? bending_key : "table.bending_ratio");
-  if (spec.bending_beyond_ratio == 0) left_out.emplace_back("table.bending_beyond_ratio");
+  if (spec.bending_beyond_ratio == 0) left_out.push_back(beyond_ratio_key);
+  if (spec.bending_from_margin == 0) left_out.push_back(from_margin_key);
   if (spec.max_deformation_raw == TableSpec{}.max_deformation_raw) left_out.emplace_back("table.max_deformation_raw");
   return to_toml(values_of(spec.base, case_keys(), spec, table_keys()), left_out);
 }

@@ -34,6 +34,7 @@ struct TableSpec {
   /// Bending stiffness of the branches that go on where the bare surface has lost its stability, in a square channel
   /// over S r0^3; 0: none.
   double bending_beyond_kBT = 0, bending_beyond_ratio = 0;
+  double bending_from_margin = 0;  ///< in a square channel: bare branches end where the surface is that stable
   std::vector<double> cortex_shares, tension_ratios;  ///< of combined cells, ascending; else empty
   double bending_ratio = 0;        ///< c_b / (S r0^3), S = E or E2D / r0; 0: the base's bending stiffness for all
   double max_deformation_raw = 1;  ///< of the contour itself, dent included: where branches of combined cells end

@@ -136,6 +136,9 @@ TEST(TableSpec, InASquareChannelBendingBeyondTheEndGoesWithStiffnessAndSize) {
   EXPECT_NEAR(held_bending_kBT(shell, 6, 12), held_bending_kBT(solid, 6, 2), 1e-9);
   EXPECT_EQ(read(to_toml(solid)).bending_beyond_ratio, 3e-5);
   EXPECT_EQ(to_toml(read(short_spec, {square, areas})).find("bending_beyond_ratio"), std::string::npos);
+  const auto early = read(short_spec, {square, areas, ratio, "table.bending_from_margin=0.25"});
+  EXPECT_EQ(read(to_toml(early)).bending_from_margin, 0.25);
+  EXPECT_EQ(to_toml(solid).find("bending_from_margin"), std::string::npos);
 }
 
 TEST(TableSpec, WhatHoldsTheSurfaceBeyondTheEndIsThatOfTheSection) {
@@ -147,6 +150,8 @@ TEST(TableSpec, WhatHoldsTheSurfaceBeyondTheEndIsThatOfTheSection) {
   EXPECT_NE(refused({"table.bending_beyond_kBT=1e4"}).find("give table.bending_beyond_ratio, such as 3e-5"),
             std::string::npos);
   EXPECT_NE(refused({"table.bending_beyond_ratio=0.1"}).find("outside its range 0 .. 0.001"), std::string::npos);
+  EXPECT_NE(refused({"table.bending_from_margin=0.2"}).find("has no effect without table.bending_beyond_ratio"),
+            std::string::npos);
   EXPECT_NE(refused({"cell.cortex.bending_kBT=1e4"}).find("choose table.bending_beyond_ratio"), std::string::npos);
 }
 
