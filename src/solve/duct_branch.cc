@@ -27,7 +27,7 @@ constexpr double min_step = 0.01;
 
 /// A state of the way at the first degree.
 struct Milestone {
-  double compliance, deformation, margin;
+  double compliance, deformation;
   VectorXd unknowns;
 };
 
@@ -79,15 +79,13 @@ class DuctBranchFollower {
 
   /// At the first degree from the sphere on.
   Status walk() {
-    ContinuationOptions options = solver_.options(false);
+    ContinuationOptions options = solver_.options(false, least_margin_);
     options.min_step = min_step;
     options.accept = [this, is_good = options.accept](const NonlinearSystem& system, const BranchState& state) {
-      const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
-      const double margin = solver_.stability_margin(state.parameter, space, state.unknowns);
-      if (margin < least_margin_ || !is_good(system, state)) return false;
+      if (!is_good(system, state)) return false;
       const double d = counts_.branch.back().deformation;
       if (d > 1.3 * share_beyond * wanted_) return false;  // rather a nearer one
-      way_.push_back({state.parameter, d, margin, state.unknowns});
+      way_.push_back({state.parameter, d, state.unknowns});
       return true;
     };
     first_ = solver_.enter(DuctSolver::first_degree, options);
@@ -100,7 +98,9 @@ class DuctBranchFollower {
 
   Status reason(const DuctState& state) const {
     if (state.status == Status::stopped) return state.status;
-    if (is_at_limit(way_.back().margin)) return Status::surface_unstable;
+    const Milestone& last = way_.back();
+    if (is_at_limit(solver_.stability_margin(last.compliance, state.discrete->space, last.unknowns)))
+      return Status::surface_unstable;
     return state.status == Status::iteration_limit ? Status::branch_ended : state.status;
   }
 
@@ -126,7 +126,7 @@ class DuctBranchFollower {
     if (beyond == way_.begin()) {
       // d goes with the square of the compliance, displacements with the compliance.
       Milestone guess{way_.front().compliance * std::sqrt(deformation / way_.front().deformation), deformation,
-                      way_.front().margin, way_.front().unknowns};
+                      way_.front().unknowns};
       first_.discrete->system.scale_displacement(guess.compliance / way_.front().compliance, guess.unknowns);
       return guess;
     }
@@ -134,7 +134,7 @@ class DuctBranchFollower {
     const double share = std::log(deformation / a.deformation) / std::log(b.deformation / a.deformation);
     const double compliance = a.compliance * std::pow(b.compliance / a.compliance, share);
     const double way = (compliance - a.compliance) / (b.compliance - a.compliance);
-    return {compliance, deformation, b.margin, (1 - way) * a.unknowns + way * b.unknowns};
+    return {compliance, deformation, (1 - way) * a.unknowns + way * b.unknowns};
   }
 
   double wanted_, least_margin_;

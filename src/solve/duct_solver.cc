@@ -170,13 +170,13 @@ DuctState DuctSolver::moved(const Problem& from, const DuctState& rung) {
   return to;
 }
 
-ContinuationOptions DuctSolver::options(bool last) {
+ContinuationOptions DuctSolver::options(bool last, double least_margin) {
   ContinuationOptions options;
   options.newton = {.tolerance = tolerance_on_the_way, .iteration_limit = 6, .stop = stop_};
   options.min_step = last ? min_step_at_last : min_step_before_refining;
-  options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
+  options.accept = [this, least_margin](const NonlinearSystem& system, const BranchState& state) {
     const DuctSpace& space = static_cast<const DuctSystem&>(system).space();
-    if (stability_margin(state.parameter, space, state.unknowns) < 0) return false;
+    if (stability_margin(state.parameter, space, state.unknowns) < least_margin) return false;
     report(state, duct_deformation(space, state.unknowns, camera_in_mesh(problem_)), space.reference().degree());
     return true;
   };

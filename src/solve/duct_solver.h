@@ -67,8 +67,8 @@ class DuctSolver {
   /// The ladder of a neighbouring problem `from` becomes this one's, whose factors serve for chord steps, as far as the
   /// accuracy needs it; or why not. Those factors are then with the new ladder.
   Status carry(const Problem& from, const DuctLadder& ladder, DuctLadder& carried);
-  /// Along the branch; the last way looks for its end more closely.
-  ContinuationOptions options(bool last);
+  /// Along the branch, as long as the surface has the least margin; the last way looks for its end more closely.
+  ContinuationOptions options(bool last, double least_margin = 0);
 
  private:
   DuctState scout();
