@@ -15,10 +15,11 @@ constexpr double core_size = 0.5, core_bulge = 0.55;
 
 }  // namespace
 
-ChannelGeometry::ChannelGeometry(double radius_ratio, double length)
+ChannelGeometry::ChannelGeometry(double radius_ratio, double length, double run_out)
     : radius_(radius_ratio),
       box_(disturbed_half_length(radius_ratio)),
       half_length_(std::max(min_half_length(radius_ratio), length / 2)),
+      run_out_(run_out),
       front_corner_(0.25 * pi),
       rear_corner_(0.75 * pi) {}
 
@@ -75,8 +76,8 @@ Point ChannelGeometry::map(Block block, double outward, double along) const {
     case Block::front: return blend(surface(Sector::front, along), box_side(Sector::front, along));
     case Block::top: return blend(surface(Sector::top, along), box_side(Sector::top, along));
     case Block::rear: return blend(surface(Sector::rear, along), box_side(Sector::rear, along));
-    case Block::downstream: return {box_ + outward * (half_length_ - box_), along};
-    case Block::upstream: return {-box_ - outward * (half_length_ - box_), along};
+    case Block::downstream: return {box_ + outward * (end() - box_), along};
+    case Block::upstream: return {-box_ - outward * (end() - box_), along};
   }
   return Point::Zero();
 }

@@ -27,8 +27,9 @@ using Point = Eigen::Vector2d;
 /// In the core `outward` is the front's `along` (away from the axis) and `along` the top's.
 class ChannelGeometry {
  public:
-  /// Blocks for a cell of radius `radius_ratio` in a channel of `length` (both in R); 0: as short as it can be.
-  explicit ChannelGeometry(double radius_ratio, double length = 0);
+  /// Blocks for a cell of radius `radius_ratio` in a channel of `length` (both in R); 0: as short as it can be. The
+  /// mesh goes on at both ends by `run_out`.
+  explicit ChannelGeometry(double radius_ratio, double length = 0, double run_out = 0);
 
   Point map(Block, double outward, double along) const;
 
@@ -36,7 +37,10 @@ class ChannelGeometry {
   double angle(Sector, double along) const;
 
   double radius() const { return radius_; }
+  /// Of the channel that is told of.
   double half_length() const { return half_length_; }
+  /// Where the mesh ends.
+  double end() const { return half_length_ + run_out_; }
   /// Half-length of the box whose corner spokes separate front, top and rear.
   double box() const { return box_; }
 
@@ -46,7 +50,7 @@ class ChannelGeometry {
   Point core(double outward, double along) const;
   Point box_side(Sector, double along) const;
 
-  double radius_, box_, half_length_;
+  double radius_, box_, half_length_, run_out_;
   double front_corner_, rear_corner_;  ///< angles of the corner spokes
 };
 

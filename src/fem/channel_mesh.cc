@@ -23,14 +23,19 @@ std::vector<double> graded(int n, double ratio) {
   return breaks;
 }
 
-/// From the box to the end of the channel: one element more where it is longer than it need be.
+/// From the box to the end of the mesh: one element more where the channel is longer than it need be, and some for the
+/// way beyond it.
 std::vector<double> axial_breaks(const ChannelGeometry& geometry, int n) {
-  std::vector<double> breaks = graded(n, 1.3);
-  const double box = geometry.box(), end = geometry.half_length(), least = min_half_length(geometry.radius());
-  if (end <= least) return breaks;
-  for (double& b : breaks) b *= (least - box) / (end - box);
-  breaks.push_back(1);
-  return breaks;
+  constexpr double longest = 1.25;  // of the elements beyond
+  const double box = geometry.box(), half = geometry.half_length(), least = min_half_length(geometry.radius());
+  std::vector<double> places = graded(n, 1.3);
+  for (double& x : places) x = box + x * (least - box);
+  if (half > least) places.push_back(half);
+  const int beyond = int(std::ceil((geometry.end() - half) / longest - 1e-9));
+  for (int i = 1; i <= beyond; ++i) places.push_back(half + (geometry.end() - half) * i / beyond);
+  for (double& x : places) x = (x - box) / (geometry.end() - box);
+  places.back() = 1;
+  return places;
 }
 
 bool runs_outward_first(Block block) {

@@ -63,7 +63,7 @@ Discretisation::Discretisation(const ChannelMesh& mesh, int degree, const Liquid
 
 std::vector<Discretisation::NodeFlags> Discretisation::flag_nodes() const {
   std::vector<NodeFlags> flags(nodes_.count);
-  const double end = mesh_->geometry().half_length();
+  const double end = mesh_->geometry().end();
   for (int i = 0; i < nodes_.count; ++i) {
     const Point& x = points_[i];
     flags[i].axis = x(1) < tiny;

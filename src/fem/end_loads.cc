@@ -39,7 +39,7 @@ VectorXd inlet_load(const Discretisation& space) {
 }
 
 double undisturbed_inlet_pressure(const Discretisation& space, const Liquid& liquid) {
-  return undisturbed_pressure_gradient(liquid) * space.mesh().geometry().half_length();
+  return undisturbed_pressure_gradient(liquid) * space.mesh().geometry().end();
 }
 
 }  // namespace rheocyte

@@ -182,7 +182,7 @@ void MovingSystem::integrate(int e, const Media& media, const VectorXd& unknowns
 
 CoupledSystem::InletPressure MovingSystem::inlet_pressure(const Media& media) const {
   // The solver's pressure contains that of the inertial force (eq:frame-pressure).
-  const double mass = media.liquid.reynolds * 2 * space().mesh().geometry().half_length();
+  const double mass = media.liquid.reynolds * 2 * space().mesh().geometry().end();
   InletPressure pressure = CoupledSystem::inlet_pressure(media);
   pressure.fixed -= mass * motion_.unknowns(space().cell_velocity());
   pressure.slope -= mass * motion_.rate;

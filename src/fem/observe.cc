@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "laws/surface_form.h"
+#include "numeric/parabola.h"
 
 namespace rheocyte {
 namespace {
@@ -124,9 +125,20 @@ Eigen::MatrixX2d surface_tensions(const Cortex& cortex, const SurfaceState& stat
   return tensions;
 }
 
-double min_biot_ratio(const SurfaceState& state) {
+double min_biot_ratio(const SurfaceState& state) { return biot_ratios(state).minCoeff(); }
+
+VectorXd biot_ratios(const SurfaceState& state) {
   // Incompressible: the normal stretch is 1 / (meridional hoop).
-  return (state.stretch.col(0).array().square() * state.stretch.col(1).array()).minCoeff();
+  return state.stretch.col(0).array().square() * state.stretch.col(1).array();
+}
+
+double least_along(const SurfaceState& state, const VectorXd& values) {
+  Eigen::Index i = 0;
+  const double least = values.minCoeff(&i);
+  if (i == 0 || i + 1 == values.size()) return least;
+  // Where edges meet there are two points.
+  const bool is_inside = state.angle(i - 1) < state.angle(i) - 1e-9 && state.angle(i) < state.angle(i + 1) - 1e-9;
+  return is_inside ? vertex(values(i - 1), least, values(i + 1)) : least;
 }
 
 double stretch_change(const Discretisation& space, const VectorXd& from, const VectorXd& to) {
@@ -136,17 +148,23 @@ double stretch_change(const Discretisation& space, const VectorXd& from, const V
   return ((b - a) / b).abs().maxCoeff();
 }
 
-double inlet_pressure(const Discretisation& space, const VectorXd& unknowns) {
+double end_pressure(const Discretisation& space, const VectorXd& unknowns, ChannelEnd end) {
   const ReferenceElement<2>& reference = space.reference();
+  const ChannelGeometry& geometry = space.mesh().geometry();
+  const Block block = end == ChannelEnd::upstream ? Block::upstream : Block::downstream;
+  const double plane = (geometry.half_length() - geometry.box()) / (geometry.end() - geometry.box());
   double force = 0, area = 0;
-  for (const BoundaryEdge& edge : space.inlet()) {
-    const MeshElement& element = space.mesh().elements()[edge.element];
-    const double width = element.along[1] - element.along[0];
+  // Pressures of the elements on both sides.
+  for (int e = 0; e < int(space.elements().size()); ++e) {
+    const MeshElement& element = space.mesh().elements()[e];
+    const auto side = std::ranges::find_if(element.outward, [&](double o) { return std::abs(o - plane) < 1e-9; });
+    if (element.block != block || side == element.outward.end()) continue;
+    const double at = side == element.outward.begin() ? 0 : 1, width = element.along[1] - element.along[0];
     for (int q = 0; q < reference.points_1d.size(); ++q) {
       const double along = reference.points_1d(q);
-      const VectorXd modes = reference.pressure_modes(element.outward_first ? Point(1, along) : Point(along, 1));
+      const VectorXd modes = reference.pressure_modes(element.outward_first ? Point(at, along) : Point(along, at));
       double p = 0;
-      for (int k = 0; k < modes.size(); ++k) p += modes(k) * unknowns(space.pressure(edge.element, k));
+      for (int k = 0; k < modes.size(); ++k) p += modes(k) * unknowns(space.pressure(e, k));
       const double weight = reference.weights_1d(q) * width * (element.along[0] + along * width);
       force += p * weight;
       area += weight;

@@ -27,14 +27,23 @@ Eigen::MatrixX2d surface_tensions(const Cortex&, const SurfaceState&);
 /// Mooney-Rivlin solid loses stability against short meridional wrinkles below `biot_limit` (Biot 1963;
 /// docs/theory.md, eq:biot); the boundary value problem is then ill-posed and results depend on the mesh.
 double min_biot_ratio(const SurfaceState&);
+/// That ratio at the points.
+VectorXd biot_ratios(const SurfaceState&);
 /// Real root of x^3 + x^2 + 3 x = 1.
 inline constexpr double biot_limit = 0.29559774252208477;
+
+/// The least of some values at the points of the surface, and between them: near the least one they go along a
+/// parabola.
+double least_along(const SurfaceState&, const VectorXd& values);
 
 /// Greatest relative difference of the surface's meridional stretch between two states.
 double stretch_change(const Discretisation&, const VectorXd& from, const VectorXd& to);
 
-/// Mean pressure over the inlet, in S; the undisturbed pressure at the cell is zero.
-double inlet_pressure(const Discretisation&, const VectorXd& unknowns);
+/// The ends of the channel that is told of.
+enum class ChannelEnd { upstream, downstream };
+
+/// Mean pressure over the plane across the channel at an end of it, in S; the undisturbed pressure at the cell is zero.
+double end_pressure(const Discretisation&, const VectorXd& unknowns, ChannelEnd);
 
 /// Flow rate through the inlet, in pi R^2 U; 1 where it is given.
 double flow_rate(const Discretisation&, const VectorXd& unknowns);

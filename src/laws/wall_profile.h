@@ -13,6 +13,16 @@ struct WallTable {
   bool is_straight() const { return x.empty(); }
 };
 
+/// How far the computed channel goes on beyond the one that is told of: where the wall has slopes, the flow that enters
+/// and leaves has the shape of that in a straight tube, which it forgets within about the local radius
+/// (docs/theory-time.md, eq:run-out).
+inline double run_out(const WallTable& wall) {
+  constexpr double longest = 2.5;
+  if (wall.is_straight()) return 0;
+  const auto [least, greatest] = std::minmax_element(wall.radius.begin(), wall.radius.end());
+  return *least == *greatest ? 0 : std::min(*greatest, longest);
+}
+
 /// Cubic pieces through the places of the table, once continuously differentiable, monotonic where the table is
 /// (Fritsch and Butland 1984), level at both ends and constant beyond them. Lengths in R.
 class WallProfile {

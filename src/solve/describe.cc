@@ -13,12 +13,15 @@ namespace rheocyte {
 namespace {
 
 void read_flow(const StateView& state, StateNumbers& r) {
-  const double half = state.space.mesh().geometry().half_length();
-  const double gradient = undisturbed_pressure_gradient(state.media.liquid);
+  const ChannelGeometry& geometry = state.space.mesh().geometry();
+  const double half = geometry.half_length();
   r.cell_velocity = state.unknowns(state.space.cell_velocity());
   r.reynolds = state.media.liquid.reynolds * r.cell_velocity;
   r.channel_length = 2 * half;
-  r.pressure_drop = inlet_pressure(state.space, state.unknowns) + gradient * half;
+  // Where the mesh ends the pressure is given.
+  const double outlet = geometry.end() == half ? -undisturbed_pressure_gradient(state.media.liquid) * half
+                                               : end_pressure(state.space, state.unknowns, ChannelEnd::downstream);
+  r.pressure_drop = end_pressure(state.space, state.unknowns, ChannelEnd::upstream) - outlet;
   r.flow_rate = flow_rate(state.space, state.unknowns);
   r.volume_flow = std::numbers::pi * r.flow_rate;
   const double undisturbed = undisturbed_pressure_gradient(state.media.liquid, r.flow_rate) * r.channel_length;

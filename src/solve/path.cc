@@ -5,12 +5,12 @@
 
 namespace rheocyte {
 Discrete::Discrete(const Problem& problem, const Resolution& resolution)
-    : mesh(ChannelGeometry(problem.radius_ratio, problem.channel_length), resolution.subdivision),
+    : mesh(geometry_of(problem), resolution.subdivision),
       space(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive),
       system(space) {}
 
 void Discrete::move_to(const Problem& problem, const Resolution& resolution) {
-  mesh = ChannelMesh(ChannelGeometry(problem.radius_ratio, problem.channel_length), resolution.subdivision);
+  mesh = ChannelMesh(geometry_of(problem), resolution.subdivision);
   space = Discretisation(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive);
   system.follow_space();
 }

@@ -15,6 +15,11 @@ inline Interior interior_of(const Problem& problem) {
   return problem.bulk.shear_modulus > 0 ? Interior::elastic : Interior::flowing;
 }
 
+/// The channel of a problem. Where its wall is not straight the mesh goes on beyond it.
+inline ChannelGeometry geometry_of(const Problem& problem) {
+  return ChannelGeometry(problem.radius_ratio, problem.channel_length, run_out(problem.wall));
+}
+
 /// Mesh, spaces and system of one resolution; they refer to each other and stay together.
 struct Discrete {
   Discrete(const Problem&, const Resolution&);

@@ -65,7 +65,7 @@ void describe(const Problem& problem, const ResolvedState& state, StationaryStat
   describe_state(problem, {state.discrete, media, state.branch.unknowns}, r);
   // A mesh of its own: the session moves on.
   const auto with_space = [problem, resolution = state.resolution](const auto& use) {
-    const ChannelMesh mesh(ChannelGeometry(problem.radius_ratio, problem.channel_length), resolution.subdivision);
+    const ChannelMesh mesh(geometry_of(problem), resolution.subdivision);
     return use(Discretisation(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive));
   };
   r.write_fields = [=, unknowns = state.branch.unknowns](const std::string& path, const Scales& scales) {

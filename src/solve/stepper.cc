@@ -16,7 +16,7 @@ Stepper::Stepper(const Problem& problem, const Resolution& resolution)
 
 bool Stepper::has_passed_walls(const TimeLevel& level) const {
   const WallTable& wall = problem_.wall;
-  return wall.is_straight() || level.position - space().mesh().geometry().half_length() >= wall.x.back();
+  return wall.is_straight() || level.position - space().mesh().geometry().end() >= wall.x.back();
 }
 
 double Stepper::time_at(double position) const {

@@ -67,7 +67,7 @@ TEST(Observe, TheInletPressureIsTheMeanOverTheArea) {
     test::set_pressure(
         channel.space, e, [](double, double r) { return 3 + r * r; }, state);
   }
-  EXPECT_NEAR(inlet_pressure(channel.space, state), 3.5, rounding);
+  EXPECT_NEAR(end_pressure(channel.space, state, ChannelEnd::upstream), 3.5, rounding);
 }
 
 TEST(Observe, DisplacementsAreScaledAlone) {
