@@ -68,6 +68,16 @@ std::optional<Problem> straight_from_here(const Result& result, const TimeRecord
   return problem;
 }
 
+/// Errors of a settled state's numbers by those of the stationary one; where its channel is another, only of those
+/// without a unit.
+StateNumbers errors_by(const StationaryState& stationary, bool is_other_channel, const StateNumbers& settled) {
+  StateNumbers errors = distance(settled, stationary);
+  add_errors(1, stationary.errors, errors);
+  for (const StateMeasure& measure : state_measures)
+    if (is_other_channel && unit_of(measure.name).dimension != no_unit.dimension) measure.of(errors) = no_value;
+  return errors;
+}
+
 void compare_with_stationary(Result& result, TimeRecord& record, const Problem& problem,
                              const std::atomic<bool>& stop) {
   Outcome& outcome = result.state.outcome;
@@ -85,6 +95,8 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   const bool settled =
       record.end == TimeEnd::settled || has_settled(record, std::abs(distance), result.problem.accuracy);
   if (settled) result.state.estimated_error = std::abs(distance) + stationary.estimated_error;
+  if (settled)
+    result.state.errors = errors_by(stationary, problem.radius_ratio != result.problem.radius_ratio, result.state);
   outcome.message += told(stationary.shape.deformation, distance, settled);
 }
 

@@ -33,6 +33,12 @@ Json branch(const Result& result) {
   return steps;
 }
 
+Json errors_of(const Result& result) {
+  Json json = Json::object();
+  for (const auto& measure : state_measures) json[measure.name] = measure.physical(result.state.errors, result.scales);
+  return json;
+}
+
 bool is_sound(const StateMeasure& measure, const StateNumbers& numbers) {
   const double value = measure.value(numbers);
   return std::isfinite(value) || (std::isnan(value) && !measure.null_where.empty());
@@ -77,6 +83,10 @@ std::span<const Field<Result, Json>> computation_fields() {
        "of the deformation, relative (accepted, too, where it is below 1e-12 absolute); null for a state on the way; "
        "in time the distance from the stationary shape, once the cell has settled",
        [](const Result& r) -> Json { return r.state.estimated_error; }},
+      {"errors",
+       "estimated errors of the measures above, absolute, each under the name and in the unit of its measure; null for "
+       "a state on the way, and where there is no measure or nothing to compare with",
+       errors_of},
       {"wall_time_s", "time that the solver took", [](const Result& r) -> Json { return r.state.statistics.total_s; }},
       {"case", "the complete case with its defaults; its keys are those of the case reference",
        [](const Result& r) { return to_json(r.input); }},

@@ -14,7 +14,12 @@ namespace rheocyte {
 namespace {
 
 std::string line(std::string_view name, const std::string& value, const std::string& remark) {
-  return fmt::format("  {:<18} {:<16} {}\n", name, value, remark);
+  return fmt::format("  {:<18} {:<25} {}\n", name, value, remark);
+}
+
+/// "0.0123 +- 2e-07": a number, and its error if that is known.
+std::string with_error(const std::string& number, double error) {
+  return std::isfinite(error) ? fmt::format("{} +- {:.1g}", number, error) : number;
 }
 
 std::string seen_from(const Channel& channel) {
@@ -35,6 +40,41 @@ std::string channel_line(const Case& input) {
   return line("channel", fmt::format("{:.5g} um tube", 2 * tube_radius_um(input)),
               fmt::format("for the square of {:.5g} um, which channel.section = \"square\" computes itself",
                           *channel.width_um));
+}
+
+/// The main numbers with their errors.
+std::string measures_text(const Result& result) {
+  const StationaryState& state = result.state;
+  const ShapeMeasures& shape = state.shape;
+  const StateNumbers& errors = state.errors;
+  const auto& scales = result.scales;
+  const double R = scales.length_um(), U = scales.velocity_m_per_s, S = scales.stress_Pa;
+  const auto deformation = [](double d, double error) { return with_error(fmt::format("{:.6f}", d), error); };
+  std::string text = line("deformation", deformation(shape.deformation, errors.shape.deformation),
+                          "raw " + deformation(shape.deformation_raw, errors.shape.deformation_raw));
+  const auto area = [&](double a, double error) { return with_error(fmt::format("{:.3f}", a * R * R), error * R * R); };
+  text +=
+      line("area", area(shape.area, errors.shape.area) + " um^2", "raw " + area(shape.area_raw, errors.shape.area_raw));
+  if (std::isfinite(state.deformation_side))
+    text += line("by view", deformation(state.deformation_side, errors.deformation_side) + " side",
+                 deformation(state.deformation_diagonal, errors.deformation_diagonal) + " diagonal");
+  text += line("cell velocity",
+               with_error(fmt::format("{:.5g}", state.cell_velocity * U), errors.cell_velocity * U) + " m/s",
+               fmt::format("mean velocity of the liquid {:.5g}", U));
+  if (std::isfinite(state.offset))
+    text +=
+        line("off the axis", fmt::format("{:.4g} um", state.offset * R),
+             std::isfinite(state.offset_error)
+                 ? fmt::format("+- {:.2g}, where it does not drift", state.offset_error * R)
+                 : "drift " + with_error(fmt::format("{:.3g}", state.drift_velocity * U), errors.drift_velocity * U) +
+                       " m/s");
+  text += line(
+      "pressure drop", with_error(fmt::format("{:.5g}", state.pressure_drop * S), errors.pressure_drop * S) + " Pa",
+      std::isfinite(state.additional_pressure_drop)
+          ? with_error(fmt::format("{:.4g}", state.additional_pressure_drop * S), errors.additional_pressure_drop * S) +
+                " due to the cell"
+          : "");
+  return text;
 }
 
 }  // namespace
@@ -81,30 +121,9 @@ std::string contour_csv(const SurfaceProfile& surface, const Scales& scales) {
 }
 
 std::string summary(const Result& result, const std::string& folder) {
-  const auto& state = result.state;
-  const auto& shape = state.shape;
-  const auto& scales = result.scales;
-  const double R = scales.length_um();
+  const StationaryState& state = result.state;
   std::string text = fmt::format("rheocyte {}: {}\n", version, name(state.outcome.status));
-  text += channel_line(result.input);
-  text +=
-      line("deformation", fmt::format("{:.6f}", shape.deformation), fmt::format("raw {:.6f}", shape.deformation_raw));
-  text +=
-      line("area", fmt::format("{:.3f} um^2", shape.area * R * R), fmt::format("raw {:.3f}", shape.area_raw * R * R));
-  if (std::isfinite(state.deformation_side))
-    text += line("by view", fmt::format("{:.6f} side", state.deformation_side),
-                 fmt::format("{:.6f} diagonal", state.deformation_diagonal));
-  text += line("cell velocity", fmt::format("{:.5g} m/s", state.cell_velocity * scales.velocity_m_per_s),
-               fmt::format("mean velocity of the liquid {:.5g}", scales.velocity_m_per_s));
-  if (std::isfinite(state.offset))
-    text += line("off the axis", fmt::format("{:.4g} um", state.offset * R),
-                 std::isfinite(state.offset_error)
-                     ? fmt::format("+- {:.2g}, where it does not drift", state.offset_error * R)
-                     : fmt::format("drift {:.3g} m/s", state.drift_velocity * scales.velocity_m_per_s));
-  text += line("pressure drop", fmt::format("{:.5g} Pa", state.pressure_drop * scales.stress_Pa),
-               std::isfinite(state.additional_pressure_drop)
-                   ? fmt::format("{:.4g} due to the cell", state.additional_pressure_drop * scales.stress_Pa)
-                   : "");
+  text += channel_line(result.input) + measures_text(result);
   if (const double reached = state.outcome.reached; reached > 0 && reached < 1) {
     const Cell& cell = result.input.cell;
     const auto modulus = [&](std::string_view name, const std::optional<double>& wanted, std::string_view unit) {

@@ -7,6 +7,7 @@
 #include "fem/sample_fields.h"
 #include "fem/write_fields.h"
 #include "laws/developed_flow.h"
+#include "numeric/parabola.h"
 #include "solve/surface_stability.h"
 
 namespace rheocyte {
@@ -54,6 +55,36 @@ MatrixXd axial_coordinates(const StateView& state, int e) {
   return x.reshaped(n, n);
 }
 
+/// The greatest value on a grid, and between its points: near it values go along parabolas in both directions. Zeros do
+/// not count.
+double greatest_of(const Eigen::ArrayXXd& values) {
+  Eigen::Index i = 0, j = 0;
+  const double at = values.maxCoeff(&i, &j);
+  const auto beyond = [&](const auto& line, Eigen::Index k) {
+    const bool is_inside = k > 0 && k + 1 < line.size() && line(k - 1) > 0 && line(k + 1) > 0;
+    return is_inside ? vertex(line(k - 1), at, line(k + 1)) - at : 0;
+  };
+  return at + beyond(values.col(j), i) + beyond(values.row(i), j);
+}
+
+/// The same of the points with x from `rear` to `front`, and where lines of the grid cross these planes.
+double greatest_between(double rear, double front, const Eigen::ArrayXXd& x, const Eigen::ArrayXXd& values) {
+  const auto is_inside = [&](double at) { return at >= rear && at <= front; };
+  double greatest = greatest_of((x >= rear && x <= front).select(values, 0));
+  const auto look = [&](double x1, double value1, double x2, double value2) {
+    if (is_inside(x1) == is_inside(x2)) return;
+    const double plane = std::max(x1, x2) > front ? front : rear, t = (plane - x1) / (x2 - x1);
+    greatest = std::max(greatest, (1 - t) * value1 + t * value2);
+  };
+  for (Eigen::Index j = 0; j < x.cols(); ++j) {
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+      if (i > 0) look(x(i - 1, j), values(i - 1, j), x(i, j), values(i, j));
+      if (j > 0) look(x(i, j - 1), values(i, j - 1), x(i, j), values(i, j));
+    }
+  }
+  return greatest;
+}
+
 /// The greatest shear rate between the planes through the cell's poles. Quadrature points lie neither on the cell nor
 /// at the wall, where it is the greatest: the polynomials that fit 2 D:D best there are looked at up to the edges.
 double max_shear_rate(const StateView& state, const Contour& contour) {
@@ -70,7 +101,7 @@ double max_shear_rate(const StateView& state, const Contour& contour) {
     const MatrixXd squares = squared_shear_rates(fields, reference.points_1d.size());
     const Eigen::ArrayXXd x = nodes_to_grid * nodes * nodes_to_grid.transpose(),
                           rate = points_to_grid * squares * points_to_grid.transpose();
-    greatest = std::max(greatest, (x >= rear && x <= front).select(rate, 0).maxCoeff());
+    greatest = std::max(greatest, greatest_between(rear, front, x, rate));
   }
   return std::sqrt(greatest);
 }
@@ -85,11 +116,16 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
       r.shape.volume / (4.0 / 3 * std::numbers::pi * std::pow(state.problem.radius_ratio, 3)) - 1;
   read_flow(state, r);
   r.shear_rate_max = max_shear_rate(state, contour);
-  r.min_meridional_stretch = surface.stretch.col(0).minCoeff();
-  r.min_tension = surface_tensions(state.media.cortex, surface).col(0).minCoeff();
-  r.biot_ratio = min_biot_ratio(surface);
-  r.stability_margin = stability_margin(state.problem, surface);
+  r.min_meridional_stretch = least_along(surface, surface.stretch.col(0));
+  r.min_tension = least_along(surface, surface_tensions(state.media.cortex, surface).col(0));
+  r.biot_ratio = least_along(surface, biot_ratios(surface));
+  r.stability_margin = stability_margin(state.problem, r.biot_ratio, r.min_tension);
   return r;
+}
+
+StateNumbers numbers_of(const StateView& state) {
+  return numbers_of(state, contour(state.space, state.unknowns),
+                    surface_state(state.space, state.unknowns, SurfaceProfile::points_per_piece));
 }
 
 void describe_state(const Problem& problem, const DiscreteState& state, StationaryState& r) {

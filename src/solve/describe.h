@@ -25,6 +25,8 @@ struct StateView {
 
 /// All numbers of a state, with its contour and its surface as finely as wanted.
 StateNumbers numbers_of(const StateView&, const Contour&, const SurfaceState&);
+/// With the surface as finely as it is written.
+StateNumbers numbers_of(const StateView&);
 
 /// Fills in contour, surface, numbers, sizes and the writer of fields; the outcome, errors and counts of work are left
 /// alone.

@@ -130,26 +130,16 @@ double duct_stability_margin(const Problem& problem, const DuctSpace& space, con
   return stability_margin(problem, surface.biot_ratio, surface.min_tension);
 }
 
-void describe_duct(const Problem& problem, const DuctDiscrete& discrete, const VectorXd& unknowns, StationaryState& r) {
+StateNumbers duct_numbers(const Problem& problem, const DuctDiscrete& discrete, const VectorXd& unknowns) {
   const DuctSpace& space = discrete.space;
-  const CellVolume volume = cell_volume(space, discrete.system.element(), unknowns);
-  for (const auto& [name, camera] : views_of(problem))
-    r.views.push_back({name, profile(space, unknowns, problem.cortex, camera, volume.barycentre)});
-  const Camera seen_from = camera_in_mesh(problem);
-  r.surface = profile(space, unknowns, problem.cortex, seen_from, volume.barycentre);
-  const auto contour_at = [&](Camera camera) {
-    Contour contour = duct_contour(space, unknowns, camera);
-    shift(-volume.barycentre, contour);
-    return contour;
-  };
-  r.contour = contour_at(seen_from);
-
-  r.shape = measure(r.contour);
+  StateNumbers r;
+  r.shape = measure(duct_contour(space, unknowns, camera_in_mesh(problem)));
   r.volume_of_revolution = r.shape.volume;
+  const CellVolume volume = cell_volume(space, discrete.system.element(), unknowns);
   r.shape.volume = volume.volume;
-  if (problem.offset == 0) r.deformation_side = measure(contour_at(Camera::side)).deformation;
+  if (problem.offset == 0) r.deformation_side = duct_deformation(space, unknowns, Camera::side);
   if (problem.offset == 0 && problem.section != Section::rectangle)
-    r.deformation_diagonal = measure(contour_at(Camera::diagonal)).deformation;
+    r.deformation_diagonal = duct_deformation(space, unknowns, Camera::diagonal);
   const double a = space.mesh().geometry().radius();
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
   read_flow(problem, discrete, unknowns, r);
@@ -160,6 +150,20 @@ void describe_duct(const Problem& problem, const DuctDiscrete& discrete, const V
   r.min_tension = surface.min_tension;
   if (const int p = space.inner_pressure(); p >= 0)
     r.inner_pressure = unknowns(p) + rest_pressure(problem.cortex, problem.radius_ratio);
+  read_turning(discrete, unknowns, r);
+  return r;
+}
+
+void describe_duct(const Problem& problem, const DuctDiscrete& discrete, const VectorXd& unknowns, StationaryState& r) {
+  const DuctSpace& space = discrete.space;
+  const CellVolume volume = cell_volume(space, discrete.system.element(), unknowns);
+  for (const auto& [name, camera] : views_of(problem))
+    r.views.push_back({name, profile(space, unknowns, problem.cortex, camera, volume.barycentre)});
+  const Camera seen_from = camera_in_mesh(problem);
+  r.surface = profile(space, unknowns, problem.cortex, seen_from, volume.barycentre);
+  r.contour = duct_contour(space, unknowns, seen_from);
+  shift(-volume.barycentre, r.contour);
+  static_cast<StateNumbers&>(r) = duct_numbers(problem, discrete, unknowns);
   r.statistics.unknowns = space.unknowns();
   r.statistics.elements = int(space.elements().size());
   r.statistics.degree = space.reference().degree();
@@ -167,7 +171,6 @@ void describe_duct(const Problem& problem, const DuctDiscrete& discrete, const V
   r.write_fields = [shared = discrete.shared_space, media, unknowns](const std::string& path, const Scales& scales) {
     return write_duct_fields(*shared, media, unknowns, scales, path);
   };
-  read_turning(discrete, unknowns, r);
   if (space.turns()) return;  // pictures show halves of planes through the axis
   r.sample_fields = [=, shared = discrete.shared_space, camera = problem.camera](const Scales& scales, int points) {
     SampledFields fields = sample_duct_fields(*shared, media, unknowns, scales, camera, points);

@@ -40,6 +40,9 @@ double duct_deformation(const DuctSpace&, const VectorXd& unknowns, Camera);
 /// (docs/theory-square.md, eq:square-biot).
 double duct_stability_margin(const Problem&, const DuctSpace&, const VectorXd& unknowns);
 
+/// All numbers of a state of this problem.
+StateNumbers duct_numbers(const Problem&, const DuctDiscrete&, const VectorXd& unknowns);
+
 /// Fills in contours, surface, numbers, sizes and the writer of fields of a state of this problem; outcome, errors and
 /// counts of work are left alone.
 void describe_duct(const Problem&, const DuctDiscrete&, const VectorXd& unknowns, StationaryState&);

@@ -24,6 +24,8 @@ constexpr double hopeful_share = 0.85;
 constexpr double share_of_change_before = 0.1;
 /// Degrees 3 and 4 may agree by chance, while the latter's error is up to 1e-3.
 constexpr double min_error_of_two_rungs = 6e-4;
+/// So may they in the other numbers, which are more accurate.
+constexpr double min_share_of_two_rungs = 2e-4;
 
 /// The half of a cell off the axis has four times the unknowns of the eighth.
 constexpr int last_degree_off_axis = 6;
@@ -54,13 +56,16 @@ int degree_of(const DuctState& state) { return state.discrete->space.reference()
 
 }  // namespace
 
-void DuctLadder::add(DuctState state, double deformation) {
+void DuctLadder::add(DuctState state, const StateNumbers& of_state) {
   if (!keeps_systems && !rungs.empty()) rungs.back().discrete.reset();
   rungs.push_back(std::move(state));
-  deformations.push_back(deformation);
+  numbers.push_back(of_state);
+  deformations.push_back(of_state.shape.deformation);
   estimated_error = estimate_error(deformations, share_of_change_before);
   if (rungs.size() == 2) estimated_error = std::max(estimated_error, min_error_of_two_rungs);
 }
+
+StateNumbers DuctLadder::errors() const { return errors_of_last(numbers, estimated_error, min_share_of_two_rungs); }
 
 Problem DuctSolver::problem_at(double compliance) const {
   Problem problem = problem_;
@@ -126,10 +131,11 @@ bool DuctSolver::is_stable(const DuctState& state) const {
 }
 
 void DuctSolver::add(DuctState state, DuctLadder& ladder) {
-  const double d = duct_deformation(state.discrete->space, state.branch.unknowns, camera_in_mesh(problem_));
-  report(state.branch, d, degree_of(state));
-  ladder.add(std::move(state), d);
+  const StateNumbers numbers = duct_numbers(problem_at(state.branch.parameter), *state.discrete, state.branch.unknowns);
+  report(state.branch, numbers.shape.deformation, degree_of(state));
+  ladder.add(std::move(state), numbers);
   result_->estimated_error = ladder.estimated_error;
+  result_->errors = ladder.errors();
 }
 
 Status DuctSolver::carry(const Problem& from, const DuctLadder& ladder, DuctLadder& carried) {

@@ -25,9 +25,12 @@ struct DuctLadder {
   bool keeps_systems = false;  ///< of all rungs; or of the last one alone
   std::vector<DuctState> rungs = {};
   std::vector<double> deformations = {};                             ///< rung by rung
+  std::vector<StateNumbers> numbers = {};                            ///< likewise
   double estimated_error = std::numeric_limits<double>::infinity();  ///< relative, of the last deformation
 
-  void add(DuctState, double deformation);
+  void add(DuctState, const StateNumbers&);
+  /// Of all numbers of the last rung, each in its unit.
+  StateNumbers errors() const;
 };
 
 /// Along the branch the cell softens to what the problem says (`softening`), or as the caller says. What steps and work

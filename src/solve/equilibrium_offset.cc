@@ -38,11 +38,18 @@ class OffsetSearch {
 
   /// Away from the axis; 0 where no state is found, which ends every search.
   double drift_at(double offset) {
-    const auto [known, is_new] = drifts_.try_emplace(offset);
-    if (!is_new) return known->second;
-    problem_.offset = side_ * offset;
-    solve();
-    return known->second = is_solved(last_) ? side_ * last_.drift_velocity : 0;
+    const auto [known, is_new] = seen_.try_emplace(offset);
+    if (is_new) {
+      problem_.offset = side_ * offset;
+      solve();
+      known->second = last_;
+      if (!is_solved(last_)) known->second.drift_velocity = 0;
+    }
+    return side_ * known->second.drift_velocity;
+  }
+  /// How much the numbers differ between the ends of a bracket that was found.
+  StateNumbers change_over(const Bracket& bracket) const {
+    return distance(seen_.at(bracket.inner), seen_.at(bracket.outer));
   }
 
   /// Steps along the drift until it turns round; nothing at the axis, at the wall, and where no state is found.
@@ -61,7 +68,7 @@ class OffsetSearch {
 
   void set_accuracy(double accuracy) {
     problem_.accuracy = accuracy;
-    drifts_.clear();
+    seen_.clear();
   }
   const StationaryState& last() const { return last_; }
   double offset() const { return std::abs(problem_.offset); }
@@ -88,7 +95,7 @@ class OffsetSearch {
   Problem problem_;
   const SolveAtOffset& solve_;
   double side_, min_offset_, max_offset_;
-  std::map<double, double> drifts_;  ///< outwards, at the places where they are known
+  std::map<double, StateNumbers> seen_;  ///< at the places where they are known; drifts are 0 where there is no state
   StationaryState last_;
   SolveStatistics work_;
 };
@@ -134,10 +141,14 @@ StationaryState solve_at_equilibrium(const Problem& problem, const SolveAtOffset
   const double slope = (drift(bracket->outer) - drift(bracket->inner)) / (bracket->outer - bracket->inner);
   const double coarse = bracketed_root(drift, bracket->inner, bracket->outer, place_tolerance);
   if (!is_solved(search.last())) return search.result();
+  const StateNumbers change = search.change_over(*bracket);
   search.set_accuracy(problem.accuracy);
   const std::optional<double> left = correct(coarse, slope, search);
   StationaryState state = search.result();
-  if (left) state.offset_error = std::abs(search.offset() - coarse) + *left;
+  if (!left) return state;
+  state.offset_error = std::abs(search.offset() - coarse) + *left;
+  add_errors(state.offset_error / (bracket->outer - bracket->inner), change, state.errors);
+  state.errors.offset = state.offset_error;
   return state;
 }
 

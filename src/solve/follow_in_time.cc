@@ -248,6 +248,7 @@ void estimate_error(const Problem& problem, const TimeRun& run, const Resolution
   }
   const double at_end = std::abs(end.shape.deformation - result.shape.deformation);
   result.estimated_error = at_end / result.shape.deformation;
+  result.errors = distance(result, end);
   result.outcome.message += fmt::format(
       " A mesh of degree {} changes its last deformation by {:.2g} %, and none by more than {:.2g} % of the "
       "greatest.",

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "shape/measures.h"
+#include "solve/describe.h"
 
 namespace rheocyte {
 namespace {
@@ -39,16 +39,13 @@ bool is_nearly_unstable(const Problem& problem, const ResolvedState& state) {
 double estimate_error(const std::vector<double>& values, double share_of_change_before) {
   const std::size_t n = values.size();
   if (n < 2) return std::numeric_limits<double>::infinity();
-  const double change = values[n - 1] - values[n - 2], size = std::max(std::abs(values[n - 1]), 1e-300);
-  if (n == 2) return std::max(2 * std::abs(change) / size, min_first_estimate);
-  const double before = values[n - 2] - values[n - 3];
-  const double ratio = before == 0 ? 0 : std::min(change / before, 0.9);
-  const double share = ratio < 0 ? 1 : std::max(0.5, ratio / (1 - ratio));  // below 0: changes of alternating sign
-  return std::max(share * std::abs(change), share_of_change_before * std::abs(before)) / size;
+  const double error = error_of_last(values, share_of_change_before) / std::max(std::abs(values[n - 1]), 1e-300);
+  return n == 2 ? std::max(error, min_first_estimate) : error;
 }
 
-void Ladder::add(ResolvedState state) {
-  const ShapeMeasures shape = measure(contour(state.discrete->space, state.branch.unknowns));
+void Ladder::add(const Problem& problem, ResolvedState state) {
+  numbers.push_back(numbers_of({problem, problem, state.discrete->space, state.branch.unknowns}));
+  const ShapeMeasures& shape = numbers.back().shape;
   const double change = std::abs(shape.inertia_ratio - std::exchange(inertia_ratio, shape.inertia_ratio));
   deformations.push_back(shape.deformation);
   if (!keeps_systems && !rungs.empty()) rungs.back().discrete.reset();
@@ -92,7 +89,7 @@ Status climb(const Problem& problem, const NewtonOptions& newton, ResolvedState 
         break;  // this mesh cannot hold the state: the next one
       }
       state = next;
-      ladder.add(std::move(next));
+      ladder.add(problem, std::move(next));
       observe(ladder.rungs.back(), &ladder);
       if (is_accurate(ladder, problem)) return Status::converged;
     }

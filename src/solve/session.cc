@@ -77,7 +77,10 @@ void describe(const Problem& problem, const ResolvedState& state, StationaryStat
   };
   r.residual = state.residual;
   r.outcome.reached = state.branch.parameter;
-  if (state.branch.parameter < 1) r.estimated_error = no_value;
+  if (state.branch.parameter < 1) {
+    r.estimated_error = no_value;
+    r.errors = unknown_numbers();
+  }
   r.statistics.degree = state.resolution.degree;
 }
 
@@ -140,7 +143,7 @@ bool Session::answer_nearby(const Problem& problem, const NewtonOptions& newton,
       if (newton.stop && *newton.stop) take_back(std::move(kept), problem);
       return false;
     }
-    answer.ladder.add(std::move(moved));
+    answer.ladder.add(problem, std::move(moved));
     if (is_accurate(answer.ladder, problem)) break;
   }
   return true;
@@ -195,6 +198,7 @@ StationaryState Session::solve(const Problem& problem, const ProgressCallback& p
   if (!answer.ladder.rungs.empty()) {
     state = answer.ladder.rungs.back();
     result.estimated_error = answer.ladder.estimated_error;
+    result.errors = answer.ladder.errors();
   }
   if (state.discrete && state.branch.parameter > 0) describe(problem, state, result);
   explain(problem, state, result);

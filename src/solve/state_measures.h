@@ -60,12 +60,15 @@ struct StateMeasure {
 
   constexpr bool in_tables() const { return columns == AlsoIn::tables || columns == AlsoIn::both; }
   constexpr bool in_history() const { return columns == AlsoIn::history || columns == AlsoIn::both; }
-  constexpr double value(const StateNumbers& numbers) const {
+  /// Where the number stands, to be read or to be set.
+  template <class Numbers>
+  constexpr auto& of(Numbers& numbers) const {
     if (const auto* of_shape = std::get_if<double ShapeMeasures::*>(&member)) return numbers.shape.**of_shape;
     if (const auto* mode = std::get_if<ShapeMode>(&member))
       return (numbers.shape.*mode->modes)[std::size_t(mode->k - first_radius_mode)];
     return numbers.*std::get<double StateNumbers::*>(member);
   }
+  constexpr double value(const StateNumbers& numbers) const { return of(numbers); }
   constexpr double physical(const StateNumbers& numbers, const Scales& scales) const {
     return value(numbers) * factor * dimensionless_one(unit_of(name), scales);
   }
@@ -139,7 +142,8 @@ inline constexpr StateMeasure state_measures[] = {
      AlsoIn::tables, "in a channel that is not straight"},
     {"inner_pressure_Pa", "pressure in a pure shell, that of the undisturbed flow at the cell being 0",
      &StateNumbers::inner_pressure, AlsoIn::none, "where the interior is elastic"},
-    {"simulated_length_um", "length of the simulated channel", &StateNumbers::channel_length},
+    {"simulated_length_um", "length of the simulated channel, over which pressure_drop_Pa is",
+     &StateNumbers::channel_length},
     {"tube_radius_um", "radius of the tube that stands for the channel, the least one if it varies",
      &StateNumbers::tube_radius, AlsoIn::none, "where the channel is computed in three dimensions"},
     {"reynolds",

@@ -11,8 +11,8 @@
 #include "fem/sampled_fields.h"
 #include "fem/work_meter.h"
 #include "shape/contour.h"
+#include "solve/number_errors.h"
 #include "solve/outcome.h"
-#include "solve/state_measures.h"
 
 namespace rheocyte {
 
@@ -67,9 +67,10 @@ struct StationaryState : StateNumbers {
   Outcome outcome;
   Contour contour;  ///< barycentre at x = 0; in a duct the silhouette that the camera sees
   SurfaceProfile surface;
-  std::vector<DuctView> views;        ///< in a square channel both, in a rectangle the one along the height
-  double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
-  double estimated_error = no_value;  ///< relative, of the deformation
+  std::vector<DuctView> views;              ///< in a square channel both, in a rectangle the one along the height
+  double residual = no_value;               ///< of the last Newton iteration, relative to the driving forces
+  double estimated_error = no_value;        ///< relative, of the deformation
+  StateNumbers errors = unknown_numbers();  ///< of the numbers, each in its unit; not a number: not known
   /// In time, how the same run on another mesh ended, which tells the error; not_started: there was none.
   Status comparison = Status::not_started;
   SolveStatistics statistics;

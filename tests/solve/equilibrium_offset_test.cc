@@ -54,6 +54,20 @@ TEST(EquilibriumOffset, IsFoundFromBothSides) {
   }
 }
 
+TEST(EquilibriumOffset, NumbersAreAsUncertainAsThePlaceMakesThem) {
+  // A velocity that falls linearly off the axis: its slope times the place's error, and its own error; to rounding.
+  Drift drift{0.35};
+  const auto solve = [&](const Problem& problem) {
+    StationaryState state = drift(problem);
+    state.cell_velocity = 2 - 0.5 * problem.offset;
+    state.errors.cell_velocity = 1e-5;
+    return state;
+  };
+  const StationaryState state = solve_at_equilibrium(problem_at(0.1), solve);
+  EXPECT_NEAR(state.errors.cell_velocity, 0.5 * state.offset_error + 1e-5, 1e-12);
+  EXPECT_EQ(state.errors.offset, state.offset_error);
+}
+
 TEST(EquilibriumOffset, ACellThatDriftsToTheAxisIsSolvedThere) {
   const auto drift = [](const Problem& problem) {
     StationaryState state;

@@ -1,0 +1,28 @@
+// How far off the numbers of a state are: each has an error of its own (docs/theory.md, eq:error).
+#pragma once
+#include <span>
+
+#include "solve/state_measures.h"
+
+namespace rheocyte {
+
+/// Error of the last of some values of a number on ever finer resolutions (docs/theory.md, eq:error): the last change
+/// times the rest of a geometric series, and half of the last change and a share of the one before at least; of two
+/// values twice their difference. In the number's unit; infinite for a single value.
+double error_of_last(std::span<const double> values, double share_of_change_before = 0.5);
+
+/// Numbers of which none is known.
+StateNumbers unknown_numbers();
+
+/// Errors of the numbers of the last of some states of a cell on ever finer resolutions, each in its number's unit;
+/// that of the deformation, relative, is known. Two values may agree by chance: of a number that changes at all the
+/// relative error is then this one at least. Not a number where there is no number, or no error is known.
+StateNumbers errors_of_last(std::span<const StateNumbers>, double error_of_deformation, double least_of_two = 0);
+
+/// Magnitudes of the differences, number by number.
+StateNumbers distance(const StateNumbers&, const StateNumbers&);
+
+/// Adds a multiple of errors to errors; what is not known of either is not of the sum.
+void add_errors(double factor, const StateNumbers& more, StateNumbers& errors);
+
+}  // namespace rheocyte
