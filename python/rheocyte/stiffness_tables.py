@@ -51,6 +51,17 @@ def table_names():
     return sorted(native.table_files())
 
 
+def dclab_plugin(file):
+    """Writes the plugin file that gives dclab and DCscope our moduli, as `rheocyte dclab-plugin` prints it, and returns its
+    path. The file holds all that it needs: rheocyte need not be installed where it is used.
+
+    file            where to; an older plugin file of rheocyte is replaced. UserError where another file stands
+    """
+    program = Path(__file__).with_name("modulus_plugin.py").read_text(encoding="utf-8")
+    native.write_dclab_plugin(program, os.fsencode(path(file, "file")))
+    return Path(file)
+
+
 @functools.cache
 def _passing_folder():
     """For files that nobody wants to keep: it goes with the interpreter."""

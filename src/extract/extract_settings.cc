@@ -140,8 +140,10 @@ std::vector<std::string> ExtractSettings::lines() const {
   return lines;
 }
 
+MeasuredRanges measured_ranges() { return {range_of("channel.width_um"), range_of("flow.rate_ul_per_s"), {0.01, 10}}; }
+
 double pixel_size_um(const Recording& recording, const std::optional<double>& given, const char* way_out) {
-  return quantity(recording, given, {"imaging:pixel size", "um", way_out, {0.01, 10}});
+  return quantity(recording, given, {"imaging:pixel size", "um", way_out, measured_ranges().pixel_size_um});
 }
 
 ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixels, const Recording& recording) {
@@ -149,10 +151,11 @@ ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixel
   ExtractSettings settings;
   auto& conditions = settings.conditions;
   ChannelFlow& flow = conditions.flow;
+  const MeasuredRanges ranges = measured_ranges();
   flow.width_um = quantity(recording, options.channel_width_um,
-                           {"setup:channel width", "um", "--channel-width-um", range_of("channel.width_um")});
+                           {"setup:channel width", "um", "--channel-width-um", ranges.channel_width_um});
   flow.rate_ul_s = quantity(recording, options.flow_rate_ul_s,
-                            {"setup:flow rate", "ul/s", "--flow-rate-ul-s", range_of("flow.rate_ul_per_s")});
+                            {"setup:flow rate", "ul/s", "--flow-rate-ul-s", ranges.flow_rate_ul_s});
   if (pixels != PixelUse::ignore)
     settings.pixel_size_um = conditions.pixel_size_um =
         pixel_size_um(recording, options.pixel_size_um,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "case/key.h"
 #include "extract/options.h"
 #include "extract/recording_temperature.h"
 #include "infer/modulus_map.h"
@@ -46,6 +47,12 @@ struct ExtractSettings {
   std::string model_text() const;        ///< "buyukurganci-2022", or "given"
   std::string temperature_text() const;  ///< "feature temp", "23 (metadata)", ""
 };
+
+/// What stored numbers can be; others have a unit that was mistaken.
+struct MeasuredRanges {
+  Range channel_width_um, flow_rate_ul_s, pixel_size_um;
+};
+MeasuredRanges measured_ranges();
 
 /// The size of a pixel that is given, else that of the metadata. UserError if it is missing or cannot be so; `way_out`
 /// names the options.

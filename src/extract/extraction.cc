@@ -16,8 +16,6 @@ namespace {
 constexpr std::size_t block_of_scalars = 1 << 15;   // its columns stay in fast memory; chunks of 1 MiB are kept by HDF5
 constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible when every event takes microseconds
 
-constexpr double max_relative_standard_error = 1;
-
 PixelUse pixel_use(const ExtractOptions& options) {
   if (options.no_pixelation) return PixelUse::ignore;
   return options.no_area_correction ? PixelUse::correct_deformation : PixelUse::correct;

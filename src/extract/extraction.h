@@ -17,6 +17,9 @@
 
 namespace rheocyte {
 
+/// With more an event has no modulus.
+inline constexpr double max_relative_standard_error = 1;
+
 /// One recording on its way through the blocks; memory does not grow with it but for 52 bytes per event.
 class Extraction {
  public:

@@ -94,6 +94,12 @@ ModulusTables::Choice ModulusTables::choose(double flow_exponent) const {
   return {used, other == used ? nullptr : other};
 }
 
+std::vector<std::filesystem::path> ModulusTables::files() const {
+  std::vector<std::filesystem::path> all;
+  for (const auto& table : tables_) all.push_back(table.file);
+  return all;
+}
+
 const ModulusMap& ModulusTables::used(double flow_exponent) const { return choose(flow_exponent).used->ready(); }
 
 const ModulusMap* ModulusTables::other(double flow_exponent) const {

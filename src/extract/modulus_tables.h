@@ -32,6 +32,9 @@ class ModulusTables {
   /// if neither knows.
   const ShapeMap* shapes(double flow_exponent) const;
 
+  /// Of all that can be used.
+  std::vector<std::filesystem::path> files() const;
+
   /// Whether they are the shipped ones of the square channel: those of the tube go on to greater deformations.
   bool are_square() const { return !given_ && section_ == Section::square; }
 

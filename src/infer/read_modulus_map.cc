@@ -49,11 +49,12 @@ std::string content_of(const fs::path& path) {
 
 }  // namespace
 
+GridContent read_grid(const fs::path& file) { return grid_from_bytes(content_of(file), one_line(file.string(), 300)); }
+
 std::unique_ptr<const ModulusMap> read_modulus_map(const fs::path& path) {
   std::error_code error;
   const fs::path file = fs::is_directory(path, error) ? grid_in(path) : path;
-  if (file.extension() == ".cbor")
-    return std::make_unique<GridMap>(grid_from_bytes(content_of(file), one_line(file.string(), 300)));
+  if (file.extension() == ".cbor") return std::make_unique<GridMap>(read_grid(file));
   PublishedTable table = read_published_table(file);
   refuse_volumes(table);
   return std::make_unique<PublishedMap>(std::move(table));
