@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "case/refuse_path.h"
@@ -167,6 +168,17 @@ void Recording::on_piece(const std::function<void()>& told) {
 
 const fs::path& Recording::file() const { return content_->path; }
 const Metadata& Recording::metadata() const { return content_->metadata; }
+
+std::vector<fs::path> Recording::files_of_basins() const {
+  std::vector<fs::path> files;
+  for (const auto& basin : content_->basins) {
+    if (!basin.recording) continue;
+    files.push_back(basin.recording->file());
+    std::ranges::copy(basin.recording->files_of_basins(), std::back_inserter(files));
+  }
+  return files;
+}
+
 std::size_t Recording::events() const { return content_->events; }
 const std::vector<std::string>& Recording::remarks() const { return content_->remarks; }
 std::int64_t Recording::root() const { return content_->file.get(); }

@@ -28,6 +28,8 @@ class Recording {
 
   const std::filesystem::path& file() const;
   const Metadata& metadata() const;
+  /// The files in which basins lie, theirs among them: they, too, say what is read here.
+  std::vector<std::filesystem::path> files_of_basins() const;
 
   /// Number of events: the length that most features have. The metadata may say something else; then there is a remark.
   std::size_t events() const;

@@ -32,7 +32,10 @@ Json describe_recording(const fs::path& file) {
   Json pictures = Json::array();
   for (const char* feature : {"image", "mask"})
     if (recording.image_size(feature)) pictures.push_back(feature);
-  return {{"events", recording.events()},
+  Json basins = Json::array();
+  for (const auto& basin : recording.files_of_basins()) basins.push_back(basin.string());
+  return {{"basins", basins},
+          {"events", recording.events()},
           {"conditions", stated_conditions(recording.metadata())},
           {"features", columns.names()},
           {"pictures", pictures},

@@ -9,6 +9,7 @@
 #include "case/json_guard.h"
 #include "case/split.h"
 #include "case/user_error.h"
+#include "store/file_version.h"
 #include "view/moduli_runs.h"
 #include "view/view_items.h"
 
@@ -157,7 +158,9 @@ class RecordingAnswers {
 
   Json recording_in(const Request& request) const {
     const std::size_t number = request.number("item");
-    return {{"file", items_.recording(number).place.path.string()},
+    const auto found = items_.recording(number);
+    return {{"file", found.place.path.string()},
+            {"version", file_version(found.files)},
             {"companion", runs_.companion(number).string()},
             {"several", runs_.several(number).string()},
             {"settings", runs_.settings(number)}};
@@ -167,8 +170,10 @@ class RecordingAnswers {
     if (!request.contains("item") || !request["item"].is_number_unsigned())
       throw Refused(400, "input", "item is the number of a recording.");
     const std::size_t number = request["item"];
-    Json wanted{
-        {"do", "moduli"}, {"file", items_.recording(number).place.path.string()}, {"settings", runs_.settings(number)}};
+    const auto found = items_.recording(number);
+    if (request.contains("version") && request["version"] != file_version(found.files))
+      throw Refused(409, "changed", "The recording has changed since its events were read; read them again.");
+    Json wanted{{"do", "moduli"}, {"file", found.place.path.string()}, {"settings", runs_.settings(number)}};
     if (!request.contains("gate") || request["gate"].is_null()) return wanted;
     const Json& gate = request["gate"];
     if (!gate.is_array() || !std::ranges::all_of(gate, [](const Json& one) { return one.is_number_unsigned(); }))

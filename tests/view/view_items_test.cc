@@ -20,12 +20,12 @@ using Json = nlohmann::ordered_json;
 
 class Items : public testing::Test {
  protected:
-  void write_recording(const std::string& name) const {
+  void write_recording(const std::string& name, const std::vector<double>& areas = {80, 90, 100}) const {
     fs::create_directories((folder_ / name).parent_path());
     RecordingWriter writer(folder_ / name);
     test::write_usual_metadata(writer);
-    writer.scalar("area_um", {80, 90, 100});
-    writer.scalar("deform", {0.03, 0.04, 0.05});
+    writer.scalar("area_um", areas);
+    writer.scalar("deform", std::vector<double>(areas.size(), 0.03));
   }
   void write(const std::string& name, const std::string& text) const {
     fs::create_directories((folder_ / name).parent_path());
@@ -92,6 +92,27 @@ TEST_F(Items, ThatVanishAndComeBackAreNoticed) {
   EXPECT_NE(items.list()[0]["error"].get<std::string>().find("no longer there"), std::string::npos);
   fs::rename(folder_ / "b.rtdc", folder_ / "a.rtdc");
   EXPECT_EQ(loaded(items)[0]["state"], "ready");
+}
+
+TEST_F(Items, ThatChangeAreReadAgain) {
+  write_recording("a.rtdc");
+  const std::array<fs::path, 1> paths{folder_ / "a.rtdc"};
+  ViewItems items(paths);
+  const Json before = loaded(items);
+  EXPECT_EQ(before[0]["events"], 3);
+  EXPECT_EQ(items.list(), before) << "while nothing changes, nothing is read";
+  write_recording("b.rtdc", {80, 90});
+  fs::copy_file(folder_ / "b.rtdc", folder_ / "a.rtdc", fs::copy_options::overwrite_existing);
+  EXPECT_EQ(items.list()[0]["state"], "loading");
+  const Json after = loaded(items);
+  EXPECT_EQ(after[0]["events"], 2);
+  EXPECT_NE(after[0]["version"], before[0]["version"]);
+  write("a.rtdc", "no recording");
+  static_cast<void>(items.list());
+  EXPECT_EQ(loaded(items)[0]["state"], "failed");
+  fs::copy_file(folder_ / "b.rtdc", folder_ / "a.rtdc", fs::copy_options::overwrite_existing);
+  static_cast<void>(items.list());
+  EXPECT_EQ(loaded(items)[0]["events"], 2);
 }
 
 TEST_F(Items, KeepLabelsAndPathsInASession) {
