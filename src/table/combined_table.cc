@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <span>
 
 #include "case/joined.h"
 #include "case/user_error.h"
@@ -64,6 +66,23 @@ std::string row_text(const CombinedBranch& branch, int i) {
   return fmt::format("{}\n", joined(numbers, ","));
 }
 
+/// Of a row: far wider than what cells have.
+bool holds_a_cell(const std::vector<double>& row) {
+  const std::span features = std::span(row).subspan(leading_columns, feature_count);
+  return row[1] >= 0 && row[1] <= 1 && row[2] >= 0 && row[leading_columns - 1] >= 0 &&
+         features[int(ShapeFeature::area_um2)] > 0 && features[int(ShapeFeature::deformation)] < 1 &&
+         features[int(ShapeFeature::moment_ratio)] > 0 &&
+         std::ranges::all_of(features.subspan(int(ShapeFeature::first_mode)), [](double c) { return std::abs(c) < 1; });
+}
+
+/// E, E2D and tension are in the file for its readers; they follow from the other columns (eq:combined).
+bool has_its_moduli(const std::vector<double>& row) {
+  const double S = row[3], cortex = row[1] * S * row[0];
+  const auto is_same = [&](double one, double other, double scale) { return std::abs(one - other) <= 1e-9 * scale; };
+  return is_same(row[4], (1 - row[1]) * S, S) && is_same(row[5], cortex, S * row[0]) &&
+         is_same(row[6], row[2] * cortex, cortex);
+}
+
 // Goes over the lines of a file and keeps the place of errors.
 class CombinedReader {
  public:
@@ -119,6 +138,8 @@ class CombinedReader {
     CombinedBranch& branch = branches.back();
     const double deformation = row[leading_columns + int(ShapeFeature::deformation)];
     if (!(row[0] > 0 && row[3] > 0 && deformation > 0)) refuse("radius, stiffness and deformation are not positive");
+    if (!holds_a_cell(row)) refuse("the numbers are not those of a cell");
+    if (!has_its_moduli(row)) refuse("the moduli are not those of this stiffness, radius, share and tension");
     if (!branch.stiffness_kPa.empty() && row[3] >= branch.stiffness_kPa.back())
       refuse("the stiffness does not fall along the branch");
     branch.stiffness_kPa.push_back(row[3]);

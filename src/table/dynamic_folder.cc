@@ -70,7 +70,8 @@ DynamicFolder::DynamicFolder(fs::path folder, DynamicSpec spec)
   courses_.resize(wanted_.size());
   for (int i = 0; i < cells(); ++i) {
     if (!fs::exists(record(i), error)) continue;
-    courses_[std::size_t(i)] = course_from_bytes(bytes_in(record(i)), hash_, record(i).string());
+    courses_[std::size_t(i)] =
+        course_from_bytes(bytes_in(record(i)), hash_, wanted_[std::size_t(i)], record(i).string());
     ++done_;
   }
 }
