@@ -132,7 +132,8 @@ def test_dclab_takes_the_texts_of_our_tables(name):
     area, deform = rng.uniform(50, 150, 500), rng.uniform(0.005, greatest, 500)
     theirs = emodulus.get_emodulus(area_um=area, deform=deform, medium=15, channel_width=20, flow_rate=0.04, px_um=0,
                                    temperature=None, lut_data=name)
-    ours = rheocyte.Table(name).modulus(area, deform, channel_width_um=20, flow_rate_ul_s=0.04, viscosity_mPas=15)
+    ours = rheocyte.Table(name).modulus(area, deform, channel_width_um=20, flow_rate_ul_s=0.04, viscosity_mPas=15,
+                                        pixel_size_um=0)
     has = np.isfinite(ours.young_modulus_kPa) & np.isfinite(theirs)
     assert has.mean() > 0.9
     assert np.abs(theirs[has] / ours.young_modulus_kPa[has] - 1).max() < 2e-3
