@@ -77,11 +77,6 @@ std::size_t number_of_members(hid_t group) {
   return ::H5Gget_info(group, &info) < 0 ? 0 : info.nlinks;
 }
 
-bool is_picture(const DatasetShape& shape) {
-  const std::size_t height = shape.extent[1], width = shape.extent[2];
-  return height > 0 && width > 0 && std::max(height, width) <= reading_limits.image_side;
-}
-
 // The length that most of them have; of equally frequent ones the greater.
 std::size_t usual_length(const Datasets& features) {
   std::map<std::size_t, int> votes;
@@ -156,7 +151,7 @@ void Recording::open_feature(const std::string& name) {
   }
   if (data->shape.extent.size() == 1)
     c.scalars.emplace(name, std::move(*data));
-  else if (data->shape.extent.size() == 3 && is_picture(data->shape))
+  else if (data->shape.is_pictures())
     c.images.emplace(name, std::move(*data));
 }
 
@@ -184,13 +179,13 @@ const std::vector<std::string>& Recording::remarks() const { return content_->re
 std::int64_t Recording::root() const { return content_->file.get(); }
 
 bool Recording::has_scalar(const std::string& feature) const {
-  return content_->scalars.contains(feature) || basin_with(feature) != nullptr;
+  return content_->scalars.contains(feature) || basin_with(feature, Kind::scalar) != nullptr;
 }
 
 bool Recording::is_single_precision(const std::string& feature) const {
   if (const auto found = content_->scalars.find(feature); found != content_->scalars.end())
     return found->second.shape.single_precision;
-  const auto* basin = basin_with(feature);
+  const auto* basin = basin_with(feature, Kind::scalar);
   return basin && basin->recording && basin->recording->is_single_precision(feature);
 }
 
@@ -210,7 +205,7 @@ void Recording::read_scalar(const std::string& feature, std::size_t first, std::
     if (!read_rows(data, first, values.first(there), content_->on_piece))
       refuse_data(content_->path, feature, data.dataset.get());
     std::ranges::fill(values.subspan(there), no_value);
-  } else if (const auto* basin = basin_with(feature)) {
+  } else if (const auto* basin = basin_with(feature, Kind::scalar)) {
     read_through(*basin, feature, first, values);
   } else {
     std::ranges::fill(values, no_value);
@@ -218,45 +213,80 @@ void Recording::read_scalar(const std::string& feature, std::size_t first, std::
 }
 
 std::optional<ImageSize> Recording::image_size(const std::string& feature) const {
-  if (const auto found = content_->images.find(feature); found != content_->images.end())
-    return ImageSize{found->second.shape.extent[2], found->second.shape.extent[1]};
-  const auto* basin = basin_with(feature);
-  return basin && basin->recording ? basin->recording->image_size(feature) : std::nullopt;
+  const auto size_of = [](const OpenDataset& images) {
+    return ImageSize{images.shape.extent[2], images.shape.extent[1]};
+  };
+  if (const auto found = content_->images.find(feature); found != content_->images.end()) return size_of(found->second);
+  const auto* basin = basin_with(feature, Kind::pictures);
+  if (!basin) return std::nullopt;
+  if (basin->recording) return basin->recording->image_size(feature);
+  const auto cropped = basin->cropped.find(feature);
+  return cropped == basin->cropped.end() ? size_of(basin->internal.at(feature)) : cropped->second.size();
 }
 
 std::size_t Recording::image_rows_per_chunk(const std::string& feature) const {
+  constexpr std::size_t some = 32;  // for what is kept in pieces of many shapes
   if (const auto found = content_->images.find(feature); found != content_->images.end())
     return std::max<std::size_t>(found->second.shape.rows_per_chunk, 1);
-  const auto* basin = basin_with(feature);
-  return basin && basin->recording && !basin->mapping ? basin->recording->image_rows_per_chunk(feature) : 1;
+  const auto* basin = basin_with(feature, Kind::pictures);
+  if (!basin || basin->mapping) return 1;
+  if (basin->recording) return basin->recording->image_rows_per_chunk(feature);
+  return basin->cropped.empty() ? 1 : some;
+}
+
+void Recording::read_stored(const OpenDataset& images, const std::string& feature, std::size_t first,
+                            std::span<std::uint8_t> pixels) const {
+  const std::size_t rows = images.shape.rows(), one = images.shape.width();
+  const std::size_t there = first < rows ? std::min(pixels.size() / one, rows - first) : 0;
+  if (!read_rows(images, first, pixels.first(there * one), content_->on_piece))
+    refuse_data(content_->path, feature, images.dataset.get());
+  std::ranges::fill(pixels.subspan(there * one), 0);
+}
+
+void Recording::read_cropped(const CroppedImages& images, const std::string& feature, std::size_t first,
+                             std::span<std::uint8_t> pixels) const {
+  const std::size_t one = images.size().pixels(), count = pixels.size() / one;
+  const std::size_t there = first < images.events() ? std::min(count, images.events() - first) : 0;
+  for (std::size_t i = 0; i < there; ++i)
+    if (!images.read(first + i, pixels.subspan(i * one, one), content_->on_piece))
+      refuse_data(content_->path, feature, images.dataset());
+  std::ranges::fill(pixels.subspan(there * one), 0);
+  if (images.background().empty() || there == 0) return;
+  std::vector<std::uint8_t> background(there * one);
+  read_images(images.background(), first, there, background);
+  std::ranges::transform(background, pixels, pixels.begin(),
+                         [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a + b); });
 }
 
 void Recording::read_images(const std::string& feature, std::size_t first, std::size_t count,
                             std::span<std::uint8_t> pixels) const {
-  if (const auto found = content_->images.find(feature); found != content_->images.end()) {
-    const OpenDataset& images = found->second;
-    const std::size_t rows = images.shape.rows(), there = first < rows ? std::min(count, rows - first) : 0;
-    const std::size_t filled = there * images.shape.extent[1] * images.shape.extent[2];
-    if (filled > pixels.size() || !read_rows(images, first, pixels.first(filled), content_->on_piece))
-      refuse_data(content_->path, feature, images.dataset.get());
-    std::ranges::fill(pixels.subspan(filled), 0);
+  const std::size_t one = image_size(feature).value_or(ImageSize{}).pixels();
+  if (one == 0 || one * count != pixels.size()) {
+    std::ranges::fill(pixels, 0);
     return;
   }
+  if (const auto found = content_->images.find(feature); found != content_->images.end())
+    return read_stored(found->second, feature, first, pixels);
+  const Basin& basin = *basin_with(feature, Kind::pictures);
+  const auto read = [&](std::size_t from, std::span<std::uint8_t> target) {
+    if (basin.recording) return basin.recording->read_images(feature, from, target.size() / one, target);
+    if (const auto cropped = basin.cropped.find(feature); cropped != basin.cropped.end())
+      return read_cropped(cropped->second, feature, from, target);
+    read_stored(basin.internal.at(feature), feature, from, target);
+  };
+  if (!basin.mapping) return read(first, pixels);
   std::ranges::fill(pixels, 0);
-  const auto* basin = basin_with(feature);
-  if (!basin || !basin->recording || count == 0) return;
-  if (!basin->mapping) return basin->recording->read_images(feature, first, count, pixels);
-  const std::size_t one = pixels.size() / count;
-  for (std::size_t i = 0; i < count && first + i < basin->mapping->size(); ++i)
-    basin->recording->read_images(feature, static_cast<std::size_t>((*basin->mapping)[first + i]), 1,
-                                  pixels.subspan(i * one, one));
+  for (std::size_t i = 0; i < count && first + i < basin.mapping->size(); ++i)
+    read(static_cast<std::size_t>((*basin.mapping)[first + i]), pixels.subspan(i * one, one));
 }
 
-bool Recording::has_contours() const { return bool(content_->contours) || basin_with("contour") != nullptr; }
+bool Recording::has_contours() const {
+  return bool(content_->contours) || basin_with("contour", Kind::contours) != nullptr;
+}
 
 PixelContour Recording::read_contour(std::size_t event) const {
   if (!content_->contours) {
-    const auto* basin = basin_with("contour");
+    const auto* basin = basin_with("contour", Kind::contours);
     if (!basin) return {};
     if (!basin->mapping) return basin->recording->read_contour(event);
     return event < basin->mapping->size()
