@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 
 #include "case/case_keys.h"
-#include "case/nearest_name.h"
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/plausibility.h"
@@ -57,9 +55,6 @@ ViscosityModel chosen_model(const MeasuringOptions& options) {
                               one_line(name, 60)));
 }
 
-constexpr std::array<std::string_view, 6> media{"CellCarrier",  "CellCarrierB", "0.49% MC-PBS",
-                                                "0.59% MC-PBS", "0.83% MC-PBS", "water"};
-
 Medium chosen_medium(const MeasuringOptions& options, const Recording& recording) {
   const auto name = options.medium ? options.medium : recording.metadata().text("setup:medium");
   const auto medium = name ? medium_of_name(*name) : std::nullopt;
@@ -68,8 +63,8 @@ Medium chosen_medium(const MeasuringOptions& options, const Recording& recording
       "give the viscosity with --viscosity-mPas, or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, water with "
       "--medium";
   if (!name) refuse_path(recording.file(), fmt::format("setup:medium is missing; {}.", way_out));
-  const std::string sentence = fmt::format("the medium \"{}\" has no known viscosity{}; {}.", one_line(*name, 60),
-                                           did_you_mean(*name, media), way_out);
+  const std::string sentence =
+      fmt::format("the medium \"{}\" has no known viscosity{}; {}.", one_line(*name, 60), near_medium(*name), way_out);
   if (options.medium) throw UserError("rheocyte: " + sentence);
   refuse_path(recording.file(), sentence);
 }
