@@ -6,7 +6,7 @@
 #   rheocyte::hdf5       HDF5 without MPI
 #   rheocyte::zstd       Zstandard
 #   rheocyte::qhull      Delaunay triangulation
-#   rheocyte::httplib    cpp-httplib as Debian builds it; what its structures hold depends on these definitions
+#   rheocyte::beast      Boost.Beast and Boost.Asio: headers only
 #
 # and RHEOCYTE_PYTHON_EXECUTABLE, an interpreter that has matplotlib and numpy.
 
@@ -73,9 +73,9 @@ target_link_libraries(rheocyte::hdf5 INTERFACE $<$<NOT:${is_program}>:rheocyte::
 rheocyte_import(zstd LIBRARY zstd HEADER zstd.h PACKAGE libzstd-dev)
 rheocyte_import(qhull LIBRARY qhull_r HEADER libqhull_r/libqhull_r.h PACKAGE libqhull-dev)
 if(RHEOCYTE_SOLVER)
-  rheocyte_import(httplib LIBRARY cpp-httplib HEADER httplib.h PACKAGE libcpp-httplib-dev)
-  target_compile_definitions(rheocyte::httplib INTERFACE CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT
-                                                         CPPHTTPLIB_BROTLI_SUPPORT)
+  rheocyte_import(beast HEADER boost/beast/http.hpp PACKAGE libboost-dev)
+  # Without what nobody uses and some compilers take for something else; Boost.System is headers only.
+  target_compile_definitions(rheocyte::beast INTERFACE BOOST_ASIO_DISABLE_CO_AWAIT BOOST_ERROR_CODE_HEADER_ONLY)
 endif()
 
 # Debian's interpreter first: another python3 that stands earlier in PATH often lacks the packages.

@@ -2,9 +2,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 #include "case/user_error.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -38,9 +38,7 @@ char* put_shape(char* at, const ShapeExcess& shape) {
 
 std::string_view mark_of_events(const std::filesystem::path& file) {
   constexpr std::string_view former = "# rheocyte ";
-  std::string start(former.size(), '\0');
-  std::ifstream(file, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
-  return start == former ? former : first_columns_of_events;
+  return first_bytes(file, former.size()) == former ? former : first_columns_of_events;
 }
 
 std::string commented(const std::vector<std::string>& remarks) {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -13,6 +13,7 @@
 #include "case/nearest_name.h"
 #include "case/user_error.h"
 #include "extract/shipped_tables.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -54,7 +55,8 @@ std::vector<fs::path> package_folders() {
 
 // The identifier that the metadata in the head of a table give, without reading its numbers.
 std::string identifier_of(const fs::path& file) {
-  std::ifstream stream(file);
+  constexpr std::size_t longest_head = std::size_t{64} << 10U;
+  std::istringstream stream(first_bytes(file, longest_head).value_or(""));
   for (std::string line; std::getline(stream, line) && line.starts_with('#');) {
     const auto key = line.find("\"identifier\"");
     if (key == std::string::npos) continue;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -16,6 +14,7 @@
 #include "case/user_error.h"
 #include "store/claim.h"
 #include "store/own_file.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -178,8 +177,8 @@ std::vector<Row> rows_in(std::string_view text) {
 }
 
 std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  constexpr std::size_t enough = std::size_t{64} << 20U;
+  return first_bytes(path, enough).value_or("");
 }
 
 fs::path name_in_summary(const fs::path& recording, const fs::path& folder) {

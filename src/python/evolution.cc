@@ -5,7 +5,6 @@
 #include <deque>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "case/scales.h"
 #include "case/user_error.h"
@@ -14,6 +13,7 @@
 #include "python/interruptible.h"
 #include "python/result_object.h"
 #include "result/result_in_time.h"
+#include "store/thread.h"
 
 namespace rheocyte {
 
@@ -42,12 +42,12 @@ class Evolution {
     if (c.time.scheme == TimeScheme::stationary)
       throw UserError(
           "rheocyte.evolve: the case has neither time.end_us nor time.end_um; give one, and cell.viscosity_mPas.");
-    thread_ = std::thread([this] { follow(); });
+    thread_ = Thread([this](const std::stop_token&) { follow(); });
   }
   ~Evolution() {
     stop_ = true;
     const py::gil_scoped_release released;
-    if (thread_.joinable()) thread_.join();
+    thread_.join();
   }
   Evolution(const Evolution&) = delete;
   Evolution& operator=(const Evolution&) = delete;
@@ -141,7 +141,7 @@ class Evolution {
   std::vector<HistoryRow> rows_;
   bool is_over_ = false;
   std::exception_ptr failure_;
-  std::thread thread_;
+  Thread thread_;
 };
 
 }  // namespace

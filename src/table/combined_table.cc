@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <span>
 
 #include "case/joined.h"
 #include "case/user_error.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -212,10 +211,10 @@ CombinedTable read_combined_table(const std::filesystem::path& folder) {
   if (!spec.is_combined())
     refuse("its cells differ in one modulus only; several moduli need a table with table.cortex_share.");
   const auto path = folder / combined_table_name(spec);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(fmt::format("there is no {}; let `rheocyte table` finish it.", combined_table_name(spec)));
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  return parse_combined_table(spec, content, path.string());
+  if (!std::filesystem::exists(path, error))
+    refuse(fmt::format("there is no {}; let `rheocyte table` finish it.", combined_table_name(spec)));
+  constexpr std::size_t largest = std::size_t{1} << 30U;
+  return parse_combined_table(spec, content_of_file(path, largest), path.string());
 }
 
 }  // namespace rheocyte

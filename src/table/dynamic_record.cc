@@ -2,11 +2,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "case/user_error.h"
 #include "store/build_info.h"
+#include "store/read_file.h"
 #include "table/checked_record.h"
 #include "table/dynamic_table.h"
 
@@ -16,6 +15,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t largest_table = std::size_t{256} << 20U;
 constexpr RecordKind course_kind{"rheocyte course", "1", "record of a cell's way",
                                  "delete it, and it is computed again"};
 constexpr RecordKind table_kind{"rheocyte dynamic table", "1", "dynamic table",
@@ -129,9 +129,7 @@ DynamicTable read_dynamic_table(const std::filesystem::path& place) {
         fmt::format("{}: there is no dynamic table here; give the folder of one that `rheocyte table` has "
                     "finished, or its file dynamic_*.cbor.",
                     one_line(place.string(), 300)));
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  return DynamicTable(dynamic_from_bytes(bytes, one_line(file.string(), 300)));
+  return DynamicTable(dynamic_from_bytes(content_of_file(file, largest_table), one_line(file.string(), 300)));
 }
 
 }  // namespace rheocyte

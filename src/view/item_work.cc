@@ -14,6 +14,7 @@
 #include "view/event_inspector.h"
 #include "view/moduli_columns.h"
 #include "view/moduli_settings.h"
+#include "view/path_text.h"
 #include "view/recording_columns.h"
 #include "view/recording_lines.h"
 #include "view/recording_moduli.h"
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t block = std::size_t{1} << 16U;  // events; memory stays small however many there are
 
-fs::path path_in(const Json& request, const char* key) { return request.value(key, std::string()); }
+fs::path path_in(const Json& request, const char* key) { return path_of_text(request.value(key, std::string())); }
 
 /// An open recording with its companion, if something has been computed from it.
 struct OpenRecording {

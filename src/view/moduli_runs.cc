@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stop_token>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
 #include "store/file_version.h"
+#include "store/thread.h"
 #include "view/http.h"
 #include "view/moduli_settings.h"
+#include "view/path_text.h"
 
 namespace rheocyte {
 
@@ -47,7 +51,7 @@ struct ModuliRuns::Run {
   double done = 0;
   Json report = Json::object();
   std::string error;
-  std::jthread thread;
+  Thread thread;
 };
 
 void ModuliRuns::Run::end(Json said, const std::string& failure) {
@@ -84,14 +88,14 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options) {
   run->companion = stem.string() + "_rheocyte.rtdc";
   if (!combined.empty()) run->several = stem.string() + "_moduli.tsv";
   const Json request{{"do", "moduli"},
-                     {"file", found.place.path.string()},
+                     {"file", path_text(found.place.path)},
                      {"settings", run->settings},
-                     {"companion", run->companion.string()},
-                     {"combined", combined.string()},
-                     {"several", run->several.string()},
+                     {"companion", path_text(run->companion)},
+                     {"combined", path_text(combined)},
+                     {"several", path_text(run->several)},
                      {"keep", true}};
   run->thread =
-      std::jthread([this, &run = *run, request](const std::stop_token& stop) { compute(run, request, stop); });
+      Thread([this, &run = *run, request](const std::stop_token& stop) { compute(run, request, stop); }, small_stack);
   runs_[item] = run;
 }
 
@@ -120,7 +124,7 @@ Json ModuliRuns::kept() const {
   Json all = Json::array();
   for (std::size_t item = 0; item < items_.count(); ++item)
     if (const auto run = run_of(item))
-      all.push_back({{"path", items_.at(item).place.path.string()}, {"settings", run->settings}});
+      all.push_back({{"path", path_text(items_.at(item).place.path)}, {"settings", run->settings}});
   return all;
 }
 
@@ -131,7 +135,8 @@ void ModuliRuns::restore(const Json& kept) {
       throw UserError("Moduli of the session have no path or no settings.");
     for (std::size_t item = 0; item < items_.count(); ++item) {
       const ItemPlace place = items_.at(item).place;
-      if (place.path == one["path"].get<std::string>() && place.kind == ItemKind::recording && place.error.empty())
+      if (place.path == path_of_text(one["path"].get<std::string>()) && place.kind == ItemKind::recording &&
+          place.error.empty())
         begin(item, options_of_settings(one["settings"]));
     }
   }

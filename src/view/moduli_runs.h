@@ -7,8 +7,8 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <semaphore>
+#include <stop_token>
 #include <string>
-#include <thread>
 
 #include "view/view_items.h"
 

@@ -12,6 +12,7 @@
 #include "case/user_error.h"
 #include "extract/shipped_tables.h"
 #include "synth/synth_keys.h"
+#include "view/path_text.h"
 
 namespace rheocyte {
 
@@ -164,7 +165,7 @@ struct ToCommand {
 };
 
 std::string named_table(const Json& table, const TableItem& table_item) {
-  if (table.is_number_integer() && table >= 0) return table_item(table.get<std::size_t>()).string();
+  if (table.is_number_integer() && table >= 0) return path_text(table_item(table.get<std::size_t>()));
   const auto shipped = shipped_tables();
   std::string names;
   for (const auto& [identifier, file] : shipped) names += (names.empty() ? "" : ", ") + identifier;
@@ -187,6 +188,7 @@ ExtractOptions options_of_settings(const Json& settings) {
     if (setting == all().end()) throw UserError(fmt::format("There is no setting {}.", one_line(name, 60)));
     if (!value.is_null()) visit(*setting, options, FromJson{*setting, value});
   }
+  options.table = path_of_text(options.table).string();
   check_measuring_options(options.measuring);
   return options;
 }
@@ -199,7 +201,9 @@ ExtractOptions extract_options(const Json& settings, const TableItem& table_item
   return options_of_settings(resolved);
 }
 
-Json all_settings(const ExtractOptions& options) {
+Json all_settings(const ExtractOptions& given) {
+  ExtractOptions options = given;
+  options.table = path_text(given.table);
   Json tree = Json::object();
   for (const Setting& setting : all()) visit(setting, options, ToJson{setting.name, tree});
   return tree;

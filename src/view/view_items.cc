@@ -11,6 +11,7 @@
 #include "store/file_version.h"
 #include "view/http.h"
 #include "view/item_work.h"
+#include "view/path_text.h"
 
 namespace rheocyte {
 
@@ -51,7 +52,7 @@ ViewItems::Item new_item(ItemPlace place) {
 
 ViewItems::ViewItems(std::span<const fs::path> paths) : host_(do_item_work) {
   for (auto& place : item_places(paths)) items_.push_back(new_item(std::move(place)));
-  reader_ = std::jthread([this](const std::stop_token& stop) { describe_all(stop); });
+  reader_ = Thread([this](const std::stop_token& stop) { describe_all(stop); }, small_stack);
 }
 
 ViewItems::~ViewItems() = default;
@@ -80,7 +81,7 @@ void ViewItems::describe(std::size_t number, const std::stop_token& stop) {
   item.files.resize(1);
   item.version = file_version(item.files);  // before it is read
   try {
-    const Json request{{"do", "describe"}, {"kind", name_of(place.kind)}, {"file", place.path.string()}};
+    const Json request{{"do", "describe"}, {"kind", name_of(place.kind)}, {"file", path_text(place.path)}};
     HostedWork work = host_.ask(json_text(request));
     const std::stop_callback at_end(stop, [&work] { work.stop(); });
     item.description = parse_sound_json(work.all());
@@ -176,7 +177,7 @@ Json ViewItems::kept() const {
   const std::scoped_lock lock(mutex_);
   Json all = Json::array();
   for (const Item& item : items_)
-    all.push_back({{"path", item.place.path.string()}, {"condition", item.condition}, {"replicate", item.replicate}});
+    all.push_back({{"path", path_text(item.place.path)}, {"condition", item.condition}, {"replicate", item.replicate}});
   return all;
 }
 
@@ -185,8 +186,8 @@ void ViewItems::restore(const Json& kept) {
   for (const Json& one : kept) {
     if (!one.is_object() || !one.contains("path") || !one["path"].is_string())
       throw UserError("An item of the session has no path.");
-    const std::array<fs::path, 1> path{fs::path(one["path"].get<std::string>())};
-    for (auto& place : item_places(path)) {
+    const std::array<fs::path, 1> path{path_of_text(one["path"].get<std::string>())};
+    for (auto& place : item_places(path, Folders::as_they_are)) {
       const std::scoped_lock lock(mutex_);
       auto found = std::ranges::find(items_, place.path, [](const Item& item) { return item.place.path; });
       if (found == items_.end()) found = items_.insert(items_.end(), new_item(std::move(place)));

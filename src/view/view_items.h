@@ -6,10 +6,11 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "store/thread.h"
 #include "store/work_host.h"
 #include "view/item_places.h"
 #include "view/kept_inspectors.h"
@@ -69,7 +70,7 @@ class ViewItems {
   mutable std::mutex mutex_;
   std::condition_variable_any added_;
   std::vector<Item> items_;
-  std::jthread reader_;
+  Thread reader_;
 };
 
 /// {"item", "kind", "name", "state", "error", "version", "events", "conditions", "condition", "replicate"}, what is not

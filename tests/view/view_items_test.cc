@@ -137,6 +137,33 @@ TEST_F(Items, KeepLabelsAndPathsInASession) {
   EXPECT_EQ(list[1]["replicate"], "3");
 }
 
+TEST_F(Items, MayHaveNamesThatAreNotUtf8) {
+  const std::string name = "zellen \xE4\xF6.rtdc";
+  write_recording("plain.rtdc");
+  std::error_code error;
+  fs::rename(folder_ / "plain.rtdc", folder_ / name, error);
+  if (error) GTEST_SKIP() << "this file system takes names of UTF-8 alone";
+  const std::array<fs::path, 1> paths{folder_ / name};
+  ViewItems items(paths);
+  EXPECT_EQ(loaded(items)[0]["state"], "ready");
+  ViewItems again({});
+  again.restore(Json::parse(items.kept().dump()));
+  const Json list = loaded(again);
+  EXPECT_EQ(list[0]["state"], "ready") << list;
+}
+
+TEST_F(Items, OfASessionAreNotSearchedFor) {
+  // A session of somebody else may name any folder, be it that of the whole disk.
+  write_recording("data/a.rtdc");
+  write("data/result/result.json", R"({"case": {"cell": {"radius_um": 7}}})");
+  ViewItems items({});
+  items.restore({{{"path", (folder_ / "data").string()}}, {{"path", (folder_ / "data/result").string()}}});
+  const Json list = loaded(items);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0]["state"], "failed");
+  EXPECT_EQ(list[1]["kind"], "result");
+}
+
 TEST_F(Items, LeaveNoTemporaryFolderBehind) {
   fs::path folder;
   {
