@@ -73,8 +73,9 @@ std::string Gates::description() const {
 void Gates::check(const EventFeatures& features) const {
   for (const auto& limit : limits_)
     if (!features.has(limit.feature))
-      refuse_path(features.recording().file(), fmt::format("has no feature {}, for which --min or --max gives a limit.",
-                                                           one_line(limit.feature, 60)));
+      refuse_path(features.recording().file(),
+                  fmt::format("has no feature {}, for which --min or --max gives a limit.{}",
+                              one_line(limit.feature, 60), features.near(limit.feature)));
   for (const auto& polygon : polygons_) polygon.check(features);
 }
 

@@ -68,8 +68,8 @@ std::string PolygonGate::description() const {
 void PolygonGate::check(const EventFeatures& features) const {
   for (const Axis& axis : {x_, y_})
     if (!features.has(axis.feature))
-      refuse_path(features.recording().file(),
-                  fmt::format("has no feature {}, which --polygon names.", one_line(axis.feature, 60)));
+      refuse_path(features.recording().file(), fmt::format("has no feature {}, which --polygon names.{}",
+                                                           one_line(axis.feature, 60), features.near(axis.feature)));
 }
 
 bool PolygonGate::holds(double x, double y) const {

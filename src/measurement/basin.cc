@@ -54,8 +54,13 @@ std::string as_uuid(const std::string& digits) {
                      digits.substr(16, 4), digits.substr(20));
 }
 
-// Written by programs of any system.
+// Paths are written by programs of any system.
 std::string file_name_in(const std::string& path) { return path.substr(path.find_last_of("/\\") + 1); }
+
+std::string with_slashes(std::string path) {
+  std::ranges::replace(path, '\\', '/');
+  return path;
+}
 
 }  // namespace
 
@@ -115,7 +120,7 @@ std::vector<std::string> file_basin_lines(const std::string& name, const std::ve
 std::vector<fs::path> basin_files(const BasinDefinition& basin, const fs::path& referring_file) {
   std::vector<fs::path> files;
   for (const auto& path : basin.paths)
-    for (const auto& place : {path, file_name_in(path)}) {
+    for (const auto& place : {path, with_slashes(path), file_name_in(path)}) {
       std::error_code error;
       const fs::path candidate = referring_file.parent_path() / place;  // an absolute path stays itself
       if (fs::is_regular_file(candidate, error) && std::ranges::find(files, candidate) == files.end())

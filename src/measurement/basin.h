@@ -30,8 +30,8 @@ std::string why_basin_is_not_used(const std::string& json_text);
 std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths,
                                           const std::string& mapping = "same");
 
-/// The files that stand at the basin's paths, relative ones seen from the folder of the referring recording, or under
-/// the same names in that folder; in this order, at each path in turn.
+/// The files that stand at the basin's paths (with "/" or "\\" between folders), relative ones seen from the folder of
+/// the referring recording, or under the same names in that folder; in this order, at each path in turn.
 std::vector<std::filesystem::path> basin_files(const BasinDefinition& basin,
                                                const std::filesystem::path& referring_file);
 

@@ -62,6 +62,16 @@ TEST(Basin, BrokenAndRemoteDefinitionsAreNone) {
   EXPECT_FALSE(read_basin_definition(R"({"type": 3, "format": "hdf5"})"));
 }
 
+TEST(Basin, FoldersOfAPathMayBeSeparatedByBackslashes) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "raw");
+  write_original(folder / "raw/original.rtdc");
+  BasinDefinition basin;
+  basin.paths = {"raw\\original.rtdc"};
+  EXPECT_EQ(basin_files(basin, folder / "child.rtdc"),
+            std::vector<std::filesystem::path>{folder / "raw/original.rtdc"});
+}
+
 TEST(Basin, FeaturesOfAnotherFileAreFoundBesideTheReferringOne) {
   const ScratchFolder folder;
   write_original(folder / "original.rtdc");
