@@ -176,6 +176,17 @@ std::string TableOrigin::description() const {
                        : fmt::format("{} ({}, {}, by {})", identifier, model, conditions, program);
 }
 
+std::string TableOrigin::cells() const { return cells_in_words(model, section); }
+
+std::string cells_in_words(std::string_view model, Section section) {
+  std::string cells(model.substr(0, model.find(" / ")));
+  if (cells.empty()) return cells;
+  for (const auto& [written, name] : {std::pair<std::string_view, std::string_view>{"neo-hookean", "neo-Hookean"},
+                                      {"mooney-rivlin", "Mooney-Rivlin"}})
+    if (const auto at = cells.find(written); at != std::string::npos) cells.replace(at, written.size(), name);
+  return fmt::format("{}s in the {}", cells, section == Section::square ? "square channel" : "tube");
+}
+
 std::string to_bytes(const GridContent& grid) {
   return sealed_record(grid_kind, fingerprint(grid.origin.spec), record_of(grid));
 }

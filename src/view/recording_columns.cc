@@ -18,8 +18,13 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "columns are handed on as they lie in memory");
 
 // Moduli of a companion that somebody opens as a recording are features like any other.
-constexpr std::array roles{"state",        "standard error", "young_modulus_asymmetry", "standard error asymmetry",
-                           "shape_excess", "odd_share"};
+constexpr std::array roles{"state",
+                           "standard error",
+                           "young_modulus_asymmetry",
+                           "standard error asymmetry",
+                           "systematic error asymmetry",
+                           "shape_excess",
+                           "odd_share"};
 
 constexpr std::string_view modulus_name = "emodulus";
 
@@ -78,9 +83,7 @@ RecordingColumns::RecordingColumns(const Recording& recording, const ComputedFil
 }
 
 std::vector<std::string> RecordingColumns::names() const {
-  std::vector<std::string> names = recording_.scalar_names();
-  for (const char* implied : {"area_um", "deform", "area_ratio"})
-    if (features_ && features_->has(implied) && !recording_.has_scalar(implied)) names.emplace_back(implied);
+  std::vector<std::string> names = features_ ? features_->names() : recording_.scalar_names();
   std::erase_if(names, is_basin_mapping);
   std::ranges::transform(names, names.begin(), name_of_stored);
   std::ranges::sort(names);
