@@ -24,6 +24,14 @@ struct Quantity {
 
 Range range_of(std::string_view key) { return std::get<Number>(case_key(key).kind).range; }
 
+// Of what is no positive number; with a decimal comma, for example, the text tells what is wrong.
+std::string what_is_stored(const Recording& recording, const std::string& key) {
+  if (!recording.metadata().has(key)) return key + " is missing";
+  const auto text = recording.metadata().text(key);
+  return text ? fmt::format("{} is \"{}\", which is not a positive number", key, one_line(*text, 40))
+              : key + " is not a positive number";
+}
+
 double quantity(const Recording& recording, const std::optional<double>& given, const Quantity& wanted) {
   if (given) return *given;
   const auto& [key, unit, way_out, range] = wanted;
@@ -32,9 +40,7 @@ double quantity(const Recording& recording, const std::optional<double>& given, 
     refuse_path(recording.file(), fmt::format("{} is {:g}, outside {}; is its unit another one? Give it with {}.", key,
                                               *stored, range_text(range, unit), way_out));
   if (stored && *stored > 0) return *stored;
-  refuse_path(recording.file(),
-              fmt::format("{} {}; give it with {}.", key,
-                          recording.metadata().has(key) ? "is not a positive number" : "is missing", way_out));
+  refuse_path(recording.file(), fmt::format("{}; give it with {}.", what_is_stored(recording, key), way_out));
 }
 
 void check_region(const Recording& recording) {
@@ -112,7 +118,7 @@ std::size_t ExtractSettings::viscosities(const Recording& recording, std::size_t
   std::vector<double> temperatures(mPas.size());
   recording.read_scalar("temp", first, temperatures);
   for (double& celsius : temperatures)
-    if (!is_possible_temperature(celsius)) celsius = no_value;
+    if (!is_possible_temperature(celsius)) celsius = temperature_of_others_C;
   buffer->viscosity(conditions.flow, temperatures, mPas);
   const auto is_outside = [range = buffer->measured()](double celsius) {
     return std::isfinite(celsius) && !range.contains(celsius);
@@ -169,6 +175,7 @@ ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixel
   const RecordingTemperature temperature = temperature_of(options, recording);
   settings.temperature_from = temperature.from;
   settings.temperature_C = temperature.celsius;
+  settings.temperature_of_others_C = temperature.of_others;
   settings.warnings.insert(settings.warnings.end(), temperature.warnings.begin(), temperature.warnings.end());
   warn_about_temperature(settings);
   flow.exponent = settings.buffer->flow_exponent(temperature.celsius);

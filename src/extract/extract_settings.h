@@ -12,6 +12,7 @@
 #include "infer/modulus_map.h"
 #include "measurement/recording.h"
 #include "measurement/viscosity.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
@@ -30,8 +31,9 @@ struct ExtractSettings {
   double pixel_size_um = 0;      ///< 0 if unknown
   std::optional<Buffer> buffer;  ///< nothing: the viscosity was given
   TemperatureSource temperature_from = TemperatureSource::none;
-  double temperature_C = 0;           ///< of all events, or their median
-  std::vector<std::string> warnings;  ///< sentences without the file's name
+  double temperature_C = 0;                   ///< of all events, or their median
+  double temperature_of_others_C = no_value;  ///< of single events without a possible one of their own; NaN: none
+  std::vector<std::string> warnings;          ///< sentences without the file's name
 
   bool viscosity_varies() const { return temperature_from == TemperatureSource::feature; }
   /// Of events [first, first + mPas.size()) (mPa s); NaN for events without a possible temperature. Returns how many
