@@ -9,6 +9,7 @@
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
+#include "extract/polygon_file.h"
 
 namespace rheocyte {
 
@@ -45,7 +46,8 @@ Gates::Gates(const GateOptions& options) {
           fmt::format("rheocyte: --min and --max of {} contradict each other: no number is at least {} and at "
                       "most {}.",
                       one_line(limit.feature, 60), limit.min, limit.max));
-  for (const auto& text : options.polygons) polygons_.emplace_back(text);
+  for (const auto& text : options.polygons)
+    for (auto& polygon : polygon_gates(text)) polygons_.push_back(std::move(polygon));
   events_ = options.events;
   if (events_) std::ranges::sort(*events_);
 }

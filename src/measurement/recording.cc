@@ -30,11 +30,23 @@ bool is_being_written(const fs::path& file) {
   return head[version_at] == 3 && (static_cast<unsigned char>(head[flags_at]) & (writing | single_writer)) != 0;
 }
 
+// Files of the field's programs that are no .rtdc recordings.
+void refuse_other_kinds(const fs::path& file) {
+  const std::string kind = file.extension().string();
+  if (kind == ".tdms")
+    refuse_path(file, "is a recording in the older format .tdms; convert it with dclab-tdms2rtdc of dclab[tdms].");
+  if (kind == ".so2")
+    refuse_path(file,
+                "is a session of DCscope, not a recording; give its recordings, or export there what passes its "
+                "filters as .rtdc, or its polygon filters as .poly for --polygon.");
+  if (kind == ".poly") refuse_path(file, "holds polygon filters; give it with --polygon, beside recordings (.rtdc).");
+}
+
 Hdf5Handle open_file(const fs::path& file) {
   std::error_code error;
   const auto status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) refuse_path(file, "there is no such file.");
-  if (!fs::is_regular_file(status)) refuse_path(file, "is not a file; give an .rtdc recording (a folder needs -r).");
+  if (!fs::is_regular_file(status)) refuse_path(file, "is not a file; give an .rtdc recording.");
   prepare_hdf5();
   const Hdf5Handle access(::H5Pcreate(H5P_FILE_ACCESS));
   // Recordings often lie on network drives that know no locks; nothing is written to them.
@@ -42,6 +54,7 @@ Hdf5Handle open_file(const fs::path& file) {
   Hdf5Handle opened(::H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.get()));
   if (opened) return opened;
   if (::access(file.c_str(), R_OK) != 0) refuse_path(file, "cannot be read; check its permissions.");
+  if (::H5Fis_hdf5(file.c_str()) <= 0) refuse_other_kinds(file);
   if (::H5Fis_hdf5(file.c_str()) <= 0)
     refuse_path(file, "is not an HDF5 file, or its first bytes are damaged; .rtdc recordings are HDF5 files.");
   if (is_being_written(file))

@@ -10,6 +10,7 @@
 
 #include "case/case_keys.h"
 #include "case/user_error.h"
+#include "extract/polygon_file.h"
 #include "extract/shipped_tables.h"
 #include "synth/synth_keys.h"
 #include "view/path_text.h"
@@ -104,6 +105,7 @@ struct FromJson {
     if (!value.is_array()) refuse(setting, "a list of texts");
     for (const Json& one : value) {
       if (!one.is_string()) refuse(setting, "a list of texts");
+      if (is_polygon_file(one.get_ref<const std::string&>())) refuse(setting, "features and corners, not a file");
       texts.push_back(one.get<std::string>());
     }
   }
