@@ -1,7 +1,7 @@
 // What the colours of a plot's events mean, in its upper right corner.
 import { densityMap } from '../draw/colormap';
+import type { Box } from '../draw/line_labels';
 import { labelOf } from './features';
-import type { Box } from './line_labels';
 import { innerWidth, margins, type Frame } from './plot_frame';
 import { ticksOf, type Span } from './scale';
 

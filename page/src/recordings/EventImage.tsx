@@ -64,6 +64,7 @@ function View({ chosen, detail }: ViewProps) {
   const pixel = detail.pixel_um || 1;
   const { x, y, width, height } = windowOf(detail, pixel, image.element ?? mask.element);
   const bar = barOf(width);
+  if (image.missing && !detail.outline && !detail.model) return <p class="soft">The recording has no image of this event.</p>;
   const size = (picture: HTMLImageElement) => ({ width: picture.naturalWidth * pixel, height: picture.naturalHeight * pixel });
   return (
     <>

@@ -1,11 +1,11 @@
 // What lies over the events: the table's range, isoelasticity lines, contours of the density, gates.
 import { useMemo } from 'preact/hooks';
 import type { Lines } from '../api';
+import { placeLabels, type Box } from '../draw/line_labels';
 import { significant } from '../draw/numbers';
 import { densityCells, levelsEnclosing, type Density } from './density';
 import type { Gate, PolygonGate } from './gates';
 import { isolines, type Polyline } from './isolines';
-import { placeLabels, type Box } from './line_labels';
 import type { Plot } from './model';
 import { margins, pathOf, pixelX, pixelY, type Frame } from './plot_frame';
 import { backward, forward, type Span } from './scale';
@@ -46,7 +46,7 @@ export function TableLines({ plot, frame, lines, taken }: TableLinesProps) {
       {labels.map(
         (label, k) =>
           label && (
-            <text key={k} class="line-number" x={label.x} y={label.y} text-anchor="end">
+            <text key={k} class="line-number" x={label.right} y={label.bottom} text-anchor="end">
               {drawn[k].text}
             </text>
           ),
