@@ -103,6 +103,7 @@ struct TimeCase {
 
 struct Numerics {
   double accuracy = 0;
+  std::optional<AccuracyOf> accuracy_of = {};  ///< only of a cell off the axis
 };
 
 /// A value that read_case returns is complete and inside every range; a default-constructed one is not.

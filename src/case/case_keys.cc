@@ -10,10 +10,10 @@ constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "p
     carreau{"flow.law", "carreau"}, shear_thinning{"flow.law", "newtonian", true},
     mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
     has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
-    in_duct{"channel.section", "tube", true}, rectangle{"channel.section", "rectangle"},
-    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
-    linear_solid{"cell.viscoelasticity", "standard-linear-solid"}, has_rate{"flow.drive", "pressure-drop", true},
-    has_pressure_drop{"flow.drive", "pressure-drop"};
+    in_duct{"channel.section", "tube", true}, has_offset{"cell.offset_um", ""},
+    rectangle{"channel.section", "rectangle"}, monolithic{"time.scheme", "monolithic"},
+    partitioned{"time.scheme", "partitioned"}, linear_solid{"cell.viscoelasticity", "standard-linear-solid"},
+    has_rate{"flow.drive", "pressure-drop", true}, has_pressure_drop{"flow.drive", "pressure-drop"};
 
 // The member of a case is the name of its key; behind it stand the other parts of its KeyDescription in their order.
 #define FIELD(member) ([](auto& c) -> auto& { return c.member; })
@@ -161,7 +161,11 @@ const std::array table = {
 
     KEY(numerics.accuracy, "", "wanted relative accuracy of the deformation, mesh and degree are chosen for it",
         Number{{1e-7, 1e-1}}, 1e-4),
-
+    KEY(numerics.accuracy_of, "",
+        "what the accuracy is wanted of for a cell off the axis, deformation: of its silhouette, below 1e-4 relative "
+        "to "
+        "1e-4; motion: of its velocity, its rotation, and its drift or the place where it does not drift",
+        Choice{{"deformation", "motion"}}, 0, has_offset),
 };
 
 #undef KEY

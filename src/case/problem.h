@@ -41,6 +41,10 @@ inline constexpr Camera Camera::side{0}, Camera::diagonal{45};
 /// Where a cell off the axis of a duct is: at the given place, or where it does not drift, sought from there.
 enum class CellPlace { given, equilibrium };
 
+/// What is wanted as accurately as the case says of a cell off the axis: the deformation of its silhouette, or its
+/// velocity, drift and rotation, which are right sooner.
+enum class AccuracyOf { deformation, motion };
+
 /// What drives the liquid: a given flow rate, a given pressure drop over the channel, or a pressure drop that is
 /// adapted in each step in time until the flow rate is the wanted one (Mokbel et al. 2017).
 enum class Drive { rate, pressure_drop, controlled_pressure };
@@ -88,6 +92,7 @@ struct Problem : Media {
   WallTable wall;                ///< the way of the cell; acts in time only
   double start_stretch = 1;      ///< of the cell along the flow when it starts in time
   double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation
+  AccuracyOf accuracy_of = AccuracyOf::deformation;  ///< off the axis
 };
 
 }  // namespace rheocyte

@@ -129,6 +129,7 @@ Problem problem_of(const Case& c) {
   for (auto* column : {&problem.wall.x, &problem.wall.radius})
     for (double& value : *column) value /= tube_radius_um(c);
   problem.accuracy = c.numerics.accuracy;
+  problem.accuracy_of = c.numerics.accuracy_of.value_or(AccuracyOf::deformation);
   return problem;
 }
 

@@ -25,6 +25,9 @@ constexpr double share_of_change_before = 0.1;
 /// Degrees 3 and 4 may agree by chance, while the latter's error is up to 1e-3.
 constexpr double min_error_of_two_rungs = 6e-4;
 
+/// A drift is told from none down to this.
+constexpr double share_of_velocity = 1e-4;
+
 /// The half of a cell off the axis has four times the unknowns of the eighth.
 constexpr int last_degree_off_axis = 6;
 int last_degree_of(const Problem& problem) {
@@ -60,6 +63,20 @@ void DuctLadder::add(DuctState state, double deformation) {
   deformations.push_back(deformation);
   estimated_error = estimate_error(deformations, share_of_change_before);
   if (rungs.size() == 2) estimated_error = std::max(estimated_error, min_error_of_two_rungs);
+}
+
+double DuctLadder::motion_error(CellPlace place) const {
+  const auto error_of = [this](double CellMotion::*member, double size) {
+    std::vector<double> values;
+    for (const CellMotion& motion : motions) values.push_back(motion.*member);
+    const double own = std::abs(values.back());
+    return estimate_error(values, share_of_change_before) * own / std::max(own, size);
+  };
+  if (motions.size() < 2) return std::numeric_limits<double>::infinity();
+  double error = std::max(error_of(&CellMotion::velocity, 0), error_of(&CellMotion::spin, 0));
+  if (place == CellPlace::given)
+    error = std::max(error, error_of(&CellMotion::drift, share_of_velocity * motions.back().velocity));
+  return motions.size() == 2 ? std::max(error, min_error_of_two_rungs) : error;
 }
 
 Problem DuctSolver::problem_at(double compliance) const {
@@ -103,7 +120,7 @@ DuctState DuctSolver::scout() {
 
 Status DuctSolver::climb(DuctState& state, DuctLadder& ladder) {
   if (ladder.rungs.empty()) add(state, ladder);
-  while (ladder.estimated_error > problem_.accuracy) {
+  while (error_of(ladder) > problem_.accuracy) {
     const int degree = degree_of(ladder.rungs.back()) + 1;
     if (degree > last_degree_of(problem_)) return Status::accuracy_not_reached;
     // Two degrees' factors at a time would take the most memory.
@@ -128,8 +145,19 @@ bool DuctSolver::is_stable(const DuctState& state) const {
 void DuctSolver::add(DuctState state, DuctLadder& ladder) {
   const double d = duct_deformation(state.discrete->space, state.branch.unknowns, camera_in_mesh(problem_));
   report(state.branch, d, degree_of(state));
+  if (const DuctSpace& space = state.discrete->space; space.turns()) {
+    const VectorXd& unknowns = state.branch.unknowns;
+    ladder.motions.push_back({unknowns(space.cell_velocity()), unknowns(space.drift()), unknowns(space.spin())});
+  }
   ladder.add(std::move(state), d);
-  result_->estimated_error = ladder.estimated_error;
+  result_->estimated_error = error_of(ladder);
+  result_->deformation_floor = deformation_floor(problem_);
+}
+
+double DuctSolver::error_of(const DuctLadder& ladder) const {
+  const bool by_motion = problem_.accuracy_of == AccuracyOf::motion && problem_.offset != 0;
+  return by_motion ? ladder.motion_error(problem_.place)
+                   : stated_error(problem_, ladder.estimated_error, ladder.deformations.back());
 }
 
 Status DuctSolver::carry(const Problem& from, const DuctLadder& ladder, DuctLadder& carried) {
@@ -155,7 +183,7 @@ Status DuctSolver::carry(const Problem& from, const DuctLadder& ladder, DuctLadd
     }
     before = kept;
     add(found, carried);
-    if (carried.estimated_error <= problem_.accuracy) break;
+    if (error_of(carried) <= problem_.accuracy) break;
   }
   return Status::converged;
 }

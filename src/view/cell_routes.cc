@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -27,11 +28,16 @@ using Json = nlohmann::ordered_json;
 
 bool exists(const Result& result) { return has_state(result.state.outcome.status); }
 
+/// As much of the compliance as the state may have: the margin falls from 1 about as the compliance grows.
+double stable_reach(const StationaryState& state) {
+  return state.outcome.reached / std::max(1.0, 1 - state.stability_margin);
+}
+
 /// Why there is none, and the nearest case that has one.
 Answer no_state(const Result& result) {
   const Outcome& outcome = result.state.outcome;
   Json json{{"error", outcome.message}, {"reason", "no-state"}, {"status", name(outcome.status)}, {"nearest", nullptr}};
-  if (outcome.reached > 0) json["nearest"] = to_json(nearest_existing(result.input, outcome.reached));
+  if (outcome.reached > 0) json["nearest"] = to_json(nearest_existing(result.input, stable_reach(result.state)));
   json["last"] = {{"deformation", result.state.shape.deformation}, {"reached", outcome.reached}};
   return json_answer(json, 422);
 }
