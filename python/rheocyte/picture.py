@@ -289,6 +289,10 @@ def made_of(result):
                   part("E2D = {:.4g} mN/m", result, "cortex_modulus_reached_mN_per_m")]
     if find(result, "tension_mN_per_m"):
         parts.append(part("γ = {:.3g} mN/m", result, "tension_mN_per_m"))
+    if find(cell, "rest_aspect") not in (None, 1):
+        parts.append(part("rest aspect {:.3g}", cell, "rest_aspect"))
+    if find(result, "case", "flow", "axial_tension_Pa"):
+        parts.append(part("axial tension {:.4g} Pa", result, "case", "flow", "axial_tension_Pa"))
     return parts
 
 

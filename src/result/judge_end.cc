@@ -62,6 +62,8 @@ std::optional<Problem> straight_from_here(const Result& result, const TimeRecord
   const WallTable wall = wall_um(result.input.channel.profile);
   if (record.rows.back().position_um - half_um < wall.x.back()) return {};
   Case straight = result.input;
+  if (!straight.channel.profile.axial_tension_Pa.empty())
+    straight.flow.axial_tension_Pa = straight.channel.profile.axial_tension_Pa.back();
   straight.channel.profile = {};
   straight.channel.radius_um = wall.radius.back();
   const Problem problem = problem_of(straight);

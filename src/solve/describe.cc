@@ -91,7 +91,8 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
 
 void describe_state(const Problem& problem, const DiscreteState& state, StationaryState& r) {
   const Discretisation& space = state.discrete->space;
-  const SurfaceState surface = surface_state(space, state.unknowns, SurfaceProfile::points_per_piece);
+  const SurfaceState surface =
+      surface_state(space, state.unknowns, SurfaceProfile::points_per_piece, state.media.bulk.rest_stretch);
   r.contour = contour(space, state.unknowns);
   r.surface = {surface.angle, surface.point, surface.stretch, surface_tensions(state.media.cortex, surface),
                surface.curvature};
