@@ -86,13 +86,13 @@ struct Problem : Media {
   double radius_ratio = 0.5;     ///< r0 / R, in (0, 0.965)
   double offset = 0;             ///< in a duct: of the cell from the axis, towards the camera, in h
   CellPlace place = CellPlace::given;
-  Drive drive = Drive::rate;     ///< the given rate is 1; the given pressure drop that of the undisturbed flow
-  double pressure_gradient = 0;  ///< in a duct the given one, in S/h, where U is a nominal speed
-  double channel_length = 0;     ///< simulated, in R; 0: the shortest, 2 min_half_length()
-  WallTable wall;                ///< the way of the cell; acts in time only
+  Drive drive = Drive::rate;          ///< the given rate is 1; the given pressure drop that of the undisturbed flow
+  double pressure_gradient = 0;       ///< in a duct the given one, in S/h, where U is a nominal speed
+  double channel_length = 0;          ///< simulated, in R; 0: the shortest, 2 min_half_length()
+  WallTable wall;                     ///< the way of the cell; acts in time only
   AxialTensionTable tension_profile;  ///< likewise, in place of the media's tension
-  double start_stretch = 1;      ///< of the cell along the flow when it starts in time
-  double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation
+  double start_stretch = 1;           ///< of the cell along the flow when it starts in time
+  double accuracy = 1e-4;             ///< wanted relative accuracy of the deformation
   AccuracyOf accuracy_of = AccuracyOf::deformation;  ///< off the axis
 };
 

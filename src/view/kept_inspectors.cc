@@ -22,8 +22,9 @@ constexpr std::size_t most_kept = 2;
 
 /// What the process was begun with: the recording as it is now ("version"), and its tables.
 std::string key_of(const Json& recording) {
-  const std::array<fs::path, 2> tables{path_of_text(recording.value("combined", std::string())),
-                                       path_of_text(recording.value("settings", Json::object()).value("table", std::string()))};
+  const std::array<fs::path, 2> tables{
+      path_of_text(recording.value("combined", std::string())),
+      path_of_text(recording.value("settings", Json::object()).value("table", std::string()))};
   return json_text(recording) + file_version(tables);
 }
 
