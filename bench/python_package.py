@@ -77,7 +77,7 @@ def time_moduli(area, deformation, temperature):
     own, published = rheocyte.Table("LE-2D-26"), rheocyte.Table(TABLE)
     liquid = {"medium": "CellCarrier", "temperature_C": temperature, "pixel_size_um": PIXEL}
     millions = len(area) / 1e6
-    for what, settings in (("", {"viscosity_mPas": 5.7}), (" and pixels", {"viscosity_mPas": 5.7, "pixel_size_um": PIXEL})):
+    for what, settings in (("", {"viscosity_mPas": 5.7, "pixel_size_um": 0}), (" and pixels", {"viscosity_mPas": 5.7, "pixel_size_um": PIXEL})):
         time_of = alternate(lambda: own.modulus(area, deformation, **CHANNEL, **settings))[0]
         show(f"LE-2D-26: moduli, standard errors and states{what}", millions / time_of, unit="million/s")
 

@@ -6,9 +6,11 @@
 #   rheocyte::hdf5       HDF5 without MPI
 #   rheocyte::zstd       Zstandard
 #   rheocyte::qhull      Delaunay triangulation
-#   rheocyte::httplib    cpp-httplib as Debian builds it; what its structures hold depends on these definitions
+#   rheocyte::beast      Boost.Beast and Boost.Asio: headers only
 #
 # and RHEOCYTE_PYTHON_EXECUTABLE, an interpreter that has matplotlib and numpy.
+
+include(CheckCXXSourceCompiles)
 
 # rheocyte_import(<target> [LIBRARY <name>] HEADER <file> [SUFFIXES <folder>...] PACKAGE <Debian package>)
 function(rheocyte_import target)
@@ -43,14 +45,23 @@ target_compile_definitions(rheocyte::toml INTERFACE TOML_HEADER_ONLY=1)
 
 rheocyte_import(shared_hdf5 LIBRARY hdf5 HEADER hdf5.h SUFFIXES hdf5/serial PACKAGE libhdf5-dev)
 # Debian's shared HDF5 loads 25 libraries of the network, a third of what a program takes to start. Programs take the
-# static one, where there is one; modules of Python cannot, because its code is not independent of its place.
+# static one, where there is one that needs no more than compression (that of HDF5 1.14 needs the network, too); modules
+# of Python cannot, because its code is not independent of its place.
 find_library(RHEOCYTE_STATIC_HDF5_LIBRARY libhdf5.a PATH_SUFFIXES hdf5/serial)
 find_library(RHEOCYTE_SZIP_LIBRARY sz)
 find_library(RHEOCYTE_ZLIB_LIBRARY z)
 mark_as_advanced(RHEOCYTE_STATIC_HDF5_LIBRARY RHEOCYTE_SZIP_LIBRARY RHEOCYTE_ZLIB_LIBRARY)
 set(hdf5_of_programs rheocyte::shared_hdf5)
 if(RHEOCYTE_STATIC_HDF5_LIBRARY AND RHEOCYTE_SZIP_LIBRARY AND RHEOCYTE_ZLIB_LIBRARY)
-  set(hdf5_of_programs ${RHEOCYTE_STATIC_HDF5_LIBRARY} ${RHEOCYTE_SZIP_LIBRARY} ${RHEOCYTE_ZLIB_LIBRARY} ${CMAKE_DL_LIBS} m)
+  set(static_hdf5 ${RHEOCYTE_STATIC_HDF5_LIBRARY} ${RHEOCYTE_SZIP_LIBRARY} ${RHEOCYTE_ZLIB_LIBRARY} ${CMAKE_DL_LIBS} m)
+  set(CMAKE_REQUIRED_INCLUDES ${RHEOCYTE_SHARED_HDF5_INCLUDE_DIR})
+  set(CMAKE_REQUIRED_LIBRARIES ${static_hdf5})
+  check_cxx_source_compiles("#include <hdf5.h>\nint main() { return H5open(); }" RHEOCYTE_STATIC_HDF5_LINKS)
+  unset(CMAKE_REQUIRED_INCLUDES)
+  unset(CMAKE_REQUIRED_LIBRARIES)
+  if(RHEOCYTE_STATIC_HDF5_LINKS)
+    set(hdf5_of_programs ${static_hdf5})
+  endif()
 endif()
 set(is_program "$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>")
 add_library(rheocyte::hdf5 INTERFACE IMPORTED)
@@ -62,9 +73,9 @@ target_link_libraries(rheocyte::hdf5 INTERFACE $<$<NOT:${is_program}>:rheocyte::
 rheocyte_import(zstd LIBRARY zstd HEADER zstd.h PACKAGE libzstd-dev)
 rheocyte_import(qhull LIBRARY qhull_r HEADER libqhull_r/libqhull_r.h PACKAGE libqhull-dev)
 if(RHEOCYTE_SOLVER)
-  rheocyte_import(httplib LIBRARY cpp-httplib HEADER httplib.h PACKAGE libcpp-httplib-dev)
-  target_compile_definitions(rheocyte::httplib INTERFACE CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT
-                                                         CPPHTTPLIB_BROTLI_SUPPORT)
+  rheocyte_import(beast HEADER boost/beast/http.hpp PACKAGE libboost-dev)
+  # Without what nobody uses and some compilers take for something else; Boost.System is headers only.
+  target_compile_definitions(rheocyte::beast INTERFACE BOOST_ASIO_DISABLE_CO_AWAIT BOOST_ERROR_CODE_HEADER_ONLY)
 endif()
 
 # Debian's interpreter first: another python3 that stands earlier in PATH often lacks the packages.

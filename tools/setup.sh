@@ -5,7 +5,7 @@ set -euo pipefail
 # shellcheck disable=SC2034 # used by the scripts that source this file
 build_packages=(g++ cmake ninja-build libeigen3-dev libceres-dev
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev libbenchmark-dev
-  libhdf5-dev libzstd-dev libqhull-dev libcpp-httplib-dev
+  libhdf5-dev libzstd-dev libqhull-dev libboost-dev
   python3 python3-matplotlib python3-numpy git)
 
 # What the largest compilation needs, with some room on top.
@@ -140,8 +140,12 @@ build_page() {
   (cd page && npm run --silent build) || fail 'the page of the view could not be built; the message above says why.'
 }
 
-# configure <preset> [<option>...]; the current folder is the top of the checkout.
+# configure <preset> [<option>...]; the current folder is the top of the checkout. With ccache, what was compiled before
+# is taken from there; headers that are compiled beforehand need its leave.
 configure() {
+  if command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache} CCACHE_SLOPPINESS=pch_defines,time_macros
+  fi
   cmake --preset "$@" || fail "CMake could not configure the preset \"$1\"; its message is above. A build folder that is
 old or was copied from elsewhere is mended by removing it."
 }

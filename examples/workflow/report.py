@@ -8,6 +8,13 @@ import numpy as np
 import pandas
 
 
+def why_none(events, file):
+    """Why no event has a modulus: what the program said of the recording, else the states of its events."""
+    with open(file, encoding="utf-8") as lines:
+        said = [line.removeprefix("# no moduli: ").strip() for line in lines if line.startswith("# no moduli: ")]
+    return said[0] if said else ", ".join(f"{count} {state}" for state, count in events["state"].value_counts().items())
+
+
 def described(name, file):
     events = pandas.read_csv(file, sep="\t", comment="#")
     modulus = events["young_modulus_kPa"].dropna()
@@ -15,7 +22,8 @@ def described(name, file):
     # Of the median of n values from a distribution with these quartiles (exact for normal ones).
     error = 1.2533 * (high - low) / 1.349 / np.sqrt(len(modulus)) if len(modulus) else np.nan
     return {"recording": name, "events": len(events), "with_modulus": len(modulus), "median_kPa": median,
-            "standard_error_of_median_kPa": error, "lower_quartile_kPa": low, "upper_quartile_kPa": high}
+            "standard_error_of_median_kPa": error, "lower_quartile_kPa": low, "upper_quartile_kPa": high,
+            "without_moduli_because": "" if len(modulus) else why_none(events, file)}
 
 
 def report(job):

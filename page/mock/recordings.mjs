@@ -14,7 +14,7 @@ function random(seed) {
 function eventsOf(count, seed, stiffness) {
   const next = random(seed);
   const normal = () => Math.sqrt(-2 * Math.log(next())) * Math.cos(2 * Math.PI * next());
-  const names = ['area_um', 'deform', 'area_ratio', 'bright_avg', 'pos_x', 'pos_y', 'time', 'temp'];
+  const names = ['area_um', 'deform', 'area_ratio', 'bright_avg', 'pos_x', 'pos_y', 'time', 'temp', 'constructor'];
   const columns = Object.fromEntries(names.map((name) => [name, new Float64Array(count)]));
   for (let i = 0; i < count; ++i) {
     const large = i % 4 === 0;
@@ -27,6 +27,7 @@ function eventsOf(count, seed, stiffness) {
     columns.pos_y[i] = 13.6 + 0.3 * normal();
     columns.time[i] = i / 100;
     columns.temp[i] = 23 + 0.2 * normal();
+    columns.constructor[i] = i; // a file may call a feature like that
   }
   return columns;
 }
@@ -83,7 +84,7 @@ export class MockRecordings {
 
   column(number, feature) {
     const { columns, computed } = this.items[number];
-    return computed?.[feature] ?? columns[feature];
+    return computed && Object.hasOwn(computed, feature) ? computed[feature] : columns[feature];
   }
 
   start(number, settings) {

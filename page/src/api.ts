@@ -120,6 +120,8 @@ export interface Item {
   name: string;
   state: 'ready' | 'loading' | 'failed';
   error?: string;
+  /** Another text as soon as the files have changed. */
+  version?: string;
   events?: number;
   conditions?: Record<string, number | string | null>;
   condition: string;
@@ -132,6 +134,8 @@ export interface Item {
 export interface Columns {
   features: string[];
   events: number;
+  /** Of the files that they were read from. */
+  version?: string;
   columns: Float32Array[] | Float64Array[];
 }
 
@@ -166,6 +170,8 @@ export interface CombinedCell {
 /** One event; curves in um from the upper left corner of the image, y downwards. */
 export interface EventDetail {
   features: Record<string, number | null>;
+  /** Of the files that it was read from. */
+  version?: string;
   young_modulus_kPa: number | null;
   standard_error_kPa: number | null;
   state: string;
@@ -192,6 +198,8 @@ export interface ExportRequest {
   what: 'events' | 'companion' | 'session' | 'case' | 'result' | 'svg' | 'png';
   item?: number;
   gate?: number[] | null;
+  /** of the recording to which the gate belongs */
+  version?: string;
   case?: Sections;
   name?: string;
   data?: string;
@@ -379,7 +387,7 @@ export async function readEvents(
 ): Promise<Columns> {
   const path = `/api/items/${item}/events?${query({ features: features.join(','), type })}`;
   const answer = await request(path, { signal });
-  const head = JSON.parse(answer.headers.get('X-Rheocyte-Columns')!) as { features: string[]; events: number };
+  const head = JSON.parse(answer.headers.get('X-Rheocyte-Columns')!) as { features: string[]; events: number; version?: string };
   const bytes = await answer.arrayBuffer().catch(give);
   const size = type === 'float32' ? 4 : 8;
   const column = (k: number) =>
@@ -391,8 +399,9 @@ export async function readEvents(
 
 export const readEvent = (item: number, event: number, signal?: AbortSignal) =>
   json<EventDetail>(`/api/items/${item}/events/${event}`, { signal });
-export const eventImage = (item: number, event: number) => `/api/items/${item}/events/${event}/image`;
-export const eventMask = (item: number, event: number) => `/api/items/${item}/events/${event}/mask`;
+/** The address changes with the file, so that the browser asks for the picture again. */
+export const eventPicture = (kind: 'image' | 'mask', item: number, event: number, version?: string) =>
+  `/api/items/${item}/events/${event}/${kind}?${query({ version })}`;
 
 export const startModuli = (item: number, settings: Record<string, unknown>) =>
   json<Moduli>(`/api/items/${item}/moduli`, sending('POST', settings));

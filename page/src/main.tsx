@@ -9,5 +9,5 @@ import './look/page.css';
 
 startTheme();
 startPlace();
-if (!(await startSession())) await startAtItems();
+await startAtItems(await startSession());
 render(<App />, document.getElementById('page')!);

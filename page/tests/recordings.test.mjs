@@ -75,6 +75,39 @@ test('A click on an event shows its image with outline and contour of the model,
   }),
 );
 
+test('The event panel lets an event go when its recording leaves the plots', { skip }, () =>
+  inPage(async (page) => {
+    await recordings.plotOf(page).focus();
+    await page.keyboard.press('n');
+    await page.locator('.event-image .event-outline').waitFor();
+    await page.getByRole('button', { name: 'treated_1.rtdc', exact: true }).click();
+    await page.getByText('Choose an event in a plot').waitFor();
+    assert.equal(await page.locator('.event-image').count(), 0);
+  }),
+);
+
+test('A second window shows the recordings, too', { skip }, () =>
+  inPage(async (page, { target }) => {
+    const saved = page.waitForRequest((each) => each.method() === 'PUT' && each.url().endsWith('/api/session'));
+    await page.getByLabel('Two plots').check();
+    await saved;
+    const second = await page.context().newPage();
+    await second.goto(target.address);
+    await recordings.drawn(second);
+    assert.equal(new URL(second.url()).hash, '#recordings');
+  }),
+);
+
+test('A feature that is called like a property of every object leaves the menus whole', { skip }, () =>
+  inPage(async (page) => {
+    const axis = page.locator('.plot-head select').first();
+    assert.ok((await axis.locator('option').count()) > 8);
+    await axis.selectOption('constructor');
+    await recordings.drawn(page);
+    assert.match(await page.locator('[data-plot="1"] .plot-axes').first().textContent(), /Constructor/);
+  }),
+);
+
 test('An event without a modulus says why', { skip }, () =>
   inPage(async (page) => {
     const stiff = known[0].deform.findIndex((value) => value <= 0.004);

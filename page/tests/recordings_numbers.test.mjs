@@ -149,6 +149,7 @@ test('several gates count together; a feature that is missing excludes all event
   assert.deepEqual([...applyGates([low, high], 5, () => [1, 2, 3, 4, 5])], [0, 1, 1, 1, 0]);
   assert.deepEqual([...applyGates([low], 2, () => undefined)], [0, 0]);
   assert.equal(gateOptions([low, { ...high, on: false }]), '--min a=2');
+  assert.equal(gateOptions([{ ...low, feature: 'emodulus_stored' }]), '--min emodulus=2'); // its name in the file
 });
 
 test('the contours enclose the shares of the events that they state', () => {

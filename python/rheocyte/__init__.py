@@ -2,7 +2,7 @@
 
 Solve a cell          Case, solve, Session, Result, evolve
 Tables                Table, table, table_names, viscosity, STATES
-Recordings            extract, moduli, time_course, features, synth
+Recordings            extract, moduli, time_course, features, synth, dclab_plugin
 Small deformations    analytic
 Mistakes              UserError (a ValueError), NoStateError
 Keys of a case        case_keys
@@ -21,7 +21,7 @@ _MODULES = {
     "Result": "states", "Session": "states", "solve": "states",
     "Evolution": "in_time", "evolve": "in_time",
     "STATES": "stiffness_tables", "Table": "stiffness_tables", "table_names": "stiffness_tables",
-    "table": "stiffness_tables", "viscosity": "stiffness_tables",
+    "dclab_plugin": "stiffness_tables", "table": "stiffness_tables", "viscosity": "stiffness_tables",
     "extract": "recordings", "features": "recordings", "moduli": "recordings", "synth": "recordings",
     "time_course": "recordings",
     "analytic": "analytical_model",

@@ -15,6 +15,7 @@ from rheocyte.states import Session as Session
 from rheocyte.states import solve as solve
 from rheocyte.stiffness_tables import STATES as STATES
 from rheocyte.stiffness_tables import Table as Table
+from rheocyte.stiffness_tables import dclab_plugin as dclab_plugin
 from rheocyte.stiffness_tables import table as table
 from rheocyte.stiffness_tables import table_names as table_names
 from rheocyte.stiffness_tables import viscosity as viscosity

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from matplotlib.collections import Collection
 from matplotlib.colors import PowerNorm
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
@@ -174,7 +175,8 @@ def draw_events(axes, events, rectangle):
     for level, style, width in ((levels[0], "solid", 1.1), (levels[1], (0, (3, 1.6)), 0.8)):
         contour = axes.contour(density.x, density.y, density.values, levels=[level], colors=colours.INK, linewidths=width,
                                linestyles=[style], zorder=3)
-        for collection in contour.collections:
+        # One collection since matplotlib 3.8, one per level before it.
+        for collection in [contour] if isinstance(contour, Collection) else contour.collections:
             collection.set_path_effects([withStroke(linewidth=width + 1.1, foreground=HALF, alpha=0.7)])
 
 

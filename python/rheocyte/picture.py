@@ -289,18 +289,24 @@ def made_of(result):
                   part("E2D = {:.4g} mN/m", result, "cortex_modulus_reached_mN_per_m")]
     if find(result, "tension_mN_per_m"):
         parts.append(part("γ = {:.3g} mN/m", result, "tension_mN_per_m"))
+    if find(cell, "rest_aspect") not in (None, 1):
+        parts.append(part("rest aspect {:.3g}", cell, "rest_aspect"))
+    if find(result, "case", "flow", "axial_tension_Pa"):
+        parts.append(part("axial tension {:.4g} Pa", result, "case", "flow", "axial_tension_Pa"))
     return parts
 
 
 def deformation_with_error(result):
     """Deformation and its estimated absolute error, with as many digits as the error leaves."""
     deformation, relative = find(result, "deformation"), find(result, "estimated_error")
+    if find(result, "case", "numerics", "accuracy_of") == "motion":
+        relative = None
     if not isinstance(deformation, (int, float)):
         return None
     if not isinstance(relative, (int, float)) or not relative > 0 or not deformation > 0:
         compared = find(result, "time", "comparison") or "converged"
         return f"deformation {deformation:.4g}" + ("" if compared == "converged" else ", error not known")
-    error = relative * deformation
+    error = relative * max(deformation, find(result, "deformation_floor") or 0)
     digits = int(np.clip(np.ceil(-np.log10(error)), 1, 9))
     return f"deformation {deformation:.{digits}f} ± {error:.{digits}f}"
 

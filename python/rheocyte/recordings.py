@@ -17,7 +17,8 @@ from rheocyte.stiffness_tables import place_of_table
 
 _UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "young_modulus_kPa": "kPa",
           "standard_error_kPa": "kPa", "state": "", "shape_excess": "", "shape_excess_error": "", "elongated": "",
-          "odd_share": "", "mode_3": "", "young_modulus_asymmetry_kPa": "kPa", "standard_error_asymmetry_kPa": "kPa"}
+          "odd_share": "", "mode_3": "", "young_modulus_asymmetry_kPa": "kPa", "standard_error_asymmetry_kPa": "kPa",
+          "systematic_error_asymmetry_kPa": "kPa"}
 
 
 def extract(
@@ -42,7 +43,8 @@ def extract(
     standard_error_kPa (without it for published tables), state (a category). Where the recording has inertia ratios,
     contours or masks: shape_excess (inertia ratio - that of the table's cell), shape_excess_error, elongated (a flag),
     odd_share (of the deformation). With contours or masks: mode_3, young_modulus_asymmetry_kPa,
-    standard_error_asymmetry_kPa (docs/real-cells.md). attrs: units, table, settings, warnings, shapes (what is said
+    standard_error_asymmetry_kPa, systematic_error_asymmetry_kPa (by how much it is too high if the cell is a solid that
+    is drawn out along the flow; docs/real-cells.md). attrs: units, table, settings, warnings, shapes (what is said
     about the shapes of all events, in sentences).
 
     UserError for what is wrong with the recording, naming what it lacks. It is read in a child of this process, for HDF5 is

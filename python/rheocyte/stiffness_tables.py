@@ -51,6 +51,17 @@ def table_names():
     return sorted(native.table_files())
 
 
+def dclab_plugin(file):
+    """Writes the plugin file that gives dclab and DCscope our moduli, as `rheocyte dclab-plugin` prints it, and returns its
+    path. The file holds all that it needs: rheocyte need not be installed where it is used.
+
+    file            where to; an older plugin file of rheocyte is replaced. UserError where another file stands
+    """
+    program = Path(__file__).with_name("modulus_plugin.py").read_text(encoding="utf-8")
+    native.write_dclab_plugin(program, os.fsencode(path(file, "file")))
+    return Path(file)
+
+
 @functools.cache
 def _passing_folder():
     """For files that nobody wants to keep: it goes with the interpreter."""
@@ -137,13 +148,14 @@ class Table:
         """For what it was computed: channel_width_um, flow_rate_ul_s, viscosity_mPas, flow_exponent, model, program, spec."""
         return dict(self._origin)
 
-    def modulus(self, area_um2, deform, *, channel_width_um, flow_rate_ul_s, viscosity_mPas=None, medium=None,
-                temperature_C=None, viscosity_model=_MODEL, pixel_size_um=0.0, correct_area=True):
+    def modulus(self, area_um2, deform, *, channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas=None,
+                medium=None, temperature_C=None, viscosity_model=_MODEL, correct_area=True):
         """Young's modulus of each event.
 
         area_um2, deform    as measured, arrays of one length or numbers; float64 arrays are not copied
         viscosity_mPas      a number or one per event; or medium and temperature_C (a number or one per event)
-        pixel_size_um       what pixels of this size do to area and deformation is taken away; 0: nothing
+        pixel_size_um       what pixels of this size do to area and deformation is taken away; 0: nothing, for areas and
+                            deformations without pixels (those of measured contours give moduli that are 20 % too low)
         correct_area        whether that holds for areas, too (own tables only)
 
         Returns Moduli: young_modulus_kPa, standard_error_kPa, state. Area and modulus scale to the channel, flow and
@@ -159,7 +171,7 @@ class Table:
         found = self._native.modulus(area, deformation, values, buffer, conditions)
         return Moduli(*(column.reshape(shape) for column in found))
 
-    def shapes(self, area_um2, deform, inertia_ratio, *, channel_width_um, pixel_size_um=0.0, correct_area=True):
+    def shapes(self, area_um2, deform, inertia_ratio, *, channel_width_um, pixel_size_um, correct_area=True):
         """The inertia ratios of events against those of the table's cells (docs/theory-extract.md, sec. "Shapes").
 
         area_um2, deform, inertia_ratio     as measured, arrays of one length or numbers; the ratio of the convex hull
@@ -177,8 +189,8 @@ class Table:
         conditions = self._conditions(channel_width_um, self._origin["flow_rate_ul_s"], pixel_size_um, correct_area)
         return Shapes(*(column.reshape(shape) for column in self._native.shapes(*arrays.values(), conditions)))
 
-    def lines(self, levels_kPa=None, *, count=11, channel_width_um=None, flow_rate_ul_s=None, viscosity_mPas=None,
-              pixel_size_um=0.0):
+    def lines(self, levels_kPa=None, *, pixel_size_um, count=11, channel_width_um=None, flow_rate_ul_s=None,
+              viscosity_mPas=None):
         """Isoelasticity lines: a list of pairs (young_modulus_kPa, points), points (n, 2) of area (um2) and deformation.
 
         levels_kPa      moduli of the lines; else `count` that spread evenly
@@ -194,7 +206,7 @@ class Table:
         return self._native.lines(levels, int(wanted), self._seen(channel_width_um, flow_rate_ul_s, viscosity_mPas,
                                                                  pixel_size_um))
 
-    def support(self, *, channel_width_um=None, flow_rate_ul_s=None, viscosity_mPas=None, pixel_size_um=0.0):
+    def support(self, *, pixel_size_um, channel_width_um=None, flow_rate_ul_s=None, viscosity_mPas=None):
         """Border of the region with moduli: polygon (n, 2) of area (um2) and deformation; arguments as lines."""
         return self._native.support(self._seen(channel_width_um, flow_rate_ul_s, viscosity_mPas, pixel_size_um))
 

@@ -24,6 +24,7 @@ class TextFiles(NamedTuple):
     lines: Path
 
 def table_names() -> list[str]: ...
+def dclab_plugin(file: str | PathLike[str]) -> Path: ...
 def place_of_table(name: str | PathLike[str]) -> str: ...
 def table(
     spec: str | PathLike[str] | Mapping[str, Any],
@@ -59,11 +60,11 @@ class Table:
         *,
         channel_width_um: float,
         flow_rate_ul_s: float,
+        pixel_size_um: float,
         viscosity_mPas: ArrayLike | None = None,
         medium: str | None = None,
         temperature_C: ArrayLike | None = None,
         viscosity_model: str = "buyukurganci-2022",
-        pixel_size_um: float = 0.0,
         correct_area: bool = True,
     ) -> Moduli: ...
     def shapes(
@@ -73,25 +74,25 @@ class Table:
         inertia_ratio: ArrayLike,
         *,
         channel_width_um: float,
-        pixel_size_um: float = 0.0,
+        pixel_size_um: float,
         correct_area: bool = True,
     ) -> Shapes: ...
     def lines(
         self,
         levels_kPa: ArrayLike | None = None,
         *,
+        pixel_size_um: float,
         count: int = 11,
         channel_width_um: float | None = None,
         flow_rate_ul_s: float | None = None,
         viscosity_mPas: float | None = None,
-        pixel_size_um: float = 0.0,
     ) -> list[tuple[float, NDArray[np.float64]]]: ...
     def texts(self, folder: str | PathLike[str] | None = None) -> TextFiles: ...
     def support(
         self,
         *,
+        pixel_size_um: float,
         channel_width_um: float | None = None,
         flow_rate_ul_s: float | None = None,
         viscosity_mPas: float | None = None,
-        pixel_size_um: float = 0.0,
     ) -> NDArray[np.float64]: ...

@@ -4,8 +4,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -17,6 +15,7 @@
 #include "numeric/fingerprint.h"
 #include "store/build_info.h"
 #include "store/bytes.h"
+#include "store/read_file.h"
 #include "store/result_folder.h"
 
 namespace rheocyte {
@@ -60,9 +59,8 @@ std::string padded(std::string_view text, std::size_t length) {
 }
 
 std::optional<std::string> content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return {};
-  return std::string(std::istreambuf_iterator<char>(stream), {});
+  constexpr std::size_t enough = std::size_t{4} << 30U;
+  return first_bytes(file, enough);
 }
 
 double reached_us(const Checkpoint& checkpoint) { return checkpoint.record.rows.back().t_us; }

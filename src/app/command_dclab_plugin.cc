@@ -1,5 +1,5 @@
 // `rheocyte dclab-plugin`
-// Prints a file of the Python package.
+// Prints a program text of the Python package and, behind it, the tables.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "case/refuse_path.h"
 #include "case/user_error.h"
+#include "extract/dclab_plugin.h"
 #include "store/python_package.h"
 
 namespace rheocyte {
@@ -17,10 +18,11 @@ namespace rheocyte {
 namespace {
 
 void print_plugin() {
-  const auto path = python_package_folder() / "rheocyte" / "dclab_plugin.py";
+  const auto path = python_package_folder() / "rheocyte" / "modulus_plugin.py";
   std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file || text.empty()) refuse_path(path, "cannot be read; it comes with the program, so install that again.");
+  text += data_of_dclab_plugin();
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     throw UserError("rheocyte: standard output cannot be written.");
 }
@@ -28,8 +30,8 @@ void print_plugin() {
 }  // namespace
 
 void add_dclab_plugin_command(CLI::App& app, int&) {
-  auto* command =
-      app.add_subcommand("dclab-plugin", "print the plugin feature that gives dclab and DCscope our moduli");
+  auto* command = app.add_subcommand(
+      "dclab-plugin", "print the plugin file that gives dclab and DCscope our moduli; it holds all that it needs");
   command->footer("For example: rheocyte dclab-plugin > rheocyte_modulus.py (see docs/python.md)");
   command->callback(print_plugin);
 }

@@ -42,8 +42,11 @@ class ExtractJob {
 
   int run() {
     const int exit_code = run_batch(tasks_, options_.batch, options_.measuring.patience_s, *this);
-    if (!lines_.empty()) add_to_summary(summary_file_, lines_);
-    if (!was_stopped(exit_code) && !options_.batch.quiet)
+    std::error_code error;
+    const bool has_place =
+        !options_.batch.folder.empty() || std::filesystem::is_directory(summary_file_.parent_path(), error);
+    if (!lines_.empty() && has_place) add_to_summary(summary_file_, lines_);
+    if (!was_stopped(exit_code) && !options_.batch.quiet && has_place)
       print(fmt::format("{} of {} recordings, see {}\n", done_, tasks_.size(), summary_file_.string()));
     return exit_code;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <new>
 #include <system_error>
 #include <vector>
@@ -40,6 +41,15 @@ int with_output(int exit_code) {
   return exit_code == exit_converged ? exit_user_error : exit_code;
 }
 
+// What the user may have meant by an argument that was taken for an option.
+std::string file_like_an_option(int argc, char** argv) {
+  std::error_code error;
+  for (int i = 1; i < argc; ++i)
+    if (argv[i][0] == '-' && std::filesystem::is_regular_file(argv[i], error))
+      return fmt::format("; the file {0} is given as ./{0}", one_line(argv[i], 200));
+  return {};
+}
+
 int report(const std::string& sentence, int exit_code) {
   tell(one_line(sentence, 1000));
   return exit_code;
@@ -55,7 +65,8 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code)
   } catch (const CLI::Success& wish) {  // --help, --version
     return with_output(app.exit(wish));
   } catch (const CLI::ParseError& error) {
-    return report(fmt::format("rheocyte: {} (see `rheocyte --help`)", error.what()), exit_user_error);
+    return report(fmt::format("rheocyte: {}{} (see `rheocyte --help`)", error.what(), file_like_an_option(argc, argv)),
+                  exit_user_error);
   } catch (const UserError& error) {
     return report(error.what(), exit_user_error);
   } catch (const std::bad_alloc&) {

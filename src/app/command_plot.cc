@@ -59,6 +59,7 @@ class Plot {
   explicit Plot(const PlotOptions& options) : options_(options), stem_(picture_stem(options)), lines_(options) {}
 
   int run() {
+    if (const std::string why = lines_.why_none(); !why.empty() && !options_.quiet) tell(why);
     json panels = json::array();
     for (const auto& recording : options_.inputs) {
       const auto name = fmt::format("events-{}", panels.size());

@@ -32,15 +32,18 @@ void add_solve_command(CLI::App& app, int& exit_code) {
           "a case with a [time] section")
       ->type_name("DIR")
       ->excludes("--continue");
-  command->add_flag("--json", options->json, "print result.json on standard output and nothing else there");
+  command->add_flag("--json", options->json,
+                    "print result.json on standard output and nothing else there; without -o nothing is written");
   command->add_flag("--quiet", options->quiet, "print neither progress nor summary");
   command->add_flag("--no-picture", options->no_picture, "do not draw picture.png and picture.svg");
   command->add_flag(
       "--check", options->check_only,
       "only check the case: exit code 0 or 2, nothing is written; with --json, print it with all defaults");
   command->callback([options, &exit_code] {
-    if (!options->check_only && options->folder.empty())
-      throw UserError("rheocyte: the folder for the result is missing; give one with -o, for example -o result.");
+    if (!options->check_only && !options->json && options->folder.empty())
+      throw UserError(
+          "rheocyte: the folder for the result is missing; give one with -o, for example -o result, or --json to print "
+          "it.");
     exit_code = solve_case(*options);
   });
 }

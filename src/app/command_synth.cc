@@ -14,6 +14,7 @@
 #include "case/key_reading.h"
 #include "case/refuse_path.h"
 #include "case/user_error.h"
+#include "extract/virtual_cells.h"
 #include "store/build_info.h"
 #include "store/contained.h"
 #include "store/standard_error.h"
@@ -21,7 +22,6 @@
 #include "store/stop_signal.h"
 #include "store/whole_file.h"
 #include "synth/synth_keys.h"
-#include "synth/synth_shapes.h"
 #include "synth/virtual_recording.h"
 
 namespace rheocyte {
@@ -70,8 +70,7 @@ int run(const SynthOptions& options) {
        remarks_on_names(key_list(synth_keys()), given_keys(text, options.spec.string(), options.settings)))
     if (!options.quiet) tell(remark);
   SynthSpec spec = parse_synth_spec(text, options.spec.string(), options.settings);
-  if (!spec.table.empty()) spec.table = options.spec.parent_path() / spec.table;  // an absolute one stays
-  const auto shapes = shapes_of(spec);
+  const auto shapes = virtual_cells(spec, options.spec.parent_path());
   const RecordingProvenance provenance{fmt::format("rheocyte {}", version), text};
   WholeFile file(options.output, [&] { check_output(options); });
   const auto work = [&](const TellProgress& tell_progress) {

@@ -15,8 +15,8 @@ void add_view_command(CLI::App& app, int&) {
                    "recordings or folders of them, results, cases, tables, or the session.toml of an earlier view; "
                    "nothing: the example cell")
       ->type_name("PATH");
-  command->add_option("--port", options->place.port, "the port to serve at; any that is free otherwise")
-      ->check(CLI::Range(1, 65535));
+  command->add_option("--port", options->place.port, "the port to serve at; 0 or nothing: any that is free")
+      ->check(CLI::Range(0, 65535));
   command->add_option("--host", options->place.host, "the address to serve at; others than this machine may reach it")
       ->type_name("ADDRESS")
       ->capture_default_str();

@@ -23,8 +23,9 @@ void declare_gate_options(CLI::App& command, GateOptions& options) {
   command
       .add_option("--polygon", options.polygons,
                   "take only events within a polygon in the plane of two features, e.g. "
-                  "area_um,deform=40,0.01:90,0.01:90,0.1; log:area_um draws its edges over the logarithm")
-      ->type_name("FEATURE,FEATURE=X,Y:...")
+                  "area_um,deform=40,0.01:90,0.01:90,0.1; log:area_um draws its edges over the logarithm; or a file "
+                  "of polygon filters of DCscope or dclab")
+      ->type_name("FEATURE,FEATURE=X,Y:...|FILE.poly")
       ->allow_extra_args(false);
 }
 
@@ -50,7 +51,9 @@ void declare_measuring_options(CLI::App& command, MeasuringOptions& options) {
       .add_option("--temperature", options.temperature,
                   "degC; or feature: of each event; or metadata; default: of each event if the recording has it")
       ->type_name("VALUE|feature|metadata");
-  command.add_option("--temperature-if-missing", options.temperature_if_missing, "degC, only where none is recorded")
+  command
+      .add_option("--temperature-if-missing", options.temperature_if_missing,
+                  "degC, only where none is recorded, also of single events")
       ->type_name("VALUE");
   declare_gate_options(command, options.gates);
   command.add_option("--patience", options.patience_s,

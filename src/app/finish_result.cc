@@ -38,9 +38,12 @@ int exit_code_of(const Outcome& outcome) {
 
 int finish_result(const Result& result, ResultFolder& folder, const SolveOptions& options,
                   const nlohmann::ordered_json& numbers, std::optional<Drawing>& drawing) {
-  const auto json = json_text(numbers) + "\n";
-  finish_folder(result, folder, options, json, drawing);
-  print_result(result, options, json);
+  finish_folder(result, folder, options, json_text(numbers) + "\n", drawing);
+  return report_result(result, options, numbers);
+}
+
+int report_result(const Result& result, const SolveOptions& options, const nlohmann::ordered_json& numbers) {
+  print_result(result, options, json_text(numbers) + "\n");
   const auto& outcome = result.state.outcome;
   if (outcome.status != Status::converged)
     tell(fmt::format("rheocyte: {}: {}", name(outcome.status), one_line(outcome.message, 800)));

@@ -15,4 +15,7 @@ namespace rheocyte {
 int finish_result(const Result&, ResultFolder& folder, const SolveOptions&, const nlohmann::ordered_json& numbers,
                   std::optional<Drawing>& drawing);
 
+/// Prints and returns the exit code, without a folder.
+int report_result(const Result&, const SolveOptions&, const nlohmann::ordered_json& numbers);
+
 }  // namespace rheocyte

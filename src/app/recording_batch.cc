@@ -26,6 +26,14 @@ ResultPlace::~ResultPlace() {
   for (; !made_.empty(); made_.pop_back()) fs::remove(made_.back(), not_empty);
 }
 
+void check_is_there(const fs::path& recording) {
+  std::error_code error;
+  if (fs::status(recording, error).type() != fs::file_type::not_found) return;
+  if (recording.string().find("://") != std::string::npos)
+    refuse_path(recording, "is an address on a network; download the recording and give the file.");
+  refuse_path(recording, "there is no such file.");
+}
+
 std::vector<RecordingTask> tasks_of(const BatchOptions& options) {
   RecordingList list = list_recordings(options);
   if (!list.passed_over.empty() && !options.quiet) tell(passed_over_text(list.passed_over));

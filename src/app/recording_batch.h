@@ -31,6 +31,9 @@ class ResultPlace {
 /// The recordings of one call; says what was passed over, unless it is to be quiet. UserError as list_recordings.
 std::vector<RecordingTask> tasks_of(const BatchOptions& options);
 
+/// UserError if there is no such file: before anything is made for its results.
+void check_is_there(const std::filesystem::path& recording);
+
 /// Runs a job on the recordings in turn and returns the exit code: of a failure, if there was any, else of a recording
 /// without any result. The job says by
 ///   files(task)                                   which files are made, with publish(); here, UserError
@@ -43,6 +46,7 @@ int run_batch(std::span<const RecordingTask> tasks, const BatchOptions& options,
   for (const auto& task : tasks) {
     std::string sentence;
     try {
+      check_is_there(task.recording);
       const ResultPlace place(task.results.parent_path(), options.folder);
       auto files = job.files(task);
       const auto work = [&](const TellProgress& tell_progress) { return job.work(task, files, tell_progress); };

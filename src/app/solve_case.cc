@@ -54,10 +54,13 @@ int solve_case(const SolveOptions& options) {
     if (options.json) print_case(c);
     return exit_converged;
   }
-  check_result_folder(options.folder);
+  const bool is_written = !options.folder.empty();
+  if (!is_written && c.time.scheme != TimeScheme::stationary)
+    throw UserError("rheocyte: a case with a [time] section needs a folder for its course; give one with -o.");
+  if (is_written) check_result_folder(options.folder);
   watch_signals();
   std::optional<Drawing> drawing;  // loads while the solver runs
-  if (!options.no_picture) drawing.emplace("picture");
+  if (is_written && !options.no_picture) drawing.emplace("picture");
   if (c.time.scheme != TimeScheme::stationary) return solve_in_time(c, options, drawing);
   if (!options.start_from.empty())
     throw UserError("rheocyte: --start is for a case with a [time] section; a stationary one starts by itself.");
@@ -70,6 +73,7 @@ int solve_case(const SolveOptions& options) {
   result.state = solve_stationary(result.problem, progress, &stop_wanted());
   refuse_unfinite_numbers(result);
 
+  if (!is_written) return report_result(result, options, to_json(result));
   ResultFolder folder(options.folder);
   return finish_result(result, folder, options, to_json(result), drawing);
 }

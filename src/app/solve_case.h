@@ -8,7 +8,7 @@ namespace rheocyte {
 
 struct SolveOptions {
   std::filesystem::path case_file;
-  std::filesystem::path folder;         ///< of the results
+  std::filesystem::path folder;         ///< of the results; empty, with json: a stationary one is only printed
   std::filesystem::path continue_from;  ///< folder of an earlier result in time; empty: from the sphere
   std::filesystem::path start_from;     ///< folder of a result in time whose last state is the start; or empty
   std::vector<std::string> settings;    ///< "key=value"

@@ -12,6 +12,7 @@ namespace rheocyte {
 /// one.
 struct ChannelProfile {
   std::vector<double> x_um, R_um, width_um;
+  std::vector<double> axial_tension_Pa = {};  ///< in place of that of the flow; empty: the same everywhere
 };
 
 /// From where a duct is seen; any angle stands in camera_degree.
@@ -41,6 +42,7 @@ struct Flow {
   std::optional<double> viscosity_mPas, consistency_Pa_sn, exponent, shear_rate_floor;
   std::optional<double> zero_shear_viscosity_mPas, infinite_shear_viscosity_mPas, relaxation_time_ms, yasuda_exponent;
   double density_kg_per_m3 = 0;
+  double axial_tension_Pa = 0;
 };
 
 /// The law of the liquid in SI units; a floor of shear rates stays relative to U/R.
@@ -87,6 +89,7 @@ struct Cell {
   std::optional<double> branch_modulus_kPa = {};            ///< only of a standard linear solid
   std::vector<double> offset_um = {};                       ///< in a duct: along width and height; empty: centred
   CellPlace place = CellPlace::given;
+  double rest_aspect = 1;
 };
 
 /// Whether the cell is on the axis of the channel.
@@ -103,6 +106,7 @@ struct TimeCase {
 
 struct Numerics {
   double accuracy = 0;
+  std::optional<AccuracyOf> accuracy_of = {};  ///< only of a cell off the axis
 };
 
 /// A value that read_case returns is complete and inside every range; a default-constructed one is not.

@@ -10,10 +10,10 @@ constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "p
     carreau{"flow.law", "carreau"}, shear_thinning{"flow.law", "newtonian", true},
     mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
     has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
-    in_duct{"channel.section", "tube", true}, rectangle{"channel.section", "rectangle"},
-    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
-    linear_solid{"cell.viscoelasticity", "standard-linear-solid"}, has_rate{"flow.drive", "pressure-drop", true},
-    has_pressure_drop{"flow.drive", "pressure-drop"};
+    in_duct{"channel.section", "tube", true}, has_offset{"cell.offset_um", ""},
+    rectangle{"channel.section", "rectangle"}, monolithic{"time.scheme", "monolithic"},
+    partitioned{"time.scheme", "partitioned"}, linear_solid{"cell.viscoelasticity", "standard-linear-solid"},
+    has_rate{"flow.drive", "pressure-drop", true}, has_pressure_drop{"flow.drive", "pressure-drop"};
 
 // The member of a case is the name of its key; behind it stand the other parts of its KeyDescription in their order.
 #define FIELD(member) ([](auto& c) -> auto& { return c.member; })
@@ -53,6 +53,10 @@ const std::array table = {
         "widths at these places of a channel whose height is the least of them, linear in between, in place of radii; "
         "mapped to the tube that has the same mean speed everywhere",
         List{{1, 10000}}, absent, monolithic, "channel.profile.R_um"),
+    KEY(channel.profile.axial_tension_Pa, "Pa",
+        "even axial tension of the surroundings where the cell is at these places, linear in between, constant beyond "
+        "the ends; in place of flow.axial_tension_Pa",
+        List{{-1e4, 1e5}}, absent, monolithic),
 
     KEY(flow.drive, "",
         "what is given: the flow rate; the pressure drop, with the flow rate as a result; the flow rate, reached "
@@ -88,6 +92,9 @@ const std::array table = {
         0.01, power_law),
     KEY(flow.density_kg_per_m3, "kg/m3", "density of the liquid, 0 = no inertia (Stokes flow)", Number{{0, 1e6}},
         1000.0),
+    KEY(flow.axial_tension_Pa, "Pa",
+        "even tension of the surroundings along the flow, as of an elastic liquid: a traction T n_x e_x on the cell",
+        Number{{-1e4, 1e5}}, 0.0),
 
     KEY(cell.radius_um, "um",
         "radius of the unstressed, spherical cell, 0.05 .. 0.965 of the tube radius or of half the lesser width",
@@ -100,6 +107,9 @@ const std::array table = {
         "where a cell off the axis is, given: at its offset; equilibrium: where it does not drift, sought from there "
         "along the drift",
         Choice{{"given", "equilibrium"}}, 0, in_duct),
+    KEY(cell.rest_aspect, "",
+        "length over width of the cell without stress, a spheroid along the flow with the volume of the sphere",
+        Number{{0.5, 3}}, 1.0),
     KEY(cell.viscosity_mPas, "mPa s", "viscosity of the cell's interior; a stationary shape does not depend on it",
         Number{{1e-3, 1e9}}, required, in_time),
     KEY(cell.viscoelasticity, "",
@@ -161,7 +171,11 @@ const std::array table = {
 
     KEY(numerics.accuracy, "", "wanted relative accuracy of the deformation, mesh and degree are chosen for it",
         Number{{1e-7, 1e-1}}, 1e-4),
-
+    KEY(numerics.accuracy_of, "",
+        "what the accuracy is wanted of for a cell off the axis, deformation: of its silhouette, below 1e-4 relative "
+        "to "
+        "1e-4; motion: of its velocity, its rotation, and its drift or the place where it does not drift",
+        Choice{{"deformation", "motion"}}, 0, has_offset),
 };
 
 #undef KEY

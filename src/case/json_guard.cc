@@ -1,5 +1,7 @@
 #include "case/json_guard.h"
 
+#include <vector>
+
 namespace rheocyte {
 
 namespace {
@@ -15,15 +17,22 @@ class NestingGuard : public nlohmann::json_sax<json> {
   bool number_float(json::number_float_t, const json::string_t&) override { return true; }
   bool string(json::string_t&) override { return true; }
   bool binary(json::binary_t&) override { return true; }
-  bool key(json::string_t&) override { return true; }
-  bool start_object(std::size_t) override { return ++depth_ <= max_json_nesting; }
-  bool end_object() override { return --depth_ >= 0; }
+  bool key(json::string_t&) override { return ++keys_.back() <= max_json_keys; }
+  bool start_object(std::size_t) override {
+    keys_.push_back(0);
+    return ++depth_ <= max_json_nesting;
+  }
+  bool end_object() override {
+    keys_.pop_back();
+    return --depth_ >= 0;
+  }
   bool start_array(std::size_t) override { return ++depth_ <= max_json_nesting; }
   bool end_array() override { return --depth_ >= 0; }
   bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
 
  private:
   int depth_ = 0;
+  std::vector<int> keys_;  ///< of the objects that are open
 };
 
 }  // namespace

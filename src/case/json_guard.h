@@ -7,8 +7,11 @@ namespace rheocyte {
 
 /// Files of the field and of this program nest four levels deep.
 inline constexpr int max_json_nesting = 32;
+/// Of one object: nlohmann's ordered objects look through all of them for each that is added.
+inline constexpr int max_json_keys = 2000;
 
-/// Whether the bytes are well-formed and nest no deeper: nlohmann's reader of CBOR, its output and its copies recurse.
+/// Whether the bytes are well-formed, nest no deeper (nlohmann's reader of CBOR, its output and its copies recurse) and
+/// no object has more keys.
 bool is_sound_json(std::string_view bytes,
                    nlohmann::json::input_format_t format = nlohmann::json::input_format_t::json);
 

@@ -41,6 +41,10 @@ inline constexpr Camera Camera::side{0}, Camera::diagonal{45};
 /// Where a cell off the axis of a duct is: at the given place, or where it does not drift, sought from there.
 enum class CellPlace { given, equilibrium };
 
+/// What is wanted as accurately as the case says of a cell off the axis: the deformation of its silhouette, or its
+/// velocity, drift and rotation, which are right sooner.
+enum class AccuracyOf { deformation, motion };
+
 /// What drives the liquid: a given flow rate, a given pressure drop over the channel, or a pressure drop that is
 /// adapted in each step in time until the flow rate is the wanted one (Mokbel et al. 2017).
 enum class Drive { rate, pressure_drop, controlled_pressure };
@@ -82,12 +86,20 @@ struct Problem : Media {
   double radius_ratio = 0.5;     ///< r0 / R, in (0, 0.965)
   double offset = 0;             ///< in a duct: of the cell from the axis, towards the camera, in h
   CellPlace place = CellPlace::given;
-  Drive drive = Drive::rate;     ///< the given rate is 1; the given pressure drop that of the undisturbed flow
-  double pressure_gradient = 0;  ///< in a duct the given one, in S/h, where U is a nominal speed
-  double channel_length = 0;     ///< simulated, in R; 0: the shortest, 2 min_half_length()
-  WallTable wall;                ///< the way of the cell; acts in time only
-  double start_stretch = 1;      ///< of the cell along the flow when it starts in time
-  double accuracy = 1e-4;        ///< wanted relative accuracy of the deformation
+  Drive drive = Drive::rate;          ///< the given rate is 1; the given pressure drop that of the undisturbed flow
+  double pressure_gradient = 0;       ///< in a duct the given one, in S/h, where U is a nominal speed
+  double channel_length = 0;          ///< simulated, in R; 0: the shortest, 2 min_half_length()
+  WallTable wall;                     ///< the way of the cell; acts in time only
+  AxialTensionTable tension_profile;  ///< likewise, in place of the media's tension
+  double start_stretch = 1;           ///< of the cell along the flow when it starts in time
+  double accuracy = 1e-4;             ///< wanted relative accuracy of the deformation
+  AccuracyOf accuracy_of = AccuracyOf::deformation;  ///< off the axis
 };
+
+/// The problem on its way from the rigid cell.
+inline Problem at_compliance(Problem problem, double compliance) {
+  static_cast<Media&>(problem) = media_at(problem, compliance);
+  return problem;
+}
 
 }  // namespace rheocyte

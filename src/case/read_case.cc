@@ -152,8 +152,10 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
     refuse(offset[0] != 0 ? "is along the width, along which the camera must look: give channel.camera_degree = 90"
                           : "is along the height, along which the camera must look: leave channel.camera out");
   if (c.flow.drive != Drive::rate) refuse("is for a given flow rate; give flow.rate_ul_per_s");
-  if (c.cell.cortex.law != CortexLaw::none || tension_mN_per_m(c) > 0 || c.cell.cortex.bending_kBT > 0)
-    refuse("is for cells without a cortex; leave [cell.cortex] out");
+  if (c.cell.bulk.law == BulkLaw::none)
+    refuse("is for cells with an elastic interior; the turning surface of a shell would drag its liquid round");
+  if (c.cell.cortex.bending_kBT > 0)
+    refuse("is for cells without bending stiffness; leave cell.cortex.bending_kBT out");
   const Extent extent = extent_of(c);
   const double half = unit_length_um(c) * (offset[0] != 0 ? extent.width : extent.height);
   const double most = max_offset(half, c.cell.radius_um);
@@ -223,16 +225,49 @@ void check_grid(const Case& c, const KeyReading& keys) {
                                  keys.stated(key), max_grid_degree));
 }
 
+/// By which the sphere is stretched along x when it has its shape without stress, or starts in time.
+double first_stretch(const Case& c) { return c.time.start_stretch.value_or(1) * std::pow(c.cell.rest_aspect, 2.0 / 3); }
+
+void check_elongation(const Case& c, const KeyReading& keys, bool has_radius) {
+  const auto refuse = [&](std::string_view key, std::string_view reason) {
+    keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
+  };
+  constexpr std::string_view aspect = "cell.rest_aspect", tension = "flow.axial_tension_Pa",
+                             tension_profile = "channel.profile.axial_tension_Pa";
+  const ChannelProfile& profile = c.channel.profile;
+  if (!profile.axial_tension_Pa.empty()) {
+    if (c.flow.axial_tension_Pa != 0)
+      refuse(tension, fmt::format("and {} exclude each other; give one of them", tension_profile));
+    if (profile.axial_tension_Pa.size() != profile.x_um.size())
+      keys.refuse(tension_profile,
+                  fmt::format("{} has {} numbers and {} has {}; give one tension for each place.", tension_profile,
+                              profile.axial_tension_Pa.size(), profile_x, profile.x_um.size()));
+    if (!has_radius) refuse(tension_profile, "is for single cells; leave it out of tables");
+  }
+  if (!has_radius && c.flow.axial_tension_Pa != 0) refuse(tension, "is for single cells; leave it out of tables");
+  if (c.cell.rest_aspect == 1) return;
+  if (!has_radius) refuse(aspect, "is for single cells; leave it out of tables");
+  if (!is_centred(c.cell))
+    refuse(aspect,
+           "has no stationary shape off the axis, where the rest shape turns with the material; leave it out, or give "
+           "flow.axial_tension_Pa");
+  if (c.cell.viscoelasticity == Viscoelasticity::maxwell)
+    refuse(aspect, "is for cells that remember a shape, which a Maxwell liquid does not; leave it out");
+}
+
 void check_start(const Case& c, const KeyReading& keys) {
-  const double stretch = c.time.start_stretch.value_or(1);
+  const double stretch = first_stretch(c);
   const WallTable wall = wall_um(c.channel.profile);
-  const double R = wall.is_straight() ? tube_radius_um(c) : WallProfile(wall).radius(0);
+  const double R = wall.is_straight() ? unit_length_um(c) : WallProfile(wall).radius(0);
   const double widest = c.cell.radius_um / std::sqrt(stretch);
   if (widest <= max_radius_ratio * R || stretch >= 1) return;
-  constexpr std::string_view key = "time.start_stretch";
-  keys.refuse(key,
-              fmt::format("{} widens the cell to a radius of {:.4g} um in a tube of {:.4g} um; take at least {:.3g}.",
-                          keys.stated(key), widest, R, std::pow(c.cell.radius_um / (max_radius_ratio * R), 2)));
+  const double least = std::pow(c.cell.radius_um / (max_radius_ratio * R), 2);
+  const bool is_start = c.time.start_stretch.value_or(1) < 1;
+  const std::string_view key = is_start ? "time.start_stretch" : "cell.rest_aspect";
+  keys.refuse(
+      key, fmt::format("{} widens the cell to a radius of {:.4g} um in a channel of {:.4g} um; take at least {:.3g}.",
+                       keys.stated(key), widest, R,
+                       is_start ? least * *c.time.start_stretch / stretch : std::pow(least, 1.5)));
 }
 
 void check_viscoelasticity(const Case& c, const KeyReading& keys) {
@@ -272,7 +307,6 @@ void check_time(const Case& c, const KeyReading& keys) {
   check_grid(c, keys);
   check_outputs(c, keys);
   check_viscoelasticity(c, keys);
-  check_start(c, keys);
 }
 
 }  // namespace
@@ -289,7 +323,9 @@ Case complete_case(KeyReading& keys, std::vector<std::string_view> left_open) {
   if (has_radius) {
     check_cell_in_tube(c, keys);
     check_length(c, keys);
+    check_start(c, keys);
   }
+  check_elongation(c, keys, has_radius);
   check_offset(c, keys, has_radius);
   check_cell_is_elastic(c, keys);
   check_time(c, keys);

@@ -43,7 +43,7 @@ double tube_radius_um(const Case& c) {
 WallTable wall_um(const ChannelProfile& profile) {
   if (profile.width_um.empty()) return {profile.x_um, profile.R_um};
   constexpr int parts = 8;  // of a linear change of width, whose radius is no cubic
-  const auto& [x, unused, width] = profile;
+  const std::vector<double>&x = profile.x_um, &width = profile.width_um;
   const double least = *std::ranges::min_element(width);
   WallTable wall;
   const auto add = [&](double at, double w) {
@@ -105,7 +105,8 @@ Problem problem_of(const Case& c) {
                   .shear_modulus = E / (3 * S),
                   .mooney_share = c.cell.bulk.mooney_share.value_or(1),
                   .viscosity = c.cell.viscosity_mPas.value_or(0) * Pas_per_mPas * U / (S * R),
-                  .reynolds = c.cell.density_kg_per_m3.value_or(0) * U * U / S};
+                  .reynolds = c.cell.density_kg_per_m3.value_or(0) * U * U / S,
+                  .rest_stretch = std::pow(c.cell.rest_aspect, 2.0 / 3)};
   if (const auto kind = c.cell.viscoelasticity; kind == Viscoelasticity::maxwell) {
     problem.bulk.branch_modulus = std::exchange(problem.bulk.shear_modulus, 0);
   } else if (kind == Viscoelasticity::standard_linear_solid) {
@@ -114,7 +115,9 @@ Problem problem_of(const Case& c) {
   problem.cortex = {.law = c.cell.cortex.law,
                     .modulus = c.cell.cortex.modulus_mN_per_m.value_or(0) * N_per_mN / (S * R),
                     .tension = tension_mN_per_m(c) * N_per_mN / (S * R),
-                    .bending = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R)};
+                    .bending = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R),
+                    .rest_stretch = problem.bulk.rest_stretch};
+  axial_tension(problem) = c.flow.axial_tension_Pa / S;
   problem.section = c.channel.section;
   problem.extent = extent_of(c);
   problem.camera = camera_of(c.channel);
@@ -125,10 +128,17 @@ Problem problem_of(const Case& c) {
   if (c.flow.drive == Drive::pressure_drop) problem.pressure_gradient = given_gradient(c) * R / S;
   problem.channel_length = c.channel.length_um.value_or(0) / unit_length_um(c);
   problem.start_stretch = c.time.start_stretch.value_or(1);
+  if (const auto& tension_Pa = c.channel.profile.axial_tension_Pa; !tension_Pa.empty()) {
+    for (std::size_t i = 0; i < tension_Pa.size(); ++i) {
+      problem.tension_profile.x.push_back(c.channel.profile.x_um[i] / tube_radius_um(c));
+      problem.tension_profile.tension.push_back(tension_Pa[i] / S);
+    }
+  }
   problem.wall = wall_um(c.channel.profile);
   for (auto* column : {&problem.wall.x, &problem.wall.radius})
     for (double& value : *column) value /= tube_radius_um(c);
   problem.accuracy = c.numerics.accuracy;
+  problem.accuracy_of = c.numerics.accuracy_of.value_or(AccuracyOf::deformation);
   return problem;
 }
 

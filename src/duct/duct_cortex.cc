@@ -53,6 +53,14 @@ struct BentShellAtPoint {
   }
 };
 
+/// What an energy does on its numbers, and the load that has none.
+template <class Energy, class T, std::size_t count>
+std::array<T, count> work_of(const Energy& energy, const std::array<T, count>& numbers) {
+  std::array<T, count> work = value_and_slopes(energy, numbers).second;
+  if constexpr (requires { energy.pull(numbers); }) work[0] = work[0] - energy.pull(numbers);
+  return work;
+}
+
 struct BentEdgeAtPoint {
   BendingEdge edge;
 
@@ -112,8 +120,11 @@ DuctCortex::Patch DuctCortex::face_patch(int element, const std::vector<MatrixXd
   patch.weights = reference_.weights;
   patch.parts = parts;
   const MatrixXd s = parts[0] * patch.rest, t = parts[1] * patch.rest;
-  for (int q = 0; q < reference_.points(); ++q)
-    patch.rest_metric.push_back({s.row(q).squaredNorm(), s.row(q).dot(t.row(q)), t.row(q).squaredNorm()});
+  for (int q = 0; q < reference_.points(); ++q) {
+    const Eigen::RowVector3d a = s.row(q), b = t.row(q);
+    const auto across = [](const auto& u, const auto& v) { return u(1) * v(1) + u(2) * v(2); };
+    patch.rest_metric.push_back({{a(0) * a(0), a(0) * b(0), b(0) * b(0)}, {across(a, a), across(a, b), across(b, b)}});
+  }
   return patch;
 }
 
@@ -240,7 +251,7 @@ void DuctCortex::integrate(int index, const Cortex& law, const VectorXd& unknown
     integrate<12>(
         patch,
         [&](int q) {
-          return InflationPoint{at_rest, patch.rest_volume(q)};
+          return InflationPoint{at_rest, patch.rest_volume(q), law.axial_tension};
         },
         unknowns, want, system);
   } else if (patch.rest_metric.empty()) {
@@ -251,14 +262,14 @@ void DuctCortex::integrate(int index, const Cortex& law, const VectorXd& unknown
     integrate<15>(
         patch,
         [&](int q) {
-          return BentShellAtPoint{{law, patch.rest_metric[q]}};
+          return BentShellAtPoint{{law, patch.rest_metric[q].at_rest(law.rest_stretch)}};
         },
         unknowns, want, system);
   } else {
     integrate<6>(
         patch,
         [&](int q) {
-          return ShellAtPoint{{law, patch.rest_metric[q]}};
+          return ShellAtPoint{{law, patch.rest_metric[q].at_rest(law.rest_stretch)}};
         },
         unknowns, want, system);
   }
@@ -280,11 +291,11 @@ void DuctCortex::integrate(const Patch& patch, const Energy& energy_at, const Ve
     for (int i = 0; i < numbers; ++i) values[i] = slopes[i / 3](q, i % 3);
     const auto energy = energy_at(q);
     if (want == Want::residual) {
-      const auto work = value_and_slopes(energy, values).second;
+      const auto work = work_of(energy, values);
       for (int i = 0; i < numbers; ++i) flux(q, i) = patch.weights(q) * work[i];
       continue;
     }
-    const auto work = value_and_slopes(energy, independent(values)).second;
+    const auto work = work_of(energy, independent(values));
     for (int i = 0; i < numbers; ++i) {
       flux(q, i) = patch.weights(q) * work[i].value;
       for (int j = 0; j < numbers; ++j) flux_slopes(q, i * numbers + j) = patch.weights(q) * work[i].slope(j);

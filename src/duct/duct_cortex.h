@@ -34,11 +34,11 @@ class DuctCortex {
   struct Patch {
     MatrixXd rest;  ///< nodes x (x, y, z)
     Eigen::MatrixXi unknowns, equations;
-    MatrixXd signs;                                  ///< of the unknowns in the coordinates: an image may turn them
-    VectorXd weights;                                ///< at the quadrature points
-    std::vector<MatrixXd> parts;                     ///< derivatives of the position: points x nodes each
-    std::vector<SurfaceMetric<double>> rest_metric;  ///< of a face
-    VectorXd rest_volume;                            ///< of a face of a liquid interior
+    MatrixXd signs;                       ///< of the unknowns in the coordinates: an image may turn them
+    VectorXd weights;                     ///< at the quadrature points
+    std::vector<MatrixXd> parts;          ///< derivatives of the position: points x nodes each
+    std::vector<RestMetric> rest_metric;  ///< of a face
+    VectorXd rest_volume;                 ///< of a face of a liquid interior
   };
   struct Edge;
   Patch face_patch(int element, const std::vector<MatrixXd>& parts) const;

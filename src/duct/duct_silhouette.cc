@@ -254,8 +254,8 @@ Contour duct_contour(const DuctSpace& space, const VectorXd& unknowns, Camera ca
   return contour;
 }
 
-DuctMeridian duct_meridian(const DuctSpace& space, const VectorXd& unknowns, Camera camera,
-                           const VectorXd& parameters) {
+DuctMeridian duct_meridian(const DuctSpace& space, const VectorXd& unknowns, Camera camera, const VectorXd& parameters,
+                           double rest_stretch) {
   const DuctSurfaceMap surface(space, unknowns);
   const View view = view_of(space, camera);
   const Pieces pieces = silhouette(surface, view, parameters);
@@ -265,8 +265,10 @@ DuctMeridian duct_meridian(const DuctSpace& space, const VectorXd& unknowns, Cam
   Eigen::Index row = 0;
   for (const auto& piece : pieces) {
     for (const SurfacePlace& place : piece) {
-      const SurfaceJet now = surface.now(place), rest = surface.rest(place);
+      const SurfaceJet now = surface.now(place);
+      SurfaceJet rest = surface.rest(place);
       meridian.rest_angle(row) = std::atan2(rest.x.tail<2>().norm(), rest.x(0));
+      for (DuctPoint* slope : {&rest.s, &rest.t}) *slope = at_rest(*slope, rest_stretch);
       meridian.point.row(row) << now.x(0), view.across.dot(now.x);
       meridian.stretch.row(row) = stretches(now, rest, view.sight).transpose();
       meridian.curvature.row(row) = curvatures(now, view.sight).transpose();

@@ -20,6 +20,8 @@ struct DuctMeridian {
   Eigen::MatrixX2d curvature;
   Eigen::MatrixX2d principal;  ///< stretches, the least first
 };
-DuctMeridian duct_meridian(const DuctSpace&, const VectorXd& unknowns, Camera, const VectorXd& parameters);
+/// Stretches are those from the shape without stress, a sphere that is stretched so along x.
+DuctMeridian duct_meridian(const DuctSpace&, const VectorXd& unknowns, Camera, const VectorXd& parameters,
+                           double rest_stretch = 1);
 
 }  // namespace rheocyte

@@ -25,6 +25,12 @@ struct SurfaceJet {
   double area() const { return s.cross(t).norm(); }
 };
 
+/// The sphere as the spheroid that a cell rests in (docs/theory.md, eq:rest-shape).
+inline DuctPoint at_rest(const DuctPoint& undeformed, double rest_stretch) {
+  const double across = 1 / std::sqrt(rest_stretch);
+  return {rest_stretch * undeformed(0), across * undeformed(1), across * undeformed(2)};
+}
+
 /// The surface of one state, and the undeformed one. The space must outlive it.
 class DuctSurfaceMap {
  public:

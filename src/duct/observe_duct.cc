@@ -22,7 +22,7 @@ MatrixXd on_face(const MatrixXd& first, const MatrixXd& second) {
 }
 
 /// At products of parameters in [0, 1] on each face.
-DuctSurface surface_at(const VectorXd& at, const DuctSpace& space, const VectorXd& unknowns) {
+DuctSurface surface_at(const VectorXd& at, const DuctSpace& space, const VectorXd& unknowns, double rest_stretch = 1) {
   const int degree = space.reference().degree();
   const MatrixXd value = lagrange_basis(degree, at), slope = lagrange_slopes(degree, at);
   const MatrixXd shape = on_face(value, value), slope1 = on_face(slope, value), slope2 = on_face(value, slope);
@@ -34,7 +34,7 @@ DuctSurface surface_at(const VectorXd& at, const DuctSpace& space, const VectorX
     Eigen::MatrixX3d x(nodes.size(), 3), X(nodes.size(), 3);
     for (int k = 0; k < int(nodes.size()); ++k) {
       x.row(k) = duct_point(space, unknowns, nodes[k]).transpose();
-      X.row(k) = space.node_points()[nodes[k]].transpose();
+      X.row(k) = at_rest(space.node_points()[nodes[k]], rest_stretch).transpose();
     }
     const Eigen::MatrixX3d x1 = slope1 * x, x2 = slope2 * x, X1 = slope1 * X, X2 = slope2 * X;
     surface.point.middleRows(Eigen::Index(f) * points, points) = shape * x;
@@ -62,12 +62,12 @@ DuctSurface duct_surface(const DuctSpace& space, const VectorXd& unknowns, int p
   return surface_at(VectorXd::LinSpaced(per_edge, 0, 1), space, unknowns);
 }
 
-Eigen::MatrixX2d duct_principal_stretches(const DuctSpace& space, const VectorXd& unknowns) {
+Eigen::MatrixX2d duct_principal_stretches(const DuctSpace& space, const VectorXd& unknowns, double rest_stretch) {
   const VectorXd at = gauss_legendre(space.reference().degree()).points;
-  std::vector<Eigen::MatrixX2d> parts{surface_at(at, space, unknowns).stretch};
+  std::vector<Eigen::MatrixX2d> parts{surface_at(at, space, unknowns, rest_stretch).stretch};
   // In a plane of symmetry the principal directions lie along the meridian and across it.
   for (const Camera camera : mirror_cameras(space.mesh().symmetry()))
-    if (!space.turns()) parts.push_back(duct_meridian(space, unknowns, camera, at).stretch);
+    if (!space.turns()) parts.push_back(duct_meridian(space, unknowns, camera, at, rest_stretch).stretch);
   Eigen::Index rows = 0;
   for (const auto& part : parts) rows += part.rows();
   Eigen::MatrixX2d all(rows, 2);

@@ -16,7 +16,8 @@ DuctSurface duct_surface(const DuctSpace&, const VectorXd& unknowns, int per_edg
 /// Principal stretches of the surface, the least first, at the Gauss points of its faces and of both silhouettes: there
 /// the slopes of polynomials are most accurate, while at the borders of elements they are off by up to a tenth where
 /// the surface is bent sharply.
-Eigen::MatrixX2d duct_principal_stretches(const DuctSpace&, const VectorXd& unknowns);
+/// They are those from the shape without stress, a sphere that is stretched so along x.
+Eigen::MatrixX2d duct_principal_stretches(const DuctSpace&, const VectorXd& unknowns, double rest_stretch = 1);
 
 /// Greatest relative difference of the stretch along the faces' coordinates between two states.
 double duct_stretch_change(const DuctSpace&, const VectorXd& from, const VectorXd& to);

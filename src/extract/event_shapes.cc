@@ -96,13 +96,15 @@ void EventShapes::compute(std::size_t first, const MeasuredEvents& events, Shape
   if (recording_.has_scalar("pos_x")) recording_.read_scalar("pos_x", first, c.x_um);
   if (inertia_ratio_from_ == stored_ratio) recording_.read_scalar(stored_ratio, first, c.inertia_ratio);
   if (outlines_) {
-    for (auto* column : {&c.mode_2, &c.mode_3, &c.modulus_kPa, &c.standard_error_kPa}) column->resize(count);
+    for (auto* column : {&c.mode_2, &c.mode_3}) column->resize(count);
+    for (auto* column : {&c.modulus_kPa, &c.standard_error_kPa, &c.systematic_error_kPa})
+      column->assign(count, no_value);
     if (measured_pixel_um_ > 0) c.outlines.resize(count);
     c.states.assign(count, ModulusState::no_data);
-    c.modulus_kPa.assign(count, no_value);
     read_outlines(first, c);
     if (map_->has_asymmetry())
-      map_->estimate(conditions_, events, {c.mode_2, c.mode_3}, {c.modulus_kPa, c.standard_error_kPa, c.states});
+      map_->estimate(conditions_, events, {c.mode_2, c.mode_3},
+                     {c.modulus_kPa, c.standard_error_kPa, c.states, c.systematic_error_kPa});
   }
   map_->compare(conditions_, events, c.inertia_ratio, c.excess);
 }

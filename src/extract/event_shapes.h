@@ -16,7 +16,8 @@ struct ShapeColumns {
   std::vector<double> inertia_ratio, x_um;  ///< NaN where unknown
   std::vector<double> mode_2, mode_3;       ///< of a cell that moves towards +x; empty without contours and masks
   std::vector<ShapeExcess> excess;
-  std::vector<double> modulus_kPa, standard_error_kPa;  ///< from the asymmetry; empty without contours and masks
+  /// From the asymmetry, its standard error, and by how much it may be too high; empty without contours and masks.
+  std::vector<double> modulus_kPa, standard_error_kPa, systematic_error_kPa;
   std::vector<ModulusState> states;
   std::vector<ContourFeatures> outlines;  ///< empty unless measure_outlines() was called
 };
@@ -33,6 +34,7 @@ class EventShapes {
 
   bool is_known() const { return map_ != nullptr && !inertia_ratio_from_.empty(); }
   bool has_asymmetry() const { return outlines_.has_value(); }
+  const ShapeMap* map() const { return map_; }
   const std::string& inertia_ratio_from() const { return inertia_ratio_from_; }
   /// In which the cells move, from the sign of the mean asymmetry: +1, -1 along x, 0 if chance decides.
   int direction() const { return direction_; }

@@ -2,9 +2,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 #include "case/user_error.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -38,9 +38,7 @@ char* put_shape(char* at, const ShapeExcess& shape) {
 
 std::string_view mark_of_events(const std::filesystem::path& file) {
   constexpr std::string_view former = "# rheocyte ";
-  std::string start(former.size(), '\0');
-  std::ifstream(file, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
-  return start == former ? former : first_columns_of_events;
+  return first_bytes(file, former.size()) == former ? former : first_columns_of_events;
 }
 
 std::string commented(const std::vector<std::string>& remarks) {
@@ -56,7 +54,8 @@ EventTable::EventTable(const std::filesystem::path& file, const std::vector<std:
   if (columns_.errors) text_ += "standard_error_kPa\t";
   text_ += "state";
   if (columns_.shapes) text_ += "\tshape_excess\tshape_excess_error\telongated\todd_share";
-  if (columns_.asymmetry) text_ += "\tmode_3\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa";
+  if (columns_.asymmetry)
+    text_ += "\tmode_3\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa\tsystematic_error_asymmetry_kPa";
   text_ += '\n';
   text_ += commented(remarks);
   write_out();
@@ -84,7 +83,8 @@ void EventTable::append(const EventBlock& block) {
     for (const char c : name_of(block.state[i])) *at++ = c == ' ' ? '_' : c;
     if (columns_.shapes) at = put_shape(at, block.shape[i]);
     if (columns_.asymmetry)
-      for (const double number : {block.mode_3[i], block.asymmetry_kPa[i], block.asymmetry_error_kPa[i]}) {
+      for (const double number :
+           {block.mode_3[i], block.asymmetry_kPa[i], block.asymmetry_error_kPa[i], block.asymmetry_systematic_kPa[i]}) {
         *at++ = '\t';
         at = put_number(at, number);
       }

@@ -18,10 +18,11 @@ struct EventBlock {
   std::span<const double> area_um2, deformation, viscosity_mPas, young_modulus_kPa;
   std::span<const double> standard_error_kPa;  ///< empty if unknown
   std::span<const ModulusState> state;
-  std::span<const ShapeExcess> shape;                          ///< empty if nothing is known of the shapes
-  std::span<const double> mode_3;                              ///< empty, as the next two, without contours and masks
-  std::span<const double> asymmetry_kPa, asymmetry_error_kPa;  ///< Young's modulus from the asymmetry
-  std::span<const ContourFeatures> outlines;                   ///< empty unless they are measured, too
+  std::span<const ShapeExcess> shape;  ///< empty if nothing is known of the shapes
+  std::span<const double> mode_3;      ///< empty, as the next three, without contours and masks
+  /// Young's modulus from the asymmetry, its standard error, and by how much it may be too high.
+  std::span<const double> asymmetry_kPa, asymmetry_error_kPa, asymmetry_systematic_kPa;
+  std::span<const ContourFeatures> outlines;  ///< empty unless they are measured, too
 };
 
 /// Columns beside those that every table of events has.

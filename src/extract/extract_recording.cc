@@ -46,6 +46,10 @@ std::vector<OwnColumn> own_columns(const Extraction& extraction) {
                        &EventBlock::asymmetry_kPa});
     columns.push_back({"standard error asymmetry", "standard error of young_modulus_asymmetry (kPa)",
                        &EventBlock::asymmetry_error_kPa});
+    columns.push_back({"systematic error asymmetry",
+                       "by how much (kPa) young_modulus_asymmetry is too high if the cell is a solid that is drawn out "
+                       "along the flow",
+                       &EventBlock::asymmetry_systematic_kPa});
   }
   if (extraction.event_shapes().is_known()) {
     columns.push_back({"shape_excess",

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 
 #include "case/case_keys.h"
-#include "case/nearest_name.h"
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/plausibility.h"
@@ -26,6 +24,14 @@ struct Quantity {
 
 Range range_of(std::string_view key) { return std::get<Number>(case_key(key).kind).range; }
 
+// Of what is no positive number; with a decimal comma, for example, the text tells what is wrong.
+std::string what_is_stored(const Recording& recording, const std::string& key) {
+  if (!recording.metadata().has(key)) return key + " is missing";
+  const auto text = recording.metadata().text(key);
+  return text ? fmt::format("{} is \"{}\", which is not a positive number", key, one_line(*text, 40))
+              : key + " is not a positive number";
+}
+
 double quantity(const Recording& recording, const std::optional<double>& given, const Quantity& wanted) {
   if (given) return *given;
   const auto& [key, unit, way_out, range] = wanted;
@@ -34,9 +40,7 @@ double quantity(const Recording& recording, const std::optional<double>& given, 
     refuse_path(recording.file(), fmt::format("{} is {:g}, outside {}; is its unit another one? Give it with {}.", key,
                                               *stored, range_text(range, unit), way_out));
   if (stored && *stored > 0) return *stored;
-  refuse_path(recording.file(),
-              fmt::format("{} {}; give it with {}.", key,
-                          recording.metadata().has(key) ? "is not a positive number" : "is missing", way_out));
+  refuse_path(recording.file(), fmt::format("{}; give it with {}.", what_is_stored(recording, key), way_out));
 }
 
 void check_region(const Recording& recording) {
@@ -57,9 +61,6 @@ ViscosityModel chosen_model(const MeasuringOptions& options) {
                               one_line(name, 60)));
 }
 
-constexpr std::array<std::string_view, 6> media{"CellCarrier",  "CellCarrierB", "0.49% MC-PBS",
-                                                "0.59% MC-PBS", "0.83% MC-PBS", "water"};
-
 Medium chosen_medium(const MeasuringOptions& options, const Recording& recording) {
   const auto name = options.medium ? options.medium : recording.metadata().text("setup:medium");
   const auto medium = name ? medium_of_name(*name) : std::nullopt;
@@ -68,8 +69,8 @@ Medium chosen_medium(const MeasuringOptions& options, const Recording& recording
       "give the viscosity with --viscosity-mPas, or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, water with "
       "--medium";
   if (!name) refuse_path(recording.file(), fmt::format("setup:medium is missing; {}.", way_out));
-  const std::string sentence = fmt::format("the medium \"{}\" has no known viscosity{}; {}.", one_line(*name, 60),
-                                           did_you_mean(*name, media), way_out);
+  const std::string sentence =
+      fmt::format("the medium \"{}\" has no known viscosity{}; {}.", one_line(*name, 60), near_medium(*name), way_out);
   if (options.medium) throw UserError("rheocyte: " + sentence);
   refuse_path(recording.file(), sentence);
 }
@@ -117,7 +118,7 @@ std::size_t ExtractSettings::viscosities(const Recording& recording, std::size_t
   std::vector<double> temperatures(mPas.size());
   recording.read_scalar("temp", first, temperatures);
   for (double& celsius : temperatures)
-    if (!is_possible_temperature(celsius)) celsius = no_value;
+    if (!is_possible_temperature(celsius)) celsius = temperature_of_others_C;
   buffer->viscosity(conditions.flow, temperatures, mPas);
   const auto is_outside = [range = buffer->measured()](double celsius) {
     return std::isfinite(celsius) && !range.contains(celsius);
@@ -140,8 +141,10 @@ std::vector<std::string> ExtractSettings::lines() const {
   return lines;
 }
 
+MeasuredRanges measured_ranges() { return {range_of("channel.width_um"), range_of("flow.rate_ul_per_s"), {0.01, 10}}; }
+
 double pixel_size_um(const Recording& recording, const std::optional<double>& given, const char* way_out) {
-  return quantity(recording, given, {"imaging:pixel size", "um", way_out, {0.01, 10}});
+  return quantity(recording, given, {"imaging:pixel size", "um", way_out, measured_ranges().pixel_size_um});
 }
 
 ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixels, const Recording& recording) {
@@ -149,10 +152,11 @@ ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixel
   ExtractSettings settings;
   auto& conditions = settings.conditions;
   ChannelFlow& flow = conditions.flow;
+  const MeasuredRanges ranges = measured_ranges();
   flow.width_um = quantity(recording, options.channel_width_um,
-                           {"setup:channel width", "um", "--channel-width-um", range_of("channel.width_um")});
+                           {"setup:channel width", "um", "--channel-width-um", ranges.channel_width_um});
   flow.rate_ul_s = quantity(recording, options.flow_rate_ul_s,
-                            {"setup:flow rate", "ul/s", "--flow-rate-ul-s", range_of("flow.rate_ul_per_s")});
+                            {"setup:flow rate", "ul/s", "--flow-rate-ul-s", ranges.flow_rate_ul_s});
   if (pixels != PixelUse::ignore)
     settings.pixel_size_um = conditions.pixel_size_um =
         pixel_size_um(recording, options.pixel_size_um,
@@ -171,6 +175,7 @@ ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixel
   const RecordingTemperature temperature = temperature_of(options, recording);
   settings.temperature_from = temperature.from;
   settings.temperature_C = temperature.celsius;
+  settings.temperature_of_others_C = temperature.of_others;
   settings.warnings.insert(settings.warnings.end(), temperature.warnings.begin(), temperature.warnings.end());
   warn_about_temperature(settings);
   flow.exponent = settings.buffer->flow_exponent(temperature.celsius);

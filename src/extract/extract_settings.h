@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "case/key.h"
 #include "extract/options.h"
 #include "extract/recording_temperature.h"
 #include "infer/modulus_map.h"
 #include "measurement/recording.h"
 #include "measurement/viscosity.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
@@ -29,8 +31,9 @@ struct ExtractSettings {
   double pixel_size_um = 0;      ///< 0 if unknown
   std::optional<Buffer> buffer;  ///< nothing: the viscosity was given
   TemperatureSource temperature_from = TemperatureSource::none;
-  double temperature_C = 0;           ///< of all events, or their median
-  std::vector<std::string> warnings;  ///< sentences without the file's name
+  double temperature_C = 0;                   ///< of all events, or their median
+  double temperature_of_others_C = no_value;  ///< of single events without a possible one of their own; NaN: none
+  std::vector<std::string> warnings;          ///< sentences without the file's name
 
   bool viscosity_varies() const { return temperature_from == TemperatureSource::feature; }
   /// Of events [first, first + mPas.size()) (mPa s); NaN for events without a possible temperature. Returns how many
@@ -46,6 +49,12 @@ struct ExtractSettings {
   std::string model_text() const;        ///< "buyukurganci-2022", or "given"
   std::string temperature_text() const;  ///< "feature temp", "23 (metadata)", ""
 };
+
+/// What stored numbers can be; others have a unit that was mistaken.
+struct MeasuredRanges {
+  Range channel_width_um, flow_rate_ul_s, pixel_size_um;
+};
+MeasuredRanges measured_ranges();
 
 /// The size of a pixel that is given, else that of the metadata. UserError if it is missing or cannot be so; `way_out`
 /// names the options.

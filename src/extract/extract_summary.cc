@@ -15,7 +15,11 @@ RecordingLabels labels_of(const Metadata& metadata) {
 }
 
 std::string in_one_line(const ExtractSummary& s) {
-  std::string text = fmt::format("{} of {} events", s.with_modulus(), s.events);
+  std::string text = fmt::format("{} of {} events", s.with_modulus(), s.events), parts;
+  for (std::size_t k = 0; k < s.counts.size(); ++k)
+    if (const auto state = static_cast<ModulusState>(k); s.counts[k] > 0 && has_modulus(state))
+      parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", s.counts[k], name_of(state));
+  if (s.with_modulus() > s.counts.front()) text += fmt::format(" ({})", parts);
   if (s.with_modulus() > 0)
     text += fmt::format(", E median {:.4g} kPa (quartiles {:.4g} to {:.4g})", s.modulus_kPa.median,
                         s.modulus_kPa.first_quartile, s.modulus_kPa.third_quartile);
@@ -23,7 +27,7 @@ std::string in_one_line(const ExtractSummary& s) {
     text += fmt::format(", standard error {:.2g} kPa", s.median_standard_error_kPa);
   std::string others;
   for (std::size_t k = 1; k < s.counts.size(); ++k)
-    if (s.counts[k] > 0)
+    if (s.counts[k] > 0 && !has_modulus(static_cast<ModulusState>(k)))
       others += fmt::format("{}{} {}", others.empty() ? "" : ", ", s.counts[k], names_of_modulus_states[k]);
   return others.empty() ? text : text + "; " + others;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/user_error.h"
+#include "extract/fitting_table.h"
 #include "extract/plausibility.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
@@ -15,8 +17,6 @@ namespace {
 
 constexpr std::size_t block_of_scalars = 1 << 15;   // its columns stay in fast memory; chunks of 1 MiB are kept by HDF5
 constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible when every event takes microseconds
-
-constexpr double max_relative_standard_error = 1;
 
 PixelUse pixel_use(const ExtractOptions& options) {
   if (options.no_pixelation) return PixelUse::ignore;
@@ -32,6 +32,7 @@ std::string corrected_for_pixels(const MeasuringConditions& conditions, const Mo
 
 Extraction::Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables)
     : recording_(recording),
+      tables_(tables),
       settings_(extract_settings(options.measuring, pixel_use(options), recording)),
       table_(tables.used(settings_.conditions.flow.exponent)),
       other_table_(tables.other(settings_.conditions.flow.exponent)),
@@ -79,8 +80,18 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   if (!gates_.empty()) shut_out(first);
   collect();
   const auto& s = c.shapes;
-  return {c.area,   c.deformation, c.viscosity,          c.modulus, c.standard_error, c.states, s.excess,
-          s.mode_3, s.modulus_kPa, s.standard_error_kPa, s.outlines};
+  return {c.area,
+          c.deformation,
+          c.viscosity,
+          c.modulus,
+          c.standard_error,
+          c.states,
+          s.excess,
+          s.mode_3,
+          s.modulus_kPa,
+          s.standard_error_kPa,
+          s.systematic_error_kPa,
+          s.outlines};
 }
 
 void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events) {
@@ -90,6 +101,8 @@ void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events)
   const Moduli moduli{c.modulus_kPa, c.standard_error_kPa, c.states};
   take_account_of_inertia(moduli);
   set_aside_unresolved(moduli);
+  for (std::size_t i = 0; i < c.modulus_kPa.size(); ++i)
+    if (std::isnan(c.modulus_kPa[i])) c.systematic_error_kPa[i] = no_value;
 }
 
 ExtractSummary Extraction::summary() {
@@ -112,6 +125,10 @@ ExtractSummary Extraction::summary() {
   s.shapes.inertia_ratio_from = event_shapes_.inertia_ratio_from();
   s.shapes.direction = event_shapes_.direction();
   s.shapes.missing = event_shapes_.missing();
+  if (const ShapeMap* const map = event_shapes_.map()) s.shapes.model = map->origin().cells();
+  s.shapes.made_of = made_of();
+  if (s.shapes.fit() != ShapeVerdict::Fit::unknown && s.shapes.fit() != ShapeVerdict::Fit::model)
+    s.shapes.other = fitting_table(tables_, settings_.conditions, shape_tally_.judged());
   s.warnings = recording_.remarks();
   s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
   if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
@@ -121,6 +138,21 @@ ExtractSummary Extraction::summary() {
   if (recording_.has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
   return s;
+}
+
+// What a virtual recording says of its cells, and which table has such ones.
+std::string Extraction::made_of() const {
+  const auto cells = recording_.metadata().text(made_of_key);
+  if (!cells) return {};
+  const std::string made = fmt::format("made by rheocyte synth from {}", one_line(*cells, 100)),
+                    used = table().origin().identifier;
+  if (*cells == table().origin().cells()) return fmt::format("{}; the table {} fits.", made, used);
+  for (const ModulusMap* const other : tables_.others(settings_.conditions.flow.exponent))
+    if (*cells == other->origin().cells())
+      return fmt::format("{}; the table {} fits, the moduli given here are from {}.", made, other->origin().identifier,
+                         used);
+  return fmt::format("{}; no table that comes with the program has such cells, the moduli given here are from {}.",
+                     made, used);
 }
 
 // Where many cells are softer than the table's last ones.
@@ -173,8 +205,8 @@ void Extraction::collect() {
     ++viscosities_;
   }
   const ShapeColumns& s = columns_.shapes;
-  shape_tally_.take(
-      {s.excess, s.inertia_ratio, columns_.deformation, s.mode_3, s.x_um, columns_.modulus, s.modulus_kPa});
+  shape_tally_.take({s.excess, s.inertia_ratio, columns_.area, columns_.deformation, s.mode_3, s.x_um, columns_.modulus,
+                     s.modulus_kPa, s.systematic_error_kPa});
 }
 
 void Extraction::count_inertial(double viscosity_mPas) {
@@ -218,7 +250,8 @@ void Extraction::shut_out(std::size_t first) {
     c.modulus[i] = c.standard_error[i] = no_value;
     c.states[i] = ModulusState::gated;
     c.shapes.excess[i] = {no_value, no_value, no_value, no_value};
-    if (event_shapes_.has_asymmetry()) c.shapes.modulus_kPa[i] = c.shapes.standard_error_kPa[i] = no_value;
+    if (event_shapes_.has_asymmetry())
+      c.shapes.modulus_kPa[i] = c.shapes.standard_error_kPa[i] = c.shapes.systematic_error_kPa[i] = no_value;
   }
 }
 

@@ -17,7 +17,10 @@
 
 namespace rheocyte {
 
-/// One recording on its way through the blocks; memory does not grow with it but for 52 bytes per event.
+/// With more an event has no modulus.
+inline constexpr double max_relative_standard_error = 1;
+
+/// One recording on its way through the blocks; memory does not grow with it but for 68 bytes per event.
 class Extraction {
  public:
   /// The three must outlive the object. UserError naming what the recording lacks, and the option that gives it.
@@ -50,6 +53,7 @@ class Extraction {
 
   std::string comparison() const;
   std::string beyond_the_square() const;
+  std::string made_of() const;
   void collect();
   /// Young's moduli of the events of a block, and what is said about them.
   struct Moduli {
@@ -64,6 +68,7 @@ class Extraction {
   void compute_shapes(std::size_t first, const MeasuredEvents& events);
 
   const Recording& recording_;
+  const ModulusTables& tables_;
   ExtractSettings settings_;
   const ModulusMap& table_;
   const ModulusMap* other_table_;  ///< to compare with

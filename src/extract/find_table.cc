@@ -1,18 +1,21 @@
 #include "extract/find_table.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "case/nearest_name.h"
+#include "case/split.h"
 #include "case/user_error.h"
 #include "extract/shipped_tables.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -36,6 +39,19 @@ void add_packages_of(const fs::path& prefix, std::vector<fs::path>& folders) {
   }
 }
 
+// Of the python3 that a shell would start: its environment, and that in which a link to it leads.
+void add_packages_of_python(std::vector<fs::path>& folders) {
+  const std::string path = folder_in("PATH").string();
+  for (const auto& folder : split(path, ':')) {
+    const fs::path program = fs::path(folder) / "python3";
+    std::error_code error;
+    if (folder.empty() || ::access(program.c_str(), X_OK) != 0) continue;
+    add_packages_of(program.parent_path().parent_path(), folders);
+    add_packages_of(fs::canonical(program, error).parent_path().parent_path(), folders);
+    return;
+  }
+}
+
 std::vector<fs::path> package_folders() {
   std::vector<fs::path> folders;
   const std::string search = folder_in("PYTHONPATH").string();
@@ -46,6 +62,7 @@ std::vector<fs::path> package_folders() {
   }
   add_packages_of(folder_in("VIRTUAL_ENV"), folders);
   add_packages_of(folder_in("CONDA_PREFIX"), folders);
+  add_packages_of_python(folders);
   if (const auto home = folder_in("HOME"); !home.empty()) add_packages_of(home / ".local", folders);
   add_packages_of("/usr/local", folders);
   add_packages_of("/usr", folders);
@@ -54,7 +71,8 @@ std::vector<fs::path> package_folders() {
 
 // The identifier that the metadata in the head of a table give, without reading its numbers.
 std::string identifier_of(const fs::path& file) {
-  std::ifstream stream(file);
+  constexpr std::size_t longest_head = std::size_t{64} << 10U;
+  std::istringstream stream(first_bytes(file, longest_head).value_or(""));
   for (std::string line; std::getline(stream, line) && line.starts_with('#');) {
     const auto key = line.find("\"identifier\"");
     if (key == std::string::npos) continue;
@@ -100,7 +118,7 @@ fs::path find_table(const std::string& wanted, const std::string& asked_by) {
       has_published
           ? ""
           : " Published tables such as LE-2D-FEM-19 come with dclab (pip install dclab), which was looked for in "
-            "PYTHONPATH, VIRTUAL_ENV, CONDA_PREFIX, ~/.local, /usr/local and /usr.";
+            "PYTHONPATH, VIRTUAL_ENV, CONDA_PREFIX, beside the python3 of the PATH, in ~/.local, /usr/local and /usr.";
   throw UserError(names.empty() ? place + ". Give the path of a table." + published
                                 : fmt::format("{} (there are {}).{}", place, all, published));
 }

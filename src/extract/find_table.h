@@ -6,7 +6,8 @@
 namespace rheocyte {
 
 /// A file or folder of this name, the table of this identifier that comes with the program, or that of an installed
-/// dclab (its folder features/emodulus below the site-packages of a virtual environment, of the user or of the system).
+/// dclab (its folder features/emodulus below the site-packages of a virtual environment, of the python3 of the PATH, of
+/// the user or of the system).
 /// UserError naming those that were found, and the option or key that asks for it.
 std::filesystem::path find_table(const std::string& wanted, const std::string& asked_by = "--table");
 

@@ -9,6 +9,7 @@
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
+#include "extract/polygon_file.h"
 
 namespace rheocyte {
 
@@ -45,7 +46,8 @@ Gates::Gates(const GateOptions& options) {
           fmt::format("rheocyte: --min and --max of {} contradict each other: no number is at least {} and at "
                       "most {}.",
                       one_line(limit.feature, 60), limit.min, limit.max));
-  for (const auto& text : options.polygons) polygons_.emplace_back(text);
+  for (const auto& text : options.polygons)
+    for (auto& polygon : polygon_gates(text)) polygons_.push_back(std::move(polygon));
   events_ = options.events;
   if (events_) std::ranges::sort(*events_);
 }
@@ -73,8 +75,9 @@ std::string Gates::description() const {
 void Gates::check(const EventFeatures& features) const {
   for (const auto& limit : limits_)
     if (!features.has(limit.feature))
-      refuse_path(features.recording().file(), fmt::format("has no feature {}, for which --min or --max gives a limit.",
-                                                           one_line(limit.feature, 60)));
+      refuse_path(features.recording().file(),
+                  fmt::format("has no feature {}, for which --min or --max gives a limit.{}",
+                              one_line(limit.feature, 60), features.near(limit.feature)));
   for (const auto& polygon : polygons_) polygon.check(features);
 }
 

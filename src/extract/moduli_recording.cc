@@ -27,7 +27,7 @@ constexpr std::string_view more_columns =
     "young_modulus_error_kPa\t"
     "cortex_modulus_mN_per_m\tcortex_modulus_error_mN_per_m\ttension_mN_per_m\ttension_error_mN_per_m\t"
     "stiffness_kPa\tstiffness_error_kPa\tchi_squared\tstatus\t"
-    "shape_excess\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa\n";
+    "shape_excess\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa\tsystematic_error_asymmetry_kPa\n";
 
 std::string line(std::size_t event, const ShapeVector& seen, double viscosity_mPas, const ModuliEstimate& e) {
   std::string text = fmt::format("{}\t{:.6g}\t{:.6g}\t{:.6g}", event + 1, std::exp(seen(0)), seen(1), viscosity_mPas);
@@ -74,7 +74,8 @@ class Fits {
       const ModuliEstimate estimate = events_.is_inside(i) ? moduli_.fit(seen[i], viscosity[i]) : gated();
       tally_.take(estimate);
       text += line(first + i, seen[i], viscosity[i], estimate) +
-              fmt::format("\t{:.4g}\t{:.6g}\t{:.3g}\n", excess_[i].excess, solid_kPa_[i], solid_error_kPa_[i]);
+              fmt::format("\t{:.4g}\t{:.6g}\t{:.3g}\t{:.3g}\n", excess_[i].excess, solid_kPa_[i], solid_error_kPa_[i],
+                          solid_systematic_kPa_[i]);
     }
     return text;
   }
@@ -114,14 +115,14 @@ class Fits {
       third.push_back(seen[i](mode_2 + 1));
     }
     excess_.assign(seen.size(), {no_value, no_value, no_value, no_value});
-    solid_kPa_.assign(seen.size(), no_value);
-    solid_error_kPa_.assign(seen.size(), no_value);
+    for (auto* column : {&solid_kPa_, &solid_error_kPa_, &solid_systematic_kPa_}) column->assign(seen.size(), no_value);
     if (!shapes_of_solids_) return;
     const MeasuredEvents events{area, deformation, events_.viscosity_mPas()};
     std::vector<ModulusState> states(seen.size());
     shapes_of_solids_->compare(conditions(), events, ratio, excess_);
     if (shapes_of_solids_->has_asymmetry())
-      shapes_of_solids_->estimate(conditions(), events, {second, third}, {solid_kPa_, solid_error_kPa_, states});
+      shapes_of_solids_->estimate(conditions(), events, {second, third},
+                                  {solid_kPa_, solid_error_kPa_, states, solid_systematic_kPa_});
   }
 
   void count_inertial() {
@@ -147,7 +148,8 @@ class Fits {
   const ShapeMap* shapes_of_solids_;
   EventModuli moduli_;
   std::vector<ShapeExcess> excess_;
-  std::vector<double> solid_kPa_, solid_error_kPa_;  ///< by the asymmetry, as if the cells were solids
+  std::vector<double> solid_kPa_, solid_error_kPa_,
+      solid_systematic_kPa_;  ///< by the asymmetry, as if they were solids
   std::size_t inertial_ = 0;
   double max_reynolds_number_ = 0;
   ModuliTally tally_;

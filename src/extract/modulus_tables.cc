@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "case/user_error.h"
@@ -17,9 +18,6 @@ namespace {
 // Of several tables of Newtonian liquids the one that counts. In the square channel the surface of linear solids loses
 // its stability early, so that their table ends at half the deformation.
 constexpr std::string_view standard_tube_table = "LE-2D-26", standard_square_table = "HE-3D-26";
-
-/// "linear" of "linear solid / newtonian fluid"; of other cells the whole model.
-std::string solid_of(const std::string& model) { return model.substr(0, model.find(" solid")); }
 
 std::string_view standard_table(Section section) {
   return section == Section::square ? standard_square_table : standard_tube_table;
@@ -39,7 +37,7 @@ ModulusTables::ModulusTables(const std::string& name, std::optional<Section> sec
     auto map = read_modulus_map(file);
     const TableOrigin& origin = map->origin();
     section_ = origin.section;
-    tables_.push_back({file, origin.identifier, origin.flow.exponent, solid_of(origin.model), std::move(map)});
+    tables_.push_back({file, origin.identifier, origin.flow.exponent, origin.cells(), std::move(map)});
   }
   if (own()) add_shipped();
   if (tables_.empty() && !section) {
@@ -55,16 +53,16 @@ ModulusTables::ModulusTables(const std::string& name, std::optional<Section> sec
 
 // Of one section and one solid alone: moduli of the tube and of the square, of one law and another are not mixed.
 void ModulusTables::add_shipped() {
-  std::optional<std::string> solid;
-  if (given_) solid = tables_.front().solid;
+  std::optional<std::string> cells;
+  if (given_) cells = tables_.front().cells;
   for (const auto& [identifier, file] : shipped_tables()) {
     if (given_ && identifier == tables_.front().identifier) continue;
     const GridHead head = read_grid_head(file).value_or(GridHead{});
     if (head.section != section_) continue;
-    tables_.push_back({file, identifier, head.flow_exponent, solid_of(head.model)});
-    if (!given_ && identifier == standard_table(section_)) solid = tables_.back().solid;
+    tables_.push_back({file, identifier, head.flow_exponent, cells_in_words(head.model, head.section)});
+    if (!given_ && identifier == standard_table(section_)) cells = tables_.back().cells;
   }
-  if (solid) std::erase_if(tables_, [&](const Table& table) { return table.solid != *solid; });
+  if (cells) std::erase_if(tables_, [&](const Table& table) { return table.cells != *cells; });
 }
 
 const ModulusTables::Table* ModulusTables::newtonian() const {
@@ -94,11 +92,39 @@ ModulusTables::Choice ModulusTables::choose(double flow_exponent) const {
   return {used, other == used ? nullptr : other};
 }
 
+std::vector<std::filesystem::path> ModulusTables::files() const {
+  std::vector<std::filesystem::path> all;
+  for (const auto& table : tables_) all.push_back(table.file);
+  return all;
+}
+
 const ModulusMap& ModulusTables::used(double flow_exponent) const { return choose(flow_exponent).used->ready(); }
 
 const ModulusMap* ModulusTables::other(double flow_exponent) const {
   const Table* const table = choose(flow_exponent).other;
   return table ? &table->ready() : nullptr;
+}
+
+std::vector<const ModulusMap*> ModulusTables::others(double flow_exponent) const {
+  if (shipped_.empty())
+    for (const auto& [identifier, file] : shipped_tables()) {
+      const GridHead head = read_grid_head(file).value_or(GridHead{});
+      shipped_.push_back({file, identifier, head.flow_exponent, cells_in_words(head.model, head.section)});
+    }
+  const auto misfit = [&](const Table& table) {  // of the liquid; above the tolerance nothing fits
+    if (table.flow_exponent == 1) return flow_exponent_tolerance;
+    return flow_exponent < 1 ? std::abs(table.flow_exponent - flow_exponent) : 1;
+  };
+  const ShapeMap* const own = shapes(flow_exponent);
+  std::map<std::string, const Table*> best;  // by their cells
+  for (const Table& table : shipped_) {
+    if (misfit(table) > flow_exponent_tolerance || (own && table.cells == own->origin().cells())) continue;
+    const Table*& found = best[table.cells];
+    if (!found || misfit(table) < misfit(*found)) found = &table;
+  }
+  std::vector<const ModulusMap*> maps;
+  for (const auto& [cells, table] : best) maps.push_back(&table->ready());
+  return maps;
 }
 
 const ShapeMap* ModulusTables::shapes(double flow_exponent) const {

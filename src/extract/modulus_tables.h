@@ -25,12 +25,20 @@ class ModulusTables {
   /// one; else the one of a Newtonian liquid, with the effective viscosity. A table that the user names is used always.
   /// UserError if the table cannot be read.
   const ModulusMap& used(double flow_exponent) const;
+  /// Its file.
+  const std::filesystem::path& file(double flow_exponent) const { return choose(flow_exponent).used->file; }
   /// To compare with: the other way to take a shear-thinning liquid; null if there is none.
   const ModulusMap* other(double flow_exponent) const;
 
   /// What cells look like: by the table that is used, or that of a Newtonian liquid that comes with the program; null
   /// if neither knows.
   const ShapeMap* shapes(double flow_exponent) const;
+
+  /// Of all that can be used.
+  std::vector<std::filesystem::path> files() const;
+  /// Tables that come with the program for cells of other laws or in the other section, one for each kind of cells:
+  /// that of the medium with this exponent if there is one, else that of a Newtonian liquid. UserError as above.
+  std::vector<const ModulusMap*> others(double flow_exponent) const;
 
   /// Whether they are the shipped ones of the square channel: those of the tube go on to greater deformations.
   bool are_square() const { return !given_ && section_ == Section::square; }
@@ -43,7 +51,7 @@ class ModulusTables {
     std::filesystem::path file;
     std::string identifier;
     double flow_exponent;
-    std::string solid;                                        ///< its law
+    std::string cells;                                        ///< as in cells_in_words
     mutable std::unique_ptr<const ModulusMap> map = nullptr;  ///< once it is needed
 
     const ModulusMap& ready() const;
@@ -58,6 +66,7 @@ class ModulusTables {
 
   Section section_;
   std::vector<Table> tables_;
+  mutable std::vector<Table> shipped_;                  ///< all of them, once others are wanted
   mutable std::unique_ptr<const ModulusMap> standard_;  ///< once its shapes are needed
   bool given_ = false;                                  ///< the first one is the user's choice
 };

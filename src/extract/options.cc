@@ -7,6 +7,7 @@
 #include "case/user_error.h"
 #include "extract/gates.h"
 #include "extract/plausibility.h"
+#include "extract/recording_temperature.h"
 
 namespace rheocyte {
 
@@ -14,6 +15,7 @@ void check_measuring_options(const MeasuringOptions& options) {
   if (!(options.patience_s > 0 && std::isfinite(options.patience_s)))
     throw UserError("rheocyte: --patience must be a positive number.");
   static_cast<void>(Gates(options.gates));
+  check_temperatures(options);
   if (!options.viscosity_mPas) return;
   check_viscosity(*options.viscosity_mPas, "rheocyte: --viscosity-mPas");
   const char* const other = options.medium                            ? "--medium"

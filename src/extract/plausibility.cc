@@ -13,7 +13,6 @@ namespace rheocyte {
 
 namespace {
 
-constexpr double min_viscosity_mPas = 0.2;  // water has 0.28 where it boils
 constexpr double rate_tolerance = 0.01, area_tolerance = 0.02;
 constexpr std::size_t events_looked_at = 4096;  // events
 

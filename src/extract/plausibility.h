@@ -15,6 +15,9 @@ inline constexpr double max_reynolds_number = 3;
 /// (docs/theory-extract.md, sec. "Own tables").
 inline constexpr double modulus_per_reynolds = 0.007;
 
+/// Water has 0.28 where it boils.
+inline constexpr double min_viscosity_mPas = 0.2;
+
 /// UserError if a viscosity (mPa s) that somebody has given is less than that of any liquid that cells live in. `name`
 /// stands for its place in the message.
 void check_viscosity(double mPas, const std::string& name);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "case/user_error.h"
 #include "extract/shipped_tables.h"
 
 namespace rheocyte {
@@ -37,6 +38,16 @@ PlotLines::PlotLines(const PlotOptions& options) : options_(options) {
     wanted_ = LinesWanted::yes;
   else if (has_own)
     wanted_ = options.levels_kPa.empty() ? LinesWanted::if_possible : LinesWanted::yes;
+}
+
+std::string PlotLines::why_none() const {
+  const auto is_of_the_plane = [](const std::string& feature) { return feature == "area_um" || feature == "deform"; };
+  if (options_.no_lines || has_usual_axes(options_) || !(is_of_the_plane(options_.x) || is_of_the_plane(options_.y)))
+    return {};
+  return fmt::format(
+      "rheocyte: no isoelasticity lines are drawn: they are those of area_um (to the right) and deform (upwards), "
+      "not of {} and {}.",
+      one_line(options_.x, 60), one_line(options_.y, 60));
 }
 
 // Of the levels that spread over the picture, those next to two digits in the recording's own channel.

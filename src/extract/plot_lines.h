@@ -2,6 +2,7 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 
 #include "extract/modulus_tables.h"
 #include "extract/plot_panel.h"
@@ -15,6 +16,9 @@ class PlotLines {
   explicit PlotLines(const PlotOptions& options);
 
   LinesWanted wanted() const { return wanted_; }
+
+  /// Why none are drawn, where somebody could miss them: area or deformation against another feature; else empty.
+  std::string why_none() const;
 
   /// What the drawing program needs, as a recording sees it: "lines" with areas (um^2), deformations and moduli (kPa),
   /// "table" with the identifier, "pixels" (um) and, of a table, "support".

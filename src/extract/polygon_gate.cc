@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
@@ -27,7 +28,8 @@ double corner_number(std::string_view text) {
 
 [[noreturn]] void refuse_polygon(const std::string& text, std::string_view why) {
   throw UserError(
-      fmt::format("rheocyte: --polygon {}: {}; for example --polygon area_um,deform=40,0.01:90,0.01:90,0.1.",
+      fmt::format("rheocyte: --polygon {}: {}; for example --polygon area_um,deform=40,0.01:90,0.01:90,0.1, or a file "
+                  "of filters, --polygon FILE.poly.",
                   one_line(text, 60), why));
 }
 
@@ -60,16 +62,22 @@ PolygonGate::PolygonGate(const std::string& text) {
   if (corners_.size() < fewest_corners) refuse_polygon(text, "give three corners at least");
 }
 
+PolygonGate::PolygonGate(Shape shape)
+    : x_{std::move(shape.x), false},
+      y_{std::move(shape.y), false},
+      corners_(std::move(shape.corners)),
+      is_inverted_(shape.is_inverted) {}
+
 std::string PolygonGate::description() const {
-  return fmt::format("{},{} in a polygon of {} corners", one_line(x_.feature, 60), one_line(y_.feature, 60),
-                     corners_.size());
+  return fmt::format("{},{} {} a polygon of {} corners", one_line(x_.feature, 60), one_line(y_.feature, 60),
+                     is_inverted_ ? "outside" : "in", corners_.size());
 }
 
 void PolygonGate::check(const EventFeatures& features) const {
   for (const Axis& axis : {x_, y_})
     if (!features.has(axis.feature))
-      refuse_path(features.recording().file(),
-                  fmt::format("has no feature {}, which --polygon names.", one_line(axis.feature, 60)));
+      refuse_path(features.recording().file(), fmt::format("has no feature {}, which --polygon names.{}",
+                                                           one_line(axis.feature, 60), features.near(axis.feature)));
 }
 
 bool PolygonGate::holds(double x, double y) const {
@@ -87,7 +95,7 @@ void PolygonGate::apply(EventFeatures& features, std::size_t first, std::vector<
   features.read(x_.feature, first, x);
   features.read(y_.feature, first, y);
   for (std::size_t i = 0; i < inside.size(); ++i)
-    if (inside[i] && !holds(x_.place(x[i]), y_.place(y[i]))) inside[i] = 0;
+    if (inside[i] && holds(x_.place(x[i]), y_.place(y[i])) == is_inverted_) inside[i] = 0;
 }
 
 }  // namespace rheocyte

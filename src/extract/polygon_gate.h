@@ -9,17 +9,30 @@ namespace rheocyte {
 
 class PolygonGate {
  public:
+  struct Corner {
+    double x, y;  ///< along the axes
+  };
+  /// Straight edges in the plane of two features; inverted: events outside are taken, also those without a number.
+  struct Shape {
+    std::string x, y;
+    std::vector<Corner> corners;
+    bool is_inverted = false;
+  };
+
   /// "FEATURE,FEATURE=X,Y:X,Y:X,Y" with at least three corners; the edges are straight over the logarithm of a feature
   /// whose name stands behind "log:". UserError otherwise.
   explicit PolygonGate(const std::string& text);
+  explicit PolygonGate(Shape shape);
 
   /// "area_um,deform in a polygon of 4 corners"
   std::string description() const;
   /// UserError naming a feature that the recording does not have.
   void check(const EventFeatures& features) const;
-  /// Takes those of the events [first, first + inside.size()) out that are not within; those without a number are not.
+  /// Takes those of the events [first, first + inside.size()) out that are not within (or outside, if it is inverted);
+  /// those without a number are never within.
   void apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const;
-  /// By the number of edges to the right (even-odd); the lower end of an edge belongs to it, the upper one does not.
+  /// Whether the place lies within, by the number of edges to the right (even-odd); the lower end of an edge belongs to
+  /// it, the upper one does not.
   bool holds(double x, double y) const;
 
  private:
@@ -28,13 +41,11 @@ class PolygonGate {
     bool is_log = false;
     double place(double value) const;
   };
-  struct Corner {
-    double x, y;  ///< along the axes
-  };
   static Axis axis_of(const std::string& name);
 
   Axis x_, y_;
   std::vector<Corner> corners_;
+  bool is_inverted_ = false;
 };
 
 }  // namespace rheocyte

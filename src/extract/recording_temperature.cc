@@ -69,14 +69,16 @@ class Search {
 
   RecordingTemperature run() {
     const std::string& wish = options_.temperature;
-    if (!wish.empty() && wish != "feature" && wish != "metadata") return {TemperatureSource::given, as_given(), notes_};
+    if (!wish.empty() && wish != "feature" && wish != "metadata") return found(TemperatureSource::given, as_given());
     if (wish == "feature" && !events_)
       refuse("has no temperature of each event; give --temperature in degrees Celsius.");
-    if (wish != "metadata" && events_ && take_events()) return {TemperatureSource::feature, events_->median, notes_};
+    if (wish != "metadata" && events_ && take_events()) {
+      const double others = of_single_events();
+      return {TemperatureSource::feature, events_->median, others, notes_};
+    }
     if (wish == "feature") refuse(notes_.back());
-    if (const auto stored = of_metadata()) return {TemperatureSource::metadata, *stored, notes_};
-    if (!options_.temperature_if_missing.empty())
-      return {TemperatureSource::given, given(options_.temperature_if_missing, "--temperature-if-missing"), notes_};
+    if (const auto stored = of_metadata()) return found(TemperatureSource::metadata, *stored);
+    if (!options_.temperature_if_missing.empty()) return found(TemperatureSource::given, if_missing());
     std::string sentences;
     for (const auto& note : notes_) sentences += note + " ";
     refuse(sentences.empty() ? "holds no temperature, on which the viscosity depends; give --temperature in degrees "
@@ -104,15 +106,38 @@ class Search {
       notes_.push_back(fmt::format("the temperatures of the events are {}.", what_is_wrong(*events_)));
       return false;
     }
-    if (events_->impossible > 0)
-      notes_.push_back(fmt::format("{} events have no modulus, because their temperatures are {}.", events_->impossible,
-                                   what_is_wrong(*events_)));
     return true;
   }
 
-  std::optional<double> of_metadata() {
+  double of_single_events() {
+    if (events_->impossible == 0) return no_value;
+    const std::string what = what_is_wrong(*events_);
+    if (options_.temperature_if_missing.empty()) {
+      notes_.push_back(
+          fmt::format("{} events have no modulus, because their temperatures are {}.", events_->impossible, what));
+      return no_value;
+    }
+    const double wanted = if_missing();
     const auto stored = recording_.metadata().number("setup:temperature");
-    if (!stored) return std::nullopt;
+    const bool is_stored = stored && is_possible_temperature(*stored);
+    const double taken = is_stored ? *stored : wanted;
+    notes_.push_back(fmt::format("{} events have temperatures that are {}; for them {:g} degC is taken{}.",
+                                 events_->impossible, what, taken, is_stored ? ", setup:temperature" : ""));
+    return taken;
+  }
+
+  double if_missing() const { return given(options_.temperature_if_missing, "--temperature-if-missing"); }
+
+  RecordingTemperature found(TemperatureSource from, double celsius) const { return {from, celsius, no_value, notes_}; }
+
+  std::optional<double> of_metadata() {
+    const auto& metadata = recording_.metadata();
+    const auto stored = metadata.number("setup:temperature");
+    if (!stored) {
+      if (const auto text = metadata.text("setup:temperature"))
+        notes_.push_back(fmt::format("setup:temperature is \"{}\", which is no number.", one_line(*text, 40)));
+      return std::nullopt;
+    }
     if (is_possible_temperature(*stored)) {
       if (!notes_.empty()) notes_.back() += fmt::format(" setup:temperature, {:g} degC, is taken.", *stored);
       return stored;
@@ -129,6 +154,13 @@ class Search {
 };
 
 }  // namespace
+
+void check_temperatures(const MeasuringOptions& options) {
+  const std::string& wish = options.temperature;
+  if (!wish.empty() && wish != "feature" && wish != "metadata") static_cast<void>(given(wish, "--temperature"));
+  if (!options.temperature_if_missing.empty())
+    static_cast<void>(given(options.temperature_if_missing, "--temperature-if-missing"));
+}
 
 RecordingTemperature temperature_of(const MeasuringOptions& options, const Recording& recording) {
   return Search(options, recording).run();

@@ -5,6 +5,7 @@
 
 #include "extract/options.h"
 #include "measurement/recording.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
@@ -19,11 +20,16 @@ inline bool is_possible_temperature(double celsius) {
 struct RecordingTemperature {
   TemperatureSource from = TemperatureSource::none;
   double celsius = 0;                 ///< of all events, or the median of the possible ones
+  double of_others = no_value;        ///< of single events without a possible one; NaN: they have none
   std::vector<std::string> warnings;  ///< sentences without the file's name
 };
 
-/// As --temperature and --temperature-if-missing say; else of each event, else of the metadata, each as far as it is
-/// possible. UserError if there is none.
+/// UserError if a temperature that is given is none of a buffer in a channel.
+void check_temperatures(const MeasuringOptions& options);
+
+/// As --temperature says; else of each event, else of the metadata, else as --temperature-if-missing says, each as far
+/// as it is possible. Single events without one take that of the metadata, or the option's, if the option is given.
+/// UserError if there is none.
 RecordingTemperature temperature_of(const MeasuringOptions& options, const Recording& recording);
 
 }  // namespace rheocyte

@@ -9,6 +9,7 @@
 
 #include "extract/distribution.h"
 #include "infer/shape_excess.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
@@ -25,6 +26,26 @@ struct Trend {
   bool is_changing() const;
 };
 
+/// 1.25 robust sigma / sqrt(n) beside the median of the finite values; NaN where there are too few.
+Median median_with_error(std::vector<double> values);
+
+/// Up to this median of the excess the shapes count as those of the model: few events may lie above by chance.
+double max_excess_of_the_model(const Median& excess);
+
+/// Another of the program's tables, whose cells have the shapes of a recording.
+struct FittingTable {
+  std::string identifier, cells;       ///< cells as in cells_in_words; all is empty or NaN if there is none
+  Median excess;                       ///< over its inertia ratios
+  double expected_inertia_ratio = 0;   ///< median
+  double modulus_over_its = no_value;  ///< median of E from deformation by the table that is used / by this one
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.identifier, s.cells, s.excess, s.expected_inertia_ratio, s.modulus_over_its);
+  }
+};
+
 /// Of the events of one recording inside the gates.
 struct ShapeVerdict {
   std::size_t judged = 0;          ///< events with area, deformation and inertia ratio, red cells apart
@@ -32,26 +53,31 @@ struct ShapeVerdict {
   std::size_t red_cells = 0;       ///< inertia ratio above 2
   std::string missing;             ///< what the recording lacks, in a sentence; empty if nothing
   std::string inertia_ratio_from;  ///< the stored feature or "contour", "mask"; empty if there is none
+  std::string model;               ///< the cells of the table, as in cells_in_words; empty if unknown
+  std::string made_of;             ///< of a virtual recording: what the recording says of its cells, in a sentence
+  FittingTable other;              ///< looked for where the shapes are not certainly those of the table
   Median excess;
   double inertia_ratio = 0, expected_inertia_ratio = 0, odd_share = 0;  ///< medians
   double seen_um = 0;  ///< along the channel, 5 % to 95 % of the events; NaN without pos_x
   Trend inertia_ratio_trend, deformation_trend, asymmetry_trend;
-  int direction = 0;               ///< in which the cells move: along +x or -x; 0 if that is unknown
-  Distribution asymmetry_kPa;      ///< Young's moduli from the asymmetry
-  std::size_t with_asymmetry = 0;  ///< events that have one
-  double modulus_ratio = 0;        ///< median of E from deformation / E from asymmetry; NaN if unknown
+  int direction = 0;                 ///< in which the cells move: along +x or -x; 0 if that is unknown
+  Distribution asymmetry_kPa;        ///< Young's moduli from the asymmetry
+  std::size_t with_asymmetry = 0;    ///< events that have one
+  double modulus_ratio = 0;          ///< median of E from deformation / E from asymmetry; NaN if unknown
+  double asymmetry_bias = no_value;  ///< median share by which E from asymmetry may be too high (asymmetry_bias.h)
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.judged, s.elongated, s.red_cells, s.missing, s.inertia_ratio_from, s.excess, s.inertia_ratio,
-                    s.expected_inertia_ratio, s.odd_share, s.seen_um, s.inertia_ratio_trend, s.deformation_trend,
-                    s.asymmetry_trend, s.direction, s.asymmetry_kPa, s.with_asymmetry, s.modulus_ratio);
+    return std::tie(s.judged, s.elongated, s.red_cells, s.missing, s.inertia_ratio_from, s.model, s.made_of, s.other,
+                    s.excess, s.inertia_ratio, s.expected_inertia_ratio, s.odd_share, s.seen_um, s.inertia_ratio_trend,
+                    s.deformation_trend, s.asymmetry_trend, s.direction, s.asymmetry_kPa, s.with_asymmetry,
+                    s.modulus_ratio, s.asymmetry_bias);
   }
 
   double elongated_percent() const;
   /// Whether the shapes are those of the model.
-  enum class Fit { unknown, model, doubtful, elongated };
+  enum class Fit { unknown, model, other_table, doubtful, elongated };
   Fit fit() const;
   /// In one sentence.
   std::string text() const;
@@ -67,24 +93,31 @@ std::vector<std::string> shape_lines(const ShapeVerdict& verdict);
 /// outside the gates have no inertia ratio.
 struct JudgedEvents {
   std::span<const ShapeExcess> excess;
-  std::span<const double> inertia_ratio, deformation, mode_3, x_um;
-  std::span<const double> modulus_kPa, asymmetry_kPa;
+  std::span<const double> inertia_ratio, area_um2, deformation, mode_3, x_um;
+  std::span<const double> modulus_kPa, asymmetry_kPa, asymmetry_systematic_kPa;
 };
 
-/// Takes block by block; keeps 32 bytes per event.
+/// The events that were judged, one value each, as measured.
+struct JudgedShapes {
+  std::vector<double> inertia_ratio, area_um2, deformation;
+};
+
+/// Takes block by block; keeps 48 bytes per event.
 class ShapeTally {
  public:
   void take(const JudgedEvents& events);
   /// Of all events taken so far; what the tally does not know (source, direction) is left to the caller.
   ShapeVerdict verdict() const;
+  JudgedShapes judged() const;
 
  private:
   struct Event {
-    float excess, expected, inertia_ratio, odd_share, deformation, mode_3, x;
+    float excess, expected, inertia_ratio, odd_share, area, deformation, mode_3, x;
   };
+  std::vector<double> column(float Event::*member) const;
   std::vector<Event> events_;
   std::vector<double> asymmetry_kPa_;
-  std::vector<float> ratios_;
+  std::vector<float> ratios_, biases_;
   std::size_t elongated_ = 0, red_cells_ = 0;
 };
 

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -16,6 +14,7 @@
 #include "case/user_error.h"
 #include "store/claim.h"
 #include "store/own_file.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -28,7 +27,7 @@ constexpr std::string_view mark = "recording\tevents\tvalid\t";
 /// By the names of their columns.
 using Row = std::map<std::string, std::string, std::less<>>;
 
-constexpr std::array<std::string_view, 44> columns_after_counts{"with_modulus_percent",
+constexpr std::array<std::string_view, 48> columns_after_counts{"with_modulus_percent",
                                                                 "young_modulus_median_kPa",
                                                                 "young_modulus_first_quartile_kPa",
                                                                 "young_modulus_third_quartile_kPa",
@@ -38,9 +37,13 @@ constexpr std::array<std::string_view, 44> columns_after_counts{"with_modulus_pe
                                                                 "young_modulus_asymmetry_median_kPa",
                                                                 "young_modulus_asymmetry_first_quartile_kPa",
                                                                 "young_modulus_asymmetry_third_quartile_kPa",
+                                                                "young_modulus_asymmetry_systematic_error_percent",
                                                                 "with_asymmetry",
                                                                 "deformation_over_asymmetry_modulus",
                                                                 "shapes",
+                                                                "shapes_of_model",
+                                                                "fitting_table",
+                                                                "modulus_over_that_of_fitting_table",
                                                                 "shape_excess_median",
                                                                 "shape_excess_median_error",
                                                                 "inertia_ratio_median",
@@ -99,14 +102,16 @@ std::string all_of(const std::vector<std::string>& sentences) {
   return text;
 }
 
-constexpr std::array<const char*, 4> names_of_fits{"unknown", "model", "doubtful", "elongated"};
+constexpr std::array<const char*, 5> names_of_fits{"unknown", "model", "other-table", "doubtful", "elongated"};
 
 void add_shapes(const ShapeVerdict& v, Row& row) {
   for (const auto& [name, value] :
        {std::pair("young_modulus_asymmetry_median_kPa", v.asymmetry_kPa.median),
         std::pair("young_modulus_asymmetry_first_quartile_kPa", v.asymmetry_kPa.first_quartile),
         std::pair("young_modulus_asymmetry_third_quartile_kPa", v.asymmetry_kPa.third_quartile),
+        std::pair("young_modulus_asymmetry_systematic_error_percent", 100 * v.asymmetry_bias),
         std::pair("deformation_over_asymmetry_modulus", v.modulus_ratio),
+        std::pair("modulus_over_that_of_fitting_table", v.other.modulus_over_its),
         std::pair("shape_excess_median", v.excess.value), std::pair("shape_excess_median_error", v.excess.error),
         std::pair("inertia_ratio_median", v.inertia_ratio),
         std::pair("inertia_ratio_expected", v.expected_inertia_ratio),
@@ -119,6 +124,8 @@ void add_shapes(const ShapeVerdict& v, Row& row) {
   row["with_asymmetry"] = std::to_string(v.with_asymmetry);
   row["red_cells"] = std::to_string(v.red_cells);
   row["shapes"] = names_of_fits.at(static_cast<std::size_t>(v.fit()));
+  row["shapes_of_model"] = v.model;
+  row["fitting_table"] = v.other.identifier;
   row["shapes_text"] = v.text();
   row["trend_text"] = v.trend_text();
 }
@@ -178,8 +185,8 @@ std::vector<Row> rows_in(std::string_view text) {
 }
 
 std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  constexpr std::size_t enough = std::size_t{64} << 20U;
+  return first_bytes(path, enough).value_or("");
 }
 
 fs::path name_in_summary(const fs::path& recording, const fs::path& folder) {

@@ -103,6 +103,10 @@ CourseReport CourseTable::report() const {
   if (cells.size() >= min_population) {
     PopulationEstimate& population = report.population = TimeCourse(table_).population(images);
     const Physical in = physical(table_, rows_.front().flow);
+    if (population.cells == 0)
+      throw UserError(fmt::format(
+          "rheocyte: no cell of the dynamic table {} can look like any of these; is it of this contraction?",
+          table_.spec().identifier));
     population.young_modulus_kPa = times(population.young_modulus_kPa, in.modulus);
     population.viscosity_Pas = times(population.viscosity_Pas, in.viscosity);
     report.lines.push_back(

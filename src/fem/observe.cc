@@ -87,7 +87,7 @@ Contour contour(const Discretisation& space, const VectorXd& unknowns) {
   return curve;
 }
 
-SurfaceState surface_state(const Discretisation& space, const VectorXd& unknowns, int per_edge) {
+SurfaceState surface_state(const Discretisation& space, const VectorXd& unknowns, int per_edge, double rest_stretch) {
   const ReferenceElement<2>& reference = space.reference();
   const VectorXd at = VectorXd::LinSpaced(per_edge, 0, 1);
   const MatrixXd value = reference.lagrange(at), slope = reference.lagrange_derivative(at);
@@ -105,11 +105,12 @@ SurfaceState surface_state(const Discretisation& space, const VectorXd& unknowns
     for (int q = 0; q < per_edge; ++q, ++i) {
       const Meridian<double> here{x_t(q, 0), x_t(q, 1), x_tt(q, 0), x_tt(q, 1), x(q, 1)};
       const auto [along, around] = here.curvatures();
-      const double stretch = here.speed() / X_t.row(q).norm();
+      const SurfaceReference at_rest = SurfaceReference{X_t(q, 0), X_t(q, 1), X(q, 1)}.at_rest(rest_stretch);
+      const double stretch = here.speed() / at_rest.speed();
       const bool pole = X(q, 1) < 1e-9;  // where both directions are equal
       state.angle(i) = std::atan2(X(q, 1), X(q, 0));
       state.point.row(i) = x.row(q);
-      state.stretch.row(i) << stretch, pole ? stretch : x(q, 1) / X(q, 1);
+      state.stretch.row(i) << stretch, pole ? stretch : x(q, 1) / at_rest.r;
       state.curvature.row(i) << along, pole ? along : around;
     }
   }

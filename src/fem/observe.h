@@ -14,11 +14,12 @@ Contour contour(const Discretisation&, const VectorXd& unknowns);
 struct SurfaceState {
   VectorXd angle;              ///< of the undeformed point, from the flow direction
   Eigen::MatrixX2d point;      ///< current (x, r), in R
-  Eigen::MatrixX2d stretch;    ///< ds/ds0, r/r0'
+  Eigen::MatrixX2d stretch;    ///< ds/ds0, r/r0' from the shape without stress
   Eigen::MatrixX2d curvature;  ///< in 1/R; both 1/a for a sphere of radius a
 };
-/// `per_edge` equidistant points on each surface edge, ends included: each vertex appears twice.
-SurfaceState surface_state(const Discretisation&, const VectorXd& unknowns, int per_edge);
+/// `per_edge` equidistant points on each surface edge, ends included: each vertex appears twice. Without stress the
+/// cell is the sphere, stretched so along x (docs/theory.md, eq:rest-shape).
+SurfaceState surface_state(const Discretisation&, const VectorXd& unknowns, int per_edge, double rest_stretch = 1);
 
 /// Principal Cauchy tensions at those points, in S R.
 Eigen::MatrixX2d surface_tensions(const Cortex&, const SurfaceState&);

@@ -42,7 +42,7 @@ SurfaceIntegrals::SurfaceIntegrals(const Discretisation& space) : space_(&space)
     for (const Table& table : edge_) {
       const VectorXd rest = table.inputs * patches_[e].rest;
       const Meridian<double> X = read_fields<SurfaceFields<double>>([&](int i) { return rest(i); }).meridian();
-      reference.push_back({X.speed(), X.r, -0.5 * X.r * X.r * X.x_t});
+      reference.push_back({X.x_t, X.r_t, X.r});
     }
   }
 }

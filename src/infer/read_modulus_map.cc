@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -12,6 +10,7 @@
 #include "case/user_error.h"
 #include "infer/grid_map.h"
 #include "infer/published_map.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -36,35 +35,23 @@ fs::path grid_in(const fs::path& folder) {
   return found.front();
 }
 
-std::string content_of(const fs::path& path) {
-  constexpr std::uintmax_t max_file = 64 << 20;
-  std::error_code error;
-  const auto size = fs::file_size(path, error);
-  std::ifstream file(path, std::ios::binary);
-  if (error || !file || size > max_file)
-    refuse_path(path, !error && size > max_file ? "is too large for a grid of a table."
-                                                : "cannot be read; check its permissions.");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 }  // namespace
+
+GridContent read_grid(const fs::path& file) {
+  return grid_from_bytes(content_of_file(file, largest_grid), one_line(file.string(), 300));
+}
 
 std::unique_ptr<const ModulusMap> read_modulus_map(const fs::path& path) {
   std::error_code error;
   const fs::path file = fs::is_directory(path, error) ? grid_in(path) : path;
-  if (file.extension() == ".cbor")
-    return std::make_unique<GridMap>(grid_from_bytes(content_of(file), one_line(file.string(), 300)));
+  if (file.extension() == ".cbor") return std::make_unique<GridMap>(read_grid(file));
   PublishedTable table = read_published_table(file);
   refuse_volumes(table);
   return std::make_unique<PublishedMap>(std::move(table));
 }
 
 std::optional<GridHead> read_grid_head(const fs::path& grid_file) {
-  std::string head(grid_head_bytes, '\0');
-  std::ifstream file(grid_file, std::ios::binary);
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  return grid_head(head);
+  return grid_head(first_bytes(grid_file, grid_head_bytes).value_or(""));
 }
 
 }  // namespace rheocyte

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "infer/added_ellipse.h"
+#include "infer/asymmetry_bias.h"
 #include "infer/smooth_events.h"
 #include "numeric/no_value.h"
 #include "table/grid_by_asymmetry.h"
@@ -33,9 +34,9 @@ MeasuredEvents part(const MeasuredEvents& events, std::size_t first, std::size_t
 
 }  // namespace
 
-/// ln|c_3| and its standard deviation.
+/// ln|c_3| and its standard deviation; c_2 less that of the table's cell, 0 where that is unknown.
 struct ShapeMap::SmoothAsymmetries {
-  EventColumn log_mode_3, deviation;
+  EventColumn log_mode_3, deviation, elongation;
 };
 
 bool ShapeExcess::is_elongated() const {
@@ -78,7 +79,8 @@ void ShapeMap::compare(const MeasuringConditions& conditions, const MeasuredEven
       const double ratio = inertia_ratios[first + i], deformation = smooth.deformation[k];
       ShapeExcess& e = excesses[first + i];
       e.expected = shapes_.inertia_ratio(smooth.log_area[k], deformation);
-      e.excess = ratio > 0 && shapes_.has_area(smooth.log_area[k]) ? ratio - e.expected : no_value;
+      e.excess =
+          ratio > 0 && std::isfinite(ratio) && shapes_.has_area(smooth.log_area[k]) ? ratio - e.expected : no_value;
       e.error = inertia_ratio_deviation(events.size[first + i], conditions.pixel_size_um);
       const bool has_deformation = deformation > smooth.deformation_deviation[k] && ratio > 0;
       e.odd_share = has_deformation ? 1 - deformation_of_ellipse(ratio) / deformation : no_value;
@@ -95,7 +97,9 @@ void ShapeMap::estimate(const MeasuringConditions& conditions, const MeasuredEve
     estimate_block(conditions, part(events, first, count),
                    {modes.mode_2.subspan(first, count), modes.mode_3.subspan(first, count)},
                    {moduli.modulus_kPa.subspan(first, count), moduli.standard_error_kPa.subspan(first, count),
-                    moduli.state.subspan(first, count)});
+                    moduli.state.subspan(first, count),
+                    moduli.systematic_error_kPa.empty() ? moduli.systematic_error_kPa
+                                                        : moduli.systematic_error_kPa.subspan(first, count)});
   });
 }
 
@@ -125,6 +129,8 @@ void ShapeMap::estimate_block(const MeasuringConditions& conditions, const Measu
     estimates.modulus_kPa[i] = value;
     estimates.standard_error_kPa[i] =
         value * std::sqrt(by_area * by_area + by_asymmetry * by_asymmetry + answer.error * answer.error);
+    if (!estimates.systematic_error_kPa.empty())
+      estimates.systematic_error_kPa[i] = value * too_high_by_asymmetry(asymmetry.elongation[k]);
     estimates.state[i] = answer.reason == NoAnswer::none && !has ? ModulusState::no_data : state_of(answer);
   }
 }
@@ -154,7 +160,7 @@ void ShapeMap::remove_ellipses(std::span<const double> mode_2, SmoothEvents& smo
                                SmoothAsymmetries& asymmetry) const {
   const std::size_t count = mode_2.size();
   const Eigen::Index rows = whole_packets(count);
-  EventColumn excess;  // over that of the table's cell
+  EventColumn& excess = asymmetry.elongation;
   excess.head(rows) = 0;
   mode_2_->values({smooth.log_area.data(), count}, {asymmetry.log_mode_3.data(), count}, {excess.data(), count});
   for (std::size_t i = 0; i < count; ++i) {

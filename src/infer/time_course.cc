@@ -120,6 +120,8 @@ TimeCourse::Points TimeCourse::points(const CellImages& images, const Box& box, 
     const double deviation = std::hypot(image.deviation, image.mode_3 * ellipse.deviation);
     chi_squared += ((image.mode_3 * ellipse.log_mode_3.exp() - expected) / deviation).square();
   }
+  // Where polynomials between the nodes leave what cells can be, there is no cell.
+  chi_squared = chi_squared.isFinite().select(chi_squared, HUGE_VAL);
   Points points;
   points.min_chi_squared = chi_squared.minCoeff();
   for (int k = 0; k < count; ++k)
@@ -142,6 +144,7 @@ TimeCourse::Points TimeCourse::refined_points(const CellImages& images) const {
   const auto axes = nodes_of(table_.spec());
   const Box whole{axes[1].front(), axes[1].back(), axes[2].front(), axes[2].back()};
   const Points seen = points(images, whole, coarse);
+  if (seen.weight.empty()) return seen;
   const auto [low_modulus, high_modulus] = std::ranges::minmax(seen.modulus);
   const auto [low_time, high_time] = std::ranges::minmax(seen.time);
   const double step_modulus = (whole.max_modulus - whole.min_modulus) / coarse,
@@ -156,6 +159,7 @@ TimeCourse::Points TimeCourse::refined_points(const CellImages& images) const {
 CourseEstimate TimeCourse::cell(const CellImages& images) const {
   const Points seen = refined_points(images);
   CourseEstimate estimate;
+  if (seen.weight.empty()) return estimate;
   const double all = std::accumulate(seen.weight.begin(), seen.weight.end(), 0.0);
   estimate.radius_um =
       std::exp(std::inner_product(seen.log_radius.begin(), seen.log_radius.end(), seen.weight.begin(), 0.0) / all);
@@ -280,9 +284,11 @@ PopulationEstimate TimeCourse::population(std::span<const CellImages> cells) con
   const auto points_with = [&](double near, double far) {
     std::vector<Points> seen;
     for (const CellImages& images : chosen) seen.push_back(refined_points(with_factors(images, middle, near, far)));
+    std::erase_if(seen, [](const Points& cell) { return cell.weight.empty(); });
     return seen;
   };
   const std::vector<Points> seen = points_with(1, 1);
+  if (seen.empty()) return {};
   const Normal population = most_likely(seen, first_guess(seen));
   Eigen::Array2d variance = errors_of(seen, population).square();
   constexpr double off = 1 + left_by_asymmetry_law;
@@ -290,7 +296,7 @@ PopulationEstimate TimeCourse::population(std::span<const CellImages> cells) con
     variance += (most_likely(moved, population).mean - population.mean).square();
   const Eigen::Array2d error = variance.sqrt();
   return {around(population.mean[0], error[0]), around(population.mean[1], error[1]), std::sqrt(population.variance[0]),
-          std::sqrt(population.variance[1]), count};
+          std::sqrt(population.variance[1]), seen.size()};
 }
 
 }  // namespace rheocyte

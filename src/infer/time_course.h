@@ -56,7 +56,8 @@ class TimeCourse {
   /// Whether the table has cells of this area.
   bool has_area(double area_um2) const;
 
-  /// From at least one picture; every modulus and every time of the table is as likely beforehand.
+  /// From at least one picture; every modulus and every time of the table is as likely beforehand. Without any value if
+  /// no cell of the table can be it.
   CourseEstimate cell(const CellImages& images) const;
 
   /// Of cells with at least one picture each, at most this many of them, evenly chosen. The intervals hold what is

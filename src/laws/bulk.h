@@ -1,5 +1,6 @@
-// Elastic laws of the cell's bulk at a point (docs/theory.md, eq:bulk). Incompressible, mu = E/3.
+// Elastic laws of the cell's bulk at a point (docs/theory.md, eq:bulk, eq:rest-shape). Incompressible, mu = E/3.
 #pragma once
+#include <cmath>
 
 namespace rheocyte {
 
@@ -14,6 +15,8 @@ struct Bulk {
   double viscosity = 0;       ///< eta1 U / (R S); acts only while the cell moves
   double branch_modulus = 0;  ///< over S, of a spring in series with the viscosity; 0: none, it acts beside the solid
   double reynolds = 0;        ///< of the cell's density, rho1 U^2 / S; likewise
+  double rest_stretch = 1;    ///< along x, of the sphere into the spheroid without stress (eq:rest-shape)
+  double axial_tension = 0;   ///< of the surroundings along x, over S (eq:axial-tension)
 };
 
 /// Share a of the neo-Hookean member in the law: 1 = neo-Hookean, 0 = Euler-Almansi.
@@ -27,18 +30,42 @@ constexpr double neo_hookean_share(const Bulk& bulk) {
   return 1;
 }
 
+/// The deformation gradient from the spheroid diag(a, a^(-1/2), a^(-1/2)) X to the place of X, with F that from X.
+template <class Tensor>
+Tensor from_rest_shape(Tensor F, double rest_stretch) {
+  using T = typename Tensor::Scalar;
+  const T along(1 / rest_stretch), across(std::sqrt(rest_stretch));
+  for (int i = 0; i < 3; ++i) {
+    F(i, 0) = F(i, 0) * along;
+    F(i, 1) = F(i, 1) * across;
+    F(i, 2) = F(i, 2) * across;
+  }
+  return F;
+}
+
 /// Extra Kirchhoff stress J sigma = mu [a B + (1 - a)(I1 B - B^2)] - mu (2 - a) I, B = F F^T; the pressure comes on
 /// top of it. For J = 1 this is mu [a (B - I) + (1 - a)(I - B^-1)] but for a multiple of I, because of Cayley and
 /// Hamilton's I1 B - B^2 = I2 I - J^2 B^-1. Written so, it derives from polyconvex energies off J = 1 as well:
 /// elements that meet J = 1 only on average would otherwise lose stability long before the material does.
+/// Where the cell is free of stress as a spheroid, F is that from the spheroid.
 template <class Tensor>
 Tensor elastic_stress(const Bulk& bulk, const Tensor& F) {
   using T = typename Tensor::Scalar;
   const double a = neo_hookean_share(bulk), mu = bulk.shear_modulus;
-  const Tensor B = F * F.transpose();
+  const Tensor from_rest = bulk.rest_stretch == 1 ? F : from_rest_shape(F, bulk.rest_stretch);
+  const Tensor B = from_rest * from_rest.transpose();
   Tensor tau = B * T(mu * a);
   if (a != 1) tau += (B * B.trace() - B * B) * T(mu * (1 - a));
   for (int i = 0; i < 3; ++i) tau(i, i) -= T(mu * (2 - a));
+  return tau;
+}
+
+/// The same less the axial tension of the surroundings: a traction T n_x e_x on the surface does the work of an even
+/// stress T e_x e_x in the cell, by the divergence theorem (eq:axial-tension).
+template <class Tensor>
+Tensor loaded_stress(const Bulk& bulk, const Tensor& F) {
+  Tensor tau = elastic_stress(bulk, F);
+  tau(0, 0) -= typename Tensor::Scalar(bulk.axial_tension);
   return tau;
 }
 

@@ -13,9 +13,11 @@ enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_refere
 
 struct Cortex {
   CortexLaw law = CortexLaw::none;
-  double modulus = 0;  ///< E2D / (S R)
-  double tension = 0;  ///< gamma / (S R)
-  double bending = 0;  ///< stiffness c_b / (S R^3)
+  double modulus = 0;        ///< E2D / (S R)
+  double tension = 0;        ///< gamma / (S R)
+  double bending = 0;        ///< stiffness c_b / (S R^3)
+  double rest_stretch = 1;   ///< along x, of the sphere into the spheroid that the shell rests in (eq:rest-shape)
+  double axial_tension = 0;  ///< of the surroundings of a pure shell, over S; that of a solid is in Bulk
 };
 
 /// By which the pressure in a sphere at rest exceeds that around it (Laplace).

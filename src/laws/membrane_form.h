@@ -31,10 +31,21 @@ struct MembraneFields {
   SurfaceMetric<T> metric() const { return {dot(s, s), dot(s, t), dot(t, t)}; }
 };
 
+/// The metric of the undeformed surface, its parts along the flow and across it.
+struct RestMetric {
+  SurfaceMetric<double> along, across;
+
+  /// That of the spheroid that the shell rests in (docs/theory.md, eq:rest-shape).
+  SurfaceMetric<double> at_rest(double rest_stretch) const {
+    const double a = rest_stretch * rest_stretch, b = 1 / rest_stretch;
+    return {a * along.ss + b * across.ss, a * along.st + b * across.st, a * along.tt + b * across.tt};
+  }
+};
+
 /// Elastic energy and surface tension.
 struct MembranePoint {
   Cortex law;
-  SurfaceMetric<double> rest;
+  SurfaceMetric<double> rest;  ///< of the shell without stress
 
   /// Energy per d(s) d(t).
   template <class T>
@@ -61,6 +72,7 @@ struct MembranePoint {
 struct InflationPoint {
   double rest_pressure = 0;  ///< Laplace's pressure of the sphere at rest
   double rest_volume = 0;    ///< per d(s) d(t)
+  double axial_tension = 0;  ///< of the surroundings (docs/theory.md, eq:axial-tension)
 
   /// Of x, s, t and the pressure above that at rest, which is the first of the last three numbers.
   template <class T>
@@ -69,6 +81,12 @@ struct InflationPoint {
         (n[0] * (n[4] * n[8] - n[5] * n[7]) + n[1] * (n[5] * n[6] - n[3] * n[8]) + n[2] * (n[3] * n[7] - n[4] * n[6])) *
         constant<T>(1.0 / 3);
     return (n[9] + constant<T>(rest_pressure)) * (constant<T>(rest_volume) - volume);
+  }
+
+  /// What the axial tension does on x, per d(s) d(t): T n_x, which no energy gives.
+  template <class T>
+  T pull(const std::array<T, 12>& n) const {
+    return constant<T>(axial_tension) * (n[4] * n[8] - n[5] * n[7]);
   }
 };
 

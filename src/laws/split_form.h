@@ -35,8 +35,8 @@ struct SplitCellPoint {
   Flux<T, 2> operator()(const SplitCellFields<T>& f) const {
     const PointMap<T, 2> here(MapFields<T, 2>{map.G.template cast<T>(), T(map.r)});
     const Tensor<T> L = gradient(here, f.v, f.v_xi);
-    const Tensor<double> elastic = elastic_stress(law, deformation_gradient(map, undeformed));
-    Tensor<T> sigma = (L + L.transpose()) * T(law.viscosity) + elastic.template cast<T>();
+    const Tensor<double> loaded = loaded_stress(law, deformation_gradient(map, undeformed));
+    Tensor<T> sigma = (L + L.transpose()) * T(law.viscosity) + loaded.template cast<T>();
     for (int i = 0; i < 3; ++i) sigma(i, i) -= f.p;
     Flux<T, 2> flux = pull_back(here, sigma);
     const double mass = law.reynolds * map.volume() * rate;

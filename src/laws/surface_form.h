@@ -39,8 +39,15 @@ struct Meridian {
 
 /// What the undeformed surface is at the same point.
 struct SurfaceReference {
-  double speed = 1, r = 1;  ///< |d(x, r)/dt|, distance to the axis
-  double volume = 0;        ///< -r^2/2 dx/dt: volume of the cell
+  double x_t = 0, r_t = 1, r = 1;  ///< d(x, r)/dt, distance to the axis
+
+  double speed() const { return std::sqrt(x_t * x_t + r_t * r_t); }
+  double volume() const { return -0.5 * r * r * x_t; }  ///< of the cell
+  /// The same of the spheroid that the shell rests in (eq:rest-shape).
+  SurfaceReference at_rest(double rest_stretch) const {
+    const double across = 1 / std::sqrt(rest_stretch);
+    return {rest_stretch * x_t, across * r_t, across * r};
+  }
 };
 
 /// Fields on the surface; a source's part k is its k-th derivative with respect to t.
@@ -88,16 +95,16 @@ struct SurfacePoint {
     const Meridian<T> here = f.meridian();
     const T &x = f.x(0), &r = here.r, speed = here.speed();
     // Virtual work of the tensions: T1 r delta(speed) + T2 speed delta(r).
-    const auto [T1, T2] =
-        principal_tensions(law, T(speed / constant<T>(reference.speed)), T(r / constant<T>(reference.r)));
+    const SurfaceReference rest = reference.at_rest(law.rest_stretch);
+    const auto [T1, T2] = principal_tensions(law, T(speed / constant<T>(rest.speed())), T(r / constant<T>(rest.r)));
     const T pull = T1 * r / speed;
-    // Work -p delta(volume) of the inner pressure, volume = -r^2/2 x_t.
+    // Work -p delta(volume) of the inner pressure, volume = -r^2/2 x_t; the axial tension does that along x alone.
     const T p = f.p + constant<T>(rest_pressure), half_r2 = r * r * constant<T>(0.5);
     SurfaceFlux<T> flux;
     flux.value = {constant<T>(0), T2 * speed + p * r * here.x_t};
-    flux.slope = {pull * here.x_t + p * half_r2, pull * here.r_t};
+    flux.slope = {pull * here.x_t + (p + constant<T>(law.axial_tension)) * half_r2, pull * here.r_t};
     flux.second = Components<T, 2>::Zero();
-    flux.volume = half_r2 * here.x_t + constant<T>(reference.volume);
+    flux.volume = half_r2 * here.x_t + constant<T>(reference.volume());
     flux.moment = x * x * r * here.r_t * constant<T>(0.5);
     if (law.bending != 0) add_bending(here, flux);
     return flux;

@@ -1,6 +1,7 @@
 // The wall of a channel that is not straight: its radius as a function of the place (docs/theory-time.md, eq:wall).
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -22,6 +23,20 @@ inline double run_out(const WallTable& wall) {
   const auto [least, greatest] = std::minmax_element(wall.radius.begin(), wall.radius.end());
   return *least == *greatest ? 0 : std::min(*greatest, longest);
 }
+
+/// The axial tension of the surroundings (eq:axial-tension) along the way of the cell, over S, linear between the
+/// places and constant beyond the ends. Empty: the same everywhere.
+struct AxialTensionTable {
+  std::vector<double> x, tension;
+  bool is_even() const { return x.empty(); }
+
+  double at(double place) const {
+    if (place <= x.front()) return tension.front();
+    if (place >= x.back()) return tension.back();
+    const auto i = std::size_t(std::upper_bound(x.begin(), x.end(), place) - x.begin());
+    return std::lerp(tension[i - 1], tension[i], (place - x[i - 1]) / (x[i] - x[i - 1]));
+  }
+};
 
 /// Cubic pieces through the places of the table, once continuously differentiable, monotonic where the table is
 /// (Fritsch and Butland 1984), level at both ends and constant beyond them. Lengths in R.

@@ -78,7 +78,7 @@ struct CellPoint {
   Flux<T, dim> operator()(const CellFields<T, dim>& f) const {
     const PointMap<T, dim> map(f.map);
     const T J = map.volume() / T(undeformed.volume());
-    Tensor<T> sigma = elastic_stress(law, deformation_gradient(map, undeformed)) / J;
+    Tensor<T> sigma = loaded_stress(law, deformation_gradient(map, undeformed)) / J;
     for (int i = 0; i < 3; ++i) sigma(i, i) -= f.p;
     Flux<T, dim> flux = pull_back(map, sigma);
     flux.pressure = T(undeformed.volume()) - map.volume();

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "case/json_guard.h"
+#include "case/user_error.h"
 #include "measurement/any_bytes.h"
 #include "numeric/md5.h"
 
@@ -53,8 +54,13 @@ std::string as_uuid(const std::string& digits) {
                      digits.substr(16, 4), digits.substr(20));
 }
 
-// Written by programs of any system.
+// Paths are written by programs of any system.
 std::string file_name_in(const std::string& path) { return path.substr(path.find_last_of("/\\") + 1); }
+
+std::string with_slashes(std::string path) {
+  std::ranges::replace(path, '\\', '/');
+  return path;
+}
 
 }  // namespace
 
@@ -67,6 +73,8 @@ std::optional<BasinDefinition> read_basin_definition(const std::string& json_tex
     basin.kind = BasinDefinition::Kind::file;
   else if (type == "internal" && format == "h5dataset")
     basin.kind = BasinDefinition::Kind::internal;
+  else if (type == "internal" && format == "h5datasetchop")
+    basin.kind = BasinDefinition::Kind::cropped;
   else
     return std::nullopt;
   basin.name = text_at(definition, "name");
@@ -78,17 +86,30 @@ std::optional<BasinDefinition> read_basin_definition(const std::string& json_tex
   return basin;
 }
 
-std::optional<std::string> name_of_remote_basin(const std::string& json_text) {
+std::string why_basin_is_not_used(const std::string& json_text) {
   const json definition = parsed(json_text);
-  if (!definition.is_object() || text_at(definition, "type") != "remote") return std::nullopt;
-  return fmt::format("{} ({})", text_at(definition, "name"), text_at(definition, "format"));
+  const std::string type = definition.is_object() ? text_at(definition, "type") : "",
+                    format = definition.is_object() ? text_at(definition, "format") : "";
+  if (type.empty() || format.empty()) return "a basin is not used: its definition is broken.";
+  const std::string name = one_line(fmt::format("{} ({})", text_at(definition, "name"), format), 80);
+  if (type == "remote")
+    return fmt::format(
+        "the basin \"{}\" is not used: it is on a network, from which nothing is read; download the file and refer to "
+        "it, or put its features into the recording.",
+        name);
+  return fmt::format(
+      "the basin \"{}\" is not used: basins of this kind are not known here; export the recording with all its "
+      "features "
+      "by the program that wrote it.",
+      name);
 }
 
-std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths) {
+std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths,
+                                          const std::string& mapping) {
   std::vector<std::string> names;
   for (const auto& path : paths) names.push_back(with_stand_ins(path));
   const json definition{{"description", nullptr}, {"features", nullptr}, {"format", "hdf5"},
-                        {"identifier", nullptr},  {"mapping", "same"},   {"name", name},
+                        {"identifier", nullptr},  {"mapping", mapping},  {"name", name},
                         {"paths", names},         {"perishable", false}, {"type", "file"}};
   std::istringstream text(stand_ins_escaped(definition.dump(2, ' ', false, json::error_handler_t::replace)));
   std::vector<std::string> lines;
@@ -99,7 +120,7 @@ std::vector<std::string> file_basin_lines(const std::string& name, const std::ve
 std::vector<fs::path> basin_files(const BasinDefinition& basin, const fs::path& referring_file) {
   std::vector<fs::path> files;
   for (const auto& path : basin.paths)
-    for (const auto& place : {path, file_name_in(path)}) {
+    for (const auto& place : {path, with_slashes(path), file_name_in(path)}) {
       std::error_code error;
       const fs::path candidate = referring_file.parent_path() / place;  // an absolute path stays itself
       if (fs::is_regular_file(candidate, error) && std::ranges::find(files, candidate) == files.end())

@@ -11,7 +11,8 @@ namespace rheocyte {
 
 /// One definition below /basins, of the kinds that are read here.
 struct BasinDefinition {
-  enum class Kind { file, internal };  ///< another recording, or the group /basin_events of the same file
+  /// Another recording; the group /basin_events of the same file; cropped pictures there.
+  enum class Kind { file, internal, cropped };
   Kind kind = Kind::file;
   std::string name;
   std::vector<std::string> paths;                    ///< of a file: the first that exists counts
@@ -19,17 +20,18 @@ struct BasinDefinition {
   std::string mapping;                               ///< feature with the event's number in the basin; empty: the same
 };
 
-/// Reads a definition (JSON). Nothing if it is broken or of a kind that needs a network.
+/// Reads a definition (JSON). Nothing if it is broken, of a kind that needs a network, or of one that is not known.
 std::optional<BasinDefinition> read_basin_definition(const std::string& json_text);
 
-/// Name and format of a basin on a network; nothing if the definition is another one.
-std::optional<std::string> name_of_remote_basin(const std::string& json_text);
+/// Why a basin whose definition is none of those above is not used, in a sentence that says what to do.
+std::string why_basin_is_not_used(const std::string& json_text);
 
-/// The definition of a basin of kind file with equal numbers of events, in lines for /basins.
-std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths);
+/// The definition of a basin of kind file, in lines for /basins; `mapping` as in BasinDefinition, or "same".
+std::vector<std::string> file_basin_lines(const std::string& name, const std::vector<std::string>& paths,
+                                          const std::string& mapping = "same");
 
-/// The files that stand at the basin's paths, relative ones seen from the folder of the referring recording, or under
-/// the same names in that folder; in this order, at each path in turn.
+/// The files that stand at the basin's paths (with "/" or "\\" between folders), relative ones seen from the folder of
+/// the referring recording, or under the same names in that folder; in this order, at each path in turn.
 std::vector<std::filesystem::path> basin_files(const BasinDefinition& basin,
                                                const std::filesystem::path& referring_file);
 

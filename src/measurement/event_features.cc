@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "case/nearest_name.h"
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 
@@ -22,8 +23,22 @@ bool EventFeatures::has(const std::string& feature) const {
          (feature == "area_ratio" && implies_area_ratio(recording_));
 }
 
+std::vector<std::string> EventFeatures::names() const {
+  std::vector<std::string> names = recording_.scalar_names();
+  for (const char* implied : {"area_um", "deform", "area_ratio"})
+    if (has(implied) && !recording_.has_scalar(implied)) names.emplace_back(implied);
+  return names;
+}
+
+std::string EventFeatures::near(const std::string& feature) const {
+  const std::vector<std::string> known = names();
+  const auto nearest = nearest_name(feature, std::vector<std::string_view>(known.begin(), known.end()));
+  return nearest ? fmt::format(" Did you mean {}?", *nearest) : "";
+}
+
 void EventFeatures::read(const std::string& feature, std::size_t first, std::span<double> values) {
-  if (!has(feature)) refuse_path(recording_.file(), fmt::format("has no feature {}.", one_line(feature, 60)));
+  if (!has(feature))
+    refuse_path(recording_.file(), fmt::format("has no feature {}.{}", one_line(feature, 60), near(feature)));
   if (recording_.has_scalar(feature)) return recording_.read_scalar(feature, first, values);
   other_.resize(values.size());
   if (feature == "area_um") return shapes_.read(first, values, other_);

@@ -18,6 +18,10 @@ class EventFeatures {
 
   /// Stored features, area_um and deform from whatever tells them, area_ratio from area_cvx and area_msd.
   bool has(const std::string& feature) const;
+  /// All that has() knows.
+  std::vector<std::string> names() const;
+  /// " Did you mean ...?" for a feature that the recording does not have; empty if none has a similar name.
+  std::string near(const std::string& feature) const;
 
   /// Values of events [first, first + values.size()); NaN where there is none. UserError if the recording does not have
   /// the feature, or its data are damaged.

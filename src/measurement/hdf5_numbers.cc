@@ -229,6 +229,10 @@ std::size_t DatasetShape::width() const {
   return extent.empty() ? 0 : std::accumulate(extent.begin() + 1, extent.end(), std::size_t{1}, std::multiplies<>());
 }
 
+bool DatasetShape::is_pictures() const {
+  return extent.size() == 3 && width() > 0 && std::max(extent[1], extent[2]) <= reading_limits.image_side;
+}
+
 bool lies_in_the_file(hid_t properties) {
   const auto layout = ::H5Pget_layout(properties);
   return layout == H5D_CHUNKED || layout == H5D_COMPACT ||

@@ -20,6 +20,8 @@ struct DatasetShape {
   std::size_t rows() const { return extent.empty() ? 0 : extent[0]; }
   /// Numbers in a row.
   std::size_t width() const;
+  /// Whether each row is a picture that is not empty, nor larger than those of the field.
+  bool is_pictures() const;
 };
 
 /// Told after each piece that was read, so that slow drives are seen to answer.

@@ -7,6 +7,9 @@
 
 namespace rheocyte {
 
+/// Metadata of virtual recordings: the cells that were drawn, e.g. "linear solids in the tube".
+inline constexpr const char* made_of_key = "user:rheocyte made of";
+
 /// Values of the attributes at the root of a recording, whatever type the program that wrote them chose: numbers of
 /// any size, truth values (as 0 and 1), texts of fixed or variable length, arrays of one element. Other arrays are
 /// left out.

@@ -8,8 +8,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr int powers_of_deformation = 4, powers_of_size = 3;
-using Law = std::array<std::array<double, powers_of_size>, powers_of_deformation>;
+using Law = PixelErrorLaws::Law;
 
 // Coefficients of deformation^i s^j, s = (area in pixels)^(-1/3); bench/pixel_errors fitted them to shapes of the table
 // LE-2D-26 (3000 shapes at 200 places each).
@@ -49,8 +48,7 @@ constexpr double min_area_deviation = 0.2, min_deformation_deviation = 0.05, min
 template <class Number>
 Number value(const Law& law, const Number& deformation, const Number& s) {
   Number sum = 0 * deformation;
-  for (std::size_t i = powers_of_deformation; i-- > 0;)
-    sum = sum * deformation + law[i][0] + s * (law[i][1] + s * law[i][2]);
+  for (std::size_t i = law.size(); i-- > 0;) sum = sum * deformation + law[i][0] + s * (law[i][1] + s * law[i][2]);
   return sum;
 }
 
@@ -97,6 +95,11 @@ AsymmetryErrorsOf<Number> asymmetry_errors(const Number& log_area_px, const Numb
   const Number by_chance = s2 * at_least(Number(0.28 + 0.75 * asymmetry - 0.38 * ellipse), min_asymmetry_deviation),
                by_law = left_by_asymmetry_law * asymmetry;
   return {s2 * held * value(asymmetry_law, ellipse, asymmetry, s), sqrt(by_chance * by_chance + by_law * by_law)};
+}
+
+PixelErrorLaws pixel_error_laws() {
+  return {area_law,        deformation_law,    area_deviation_law,       deformation_deviation_law,
+          correlation_law, min_area_deviation, min_deformation_deviation};
 }
 
 template PixelErrors pixel_errors(const double&, const double&);

@@ -2,6 +2,8 @@
 // for millions of events in a second (docs/theory-extract.md, eq:pixel-errors). For cells with a cortex, and for all
 // features of a shape with their covariance, see infer/rendered_errors.h.
 #pragma once
+#include <array>
+
 #include "numeric/whole_packets.h"
 #include "shape/outline_shape.h"
 
@@ -27,6 +29,16 @@ inline constexpr double max_fitted_deformation = 0.2;
 /// differs from another of the same area and deformation counts as scatter; a shell differs by more.
 template <class Number>
 PixelErrorsOf<Number> pixel_errors(const Number& log_area_px, const Number& deformation);
+
+/// The numbers in it, for programs that cannot call it: polynomials of the deformation and s = (area in pixels)^(-1/3)
+/// with coefficients [power of the deformation][power of s], and the least deviations. All but the correlation are
+/// multiplied by s^2; 1 is added to the area's.
+struct PixelErrorLaws {
+  using Law = std::array<std::array<double, 3>, 4>;
+  Law area, deformation, area_deviation, deformation_deviation, correlation;
+  double min_area_deviation, min_deformation_deviation;
+};
+PixelErrorLaws pixel_error_laws();
 
 /// For the third mode of the outline's radius (docs/theory-extract.md, eq:asymmetry-errors).
 template <class Number>

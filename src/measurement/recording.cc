@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "case/refuse_path.h"
@@ -29,11 +30,23 @@ bool is_being_written(const fs::path& file) {
   return head[version_at] == 3 && (static_cast<unsigned char>(head[flags_at]) & (writing | single_writer)) != 0;
 }
 
+// Files of the field's programs that are no .rtdc recordings.
+void refuse_other_kinds(const fs::path& file) {
+  const std::string kind = file.extension().string();
+  if (kind == ".tdms")
+    refuse_path(file, "is a recording in the older format .tdms; convert it with dclab-tdms2rtdc of dclab[tdms].");
+  if (kind == ".so2")
+    refuse_path(file,
+                "is a session of DCscope, not a recording; give its recordings, or export there what passes its "
+                "filters as .rtdc, or its polygon filters as .poly for --polygon.");
+  if (kind == ".poly") refuse_path(file, "holds polygon filters; give it with --polygon, beside recordings (.rtdc).");
+}
+
 Hdf5Handle open_file(const fs::path& file) {
   std::error_code error;
   const auto status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) refuse_path(file, "there is no such file.");
-  if (!fs::is_regular_file(status)) refuse_path(file, "is not a file; give an .rtdc recording (a folder needs -r).");
+  if (!fs::is_regular_file(status)) refuse_path(file, "is not a file; give an .rtdc recording.");
   prepare_hdf5();
   const Hdf5Handle access(::H5Pcreate(H5P_FILE_ACCESS));
   // Recordings often lie on network drives that know no locks; nothing is written to them.
@@ -41,6 +54,7 @@ Hdf5Handle open_file(const fs::path& file) {
   Hdf5Handle opened(::H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.get()));
   if (opened) return opened;
   if (::access(file.c_str(), R_OK) != 0) refuse_path(file, "cannot be read; check its permissions.");
+  if (::H5Fis_hdf5(file.c_str()) <= 0) refuse_other_kinds(file);
   if (::H5Fis_hdf5(file.c_str()) <= 0)
     refuse_path(file, "is not an HDF5 file, or its first bytes are damaged; .rtdc recordings are HDF5 files.");
   if (is_being_written(file))
@@ -74,11 +88,6 @@ std::string missing_filter(hid_t dataset) {
 std::size_t number_of_members(hid_t group) {
   H5G_info_t info{};
   return ::H5Gget_info(group, &info) < 0 ? 0 : info.nlinks;
-}
-
-bool is_picture(const DatasetShape& shape) {
-  const std::size_t height = shape.extent[1], width = shape.extent[2];
-  return height > 0 && width > 0 && std::max(height, width) <= reading_limits.image_side;
 }
 
 // The length that most of them have; of equally frequent ones the greater.
@@ -155,7 +164,7 @@ void Recording::open_feature(const std::string& name) {
   }
   if (data->shape.extent.size() == 1)
     c.scalars.emplace(name, std::move(*data));
-  else if (data->shape.extent.size() == 3 && is_picture(data->shape))
+  else if (data->shape.is_pictures())
     c.images.emplace(name, std::move(*data));
 }
 
@@ -167,18 +176,29 @@ void Recording::on_piece(const std::function<void()>& told) {
 
 const fs::path& Recording::file() const { return content_->path; }
 const Metadata& Recording::metadata() const { return content_->metadata; }
+
+std::vector<fs::path> Recording::files_of_basins() const {
+  std::vector<fs::path> files;
+  for (const auto& basin : content_->basins) {
+    if (!basin.recording) continue;
+    files.push_back(basin.recording->file());
+    std::ranges::copy(basin.recording->files_of_basins(), std::back_inserter(files));
+  }
+  return files;
+}
+
 std::size_t Recording::events() const { return content_->events; }
 const std::vector<std::string>& Recording::remarks() const { return content_->remarks; }
 std::int64_t Recording::root() const { return content_->file.get(); }
 
 bool Recording::has_scalar(const std::string& feature) const {
-  return content_->scalars.contains(feature) || basin_with(feature) != nullptr;
+  return content_->scalars.contains(feature) || basin_with(feature, Kind::scalar) != nullptr;
 }
 
 bool Recording::is_single_precision(const std::string& feature) const {
   if (const auto found = content_->scalars.find(feature); found != content_->scalars.end())
     return found->second.shape.single_precision;
-  const auto* basin = basin_with(feature);
+  const auto* basin = basin_with(feature, Kind::scalar);
   return basin && basin->recording && basin->recording->is_single_precision(feature);
 }
 
@@ -198,7 +218,7 @@ void Recording::read_scalar(const std::string& feature, std::size_t first, std::
     if (!read_rows(data, first, values.first(there), content_->on_piece))
       refuse_data(content_->path, feature, data.dataset.get());
     std::ranges::fill(values.subspan(there), no_value);
-  } else if (const auto* basin = basin_with(feature)) {
+  } else if (const auto* basin = basin_with(feature, Kind::scalar)) {
     read_through(*basin, feature, first, values);
   } else {
     std::ranges::fill(values, no_value);
@@ -206,45 +226,80 @@ void Recording::read_scalar(const std::string& feature, std::size_t first, std::
 }
 
 std::optional<ImageSize> Recording::image_size(const std::string& feature) const {
-  if (const auto found = content_->images.find(feature); found != content_->images.end())
-    return ImageSize{found->second.shape.extent[2], found->second.shape.extent[1]};
-  const auto* basin = basin_with(feature);
-  return basin && basin->recording ? basin->recording->image_size(feature) : std::nullopt;
+  const auto size_of = [](const OpenDataset& images) {
+    return ImageSize{images.shape.extent[2], images.shape.extent[1]};
+  };
+  if (const auto found = content_->images.find(feature); found != content_->images.end()) return size_of(found->second);
+  const auto* basin = basin_with(feature, Kind::pictures);
+  if (!basin) return std::nullopt;
+  if (basin->recording) return basin->recording->image_size(feature);
+  const auto cropped = basin->cropped.find(feature);
+  return cropped == basin->cropped.end() ? size_of(basin->internal.at(feature)) : cropped->second.size();
 }
 
 std::size_t Recording::image_rows_per_chunk(const std::string& feature) const {
+  constexpr std::size_t some = 32;  // for what is kept in pieces of many shapes
   if (const auto found = content_->images.find(feature); found != content_->images.end())
     return std::max<std::size_t>(found->second.shape.rows_per_chunk, 1);
-  const auto* basin = basin_with(feature);
-  return basin && basin->recording && !basin->mapping ? basin->recording->image_rows_per_chunk(feature) : 1;
+  const auto* basin = basin_with(feature, Kind::pictures);
+  if (!basin || basin->mapping) return 1;
+  if (basin->recording) return basin->recording->image_rows_per_chunk(feature);
+  return basin->cropped.empty() ? 1 : some;
+}
+
+void Recording::read_stored(const OpenDataset& images, const std::string& feature, std::size_t first,
+                            std::span<std::uint8_t> pixels) const {
+  const std::size_t rows = images.shape.rows(), one = images.shape.width();
+  const std::size_t there = first < rows ? std::min(pixels.size() / one, rows - first) : 0;
+  if (!read_rows(images, first, pixels.first(there * one), content_->on_piece))
+    refuse_data(content_->path, feature, images.dataset.get());
+  std::ranges::fill(pixels.subspan(there * one), 0);
+}
+
+void Recording::read_cropped(const CroppedImages& images, const std::string& feature, std::size_t first,
+                             std::span<std::uint8_t> pixels) const {
+  const std::size_t one = images.size().pixels(), count = pixels.size() / one;
+  const std::size_t there = first < images.events() ? std::min(count, images.events() - first) : 0;
+  for (std::size_t i = 0; i < there; ++i)
+    if (!images.read(first + i, pixels.subspan(i * one, one), content_->on_piece))
+      refuse_data(content_->path, feature, images.dataset());
+  std::ranges::fill(pixels.subspan(there * one), 0);
+  if (images.background().empty() || there == 0) return;
+  std::vector<std::uint8_t> background(there * one);
+  read_images(images.background(), first, there, background);
+  std::ranges::transform(background, pixels, pixels.begin(),
+                         [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a + b); });
 }
 
 void Recording::read_images(const std::string& feature, std::size_t first, std::size_t count,
                             std::span<std::uint8_t> pixels) const {
-  if (const auto found = content_->images.find(feature); found != content_->images.end()) {
-    const OpenDataset& images = found->second;
-    const std::size_t rows = images.shape.rows(), there = first < rows ? std::min(count, rows - first) : 0;
-    const std::size_t filled = there * images.shape.extent[1] * images.shape.extent[2];
-    if (filled > pixels.size() || !read_rows(images, first, pixels.first(filled), content_->on_piece))
-      refuse_data(content_->path, feature, images.dataset.get());
-    std::ranges::fill(pixels.subspan(filled), 0);
+  const std::size_t one = image_size(feature).value_or(ImageSize{}).pixels();
+  if (one == 0 || one * count != pixels.size()) {
+    std::ranges::fill(pixels, 0);
     return;
   }
+  if (const auto found = content_->images.find(feature); found != content_->images.end())
+    return read_stored(found->second, feature, first, pixels);
+  const Basin& basin = *basin_with(feature, Kind::pictures);
+  const auto read = [&](std::size_t from, std::span<std::uint8_t> target) {
+    if (basin.recording) return basin.recording->read_images(feature, from, target.size() / one, target);
+    if (const auto cropped = basin.cropped.find(feature); cropped != basin.cropped.end())
+      return read_cropped(cropped->second, feature, from, target);
+    read_stored(basin.internal.at(feature), feature, from, target);
+  };
+  if (!basin.mapping) return read(first, pixels);
   std::ranges::fill(pixels, 0);
-  const auto* basin = basin_with(feature);
-  if (!basin || !basin->recording || count == 0) return;
-  if (!basin->mapping) return basin->recording->read_images(feature, first, count, pixels);
-  const std::size_t one = pixels.size() / count;
-  for (std::size_t i = 0; i < count && first + i < basin->mapping->size(); ++i)
-    basin->recording->read_images(feature, static_cast<std::size_t>((*basin->mapping)[first + i]), 1,
-                                  pixels.subspan(i * one, one));
+  for (std::size_t i = 0; i < count && first + i < basin.mapping->size(); ++i)
+    read(static_cast<std::size_t>((*basin.mapping)[first + i]), pixels.subspan(i * one, one));
 }
 
-bool Recording::has_contours() const { return bool(content_->contours) || basin_with("contour") != nullptr; }
+bool Recording::has_contours() const {
+  return bool(content_->contours) || basin_with("contour", Kind::contours) != nullptr;
+}
 
 PixelContour Recording::read_contour(std::size_t event) const {
   if (!content_->contours) {
-    const auto* basin = basin_with("contour");
+    const auto* basin = basin_with("contour", Kind::contours);
     if (!basin) return {};
     if (!basin->mapping) return basin->recording->read_contour(event);
     return event < basin->mapping->size()

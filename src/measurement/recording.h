@@ -15,6 +15,10 @@
 
 namespace rheocyte {
 
+struct BasinDefinition;
+class CroppedImages;
+struct OpenDataset;
+
 /// An open recording. Data are read in pieces when they are asked for; what lies in a basin (another file, or another
 /// place of the same file) is found there. HDF5 may break on files that somebody damaged on purpose, or by accident in
 /// the wrong place: open files of unknown origin in a process of their own.
@@ -28,6 +32,8 @@ class Recording {
 
   const std::filesystem::path& file() const;
   const Metadata& metadata() const;
+  /// The files in which basins lie, theirs among them: they, too, say what is read here.
+  std::vector<std::filesystem::path> files_of_basins() const;
 
   /// Number of events: the length that most features have. The metadata may say something else; then there is a remark.
   std::size_t events() const;
@@ -82,12 +88,22 @@ class Recording {
   explicit Recording(const std::filesystem::path& file, Opening& opening);
   void open_feature(const std::string& name);
   void open_basins(Opening& opening);
-  void add_basin(const std::string& json, Opening& opening);
+  void add_basin(const BasinDefinition& definition, Opening& opening);
+  void add_internal_basin(Basin basin);
+  void add_file_basin(const BasinDefinition& definition, Basin basin, Opening& opening);
+  /// Last of all, for size and background of the pictures may come from other basins.
+  void add_cropped_images(const BasinDefinition& definition);
+  ImageSize size_of_pictures() const;
   /// Why not; empty if the basin can be read from this file.
   std::string open_basin_file(const std::filesystem::path& file, Basin& basin, Opening& opening) const;
-  const Basin* basin_with(const std::string& feature) const;
-  static bool is_in(const Basin& basin, const std::string& feature);
+  enum class Kind { scalar, pictures, contours };
+  const Basin* basin_with(const std::string& feature, Kind kind) const;
+  static bool is_in(const Basin& basin, const std::string& feature, Kind kind);
   static void read_through(const Basin& basin, const std::string& feature, std::size_t first, std::span<double> values);
+  void read_stored(const OpenDataset& images, const std::string& feature, std::size_t first,
+                   std::span<std::uint8_t> pixels) const;
+  void read_cropped(const CroppedImages& images, const std::string& feature, std::size_t first,
+                    std::span<std::uint8_t> pixels) const;
 
   std::unique_ptr<Content> content_;
 };

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 
 #include "case/user_error.h"
@@ -35,49 +36,57 @@ void Recording::open_basins(Opening& opening) {
     c.remarks.push_back(fmt::format("has {} basins; only the first {} are used.", names->size(), max_number_of_basins));
     names->resize(max_number_of_basins);
   }
+  std::vector<BasinDefinition> cropped;
   for (const auto& name : *names) {
     const Hdf5Handle dataset = open_dataset(group.get(), name);
     const auto lines = dataset ? read_lines(dataset.get(), c.bytes) : std::nullopt;
-    if (lines) add_basin(joined(*lines), opening);
+    if (!lines) continue;
+    const auto definition = read_basin_definition(joined(*lines));
+    if (!definition)
+      c.remarks.push_back(why_basin_is_not_used(joined(*lines)));
+    else if (definition->kind == BasinDefinition::Kind::cropped)
+      cropped.push_back(*definition);
+    else
+      add_basin(*definition, opening);
   }
+  for (const BasinDefinition& definition : cropped) add_cropped_images(definition);
 }
 
-void Recording::add_basin(const std::string& json, Opening& opening) {
+void Recording::add_basin(const BasinDefinition& definition, Opening& opening) {
   Content& c = *content_;
-  const auto definition = read_basin_definition(json);
-  if (!definition) {
-    if (const auto remote = name_of_remote_basin(json))
-      c.remarks.push_back(
-          fmt::format("the basin \"{}\" is not used: it is on a network, from which nothing is read; "
-                      "download the file and refer to it, or put its features into the recording.",
-                      one_line(*remote, 80)));
-    else
-      c.remarks.emplace_back("a basin is not used: its definition is broken.");
-    return;
-  }
-  const std::string name = one_line(definition->name, 60);
   Basin basin;
-  basin.features = definition->features;
-  if (!definition->mapping.empty()) {
-    const auto found = c.scalars.find(definition->mapping);
+  basin.features = definition.features;
+  if (!definition.mapping.empty()) {
+    const auto found = c.scalars.find(definition.mapping);
     basin.mapping.emplace(found == c.scalars.end() ? 0 : found->second.shape.rows());
     if (basin.mapping->empty() || !read_rows(found->second, 0, *basin.mapping)) {
-      c.remarks.push_back(fmt::format("the basin \"{}\" is not used: its map of events is missing.", name));
+      c.remarks.push_back(
+          fmt::format("the basin \"{}\" is not used: its map of events is missing.", one_line(definition.name, 60)));
       return;
     }
   }
-  if (definition->kind == BasinDefinition::Kind::internal) {
-    const Hdf5Handle group = open_group(c.file.get(), internal_group);
-    const auto names = group ? member_names(group.get()) : std::nullopt;
-    for (const auto& feature : names.value_or(std::vector<std::string>())) {
-      auto data = open_numbers(group.get(), feature, c.bytes);
-      if (data && data->shape.extent.size() == 1) basin.internal.emplace(feature, std::move(*data));
-    }
-    c.basins.push_back(std::move(basin));
-    return;
+  if (definition.kind == BasinDefinition::Kind::internal)
+    add_internal_basin(std::move(basin));
+  else
+    add_file_basin(definition, std::move(basin), opening);
+}
+
+void Recording::add_internal_basin(Basin basin) {
+  Content& c = *content_;
+  const Hdf5Handle group = open_group(c.file.get(), internal_group);
+  const auto names = group ? member_names(group.get()) : std::nullopt;
+  for (const auto& feature : names.value_or(std::vector<std::string>())) {
+    auto data = open_numbers(group.get(), feature, c.bytes);
+    if (data && (data->shape.extent.size() == 1 || data->shape.is_pictures()))
+      basin.internal.emplace(feature, std::move(*data));
   }
+  c.basins.push_back(std::move(basin));
+}
+
+void Recording::add_file_basin(const BasinDefinition& definition, Basin basin, Opening& opening) {
+  Content& c = *content_;
   std::string reason = "its file was not found";
-  for (const auto& file : basin_files(*definition, c.path)) {
+  for (const auto& file : basin_files(definition, c.path)) {
     reason = open_basin_file(file, basin, opening);
     if (!reason.empty()) continue;
     c.bytes_with_basins += basin.recording->content_->bytes_with_basins;
@@ -86,7 +95,43 @@ void Recording::add_basin(const std::string& json, Opening& opening) {
     c.basins.push_back(std::move(basin));
     return;
   }
-  c.remarks.push_back(fmt::format("the basin \"{}\" is not used: {}.", name, reason));
+  c.remarks.push_back(fmt::format("the basin \"{}\" is not used: {}.", one_line(definition.name, 60), reason));
+}
+
+void Recording::add_cropped_images(const BasinDefinition& definition) {
+  Content& c = *content_;
+  const Hdf5Handle group = open_group(c.file.get(), internal_group);
+  const auto names = group ? member_names(group.get()) : std::nullopt;
+  Basin basin;
+  basin.features = definition.features;
+  std::string missing;
+  for (const auto& feature : names.value_or(std::vector<std::string>())) {
+    if (basin.features && std::ranges::find(*basin.features, feature) == basin.features->end()) continue;
+    auto images = CroppedImages::open(open_group(group.get(), feature), size_of_pictures(), c.bytes);
+    if (!images) continue;
+    const std::string& background = images->background();
+    if (images->size().pixels() == 0)
+      missing = "the size of its pictures (imaging:roi size x, imaging:roi size y) is missing";
+    else if (!background.empty() && (feature != "image" || background == feature ||  // one of its own could lead back
+                                     image_size(background) != images->size()))
+      missing = fmt::format("its background {} is missing or of another size", one_line(background, 60));
+    else
+      basin.cropped.emplace(feature, std::move(*images));
+  }
+  if (basin.cropped.empty())
+    c.remarks.push_back(fmt::format("the basin \"{}\" is not used: {}.", one_line(definition.name, 60),
+                                    missing.empty() ? "its pictures are missing" : missing));
+  else
+    c.basins.push_back(std::move(basin));
+}
+
+// As the metadata say, else that of pictures which are whole.
+ImageSize Recording::size_of_pictures() const {
+  const auto width = content_->metadata.number("imaging:roi size x"),
+             height = content_->metadata.number("imaging:roi size y");
+  const auto is_side = [](double n) { return n >= 1 && n <= double(reading_limits.image_side) && n == std::floor(n); };
+  if (width && height && is_side(*width) && is_side(*height)) return {std::size_t(*width), std::size_t(*height)};
+  return image_size("image_bg").value_or(image_size("mask").value_or(ImageSize{}));
 }
 
 std::string Recording::open_basin_file(const fs::path& file, Basin& basin, Opening& opening) const {
@@ -108,11 +153,20 @@ std::string Recording::open_basin_file(const fs::path& file, Basin& basin, Openi
   return {};
 }
 
-bool Recording::is_in(const Basin& basin, const std::string& feature) {
+bool Recording::is_in(const Basin& basin, const std::string& feature, Kind kind) {
   if (basin.features && std::ranges::find(*basin.features, feature) == basin.features->end()) return false;
-  if (!basin.recording) return basin.internal.contains(feature);
-  if (feature == "contour") return basin.recording->has_contours();
-  return basin.recording->has_scalar(feature) || basin.recording->image_size(feature).has_value();
+  if (!basin.recording) {
+    const auto found = basin.internal.find(feature);
+    const std::size_t dimensions = found == basin.internal.end() ? 0 : found->second.shape.extent.size();
+    return kind == Kind::pictures ? dimensions == 3 || basin.cropped.contains(feature)
+                                  : kind == Kind::scalar && dimensions == 1;
+  }
+  switch (kind) {
+    case Kind::scalar: return basin.recording->has_scalar(feature);
+    case Kind::pictures: return basin.recording->image_size(feature).has_value();
+    case Kind::contours: return basin.recording->has_contours();
+  }
+  return false;
 }
 
 // Internal ones first, as the field's programs do.
@@ -122,17 +176,16 @@ std::vector<std::string> Recording::scalar_names() const {
   for (const Basin& basin : content_->basins) {
     for (const auto& [name, feature] : basin.internal) names.insert(name);
     if (!basin.recording) continue;
-    for (const auto& name : basin.recording->scalar_names())
-      if (is_in(basin, name)) names.insert(name);
+    for (const auto& name : basin.recording->scalar_names()) names.insert(name);
   }
   std::erase_if(names, [this](const std::string& name) { return !has_scalar(name); });
   return {names.begin(), names.end()};
 }
 
-const Recording::Basin* Recording::basin_with(const std::string& feature) const {
+const Recording::Basin* Recording::basin_with(const std::string& feature, Kind kind) const {
   for (const bool internal : {true, false})
     for (const auto& basin : content_->basins)
-      if (internal == !basin.recording && is_in(basin, feature)) return &basin;
+      if (internal == !basin.recording && is_in(basin, feature, kind)) return &basin;
   return nullptr;
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "measurement/basin.h"
+#include "measurement/cropped_images.h"
 #include "measurement/hdf5_numbers.h"
 #include "measurement/hdf5_reading.h"
 #include "measurement/recording.h"
@@ -14,7 +15,8 @@ using Datasets = std::map<std::string, OpenDataset>;
 /// A basin that could be opened: a recording, or datasets of the same file.
 struct Recording::Basin {
   std::unique_ptr<Recording> recording;              ///< null for internal ones
-  Datasets internal;                                 ///< scalars
+  Datasets internal;                                 ///< scalars and pictures
+  std::map<std::string, CroppedImages> cropped;      ///< of an internal one
   std::optional<std::vector<std::string>> features;  ///< the only ones it gives
   std::optional<std::vector<std::int64_t>> mapping;  ///< event of the basin for each of our events
 };

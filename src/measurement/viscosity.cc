@@ -4,11 +4,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <cctype>
 #include <cmath>
-#include <utility>
 
 #include "case/user_error.h"
 #include "numeric/no_value.h"
@@ -25,34 +22,6 @@ using Array = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, block_siz
 constexpr double kelvin_at_0_celsius = 273.15;
 
 constexpr double exponent_per_kelvin = 0.00223, activation_in_kelvin = 3379.7;  // of methyl cellulose, by Buyukurganci
-
-constexpr std::array<std::pair<std::string_view, Medium>, 13> names_of_media{{
-    {"0.49% mc-pbs", Medium::methyl_cellulose_049},
-    {"0.5% mc-pbs", Medium::methyl_cellulose_049},
-    {"0.50% mc-pbs", Medium::methyl_cellulose_049},
-    {"cellcarrier", Medium::methyl_cellulose_049},
-    {"0.59% mc-pbs", Medium::methyl_cellulose_059},
-    {"0.6% mc-pbs", Medium::methyl_cellulose_059},
-    {"0.60% mc-pbs", Medium::methyl_cellulose_059},
-    {"cellcarrierb", Medium::methyl_cellulose_059},
-    {"cellcarrier b", Medium::methyl_cellulose_059},
-    {"0.83% mc-pbs", Medium::methyl_cellulose_083},
-    {"0.8% mc-pbs", Medium::methyl_cellulose_083},
-    {"0.80% mc-pbs", Medium::methyl_cellulose_083},
-    {"water", Medium::water},
-}};
-
-std::string_view without_blanks_around(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const auto first = text.find_first_not_of(blanks);
-  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string in_small_letters(std::string_view text) {
-  std::string small(text);
-  std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return small;
-}
 
 /// eta = 1000 K g^(n - 1) with K = factor exp(activation_in_kelvin / Tk) and n = 0.00223 Tk + offset.
 struct PowerLawOfTemperature {
@@ -106,23 +75,6 @@ void water_viscosity(const Array& celsius, Array& viscosity) {
 }
 
 }  // namespace
-
-std::optional<Medium> medium_of_name(std::string_view name) {
-  constexpr std::string_view suffix = " mc-pbs";
-  std::string wanted = in_small_letters(without_blanks_around(name));
-  if (wanted.ends_with('%')) wanted += suffix;
-  const auto* const found = std::ranges::find(names_of_media, wanted, [](const auto& entry) { return entry.first; });
-  return found == names_of_media.end() ? std::nullopt : std::optional(found->second);
-}
-
-std::string_view name_of(Medium medium) {
-  switch (medium) {
-    case Medium::methyl_cellulose_049: return "0.49% MC-PBS";
-    case Medium::methyl_cellulose_059: return "0.59% MC-PBS";
-    case Medium::methyl_cellulose_083: return "0.83% MC-PBS";
-    default: return "water";
-  }
-}
 
 std::optional<ViscosityModel> viscosity_model_of_name(std::string_view name) {
   for (const auto model : {ViscosityModel::buyukurganci_2022, ViscosityModel::herold_2017, ViscosityModel::kestin_1978})

@@ -6,21 +6,12 @@
 #include <string_view>
 
 #include "case/channel_flow.h"
+#include "measurement/medium.h"
 
 namespace rheocyte {
 
 /// Metadata of virtual recordings whose liquid has no name: its viscosity (mPa s).
 inline constexpr const char* viscosity_key = "user:rheocyte viscosity_mPas";
-
-/// Liquids with a known viscosity: methyl cellulose in phosphate-buffered saline, and water.
-enum class Medium { methyl_cellulose_049, methyl_cellulose_059, methyl_cellulose_083, water };
-
-/// The medium of a recording's metadata, capitals and blanks around it do not count: "CellCarrier", "0.49% MC-PBS",
-/// "0.5%", "CellCarrierB", "water", ...; nothing for any other name.
-std::optional<Medium> medium_of_name(std::string_view name);
-
-/// The concentration's usual name, e.g. "0.49% MC-PBS".
-std::string_view name_of(Medium medium);
 
 enum class ViscosityModel {
   buyukurganci_2022,  ///< Buyukurganci et al. 2022, doi 10.1039/D2SM01515C

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "extract/time_course_table.h"
+#include "extract/virtual_cells.h"
 #include "python/bindings.h"
 #include "python/contained_reading.h"
 #include "python/interruptible.h"
 #include "store/build_info.h"
 #include "store/whole_file.h"
-#include "synth/synth_shapes.h"
 #include "synth/virtual_recording.h"
 
 namespace rheocyte {
@@ -48,11 +48,10 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
 std::size_t synth(const std::string& text, const std::string& name, const std::vector<std::string>& settings,
                   const std::filesystem::path& place, const PythonProgress& progress) {
   SynthSpec spec = parse_synth_spec(text, name, settings);
-  if (!spec.table.empty()) spec.table = std::filesystem::path(name).parent_path() / spec.table;
   const RecordingProvenance provenance{std::string("rheocyte ") + version, text};
   struct Stopped {};
   return interruptible([&](const std::atomic<bool>& stop) -> std::size_t {
-    const auto shapes = shapes_of(spec);
+    const auto shapes = virtual_cells(spec, std::filesystem::path(name).parent_path());
     WholeFile file(place);
     try {
       const auto made = write_virtual_recording(spec, *shapes, provenance, file.scratch(), [&](double share) {

@@ -26,7 +26,8 @@ namespace {
 struct Events {
   std::vector<double> area, deformation, viscosity, modulus, standard_error;
   std::vector<std::int8_t> state, elongated;
-  std::vector<double> shape_excess, shape_excess_error, odd_share, mode_3, asymmetry, asymmetry_error;
+  std::vector<double> shape_excess, shape_excess_error, odd_share, mode_3, asymmetry, asymmetry_error,
+      asymmetry_systematic;
   ExtractSummary summary;
   std::vector<std::string> lines;
 
@@ -49,6 +50,7 @@ struct Events {
     add(mode_3, b.mode_3);
     add(asymmetry, b.asymmetry_kPa);
     add(asymmetry_error, b.asymmetry_error_kPa);
+    add(asymmetry_systematic, b.asymmetry_systematic_kPa);
   }
 };
 
@@ -102,6 +104,7 @@ Told written(const Events& e, const SharedColumns& memory) {
     write("mode_3", e.mode_3);
     write("young_modulus_asymmetry_kPa", e.asymmetry);
     write("standard_error_asymmetry_kPa", e.asymmetry_error);
+    write("systematic_error_asymmetry_kPa", e.asymmetry_systematic);
   }
   return told;
 }

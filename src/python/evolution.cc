@@ -5,7 +5,6 @@
 #include <deque>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "case/scales.h"
 #include "case/user_error.h"
@@ -13,7 +12,9 @@
 #include "python/bindings.h"
 #include "python/interruptible.h"
 #include "python/result_object.h"
+#include "result/judge_end.h"
 #include "result/result_in_time.h"
+#include "store/thread.h"
 
 namespace rheocyte {
 
@@ -42,12 +43,12 @@ class Evolution {
     if (c.time.scheme == TimeScheme::stationary)
       throw UserError(
           "rheocyte.evolve: the case has neither time.end_us nor time.end_um; give one, and cell.viscosity_mPas.");
-    thread_ = std::thread([this] { follow(); });
+    thread_ = Thread([this](const std::stop_token&) { follow(); });
   }
   ~Evolution() {
     stop_ = true;
     const py::gil_scoped_release released;
-    if (thread_.joinable()) thread_.join();
+    thread_.join();
   }
   Evolution(const Evolution&) = delete;
   Evolution& operator=(const Evolution&) = delete;
@@ -77,7 +78,7 @@ class Evolution {
     py::dict columns;
     const auto add = [&](std::string_view name, const auto& value) {
       std::vector<double> values;
-      for (const HistoryRow& row : rows_) values.push_back(value(row));
+      for (const HistoryRow& row : record_.rows) values.push_back(value(row));
       columns[py::str(name)] = array_of(std::move(values));
     };
     add("t_us", [](const HistoryRow& row) { return row.t_us; });
@@ -102,6 +103,7 @@ class Evolution {
                                   [this](const TimePoint& point, const TimeState&) { add(point); }};
       result_.state =
           follow_in_time(result_.problem, time_run_of(result_.input, result_.scales), observer, nullptr, &stop_);
+      judge_end(result_, record_, stop_);
       refuse_unfinite_numbers(result_);
     } catch (...) {
       failure_ = std::current_exception();
@@ -120,7 +122,7 @@ class Evolution {
 
   void add(const TimePoint& point) {
     const std::scoped_lock lock(mutex_);
-    rows_.push_back(history_row(point, result_.scales));
+    record_.rows.push_back(history_row(point, result_.scales));
   }
 
   py::dict described(const SeenFrame& frame) const {
@@ -138,10 +140,10 @@ class Evolution {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<SeenFrame> frames_;
-  std::vector<HistoryRow> rows_;
+  TimeRecord record_;  ///< its rows alone
   bool is_over_ = false;
   std::exception_ptr failure_;
-  std::thread thread_;
+  Thread thread_;
 };
 
 }  // namespace

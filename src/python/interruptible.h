@@ -7,8 +7,9 @@
 #include <exception>
 #include <future>
 #include <optional>
-#include <thread>
 #include <utility>
+
+#include "store/thread.h"
 
 namespace rheocyte {
 
@@ -34,7 +35,7 @@ auto interruptible(Work work) {
   std::atomic<bool> stop{false};
   std::packaged_task<Result()> task([&] { return work(stop); });
   auto future = task.get_future();
-  std::thread thread(std::move(task));
+  Thread thread([&task](const std::stop_token&) { task(); });
   const auto interruption =
       wait_or_interrupt([&](auto duration) { return future.wait_for(duration) == std::future_status::ready; });
   if (interruption) stop = true;

@@ -26,10 +26,10 @@ namespace {
 Buffer buffer_of(const std::string& medium_name, const std::string& model_name) {
   const auto medium = medium_of_name(medium_name);
   if (!medium)
-    throw UserError(
-        "the medium \"" + one_line(medium_name, 60) +
-        "\" has no known viscosity; give viscosity_mPas, or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, "
-        "water.");
+    throw UserError("the medium \"" + one_line(medium_name, 60) + "\" has no known viscosity" +
+                    near_medium(medium_name) +
+                    "; give viscosity_mPas, or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, "
+                    "water.");
   const auto model = viscosity_model_of_name(model_name);
   if (!model)
     throw UserError("unknown viscosity model " + one_line(model_name, 60) +

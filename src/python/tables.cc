@@ -10,6 +10,7 @@
 #include <string>
 
 #include "case/user_error.h"
+#include "extract/dclab_plugin.h"
 #include "extract/find_table.h"
 #include "extract/modulus_tables.h"
 #include "extract/shipped_tables.h"
@@ -21,6 +22,7 @@
 #include "python/bindings.h"
 #include "python/buffer.h"
 #include "python/interruptible.h"
+#include "store/own_file.h"
 
 namespace rheocyte {
 
@@ -149,6 +151,12 @@ void write_texts(const HeldTable& table, const std::string& rows, const std::str
   write_texts_of_map(*table.map, rows, lines);
 }
 
+// Its first line tells whether an older file is one of ours.
+void write_dclab_plugin(const std::string& program, const std::string& file) {
+  const py::gil_scoped_release without_interpreter;
+  write_own_file(file, program + data_of_dclab_plugin(), program.substr(0, program.find('\n')), Foreign::keep);
+}
+
 py::dict origin(const HeldTable& table) {
   const TableOrigin& o = table.map->origin();
   py::dict d;
@@ -193,6 +201,7 @@ void bind_tables(py::module_& module) {
       .def("support",
            [](const HeldTable& t, const MeasuringConditions& c) { return seen(*t.map, c, support(*t.map)); });
   module.def("table_files", &table_files);
+  module.def("write_dclab_plugin", &write_dclab_plugin);
   module.attr("state_names") =
       std::vector<std::string_view>(names_of_modulus_states.begin(), names_of_modulus_states.end());
 }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "case/scales.h"
+#include "solve/time_resolution.h"
 
 namespace rheocyte {
 
@@ -61,6 +62,8 @@ std::optional<Problem> straight_from_here(const Result& result, const TimeRecord
   const WallTable wall = wall_um(result.input.channel.profile);
   if (record.rows.back().position_um - half_um < wall.x.back()) return {};
   Case straight = result.input;
+  if (!straight.channel.profile.axial_tension_Pa.empty())
+    straight.flow.axial_tension_Pa = straight.channel.profile.axial_tension_Pa.back();
   straight.channel.profile = {};
   straight.channel.radius_um = wall.radius.back();
   const Problem problem = problem_of(straight);
@@ -82,11 +85,13 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
                              const std::atomic<bool>& stop) {
   Outcome& outcome = result.state.outcome;
   const StationaryState stationary = solve_stationary(problem, {}, &stop);
+  const Status there = stationary.outcome.status;
   const bool failed = record.end == TimeEnd::failure;
-  if (stationary.outcome.status == Status::stopped) return;
-  if (stationary.outcome.status != Status::converged) {
-    outcome.message += fmt::format(" There is no stationary shape of this cell ({}){}", name(stationary.outcome.status),
+  if (there == Status::stopped) return;
+  if (!has_state(there)) {
+    outcome.message += fmt::format(" There is no stationary shape of this cell ({}){}", name(there),
                                    failed ? "." : ": what seems to settle is held by the mesh.");
+    if (record.end == TimeEnd::settled) outcome.status = there;
     return;
   }
   if (failed) return;
@@ -94,10 +99,46 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   const double distance = result.state.shape.deformation / stationary.shape.deformation - 1;
   const bool settled =
       record.end == TimeEnd::settled || has_settled(record, std::abs(distance), result.problem.accuracy);
-  if (settled) result.state.estimated_error = std::abs(distance) + stationary.estimated_error;
+  const double d = stationary.shape.deformation, share = d / std::max(d, result.state.deformation_floor);
+  if (settled) result.state.estimated_error = share * (std::abs(distance) + stationary.estimated_error);
   if (settled)
     result.state.errors = errors_by(stationary, problem.radius_ratio != result.problem.radius_ratio, result.state);
   outcome.message += told(stationary.shape.deformation, distance, settled);
+}
+
+/// Whether the run to compare with failed and nothing else tells the error.
+bool is_error_unknown(const StationaryState& state) {
+  const bool has_failed = state.comparison != Status::not_started && state.comparison != Status::converged &&
+                          state.comparison != Status::stopped;
+  return has_failed && !std::isfinite(state.estimated_error);
+}
+
+/// A finer mesh as far as there is one; else to ask for less. With a greater accuracy the floor falls.
+std::string ways_to_mesh_accuracy(const StationaryState& state) {
+  const int finer = state.statistics.degree + 2;
+  if (finer <= max_time_degree)
+    return fmt::format("take a finer mesh, time.degree = {} in place of time.mesh_accuracy.", finer);
+  const double d = state.shape.deformation;
+  return ways_to_accuracy("time.mesh_accuracy", state.estimated_error * std::max(d, state.deformation_floor) / d);
+}
+
+/// Settles the status by the last state.
+void judge(Result& result) {
+  const StationaryState& state = result.state;
+  const double wanted = result.input.time.mesh_accuracy.value_or(HUGE_VAL), error = state.estimated_error;
+  const bool is_unknown = is_error_unknown(state);
+  Outcome& outcome = result.state.outcome;
+  const Status status = judged(outcome.status, {state.stability_margin, is_unknown ? HUGE_VAL : error, wanted});
+  if (status == outcome.status) return;
+  outcome.status = status;
+  if (status == Status::surface_unstable)
+    outcome.message += " It is so at the end, too; " + ways_to_stability(surface_kind(result.problem), true);
+  else if (is_unknown)
+    outcome.message +=
+        fmt::format(" Whether it is within the wanted {:.1e} (time.mesh_accuracy) cannot be said.", wanted);
+  else
+    outcome.message += fmt::format(" Its error is estimated at {:.1e}, and {:.1e} is wanted; {}", error, wanted,
+                                   ways_to_mesh_accuracy(state));
 }
 
 }  // namespace
@@ -119,6 +160,7 @@ void judge_end(Result& result, TimeRecord& record, const std::atomic<bool>& stop
     if (const auto problem = straight_from_here(result, record))
       compare_with_stationary(result, record, *problem, stop);
   result.state.outcome.message += told_of_surface(record, result.problem);
+  judge(result);
 }
 
 }  // namespace rheocyte

@@ -8,10 +8,10 @@
 
 namespace rheocyte {
 
-/// Notes in the record why the run has ended, and says in the outcome where its surface was compressed. Where the
-/// channel is straight from the end on, the stationary problem is solved there on a mesh that is chosen for its
-/// accuracy; the outcome says how far the run's end is from it. Where the cell has settled, the distance is the error
-/// of the run's mesh, and becomes the estimated error.
+/// Notes in the record why the run has ended, settles the status by its last state (`judged`), and says in the outcome
+/// where its surface was compressed. Where the channel is straight from the end on, the stationary problem is solved
+/// there on a mesh that is chosen for its accuracy; the outcome says how far the run's end is from it. Where the cell
+/// has settled, the distance is the error of the run's mesh, and becomes the estimated error.
 void judge_end(Result&, TimeRecord&, const std::atomic<bool>& stop);
 
 /// Whether so far (relative) from the stationary deformation nothing changes any more: over the last tenth of the time,

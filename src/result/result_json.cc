@@ -57,11 +57,13 @@ std::span<const Field<Result, Json>> outcome_fields() {
   static constexpr Key fields[] = {
       {"program", "always rheocyte", [](const Result&) -> Json { return "rheocyte"; }},
       {"version", "of the program", [](const Result&) -> Json { return version; }},
-      {"status", "\"converged\", or the name of the reason why not",
+      {"status",
+       "\"converged\": the last state is the wanted one, its stability_margin is not negative, its estimated_error not "
+       "above what the case wants; else the name of the reason why not",
        [](const Result& r) -> Json { return name(r.state.outcome.status); }},
       {"message", "the same in a sentence: what, where, what to try",
        [](const Result& r) -> Json { return r.state.outcome.message; }},
-      {"reached", "wanted moduli over those of the state; 1 if it converged, below 1 the last state on the way to it",
+      {"reached", "wanted moduli over those of the state; below 1: the last state on the way to the wanted one",
        [](const Result& r) -> Json { return r.state.outcome.reached; }},
       {"young_modulus_reached_kPa", "Young's modulus of the state; null without an elastic interior",
        [](const Result& r) { return over(r.input.cell.bulk.young_modulus_kPa, r.state.outcome.reached); }},
@@ -80,9 +82,15 @@ std::span<const Field<Result, Json>> computation_fields() {
       {"residual", "of the last Newton iteration, relative to the driving forces",
        [](const Result& r) -> Json { return r.state.residual; }},
       {"estimated_error",
-       "of the deformation, relative (accepted, too, where it is below 1e-12 absolute); null for a state on the way; "
-       "in time the distance from the stationary shape, once the cell has settled",
+       "of the deformation, relative to it or to deformation_floor where that is more; of the motion with "
+       "numerics.accuracy_of = \"motion\"; null for a state on the way; in time the distance from the stationary shape "
+       "once the cell has settled, else from the same run on another mesh",
        [](const Result& r) -> Json { return r.state.estimated_error; }},
+      {"deformation_floor",
+       "errors of smaller deformations are relative to this one: 1e-12 over the wanted accuracy on the axis "
+       "(rounding), "
+       "1e-4 off the axis (no recording tells less), time.accuracy over time.mesh_accuracy in time",
+       [](const Result& r) -> Json { return r.state.deformation_floor; }},
       {"errors",
        "estimated errors of the measures above, absolute, each under the name and in the unit of its measure; null for "
        "a state on the way, and where there is no measure or nothing to compare with",

@@ -77,6 +77,19 @@ std::string measures_text(const Result& result) {
   return text;
 }
 
+/// What the estimated error is relative to, and which one is wanted.
+std::string error_remark(const Result& result) {
+  const Case& input = result.input;
+  const bool in_time = input.time.scheme != TimeScheme::stationary;
+  const std::optional<double> wanted = in_time ? input.time.mesh_accuracy : input.numerics.accuracy;
+  std::string remark = "of the deformation";
+  if (input.numerics.accuracy_of == AccuracyOf::motion)
+    remark = "of velocity, drift and rotation";
+  else if (result.state.shape.deformation < result.state.deformation_floor)
+    remark = fmt::format("of a deformation of {:.1e}", result.state.deformation_floor);
+  return wanted ? fmt::format("{}, wanted {:.1e}", remark, *wanted) : remark;
+}
+
 }  // namespace
 
 std::span<const Field<ProfilePoint>> contour_fields() {
@@ -134,12 +147,8 @@ std::string summary(const Result& result, const std::string& folder) {
     modulus("cortex modulus", cell.cortex.modulus_mN_per_m, "mN/m");
   }
   const bool in_time = result.input.time.scheme != TimeScheme::stationary;
-  if (!in_time && state.outcome.status == Status::converged && state.estimated_error > result.problem.accuracy)
-    text += line("estimated error", fmt::format("{:.1e}", deformation_round_off),
-                 "of the deformation, absolute: as small as rounding allows");
-  else if (std::isfinite(state.estimated_error))
-    text += line("estimated error", fmt::format("{:.1e}", state.estimated_error),
-                 fmt::format("of the deformation, wanted {:.1e}", result.problem.accuracy));
+  if (std::isfinite(state.estimated_error))
+    text += line("estimated error", fmt::format("{:.1e}", state.estimated_error), error_remark(result));
   else if (in_time && state.outcome.status == Status::converged)
     text += line("estimated error", "not known", "of the deformation");
   if (in_time && state.outcome.status == Status::converged) text += fmt::format("  {}\n", state.outcome.message);

@@ -186,4 +186,14 @@ Eigen::MatrixX2d outline_of_modes(const std::array<double, mode_count>& modes, d
   return outline;
 }
 
+double volume_of_revolution(const Eigen::MatrixX2d& outline) {
+  assert(outline.rows() % 2 == 0);
+  double sum = 0;  // of frusta
+  for (Eigen::Index i = 0; i < outline.rows() / 2; ++i) {
+    const double a = outline(i, 1), b = outline(i + 1, 1);
+    sum += (outline(i, 0) - outline(i + 1, 0)) * (a * a + a * b + b * b);
+  }
+  return std::numbers::pi / 3 * sum;
+}
+
 }  // namespace rheocyte

@@ -40,8 +40,9 @@ double interpolate(std::span<const End> ends, double radius_ratio) {
 std::optional<double> min_shear_modulus(const Problem& problem) {
   const Cortex& cortex = problem.cortex;
   const bool is_bare = cortex.law == CortexLaw::none && cortex.tension == 0 && cortex.bending == 0;
-  if (!is_bare || problem.liquid.law != LiquidLaw::newtonian || problem.liquid.reynolds > max_reynolds ||
-      problem.drive != Drive::rate || !(problem.radius_ratio > 0))
+  const bool is_elongated = problem.bulk.rest_stretch != 1 || problem.bulk.axial_tension != 0;
+  if (!is_bare || is_elongated || problem.liquid.law != LiquidLaw::newtonian ||
+      problem.liquid.reynolds > max_reynolds || problem.drive != Drive::rate || !(problem.radius_ratio > 0))
     return std::nullopt;
   switch (problem.bulk.law) {
     case BulkLaw::linear: return interpolate(linear, problem.radius_ratio);

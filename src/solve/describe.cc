@@ -124,13 +124,15 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
 }
 
 StateNumbers numbers_of(const StateView& state) {
-  return numbers_of(state, contour(state.space, state.unknowns),
-                    surface_state(state.space, state.unknowns, SurfaceProfile::points_per_piece));
+  return numbers_of(
+      state, contour(state.space, state.unknowns),
+      surface_state(state.space, state.unknowns, SurfaceProfile::points_per_piece, state.media.bulk.rest_stretch));
 }
 
 void describe_state(const Problem& problem, const DiscreteState& state, StationaryState& r) {
   const Discretisation& space = state.discrete->space;
-  const SurfaceState surface = surface_state(space, state.unknowns, SurfaceProfile::points_per_piece);
+  const SurfaceState surface =
+      surface_state(space, state.unknowns, SurfaceProfile::points_per_piece, state.media.bulk.rest_stretch);
   r.contour = contour(space, state.unknowns);
   r.surface = {surface.angle, surface.point, surface.stretch, surface_tensions(state.media.cortex, surface),
                surface.curvature};

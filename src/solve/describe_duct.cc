@@ -43,8 +43,8 @@ std::array<double, 2> tensions(const Cortex& cortex, double along, const Eigen::
 /// The surface along a silhouette.
 SurfaceProfile profile(const DuctSpace& space, const VectorXd& unknowns, const Cortex& cortex, Camera camera,
                        double barycentre) {
-  const DuctMeridian meridian =
-      duct_meridian(space, unknowns, camera, VectorXd::LinSpaced(SurfaceProfile::points_per_piece, 0, 1));
+  const DuctMeridian meridian = duct_meridian(
+      space, unknowns, camera, VectorXd::LinSpaced(SurfaceProfile::points_per_piece, 0, 1), cortex.rest_stretch);
   SurfaceProfile profile{meridian.rest_angle, meridian.point, meridian.stretch,
                          Eigen::MatrixX2d::Zero(meridian.point.rows(), 2), meridian.curvature};
   for (Eigen::Index i = 0; i < profile.tension.rows(); ++i) {
@@ -61,7 +61,7 @@ struct SurfaceExtremes {
 };
 
 SurfaceExtremes surface_extremes(const Cortex& cortex, const DuctSpace& space, const VectorXd& unknowns) {
-  const Eigen::MatrixX2d stretch = duct_principal_stretches(space, unknowns);
+  const Eigen::MatrixX2d stretch = duct_principal_stretches(space, unknowns, cortex.rest_stretch);
   double min_tension = std::numeric_limits<double>::infinity();
   for (const auto& row : stretch.rowwise()) {
     const auto [T1, T2] = principal_tensions<double>(cortex, row(0), row(1));

@@ -19,9 +19,12 @@ void explain(const Problem& problem, StationaryState& r) {
   } else if (outcome.status == Status::iteration_limit && outcome.reached > 0) {
     outcome.status = Status::branch_ended;
   }
+  outcome.status = judged(outcome.status, {r.stability_margin, r.estimated_error, problem.accuracy});
   outcome.message = explanation(outcome, {.deformation = r.shape.deformation,
+                                          .deformation_floor = r.deformation_floor,
                                           .estimated_error = r.estimated_error,
                                           .wanted_error = problem.accuracy,
+                                          .stability_margin = r.stability_margin,
                                           .surface = surface_kind(problem),
                                           .can_have_cortex = problem.offset == 0});
 }

@@ -27,6 +27,9 @@ constexpr double min_error_of_two_rungs = 6e-4;
 /// So may they in the other numbers, which are more accurate.
 constexpr double min_share_of_two_rungs = 2e-4;
 
+/// A drift is told from none down to this.
+constexpr double share_of_velocity = 1e-4;
+
 /// The half of a cell off the axis has four times the unknowns of the eighth.
 constexpr int last_degree_off_axis = 6;
 int last_degree_of(const Problem& problem) {
@@ -66,6 +69,20 @@ void DuctLadder::add(DuctState state, const StateNumbers& of_state) {
 }
 
 StateNumbers DuctLadder::errors() const { return errors_of_last(numbers, estimated_error, min_share_of_two_rungs); }
+
+double DuctLadder::motion_error(CellPlace place) const {
+  const auto error_of = [this](double StateNumbers::*member, double size) {
+    std::vector<double> values;
+    for (const StateNumbers& rung : numbers) values.push_back(rung.*member);
+    const double own = std::abs(values.back());
+    return estimate_error(values, share_of_change_before) * own / std::max(own, size);
+  };
+  if (numbers.size() < 2) return std::numeric_limits<double>::infinity();
+  double error = std::max(error_of(&StateNumbers::cell_velocity, 0), error_of(&StateNumbers::spin, 0));
+  if (place == CellPlace::given)
+    error = std::max(error, error_of(&StateNumbers::drift_velocity, share_of_velocity * numbers.back().cell_velocity));
+  return numbers.size() == 2 ? std::max(error, min_error_of_two_rungs) : error;
+}
 
 Problem DuctSolver::problem_at(double compliance) const {
   Problem problem = problem_;
@@ -108,7 +125,7 @@ DuctState DuctSolver::scout() {
 
 Status DuctSolver::climb(DuctState& state, DuctLadder& ladder) {
   if (ladder.rungs.empty()) add(state, ladder);
-  while (ladder.estimated_error > problem_.accuracy) {
+  while (error_of(ladder) > problem_.accuracy) {
     const int degree = degree_of(ladder.rungs.back()) + 1;
     if (degree > last_degree_of(problem_)) return Status::accuracy_not_reached;
     // Two degrees' factors at a time would take the most memory.
@@ -134,8 +151,15 @@ void DuctSolver::add(DuctState state, DuctLadder& ladder) {
   const StateNumbers numbers = duct_numbers(problem_at(state.branch.parameter), *state.discrete, state.branch.unknowns);
   report(state.branch, numbers.shape.deformation, degree_of(state));
   ladder.add(std::move(state), numbers);
-  result_->estimated_error = ladder.estimated_error;
+  result_->estimated_error = error_of(ladder);
+  result_->deformation_floor = deformation_floor(problem_);
   result_->errors = ladder.errors();
+}
+
+double DuctSolver::error_of(const DuctLadder& ladder) const {
+  const bool by_motion = problem_.accuracy_of == AccuracyOf::motion && problem_.offset != 0;
+  return by_motion ? ladder.motion_error(problem_.place)
+                   : stated_error(problem_, ladder.estimated_error, ladder.deformations.back());
 }
 
 Status DuctSolver::carry(const Problem& from, const DuctLadder& ladder, DuctLadder& carried) {
@@ -161,7 +185,7 @@ Status DuctSolver::carry(const Problem& from, const DuctLadder& ladder, DuctLadd
     }
     before = kept;
     add(found, carried);
-    if (carried.estimated_error <= problem_.accuracy) break;
+    if (error_of(carried) <= problem_.accuracy) break;
   }
   return Status::converged;
 }

@@ -18,7 +18,8 @@ constexpr double place_tolerance = 1e-3, first_step = 0.1, nearly_on_axis = 0.02
 constexpr double coarse_accuracy = 1e-2;
 constexpr int max_corrections = 6;
 
-bool is_solved(const StationaryState& state) { return has_state(state.outcome.status); }
+/// Whether its drift is known; a surface beyond its limit on the way does not end the search, but at its end it counts.
+bool is_solved(const StationaryState& state) { return has_wanted_moduli(state.outcome); }
 
 /// Between which offsets the outward drift changes from positive to negative.
 struct Bracket {
@@ -29,7 +30,6 @@ class OffsetSearch {
  public:
   OffsetSearch(const Problem& problem, const SolveAtOffset& solve)
       : problem_(problem), solve_(solve), side_(problem.offset > 0 ? 1 : -1) {
-    problem_.place = CellPlace::given;
     const Extent& extent = problem.extent;
     const double half = problem.camera == Camera::side ? extent.height : extent.width;
     max_offset_ = max_offset(half, problem.radius_ratio);
@@ -100,8 +100,8 @@ class OffsetSearch {
   SolveStatistics work_;
 };
 
-/// Goes to the place, from that and the slope of a coarser solution, and says how far off it may be still; nothing
-/// where no state is found.
+/// Goes to the place, from that and the slope of a coarser solution, and says how far off it may be still: the
+/// tolerance where the search has settled; nothing where no state is found.
 std::optional<double> correct(double offset, double slope, OffsetSearch& search) {
   double drift = search.drift_at(offset);
   for (int i = 0; i < max_corrections && is_solved(search.last()); ++i) {
@@ -113,6 +113,14 @@ std::optional<double> correct(double offset, double slope, OffsetSearch& search)
   }
   if (!is_solved(search.last())) return std::nullopt;
   return std::abs(drift / slope);
+}
+
+void say_unsettled(const Problem& problem, double left, Outcome& outcome) {
+  outcome.status = judged(outcome.status, {.estimated_error = left, .wanted_error = place_tolerance});
+  outcome.message += fmt::format(
+      " The search for the place where it does not drift has not settled: its next step would be {:.2g} of the cell's "
+      "radius; start it nearer to that place (cell.offset_um), or with a smaller numerics.accuracy.",
+      left / problem.radius_ratio);
 }
 
 }  // namespace
@@ -149,6 +157,7 @@ StationaryState solve_at_equilibrium(const Problem& problem, const SolveAtOffset
   state.offset_error = std::abs(search.offset() - coarse) + *left;
   add_errors(state.offset_error / (bracket->outer - bracket->inner), change, state.errors);
   state.errors.offset = state.offset_error;
+  if (*left > place_tolerance) say_unsettled(problem, *left, state.outcome);
   return state;
 }
 

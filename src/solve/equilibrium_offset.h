@@ -4,7 +4,7 @@
 
 namespace rheocyte {
 
-/// Solves a problem whose cell stays at its given offset.
+/// Solves a problem whose cell stays at its given offset, whatever its place is to be.
 using SolveAtOffset = std::function<StationaryState(const Problem&)>;
 
 /// Follows the drift from problem.offset on to the place where it vanishes, first at a tenth of the wanted accuracy,

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "fem/observe.h"
 #include "solve/describe.h"
+#include "solve/ladder.h"
 #include "solve/partitioned_stepper.h"
 #include "solve/time_resolution.h"
 #include "solve/time_stepper.h"
@@ -28,13 +30,15 @@ TimeStepOptions step_options(const TimeRun& run, const std::atomic<bool>* stop) 
   return options;
 }
 
+/// Whether the user has chosen the mesh; then no accuracy is wanted of it.
+bool is_mesh_given(const TimeRun& run) { return run.degree > 0 || run.scheme == TimeScheme::partitioned; }
+
 Resolution resolution_of(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
   Resolution resolution = usual_time_resolution;
   if (run.degree > 0) resolution.degree = run.degree;
   if (run.scheme == TimeScheme::partitioned && run.surface_elements > 0)
     resolution.subdivision = fine_subdivision(run.surface_elements);
-  const bool is_chosen = run.degree == 0 && run.scheme == TimeScheme::monolithic;
-  return is_chosen ? resolution_in_time(problem, run.mesh_accuracy, stop) : resolution;
+  return is_mesh_given(run) ? resolution : resolution_in_time(problem, run.mesh_accuracy, stop);
 }
 
 std::unique_ptr<Stepper> make_stepper(const Problem& problem, const TimeRun& run, const Resolution& resolution,
@@ -202,9 +206,11 @@ class TimeFollower {
                           ? "the step is too large for elasticity that is explicit, lower time.step_us, or the cell is "
                             "drawn out or wrinkles"
                           : "the cell is drawn out or wrinkles, raise its moduli or lower flow rate or viscosity";
-    const char* coarse = ", or the wall is too steep for the mesh, raise time.degree";
+    const bool can_be_finer = !stepper_->has_passed_walls(now) && degree_ < max_time_degree;
+    const std::string coarse =
+        can_be_finer ? fmt::format(", or the wall is too steep for the mesh, try time.degree = {}", degree_ + 1) : "";
     return fmt::format("No step in time succeeds beyond {} ({}): {}{}; the last good state is kept.", share(),
-                       name(status), why, stepper_->has_passed_walls(now) ? "" : coarse);
+                       name(status), why, coarse);
   }
 
   TimeRun run_;
@@ -214,6 +220,9 @@ class TimeFollower {
   std::unique_ptr<Stepper> stepper_;
   bool settled_ = false;
 };
+
+/// What the changes to a coarser mesh count for beside those to a finer one, as in a duct (eq:square-error).
+constexpr double share_of_change_before = 0.1;
 
 using Deformations = std::vector<double>;  // output by output
 
@@ -225,34 +234,83 @@ TimeObserver noting(Deformations& deformations, const TimeObserver& observer) {
   return {note, observer.step};
 }
 
-/// From a second run, on a mesh that is a degree coarser: the change is the error of that one, and that of the first
-/// run is smaller.
-void estimate_error(const Problem& problem, const TimeRun& run, const Resolution& resolution,
-                    const Deformations& deformations, const std::atomic<bool>* stop, StationaryState& result) {
-  const Resolution other = to_compare_with(resolution);
+/// The same run on another mesh.
+struct OtherRun {
+  int degree = 0;
+  Status status = Status::not_started;
+  std::string share;           ///< of the way
+  StateNumbers numbers = {};   ///< of the last state
+  double greatest_change = 0;  ///< of a deformation at an output, over the greatest one
+};
+
+OtherRun run_on(const Resolution& resolution, const Problem& problem, const TimeRun& run,
+                const Deformations& deformations, const std::atomic<bool>* stop) {
   Deformations compared;
   const TimeObserver observer = noting(compared, {});
-  TimeFollower follower(problem, run, other, observer, stop);
+  TimeFollower follower(problem, run, resolution, observer, stop);
   const StationaryState end = follower.follow(nullptr);
-  result.comparison = end.outcome.status;
-  if (result.comparison != Status::converged) {
-    result.outcome.message += fmt::format(
-        " How far it is off is not known: the run to compare with, on a mesh of degree {}, ended at {} ({}).",
-        other.degree, follower.share(), name(result.comparison));
-    return;
-  }
-  double greatest = 0, difference = 0;
+  double greatest = 0, change = 0;
   for (std::size_t i = 0; i < std::min(deformations.size(), compared.size()); ++i) {
     greatest = std::max(greatest, deformations[i]);
-    difference = std::max(difference, std::abs(deformations[i] - compared[i]));
+    change = std::max(change, std::abs(deformations[i] - compared[i]));
   }
-  const double at_end = std::abs(end.shape.deformation - result.shape.deformation);
-  result.estimated_error = at_end / result.shape.deformation;
-  result.errors = distance(result, end);
-  result.outcome.message += fmt::format(
-      " A mesh of degree {} changes its last deformation by {:.2g} %, and none by more than {:.2g} % of the "
-      "greatest.",
-      other.degree, 100 * result.estimated_error, 100 * difference / greatest);
+  return {resolution.degree, end.outcome.status, follower.share(), end, change / greatest};
+}
+
+std::string told(const OtherRun& other, double change) {
+  return fmt::format(
+      " A mesh of degree {} changes its last deformation by {:.2g} %, and none by more than {:.2g} % of the greatest.",
+      other.degree, 100 * change, 100 * other.greatest_change);
+}
+
+std::string told_of_failure(const OtherRun& other) {
+  return fmt::format(
+      " How far it is off is not known: the run to compare with, on a mesh of degree {}, ended at {} ({}).",
+      other.degree, other.share, name(other.status));
+}
+
+/// From a second run, on a mesh that is a degree coarser: the change is the error of that one, and that of the first
+/// run is smaller. Where that is not enough for the wanted accuracy, from a third one, a degree finer.
+void estimate_error(const Problem& problem, const TimeRun& run, const Resolution& resolution,
+                    const Deformations& deformations, const std::atomic<bool>* stop, StationaryState& result) {
+  const double d = result.shape.deformation, size = std::max(d, result.deformation_floor);
+  const OtherRun coarse = run_on(to_compare_with(resolution), problem, run, deformations, stop);
+  result.comparison = coarse.status;
+  const bool is_known = coarse.status == Status::converged;
+  const double change = std::abs(coarse.numbers.shape.deformation - d) / size;
+  if (is_known) {
+    result.estimated_error = change;
+    result.errors = distance(result, coarse.numbers);
+  }
+  const Resolution finer{resolution.subdivision, resolution.degree + 1};
+  const bool suffices =
+      is_mesh_given(run) || (is_known && (change <= run.mesh_accuracy || result.stability_margin < 0));
+  const bool is_finest = finer.degree == coarse.degree || finer.degree > max_time_degree;
+  if (suffices || is_finest || coarse.status == Status::stopped) {
+    result.outcome.message += is_known ? told(coarse, change) : told_of_failure(coarse);
+    return;
+  }
+  const OtherRun fine = run_on(finer, problem, run, deformations, stop);
+  const bool is_stopped = fine.status == Status::stopped;
+  if (!is_known || is_stopped) result.comparison = fine.status;
+  if (is_stopped) {
+    result.estimated_error = no_value;
+    result.errors = unknown_numbers();
+  }
+  if (fine.status != Status::converged) {
+    result.outcome.message += is_known && !is_stopped ? told(coarse, change) : told_of_failure(fine);
+    return;
+  }
+  std::vector<StateNumbers> ladder{result, fine.numbers};
+  if (is_known) ladder.insert(ladder.begin(), coarse.numbers);
+  std::vector<double> deformations_of_ladder;
+  for (const StateNumbers& rung : ladder) deformations_of_ladder.push_back(rung.shape.deformation);
+  const double d_fine = fine.numbers.shape.deformation, change_to_fine = std::abs(d_fine - d) / size,
+               left = rheocyte::estimate_error(deformations_of_ladder, share_of_change_before);
+  result.estimated_error = change_to_fine + left * d_fine / size;
+  result.errors = distance(result, fine.numbers);
+  add_errors(1, errors_of_last(ladder, left), result.errors);
+  result.outcome.message += told(fine, change_to_fine);
 }
 
 }  // namespace
@@ -264,6 +322,7 @@ StationaryState follow_in_time(const Problem& problem, const TimeRun& run, const
   Deformations deformations;
   TimeFollower follower(problem, run, resolution, estimates ? noting(deformations, observer) : observer, stop);
   StationaryState result = follower.follow(from);
+  if (!is_mesh_given(run)) result.deformation_floor = run.accuracy / run.mesh_accuracy;
   if (estimates && result.outcome.status == Status::converged && !follower.has_settled())
     estimate_error(problem, run, resolution, deformations, stop, result);
   return result;

@@ -12,6 +12,14 @@ namespace rheocyte {
 /// (docs/theory.md, eq:error).
 double estimate_error(const std::vector<double>& deformations, double share_of_change_before = 0.5);
 
+/// Errors of smaller deformations are relative to this one. On the axis no deformation is resolved below
+/// deformation_round_off. Off the axis less is asked: there a stiff cell's deformation is of second order, and far
+/// below what a recording tells from that of a sphere (docs/theory-square.md, sec. 6).
+double deformation_floor(const Problem&);
+
+/// An error relative to a deformation as it is stated and judged: relative to the floor below that.
+double stated_error(const Problem&, double relative_error, double deformation);
+
 /// A state at the resolutions of one mesh, coarse to fine; where the gap is narrow, of several.
 struct Ladder {
   bool keeps_systems = true;  ///< of all rungs; or of the last one alone
@@ -27,8 +35,8 @@ struct Ladder {
   StateNumbers errors() const { return errors_of_last(numbers, estimated_error); }
 };
 
-/// Whether the estimated error is below the wanted one, or below what can be resolved of a tiny deformation. Where the
-/// gap is narrow the coarsest mesh is not trusted: neighbouring degrees agree there although both are wrong.
+/// Whether the stated error is below the wanted one. Where the gap is narrow the coarsest mesh is not trusted:
+/// neighbouring degrees agree there although both are wrong.
 bool is_accurate(const Ladder&, const Problem&);
 
 /// Sees each state that is tried, and whether it became a rung.

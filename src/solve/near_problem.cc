@@ -8,6 +8,14 @@ namespace {
 
 double relative_change(double a, double b) { return a == b ? 0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b)); }
 
+/// About the strain by the difference of the axial tensions.
+double stretch_by_tension(const Problem& a, const Problem& b) {
+  const auto tension = [](const Problem& p) { return p.bulk.axial_tension + p.cortex.axial_tension; };
+  const double difference = tension(a) - tension(b);
+  if (difference == 0) return 0;
+  return std::abs(difference) / (3 * a.bulk.shear_modulus + (a.cortex.modulus + a.cortex.tension) / a.radius_ratio);
+}
+
 }  // namespace
 
 bool has_same_laws(const Problem& a, const Problem& b) {
@@ -25,6 +33,7 @@ double distance(const Problem& a, const Problem& b) {
        relative_change(a.cortex.tension, b.cortex.tension), relative_change(a.cortex.bending, b.cortex.bending),
        relative_change(a.liquid.exponent, b.liquid.exponent),
        relative_change(a.liquid.shear_rate_floor, b.liquid.shear_rate_floor),
+       std::abs(a.bulk.rest_stretch - b.bulk.rest_stretch), stretch_by_tension(a, b),
        relative_change(a.pressure_gradient, b.pressure_gradient), relative_change(a.offset, b.offset),
        std::abs(a.liquid.reynolds - b.liquid.reynolds)});
 }

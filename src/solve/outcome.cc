@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "case/case_keys.h"
+
 namespace rheocyte {
 
 SurfaceKind surface_kind(const Problem& problem) {
@@ -19,58 +21,112 @@ namespace {
 constexpr std::string_view stabiliser =
     "a little bending stiffness (cell.cortex.bending_kBT = 1e4) or tension (cell.cortex.tension_mN_per_m)";
 
+}  // namespace
+
+Status judged(Status way, const FinalState& state) {
+  if (!has_state(way)) return way;
+  if (state.stability_margin < 0) return Status::surface_unstable;
+  return state.estimated_error > state.wanted_error ? Status::accuracy_not_reached : way;
+}
+
+std::string ways_to_stability(SurfaceKind surface, bool can_have_cortex) {
+  return std::string("raise the moduli, lower flow rate or viscosity") +
+         (surface != SurfaceKind::held && can_have_cortex ? fmt::format(", or stabilise the surface by {}.", stabiliser)
+                                                          : ".");
+}
+
+std::string ways_to_accuracy(std::string_view key, double estimated_error) {
+  constexpr double two_digits = 0.1;
+  const double unit = two_digits * std::pow(10, std::floor(std::log10(estimated_error))),
+               enough = std::ceil(estimated_error / unit) * unit;
+  if (enough <= std::get<Number>(case_key(key).kind).range.greatest)
+    return fmt::format("ask for less, {} = {:.1e} or more.", key, enough);
+  return "that is more than can be asked for: raise the moduli, or lower flow rate or viscosity.";
+}
+
+namespace {
+
+/// In wanted moduli; near 1 as many digits as tell the difference.
+std::string in_wanted_moduli(double ratio) {
+  constexpr double told_by_four_digits = 1e-3;
+  if (ratio == 1) return "the wanted moduli";
+  if (std::abs(ratio - 1) < told_by_four_digits) return "hardly more than the wanted moduli";
+  return fmt::format("{:.4g} times the wanted moduli", ratio);
+}
+
 std::string unstable_surface(const std::string& where, const LastState& last) {
   const std::string what = last.surface == SurfaceKind::membrane
                                ? "The cortex of so soft a cell is compressed and wrinkles: the smooth branch ends at "
                                : "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder): the "
                                  "smooth branch ends at ";
-  const bool can_be_held = last.surface != SurfaceKind::held && last.can_have_cortex;
-  return what + where + "; raise the moduli above that, lower flow rate or viscosity" +
-         (can_be_held ? fmt::format(", or stabilise the surface by {}.", stabiliser) : ".");
+  return what + where + "; " + ways_to_stability(last.surface, last.can_have_cortex);
+}
+
+/// Of a cell with the wanted moduli, of which there was a state on some mesh.
+std::string explanation_of_wanted(Status status, const LastState& last) {
+  if (status == Status::surface_unstable && last.stability_margin < 0)
+    return fmt::format(
+        "A shape was found, but its surface is beyond the limit against short wrinkles (stability_margin {:.2g}), "
+        "where "
+        "shapes depend on the mesh; {}",
+        last.stability_margin, ways_to_stability(last.surface, last.can_have_cortex));
+  const std::string ways = ways_to_stability(last.surface, last.can_have_cortex);
+  if (status == Status::surface_unstable)
+    return "A shape was found on a coarse mesh; its surface is so near the limit against short wrinkles that finer "
+           "meshes do not hold it; " +
+           ways;
+  return fmt::format("A shape was found on a coarse mesh, but on no finer one ({}): the branch ends here; {}",
+                     name(status), ways_to_stability(SurfaceKind::held, false));
+}
+
+std::string inaccurate(const LastState& last) {
+  if (!std::isfinite(last.estimated_error))
+    return "The shape was found, but on one mesh only, so that its error cannot be estimated; raise the moduli, or "
+           "lower flow rate or viscosity.";
+  return fmt::format("The shape was found, but its error is estimated at {:.1e} on the finest mesh; {}",
+                     last.estimated_error, ways_to_accuracy("numerics.accuracy", last.estimated_error));
+}
+
+std::string found(const LastState& last) {
+  if (last.deformation >= last.deformation_floor) return "The stationary shape was found.";
+  return fmt::format(
+      "The stationary shape was found; its deformation is so small that it is known within {:.0e}, not within the "
+      "wanted {:.1e} of its value.",
+      last.wanted_error * last.deformation_floor, last.wanted_error);
+}
+
+std::string nothing_found(Status status, const LastState& last) {
+  if (status == Status::stopped) return "Stopped by a signal before the first state.";
+  if (status == Status::surface_unstable)
+    return fmt::format("The surface of this cell wrinkles at the smallest load already; {}.",
+                       last.can_have_cortex ? fmt::format("stabilise it by {}", stabiliser)
+                                            : std::string("raise the moduli, or lower flow rate or viscosity"));
+  return "No state was found, not even of a nearly rigid cell: the case is far outside what the solver can follow; "
+         "check the units of its numbers.";
 }
 
 }  // namespace
 
 std::string explanation(const Outcome& outcome, const LastState& last) {
-  if (outcome.status == Status::converged && last.estimated_error > last.wanted_error)
-    return fmt::format(
-        "The stationary shape was found; its deformation is so small that rounding limits it: it is known within "
-        "{:.0e}, "
-        "not within the wanted {:.1e} of its value.",
-        deformation_round_off, last.wanted_error);
-  if (outcome.status == Status::converged) return "The stationary shape was found.";
-  if (outcome.status == Status::stopped && outcome.reached <= 0) return "Stopped by a signal before the first state.";
-  if (outcome.reached <= 0) {
-    if (outcome.status == Status::surface_unstable)
-      return fmt::format("The surface of this cell wrinkles at the smallest load already; {}.",
-                         last.can_have_cortex ? fmt::format("stabilise it by {}", stabiliser)
-                                              : std::string("raise the moduli, or lower flow rate or viscosity"));
-    return "No state was found, not even of a nearly rigid cell: the case is far outside what the solver can follow; "
-           "check the units of its numbers.";
-  }
+  if (outcome.status == Status::converged) return found(last);
+  if (outcome.reached <= 0) return nothing_found(outcome.status, last);
   const std::string state =
-      fmt::format("{:.4g} times the wanted moduli (deformation {:.4f})", 1 / outcome.reached, last.deformation);
+      fmt::format("{} (deformation {:.4f})", in_wanted_moduli(1 / outcome.reached), last.deformation);
   const std::string where = last.is_coarse ? state + ", on finer meshes up to a fifth lower" : state;
+  if (outcome.status == Status::accuracy_not_reached) return inaccurate(last);
+  if (outcome.status == Status::stopped) return "Stopped by a signal; the last state has " + where + ".";
+  if (outcome.reached >= 1) return explanation_of_wanted(outcome.status, last);
   switch (outcome.status) {
     case Status::surface_unstable:
-      if (last.known_end > 0)
-        return unstable_surface(
-            fmt::format("{:.4g} times the wanted moduli (the last state kept has {})", last.known_end, state), last);
+      if (last.known_end > 1)
+        return unstable_surface(fmt::format("{} (the last state kept has {})", in_wanted_moduli(last.known_end), state),
+                                last);
       return unstable_surface(where, last);
     case Status::branch_ended:
       return "The branch of stationary shapes ends at " + where +
              "; softer cells are drawn out without limit: raise the moduli above that, or lower flow rate or "
              "viscosity.";
     case Status::mesh_folded: return "The mesh of the liquid folds beyond " + where + "; raise the moduli above that.";
-    case Status::accuracy_not_reached:
-      if (!std::isfinite(last.estimated_error))
-        return "The shape was found, but on one mesh only, so that its error cannot be estimated; raise the moduli, or "
-               "lower flow rate or viscosity.";
-      return fmt::format(
-          "The shape was found, but its error is estimated at {:.1e} on the finest mesh; ask for less, "
-          "numerics.accuracy above that.",
-          last.estimated_error);
-    case Status::stopped: return "Stopped by a signal; the last state has " + where + ".";
     default: return fmt::format("The solver stopped ({}) at ", name(outcome.status)) + where + ".";
   }
 }

@@ -1,5 +1,6 @@
 // How a computation ended: a value, never an exception and never a log line.
 #pragma once
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,12 +29,28 @@ enum class Status {
 /// Whether there is a state, be it less accurate than wanted.
 inline bool has_state(Status status) { return status == Status::converged || status == Status::accuracy_not_reached; }
 
+/// What a state that was found is judged by.
+struct FinalState {
+  double stability_margin = 1;     ///< below 0: beyond the limit against short wrinkles (solve/surface_stability.h)
+  double estimated_error = 0;      ///< relative; NaN: not known
+  double wanted_error = HUGE_VAL;  ///< HUGE_VAL: none is wanted
+};
+
+/// The status of a state, from how the way to it ended and from what the state is: none is `converged` whose surface is
+/// beyond its limit or whose stated error is above the wanted one. Tube, duct and time ask here.
+Status judged(Status way, const FinalState&);
+
 /// What happened to the user's case.
 struct Outcome {
   Status status = Status::not_started;
   std::string message;  ///< one sentence: what, at which value, what to try
-  double reached = 0;   ///< fraction of the wanted compliance 1/E that was reached, 1 when converged
+  double reached = 0;   ///< fraction of the wanted compliance 1/E that was reached, 1: the wanted moduli
 };
+
+/// Whether there is a shape with the wanted moduli, be its surface beyond the limit of stability.
+inline bool has_wanted_moduli(const Outcome& outcome) {
+  return has_state(outcome.status) || (outcome.status == Status::surface_unstable && outcome.reached >= 1);
+}
 
 /// bare: the bulk alone; loses stability at Biot's ratio. membrane: an elastic cortex without bending stiffness; it
 /// does where it is compressed along the meridian more than the bulk below supports. held: by tension without a cortex,
@@ -48,8 +65,10 @@ inline constexpr double deformation_round_off = 1e-12;
 /// What an explanation speaks of.
 struct LastState {
   double deformation = 0;
-  double estimated_error = 0;  ///< relative
-  double wanted_error = 0;     ///< relative
+  double deformation_floor = 0;  ///< errors of smaller deformations are relative to this
+  double estimated_error = 0;    ///< relative
+  double wanted_error = 0;       ///< relative
+  double stability_margin = 1;
   SurfaceKind surface = SurfaceKind::bare;
   bool can_have_cortex = true;  ///< not off the axis of a duct
   bool is_coarse = false;       ///< the end was seen on coarse meshes alone
@@ -58,6 +77,11 @@ struct LastState {
 
 /// One sentence for the user: what happened, where, what to try.
 std::string explanation(const Outcome&, const LastState&);
+
+/// The end of a sentence on a surface beyond its limit: "raise the moduli ... ."
+std::string ways_to_stability(SurfaceKind, bool can_have_cortex);
+/// The end of a sentence on a relative error above that of a key ("numerics.accuracy"), as far as the key takes it.
+std::string ways_to_accuracy(std::string_view key, double estimated_error);
 
 /// The stable name that stands in result.json, e.g. "converged", "surface-unstable".
 const char* name(Status);

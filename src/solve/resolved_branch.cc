@@ -78,7 +78,8 @@ ResolvedState enter(const Problem& problem, const ContinuationOptions& options, 
   ResolvedState state = carry_over(problem, patient, from, resolution);
   if (state.status == Status::stopped) return state;
   if (state.status == Status::converged) {
-    if (!is_wrinkled(problem, state.discrete->space, state.branch.unknowns)) return state;
+    const Problem here = at_compliance(problem, state.branch.parameter);
+    if (!is_wrinkled(here, state.discrete->space, state.branch.unknowns)) return state;
     from.branch.parameter = 0;
   }
   const ResolvedState failed = state;
@@ -93,7 +94,7 @@ ContinuationOptions options_on_the_way(const Problem& problem, const NewtonOptio
   ContinuationOptions options;
   options.accept = [observe, problem](const NonlinearSystem& system, const BranchState& branch) {
     const Discretisation& space = space_of(system);
-    if (is_wrinkled(problem, space, branch.unknowns)) return false;
+    if (is_wrinkled(at_compliance(problem, branch.parameter), space, branch.unknowns)) return false;
     if (observe) observe(space, branch);
     return true;
   };

@@ -94,12 +94,15 @@ void explain(const Problem& problem, const ResolvedState& state, StationaryState
   } else if (outcome.status == Status::iteration_limit && state.branch.parameter > 0) {
     outcome.status = Status::branch_ended;
   }
+  outcome.status = judged(outcome.status, {r.stability_margin, r.estimated_error, problem.accuracy});
   // The branch that was not followed to its end on a fine mesh ends later than it was seen to.
   const bool is_early = is_far_too_soft(problem) || state.gave_up;
   const double known_end = is_early ? min_shear_modulus(problem).value_or(0) / problem.bulk.shear_modulus : 0;
   outcome.message = explanation(outcome, {.deformation = r.shape.deformation,
+                                          .deformation_floor = r.deformation_floor,
                                           .estimated_error = r.estimated_error,
                                           .wanted_error = problem.accuracy,
+                                          .stability_margin = r.stability_margin,
                                           .surface = surface_kind(problem),
                                           .is_coarse = is_early,
                                           .known_end = known_end});
@@ -197,7 +200,8 @@ StationaryState Session::solve(const Problem& problem, const ProgressCallback& p
   }
   if (!answer.ladder.rungs.empty()) {
     state = answer.ladder.rungs.back();
-    result.estimated_error = answer.ladder.estimated_error;
+    result.deformation_floor = deformation_floor(problem);
+    result.estimated_error = stated_error(problem, answer.ladder.estimated_error, answer.ladder.deformations.back());
     result.errors = answer.ladder.errors();
   }
   if (state.discrete && state.branch.parameter > 0) describe(problem, state, result);

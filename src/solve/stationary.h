@@ -67,9 +67,10 @@ struct StationaryState : StateNumbers {
   Outcome outcome;
   Contour contour;  ///< barycentre at x = 0; in a duct the silhouette that the camera sees
   SurfaceProfile surface;
-  std::vector<DuctView> views;              ///< in a square channel both, in a rectangle the one along the height
-  double residual = no_value;               ///< of the last Newton iteration, relative to the driving forces
-  double estimated_error = no_value;        ///< relative, of the deformation
+  std::vector<DuctView> views;        ///< in a square channel both, in a rectangle the one along the height
+  double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
+  double estimated_error = no_value;  ///< of the deformation, relative to it or to the floor below which it is
+  double deformation_floor = 0;
   StateNumbers errors = unknown_numbers();  ///< of the numbers, each in its unit; not a number: not known
   /// In time, how the same run on another mesh ended, which tells the error; not_started: there was none.
   Status comparison = Status::not_started;

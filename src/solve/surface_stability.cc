@@ -34,7 +34,8 @@ double stability_margin(const Problem& problem, double biot_ratio, double min_te
 }
 
 double stability_margin(const Problem& problem, const Discretisation& space, const VectorXd& unknowns) {
-  return stability_margin(problem, surface_state(space, unknowns, 2 * space.reference().degree() + 1));
+  const int per_edge = 2 * space.reference().degree() + 1;
+  return stability_margin(problem, surface_state(space, unknowns, per_edge, problem.bulk.rest_stretch));
 }
 
 double margin_at_rest(const Problem& problem) { return stability_margin(problem, 1, problem.cortex.tension); }

@@ -18,6 +18,7 @@ constexpr double share_of_stationary = 0.5;
 Resolution resolution_in_time(const Problem& problem, double accuracy, const std::atomic<bool>* stop) {
   Problem straight = problem;
   straight.wall = {};
+  if (!problem.tension_profile.is_even()) axial_tension(straight) = problem.tension_profile.tension.back();
   straight.accuracy = share_of_reference * accuracy;
   if (problem.bulk.shear_modulus == 0 && problem.bulk.branch_modulus > 0) return usual_time_resolution;
   if (is_far_too_soft(straight)) return usual_time_resolution;

@@ -7,6 +7,9 @@
 
 namespace rheocyte {
 
+/// The highest degree that can be asked for (time.degree).
+inline constexpr int max_time_degree = 10;
+
 /// Resolves the stationary states of the paper's cells to 1e-5 of the deformation (docs/verification.md, sec. 9).
 inline constexpr Resolution usual_time_resolution = {{2, 4, 1, 2}, 6};
 

@@ -43,7 +43,8 @@ Status TimeStepper::start() {
   }
   const Status status = flow_round_sphere(system_, media_, options_.newton, level.unknowns);
   if (status != Status::converged) return status;
-  if (problem_.start_stretch != 1) stretch_sphere(space(), problem_.start_stretch, level.unknowns);
+  const double stretch = problem_.start_stretch * problem_.bulk.rest_stretch;
+  if (stretch != 1) stretch_sphere(space(), stretch, level.unknowns);
   level.velocities = system_.node_velocities(level.unknowns);
   if (media_.bulk.branch_modulus > 0) level.branch = system_.unstressed_branch();
   state_ = {};
@@ -136,6 +137,8 @@ TimeStepper::Trial TimeStepper::attempt(double step, int order) {
     trial.level.outward = meet_walls(trial.level.position, guess);
     motion.outward = motion.rate * trial.level.outward + combine(weights, &TimeLevel::outward);
   }
+  if (const AxialTensionTable& profile = problem_.tension_profile; !profile.is_even())
+    axial_tension(media_) = profile.at(trial.level.position);
   motion.branch = combine(weights, &TimeLevel::branch);
   system_.set_motion(motion);
   trial.level.unknowns = guess;

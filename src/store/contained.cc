@@ -17,11 +17,11 @@
 #include <cstring>
 #include <new>
 #include <optional>
-#include <system_error>
 
 #include "case/user_error.h"
 #include "store/child_process.h"
 #include "store/stop_signal.h"
+#include "store/system_limit.h"
 
 namespace rheocyte {
 
@@ -68,7 +68,7 @@ int pipe_to_parent = -1;
 void limit(const Containment& limits) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-#ifndef __SANITIZE_ADDRESS__  // its shadow memory needs terabytes of addresses
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their shadow memory needs terabytes of addresses
   const rlimit memory{limits.memory_bytes, limits.memory_bytes};
   ::setrlimit(RLIMIT_AS, &memory);
 #else
@@ -216,14 +216,15 @@ ContainedEnd watch(pid_t child, int pipe, const Containment& limits, const TellP
 ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
                                  const TellProgress& on_progress) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw SystemLimit("open files", errno);
   std::fflush(nullptr);
   std::optional<SignalsHeldBack> signals(std::in_place);
   const pid_t child = ::fork();
   if (child < 0) {
+    const int reason = errno;
     ::close(ends[0]);
     ::close(ends[1]);
-    throw std::system_error(errno, std::generic_category(), "fork");
+    throw SystemLimit("processes", reason);
   }
   if (child == 0) {
     ::close(ends[0]);

@@ -42,7 +42,7 @@ struct Contained {
   bool stopped() const { return end.kind == ContainedEnd::Kind::stopped; }
 };
 
-/// As run_contained; `text` of work that has finished is what it returned.
+/// As run_contained; `text` of work that has finished is what it returned. SystemLimit if the system gives no process.
 ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
                                  const TellProgress& on_progress);
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <string>
 #include <system_error>
 
 #include "case/refuse_path.h"
+#include "store/read_file.h"
 #include "store/whole_file.h"
 
 namespace rheocyte {
@@ -15,12 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool begins_with(const fs::path& path, std::string_view mark) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(mark.size(), '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return file && start == mark;
-}
+bool begins_with(const fs::path& path, std::string_view mark) { return first_bytes(path, mark.size()) == mark; }
 
 }  // namespace
 

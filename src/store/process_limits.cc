@@ -8,11 +8,13 @@
 #include <new>
 #include <string_view>
 
+#include "store/thread.h"
+
 namespace rheocyte {
 
 namespace {
 
-constexpr rlim_t min_stack = 1 << 20, usual_stack = 8 << 20;
+constexpr rlim_t min_stack = 1 << 20;
 constexpr std::string_view no_memory =
     "rheocyte: the memory does not suffice (of this machine, or the limit of ulimit -v); a larger numerics.accuracy "
     "needs "
@@ -31,7 +33,7 @@ std::string lift_stack_limit(char** arguments) {
   rlimit stack{};
   if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= min_stack) return {};
   if (stack.rlim_max >= min_stack) {
-    stack.rlim_cur = std::min(usual_stack, stack.rlim_max);
+    stack.rlim_cur = std::min<rlim_t>(usual_stack, stack.rlim_max);
     if (::setrlimit(RLIMIT_STACK, &stack) == 0) ::execv("/proc/self/exe", arguments);
   }
   return fmt::format("rheocyte: the stack is limited to {} kB; at least {} kB are needed (ulimit -s {}).",

@@ -39,9 +39,11 @@ std::function<void()> now_and_then(std::function<void()> tell) {
 }
 
 void FileProgress::operator()(double fraction) {
-  if (quiet_ || seconds_since(last_line_) < seconds_between_shares) return;
+  const int percent = static_cast<int>(100 * fraction);
+  if (quiet_ || percent == percent_ || seconds_since(last_line_) < seconds_between_shares) return;
   last_line_ = std::chrono::steady_clock::now();
-  tell(fmt::format("{}: {:.0f} %", name_, 100 * fraction));
+  percent_ = percent;
+  tell(fmt::format("{}: {} %", name_, percent));
 }
 
 Progress::Progress(std::string what, int total, int done, bool quiet)

@@ -12,7 +12,7 @@ using TellProgress = std::function<void(double fraction)>;
 /// As `tell`, but called as often as one likes it calls that only a few times a second.
 std::function<void()> now_and_then(std::function<void()> tell);
 
-/// Of one file: lines "NAME: 40 %" on standard error, at most one in two seconds.
+/// Of one file: lines "NAME: 40 %" on standard error, at most one in two seconds, and none that says what is known.
 class FileProgress {
  public:
   FileProgress(std::string name, bool quiet) : name_(std::move(name)), quiet_(quiet) {}
@@ -21,6 +21,7 @@ class FileProgress {
  private:
   std::string name_;
   bool quiet_;
+  int percent_ = 0;  ///< as told last
   std::chrono::steady_clock::time_point last_line_ = std::chrono::steady_clock::now();
 };
 

@@ -8,12 +8,12 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 
 #include "case/refuse_path.h"
 #include "store/foreign_files.h"
+#include "store/read_file.h"
 #include "store/whole_file.h"
 
 namespace rheocyte {
@@ -31,9 +31,7 @@ constexpr std::array<const char*, 2> checkpoints{"checkpoint-1.bin", "checkpoint
 std::string reason_of(int error_number) { return std::generic_category().message(error_number); }
 
 bool holds_a_result(const fs::path& folder) {
-  std::ifstream file(folder / "result.json", std::ios::binary);
-  std::string start(200, '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  const std::string start = first_bytes(folder / "result.json", 200).value_or("");
   return start.find("\"program\": \"rheocyte\"") != std::string::npos;
 }
 

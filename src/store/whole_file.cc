@@ -30,8 +30,6 @@ int write_all(int descriptor, std::string_view content) {
   return 0;
 }
 
-enum class Older { replace, keep };
-
 int move(const fs::path& from, const fs::path& to, Older older) {
   if (older == Older::replace) return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
@@ -39,19 +37,19 @@ int move(const fs::path& from, const fs::path& to, Older older) {
   return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;  // the file system knows no such wish
 }
 
-int put_in_place(const fs::path& scratch, const fs::path& wanted, Older older) {
+[[noreturn]] void refuse(const fs::path& path, const char* what, int reason) {
+  refuse_path(path, fmt::format("{} ({}).", what, std::generic_category().message(reason)));
+}
+
+}  // namespace
+
+int publish_file(const fs::path& scratch, const fs::path& wanted, Older older) {
   int failed = bring_to_disk(scratch);
   if (!failed) failed = move(scratch, wanted, older);
   if (failed) return failed;
   bring_to_disk(wanted.has_parent_path() ? wanted.parent_path() : ".");  // it is in its place already
   return 0;
 }
-
-[[noreturn]] void refuse(const fs::path& path, const char* what, int reason) {
-  refuse_path(path, fmt::format("{} ({}).", what, std::generic_category().message(reason)));
-}
-
-}  // namespace
 
 int bring_to_disk(const fs::path& path) {
   const Claim open(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
@@ -72,7 +70,7 @@ int write_whole_file(const fs::path& wanted, std::string_view content) {
   const Scratch scratch = new_scratch_file(wanted);
   if (scratch.failed) return scratch.failed;
   int failed = write_all(scratch.claim.descriptor(), content);
-  if (!failed) failed = put_in_place(scratch.path, wanted, Older::replace);
+  if (!failed) failed = publish_file(scratch.path, wanted, Older::replace);
   if (failed) ::unlink(scratch.path.c_str());
   return failed;
 }
@@ -95,7 +93,7 @@ void WholeFile::publish() {
   std::error_code error;
   const bool is_new = !fs::exists(fs::symlink_status(wanted_, error));
   check();  // the world may have changed while the file was written
-  if (const int failed = put_in_place(scratch_.path, wanted_, is_new && check_ ? Older::keep : Older::replace))
+  if (const int failed = publish_file(scratch_.path, wanted_, is_new && check_ ? Older::keep : Older::replace))
     refuse(wanted_, "cannot be put in its place", failed);
   scratch_ = {};
 }

@@ -39,6 +39,13 @@ int write_whole_file(const std::filesystem::path& wanted, std::string_view conte
 /// Writes a file into a folder that is published as a whole. Returns 0 or errno.
 int write_part(const std::filesystem::path& file, std::string_view content);
 
+/// What becomes of a file that stands in the wanted place: kept, the call fails with EEXIST.
+enum class Older { replace, keep };
+
+/// Brings a file that was written under another name of the same folder to the disk and puts it in its place in one
+/// step. Returns 0 or errno.
+int publish_file(const std::filesystem::path& scratch, const std::filesystem::path& wanted, Older);
+
 /// A file or a folder. Returns 0 or errno.
 int bring_to_disk(const std::filesystem::path& path);
 

@@ -21,6 +21,7 @@
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "store/child_process.h"
+#include "store/system_limit.h"
 
 namespace rheocyte {
 
@@ -169,18 +170,17 @@ int take_descriptor(int socket) {
   ::_exit(0);
 }
 
-fs::path new_private_folder() {
-  std::error_code error;
-  std::string pattern = (fs::temp_directory_path(error) / "rheocyte-view-XXXXXX").string();
-  if (error || ::mkdtemp(pattern.data()) == nullptr)
-    refuse_path(fs::path(pattern).parent_path(),
+/// Also removes those that killed programs have left.
+Scratch new_private_folder() {
+  std::error_code error, ignored;
+  const fs::path place = fs::temp_directory_path(error) / "rheocyte-view";
+  for (const Scratch& left : left_over_folders(place)) fs::remove_all(left.path, ignored);
+  Scratch made = new_scratch_folder(place);
+  if (error || made.failed)
+    refuse_path(place.parent_path(),
                 "no folder for temporary files can be made there; is the disk full? TMPDIR names "
                 "another place.");
-  return pattern;
-}
-
-[[noreturn]] void refuse_more() {
-  throw UserError(fmt::format("The system gives no more processes ({}).", std::generic_category().message(errno)));
+  return made;
 }
 
 }  // namespace
@@ -221,7 +221,8 @@ void WorkReply::run_contained(const fs::path& file, const std::function<void(con
   if (end.kind != ContainedEnd::Kind::finished) throw UserError(sentence_for(file, end, limits.patience_s));
 }
 
-HostedWork::HostedWork(HostedWork&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
+HostedWork::HostedWork(HostedWork&& other) noexcept
+    : socket_(std::exchange(other.socket_, -1)), is_wanted_(std::move(other.is_wanted_)) {}
 
 HostedWork::~HostedWork() {
   if (socket_ >= 0) ::close(socket_);
@@ -233,7 +234,10 @@ void HostedWork::stop() const { ::shutdown(socket_, SHUT_RDWR); }
 void HostedWork::ask(const std::string& request) const { send_request(socket_, request); }
 
 void HostedWork::read(const Take& take, const TellProgress& on_progress) {
-  while (auto message = receive_message(socket_)) {
+  for (;;) {
+    if (waits_in_vain()) throw UserError("Nobody waits any more for what was asked.");
+    const auto message = receive_message(socket_);
+    if (!message) break;
     switch (message->word) {
       case Word::piece:
         if (!take(message->text)) return;
@@ -251,6 +255,17 @@ void HostedWork::read(const Take& take, const TellProgress& on_progress) {
   throw UserError("The process that reads recordings ended before it had answered; try again.");
 }
 
+/// Returns false as soon as there is something to read.
+bool HostedWork::waits_in_vain() const {
+  constexpr int look_ms = 50;
+  pollfd awaited{socket_, POLLIN, 0};
+  while (is_wanted_) {
+    if (!is_wanted_()) return true;
+    if (::poll(&awaited, 1, look_ms) > 0) return false;
+  }
+  return false;
+}
+
 std::string HostedWork::all(const TellProgress& on_progress) {
   std::string text;
   read(
@@ -264,13 +279,13 @@ std::string HostedWork::all(const TellProgress& on_progress) {
 
 WorkHost::WorkHost(const Work& work, const std::function<void()>& prepare) : folder_(new_private_folder()) {
   int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) refuse_more();
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) throw SystemLimit("open files", errno);
   std::fflush(nullptr);
   host_ = ::fork();
-  if (host_ < 0) refuse_more();
+  if (host_ < 0) throw SystemLimit("processes", errno);
   if (host_ == 0) {
     ::close(ends[0]);
-    be_the_host(ends[1], work, prepare, folder_);
+    be_the_host(ends[1], work, prepare, folder_.path);
   }
   ::close(ends[1]);
   control_ = ends[0];
@@ -283,7 +298,7 @@ WorkHost::~WorkHost() {
 
 HostedWork WorkHost::ask(const std::string& request) const {
   int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) refuse_more();
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) throw SystemLimit("open files", errno);
   HostedWork work(ends[0]);
   bool passed = false;
   {
@@ -291,7 +306,7 @@ HostedWork WorkHost::ask(const std::string& request) const {
     passed = pass_descriptor(control_, ends[1]);
   }
   ::close(ends[1]);
-  if (!passed) refuse_more();
+  if (!passed) throw UserError("The process that reads recordings has ended; start the view again.");
   work.ask(request);
   return work;
 }

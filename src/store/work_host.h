@@ -12,6 +12,7 @@
 
 #include "store/contained.h"
 #include "store/progress.h"
+#include "store/scratch.h"
 
 namespace rheocyte {
 
@@ -54,13 +55,18 @@ class HostedWork {
   /// because its process broke down.
   using Take = std::function<bool(std::string_view piece)>;
   void read(const Take& take, const TellProgress& on_progress = {});
+  /// Asked several times a second while an answer is read, which ends with a UserError once it is false.
+  void only_while(std::function<bool()> is_wanted) { is_wanted_ = std::move(is_wanted); }
   /// From another thread: whoever reads is told that the process has ended.
   void stop() const;
   /// All pieces together.
   std::string all(const TellProgress& on_progress = {});
 
  private:
+  bool waits_in_vain() const;
+
   int socket_;
+  std::function<bool()> is_wanted_ = {};
 };
 
 class WorkHost {
@@ -75,14 +81,16 @@ class WorkHost {
   WorkHost(const WorkHost&) = delete;
   WorkHost& operator=(const WorkHost&) = delete;
 
-  /// A private folder that is removed when this program has ended, however it ended.
-  const std::filesystem::path& folder() const { return folder_; }
+  /// A private folder that is removed when this program has ended, however it ended; if the host was killed, too, by
+  /// the next program that has one.
+  const std::filesystem::path& folder() const { return folder_.path; }
 
-  /// Starts a process on the request. For several threads at once. UserError if the system has no more processes.
+  /// Starts a process on the request. For several threads at once. SystemLimit if the system gives no more open
+  /// files, UserError if the host has ended.
   HostedWork ask(const std::string& request) const;
 
  private:
-  std::filesystem::path folder_;
+  Scratch folder_;
   int control_ = -1;
   pid_t host_ = -1;
   mutable std::mutex mutex_;

@@ -41,7 +41,7 @@ using Spec = SynthSpec;
 using Keys = std::vector<Key<SynthSpec>>;
 constexpr Condition no_shell{"cell.kind", "shell", true}, no_solid{"cell.kind", "solid", true},
     is_combined{"cell.kind", "combined"}, by_medium{"flow.viscosity_mPas", "", true},
-    by_model{"shapes.table", "", true};
+    by_model{"shapes.model", "analytical"}, by_table{"shapes.model", "table"};
 constexpr std::string_view ratio = "cell.cortex.tension_ratio", tension = "cell.cortex.tension_mN_per_m";
 
 // The ranges are wide; they catch wrong units.
@@ -125,11 +125,16 @@ Keys cell_keys() {
 
 Keys shape_keys() {
   return {
-      key<&Spec::table>({"shapes.table", "",
-                         "folder of a table by `rheocyte table`, seen from the spec, a dynamic one with "
-                         "recording.places_um; without it "
-                         "the analytical model",
-                         Word{}, absent}),
+      key<&Spec::analytical>({"shapes.model", "",
+                              "where the shapes come from: a table, or the analytical model of small deformations "
+                              "(linear solids and shells in the tube)",
+                              Choice{{"table", "analytical"}}, 0}),
+      key<&Spec::table>(
+          {"shapes.table", "",
+           "folder of a table by `rheocyte table`, seen from the spec, a dynamic one with "
+           "recording.places_um; or a table of the program, by its name or file. Without it that by which "
+           "`rheocyte extract` reads the moduli of solids in this liquid",
+           Word{}, absent, by_table}),
       key<&Spec::max_deformation>(
           renamed({"shapes.max_deformation", "",
                    "cells that the model would deform more are left out; 0: where it holds, 0.02 "

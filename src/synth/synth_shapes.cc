@@ -2,23 +2,35 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <system_error>
 
 #include "case/case_text.h"
 #include "case/joined.h"
 #include "case/refuse_path.h"
+#include "case/user_error.h"
 #include "synth/analytic_shapes.h"
 #include "synth/branch_shapes.h"
 #include "synth/combined_shapes.h"
 #include "synth/course_shapes.h"
+#include "synth/grid_shapes.h"
 #include "table/table_folder.h"
+#include "table/table_metadata.h"
 
 namespace rheocyte {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string cells_of(const Case& base) { return cells_in_words(model_text(base), base.channel.section); }
+
+std::string text_of_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 // Those that are there: a table that is still being computed serves, too.
 std::vector<SampledBranch> finished_branches(const TableFolder& folder) {
@@ -30,7 +42,7 @@ std::vector<SampledBranch> finished_branches(const TableFolder& folder) {
   return branches;
 }
 
-SimulatedCells cells_of(const SynthSpec& spec, const Case& base) {
+SimulatedCells simulated_cells(const SynthSpec& spec, const Case& base) {
   return {.simulated = channel_flow_of(base),
           .flow = {spec.channel_width_um, spec.flow_rate_ul_s},
           .is_shell = spec.kind == CellKind::shell};
@@ -60,25 +72,46 @@ std::unique_ptr<CellShapes> shapes_of_combined_table(SynthSpec& spec, const Tabl
     refuse_path(spec.table, "its cells have a bulk and a cortex, so cell.kind must be \"combined\".");
   auto branches = finished_branches(folder);
   check_tensions(spec, folder.spec().tension_ratios);
-  return std::make_unique<CombinedShapes>(folder.spec(), std::move(branches), cells_of(spec, folder.spec().base));
+  return std::make_unique<CombinedShapes>(folder.spec(), std::move(branches),
+                                          simulated_cells(spec, folder.spec().base));
 }
 
-std::unique_ptr<CellShapes> shapes_of_dynamic_table(const SynthSpec& spec) {
+std::unique_ptr<CellShapes> shapes_of_dynamic_table(SynthSpec& spec) {
   if (!spec.is_on_its_way())
     refuse_path(spec.table, "is a dynamic table; give recording.places_um, where its cells are seen.");
   if (!spec.viscosity_of_cell_mPas)
     refuse_path(spec.table, "is a dynamic table; give cell.viscosity_mPas of its cells.");
   if (spec.kind != CellKind::solid) refuse_path(spec.table, "its cells are solids, so cell.kind must be \"solid\".");
-  return std::make_unique<CourseShapes>(read_dynamic_table(spec.table),
-                                        ChannelFlow{spec.channel_width_um, spec.flow_rate_ul_s});
+  DynamicTable table = read_dynamic_table(spec.table);
+  spec.made_of = cells_of(table.spec().base);
+  return std::make_unique<CourseShapes>(std::move(table), ChannelFlow{spec.channel_width_um, spec.flow_rate_ul_s});
+}
+
+std::unique_ptr<CellShapes> shapes_of_grid(SynthSpec& spec) {
+  const std::string name = one_line(spec.table.string(), 300);
+  GridContent grid = grid_from_bytes(text_of_file(spec.table), name);
+  if (grid.origin.is_shell || spec.kind != CellKind::solid)
+    refuse_path(spec.table,
+                "shapes come from a grid of solids only, so cell.kind must be \"solid\"; of other cells give "
+                "the folder of a table.");
+  if (!grid.shapes)
+    refuse_path(spec.table, "does not say what its cells look like; compute it anew with `rheocyte table`.");
+  if (spec.is_on_its_way())
+    refuse_path(
+        spec.table,
+        "is a table of stationary shapes; recording.places_um needs a dynamic table (`rheocyte help dynamic`).");
+  spec.made_of = grid.origin.cells();
+  return std::make_unique<GridShapes>(std::move(grid), ChannelFlow{spec.channel_width_um, spec.flow_rate_ul_s});
 }
 
 std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   std::error_code error;
+  if (fs::is_regular_file(spec.table, error)) return shapes_of_grid(spec);
   if (!fs::exists(spec.table / "spec.toml", error))
     refuse_path(
         spec.table,
-        "there is no table of `rheocyte table` (no spec.toml in this folder); shapes.table names such a folder.");
+        "there is no table of `rheocyte table` (no spec.toml in this folder) and none of the program of this name; "
+        "shapes.table names such a folder or table.");
   const fs::path file = spec.table / "spec.toml";
   if (is_dynamic_spec(read_case_text(file), file.string(), {})) return shapes_of_dynamic_table(spec);
   if (spec.is_on_its_way())
@@ -86,6 +119,7 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
         spec.table,
         "is a table of stationary shapes; recording.places_um needs a dynamic table (`rheocyte help dynamic`).");
   const TableFolder folder(spec.table, read_table_spec(file));
+  spec.made_of = cells_of(folder.spec().base);
   if (folder.spec().is_combined()) return shapes_of_combined_table(spec, folder);
   const bool is_shell = folder.spec().sweeps_cortex();
   if (spec.kind != (is_shell ? CellKind::shell : CellKind::solid))
@@ -95,13 +129,14 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   std::set<double> radii;
   for (const auto& branch : branches) radii.insert(branch.radius_um);
   if (radii.size() < 2) refuse_path(spec.table, "has fewer than two finished branches; let `rheocyte table` go on.");
-  return std::make_unique<BranchShapes>(std::move(branches), cells_of(spec, folder.spec().base));
+  return std::make_unique<BranchShapes>(std::move(branches), simulated_cells(spec, folder.spec().base));
 }
 
 }  // namespace
 
 std::unique_ptr<CellShapes> shapes_of(SynthSpec& spec) {
-  if (!spec.table.empty()) return shapes_of_table(spec);
+  if (!spec.analytical) return shapes_of_table(spec);
+  spec.made_of = cells_in_words(spec.kind == CellKind::shell ? "linear shell" : "linear solid", Section::tube);
   return std::make_unique<AnalyticShapes>(
       AnalyticPopulation{.flow = {spec.channel_width_um, spec.flow_rate_ul_s},
                          .is_shell = spec.kind == CellKind::shell,

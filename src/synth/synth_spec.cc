@@ -31,9 +31,9 @@ void check_medium(const SynthSpec& spec, const KeyReading& keys) {
   const auto medium = medium_of_name(spec.medium);
   if (!medium)
     keys.refuse(key,
-                fmt::format("{} has no known viscosity; it can be CellCarrier, CellCarrierB, 0.83% MC-PBS or water, "
+                fmt::format("{} has no known viscosity{}; it can be CellCarrier, CellCarrierB, 0.83% MC-PBS or water, "
                             "or give flow.viscosity_mPas.",
-                            keys.stated(key)));
+                            keys.stated(key), near_medium(spec.medium)));
   try {
     const Buffer check(*medium, spec.viscosity_model);
   } catch (const UserError& error) {
@@ -61,7 +61,11 @@ void check_shapes(SynthSpec& spec, const KeyReading& keys) {
     keys.refuse("shapes.table",
                 "cell.kind = \"combined\" needs shapes.table, the folder of a table with table.cortex_share; the "
                 "analytical model has no such cells.");
-  if (spec.max_deformation == 0)
+  if (spec.kind == CellKind::shell && !spec.analytical)
+    keys.refuse("shapes.table",
+                "cell.kind = \"shell\" needs shapes.table, the folder of a table of shells, or shapes.model = "
+                "\"analytical\"; no table of shells comes with the program.");
+  if (spec.analytical && spec.max_deformation == 0)
     spec.max_deformation = spec.kind == CellKind::solid ? max_solid_deformation : max_shell_deformation;
 }
 

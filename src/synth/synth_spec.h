@@ -38,11 +38,14 @@ struct SynthSpec {
   std::optional<Spread> viscosity_of_cell_mPas;           ///< of cells on their way
   double added_ellipse = 0;                               ///< mode c_2 that is added to each outline
   // [shapes]
-  std::filesystem::path table;  ///< folder of a table of `rheocyte table`; empty: the analytical model
+  bool analytical = false;      ///< by the analytical model
+  std::filesystem::path table;  ///< folder of a table of `rheocyte table`, or a grid; empty: the program's own
   double max_deformation = 0;
   bool square_duct = false;
   // [noise]
   double lateral_um = 0, contour_um = 0, contour_correlation_um = 0, thermometer_C = 0;
+
+  std::string made_of;  ///< the cells of the model of shapes, as in cells_in_words, once that is known
 
   /// Whether the cells are seen on their way, by a dynamic table.
   bool is_on_its_way() const { return !places_um.empty(); }

@@ -13,6 +13,7 @@
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/mask_from_outline.h"
+#include "measurement/metadata.h"
 #include "measurement/recording_file.h"
 #include "measurement/viscosity.h"
 #include "numeric/cell_random.h"
@@ -245,6 +246,7 @@ void describe_truth(const SynthSpec& spec, const CellShapes& shapes, const Virtu
   for (std::size_t k = 0; k < meanings.size(); ++k)
     file.add_metadata(fmt::format("user:rheocyte userdef{}", k + 1), fmt::format("true {}", meanings[k]));
   file.add_metadata("user:rheocyte shapes", shapes.description());
+  if (!spec.made_of.empty()) file.add_metadata(made_of_key, spec.made_of);
   file.add_metadata("user:rheocyte seed", static_cast<std::int64_t>(spec.seed));
   file.add_metadata("user:rheocyte cells drawn", static_cast<std::int64_t>(result.cells));
   for (std::size_t k = 0; k < result.missing.size(); ++k)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "case/joined.h"
 #include "table/branch.h"
@@ -76,9 +77,11 @@ void check_numbers(const SampledBranch& branch) {
     return std::ranges::all_of(contours, [](const auto& contour) { return contour.allFinite(); });
   };
   const auto is_sound = [](double v) { return std::isfinite(v) && v >= 0; };
-  if (!std::ranges::all_of(branch.stiffness, is_sound) || !std::ranges::all_of(branch.error, is_sound) ||
-      !all_finite(branch.contour) || !all_finite(branch.contour_slope))
-    throw DamagedRecord{"a number is out of range"};
+  check_record(std::ranges::all_of(branch.stiffness, is_sound) && std::ranges::all_of(branch.error, is_sound) &&
+                   all_finite(branch.contour) && all_finite(branch.contour_slope),
+               "a number is out of range");
+  check_record(std::ranges::adjacent_find(branch.stiffness, std::ranges::less_equal()) == branch.stiffness.end(),
+               "the stiffness does not fall along the branch");
 }
 
 SampledBranch branch_of(const json& record) {

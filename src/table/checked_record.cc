@@ -35,6 +35,10 @@ json json_of(std::string_view bytes) {
 
 }  // namespace
 
+void check_record(bool good, const char* what) {
+  if (!good) throw DamagedRecord{what};
+}
+
 json blob_of(std::span<const double> values) {
   std::vector<std::uint8_t> bytes(values.size_bytes());
   if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());

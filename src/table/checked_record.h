@@ -21,6 +21,9 @@ struct DamagedRecord {
   std::string what;
 };
 
+/// DamagedRecord with this reason if it is not good.
+void check_record(bool good, const char* what);
+
 /// Little-endian doubles.
 nlohmann::json blob_of(std::span<const double> values);
 /// Back; DamagedRecord if their number is another one.

@@ -117,6 +117,10 @@ CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
         least = std::max(least, curves_.back().log_d.front());
         greatest = std::max(greatest, curves_.back().log_d.back());
       }
+  if (!(least < greatest))
+    throw UserError(
+        fmt::format("{}: no branch of the combined table has cells that deform the more the softer they are.",
+                    table.spec.identifier));
   box_.least << log_radii_.front(), shares_.front(), least, ratios_.front();
   box_.greatest << log_radii_.back(), shares_.back(), greatest, ratios_.back();
 }

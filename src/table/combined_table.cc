@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <span>
 
 #include "case/joined.h"
 #include "case/user_error.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -62,6 +63,23 @@ std::string row_text(const CombinedBranch& branch, int i) {
   for (const auto* matrix : {&branch.value, &branch.slope})
     for (int f = 0; f < feature_count; ++f) numbers.push_back((*matrix)(i, f));
   return fmt::format("{}\n", joined(numbers, ","));
+}
+
+/// Of a row: far wider than what cells have.
+bool holds_a_cell(const std::vector<double>& row) {
+  const std::span features = std::span(row).subspan(leading_columns, feature_count);
+  return row[1] >= 0 && row[1] <= 1 && row[2] >= 0 && row[leading_columns - 1] >= 0 &&
+         features[int(ShapeFeature::area_um2)] > 0 && features[int(ShapeFeature::deformation)] < 1 &&
+         features[int(ShapeFeature::moment_ratio)] > 0 &&
+         std::ranges::all_of(features.subspan(int(ShapeFeature::first_mode)), [](double c) { return std::abs(c) < 1; });
+}
+
+/// E, E2D and tension are in the file for its readers; they follow from the other columns (eq:combined).
+bool has_its_moduli(const std::vector<double>& row) {
+  const double S = row[3], cortex = row[1] * S * row[0];
+  const auto is_same = [&](double one, double other, double scale) { return std::abs(one - other) <= 1e-9 * scale; };
+  return is_same(row[4], (1 - row[1]) * S, S) && is_same(row[5], cortex, S * row[0]) &&
+         is_same(row[6], row[2] * cortex, cortex);
 }
 
 // Goes over the lines of a file and keeps the place of errors.
@@ -119,6 +137,8 @@ class CombinedReader {
     CombinedBranch& branch = branches.back();
     const double deformation = row[leading_columns + int(ShapeFeature::deformation)];
     if (!(row[0] > 0 && row[3] > 0 && deformation > 0)) refuse("radius, stiffness and deformation are not positive");
+    if (!holds_a_cell(row)) refuse("the numbers are not those of a cell");
+    if (!has_its_moduli(row)) refuse("the moduli are not those of this stiffness, radius, share and tension");
     if (!branch.stiffness_kPa.empty() && row[3] >= branch.stiffness_kPa.back())
       refuse("the stiffness does not fall along the branch");
     branch.stiffness_kPa.push_back(row[3]);
@@ -191,10 +211,10 @@ CombinedTable read_combined_table(const std::filesystem::path& folder) {
   if (!spec.is_combined())
     refuse("its cells differ in one modulus only; several moduli need a table with table.cortex_share.");
   const auto path = folder / combined_table_name(spec);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(fmt::format("there is no {}; let `rheocyte table` finish it.", combined_table_name(spec)));
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  return parse_combined_table(spec, content, path.string());
+  if (!std::filesystem::exists(path, error))
+    refuse(fmt::format("there is no {}; let `rheocyte table` finish it.", combined_table_name(spec)));
+  constexpr std::size_t largest = std::size_t{1} << 30U;
+  return parse_combined_table(spec, content_of_file(path, largest), path.string());
 }
 
 }  // namespace rheocyte

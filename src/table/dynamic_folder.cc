@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <system_error>
@@ -14,6 +12,8 @@
 
 #include "case/user_error.h"
 #include "store/build_info.h"
+#include "store/read_file.h"
+#include "store/thread.h"
 #include "store/whole_file.h"
 
 namespace rheocyte {
@@ -29,8 +29,8 @@ constexpr const char *cells_folder = "cells", *spec_file = "spec.toml";
 }
 
 std::string bytes_in(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  constexpr std::size_t enough = std::size_t{64} << 20U;
+  return first_bytes(path, enough).value_or("");
 }
 
 void keep_whole(const fs::path& path, std::string_view content) {
@@ -70,7 +70,8 @@ DynamicFolder::DynamicFolder(fs::path folder, DynamicSpec spec)
   courses_.resize(wanted_.size());
   for (int i = 0; i < cells(); ++i) {
     if (!fs::exists(record(i), error)) continue;
-    courses_[std::size_t(i)] = course_from_bytes(bytes_in(record(i)), hash_, record(i).string());
+    courses_[std::size_t(i)] =
+        course_from_bytes(bytes_in(record(i)), hash_, wanted_[std::size_t(i)], record(i).string());
     ++done_;
   }
 }
@@ -86,11 +87,11 @@ void DynamicFolder::follow(int i, const std::atomic<bool>& stop) {
 }
 
 bool DynamicFolder::compute(int jobs, const std::function<void(int)>& tell, const std::atomic<bool>& stop) {
-  std::atomic<int> next = 0, working = jobs;
+  std::atomic<int> next = 0, finished = 0;
   std::atomic<bool> ends = false;
   std::exception_ptr failure;
   std::mutex mutex;
-  const auto work_on = [&] {
+  const auto work_on = [&](int) {
     try {
       for (int i = next++; i < cells() && !ends; i = next++)
         if (courses_[std::size_t(i)].status == Status::not_started) follow(i, ends);
@@ -99,12 +100,11 @@ bool DynamicFolder::compute(int jobs, const std::function<void(int)>& tell, cons
       failure = std::current_exception();
       ends = true;
     }
-    --working;
+    ++finished;
   };
   {
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < jobs; ++i) threads.emplace_back(work_on);
-    while (working > 0) {
+    const std::vector<Thread> threads = start_threads(jobs, work_on);
+    while (finished < int(threads.size())) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
       if (stop) ends = true;
       tell(done_);

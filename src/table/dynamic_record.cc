@@ -2,11 +2,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "case/user_error.h"
 #include "store/build_info.h"
+#include "store/read_file.h"
 #include "table/checked_record.h"
 #include "table/dynamic_table.h"
 
@@ -16,6 +15,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t largest_table = std::size_t{256} << 20U;
 constexpr RecordKind course_kind{"rheocyte course", "1", "record of a cell's way",
                                  "delete it, and it is computed again"};
 constexpr RecordKind table_kind{"rheocyte dynamic table", "1", "dynamic table",
@@ -34,11 +34,30 @@ json course_record(const CellCourse& course) {
           {"value", blob_of({course.value.data(), std::size_t(course.value.size())})}};
 }
 
-CellCourse course_of(const json& record) {
+/// Bounds that the way of every cell keeps, far from what the tables hold; NaN keeps none.
+bool is_possible(const Eigen::MatrixXd& value) {
+  const auto column = [&](CourseMeasure measure) { return value.col(int(measure)).array(); };
+  const auto shape =
+      value.middleCols(int(CourseMeasure::mode_2), int(CourseMeasure::velocity) - int(CourseMeasure::mode_2));
+  const auto times = column(CourseMeasure::time);
+  return value.allFinite() && (shape.array().abs() < 1).all() && (column(CourseMeasure::deformation).abs() < 1).all() &&
+         (column(CourseMeasure::area_ratio) > 0.1).all() && (column(CourseMeasure::area_ratio) < 10).all() &&
+         (column(CourseMeasure::inertia_ratio) > 0).all() && (column(CourseMeasure::velocity) > 0).all() &&
+         times(0) >= 0 && (times.tail(times.size() - 1) > times.head(times.size() - 1)).all();
+}
+
+/// A record keeps the shortest digits of its spec, from which the cell is computed again: equal up to rounding.
+bool is_cell(const DynamicCell& cell, const DynamicCell& wanted) {
+  const auto is_same = [](double one, double other) { return std::abs(one - other) <= 1e-9 * other; };
+  return is_same(cell.radius_um, wanted.radius_um) && is_same(cell.young_modulus_kPa, wanted.young_modulus_kPa) &&
+         is_same(cell.time_ms, wanted.time_ms);
+}
+
+CellCourse course_of(const json& record, const DynamicCell& wanted) {
   const auto status = status_named(record.at("status").get<std::string>());
   const auto places = record.at("places").get<std::size_t>();
-  if (!status || places > max_places || (*status == Status::converged && places == 0))
-    throw DamagedRecord{"a number is out of range"};
+  check_record(status && places <= max_places && (*status != Status::converged || places > 0),
+               "a number is out of range");
   CellCourse course{{record.at("radius_um"), record.at("young_modulus_kPa"), record.at("time_ms")},
                     *status,
                     record.at("message"),
@@ -46,7 +65,9 @@ CellCourse course_of(const json& record) {
                     record.at("seconds")};
   const auto values = numbers_of(record, "value", places * std::size_t(course_measures));
   course.value = Eigen::Map<const Eigen::MatrixXd>(values.data(), Eigen::Index(places), course_measures);
-  if (!course.value.allFinite()) throw DamagedRecord{"a number is out of range"};
+  check_record(is_cell(course.cell, wanted), "a cell is not the one that its spec has in this place");
+  check_record(course.status != Status::converged || is_possible(course.value),
+               "the way of a cell holds numbers that no cell has");
   return course;
 }
 
@@ -54,14 +75,15 @@ DynamicContent dynamic_content(std::string_view bytes, const std::string& file) 
   const OpenedRecord opened = opened_record(table_kind, bytes);
   DynamicContent content{
       parse_dynamic_spec(opened.record.at("spec").get<std::string>(), file), opened.record.at("program"), {}};
-  for (const json& record : opened.record.at("courses")) content.courses.push_back(course_of(record));
   const DynamicSpec& spec = content.spec;
-  const auto is_whole = [&](const CellCourse& course) {
-    return course.status == Status::converged && course.value.rows() == spec.places;
-  };
-  if (opened.spec_hash != spec_hash(spec) || int(content.courses.size()) != nodes(spec) + spec.checks ||
-      !std::ranges::all_of(content.courses, is_whole))
-    throw DamagedRecord{"it does not hold what its spec says"};
+  constexpr const char* other = "it does not hold what its spec says";
+  const json& courses = opened.record.at("courses");
+  const std::vector<DynamicCell> wanted = cells_of(spec);
+  check_record(opened.spec_hash == spec_hash(spec) && courses.size() == wanted.size(), other);
+  for (const json& record : courses) {
+    const CellCourse& course = content.courses.emplace_back(course_of(record, wanted[content.courses.size()]));
+    check_record(course.status == Status::converged && course.value.rows() == spec.places, other);
+  }
   return content;
 }
 
@@ -71,11 +93,12 @@ std::string to_bytes(const CellCourse& course, const std::string& spec_hash) {
   return sealed_record(course_kind, spec_hash, course_record(course));
 }
 
-CellCourse course_from_bytes(std::string_view bytes, const std::string& spec_hash, const std::string& name) {
+CellCourse course_from_bytes(std::string_view bytes, const std::string& spec_hash, const DynamicCell& wanted,
+                             const std::string& name) {
   return read_or_refuse(course_kind, name, [&] {
     const OpenedRecord opened = opened_record(course_kind, bytes);
     if (opened.spec_hash != spec_hash) throw DamagedRecord{"it belongs to another spec"};
-    return course_of(opened.record);
+    return course_of(opened.record, wanted);
   });
 }
 
@@ -106,9 +129,7 @@ DynamicTable read_dynamic_table(const std::filesystem::path& place) {
         fmt::format("{}: there is no dynamic table here; give the folder of one that `rheocyte table` has "
                     "finished, or its file dynamic_*.cbor.",
                     one_line(place.string(), 300)));
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  return DynamicTable(dynamic_from_bytes(bytes, one_line(file.string(), 300)));
+  return DynamicTable(dynamic_from_bytes(content_of_file(file, largest_table), one_line(file.string(), 300)));
 }
 
 }  // namespace rheocyte

@@ -90,13 +90,15 @@ class DynamicTable {
 CellCourse follow_course(const DynamicSpec&, const DynamicCell&, const std::atomic<bool>* stop = nullptr);
 
 std::string to_bytes(const CellCourse&, const std::string& spec_hash);
-/// UserError naming `name` if the bytes are damaged or of another spec.
-CellCourse course_from_bytes(std::string_view bytes, const std::string& spec_hash, const std::string& name);
+/// UserError naming `name` if the bytes are damaged, of another spec or cell, or hold numbers that no cell has.
+CellCourse course_from_bytes(std::string_view bytes, const std::string& spec_hash, const DynamicCell& wanted,
+                             const std::string& name);
 
 /// Name of the file beside the spec: dynamic_<identifier>.cbor.
 std::string dynamic_file_name(const std::string& identifier);
 std::string to_bytes(const DynamicContent&);
-/// UserError naming `name` if the bytes are damaged or no dynamic table.
+/// UserError naming `name` if the bytes are damaged or no dynamic table, or hold other cells than the spec, or numbers
+/// that no cell has.
 DynamicContent dynamic_from_bytes(std::string_view bytes, const std::string& name);
 /// Of a folder of `rheocyte table`, or the file itself. UserError.
 DynamicTable read_dynamic_table(const std::filesystem::path&);

@@ -41,7 +41,8 @@ Eigen::VectorXd physical(const StateNumbers& numbers, const Scales& scales) {
 MeasuredState measure_state(const Discretisation& space, const Problem& problem, const Scales& scales,
                             const VectorXd& unknowns) {
   const Contour curve = contour(space, unknowns);
-  const SurfaceState surface = surface_state(space, unknowns, 4 * space.reference().degree() + 1);
+  const SurfaceState surface =
+      surface_state(space, unknowns, 4 * space.reference().degree() + 1, problem.bulk.rest_stretch);
   const StateNumbers numbers = numbers_of({problem, problem, space, unknowns}, curve, surface);
   return {physical(numbers, scales), scales.length_um() * resampled(curve, front_edges(curve))};
 }

@@ -82,4 +82,11 @@ double ShapeGrid::mode(int k, double log_area, double deformation) const {
   return value * (is_odd(k) ? std::sqrt(near) : near);
 }
 
+std::array<double, mode_count> ShapeGrid::modes(double log_area, double deformation) const {
+  std::array<double, mode_count> modes{};
+  for (int k = first_radius_mode; k <= last_radius_mode; ++k)
+    modes[std::size_t(k - min_mode)] = mode(k, log_area, deformation);
+  return modes;
+}
+
 }  // namespace rheocyte

@@ -1,8 +1,10 @@
 // What the cells of a table look like: inertia ratio and modes of the hull over area and deformation.
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
+#include "shape/outline_shape.h"
 #include "shape/radius_modes.h"
 
 namespace rheocyte {
@@ -31,6 +33,8 @@ class ShapeGrid {
   bool has_area(double log_area) const;
   /// c_k, first_radius_mode <= k <= last_radius_mode.
   double mode(int k, double log_area, double deformation) const;
+  /// All of them, those beyond last_radius_mode 0.
+  std::array<double, mode_count> modes(double log_area, double deformation) const;
 
  private:
   struct Node {

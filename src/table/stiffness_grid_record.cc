@@ -68,27 +68,40 @@ json record_of(const GridContent& grid) {
   return record;
 }
 
-void check(bool good, const char* what) {
-  if (!good) throw DamagedRecord{what};
-}
-
 int side(const json& record, const char* key, int least, int greatest) {
   const int value = record.at(key);
-  check(value >= least && value <= greatest, "a size is out of range");
+  check_record(value >= least && value <= greatest, "a size is out of range");
   return value;
 }
 
 double positive(const json& record, const char* key) {
   const double value = record.at(key);
-  check(value > 0 && std::isfinite(value), "a number is out of range");
+  check_record(value > 0 && std::isfinite(value), "a number is out of range");
   return value;
 }
 
-// A state without an answer is no node: all numbers of a grid are finite.
-std::vector<double> finite_numbers(const json& record, const char* key, std::size_t size) {
+/// Logarithms of anything that is measured are below this.
+constexpr double max_log = 100;
+/// Where a table is coarse its errors have no meaning, but they are none of these.
+constexpr double max_error = 1e6;
+
+// A state without an answer is no node: all numbers of a grid are finite, and of a size that cells have.
+std::vector<double> numbers_between(const json& record, const char* key, std::size_t size, double least,
+                                    double greatest) {
   auto values = numbers_of(record, key, size);
-  check(std::ranges::all_of(values, [](double v) { return std::isfinite(v); }), "a number is not finite");
+  check_record(std::ranges::all_of(values, [&](double v) { return v >= least && v <= greatest; }),
+               "a number is not one that cells have");
   return values;
+}
+
+std::vector<double> logarithms(const json& record, const char* key, std::size_t size) {
+  return numbers_between(record, key, size, -max_log, max_log);
+}
+
+/// Of the first and the last column.
+void check_areas(double min_log_area, double column_step, int columns) {
+  check_record(std::abs(min_log_area) < max_log && std::abs(min_log_area + column_step * columns) < max_log,
+               "an area is out of range");
 }
 
 GridPatch patch_of(const json& record, int columns) {
@@ -98,35 +111,32 @@ GridPatch patch_of(const json& record, int columns) {
   patch.first_column = side(record, "first_column", 0, columns - patch.columns);
   patch.rows = side(record, "rows", 2, max_side);
   const auto wide = static_cast<std::size_t>(patch.columns), all = wide * static_cast<std::size_t>(patch.rows);
-  patch.lower = finite_numbers(record, "lower", wide);
-  patch.upper = finite_numbers(record, "upper", wide);
-  patch.log_stiffness = finite_numbers(record, "log_stiffness", all);
-  patch.error = finite_numbers(record, "error", all);
-  patch.beyond = finite_numbers(record, "beyond", wide);
-  for (std::size_t c = 0; c < wide; ++c) {
-    check(patch.upper[c] > patch.lower[c], "a column has no height");
-    check(patch.beyond[c] >= 0 && patch.beyond[c] <= static_cast<double>(NoAnswer::unresolved), "a reason is unknown");
-  }
+  patch.lower = logarithms(record, "lower", wide);
+  patch.upper = logarithms(record, "upper", wide);
+  patch.log_stiffness = logarithms(record, "log_stiffness", all);
+  patch.error = numbers_between(record, "error", all, 0, max_error);
+  patch.beyond = numbers_between(record, "beyond", wide, 0, static_cast<double>(NoAnswer::unresolved));
+  for (std::size_t c = 0; c < wide; ++c) check_record(patch.upper[c] > patch.lower[c], "a column has no height");
   return patch;
 }
 
 ShapeNodes shapes_of(const json& record) {
   ShapeNodes shapes;
   shapes.min_log_area = record.at("least_log_area");
-  check(std::isfinite(shapes.min_log_area), "a number is out of range");
   shapes.column_step = positive(record, "column_step");
   shapes.columns = side(record, "columns", 2, max_side);
   shapes.rows = side(record, "rows", 2, max_side);
+  check_areas(shapes.min_log_area, shapes.column_step, shapes.columns);
   const auto wide = static_cast<std::size_t>(shapes.columns), all = wide * static_cast<std::size_t>(shapes.rows);
-  shapes.lower = finite_numbers(record, "lower", wide);
-  shapes.upper = finite_numbers(record, "upper", wide);
-  for (std::size_t c = 0; c < wide; ++c) check(shapes.upper[c] > shapes.lower[c], "a column has no height");
-  shapes.inertia_ratio = finite_numbers(record, "inertia_ratio", all);
+  shapes.lower = logarithms(record, "lower", wide);
+  shapes.upper = logarithms(record, "upper", wide);
+  for (std::size_t c = 0; c < wide; ++c) check_record(shapes.upper[c] > shapes.lower[c], "a column has no height");
+  shapes.inertia_ratio = numbers_between(record, "inertia_ratio", all, 1 / max_log, max_log);
   const json& modes = record.at("modes");
-  check(modes.is_array() && modes.size() == shapes.modes.size(), "its modes are others");
+  check_record(modes.is_array() && modes.size() == shapes.modes.size(), "its modes are others");
   for (std::size_t k = 0; k < shapes.modes.size(); ++k) {
     const json one = {{"mode", modes[k]}};
-    shapes.modes[k] = finite_numbers(one, "mode", all);
+    shapes.modes[k] = numbers_between(one, "mode", all, -1, 1);
   }
   return shapes;
 }
@@ -144,15 +154,15 @@ GridContent content_of(const json& record) {
   o.flow.exponent = positive(record, "flow_exponent");
   o.is_shell = record.at("is_shell");
   if (record.contains(section_key)) {
-    check(record.at(section_key) == square_section, "a section is unknown");
+    check_record(record.at(section_key) == square_section, "a section is unknown");
     o.section = Section::square;
   }
   grid.min_log_area = record.at("least_log_area");
-  check(std::isfinite(grid.min_log_area), "a number is out of range");
   grid.column_step = positive(record, "column_step");
   grid.columns = side(record, "columns", 2, max_side);
+  check_areas(grid.min_log_area, grid.column_step, grid.columns);
   for (const auto& patch : record.at("patches")) grid.patches.push_back(patch_of(patch, grid.columns));
-  check(!grid.patches.empty(), "it has no states");
+  check_record(!grid.patches.empty(), "it has no states");
   if (record.contains("shapes")) grid.shapes = shapes_of(record.at("shapes"));
   return grid;
 }
@@ -164,6 +174,17 @@ std::string TableOrigin::description() const {
       fmt::format("{} um, {} ul/s, {:.6g} mPa s", flow.width_um, flow.rate_ul_s, flow.viscosity_mPas);
   return model.empty() ? fmt::format("{} ({})", identifier, conditions)
                        : fmt::format("{} ({}, {}, by {})", identifier, model, conditions, program);
+}
+
+std::string TableOrigin::cells() const { return cells_in_words(model, section); }
+
+std::string cells_in_words(std::string_view model, Section section) {
+  std::string cells(model.substr(0, model.find(" / ")));
+  if (cells.empty()) return cells;
+  for (const auto& [written, name] : {std::pair<std::string_view, std::string_view>{"neo-hookean", "neo-Hookean"},
+                                      {"mooney-rivlin", "Mooney-Rivlin"}})
+    if (const auto at = cells.find(written); at != std::string::npos) cells.replace(at, written.size(), name);
+  return fmt::format("{}s in the {}", cells, section == Section::square ? "square channel" : "tube");
 }
 
 std::string to_bytes(const GridContent& grid) {

@@ -9,7 +9,6 @@
 #include <cassert>
 #include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <system_error>
 
@@ -17,6 +16,7 @@
 #include "case/write_case.h"
 #include "numeric/fingerprint.h"
 #include "store/build_info.h"
+#include "store/read_file.h"
 #include "store/whole_file.h"
 #include "table/square_branches.h"
 
@@ -37,8 +37,8 @@ std::string reason_of(int number) { return std::generic_category().message(numbe
 }
 
 std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  constexpr std::size_t enough = std::size_t{1} << 30U;
+  return first_bytes(path, enough).value_or("");
 }
 
 // Nothing if another process holds it, unless the operation waits for that one.

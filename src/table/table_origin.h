@@ -1,6 +1,7 @@
 // For what a table was computed.
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "case/channel_flow.h"
 
@@ -18,7 +19,13 @@ struct TableOrigin {
 
   /// In one line.
   std::string description() const;
+  /// Its cells alone, as in cells_in_words.
+  std::string cells() const;
 };
+
+/// The cells of a model, e.g. "linear solids in the tube", "neo-Hookean solids in the square channel"; empty if the
+/// model is.
+std::string cells_in_words(std::string_view model, Section section);
 
 /// What tells which recordings a grid is for.
 struct GridHead {

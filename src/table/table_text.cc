@@ -5,10 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view begin_mark = "# BEGIN METADATA", end_mark = "# END METADATA";
-constexpr std::uintmax_t max_bytes = 1 << 28;
+constexpr std::size_t max_bytes = 1 << 28;
 
 [[noreturn]] void refuse(const std::string& place, const std::string& reason) {
   throw UserError(fmt::format("{}: {}", place, reason));
@@ -165,12 +165,7 @@ TableText read_table_text(const fs::path& file) {
   if (status.type() == fs::file_type::not_found) refuse(name, "there is no such table.");
   if (error) refuse(name, fmt::format("cannot read the table ({}).", error.message()));
   if (!fs::is_regular_file(status)) refuse(name, "is not a regular file; give a table such as lut_LE-2D-26.txt.");
-  if (fs::file_size(file, error) > max_bytes || error) refuse(name, "is too large for a look-up table.");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse(name, fmt::format("cannot read the table ({}).", std::strerror(errno)));
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (stream.bad()) refuse(name, "reading the table failed.");
-  return parse_table_text(text, name);
+  return parse_table_text(content_of_file(file, max_bytes), name);
 }
 
 }  // namespace rheocyte

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "solve/outcome.h"
+#include "store/thread.h"
 #include "table/sample_branch.h"
 #include "table/sample_square_branch.h"
 
@@ -35,8 +36,8 @@ bool is_stopped(const SampledBranch& branch) { return branch.end.status == Statu
 
 class Workers {
  public:
-  Workers(const TableFolder& folder, int jobs) : folder_(folder), jobs_(jobs) {
-    for (int i = 0; i < jobs; ++i) threads_.emplace_back([this] { work_or_fail(); });
+  Workers(const TableFolder& folder, int jobs) : folder_(folder) {
+    threads_ = start_threads(jobs, [this](int) { work_or_fail(); });
   }
   ~Workers() { stop(); }
 
@@ -47,7 +48,7 @@ class Workers {
       if (observer.done) observer.done(done);
       std::unique_lock lock(mutex_);
       if (done == folder_.branches() || wanted || failure_) break;
-      if (idle_ == jobs_ && observer.waits && !std::exchange(has_told, true)) observer.waits();
+      if (idle_ == int(threads_.size()) && observer.waits && !std::exchange(has_told, true)) observer.waits();
       changed_.wait_for(lock, look);
     }
     stop();
@@ -107,12 +108,12 @@ class Workers {
   }
 
   const TableFolder& folder_;
-  int jobs_, idle_ = 0;
+  int idle_ = 0;
   std::atomic<bool> stop_ = false;
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<std::jthread> threads_;
+  std::vector<Thread> threads_;
 };
 
 }  // namespace

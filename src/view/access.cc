@@ -63,6 +63,8 @@ std::string new_token() {
 Access::Access(std::string token, std::string host, int port)
     : token_(std::move(token)), host_(std::move(host)), port_(port) {}
 
+std::string Access::address_of_once() const { return fmt::format("http://{}/?once={}", named(host_, port_), once_); }
+
 std::string Access::address() const { return fmt::format("http://{}/?token={}", named(host_, port_), token_); }
 
 bool Access::is_ours(std::string_view host, std::string_view local_address) const {
@@ -98,11 +100,24 @@ std::optional<Answer> Access::refusal_of(const Credentials& who) const {
   return std::nullopt;
 }
 
+Answer Access::welcome() const {
+  const std::string cookie = fmt::format("rheocyte_{}={}; HttpOnly; SameSite=Strict; Path=/", port_, token_);
+  return {.status = 303, .type = "text/plain", .headers = {{"Location", "/"}, {"Set-Cookie", cookie}}};
+}
+
 Answer Access::sign_in(const Credentials& who, std::string_view token) const {
   if (auto refused = refusal_of_names(who)) return *refused;
   if (!are_equal(token, token_)) return refusal(401, "token", no_token);
-  const std::string cookie = fmt::format("rheocyte_{}={}; HttpOnly; SameSite=Strict; Path=/", port_, token_);
-  return {.status = 303, .type = "text/plain", .headers = {{"Location", "/"}, {"Set-Cookie", cookie}}};
+  return welcome();
+}
+
+Answer Access::sign_in_once(const Credentials& who, std::string_view key) {
+  if (auto refused = refusal_of_names(who)) return *refused;
+  if (has_token(who)) return welcome();  // a browser that asks twice
+  if (once_is_used_ || !are_equal(key, once_) || !who.is_of_own_user || !who.is_of_own_user())
+    return refusal(401, "token", no_token);
+  once_is_used_ = true;
+  return welcome();
 }
 
 }  // namespace rheocyte

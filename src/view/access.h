@@ -1,5 +1,6 @@
 // Who may ask: whoever knows the token and talks to this server by its own name (docs/view.md, sec. access).
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,8 @@ struct Credentials {
   std::vector<std::string> hosts, origins;  ///< the headers of these names
   std::string authorization, cookie;
   std::string local_address;  ///< at which the connection was accepted: "127.0.0.1"
+  /// Whether a program of the user who runs this server has sent it, as far as the system tells. Nothing: it does not.
+  std::function<bool()> is_of_own_user = {};
 };
 
 class Access {
@@ -31,15 +34,23 @@ class Access {
   /// The same of GET /?token=..., which brings the token in the query: 303 to / with the cookie.
   Answer sign_in(const Credentials&, std::string_view token) const;
 
+  /// GET /?once=..., with the key that is for the browser that the server starts: 303 as sign_in(), for the first
+  /// sender alone, and only if it is a program of the same user. Other users see the key in the list of processes.
+  Answer sign_in_once(const Credentials&, std::string_view key);
+
   /// http://127.0.0.1:PORT/?token=TOKEN
   std::string address() const;
+  /// http://127.0.0.1:PORT/?once=KEY
+  std::string address_of_once() const;
 
  private:
   std::optional<Answer> refusal_of_names(const Credentials&) const;
   bool is_ours(std::string_view host, std::string_view local_address) const;
   bool has_token(const Credentials&) const;
+  Answer welcome() const;
 
-  std::string token_, host_;
+  std::string token_, host_, once_ = new_token();
+  bool once_is_used_ = false;
   int port_;
 };
 

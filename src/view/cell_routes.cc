@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -11,8 +12,8 @@
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "result/write_result.h"
+#include "store/base64.h"
 #include "store/stop_signal.h"
-#include "view/base64.h"
 #include "view/evolve_route.h"
 #include "view/json_member.h"
 #include "view/plane_lines.h"
@@ -27,11 +28,16 @@ using Json = nlohmann::ordered_json;
 
 bool exists(const Result& result) { return has_state(result.state.outcome.status); }
 
+/// As much of the compliance as the state may have: the margin falls from 1 about as the compliance grows.
+double stable_reach(const StationaryState& state) {
+  return state.outcome.reached / std::max(1.0, 1 - state.stability_margin);
+}
+
 /// Why there is none, and the nearest case that has one.
 Answer no_state(const Result& result) {
   const Outcome& outcome = result.state.outcome;
   Json json{{"error", outcome.message}, {"reason", "no-state"}, {"status", name(outcome.status)}, {"nearest", nullptr}};
-  if (outcome.reached > 0) json["nearest"] = to_json(nearest_existing(result.input, outcome.reached));
+  if (outcome.reached > 0) json["nearest"] = to_json(nearest_existing(result.input, stable_reach(result.state)));
   json["last"] = {{"deformation", result.state.shape.deformation}, {"reached", outcome.reached}};
   return json_answer(json, 422);
 }
@@ -93,24 +99,27 @@ Answer read_text(const Request& request) {
   return json_answer({{"case", to_json(parse_case(text_member(wish, "toml"), "case.toml"))}});
 }
 
-std::filesystem::path export_case(const Json& wish, ExportFolder& folder) {
+std::filesystem::path export_case(const Json& wish, const Request&, ExportFolder& folder) {
   return folder.write(text_member(wish, "name", "case.toml"), to_toml(stated_case(object_member(wish, "case"))));
 }
 
 /// The folder that `rheocyte solve` writes; solved from nothing, so that all its digits are the same.
-std::filesystem::path export_result(const Json& wish, ExportFolder& folder) {
+std::filesystem::path export_result(SolverThreads& threads, const Json& wish, const Request& request,
+                                    ExportFolder& folder) {
   Result result = stationary(stated_case(object_member(wish, "case")));
-  auto path = folder.claim(text_member(wish, "name", "result"));
-  result.state = solve_stationary(result.problem, {}, &stop_wanted());
-  if (result.state.outcome.status == Status::stopped) throw Refused(503, "left", "The computation was stopped.");
+  ExportPlace place = folder.claim(text_member(wish, "name", "result"), ExportKind::folder);
+  solve(threads, request,
+        [&](Session&, const std::atomic<bool>& stop) { result.state = solve_stationary(result.problem, {}, &stop); });
   refuse_unfinite_numbers(result);
-  ResultFolder target(path);
-  write_result(result, target, path, json_text(to_json(result)) + "\n");
+  ResultFolder target(place.path());
+  write_result(result, target, place.path(), json_text(to_json(result)) + "\n");
+  place.check();
   target.publish();
-  return path;
+  place.keep();
+  return place.path();
 }
 
-std::filesystem::path export_picture(const Json& wish, ExportFolder& folder) {
+std::filesystem::path export_picture(const Json& wish, const Request&, ExportFolder& folder) {
   const std::string name = text_member(wish, "name"), ending = fmt::format(".{}", text_member(wish, "what"));
   if (!name.ends_with(ending)) throw Refused(400, "name", fmt::format("The name must end with {}.", ending));
   std::string bytes;
@@ -129,7 +138,9 @@ void add_cell_routes(Router& router, Exports& exports, SolverThreads& threads) {
   add_evolve_route(router);
   add_plane_lines_route(router);
   exports.add("case", export_case);
-  exports.add("result", export_result);
+  exports.add("result", [&threads](const Json& wish, const Request& request, ExportFolder& folder) {
+    return export_result(threads, wish, request, folder);
+  });
   exports.add("svg", export_picture);
   exports.add("png", export_picture);
 }

@@ -1,66 +1,91 @@
-// One connection as the server's library reads and writes it: everything has a deadline and a size, so that a slow or
-// broken client holds nothing but its own thread, and that not for long.
+// One connection: requests are read and answers written by the one thread of the server, answers are made by others.
+// Everything has a deadline and a size, so that a slow or broken client holds nothing for long.
 #pragma once
-#include <httplib.h>
-#include <poll.h>
-
-#include <array>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/system/error_code.hpp>
 #include <chrono>
 #include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
 
-#include "view/http.h"
+#include "view/answer_threads.h"
+#include "view/site.h"
 
 namespace rheocyte {
 
-class Connection final : public httplib::Stream, public Client {
+class Connection;
+
+/// What the connections of a server share; but for `site` and `threads` the server's thread alone touches it.
+struct SharedByConnections {
+  const Site& site;
+  AnswerThreads threads = {};
+  std::list<Connection*> open = {};  ///< those that have waited longest for a request first
+  std::size_t body_bytes = 0;        ///< of all requests that are being read or answered
+};
+
+/// Lives as long as something is awaited for it.
+class Connection final : public Client, public std::enable_shared_from_this<Connection> {
  public:
-  /// A connection without requests is closed after this.
-  static constexpr std::chrono::seconds idle_time{60};
+  Connection(boost::asio::ip::tcp::socket, SharedByConnections&);
 
-  /// Owns the socket.
-  explicit Connection(int socket);
-  ~Connection() override;
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
+  /// To be called once: waits for the first request.
+  void begin();
+  /// At once, whatever it does.
+  void close();
+  /// Whether no request has come whole, so that its place can be given to another client.
+  bool is_waiting() const { return is_waiting_; }
 
-  /// Until the first byte of a request. False: the client is gone or silent for too long, or nobody wants to wait.
-  bool wait_for_request(const std::function<bool()>& goes_on);
-  /// From here on a head may come, and once it is read a body of so many bytes.
-  void begin_head();
-  void begin_body(std::size_t bytes);
-  /// A body that is announced and not read would be taken for the next request: this one is the last.
-  void make_last() { is_last_ = true; }
-  bool is_last() const { return is_last_; }
-  /// Nothing more is written. What still comes is read away for a moment, so that the last answer reaches a client that
-  /// is sending.
-  void finish();
-
+  /// For all threads.
   bool has_left() const override;
 
-  bool takes_gzip = false;  ///< the client, with the request that is being answered
-
-  bool is_readable() const override { return available() > 0 || wait(POLLIN, {}); }
-  bool is_writable() const override { return !has_left(); }
-  ssize_t read(char* to, size_t size) override;
-  ssize_t write(const char* from, size_t size) override;
-  void get_remote_ip_and_port(std::string& ip, int& port) const override;
-  void get_local_ip_and_port(std::string& ip, int& port) const override;
-  socket_t socket() const override { return socket_; }
-
  private:
-  using Clock = std::chrono::steady_clock;
+  using Duration = std::chrono::steady_clock::duration;
+  using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
+  using BodyParser = boost::beast::http::request_parser<boost::beast::http::string_body>;
+  using Then = std::function<void(bool is_well)>;
 
-  std::size_t available() const { return end_ - begin_; }
-  /// Whether the socket has one of the events before the time has gone.
-  bool wait(short events, Clock::duration) const;
-  bool fill();
+  void expect_within(Duration);
+  void expect_nothing();
+  void wait_for_request();
+  void read_head();
+  void take_head();
+  RequestHead head_of_parser() const;
+  void read_body(std::size_t length);
+  void make_answer(std::string body);
+  void answer_in_thread(std::string body);
+  bool give_pieces_in_thread(const Answer&);
+  bool send_from_thread(std::string_view);
+  void refuse(boost::system::error_code);
+  void give(Answer);
+  void send(std::string_view, Then);
+  void end_of_answer(bool is_well);
+  void finish();
+  void drain(std::size_t taken);
 
-  int socket_;
-  bool is_last_ = false;
-  std::size_t allowed_ = 0;  ///< bytes that may still be read
-  Clock::time_point deadline_;
-  std::array<char, 16384> buffer_;
-  std::size_t begin_ = 0, end_ = 0;
+  boost::asio::ip::tcp::socket socket_;
+  SharedByConnections& shared_;
+  boost::asio::steady_timer deadline_;
+  std::list<Connection*>::iterator place_;
+  boost::beast::flat_buffer buffer_;
+  std::optional<Parser> parser_;
+  std::optional<BodyParser> body_parser_;
+  RequestHead head_;
+  std::string out_head_, out_body_;
+  std::size_t body_bytes_ = 0;
+  bool is_waiting_ = false, is_closed_ = false, has_unread_ = false, is_last_ = false;
+  unsigned version_ = 11;
+
+  mutable std::mutex mutex_;  ///< of what follows
+  int descriptor_;            ///< -1: closed
 };
 
 }  // namespace rheocyte

@@ -106,7 +106,9 @@ double asked_temperature(const Request& request) {
 Json viscosity(const Request& request) {
   const std::string name = request.asked("medium"), model_name = request.asked("model", "buyukurganci-2022");
   const auto medium = medium_of_name(name);
-  if (!medium) throw UserError("medium: " + one_line(name, 40) + " is not known; GET /api/media lists those that are.");
+  if (!medium)
+    throw UserError("medium: " + one_line(name, 40) + " is not known" + near_medium(name) +
+                    "; GET /api/media lists those that are.");
   const auto model = viscosity_model_of_name(model_name);
   if (!model)
     throw UserError("model: " + one_line(model_name, 40) +

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -13,6 +11,7 @@
 #include "case/write_case.h"
 #include "infer/read_modulus_map.h"
 #include "measurement/shape_source.h"
+#include "store/read_file.h"
 #include "table/combined_table.h"
 #include "view/recording_columns.h"
 
@@ -32,7 +31,10 @@ Json describe_recording(const fs::path& file) {
   Json pictures = Json::array();
   for (const char* feature : {"image", "mask"})
     if (recording.image_size(feature)) pictures.push_back(feature);
-  return {{"events", recording.events()},
+  Json basins = Json::array();
+  for (const auto& basin : recording.files_of_basins()) basins.push_back(basin.string());
+  return {{"basins", basins},
+          {"events", recording.events()},
           {"conditions", stated_conditions(recording.metadata())},
           {"features", columns.names()},
           {"pictures", pictures},
@@ -42,14 +44,10 @@ Json describe_recording(const fs::path& file) {
 }
 
 Json describe_result(const fs::path& folder) {
-  constexpr std::uintmax_t max_file = 16 << 20;
+  constexpr std::size_t largest_file = 16 << 20;
   const fs::path file = folder / "result.json";
   const std::string name = one_line(file.string(), 300);
-  std::error_code error;
-  const auto size = fs::file_size(file, error);
-  if (error || size > max_file) throw UserError(fmt::format("{}: cannot be read, or is no result of rheocyte.", name));
-  std::ifstream stream(file, std::ios::binary);
-  const Json result = parse_sound_json(std::string(std::istreambuf_iterator<char>(stream), {}));
+  const Json result = parse_sound_json(content_of_file(file, largest_file));
   if (!result.is_object() || !result.contains("case"))
     throw UserError(fmt::format("{}: holds no result of rheocyte.", name));
   return {{"case", result["case"]}};

@@ -7,8 +7,8 @@
 
 namespace rheocyte {
 
-/// Of a recording {"events", "conditions", "features", "metadata", "pictures", "remarks"}, of a case and a result
-/// {"case"}, of a table {"conditions"}. UserError if it cannot be read.
+/// Of a recording {"events", "conditions", "features", "metadata", "pictures", "remarks", "basins": paths of the
+/// files}, of a case and a result {"case"}, of a table {"conditions"}. UserError if it cannot be read.
 nlohmann::ordered_json describe_item(const ItemPlace&);
 
 /// {"channel_width_um", "flow_rate_ul_per_s", "medium", "temperature_C", "pixel_um", "region", "sample", "date",

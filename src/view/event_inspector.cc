@@ -157,7 +157,15 @@ void add_modulus(const EventBlock& block, Json& j) {
   j["mode_3"] = number_or_null(first_of(block.mode_3));
   j["young_modulus_asymmetry_kPa"] = number_or_null(first_of(block.asymmetry_kPa));
   j["standard_error_asymmetry_kPa"] = number_or_null(first_of(block.asymmetry_error_kPa));
+  j["systematic_error_asymmetry_kPa"] = number_or_null(first_of(block.asymmetry_systematic_kPa));
   j["viscosity_mPas"] = number_or_null(block.viscosity_mPas[0]);
+  const double share = first_of(block.asymmetry_systematic_kPa) / first_of(block.asymmetry_kPa);
+  if (j["elongated"] && share > 0)
+    j["sentence"] = fmt::format(
+        "{} The cell is elongated along the flow more than those of the table: its modulus from deformation is too "
+        "low, "
+        "that from the asymmetry too high, by {:.0f} % of itself if the cell is a solid.",
+        sentence_of(block.state[0]), 100 * share);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "case/scales.h"
 #include "result/judge_end.h"
 #include "result/result_in_time.h"
+#include "store/thread.h"
 #include "view/json_member.h"
 #include "view/state_json.h"
 #include "view/stated_case.h"
@@ -47,7 +47,7 @@ class Evolution {
  public:
   Evolution(const Case& c, bool wants_fields)
       : result_{c, scales_of(c), problem_of(c), {}}, wants_fields_(wants_fields) {
-    thread_ = std::thread([this] { follow(); });
+    thread_ = Thread([this](const std::stop_token&) { follow(); });
   }
   ~Evolution() {
     stop_ = true;
@@ -136,7 +136,7 @@ class Evolution {
   std::condition_variable changed_;
   std::deque<std::string> lines_;
   bool is_over_ = false;
-  std::thread thread_;
+  Thread thread_;
 };
 
 /// Those that run, by their streams.

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "case/user_error.h"
+#include "store/scratch.h"
 #include "store/whole_file.h"
 #include "view/json_member.h"
 
@@ -19,10 +21,21 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t longest_name = 120;
+constexpr int most_exports = 4;
 
 bool is_file_name(std::string_view name) {
   const auto is_odd = [](unsigned char c) { return c < 0x20 || c == 0x7F || c == '/'; };
   return !name.empty() && name.size() <= longest_name && name.front() != '.' && std::ranges::none_of(name, is_odd);
+}
+
+bool is_same_and_unchanged(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size &&
+         a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
+}
+
+[[noreturn]] void refuse_to_write(const fs::path& path, int reason) {
+  throw Refused(507, "disk",
+                fmt::format("{} cannot be written ({}).", path.string(), std::generic_category().message(reason)));
 }
 
 }  // namespace
@@ -38,44 +51,89 @@ ExportFolder::ExportFolder(const fs::path& folder) : folder_(fs::absolute(folder
                     folder.string(), error.message()));
 }
 
-fs::path ExportFolder::claim(std::string_view name) {
+ExportPlace ExportFolder::claim(std::string_view name, ExportKind kind) {
   if (!is_file_name(name))
     throw Refused(400, "name",
                   fmt::format("{} is no name for a file: give one without folders that does not begin "
                               "with a point.",
                               one_line(name, 60)));
-  fs::path path = (folder_ / name).lexically_normal();
-  const std::scoped_lock lock(mutex_);
-  std::error_code error;
-  const bool is_there = fs::symlink_status(path, error).type() != fs::file_type::not_found;
-  if (is_there && !written_.contains(path))
+  return {*this, (folder_ / name).lexically_normal(), kind};
+}
+
+void ExportFolder::check(const fs::path& path, ExportKind kind) const {
+  struct stat now {};
+  if (::lstat(path.c_str(), &now) != 0) return;  // nothing stands there
+  const auto known = written_.find(path);
+  if (known == written_.end() || !is_same_and_unchanged(known->second, now))
     throw Refused(
         409, "exists",
         fmt::format("{} is there already and was not written by this view; give another name.", path.string()));
-  written_.insert(path);
-  return path;
+  if (S_ISDIR(now.st_mode) != (kind == ExportKind::folder))
+    throw Refused(409, "exists",
+                  fmt::format("{} is a {} of an earlier export; give another name.", path.string(),
+                              S_ISDIR(now.st_mode) ? "folder" : "file"));
 }
 
 fs::path ExportFolder::write(std::string_view name, std::string_view content) {
-  fs::path path = claim(name);
-  if (const int failed = write_whole_file(path, content))
-    throw Refused(507, "disk",
-                  fmt::format("{} cannot be written ({}).", path.string(), std::generic_category().message(failed)));
-  return path;
+  ExportPlace place = claim(name);
+  if (const int failed = write_whole_file(place.scratch(), content)) refuse_to_write(place.path(), failed);
+  place.publish();
+  return place.path();
+}
+
+ExportPlace::ExportPlace(ExportFolder& folder, fs::path path, ExportKind kind)
+    : folder_(folder), path_(std::move(path)), scratch_(scratch_beside(path_)), kind_(kind) {
+  const std::scoped_lock lock(folder_.mutex_);
+  folder_.check(path_, kind_);
+  if (!folder_.under_way_.insert(path_).second)
+    throw Refused(409, "exists", fmt::format("{} is being exported already.", path_.string()));
+}
+
+ExportPlace::~ExportPlace() {
+  std::error_code error;
+  fs::remove(scratch_, error);
+  const std::scoped_lock lock(folder_.mutex_);
+  folder_.under_way_.erase(path_);
+}
+
+void ExportPlace::check() const {
+  const std::scoped_lock lock(folder_.mutex_);
+  folder_.check(path_, kind_);
+}
+
+void ExportPlace::publish() {
+  check();
+  std::error_code error;
+  const bool is_new = !fs::exists(fs::symlink_status(path_, error));
+  const int failed = publish_file(scratch_, path_, is_new ? Older::keep : Older::replace);
+  if (failed == EEXIST) check();
+  if (failed) refuse_to_write(path_, failed);
+  keep();
+}
+
+void ExportPlace::keep() {
+  struct stat now {};
+  if (::lstat(path_.c_str(), &now) != 0) return;
+  const std::scoped_lock lock(folder_.mutex_);
+  folder_.written_.insert_or_assign(path_, now);
 }
 
 void Exports::add(std::string what, Export write) { exports_.insert_or_assign(std::move(what), std::move(write)); }
 
 void Exports::add_route(Router& router) {
   router.add(
-      "POST", "/api/export",
-      [this](const Request& request) {
-        const nlohmann::ordered_json wish = request.json();
-        const auto found = exports_.find(text_member(wish, "what"));
-        if (found == exports_.end()) throw Refused(400, "what", "\"what\" names nothing that can be exported.");
-        return json_answer({{"file", found->second(wish, folder_).string()}});
-      },
-      picture_body_limit);
+      "POST", "/api/export", [this](const Request& request) { return answer(request); }, picture_body_limit);
+}
+
+Answer Exports::answer(const Request& request) {
+  const nlohmann::ordered_json wish = request.json();
+  const auto found = exports_.find(text_member(wish, "what"));
+  if (found == exports_.end()) throw Refused(400, "what", "\"what\" names nothing that can be exported.");
+  const std::unique_ptr<std::atomic<int>, void (*)(std::atomic<int>*)> one_of_few(&under_way_,
+                                                                                  [](auto* count) { --*count; });
+  if (++under_way_ > most_exports)
+    throw Refused(503, "busy", "Several exports are being written already; wait for their end.");
+  return json_answer({{"file", found->second(wish, request, folder_).string()}});
 }
 
 }  // namespace rheocyte

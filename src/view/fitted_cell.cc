@@ -1,13 +1,11 @@
 #include "view/fitted_cell.h"
 
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <span>
 
 #include "infer/smooth_events.h"
-#include "shape/radius_modes.h"
 
 namespace rheocyte {
 
@@ -19,16 +17,6 @@ Eigen::MatrixX2d outline_about_centroid(const std::array<double, mode_count>& mo
   return outline;
 }
 
-double volume_of_revolution(const Eigen::MatrixX2d& outline) {
-  assert(outline.rows() % 2 == 0);
-  double sum = 0;  // of frusta
-  for (Eigen::Index i = 0; i < outline.rows() / 2; ++i) {
-    const double a = outline(i, 1), b = outline(i + 1, 1);
-    sum += (outline(i, 0) - outline(i + 1, 0)) * (a * a + a * b + b * b);
-  }
-  return std::numbers::pi / 3 * sum;
-}
-
 std::optional<FittedCell> fitted_cell(const ShapeMap& map, const MeasuringConditions& conditions, double area_um2,
                                       double deformation, int points) {
   SmoothEvents smooth;
@@ -36,9 +24,7 @@ std::optional<FittedCell> fitted_cell(const ShapeMap& map, const MeasuringCondit
   remove_pixels(conditions, map.origin().flow, {area, measured, {}}, smooth);
   const double log_area = smooth.log_area[0], true_deformation = smooth.deformation[0];
   if (!std::isfinite(log_area) || !(true_deformation > 0)) return std::nullopt;
-  std::array<double, mode_count> modes{};
-  for (int k = first_radius_mode; k <= last_radius_mode; ++k)
-    modes[std::size_t(k - min_mode)] = map.shapes().mode(k, log_area, true_deformation);
+  const auto modes = map.shapes().modes(log_area, true_deformation);
   FittedCell cell{std::exp(log_area) / scale_factors(conditions.flow, map.origin().flow).area, true_deformation, 0, {}};
   // Polygons of so many points are as good as the curve: 1e-5 of the radius.
   constexpr int fine = 1440;

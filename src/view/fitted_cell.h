@@ -26,8 +26,4 @@ Eigen::MatrixX2d outline_about_centroid(const std::array<double, mode_count>& mo
 std::optional<FittedCell> fitted_cell(const ShapeMap& map, const MeasuringConditions& conditions, double area_um2,
                                       double deformation, int points = 180);
 
-/// Volume of the body of revolution about the x-axis of a closed outline that is symmetric about it and starts at an
-/// angle of 0: that of its upper half.
-double volume_of_revolution(const Eigen::MatrixX2d& outline);
-
 }  // namespace rheocyte

@@ -1,5 +1,7 @@
 #include "view/http.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 #include "case/json_guard.h"
@@ -23,7 +25,12 @@ std::string Request::asked(std::string_view name, std::string_view otherwise) co
 
 nlohmann::ordered_json Request::json() const {
   nlohmann::ordered_json tree = parse_sound_json(body);
-  if (!tree.is_object()) throw Refused(400, "json", "The body of the request is not a JSON object.");
+  if (!tree.is_object())
+    throw Refused(
+        400, "json",
+        fmt::format("The body of the request is not a JSON object, or it nests deeper than {} levels or has more "
+                    "than {} keys in one object.",
+                    max_json_nesting, max_json_keys));
   return tree;
 }
 

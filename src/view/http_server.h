@@ -16,14 +16,16 @@ struct ServedPlace {
 /// Router and page must outlive it.
 class HttpServer {
  public:
-  /// Takes the port. UserError if it is in use, or the address is none of this machine.
+  /// Takes the port. UserError if it is in use or not allowed, or the address is none of this
+  /// machine; SystemLimit.
   HttpServer(const Router&, const Assets&, const ServedPlace&, const std::string& token);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  /// What a browser opens, with the token.
+  /// What a user opens in a browser, with the token, and what the browser is started with (Access::sign_in_once).
   std::string address() const;
+  std::string address_of_once() const;
   int port() const;
   /// Answers until stop() is called by another thread.
   void run();
@@ -31,8 +33,8 @@ class HttpServer {
   void stop();
 
  private:
-  class Library;
-  std::unique_ptr<Library> library_;
+  class Inside;
+  std::unique_ptr<Inside> inside_;
 };
 
 }  // namespace rheocyte

@@ -37,7 +37,7 @@ std::vector<fs::path> entries_of(const fs::path& folder, std::error_code& error)
   return entries;
 }
 
-void search(const fs::path& folder, std::vector<ItemPlace>& found) {
+void search(const fs::path& folder, Folders folders, std::vector<ItemPlace>& found) {
   std::error_code error;
   if (fs::is_regular_file(folder / "result.json", error)) {
     found.push_back({ItemKind::result, folder});
@@ -52,10 +52,11 @@ void search(const fs::path& folder, std::vector<ItemPlace>& found) {
     found.push_back({ItemKind::combined, folder});
     return;
   }
+  if (folders == Folders::as_they_are) return;
   for (const auto& entry : entries) {
     // A link to a folder may lead round in a circle.
     if (fs::is_directory(entry, error) && !fs::is_symlink(entry, error))
-      search(entry, found);
+      search(entry, folders, found);
     else if (entry.extension() == ".rtdc" && fs::is_regular_file(entry, error))
       found.push_back({ItemKind::recording, entry});
   }
@@ -71,14 +72,14 @@ void drop_companions(std::vector<ItemPlace>& found) {
       found, [&](const ItemPlace& place) { return place.kind == ItemKind::recording && !wanted.contains(place.path); });
 }
 
-std::vector<ItemPlace> places_of(const fs::path& path) {
+std::vector<ItemPlace> places_of(const fs::path& path, Folders folders) {
   std::error_code error;
   const std::string name = path.filename().string(), whole = one_line(path.string(), 300);
   if (!fs::exists(path, error))
     return {{kind_of_file(path), path, name, fmt::format("{}: there is no such file.", whole)}};
   if (!fs::is_directory(path, error)) return {{kind_of_file(path), path, name}};
   std::vector<ItemPlace> found;
-  search(path, found);
+  search(path, folders, found);
   drop_companions(found);
   if (found.empty())
     return {{ItemKind::recording, path, name,
@@ -100,11 +101,11 @@ std::string_view name_of(ItemKind kind) {
   }
 }
 
-std::vector<ItemPlace> item_places(std::span<const fs::path> paths) {
+std::vector<ItemPlace> item_places(std::span<const fs::path> paths, Folders folders) {
   std::vector<ItemPlace> places;
   std::set<fs::path> seen;
   for (const auto& path : paths)
-    for (auto& place : places_of((fs::absolute(path) / "").lexically_normal().parent_path()))
+    for (auto& place : places_of((fs::absolute(path) / "").lexically_normal().parent_path(), folders))
       if (seen.insert(place.path).second) places.push_back(std::move(place));
   return places;
 }

@@ -9,10 +9,12 @@
 #include "case/user_error.h"
 #include "extract/extract_recording.h"
 #include "extract/moduli_recording.h"
+#include "store/file_version.h"
 #include "view/describe_item.h"
 #include "view/event_inspector.h"
 #include "view/moduli_columns.h"
 #include "view/moduli_settings.h"
+#include "view/path_text.h"
 #include "view/recording_columns.h"
 #include "view/recording_lines.h"
 #include "view/recording_moduli.h"
@@ -26,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t block = std::size_t{1} << 16U;  // events; memory stays small however many there are
 
-fs::path path_in(const Json& request, const char* key) { return request.value(key, std::string()); }
+fs::path path_in(const Json& request, const char* key) { return path_of_text(request.value(key, std::string())); }
 
 /// An open recording with its companion, if something has been computed from it.
 struct OpenRecording {
@@ -68,6 +70,7 @@ void give_columns(const Json& request, const WorkReply& reply, const TellProgres
   // One line: it becomes the value of a header.
   reply.give(json_line({{"features", names},
                         {"events", columns.events()},
+                        {"version", request.value("version", "")},
                         {"type", type == NumberType::float64 ? "float64" : "float32"}}));
   for (const auto& name : names)
     for (std::size_t first = 0; first < columns.events(); first += block) {
@@ -97,7 +100,9 @@ void inspect_events(const Json& request, const WorkReply& reply, const TellProgr
   }
   EventInspector inspector({open.recording, open.computed(), combined ? &*combined : nullptr}, options, tables);
   while (const auto event = reply.next_request()) {
-    reply.give(json_text(inspector.inspect(std::stoul(*event))));
+    Json found = inspector.inspect(std::stoul(*event));
+    found["version"] = request.value("version", "");
+    reply.give(json_text(found));
     reply.end_answer();
   }
 }
@@ -133,6 +138,14 @@ void add_several_moduli(const Json& request, const ExtractOptions& options, cons
   }
 }
 
+/// The other files that the recording is read from, and what they are now.
+Json basins_of(const fs::path& file) {
+  const auto basins = Recording(file).files_of_basins();
+  Json names = Json::array();
+  for (const auto& basin : basins) names.push_back(basin.string());
+  return {{"basins", names}, {"version_of_basins", file_version(basins)}};
+}
+
 // The files are published here, as the command does: the process that reads may break.
 void compute_moduli(const Json& request, const WorkReply& reply) {
   const fs::path file = path_in(request, "file");
@@ -145,12 +158,14 @@ void compute_moduli(const Json& request, const WorkReply& reply) {
   // Several moduli take by far longer than one.
   const double share = path_in(request, "several").empty() ? 1 : 0.1;
   const auto work = [&](const TellProgress& tell) {
+    const Json basins = basins_of(file);
     const auto tell_first = [&](double done) { tell(share * done); };
     const auto tell_second = [&](double done) { tell(share + (1 - share) * done); };
     Json report = moduli_report(file, extract_recording(file, files, options, tables, tell_first));
     report["features"] = Json::array();
     for (const auto& column : computed_columns(Recording(files.companion()))) report["features"].push_back(column.name);
     add_several_moduli(request, options, tell_second, report);
+    report.update(basins);
     reply.give(json_text(report));
   };
   reply.run_contained(file, work);

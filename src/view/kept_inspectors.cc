@@ -1,14 +1,14 @@
 #include "view/kept_inspectors.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
+#include "store/file_version.h"
+#include "view/path_text.h"
 
 namespace rheocyte {
 
@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 /// Of different recordings; each holds its tables in memory.
 constexpr std::size_t most_kept = 2;
 
-/// What the process was begun with, and when the file was changed last.
+/// What the process was begun with: the recording as it is now ("version"), and its tables.
 std::string key_of(const Json& recording) {
-  std::error_code error;
-  const fs::path file = recording.value("file", std::string());
-  const auto changed = fs::last_write_time(file, error).time_since_epoch().count();
-  return fmt::format("{} {} {}", changed, fs::file_size(file, error), json_text(recording));
+  const std::array<fs::path, 2> tables{
+      path_of_text(recording.value("combined", std::string())),
+      path_of_text(recording.value("settings", Json::object()).value("table", std::string()))};
+  return json_text(recording) + file_version(tables);
 }
 
 }  // namespace

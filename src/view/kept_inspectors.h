@@ -18,8 +18,8 @@ class KeptInspectors {
   /// The host must outlive it.
   explicit KeptInspectors(const WorkHost& host) : host_(host) {}
 
-  /// The event as JSON. `recording` has what the process needs: "file", "companion", "settings"; one that was begun
-  /// with the same answers, if its file has not changed since. UserError of the work.
+  /// The event as JSON. `recording` has what the process needs: "file" and its "version", "companion", "settings",
+  /// "combined"; one that was begun with the same answers, if its tables have not changed since. UserError of the work.
   std::string inspect(const nlohmann::ordered_json& recording, std::size_t event);
 
  private:

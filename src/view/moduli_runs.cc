@@ -4,12 +4,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stop_token>
 #include <system_error>
+#include <thread>
+#include <vector>
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
+#include "store/file_version.h"
+#include "store/thread.h"
 #include "view/http.h"
 #include "view/moduli_settings.h"
+#include "view/path_text.h"
 
 namespace rheocyte {
 
@@ -32,13 +38,31 @@ struct ModuliRuns::Run {
   std::string command, command_several;
   fs::path companion, several;  ///< the latter empty without a combined table
 
-  mutable std::mutex mutex;  ///< of what follows
+  bool has_ended_well() const { return std::string_view(state) == "ready"; }
+  /// Only then what was computed may be used: it still belongs to the files.
+  bool is_ready() const { return has_ended_well() && file_version(files) == version; }
+  /// What the process says, or why it says nothing.
+  void end(Json said, const std::string& failure);
+
+  mutable std::mutex mutex;     ///< of what follows
+  std::vector<fs::path> files;  ///< the recording, tables, and once it has ended those of basins
+  std::string version;          ///< of the files, before they were read
   const char* state = "running";
   double done = 0;
   Json report = Json::object();
   std::string error;
-  std::jthread thread;
+  Thread thread;
 };
+
+void ModuliRuns::Run::end(Json said, const std::string& failure) {
+  state = failure.empty() ? "ready" : "failed";
+  error = failure;
+  if (failure.empty()) done = 1;
+  for (const Json& file : said.value("basins", Json::array())) files.emplace_back(file.get<std::string>());
+  version += said.value("version_of_basins", std::string());
+  for (const char* key : {"basins", "version_of_basins"}) said.erase(key);
+  report = std::move(said);
+}
 
 ModuliRuns::ModuliRuns(const ViewItems& items)
     : items_(items), free_processors_(std::max<int>(1, static_cast<int>(std::thread::hardware_concurrency()))) {}
@@ -60,17 +84,18 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options) {
   take_out(item);
   const std::scoped_lock lock(mutex_);
   const fs::path stem = items_.host().folder() / fmt::format("item-{}-{}", item, ++started_);
+  run->files = {found.place.path, options.table, combined};
   run->companion = stem.string() + "_rheocyte.rtdc";
   if (!combined.empty()) run->several = stem.string() + "_moduli.tsv";
   const Json request{{"do", "moduli"},
-                     {"file", found.place.path.string()},
+                     {"file", path_text(found.place.path)},
                      {"settings", run->settings},
-                     {"companion", run->companion.string()},
-                     {"combined", combined.string()},
-                     {"several", run->several.string()},
+                     {"companion", path_text(run->companion)},
+                     {"combined", path_text(combined)},
+                     {"several", path_text(run->several)},
                      {"keep", true}};
   run->thread =
-      std::jthread([this, &run = *run, request](const std::stop_token& stop) { compute(run, request, stop); });
+      Thread([this, &run = *run, request](const std::stop_token& stop) { compute(run, request, stop); }, small_stack);
   runs_[item] = run;
 }
 
@@ -80,6 +105,7 @@ void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& s
   Json report = Json::object();
   std::string error;
   try {
+    run.version = file_version(run.files);
     HostedWork work = items_.host().ask(json_text(request));
     const std::stop_callback at_end(stop, [&work] { work.stop(); });
     report = parse_sound_json(work.all([&run](double done) {
@@ -91,17 +117,14 @@ void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& s
   }
   free_processors_.release();
   const std::scoped_lock lock(run.mutex);
-  run.state = error.empty() ? "ready" : "failed";
-  run.error = error;
-  run.report = std::move(report);
-  if (error.empty()) run.done = 1;
+  run.end(std::move(report), error);
 }
 
 Json ModuliRuns::kept() const {
   Json all = Json::array();
   for (std::size_t item = 0; item < items_.count(); ++item)
     if (const auto run = run_of(item))
-      all.push_back({{"path", items_.at(item).place.path.string()}, {"settings", run->settings}});
+      all.push_back({{"path", path_text(items_.at(item).place.path)}, {"settings", run->settings}});
   return all;
 }
 
@@ -112,7 +135,8 @@ void ModuliRuns::restore(const Json& kept) {
       throw UserError("Moduli of the session have no path or no settings.");
     for (std::size_t item = 0; item < items_.count(); ++item) {
       const ItemPlace place = items_.at(item).place;
-      if (place.path == one["path"].get<std::string>() && place.kind == ItemKind::recording && place.error.empty())
+      if (place.path == path_of_text(one["path"].get<std::string>()) && place.kind == ItemKind::recording &&
+          place.error.empty())
         begin(item, options_of_settings(one["settings"]));
     }
   }
@@ -143,6 +167,11 @@ Json ModuliRuns::state(std::size_t item) const {
   const std::scoped_lock lock(run->mutex);
   Json state{{"state", run->state}, {"done", run->done}, {"settings", run->settings}, {"command", run->command}};
   if (!run->command_several.empty()) state["command_several"] = run->command_several;
+  if (run->has_ended_well() && !run->is_ready()) {
+    state["state"] = "failed";
+    state["error"] = "The recording or its table has changed since its moduli were computed; compute them again.";
+    return state;
+  }
   if (!run->error.empty()) state["error"] = run->error;
   state.update(run->report);
   return state;
@@ -157,7 +186,7 @@ fs::path ModuliRuns::companion(std::size_t item) const {
   const auto run = run_of(item);
   if (!run) return {};
   const std::scoped_lock lock(run->mutex);
-  return std::string_view(run->state) == "ready" ? run->companion : fs::path();
+  return run->is_ready() ? run->companion : fs::path();
 }
 
 fs::path ModuliRuns::several(std::size_t item) const {
@@ -171,14 +200,14 @@ Json ModuliRuns::counts(std::size_t item) const {
   const auto run = run_of(item);
   if (!run) return Json::object();
   const std::scoped_lock lock(run->mutex);
-  return run->report.value("counts", Json::object());
+  return run->is_ready() ? run->report.value("counts", Json::object()) : Json::object();
 }
 
 Json ModuliRuns::features(std::size_t item) const {
   const auto run = run_of(item);
   if (!run) return Json::array();
   const std::scoped_lock lock(run->mutex);
-  return run->report.value("features", Json::array());
+  return run->is_ready() ? run->report.value("features", Json::array()) : Json::array();
 }
 
 }  // namespace rheocyte

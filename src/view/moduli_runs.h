@@ -7,8 +7,8 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <semaphore>
+#include <stop_token>
 #include <string>
-#include <thread>
 
 #include "view/view_items.h"
 
@@ -32,7 +32,7 @@ class ModuliRuns {
   /// Nothing is left of a run.
   void stop(std::size_t item);
   /// {"state": "none|running|ready|failed", "done": 0..1, "settings", "command"}, then "summary", "lines", "features",
-  /// or "error".
+  /// or "error". Moduli of files that have changed since they were read have failed, here and in all that follows.
   nlohmann::ordered_json state(std::size_t item) const;
 
   /// What the moduli of an item were computed with, or would be; see all_settings.

@@ -10,8 +10,10 @@
 
 #include "case/case_keys.h"
 #include "case/user_error.h"
+#include "extract/polygon_file.h"
 #include "extract/shipped_tables.h"
 #include "synth/synth_keys.h"
+#include "view/path_text.h"
 
 namespace rheocyte {
 
@@ -103,6 +105,7 @@ struct FromJson {
     if (!value.is_array()) refuse(setting, "a list of texts");
     for (const Json& one : value) {
       if (!one.is_string()) refuse(setting, "a list of texts");
+      if (is_polygon_file(one.get_ref<const std::string&>())) refuse(setting, "features and corners, not a file");
       texts.push_back(one.get<std::string>());
     }
   }
@@ -164,7 +167,7 @@ struct ToCommand {
 };
 
 std::string named_table(const Json& table, const TableItem& table_item) {
-  if (table.is_number_integer() && table >= 0) return table_item(table.get<std::size_t>()).string();
+  if (table.is_number_integer() && table >= 0) return path_text(table_item(table.get<std::size_t>()));
   const auto shipped = shipped_tables();
   std::string names;
   for (const auto& [identifier, file] : shipped) names += (names.empty() ? "" : ", ") + identifier;
@@ -187,6 +190,7 @@ ExtractOptions options_of_settings(const Json& settings) {
     if (setting == all().end()) throw UserError(fmt::format("There is no setting {}.", one_line(name, 60)));
     if (!value.is_null()) visit(*setting, options, FromJson{*setting, value});
   }
+  options.table = path_of_text(options.table).string();
   check_measuring_options(options.measuring);
   return options;
 }
@@ -199,7 +203,9 @@ ExtractOptions extract_options(const Json& settings, const TableItem& table_item
   return options_of_settings(resolved);
 }
 
-Json all_settings(const ExtractOptions& options) {
+Json all_settings(const ExtractOptions& given) {
+  ExtractOptions options = given;
+  options.table = path_text(given.table);
   Json tree = Json::object();
   for (const Setting& setting : all()) visit(setting, options, ToJson{setting.name, tree});
   return tree;

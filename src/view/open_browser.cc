@@ -6,10 +6,7 @@
 #include <unistd.h>
 
 #include <array>
-#include <thread>
 #include <utility>
-
-#include "store/child_process.h"
 
 namespace rheocyte {
 
@@ -35,14 +32,18 @@ pid_t start_alone(const char* program, const std::string& argument) {
 
 }  // namespace
 
-void open_browser(const std::string& address, std::function<void()> fail) {
-  const pid_t child = start_alone("xdg-open", address);
-  if (child < 0) return fail();
+StartedBrowser::StartedBrowser(const std::string& address) : child_(start_alone("xdg-open", address)) {
+  has_failed_ = child_ < 0;
+}
+
+bool StartedBrowser::has_just_failed() {
+  int status = 0;
   // Some browsers stay in the foreground: only the end of the process tells how it went.
-  std::thread([child, fail = std::move(fail)] {
-    const int status = wait_for(child);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail();
-  }).detach();
+  if (child_ > 0 && ::waitpid(child_, &status, WNOHANG) == child_) {
+    child_ = -1;
+    has_failed_ = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+  }
+  return std::exchange(has_failed_, false);
 }
 
 }  // namespace rheocyte

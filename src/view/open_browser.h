@@ -1,12 +1,21 @@
-// The browser of the desktop.
+// The user's browser.
 #pragma once
-#include <functional>
+#include <sys/types.h>
+
 #include <string>
 
 namespace rheocyte {
 
-/// Opens the address by xdg-open, in a process that outlives this one. `fail` is called, by a thread of its own, if
-/// there is no such program or it finds no browser.
-void open_browser(const std::string& address, std::function<void()> fail);
+/// Opened by the desktop's own means (xdg-open), which other users see in the list of processes with the address.
+class StartedBrowser {
+ public:
+  explicit StartedBrowser(const std::string& address);
+  /// True once, when no browser could be opened. To be asked now and then.
+  bool has_just_failed();
+
+ private:
+  pid_t child_;
+  bool has_failed_ = false;
+};
 
 }  // namespace rheocyte

@@ -18,8 +18,29 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "columns are handed on as they lie in memory");
 
 // Moduli of a companion that somebody opens as a recording are features like any other.
-constexpr std::array roles{"state",        "standard error", "young_modulus_asymmetry", "standard error asymmetry",
-                           "shape_excess", "odd_share"};
+constexpr std::array roles{"state",
+                           "standard error",
+                           "young_modulus_asymmetry",
+                           "standard error asymmetry",
+                           "systematic error asymmetry",
+                           "shape_excess",
+                           "odd_share"};
+
+constexpr std::string_view modulus_name = "emodulus";
+
+/// Of which event of a basin each event is the copy: no property of a cell.
+bool is_basin_mapping(const std::string& name) { return name.starts_with("basinmap"); }
+
+/// A stored modulus keeps apart from those that are computed here: it has another table, or another law.
+std::string name_of_stored(const std::string& feature) {
+  return feature == modulus_name ? std::string(stored_modulus_name) : feature;
+}
+
+/// What a name stands for in the file; an empty one for the modulus, which is the computed one or none.
+std::string stored_feature(const std::string& name) {
+  if (name == stored_modulus_name) return std::string(modulus_name);
+  return name == modulus_name ? "" : name;
+}
 
 std::string as_name(std::string role) {
   std::ranges::replace(role, ' ', '_');
@@ -62,9 +83,9 @@ RecordingColumns::RecordingColumns(const Recording& recording, const ComputedFil
 }
 
 std::vector<std::string> RecordingColumns::names() const {
-  std::vector<std::string> names = recording_.scalar_names();
-  for (const char* implied : {"area_um", "deform", "area_ratio"})
-    if (features_ && features_->has(implied) && !recording_.has_scalar(implied)) names.emplace_back(implied);
+  std::vector<std::string> names = features_ ? features_->names() : recording_.scalar_names();
+  std::erase_if(names, is_basin_mapping);
+  std::ranges::transform(names, names.begin(), name_of_stored);
   std::ranges::sort(names);
   std::erase_if(names, [this](const std::string& name) { return computed(name) || has_modulus(name); });
   for (const auto& column : computed_) names.push_back(column.name);
@@ -75,7 +96,9 @@ std::vector<std::string> RecordingColumns::names() const {
 bool RecordingColumns::has_modulus(const std::string& name) const { return files_.moduli && files_.moduli->has(name); }
 
 bool RecordingColumns::has(const std::string& name) const {
-  return computed(name) || has_modulus(name) || (features_ ? features_->has(name) : recording_.has_scalar(name));
+  if (computed(name) || has_modulus(name)) return true;
+  const std::string feature = stored_feature(name);
+  return features_ ? features_->has(feature) : recording_.has_scalar(feature);
 }
 
 const std::string* RecordingColumns::computed(const std::string& name) const {
@@ -87,8 +110,8 @@ void RecordingColumns::read(const std::string& name, std::size_t first, std::spa
   if (const std::string* feature = computed(name)) return files_.companion->read_scalar(*feature, first, values);
   if (has_modulus(name)) return files_.moduli->read(name, first, values);
   if (!has(name)) refuse_path(recording_.file(), fmt::format("has no feature {}.", one_line(name, 60)));
-  if (features_) return features_->read(name, first, values);
-  recording_.read_scalar(name, first, values);
+  if (features_) return features_->read(stored_feature(name), first, values);
+  recording_.read_scalar(stored_feature(name), first, values);
 }
 
 void append_numbers(std::span<const double> values, NumberType type, std::string& bytes) {

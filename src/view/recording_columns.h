@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "measurement/event_features.h"
@@ -18,8 +19,12 @@ struct ComputedColumn {
   std::string name, feature;
 };
 
+/// What a recording's own emodulus is called here: that of another program, or of a companion that is opened as a
+/// recording. "emodulus" is the computed one alone.
+inline constexpr std::string_view stored_modulus_name = "emodulus_stored";
+
 /// Of a companion: emodulus, and what its metadata tells of userdef0 to userdef9: state, standard_error,
-/// young_modulus_asymmetry, standard_error_asymmetry, shape_excess, odd_share.
+/// young_modulus_asymmetry, standard_error_asymmetry, systematic_error_asymmetry, shape_excess, odd_share.
 std::vector<ComputedColumn> computed_columns(const Recording& companion);
 
 /// What has been computed from a recording; null: nothing.
@@ -34,7 +39,7 @@ class RecordingColumns {
   explicit RecordingColumns(const Recording& recording, const ComputedFiles& files = {});
 
   std::size_t events() const { return recording_.events(); }
-  /// In the order of the alphabet, the computed ones at the end.
+  /// In the order of the alphabet, the computed ones at the end; without the numbers of events in basins.
   std::vector<std::string> names() const;
   bool has(const std::string& name) const;
   /// Values of events [first, first + values.size()), NaN where there is none. UserError naming what the recording does

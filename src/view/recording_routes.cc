@@ -9,7 +9,9 @@
 #include "case/json_guard.h"
 #include "case/split.h"
 #include "case/user_error.h"
+#include "store/file_version.h"
 #include "view/moduli_runs.h"
+#include "view/path_text.h"
 #include "view/view_items.h"
 
 namespace rheocyte {
@@ -35,7 +37,7 @@ class PassingFolder {
   }
   PassingFolder(const PassingFolder&) = delete;
   PassingFolder& operator=(const PassingFolder&) = delete;
-  std::string operator/(const char* name) const { return (path_ / name).string(); }
+  std::string operator/(const char* name) const { return path_text(path_ / name); }
 
  private:
   fs::path path_;
@@ -78,7 +80,7 @@ class RecordingAnswers {
       throw Refused(400, "input", "features names the columns, one to 64 of them, with commas between them.");
     if (type != "float32" && type != "float64") throw Refused(400, "input", "type is float32 or float64.");
     const auto work =
-        std::make_shared<HostedWork>(ask(request, {{"do", "columns"}, {"features", features}, {"type", type}}));
+        std::make_shared<HostedWork>(ask_of_item(request, {{"do", "columns"}, {"features", features}, {"type", type}}));
     std::string head;
     work->read([&head](std::string_view piece) {
       head = piece;
@@ -93,7 +95,7 @@ class RecordingAnswers {
 
   Answer event(const Request& request) {
     Json recording = recording_in(request);
-    recording["combined"] = items_.combined().string();
+    recording["combined"] = path_text(items_.combined());
     return {.body = items_.inspectors().inspect(recording, request.number("event"))};
   }
 
@@ -102,12 +104,12 @@ class RecordingAnswers {
     if (std::ranges::find(pictures, Json(feature)) == pictures.end())
       throw Refused(404, "unknown", "The recording holds no pictures of the kind " + feature + ".");
     const Json wanted{{"do", "picture"}, {"event", request.number("event")}, {"picture", feature}};
-    return {.type = "image/png", .body = ask(request, wanted).all()};
+    return {.type = "image/png", .body = ask_of_item(request, wanted).all()};
   }
 
   Answer lines(const Request& request) const {
     const Json wanted{{"do", "lines"}, {"x", request.asked("x", "area_um")}, {"y", request.asked("y", "deform")}};
-    return {.body = ask(request, wanted).all()};
+    return {.body = ask_of_item(request, wanted).all()};
   }
 
   Answer start_moduli(const Request& request) {
@@ -126,40 +128,50 @@ class RecordingAnswers {
   void restore_moduli(const Json& kept) { runs_.restore(kept); }
 
   /// With the settings of the item's moduli, as `rheocyte extract` writes the file.
-  fs::path write_companion(const Json& request, ExportFolder& folder) const {
-    const Json wanted = export_request(request);
-    fs::path place = folder.claim(file_name(request, ".rtdc"));
-    write(wanted, {{"companion", place.string()}});
-    return place;
+  fs::path write_companion(const Json& wish, const Request& request, ExportFolder& folder) const {
+    Json wanted = export_request(wish);
+    ExportPlace place = folder.claim(file_name(wish, ".rtdc"));
+    wanted["companion"] = path_text(place.scratch());
+    static_cast<void>(ask(request, wanted).all());
+    place.publish();
+    return place.path();
   }
 
-  fs::path write_events(const Json& request, ExportFolder& folder) const {
-    const Json wanted = export_request(request);
-    fs::path place = folder.claim(file_name(request, ".tsv"));
+  fs::path write_events(const Json& wish, const Request& request, ExportFolder& folder) const {
+    Json wanted = export_request(wish);
+    ExportPlace place = folder.claim(file_name(wish, ".tsv"));
     const PassingFolder passing(items_.host());
-    Json places{{"companion", passing / "companion.rtdc"}};
-    if (wanted.contains("gate")) {
-      places["events"] = passing / "events.tsv";
-      places["events_of_gate"] = place.string();
-    } else {
-      places["events"] = place.string();
-    }
-    write(wanted, places);
-    return place;
+    wanted["companion"] = passing / "companion.rtdc";
+    wanted["events"] = passing / "events.tsv";
+    const bool is_gated = wanted.contains("gate");
+    if (!is_gated) wanted["events"] = path_text(place.scratch());
+    if (is_gated) wanted["events_of_gate"] = path_text(place.scratch());
+    static_cast<void>(ask(request, wanted).all());
+    place.publish();
+    return place.path();
   }
 
  private:
   /// The work on the item of a request, with what has been computed from it.
-  HostedWork ask(const Request& request, Json wanted) const {
+  HostedWork ask_of_item(const Request& request, Json wanted) const {
     wanted.update(recording_in(request));
-    return items_.host().ask(json_text(wanted));
+    return ask(request, wanted);
+  }
+
+  /// Ends once the client of the request has left.
+  HostedWork ask(const Request& request, const Json& wanted) const {
+    HostedWork work = items_.host().ask(json_text(wanted));
+    work.only_while([client = request.client] { return !client || !client->has_left(); });
+    return work;
   }
 
   Json recording_in(const Request& request) const {
     const std::size_t number = request.number("item");
-    return {{"file", items_.recording(number).place.path.string()},
-            {"companion", runs_.companion(number).string()},
-            {"several", runs_.several(number).string()},
+    const auto found = items_.recording(number);
+    return {{"file", path_text(found.place.path)},
+            {"version", file_version(found.files)},
+            {"companion", path_text(runs_.companion(number))},
+            {"several", path_text(runs_.several(number))},
             {"settings", runs_.settings(number)}};
   }
 
@@ -167,8 +179,10 @@ class RecordingAnswers {
     if (!request.contains("item") || !request["item"].is_number_unsigned())
       throw Refused(400, "input", "item is the number of a recording.");
     const std::size_t number = request["item"];
-    Json wanted{
-        {"do", "moduli"}, {"file", items_.recording(number).place.path.string()}, {"settings", runs_.settings(number)}};
+    const auto found = items_.recording(number);
+    if (request.contains("version") && request["version"] != file_version(found.files))
+      throw Refused(409, "changed", "The recording has changed since its events were read; read them again.");
+    Json wanted{{"do", "moduli"}, {"file", path_text(found.place.path)}, {"settings", runs_.settings(number)}};
     if (!request.contains("gate") || request["gate"].is_null()) return wanted;
     const Json& gate = request["gate"];
     if (!gate.is_array() || !std::ranges::all_of(gate, [](const Json& one) { return one.is_number_unsigned(); }))
@@ -182,11 +196,6 @@ class RecordingAnswers {
     if (!name.is_string() || !name.get<std::string>().ends_with(ending))
       throw Refused(400, "input", "name is that of a file that ends in " + std::string(ending) + ".");
     return name.get<std::string>();
-  }
-
-  void write(Json wanted, const Json& places) const {
-    wanted.update(places);
-    static_cast<void>(items_.host().ask(json_text(wanted)).all());
   }
 
   ViewItems& items_;
@@ -212,11 +221,12 @@ void add_recording_routes(Router& router, Exports& exports, ViewSession& session
   add("POST", "/api/items/{item}/moduli", &RecordingAnswers::start_moduli);
   add("GET", "/api/items/{item}/moduli", &RecordingAnswers::moduli);
   add("DELETE", "/api/items/{item}/moduli", &RecordingAnswers::stop_moduli);
-  exports.add("companion", [answers](const Json& request, ExportFolder& folder) {
-    return answers->write_companion(request, folder);
+  exports.add("companion", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
+    return answers->write_companion(wish, request, folder);
   });
-  exports.add("events",
-              [answers](const Json& request, ExportFolder& folder) { return answers->write_events(request, folder); });
+  exports.add("events", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
+    return answers->write_events(wish, request, folder);
+  });
   session.add({"items", [&items] { return items.kept(); }, [&items](const Json& kept) { items.restore(kept); }});
   session.add({"moduli", [answers] { return answers->kept_moduli(); },
                [answers](const Json& kept) { answers->restore_moduli(kept); }});

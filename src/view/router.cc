@@ -7,6 +7,7 @@
 #include "case/key_value.h"
 #include "case/split.h"
 #include "case/user_error.h"
+#include "store/system_limit.h"
 
 namespace rheocyte {
 
@@ -57,6 +58,8 @@ Answer Router::answer(Request request) const {
     return refusal(refused.status, refused.reason, refused.what());
   } catch (const KeyError& error) {
     return json_answer({{"error", error.what()}, {"reason", "case"}, {"key", error.key}}, 400);
+  } catch (const SystemLimit& limit) {
+    return refusal(503, "limit", limit.what());
   } catch (const UserError& error) {
     return refusal(400, "input", error.what());
   } catch (const std::bad_alloc&) {

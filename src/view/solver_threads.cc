@@ -1,6 +1,7 @@
 #include "view/solver_threads.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace rheocyte {
 
@@ -11,17 +12,14 @@ constexpr std::size_t most_streams = 8;
 
 }  // namespace
 
-SolverThreads::SolverThreads(int threads, std::size_t session_bytes) : session_bytes_(session_bytes) {
-  const std::scoped_lock lock(mutex_);  // the first threads begin before the last ones are listed
-  for (int i = 0; i < threads; ++i) {
-    Worker& worker = workers_.emplace_back();
-    worker.thread = std::thread([this, &worker] { work(worker); });
-  }
+SolverThreads::SolverThreads(int threads, std::size_t session_bytes)
+    : session_bytes_(session_bytes), workers_(static_cast<std::size_t>(threads)) {
+  threads_ = start_threads(threads, [this](int number) { work(*std::next(workers_.begin(), number)); });
 }
 
 SolverThreads::~SolverThreads() {
   stop();
-  for (Worker& worker : workers_) worker.thread.join();
+  threads_.clear();  // joins
 }
 
 void SolverThreads::stop() {

@@ -8,10 +8,10 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "solve/session.h"
+#include "store/thread.h"
 #include "view/http.h"
 
 namespace rheocyte {
@@ -33,6 +33,7 @@ struct SolverJob {
 /// Called by the threads of connections.
 class SolverThreads {
  public:
+  /// As many as the system gives, at least one: SystemLimit.
   SolverThreads(int threads, std::size_t session_bytes);
   ~SolverThreads();
   SolverThreads(const SolverThreads&) = delete;
@@ -58,7 +59,6 @@ class SolverThreads {
   struct Worker {
     std::list<std::string> streams = {};  ///< of its latest jobs, unless another thread has had a later one
     Task* now = nullptr;
-    std::thread thread = {};
   };
 
   void work(Worker&);
@@ -73,6 +73,7 @@ class SolverThreads {
   std::list<Task*> waiting_;
   std::list<Worker> workers_;
   bool is_over_ = false;
+  std::vector<Thread> threads_;
 };
 
 }  // namespace rheocyte

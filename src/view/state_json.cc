@@ -15,7 +15,7 @@
 #include "duct/duct_symmetry.h"
 #include "shape/convex_hull.h"
 #include "shape/curve.h"
-#include "view/base64.h"
+#include "store/base64.h"
 
 namespace rheocyte {
 

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <thread>
 #include <utility>
 
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
+#include "store/thread.h"
 #include "view/access.h"
 #include "view/cell_routes.h"
 #include "view/declarations.h"
@@ -43,9 +45,17 @@ void announce(const HttpServer& server, const ViewOptions& options) {
     tell(
         "rheocyte view: whoever reaches this address and knows the token can compute here and write into the output "
         "folder; the connection is not encrypted.");
-  if (options.opens_browser)
-    open_browser(server.address(),
-                 [] { tell("rheocyte view: no browser could be opened; open the address above in one."); });
+}
+
+/// Until the user wants a stop.
+void wait_beside(const HttpServer& server, const ViewOptions& options) {
+  std::optional<StartedBrowser> browser;
+  if (options.opens_browser) browser.emplace(server.address_of_once());
+  while (!stop_wanted()) {
+    if (browser && browser->has_just_failed())
+      tell("rheocyte view: no browser could be opened; open the address above in one.");
+    std::this_thread::sleep_for(look_for_signals);
+  }
 }
 
 }  // namespace
@@ -68,9 +78,9 @@ void serve_view(const ViewOptions& options) {
   HttpServer server(router, assets, options.place, new_token());
   watch_signals();
   for (const auto& sentence : items.missing()) tell("rheocyte view: " + sentence);
-  std::thread thread([&] { server.run(); });
+  Thread thread([&](const std::stop_token&) { server.run(); }, small_stack);
   announce(server, options);
-  while (!stop_wanted()) std::this_thread::sleep_for(look_for_signals);
+  wait_beside(server, options);
   server.stop();
   thread.join();
 }

@@ -8,8 +8,10 @@
 #include "case/json_guard.h"
 #include "case/user_error.h"
 #include "extract/modulus_tables.h"
+#include "store/file_version.h"
 #include "view/http.h"
 #include "view/item_work.h"
+#include "view/path_text.h"
 
 namespace rheocyte {
 
@@ -27,8 +29,19 @@ std::string label_in(const Json& labels, const char* name, const std::string& be
   return one_line(labels[name].get<std::string>(), longest_label);
 }
 
+/// The files of basins are for us, not for the page.
+void take_basins(ViewItems::Item& item) {
+  if (!item.description.contains("basins")) return;
+  for (const Json& file : item.description["basins"]) {
+    item.files.emplace_back(file.get<std::string>());
+    item.version += file_version(item.files.back());
+  }
+  item.description.erase("basins");
+}
+
 ViewItems::Item new_item(ItemPlace place) {
   ViewItems::Item item{std::move(place)};
+  item.files = {item.place.kind == ItemKind::result ? item.place.path / "result.json" : item.place.path};
   if (item.place.error.empty()) return item;
   item.state = ViewItems::State::failed;
   item.error = item.place.error;
@@ -39,7 +52,7 @@ ViewItems::Item new_item(ItemPlace place) {
 
 ViewItems::ViewItems(std::span<const fs::path> paths) : host_(do_item_work) {
   for (auto& place : item_places(paths)) items_.push_back(new_item(std::move(place)));
-  reader_ = std::jthread([this](const std::stop_token& stop) { describe_all(stop); });
+  reader_ = Thread([this](const std::stop_token& stop) { describe_all(stop); }, small_stack);
 }
 
 ViewItems::~ViewItems() = default;
@@ -61,37 +74,42 @@ void ViewItems::describe_all(const std::stop_token& stop) {
 }
 
 void ViewItems::describe(std::size_t number, const std::stop_token& stop) {
-  const ItemPlace place = at(number).place;
-  State state = State::ready;
-  std::string error;
-  Json description;
+  Item item = at(number);
+  const ItemPlace& place = item.place;
+  item.state = State::ready;
+  item.error.clear();
+  item.files.resize(1);
+  item.version = file_version(item.files);  // before it is read
   try {
-    const Json request{{"do", "describe"}, {"kind", name_of(place.kind)}, {"file", place.path.string()}};
+    const Json request{{"do", "describe"}, {"kind", name_of(place.kind)}, {"file", path_text(place.path)}};
     HostedWork work = host_.ask(json_text(request));
     const std::stop_callback at_end(stop, [&work] { work.stop(); });
-    description = parse_sound_json(work.all());
+    item.description = parse_sound_json(work.all());
+    take_basins(item);
   } catch (const UserError& reason) {
-    state = State::failed;
-    error = reason.what();
+    item.state = State::failed;
+    item.error = reason.what();
+    item.description = Json();
   }
   const std::scoped_lock lock(mutex_);
-  Item& item = items_[number];
-  item.state = state;
-  item.error = error;
-  item.description = std::move(description);
+  item.condition = items_[number].condition;  // may have been named meanwhile
+  item.replicate = items_[number].replicate;
+  items_[number] = std::move(item);
 }
 
 void ViewItems::look_after(std::size_t number) {
+  const Item before = at(number);
   std::error_code error;
-  const bool is_there = fs::exists(at(number).place.path, error);
+  const bool is_there = fs::exists(before.place.path, error);
+  const std::string version = file_version(before.files);
   const std::scoped_lock lock(mutex_);
   Item& item = items_[number];
-  if (!item.place.error.empty() || item.state == State::loading) return;
+  if (!item.place.error.empty() || item.state == State::loading || item.files != before.files) return;
   const std::string vanished = one_line(item.place.path.string(), 300) + ": is no longer there.";
   if (!is_there) {
     item.state = State::failed;
     item.error = vanished;
-  } else if (item.error == vanished) {
+  } else if (item.error == vanished || item.version != version) {
     item.state = State::loading;
     added_.notify_all();
   }
@@ -159,7 +177,7 @@ Json ViewItems::kept() const {
   const std::scoped_lock lock(mutex_);
   Json all = Json::array();
   for (const Item& item : items_)
-    all.push_back({{"path", item.place.path.string()}, {"condition", item.condition}, {"replicate", item.replicate}});
+    all.push_back({{"path", path_text(item.place.path)}, {"condition", item.condition}, {"replicate", item.replicate}});
   return all;
 }
 
@@ -168,8 +186,8 @@ void ViewItems::restore(const Json& kept) {
   for (const Json& one : kept) {
     if (!one.is_object() || !one.contains("path") || !one["path"].is_string())
       throw UserError("An item of the session has no path.");
-    const std::array<fs::path, 1> path{fs::path(one["path"].get<std::string>())};
-    for (auto& place : item_places(path)) {
+    const std::array<fs::path, 1> path{path_of_text(one["path"].get<std::string>())};
+    for (auto& place : item_places(path, Folders::as_they_are)) {
       const std::scoped_lock lock(mutex_);
       auto found = std::ranges::find(items_, place.path, [](const Item& item) { return item.place.path; });
       if (found == items_.end()) found = items_.insert(items_.end(), new_item(std::move(place)));
@@ -188,6 +206,7 @@ Json summary_of(std::size_t number, const ViewItems::Item& item) {
                {"condition", item.condition},
                {"replicate", item.replicate}};
   if (!item.error.empty()) summary["error"] = item.error;
+  if (!item.version.empty()) summary["version"] = item.version;
   for (const char* key : {"events", "conditions"})
     if (item.description.contains(key)) summary[key] = item.description[key];
   return summary;

@@ -6,10 +6,11 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "store/thread.h"
 #include "store/work_host.h"
 #include "view/item_places.h"
 #include "view/kept_inspectors.h"
@@ -32,9 +33,11 @@ class ViewItems {
     std::string error = {};
     nlohmann::ordered_json description = {};  ///< see describe_item
     std::string condition = {}, replicate = {};
+    std::vector<std::filesystem::path> files = {};  ///< what is read of it: its own, and those of its basins
+    std::string version = {};                       ///< of the files, when they were described
   };
 
-  /// Items that have vanished, or come back, are noticed here.
+  /// Items that have vanished, come back or changed are noticed here, and described anew.
   nlohmann::ordered_json list();
   std::size_t count() const;
   /// What is wrong with places that cannot be read, one sentence each.
@@ -67,11 +70,11 @@ class ViewItems {
   mutable std::mutex mutex_;
   std::condition_variable_any added_;
   std::vector<Item> items_;
-  std::jthread reader_;
+  Thread reader_;
 };
 
-/// {"item", "kind", "name", "state", "error", "events", "conditions", "condition", "replicate"}, what is not known is
-/// left out.
+/// {"item", "kind", "name", "state", "error", "version", "events", "conditions", "condition", "replicate"}, what is not
+/// known is left out.
 nlohmann::ordered_json summary_of(std::size_t number, const ViewItems::Item&);
 
 }  // namespace rheocyte

@@ -1,13 +1,13 @@
 #include "view/view_session.h"
 
 #include <algorithm>
-#include <fstream>
 #include <string_view>
 
 #include "case/case_text.h"
 #include "case/given_keys.h"
 #include "case/json_guard.h"
 #include "case/user_error.h"
+#include "store/read_file.h"
 #include "view/json_member.h"
 
 namespace rheocyte {
@@ -34,13 +34,7 @@ std::string as_literal(const std::string& name, const Json& tree) {
 
 }  // namespace
 
-bool ViewSession::is_session(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return false;
-  std::ifstream stream(file);
-  std::string line;
-  return std::getline(stream, line) && opening.starts_with(line) && !line.empty();
-}
+bool ViewSession::is_session(const std::filesystem::path& file) { return first_bytes(file, opening.size()) == opening; }
 
 void ViewSession::add(SessionPart part) { parts_.push_back(std::move(part)); }
 
@@ -80,7 +74,7 @@ void ViewSession::add_routes(Router& router, Exports& exports) {
     page_ = tree[page_key];
     return json_answer(Json::object());
   });
-  exports.add("session", [this](const Json& wish, ExportFolder& folder) {
+  exports.add("session", [this](const Json& wish, const Request&, ExportFolder& folder) {
     return folder.write(text_member(wish, "name", "session.toml"), text());
   });
 }

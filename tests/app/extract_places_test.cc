@@ -61,6 +61,28 @@ TEST_F(ExtractPlaces, FoldersWithoutResultsAreNotLeftBehind) {
   EXPECT_TRUE(fs::exists(folder_ / "out/day2/good_rheocyte.rtdc"));
 }
 
+TEST_F(ExtractPlaces, ForARecordingThatIsNotThereNothingIsMade) {
+  expect_refusal({path("nofolder/sub/M1.rtdc")}, "M1.rtdc: there is no such file.");
+  EXPECT_FALSE(fs::exists(folder_ / "nofolder"));
+  const auto address = test::run({{RHEOCYTE, "extract", "https://host/a/b?id=1"}, {}, -1, folder_ / ""});
+  EXPECT_EQ(address.exit_code, 2);
+  EXPECT_NE(address.err.find("is an address on a network; download the recording"), std::string::npos) << address.err;
+  EXPECT_FALSE(fs::exists(folder_ / "https:"));
+  EXPECT_FALSE(fs::exists(folder_ / "rheocyte_summary.tsv"));
+}
+
+TEST_F(ExtractPlaces, AFileWhoseNameLooksLikeAnOptionIsToldTheWayOut) {
+  write_recording("-M1.rtdc");
+  const auto run_here = [&](const std::string& file) {
+    return test::run({{RHEOCYTE, "extract", file, "--table", path("table.txt")}, {}, -1, folder_ / ""});
+  };
+  const auto refused = run_here("-M1.rtdc");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("the file -M1.rtdc is given as ./-M1.rtdc"), std::string::npos) << refused.err;
+  EXPECT_EQ(run_here("./-M1.rtdc").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "-M1_rheocyte.rtdc"));
+}
+
 TEST_F(ExtractPlaces, OneTableTakesTheRecordingsOfAllCallsIntoAFolder) {
   for (const std::string name : {"a.rtdc", "b.rtdc", "a.rtdc"}) {
     write_recording(name);

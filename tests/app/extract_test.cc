@@ -220,6 +220,13 @@ TEST_F(Extract, TablesOfAnInstalledDclabAreFoundByTheirIdentifier) {
   const std::map<std::string, std::string> environment{{"VIRTUAL_ENV", path("env")}};
   const auto found = test::run({{RHEOCYTE, "extract", path("a.rtdc"), "--table", "TEST"}, environment});
   EXPECT_EQ(found.exit_code, 0) << found.err;
+  // So are those of the python3 that a shell would start.
+  fs::create_directories(folder_ / "env/bin");
+  test::write_file(folder_ / "env/bin/python3", "#!/bin/sh\n");
+  fs::permissions(folder_ / "env/bin/python3", fs::perms::owner_all);
+  const auto by_path =
+      test::run({{RHEOCYTE, "extract", path("a.rtdc"), "--table", "TEST"}, {{"PATH", path("env/bin")}}});
+  EXPECT_EQ(by_path.exit_code, 0) << by_path.err;
   const auto misspelt = test::run({{RHEOCYTE, "extract", path("a.rtdc"), "--table", "TESD"}, environment});
   EXPECT_NE(misspelt.err.find("did you mean"), std::string::npos) << misspelt.err;
 }

@@ -86,6 +86,22 @@ TEST_F(Implausible, WithoutAnyPossibleTemperatureTheRecordingIsRefused) {
   expect_refusal("--temperature -1: a buffer in a channel has", {"--temperature=-1"});
 }
 
+TEST_F(Implausible, TextsThatAreNoNumbersAreShownAsTheyAre) {
+  const auto stored = [&](const char* key, const char* text) {
+    write_recording([&](RecordingWriter& writer) {
+      ::H5Adelete(writer.root(), key);
+      writer.text(key, text);
+    });
+  };
+  stored("imaging:pixel size", "0,34");
+  expect_refusal("imaging:pixel size is \"0,34\", which is not a positive number; give it with --pixel-size-um");
+  stored("setup:temperature", "23,5");
+  expect_refusal("setup:temperature is \"23,5\", which is no number. Give --temperature");
+  moduli("setup:temperature is \"23,5\", which is no number.", {"--temperature-if-missing", "23"});
+  for (const char* option : {"--temperature", "--temperature-if-missing"})
+    expect_refusal(std::string(option) + " 23,5: give degrees Celsius", {option, "23,5"});
+}
+
 TEST_F(Implausible, SingleEventsWithoutATemperatureHaveNoModulus) {
   write_recording([](RecordingWriter& writer) { writer.scalar("temp", {23, -1, NAN}); });
   const auto values = moduli("2 events have no modulus, because their temperatures are impossible");
@@ -101,6 +117,24 @@ TEST_F(Implausible, ATemperatureOfTheUserMayReplaceRecordedOnesOrOnlyFillGaps) {
   EXPECT_EQ(moduli("", {"--temperature-if-missing", "30"}), recorded);
   write_recording([](RecordingWriter& writer) { ::H5Adelete(writer.root(), "setup:temperature"); });
   EXPECT_NEAR(moduli("", {"--temperature-if-missing", "30"})[0], replaced[0], 1e-12);
+}
+
+TEST_F(Implausible, ATemperatureForWhereItIsMissingFillsSingleEventsToo) {
+  write_recording([](RecordingWriter& writer) { writer.scalar("temp", {25, 30, 30}); });
+  const auto expected = moduli("");
+  write_recording([](RecordingWriter& writer) {
+    ::H5Adelete(writer.root(), "setup:temperature");
+    writer.scalar("temp", {25, 0, NAN});
+  });
+  EXPECT_EQ(moduli("2 events have temperatures that are impossible (for example 0 degC); for them 30 degC is taken.",
+                   {"--temperature-if-missing", "30"}),
+            expected);
+  write_recording([](RecordingWriter& writer) {
+    replace(writer, "setup:temperature", 30);
+    writer.scalar("temp", {25, 0, NAN});
+  });
+  EXPECT_EQ(moduli("for them 30 degC is taken, setup:temperature.", {"--temperature-if-missing", "20"}), expected)
+      << "what is recorded comes first";
 }
 
 TEST_F(Implausible, BeyondTheInertiaOfTheTableModuliAreFlagged) {

@@ -199,6 +199,10 @@ TEST_F(OwnTable, GatesShutEventsOut) {
   const auto unknown = run({"extract", path("a.rtdc"), "--max", "bright=5"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("has no feature bright"), std::string::npos) << unknown.err;
+  expect_refusal({"extract", path("a.rtdc"), "--max", "area_ration=1.05", "--quiet"},
+                 "has no feature area_ration, for which --min or --max gives a limit. Did you mean area_ratio?");
+  expect_refusal({"extract", path("a.rtdc"), "--polygon", "area_umm,deform=1,0:2,0:2,1", "--quiet"},
+                 "Did you mean area_um?");
   const auto none = run({"extract", path("a.rtdc"), "--max", "area_um=5"});
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_NE(none.err.find("outside the table HE-3D-MC049-26 or the gates"), std::string::npos) << none.err;
@@ -346,7 +350,8 @@ TEST_F(OwnTable, AnAddedEllipseIsToldAndLeavesTheModulusFromTheAsymmetryAlone) {
     ASSERT_EQ(run({"synth", path("spec.toml"), "-o", path("v.rtdc")}).exit_code, 0);
     const auto ended = run({"extract", path("v.rtdc"), "--table", path("table")});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    const auto* const words = ellipse > 0 ? "elongated along the flow" : "the shapes are those of the model";
+    const auto* const words = ellipse > 0 ? "elongated along the flow more than neo-Hookean solids in the tube"
+                                          : "the shapes are those of the model, neo-Hookean solids in the tube";
     EXPECT_NE(ended.out.find(words), std::string::npos) << ended.out;
     EXPECT_NE(ended.out.find("seen at one place"), std::string::npos) << ended.out;
     const auto name =

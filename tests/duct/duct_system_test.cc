@@ -46,17 +46,22 @@ TEST(DuctSystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
   // And the factors are the tangent's: each correction leaves as little as single precision allows.
   const Liquid newtonian{.reynolds = 0.7},
       power_law{.law = LiquidLaw::power_law, .exponent = 0.6, .shear_rate_floor = 0.3};
-  const Cortex none, shell{CortexLaw::neo_hookean, 2, 0.3, 0}, bent{CortexLaw::thin_shell, 2, 0.3, 0.02};
+  const Cortex none, shell{CortexLaw::neo_hookean, 2, 0.3, 0}, bent{CortexLaw::thin_shell, 2, 0.3, 0.02},
+      elongated{CortexLaw::neo_hookean, 2, 0.3, 0, 1.2, 0.6};
   const Interior solid = Interior::elastic, inside = Interior::liquid;
   for (const auto& [liquid, cortex, interior] : {std::tuple{newtonian, none, solid},
                                                  {power_law, none, solid},
                                                  {newtonian, shell, solid},
                                                  {newtonian, bent, solid},
                                                  {newtonian, shell, inside},
+                                                 {newtonian, elongated, solid},
+                                                 {newtonian, elongated, inside},
                                                  {power_law, bent, inside}}) {
     SmallDuct duct(liquid, 2, cortex.bending > 0, interior);
     Media law = media(liquid);
     law.cortex = cortex;
+    law.bulk.rest_stretch = cortex.rest_stretch;
+    law.bulk.axial_tension = cortex.axial_tension;
     const VectorXd x = deformed_state(duct.system, law);
     EXPECT_NEAR(taylor_slope(duct.system, law, x), 2, 0.05);
     double det = 0;

@@ -28,6 +28,20 @@ TEST(ExtractSummary, NoEventsHaveNoDistributionAndOneHasNoSpread) {
   EXPECT_TRUE(std::isnan(distribution_of(one).standard_deviation));
 }
 
+TEST(ExtractSummary, WhatCountsAsValidIsToldApartFromOtherModuli) {
+  ExtractSummary s;
+  s.events = 30;
+  s.counts[0] = 25;
+  s.counts[std::size_t(ModulusState::regularised)] = 3;
+  s.counts[std::size_t(ModulusState::too_small)] = 2;
+  s.median_standard_error_kPa = NAN;
+  const std::string line = in_one_line(s);
+  EXPECT_TRUE(line.starts_with("28 of 30 events (25 valid, 3 regularised), E median")) << line;
+  EXPECT_TRUE(line.ends_with("; 2 too small")) << line;
+  s.counts[std::size_t(ModulusState::regularised)] = 0;
+  EXPECT_TRUE(in_one_line(s).starts_with("25 of 30 events, E median")) << in_one_line(s);
+}
+
 TEST(ExtractSummary, ComesBackFromItsBytes) {
   ExtractSummary s;
   s.events = 7;

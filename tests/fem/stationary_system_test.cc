@@ -34,7 +34,9 @@ const std::vector<Cell> cells = {
     {{{}, {BulkLaw::neo_hookean, 0}, {CortexLaw::thin_shell, 20, 2, 0.2}}, Interior::liquid},
     {{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {BulkLaw::neo_hookean, 0}, {CortexLaw::neo_hookean, 20, 2, 0}},
      Interior::liquid},
-    {{{}, {BulkLaw::neo_hookean, 0}, {CortexLaw::neo_hookean_reference, 20, 0, 0}}, Interior::liquid}};
+    {{{}, {BulkLaw::neo_hookean, 0}, {CortexLaw::neo_hookean_reference, 20, 0, 0}}, Interior::liquid},
+    {{{}, {BulkLaw::mooney_rivlin, 12, 0.4, 0, 0, 0, 1.2, 3}, {CortexLaw::neo_hookean, 8, 0.8, 0, 1.2}}},
+    {{{}, {BulkLaw::neo_hookean, 0}, {CortexLaw::neo_hookean_reference, 20, 1, 0, 1.2, 3}}, Interior::liquid}};
 
 VectorXd residual(StationarySystem& system, const Media& law, const VectorXd& state) {
   double det = 0;

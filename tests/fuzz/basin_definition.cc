@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return rheocyte::test::refused_or_read(data, size, [](std::string_view text) {
     const std::string json(text);
     const auto definition = rheocyte::read_basin_definition(json);
-    rheocyte::name_of_remote_basin(json);
+    rheocyte::why_basin_is_not_used(json);
     if (definition) rheocyte::basin_files(*definition, "no-such-folder/recording.rtdc");
   });
 }

@@ -18,7 +18,7 @@ const std::string spec = "0123456789abcdef";
 void read_all(const std::uint8_t* data, std::size_t size) {
   refused_or_read(data, size, [](auto bytes) { rheocyte::branch_from_bytes(bytes, spec, "branch"); });
   refused_or_read(data, size, [](auto bytes) { rheocyte::grid_from_bytes(bytes, "grid"); });
-  refused_or_read(data, size, [](auto bytes) { rheocyte::course_from_bytes(bytes, spec, "course"); });
+  refused_or_read(data, size, [](auto bytes) { rheocyte::course_from_bytes(bytes, spec, {6, 5, 0.5}, "course"); });
   refused_or_read(data, size, [](auto bytes) { rheocyte::dynamic_from_bytes(bytes, "dynamic"); });
 }
 

@@ -58,6 +58,13 @@ TEST_F(GridMapOf, ManyEventsAreEachLikeOne) {
   }
 }
 
+TEST_F(GridMapOf, WhatIsInfiniteIsNoNumber) {
+  for (const double infinite : {INFINITY, -INFINITY}) {
+    EXPECT_EQ(at({{20, 0.06}, 0.34}, 100, infinite).state, ModulusState::no_data) << infinite;
+    EXPECT_EQ(at({{20, 0.06}, 0.34}, infinite, 0.03).state, ModulusState::no_data) << infinite;
+  }
+}
+
 TEST_F(GridMapOf, TakesAwayWhatPixelsDo) {
   const double pixel = 0.34, area = 100, deformation = 0.03;
   const auto pixels = pixel_errors(std::log(area / (pixel * pixel)), deformation);

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "../table/invented_branch.h"
+#include "infer/asymmetry_bias.h"
 #include "infer/grid_map.h"
 #include "measurement/pixel_errors.h"
 #include "synth/outline.h"
@@ -64,6 +65,9 @@ TEST_F(ShapeMapOf, SmallCellsNeedMoreExcessToBeFlaggedBecausePixelsScatterThem) 
 TEST_F(ShapeMapOf, WithoutNumbersOrOutsideTheAreasNothingIsSaid) {
   EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, 0.03, NAN).excess));
   EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, NAN, 0.03, 1.1).excess));
+  EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, 0.03, INFINITY).excess)) << "infinity is no number";
+  for (const double infinite : {INFINITY, -INFINITY})
+    EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, infinite, 1.1).excess)) << infinite;
   EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 10, 0.03, 1.1).excess));
   EXPECT_FALSE(excess({{20, 0.04}, 0}, 10, 0.03, 1.5).is_elongated());
   EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, 0, 1.1).odd_share));
@@ -93,6 +97,28 @@ TEST_F(ShapeMapOf, TheErrorIsThatOfThePixels) {
   EXPECT_NEAR(e.error / e.modulus, pixels.deviation / c, 0.3 * pixels.deviation / c);
 }
 
+TEST(AsymmetryBias, IsThatOfTheSolvedCellsAndNothingWithoutElongation) {
+  // docs/real-cells.md: 30 % at c_2 = 0.12, 55 to 60 % at 0.2.
+  EXPECT_EQ(too_high_by_asymmetry(0), 0);
+  EXPECT_EQ(too_high_by_asymmetry(-0.1), 0) << "one-sided";
+  EXPECT_NEAR(1 / (1 - too_high_by_asymmetry(0.123)), 1.30, 0.02);
+  EXPECT_NEAR(1 / (1 - too_high_by_asymmetry(0.2)), 1.56, 0.03);
+  EXPECT_GT(too_high_by_asymmetry(0.25), too_high_by_asymmetry(0.2)) << "it goes on";
+  EXPECT_TRUE(std::isnan(too_high_by_asymmetry(NAN)));
+}
+
+TEST_F(ShapeMapOf, TheOneSidedErrorGoesWithTheElongationBeyondTheTable) {
+  const double d = 0.03, area = 100, viscosity = 15, mode_3 = test::invented_asymmetry(d);
+  for (const double beyond : {0., 0.12}) {
+    const double mode_2 = test::invented_mode_2(d) + beyond;
+    double modulus = 0, error = 0, systematic = 0;
+    ModulusState state = ModulusState::no_data;
+    shapes_.estimate({{20, 0.04}, 0}, {{&area, 1}, {&d, 1}, {&viscosity, 1}}, {{&mode_2, 1}, {&mode_3, 1}},
+                     {{&modulus, 1}, {&error, 1}, {&state, 1}, {&systematic, 1}});
+    EXPECT_NEAR(systematic / modulus, too_high_by_asymmetry(beyond), 2e-3);  // c_2 lies between nodes, too
+  }
+}
+
 double modulus_of(const ShapeMap& shapes, const Eigen::MatrixX2d& outline) {
   const OutlineShape shape = outline_shape(outline);
   const double viscosity = 15;
@@ -111,10 +137,7 @@ TEST(Ellipse, ThatTheTableDoesNotHaveIsTakenAway) {
   const ShapeMap& shapes = *map.shapes();
   for (const auto& [area, d] :
        std::vector<std::pair<double, double>>{{60, 0.01}, {100, 0.02}, {100, 0.04}, {150, 0.02}}) {
-    std::array<double, mode_count> modes{};
-    for (int k = first_radius_mode; k <= last_radius_mode; ++k)
-      modes[std::size_t(k - min_mode)] = shapes.shapes().mode(k, std::log(area), d);
-    const Eigen::MatrixX2d outline = outline_of_modes(modes, area, 1000);
+    const Eigen::MatrixX2d outline = outline_of_modes(shapes.shapes().modes(std::log(area), d), area, 1000);
     const double modulus = modulus_of(shapes, outline);
     EXPECT_NEAR(modulus_of(shapes, with_ellipse(outline, 0.05)), modulus, 0.02 * modulus) << area << " " << d;
     EXPECT_NEAR(modulus_of(shapes, with_ellipse(outline, 0.1)), modulus, 0.03 * modulus) << area << " " << d;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../table/invented_dynamic.h"
@@ -124,6 +125,18 @@ TEST(TimeCourse, AnEllipseThatTheTableDoesNotHaveIsTakenBack) {
   EXPECT_GT(std::abs(std::log(left)), 0.03);  // what there was to take back
   EXPECT_NEAR(course.cell(with_its_own).young_modulus_kPa.value, wanted.young_modulus_kPa.value,
               0.01 * wanted.young_modulus_kPa.value);
+}
+
+TEST(TimeCourse, WhatNoCellOfTheTableCanBeHasNoModulus) {
+  // Numbers like these are refused where tables are read; here they must not end the program.
+  DynamicContent content = test::invented_dynamic();
+  for (CellCourse& course : content.courses) course.value.setZero();
+  const DynamicTable table(std::move(content));
+  const CellImages images{{100, 130, 0.05, noise}};
+  EXPECT_TRUE(std::isnan(TimeCourse(table).cell(images).young_modulus_kPa.value));
+  const PopulationEstimate found = TimeCourse(table).population(std::vector<CellImages>(60, images));
+  EXPECT_EQ(found.cells, 0U);
+  EXPECT_TRUE(std::isnan(found.young_modulus_kPa.value));
 }
 
 TEST(TimeCourse, OnePictureDoesNotTellViscosity) {

@@ -47,6 +47,24 @@ TEST(Bulk, TheStressHasTheDerivativeOfCentralDifferences) {
   }
 }
 
+TEST(Bulk, TheSpheroidThatItRestsInHasNoStress) {
+  // And from there the stress is that of the same deformation of a sphere.
+  RandomStates random;
+  constexpr double a = 1.3;
+  const Tensor<double> to_rest = test::diagonal(a, 1 / std::sqrt(a), 1 / std::sqrt(a));
+  for (const Bulk& bulk : laws) {
+    Bulk elongated = bulk;
+    elongated.rest_stretch = a;
+    EXPECT_LT(elastic_stress(elongated, to_rest).norm(), rounding);
+    for (int i = 0; i < states; ++i) {
+      const Tensor<double> F = random.deformation_gradient();
+      EXPECT_LT((elastic_stress(elongated, Tensor<double>(F * to_rest)) - elastic_stress(bulk, F)).norm(), 1e-11);
+    }
+    const auto law = test::entrywise([&](const auto& F) { return loaded_stress(elongated, F); });
+    EXPECT_LT(test::derivative_error<9>(law, random.deformation_gradient().entries), test::derivative_tolerance);
+  }
+}
+
 TEST(Bulk, TheStressIsObjectiveAndTheMaterialIsotropic) {
   // A rotation after the deformation turns the stress with it: tau(Q F) = Q tau(F) Q^T; one before changes nothing.
   RandomStates random;

@@ -81,5 +81,26 @@ TEST(MembraneForm, WithoutDeformationOnlyTheTensionPulls) {
   }
 }
 
+TEST(MembraneForm, TheSpheroidThatAShellRestsInHasNoEnergy) {
+  // A patch of the sphere, and the same patch of the spheroid as its present shape.
+  RandomStates random;
+  constexpr double a = 1.3;
+  for (int i = 0; i < states; ++i) {
+    const Patch patch = random_patch(random);
+    const MembraneFields<double> sphere = patch.fields();
+    MembraneFields<double> spheroid = sphere;
+    for (auto* slope : {&spheroid.s, &spheroid.t})
+      *slope = {a * (*slope)(0), (*slope)(1) / std::sqrt(a), (*slope)(2) / std::sqrt(a)};
+    const auto part = [](const auto& u, const auto& v, bool along) {
+      return along ? u(0) * v(0) : u(1) * v(1) + u(2) * v(2);
+    };
+    RestMetric rest;
+    for (const bool along : {true, false})
+      (along ? rest.along : rest.across) = {part(sphere.s, sphere.s, along), part(sphere.s, sphere.t, along),
+                                            part(sphere.t, sphere.t, along)};
+    EXPECT_NEAR((MembranePoint{{CortexLaw::neo_hookean, 3, 0, 0}, rest.at_rest(a)}(spheroid)), 0, 1e-10);
+  }
+}
+
 }  // namespace
 }  // namespace rheocyte::membrane_form_test

@@ -62,6 +62,16 @@ TEST(Basin, BrokenAndRemoteDefinitionsAreNone) {
   EXPECT_FALSE(read_basin_definition(R"({"type": 3, "format": "hdf5"})"));
 }
 
+TEST(Basin, FoldersOfAPathMayBeSeparatedByBackslashes) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "raw");
+  write_original(folder / "raw/original.rtdc");
+  BasinDefinition basin;
+  basin.paths = {"raw\\original.rtdc"};
+  EXPECT_EQ(basin_files(basin, folder / "child.rtdc"),
+            std::vector<std::filesystem::path>{folder / "raw/original.rtdc"});
+}
+
 TEST(Basin, FeaturesOfAnotherFileAreFoundBesideTheReferringOne) {
   const ScratchFolder folder;
   write_original(folder / "original.rtdc");
@@ -231,6 +241,38 @@ TEST(Basin, ARemoteOneIsNamedAndNotRead) {
       "the basin \"store (http)\" is not used: it is on a network, from which nothing is read; download the file and "
       "refer to it, or put its features into the recording.");
   EXPECT_THROW(ShapeSource(recording, 0.34), UserError);
+}
+
+TEST(Basin, AKindOfTheFutureIsNotKnownAndNotBroken) {
+  const ScratchFolder folder;
+  {
+    RecordingWriter writer(folder / "a.rtdc");
+    writer.scalar("deform", {0.1, 0.2});
+    writer.lines("basins/0", {R"({"type": "internal", "format": "h5future", "name": "tiles", "paths": ["x"]})"});
+    writer.lines("basins/1", {R"({"type": "file", "name": "no format", "paths": ["x"]})"});
+  }
+  EXPECT_EQ(Recording(folder / "a.rtdc").remarks(),
+            (std::vector<std::string>{"the basin \"tiles (h5future)\" is not used: basins of this kind are not known "
+                                      "here; export the recording with all its features by the program that wrote it.",
+                                      "a basin is not used: its definition is broken."}));
+}
+
+// A background that many events share is stored once.
+TEST(Basin, InternalOnesHoldPicturesToo) {
+  const ScratchFolder folder;
+  {
+    RecordingWriter writer(folder / "a.rtdc");
+    writer.scalar("deform", {0.1, 0.2, 0.3});
+    writer.scalar("basinmap0", {0, 0, 1}, H5T_STD_I64LE);
+    writer.images("image_bg", {1, 2, 3, 4}, 1, 2, {}, "basin_events");
+    writer.lines("basins/x", {R"({"type": "internal", "format": "h5dataset", "name": "background", "paths":)",
+                              R"(["basin_events"], "features": ["image_bg"], "mapping": "basinmap0"})"});
+  }
+  const Recording recording(folder / "a.rtdc");
+  std::vector<std::uint8_t> pixels(6);
+  recording.read_images("image_bg", 0, 3, pixels);
+  EXPECT_EQ(pixels, (std::vector<std::uint8_t>{1, 2, 1, 2, 3, 4}));
+  EXPECT_FALSE(recording.has_scalar("image_bg"));
 }
 
 TEST(Basin, AnotherMeasurementAMissingFileOrALoopIsARemark) {

@@ -149,6 +149,12 @@ TEST(Recording, WhatIsNoRecordingIsRefusedInOneSentence) {
   EXPECT_NE(sentence_for(folder / "").find("not a file"), std::string::npos);
   std::ofstream(folder / "text.rtdc") << "area_um,deform\n1,2\n";
   EXPECT_NE(sentence_for(folder / "text.rtdc").find("not an HDF5 file"), std::string::npos);
+  for (const auto& [name, words] : {std::pair("old.tdms", "convert it with dclab-tdms2rtdc"),
+                                    std::pair("session.so2", "is a session of DCscope, not a recording"),
+                                    std::pair("filters.poly", "give it with --polygon")}) {
+    std::ofstream(folder / name) << "TDSm";
+    EXPECT_NE(sentence_for(folder / name).find(words), std::string::npos) << name;
+  }
   std::ofstream(folder / "empty.rtdc");
   EXPECT_NE(sentence_for(folder / "empty.rtdc").find("not an HDF5 file"), std::string::npos);
   { RecordingWriter writer(folder / "no-events.rtdc"); }

@@ -68,37 +68,39 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& file) {
 
 RecordingWriter::~RecordingWriter() { ::H5Fclose(file_); }
 
-void RecordingWriter::attribute(const std::string& key, hid_t type, const void* value) {
+void RecordingWriter::attribute(hid_t object, const std::string& key, hid_t type, const void* value) {
   const Hdf5Handle space(::H5Screate(H5S_SCALAR));
-  const Hdf5Handle attribute(good(::H5Acreate2(file_, key.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), key));
+  const Hdf5Handle attribute(good(::H5Acreate2(object, key.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), key));
   good(::H5Awrite(attribute.get(), type, value), key);
 }
 
-void RecordingWriter::number(const std::string& key, double value) { attribute(key, H5T_NATIVE_DOUBLE, &value); }
+void RecordingWriter::number(const std::string& key, double value) { attribute(file_, key, H5T_NATIVE_DOUBLE, &value); }
 
-void RecordingWriter::integer(const std::string& key, int value) { attribute(key, H5T_NATIVE_INT, &value); }
+void RecordingWriter::integer(const std::string& key, int value) { attribute(file_, key, H5T_NATIVE_INT, &value); }
 
 void RecordingWriter::truth(const std::string& key, bool value) {
   const Hdf5Handle type(::H5Tenum_create(H5T_NATIVE_INT8));
   const signed char no = 0, yes = 1, stored = value ? yes : no;
   ::H5Tenum_insert(type.get(), "FALSE", &no);
   ::H5Tenum_insert(type.get(), "TRUE", &yes);
-  attribute(key, type.get(), &stored);
+  attribute(file_, key, type.get(), &stored);
 }
 
-void RecordingWriter::text(const std::string& key, const std::string& value) {
+void RecordingWriter::text_at(hid_t object, const std::string& key, const std::string& value) {
   const Hdf5Handle type(::H5Tcopy(H5T_C_S1));
   ::H5Tset_size(type.get(), H5T_VARIABLE);
   ::H5Tset_cset(type.get(), H5T_CSET_UTF8);
   const char* pointer = value.c_str();
-  attribute(key, type.get(), static_cast<const void*>(&pointer));
+  attribute(object, key, type.get(), static_cast<const void*>(&pointer));
 }
+
+void RecordingWriter::text(const std::string& key, const std::string& value) { text_at(file_, key, value); }
 
 void RecordingWriter::fixed_text(const std::string& key, const std::string& value) {
   const Hdf5Handle type(::H5Tcopy(H5T_C_S1));
   ::H5Tset_size(type.get(), value.size());
   ::H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
-  attribute(key, type.get(), value.data());
+  attribute(file_, key, type.get(), value.data());
 }
 
 void RecordingWriter::polygon(const std::string& key, const std::vector<double>& xy) {
@@ -115,9 +117,18 @@ void RecordingWriter::scalar(const std::string& feature, const std::vector<doubl
 }
 
 void RecordingWriter::images(const std::string& feature, const std::vector<std::uint8_t>& pixels, hsize_t height,
-                             hsize_t width, const Storage& storage) {
-  write(file_, "events/" + feature,
+                             hsize_t width, const Storage& storage, const std::string& group) {
+  write(file_, group + "/" + feature,
         {H5T_STD_U8LE, H5T_NATIVE_UINT8, {pixels.size() / (height * width), height, width}, pixels.data()}, storage);
+}
+
+void RecordingWriter::index_of_cropped(const std::string& feature, const std::vector<int>& table,
+                                       const std::string& background) {
+  const std::string path = "basin_events/" + feature;
+  write(file_, path + "/index", {H5T_STD_I64LE, H5T_NATIVE_INT, {table.size() / 5, 5}, table.data()});
+  if (background.empty()) return;
+  const Hdf5Handle group(good(::H5Gopen2(file_, path.c_str(), H5P_DEFAULT), path));
+  text_at(group.get(), "inverse_background_feature", background);
 }
 
 void RecordingWriter::contour(const std::vector<int>& xy, hid_t type) {

@@ -38,7 +38,10 @@ class RecordingWriter {
               const Storage& storage = {}, const std::string& group = "events");
   /// (events, height, width) of bytes.
   void images(const std::string& feature, const std::vector<std::uint8_t>& pixels, hsize_t height, hsize_t width,
-              const Storage& storage = {});
+              const Storage& storage = {}, const std::string& group = "events");
+  /// The table of a feature's cropped pictures (part, row, y, x, next event of the frame), below /basin_events, and the
+  /// feature with their background, if any; the parts are images of the group "basin_events/FEATURE".
+  void index_of_cropped(const std::string& feature, const std::vector<int>& table, const std::string& background);
   /// The contour of the next event, x and y in turn.
   void contour(const std::vector<int>& xy, hid_t type = H5T_STD_U16LE);
   /// Lines of a text of fixed length, e.g. /basins/x or /logs/x.
@@ -47,7 +50,8 @@ class RecordingWriter {
   hid_t root() const { return file_; }
 
  private:
-  void attribute(const std::string& key, hid_t type, const void* value);
+  void attribute(hid_t object, const std::string& key, hid_t type, const void* value);
+  void text_at(hid_t object, const std::string& key, const std::string& value);
   hid_t file_ = -1;
   int contours_ = 0;
 };

@@ -105,6 +105,28 @@ TEST(Viscosity, MediaAreKnownByAllTheirNames) {
   for (const char* name : {"other", "", "CellCarrierC", "%"}) EXPECT_FALSE(medium_of_name(name)) << name;
 }
 
+TEST(Viscosity, SolutionsAreKnownByTheirPercentageHoweverItIsWritten) {
+  for (const char* name :
+       {"0.60 % MC-PBS", "0,6% MC-PBS", "0.6%MC_PBS", "0.6% (w/v) MC in PBS", "0.6% Methyl cellulose", "MC-PBS 0.59 %",
+        "0.600% methylcellulose in 1x PBS", "Cell Carrier B", "cell_carrier-b"})
+    EXPECT_EQ(medium_of_name(name), Medium::methyl_cellulose_059) << name;
+  for (const char* name : {"0,5 % MC/PBS", "Cell Carrier", "0.490% mc pbs"})
+    EXPECT_EQ(medium_of_name(name), Medium::methyl_cellulose_049) << name;
+  EXPECT_EQ(medium_of_name(".83% MC"), Medium::methyl_cellulose_083);
+  for (const char* name : {"0.7% MC-PBS", "6% MC-PBS", "-0.6% MC-PBS", "0.6% alginate", "0.5% MC, 0.1% BSA",
+                           "0.6 MC-PBS", "inf% MC-PBS", "0.6% PBS", "0% MC-PBS"})
+    EXPECT_FALSE(medium_of_name(name)) << name;
+}
+
+TEST(Viscosity, AnUnknownSolutionIsNearTheOneOfTheNearestPercentage) {
+  EXPECT_EQ(near_medium("0.62% MC-PBS"), ", did you mean 0.59% MC-PBS?");
+  EXPECT_EQ(near_medium("0.52 % MC-PBS"), ", did you mean 0.49% MC-PBS?");
+  EXPECT_EQ(near_medium("0.9% MC"), ", did you mean 0.83% MC-PBS?");
+  EXPECT_EQ(near_medium("10% MC-PBS"), "");
+  EXPECT_EQ(near_medium("Cellcarier"), ", did you mean CellCarrier?");
+  EXPECT_EQ(near_medium("ketchup"), "");
+}
+
 TEST(Viscosity, AModelThatDoesNotKnowTheMediumIsRefused) {
   EXPECT_THROW(Buffer(Medium::methyl_cellulose_083, ViscosityModel::herold_2017), UserError);
   EXPECT_THROW(Buffer(Medium::methyl_cellulose_049, ViscosityModel::kestin_1978), UserError);

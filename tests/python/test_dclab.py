@@ -1,7 +1,6 @@
 """The real dclab and rheocyte in one process: the same numbers from published tables, features and viscosities."""
 
 import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -66,68 +65,6 @@ def test_features_of_masks_are_those_of_dclab(path):
     same(ours["inert_ratio_prnc"].to_numpy(), np.array(theirs.get_inert_ratio_prnc(contours)))
     volume = dclab.features.volume.get_volume(contours, ours["pos_x"].to_numpy(), ours["pos_y"].to_numpy(), 0.34)
     same(ours["volume"].to_numpy(), volume)
-
-
-def plugin_file(folder):
-    from rheocyte import dclab_plugin
-
-    target = folder / "rheocyte_modulus.py"
-    with open(dclab_plugin.__file__, encoding="utf-8") as source:
-        target.write_text(source.read())
-    return target
-
-
-def invented(medium="CellCarrier", region="channel"):
-    rng = np.random.default_rng(2)
-    dataset = dclab.new_dataset({"area_um": rng.uniform(40, 200, 500), "deform": rng.uniform(0.005, 0.1, 500)})
-    dataset.config["setup"].update({"channel width": 20, "flow rate": 0.04, "medium": medium, "temperature": 23.5,
-                                    "chip region": region})
-    dataset.config["imaging"]["pixel size"] = 0.34
-    return dataset
-
-
-@pytest.fixture
-def plugin(tmp_path):
-    from dclab.rtdc_dataset.feat_anc_plugin import plugin_feature
-
-    searched = sys.path.copy()
-    loaded = dclab.load_plugin_feature(plugin_file(tmp_path))
-    sys.path[:] = searched  # of which dclab takes the first one away
-    yield
-    for feature in loaded:
-        plugin_feature.remove_plugin_feature(feature)
-
-
-def test_the_plugin_gives_dclab_the_moduli_of_the_table(plugin):
-    dataset = invented()
-    table = rheocyte.Table.for_medium("CellCarrier", temperature_C=23.5)
-    expected = table.modulus(dataset["area_um"], dataset["deform"], channel_width_um=20, flow_rate_ul_s=0.04,
-                             medium="CellCarrier", temperature_C=23.5, pixel_size_um=0.34)
-    same(dataset["rheocyte_modulus"], expected.young_modulus_kPa)
-    same(dataset["rheocyte_modulus_error"], expected.standard_error_kPa)
-    assert np.array_equal(dataset["rheocyte_state"], expected.state)
-
-
-def test_the_plugin_tells_how_far_the_shapes_are_those_of_the_table(plugin):
-    dataset = invented()
-    assert np.isnan(dataset["rheocyte_shape_excess"]).all(), "neither masks nor inertia ratios"
-    table = rheocyte.Table.for_medium("CellCarrier", temperature_C=23.5)
-    area, deform, ratio = np.array(dataset["area_um"]), np.array(dataset["deform"]), np.linspace(0.9, 1.4, len(dataset))
-    with_ratio = dclab.new_dataset({"area_um": area, "deform": deform, "inert_ratio_cvx": ratio})
-    with_ratio.config.update(dataset.config)
-    expected = table.shapes(area, deform, ratio, channel_width_um=20, pixel_size_um=0.34)
-    same(with_ratio["rheocyte_shape_excess"], expected.excess)
-    assert np.isfinite(expected.excess).any()
-
-
-def test_the_command_prints_the_plugin(program, tmp_path):
-    said = subprocess.run([program, "dclab-plugin"], capture_output=True, check=True).stdout
-    assert said == plugin_file(tmp_path).read_bytes()
-
-
-@pytest.mark.parametrize("dataset", [{"medium": "other"}, {"region": "reservoir"}])
-def test_the_plugin_offers_nothing_where_it_has_nothing(plugin, dataset):
-    assert "rheocyte_modulus" not in invented(**dataset)
 
 
 SHAPES = ("area_cvx", "area_msd", "area_ratio", "area_um", "area_um_raw", "aspect", "circ", "deform", "deform_raw",
@@ -195,7 +132,8 @@ def test_dclab_takes_the_texts_of_our_tables(name):
     area, deform = rng.uniform(50, 150, 500), rng.uniform(0.005, greatest, 500)
     theirs = emodulus.get_emodulus(area_um=area, deform=deform, medium=15, channel_width=20, flow_rate=0.04, px_um=0,
                                    temperature=None, lut_data=name)
-    ours = rheocyte.Table(name).modulus(area, deform, channel_width_um=20, flow_rate_ul_s=0.04, viscosity_mPas=15)
+    ours = rheocyte.Table(name).modulus(area, deform, channel_width_um=20, flow_rate_ul_s=0.04, viscosity_mPas=15,
+                                        pixel_size_um=0)
     has = np.isfinite(ours.young_modulus_kPa) & np.isfinite(theirs)
     assert has.mean() > 0.9
     assert np.abs(theirs[has] / ours.young_modulus_kPa[has] - 1).max() < 2e-3

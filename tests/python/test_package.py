@@ -1,11 +1,13 @@
 """The package beside others: it loads fast and late, next to h5py's HDF5, and draws without its compiled module."""
 
 import inspect
+import json
 import os
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import rheocyte
@@ -59,6 +61,23 @@ except ImportError as error:
     print("pip install ." in str(error), rheocyte.__file__.startswith(sys.argv[1]))
 """
     assert run(code, str(tmp_path)).split() == ["True", "True"]
+
+
+def test_pictures_of_events_use_nothing_that_matplotlib_drops(tmp_path):
+    """Contours became one collection in matplotlib 3.8, and the list of collections was dropped in 3.10."""
+    events = np.random.default_rng(1).normal([80, 0.04], [10, 0.01], (400, 2)).astype("<f4")
+    events.tofile(tmp_path / "events.bin")
+    line = {"young_modulus_kPa": 1.0, "area_um2": [20, 80, 150], "deformation": [0.01, 0.04, 0.15]}
+    panel = {"events_file": "events.bin", "lines": [line], "title": "a", "sample": "", "measured": "", "events": 400,
+             "drawable": 400, "width_um": 20, "pixels": True, "table": "LE-2D-26"}
+    (tmp_path / "plot.json").write_text(json.dumps({"panels": [panel]}))
+    run("""
+import sys, warnings
+from rheocyte import event_plot, files
+warnings.simplefilter("error")
+files.save_figure(event_plot.draw(event_plot.read_panels(sys.argv[1])), event_plot.Path(sys.argv[1]) / "a", 50, svg_dpi=50)
+""", str(tmp_path))
+    assert (tmp_path / "a.png").stat().st_size > 0 and "</svg>" in (tmp_path / "a.svg").read_text()
 
 
 def test_every_public_name_explains_itself():

@@ -131,10 +131,11 @@ def features():
     masks[:, 30:50, 100:140] = True
     threading.Timer(0.2, interrupt).start()
     while True: rheocyte.features(masks, 0.34)
+SMOOTH = {"channel_width_um": 20, "flow_rate_ul_s": 0.04, "viscosity_mPas": 15, "pixel_size_um": 0}
 def modulus():
     table, area = rheocyte.Table("LE-2D-26"), np.full(10**7, 80.0)
     threading.Timer(0.2, interrupt).start()
-    while True: table.modulus(area, np.full(10**7, 0.02), channel_width_um=20, flow_rate_ul_s=0.04, viscosity_mPas=15)
+    while True: table.modulus(area, np.full(10**7, 0.02), **SMOOTH)
 def table():
     threading.Timer(0.5, interrupt).start()
     rheocyte.table({"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
@@ -143,7 +144,7 @@ try:
     globals()[work]()
 except KeyboardInterrupt:
     print("interrupted")
-print(float(rheocyte.Table("LE-2D-26").modulus(80, 0.02, channel_width_um=20, flow_rate_ul_s=0.04, viscosity_mPas=15)[0]) > 0)
+print(float(rheocyte.Table("LE-2D-26").modulus(80, 0.02, **SMOOTH)[0]) > 0)
 """
     said = subprocess.run([sys.executable, "-B", "-c", code, work, repr(CELLS)], capture_output=True, text=True, cwd=tmp_path,
                           check=False)

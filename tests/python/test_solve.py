@@ -121,6 +121,16 @@ def test_states_in_time_come_one_by_one(paper):
     assert way.history["t_us"].iloc[-1] == pytest.approx(20) and "deformation" in way.history
 
 
+def test_a_way_that_ends_beyond_the_limit_of_stability_has_not_converged(paper):
+    # A shell without tension, slack at its rear: the status of `rheocyte solve`, and no state for check().
+    way = rheocyte.evolve(paper, cell__bulk__law="none", cell__cortex__law="neo-hookean", cell__viscosity_mPas=15,
+                          cell__cortex__modulus_mN_per_m=20, time__end_us=5, time__degree=3)
+    assert way.result.status == "surface-unstable" and way.result.stability_margin < 0
+    assert "at the end, too" in way.result.message
+    with pytest.raises(NoStateError, match="surface-unstable"):
+        way.check()
+
+
 def test_a_way_that_is_stopped_keeps_what_was_computed(paper):
     way = rheocyte.evolve(paper, time__end_us=1e5, time__output_every_us=1e3, cell__viscosity_mPas=15, time__degree=4)
     first = next(way)

@@ -39,6 +39,35 @@ def test_a_folder_of_recordings_becomes_a_report(program, tmp_path):
     assert again.returncode == 0 and "Nothing to be done" in again.stdout + again.stderr
 
 
+def test_recordings_without_moduli_are_lines_of_the_report(program, tmp_path):
+    """Of the reservoir, damaged, or all events outside the table: with the reason, and the others are not stopped."""
+    h5py = pytest.importorskip("h5py")
+    (tmp_path / "in").mkdir()
+    for name, radius in (("cells", 5.5), ("reservoir", 5.5), ("tiny", 2.5)):
+        rheocyte.synth(CELLS, tmp_path / f"in/{name}.rtdc", cell__radius_um__mean=radius, cell__radius_um__sd=0.1)
+    with h5py.File(tmp_path / "in/reservoir.rtdc", "r+") as file:
+        file.attrs["setup:chip region"] = "reservoir"
+    (tmp_path / "in/damaged.rtdc").write_bytes((tmp_path / "in/cells.rtdc").read_bytes()[:3000])
+    ended = workflow(program, tmp_path)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    report = pandas.read_csv(tmp_path / "out/report.tsv", sep="\t", index_col="recording")
+    assert list(report.index) == ["cells", "damaged", "reservoir", "tiny"]
+    assert report.loc["cells", "with_modulus"] > 0 and (report["with_modulus"].iloc[1:] == 0).all()
+    reason = report["without_moduli_because"]
+    assert pandas.isna(reason["cells"]) and reason["reservoir"].startswith("was recorded in the reservoir")
+    assert "damaged" in reason["damaged"] and reason["tiny"] == f"{report.loc['tiny', 'events']} too_small"
+    for name in report.index:
+        assert (tmp_path / f"out/{name}_rheocyte.png").stat().st_size > 0
+
+
+def test_a_wrong_option_stops_the_workflow(program, tmp_path):
+    (tmp_path / "in").mkdir()
+    rheocyte.synth(CELLS, tmp_path / "in/a.rtdc", recording__cells=20)
+    ended = workflow(program, tmp_path, "measuring=--medum water")
+    assert ended.returncode != 0 and "--medum" in ended.stdout + ended.stderr
+    assert not (tmp_path / "out/report.tsv").exists()
+
+
 def test_a_folder_without_recordings_is_named(program, tmp_path):
     ended = workflow(program, tmp_path)
     assert ended.returncode != 0 and "there is no recording" in ended.stdout + ended.stderr

@@ -15,7 +15,7 @@ Ended in_shell(const std::string& before, const std::string& arguments) {
 
 const std::string good_case = std::string(EXAMPLES) + "/paper-cell.toml";
 
-#ifndef __SANITIZE_ADDRESS__  // which needs terabytes of addresses itself
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need terabytes of addresses themselves
 TEST(Limits, TooLittleMemoryIsASentence) {
   const TemporaryFolder folder;
   const auto result = (folder.path() / "result").string();

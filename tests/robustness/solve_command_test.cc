@@ -1,6 +1,7 @@
 // However a computation ends, its folder is whole or untouched, and exit code, status and sentence say the same.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -142,6 +143,17 @@ TEST_F(SolveCommand, JsonIsTheOnlyThingOnStandardOutput) {
   const auto ended = run(solve("", {"--no-picture", "--json"}));
   EXPECT_EQ(ended.out, content_of(result() / "result.json"));
   EXPECT_NE(ended.err.find("Newton"), std::string::npos);  // progress goes to standard error
+}
+
+TEST_F(SolveCommand, JsonNeedsNoFolder) {
+  auto command = solve("", {"--json", "--quiet"});
+  const auto option = std::find(command.arguments.begin(), command.arguments.end(), "-o");
+  ASSERT_NE(option, command.arguments.end());
+  command.arguments.erase(option, option + 2);
+  const auto ended = run(command);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(json::parse(ended.out)["status"], "converged");
+  EXPECT_FALSE(std::filesystem::exists(result()));
 }
 
 TEST_F(SolveCommand, QuietIsSilent) {

@@ -28,11 +28,10 @@ struct Drift {
   int calls = 0;
 
   StationaryState operator()(const Problem& problem) {
-    EXPECT_EQ(problem.place, CellPlace::given);
     StationaryState state;
     ++calls;
     state.statistics.newton_iterations = 2;
-    state.outcome.reached = 1;
+    state.outcome.reached = calls > calls_left ? 0.5 : 1;
     state.outcome.status = calls > calls_left ? Status::surface_unstable : Status::converged;
     const double o = problem.offset, there = place + problem.accuracy;
     state.offset = o;
@@ -101,6 +100,21 @@ TEST(EquilibriumOffset, AStateThatIsNotFoundEndsTheSearch) {
   }
 }
 
+TEST(EquilibriumOffset, AnUnstableSurfaceOnTheWayDoesNotEndTheSearch) {
+  // Its drift is known all the same; what counts is the state at the place, here a stable one or not.
+  for (const double unstable_beyond : {0.4, 0.3}) {
+    Drift drift{0.35};
+    const auto solve = [&](const Problem& problem) {
+      StationaryState state = drift(problem);
+      if (problem.offset > unstable_beyond) state.outcome.status = Status::surface_unstable;
+      return state;
+    };
+    const StationaryState state = solve_at_equilibrium(problem_at(0.5), solve);
+    EXPECT_EQ(state.outcome.status, unstable_beyond > 0.351 ? Status::converged : Status::surface_unstable);
+    EXPECT_NEAR(state.offset, 0.351, 1e-3);
+  }
+}
+
 TEST(EquilibriumOffset, WhereCorrectionsDoNotSettleTheErrorSaysSo) {
   // Secants of a cube root lead away from its zero.
   const double place = 0.35;
@@ -113,7 +127,8 @@ TEST(EquilibriumOffset, WhereCorrectionsDoNotSettleTheErrorSaysSo) {
     return state;
   };
   const StationaryState state = solve_at_equilibrium(problem_at(0.3), drift);
-  EXPECT_EQ(state.outcome.status, Status::converged);
+  EXPECT_EQ(state.outcome.status, Status::accuracy_not_reached);
+  EXPECT_NE(state.outcome.message.find("has not settled"), std::string::npos) << state.outcome.message;
   EXPECT_GT(std::abs(state.offset - place), 2e-3) << "else there is nothing to say";
   EXPECT_GT(state.offset_error, std::abs(state.offset - place));
 }

@@ -26,6 +26,51 @@ TEST(Outcome, EveryStatusHasItsOwnName) {
   EXPECT_STREQ(name(Status::surface_unstable), "surface-unstable");
 }
 
+TEST(Outcome, NoStateIsConvergedThatIsUnstableOrNotAccurate) {
+  // The one check of all final states; a margin comes first, an unknown error (NaN) is left to those who know why, and
+  // how else a way ended is not changed.
+  const auto status = [](double margin, double error, double wanted) {
+    return judged(Status::converged, {margin, error, wanted});
+  };
+  EXPECT_EQ(status(0.2, 1e-3, 1e-3), Status::converged);
+  EXPECT_EQ(status(0, 1e-3, HUGE_VAL), Status::converged);
+  EXPECT_EQ(status(-0.071, 1e-3, 1e-2), Status::surface_unstable);
+  EXPECT_EQ(status(-0.09, 0.18, 0.01), Status::surface_unstable);
+  EXPECT_EQ(status(0.2, 0.18, 0.01), Status::accuracy_not_reached);
+  EXPECT_EQ(status(0.2, HUGE_VAL, 0.01), Status::accuracy_not_reached);
+  EXPECT_EQ(status(0.2, std::nan(""), 0.01), Status::converged);
+  EXPECT_EQ(judged(Status::accuracy_not_reached, {-0.1, 0.5, 0.1}), Status::surface_unstable);
+  for (const Status other : {Status::stopped, Status::branch_ended, Status::not_finite})
+    EXPECT_EQ(judged(other, {-0.1, 0.5, 0.1}), other) << name(other);
+}
+
+TEST(Outcome, AdviceCanBeFollowed) {
+  // No accuracy is advised that the key does not take, or that is below the error by rounding; no end of a branch lies
+  // "at 1 times the wanted moduli", and none is advised below them.
+  const auto inaccurate = [](double error) {
+    return explanation({Status::accuracy_not_reached, "", 1}, {.deformation = 0.03, .estimated_error = error});
+  };
+  EXPECT_NE(inaccurate(1.04e-3).find("numerics.accuracy = 1.1e-03 or more"), std::string::npos) << inaccurate(1.04e-3);
+  EXPECT_NE(inaccurate(0.0999).find("numerics.accuracy = 1.0e-01 or more"), std::string::npos) << inaccurate(0.0999);
+  for (const double error : {0.11, 6.2e5}) {
+    EXPECT_EQ(inaccurate(error).find("numerics.accuracy"), std::string::npos) << inaccurate(error);
+    EXPECT_NE(inaccurate(error).find("raise the moduli"), std::string::npos) << inaccurate(error);
+  }
+  for (const Status status : {Status::surface_unstable, Status::branch_ended, Status::iteration_limit})
+    for (const double reached : {1.0, 0.99999}) {
+      const std::string sentence = explanation({status, "", reached}, {.deformation = 0.05, .known_end = 0.98});
+      EXPECT_EQ(sentence.find(" 1 times"), std::string::npos) << sentence;
+      EXPECT_EQ(sentence.find("0.98"), std::string::npos) << sentence;
+    }
+}
+
+TEST(Outcome, AShapeBeyondItsLimitSaysByHowMuch) {
+  const std::string sentence = explanation({Status::surface_unstable, "", 1},
+                                           {.deformation = 0.05, .stability_margin = -0.071, .can_have_cortex = false});
+  EXPECT_NE(sentence.find("stability_margin -0.071"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("raise the moduli"), std::string::npos) << sentence;
+}
+
 TEST(Outcome, EveryStatusHasASentence) {
   // Whatever was reached; only success speaks of a shape that was found without reserve.
   for (const Status status : statuses) {
@@ -38,12 +83,12 @@ TEST(Outcome, EveryStatusHasASentence) {
   }
 }
 
-TEST(Outcome, ADeformationThatRoundingLimitsIsToldSo) {
-  // Its relative error may be anything; what is known is absolute.
+TEST(Outcome, ADeformationBelowTheFloorIsToldSo) {
+  // What is known of it is absolute.
   const Outcome converged{Status::converged, "", 1};
   const std::string sentence =
-      explanation(converged, {.deformation = 1e-13, .estimated_error = 2.9, .wanted_error = 1e-4});
-  EXPECT_NE(sentence.find("rounding limits it: it is known within 1e-12"), std::string::npos) << sentence;
+      explanation(converged, {.deformation = 1e-13, .deformation_floor = 1e-8, .wanted_error = 1e-4});
+  EXPECT_NE(sentence.find("so small that it is known within 1e-12"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("not within the wanted 1.0e-04"), std::string::npos) << sentence;
 }
 

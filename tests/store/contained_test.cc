@@ -110,7 +110,7 @@ TEST(Contained, SilenceEndsAfterItsPatience) {
   EXPECT_EQ(end.kind, Kind::hung);
 }
 
-#ifndef __SANITIZE_ADDRESS__  // which needs terabytes of addresses itself
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need terabytes of addresses themselves
 TEST(Contained, MemoryBeyondTheLimitIsRefused) {
   const auto end = end_of(
       [](const TellProgress&) -> std::string {

@@ -55,6 +55,27 @@ TEST(WorkHost, AnswersEachOfManyThreadsWithWhatItAskedFor) {
   for (auto& thread : threads) thread.join();
 }
 
+TEST(WorkHost, RemovesTheFoldersThatKilledHostsHaveLeft) {
+  const fs::path left =
+      new_scratch_folder(fs::temp_directory_path() / "rheocyte-view").path;  // nobody holds it any more
+  std::ofstream(left / "data") << "of a killed program";
+  const auto echo = [](const std::string& request, const WorkReply& reply) { reply.give(request); };
+  const WorkHost first(echo), second(echo);
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(first.folder())) << "it is in use";
+}
+
+TEST(WorkHost, EndsWorkForWhichNobodyWaitsAnyMore) {
+  const WorkHost host([](const std::string&, const WorkReply& reply) {
+    reply.give("begun");
+    while (reply.is_wanted()) ::usleep(1000);
+  });
+  HostedWork work = host.ask("");
+  bool has_begun = false;
+  work.only_while([&has_begun] { return !has_begun; });
+  EXPECT_THROW(work.read([&has_begun](std::string_view) { return has_begun = true; }), UserError);
+}
+
 TEST(WorkHost, TellsWhyWorkHasFailed) {
   const WorkHost host([](const std::string& request, const WorkReply& reply) {
     if (request == "user") throw UserError("the file is red");

@@ -41,7 +41,10 @@ TEST(SynthSpec, ShortestOneIsCompletedByDefaults) {
   EXPECT_EQ(spec.radius_um.deviation, 0);
   EXPECT_EQ(spec.stiffness().mean, 3);
   EXPECT_EQ(spec.viscosity_mPas, 5.4);
-  EXPECT_EQ(spec.max_deformation, 0.02) << "where the analytical model holds";
+  EXPECT_FALSE(spec.analytical) << "the shapes are those of the table by which moduli are read";
+  EXPECT_EQ(spec.max_deformation, 0) << "the table has its own end";
+  EXPECT_EQ(parse_synth_spec(channel + liquid + cell + "[shapes]\nmodel = \"analytical\"\n", "s").max_deformation, 0.02)
+      << "where the analytical model holds";
   EXPECT_EQ(spec.image_size().width, 250U);
   EXPECT_EQ(spec.image_size().height, 78U) << "20 um and 3 um on each side";
 }
@@ -90,7 +93,12 @@ TEST(SynthSpec, MistakesAreNamedWithTheWayOut) {
   expect_refusal(channel + liquid + "medium = \"water\"\n" + cell, "exclude each other");
   expect_refusal(channel + liquid + "temperature_C.sd = 1\n" + cell, "has no effect, because flow.viscosity_mPas");
   expect_refusal(channel + liquid + cell + "[shapes]\ntable = \"t\"\nduct = \"square\"\n",
-                 "because shapes.table is given");
+                 "because shapes.model is \"table\"");
+  expect_refusal(channel + liquid + cell + "[shapes]\ntable = \"t\"\nmodel = \"analytical\"\n",
+                 "because shapes.model is \"analytical\"");
+  expect_refusal(channel + liquid + cell + "[shapes]\nmax_deformation = 0.01\n", "or choose \"analytical\"");
+  expect_refusal(channel + liquid + "[cell]\nkind = \"shell\"\nradius_um = 6\ncortex.modulus_mN_per_m = 9\n",
+                 "needs shapes.table, the folder of a table of shells, or shapes.model");
   expect_refusal(channel + liquid + cell + "cortex.tension_ratio = 0.1\n", "because cell.kind is \"solid\"");
   expect_refusal(channel + liquid + cell + "kind = \"shell\"\n", "because cell.kind is \"shell\"");
   expect_refusal(channel + liquid + "[cell]\nkind = \"shell\"\nradius_um = 6\n",
@@ -104,7 +112,7 @@ TEST(SynthSpec, MistakesAreNamedWithTheWayOut) {
   expect_refusal(channel + liquid + both + "cortex.tension_ratio = 0.1\ncortex.tension_mN_per_m = 3\n",
                  "exclude each other");
   expect_refusal(channel + liquid + both + "[shapes]\ntable = \"t\"\nduct = \"square\"\n",
-                 "because shapes.table is given");
+                 "because shapes.model is \"table\"");
   expect_refusal(channel + liquid +
                      "[cell]\nkind = \"shell\"\nradius_um = 6\ncortex.modulus_mN_per_m = 9\n"
                      "cortex.tension_ratio = {mean = 0.1, sd = 0.1}\n",

@@ -40,7 +40,7 @@ class Spheres : public CellShapes {
 class Virtual : public testing::Test {
  protected:
   VirtualRecording write(const std::string& more, const std::string& name = "v.rtdc") const {
-    const auto spec = parse_synth_spec(base + more, "spec.toml");
+    const auto spec = parse_synth_spec(base + more, "spec.toml", std::vector<std::string>{"shapes.model=analytical"});
     const AnalyticShapes shapes(
         {.flow = {spec.channel_width_um, spec.flow_rate_ul_s}, .max_deformation = spec.max_deformation});
     return write_virtual_recording(spec, shapes, {"rheocyte test", {"line"}}, folder_ / name, [](double) {});

@@ -14,6 +14,13 @@ namespace {
 
 using namespace test;
 
+/// The table with one number of its last row replaced.
+std::string with_last_row(const std::string& csv, int column, const std::string& number) {
+  std::size_t at = csv.rfind('\n', csv.size() - 2) + 1;
+  for (int i = 0; i < column; ++i) at = csv.find(',', at) + 1;
+  return csv.substr(0, at) + number + csv.substr(csv.find(',', at));
+}
+
 TEST(CombinedTable, ReadsBackToTheSameBits) {
   // Digits are the shortest that give the same number; columns that differ are named with their line.
   const CombinedTable table = invented_combined_table(std::vector<std::string>{"table.radii=2"});
@@ -28,7 +35,11 @@ TEST(CombinedTable, ReadsBackToTheSameBits) {
   EXPECT_EQ(combined_table_csv(back), csv);
   for (const auto& [bad, words] : {std::pair(std::string("a,b\n1,2\n"), ":1: the columns"),
                                    std::pair(csv + "1,2,3\n", "another number of columns"),
-                                   std::pair(csv + "1,x\n", "something else than numbers")}) {
+                                   std::pair(csv + "1,x\n", "something else than numbers"),
+                                   std::pair(with_last_row(csv, 1, "1.5"), "not those of a cell"),
+                                   std::pair(with_last_row(csv, 8, "-3"), "not those of a cell"),
+                                   std::pair(with_last_row(csv, 4, "3"), "not those of this stiffness"),
+                                   std::pair(with_last_row(csv, 0, "7.77"), "not those of this stiffness")}) {
     try {
       parse_combined_table(table.spec, bad, "combined.csv");
       FAIL() << words;

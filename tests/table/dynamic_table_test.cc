@@ -1,12 +1,15 @@
 // A dynamic table gives back the ways of its cells, and those of cells between them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../refusal.h"
@@ -61,6 +64,37 @@ TEST(DynamicTable, AnyChangedByteOfItsFileIsRefusedInASentence) {
     EXPECT_TRUE(refusal.starts_with("table.cbor: this dynamic table cannot be used: ")) << refusal;
   }
   EXPECT_NE(refusal_of([&] { dynamic_from_bytes(bytes.substr(0, 1000), "table.cbor"); }), "accepted");
+}
+
+TEST(DynamicTable, NumbersThatNoCellHasAndCellsOfOtherNodesAreRefusedInASentence) {
+  // Each file has a right checksum: only its numbers are wrong.
+  const DynamicContent sound = test::invented_dynamic();
+  const auto refusal = [&](const auto& change) {
+    DynamicContent changed = sound;
+    change(changed.courses);
+    return refusal_of([&] { dynamic_from_bytes(to_bytes(changed), "table.cbor"); });
+  };
+  using Courses = std::vector<CellCourse>;
+  const auto of = [](CourseMeasure measure) { return int(measure); };
+  const std::string numbers = "the way of a cell holds numbers that no cell has",
+                    cells = "a cell is not the one that its spec has in this place";
+  for (const auto& [change, words] : std::vector<std::pair<std::function<void(Courses&)>, std::string>>{
+           {[](Courses& all) {
+              for (auto& course : all) course.value.setZero();
+            },
+            numbers},
+           {[&](Courses& all) { all[3].value(2, of(CourseMeasure::mode_3)) = NAN; }, numbers},
+           {[&](Courses& all) { all[3].value(2, of(CourseMeasure::mode_3)) = 1e300; }, numbers},
+           {[&](Courses& all) { all[3].value.col(of(CourseMeasure::time)).reverseInPlace(); }, numbers},
+           {[&](Courses& all) { all[3].value.col(of(CourseMeasure::area_ratio)) *= -1; }, numbers},
+           {[](Courses& all) { std::ranges::reverse(all); }, cells},
+           {[](Courses& all) { std::swap(all[1], all[2]); }, cells},
+           {[](Courses& all) { all[5].cell.radius_um *= -1; }, cells},
+           {[](Courses& all) { all[5].cell.young_modulus_kPa *= 1.001; }, cells},
+           {[](Courses& all) { all[5].cell.time_ms *= 2; }, cells},
+           {[](Courses& all) { all.pop_back(); }, "it does not hold what its spec says"}})
+    EXPECT_NE(refusal(change).find(words), std::string::npos) << refusal(change);
+  EXPECT_NE(refusal([](Courses& all) { all[5].cell.time_ms = NAN; }), "accepted");
 }
 
 TEST(DynamicTable, WhatItsSpecMustNotSayIsRefusedInASentence) {
@@ -120,6 +154,18 @@ TEST_F(DynamicFolderTest, AnInterruptedComputationGoesOnAndEndsWithAllCells) {
   }
   EXPECT_EQ(DynamicFolder(folder_, small_spec()).done(), 8);
   EXPECT_EQ(read_dynamic_table(folder_).spec().identifier, "invented");
+}
+
+TEST_F(DynamicFolderTest, ARecordOfAnotherCellIsRefused) {
+  const DynamicSpec spec = small_spec();
+  const auto cells = cells_of(spec);
+  { DynamicFolder begun(folder_, spec); }
+  const std::string bytes = to_bytes(test::invented_course(spec, cells[2]), spec_hash(spec));
+  std::ofstream(folder_ / "cells" / "cell-00002.cbor", std::ios::binary) << bytes;
+  EXPECT_EQ(DynamicFolder(folder_, spec).done(), 1);
+  std::ofstream(folder_ / "cells" / "cell-00005.cbor", std::ios::binary) << bytes;
+  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, spec); }).find("cell-00005.cbor: this record of a cell's way"),
+            std::string::npos);
 }
 
 TEST_F(DynamicFolderTest, AFolderOfAnotherContractionOrOfSomethingElseIsRefused) {

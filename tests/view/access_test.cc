@@ -79,6 +79,26 @@ TEST(Access, SigningInSetsACookieThatScriptsDoNotSee) {
   EXPECT_EQ(access.sign_in(foreign, "secret").status, 403);
 }
 
+TEST(Access, TheKeyOfTheStartedBrowserOpensOnceAndOnlyForTheSameUser) {
+  // Others read the address with the key in the list of processes.
+  Access own("secret", "127.0.0.1", 4711);
+  const std::string address = own.address_of_once(), key = address.substr(address.find('=') + 1);
+  EXPECT_EQ(address.find("secret"), std::string::npos);
+  Credentials browser = ours();
+  browser.authorization.clear();
+  EXPECT_EQ(own.sign_in_once(browser, key).status, 401) << "the system tells nothing";
+  browser.is_of_own_user = [] { return false; };
+  EXPECT_EQ(own.sign_in_once(browser, key).status, 401);
+  browser.is_of_own_user = [] { return true; };
+  EXPECT_EQ(own.sign_in_once(browser, "secret").status, 401);
+  EXPECT_EQ(own.sign_in_once(browser, key).status, 303);
+  EXPECT_EQ(own.sign_in_once(browser, key).status, 401) << "it has been used";
+  browser.cookie = "rheocyte_4711=secret";
+  EXPECT_EQ(own.sign_in_once(browser, key).status, 303) << "a browser that asks twice";
+  browser.hosts = {"evil.example:4711"};
+  EXPECT_EQ(own.sign_in_once(browser, key).status, 403);
+}
+
 TEST(Access, TokensAreLongAndDiffer) {
   EXPECT_EQ(new_token().size(), 32u);
   EXPECT_NE(new_token(), new_token());

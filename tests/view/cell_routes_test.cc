@@ -14,8 +14,8 @@
 #include "case/scales.h"
 #include "result/result.h"
 #include "solve/stationary.h"
+#include "store/base64.h"
 #include "store/own_file.h"
-#include "view/base64.h"
 #include "view/state_json.h"
 #include "view/stated_case.h"
 #include "view/view_session.h"
@@ -292,6 +292,32 @@ TEST_F(CellRoutes, ExportsGoIntoTheFolderAndOverNothingForeign) {
     EXPECT_EQ(post("/api/export", other).status, 400) << name;
   }
   EXPECT_EQ(post("/api/export", {{"what", "nothing"}}).status, 400);
+}
+
+TEST_F(CellRoutes, AnExportDoesNotReplaceWhatOthersHaveWrittenMeanwhile) {
+  Json wish{{"what", "case"}, {"case", cell()}, {"name", "mine.toml"}};
+  ASSERT_EQ(post("/api/export", wish).status, 200);
+  std::ofstream(folder_.path() / "mine.toml") << "edited by hand";
+  EXPECT_EQ(post("/api/export", wish).status, 409);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "nothing hidden is left";
+  const Json result{{"what", "result"}, {"case", cell()}, {"name", "both"}};
+  ASSERT_EQ(post("/api/export", result).status, 200);
+  wish["name"] = "both";
+  EXPECT_EQ(post("/api/export", wish).status, 409) << "a folder stands there";
+  EXPECT_EQ(post("/api/export", result).status, 200) << "its own";
+  fs::remove_all(folder_.path() / "both");
+  fs::create_directory(folder_.path() / "both");
+  EXPECT_EQ(post("/api/export", result).status, 409) << "somebody else's";
+}
+
+TEST_F(CellRoutes, AnExportEndsWhenItsClientHasLeft) {
+  class Left final : public Client {
+    bool has_left() const override { return true; }
+  } const left;
+  const Json wish{{"what", "result"}, {"case", cell()}, {"name", "in vain"}};
+  const Answer answer = router_.answer({.method = "POST", .path = "/api/export", .body = wish.dump(), .client = &left});
+  EXPECT_EQ(answer.status, 503) << answer.body;
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(CellRoutes, AnExportedResultHasTheFilesAndDigitsOfSolve) {

@@ -2,6 +2,7 @@
 #include "view/http_server.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <condition_variable>
@@ -148,6 +149,65 @@ TEST(HttpServer, OddHeadsHaveAnAnswer) {
   EXPECT_NE(status_of(endless.read_to_end()), 200);
 }
 
+TEST(HttpServer, AHeadAloneIsGivenWhereHeadIsAsked) {
+  const Router router = echo();
+  const Served served(router);
+  const std::string answer = ask(served, "HEAD", "/api/ping");
+  EXPECT_EQ(status_of(answer), 200);
+  EXPECT_NE(answer.find("Content-Length: 4"), std::string::npos) << answer;
+  EXPECT_EQ(test::body_of(answer), "");
+  EXPECT_EQ(test::body_of(ask(served, "HEAD", "/api/pieces")), "");
+}
+
+TEST(HttpServer, OldClientsGetPiecesWithoutFrames) {
+  const Router router = echo();
+  const Served served(router);
+  const Wire wire(served.port());
+  std::string request = request_text(served, "GET", "/api/pieces");
+  wire.send(request.replace(request.find("HTTP/1.1"), 8, "HTTP/1.0"));
+  EXPECT_EQ(test::body_of(wire.read_to_end()), "one\ntwo\n");
+}
+
+TEST(HttpServer, AClientThatWaitsForItMaySendItsBody) {
+  const Router router = echo();
+  const Served served(router);
+  const Wire wire(served.port());
+  wire.send(request_text(served, "POST", "/api/echo", {},
+                         "Connection: close\r\nExpect: 100-continue\r\nContent-Length: 5\r\n"));
+  wire.send("hello");
+  const std::string answer = wire.read_to_end();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 100 Continue\r\n\r\nHTTP/1.1 200")) << answer;
+  EXPECT_TRUE(answer.ends_with("\r\n\r\nhello")) << answer;
+}
+
+TEST(HttpServer, NothingButAccessIsReadOfARequestThatMayNotAsk) {
+  // Long lists of ranges ended an earlier server, which took them apart by a recursive expression.
+  const Router router = echo();
+  const Served served(router);
+  std::string ranges = "bytes=0-1";
+  while (ranges.size() < 60'000) ranges += ",0-1";
+  const std::string host = "Host: 127.0.0.1:" + std::to_string(served.port()) + "\r\n";
+  for (const std::string& header : {"Range: " + ranges, std::string("Content-Length: 5"),
+                                    std::string("Transfer-Encoding: chunked"), std::string("Content-Encoding: gzip")}) {
+    const Wire wire(served.port());
+    wire.send("POST /api/echo HTTP/1.1\r\nConnection: close\r\n" + host + header + "\r\n\r\n");
+    EXPECT_EQ(status_of(wire.read_to_end()), 401) << header.substr(0, 40);
+  }
+  const Wire wire(served.port());
+  wire.send(request_text(served, "GET", "/api/ping", {}, "Connection: close\r\nRange: " + ranges + "\r\n"));
+  EXPECT_EQ(status_of(wire.read_to_end()), 200);
+}
+
+TEST(HttpServer, ManySilentConnectionsGiveTheirPlacesToOthers) {
+  // More than the server keeps: those that have been silent for longest are closed.
+  const Router router = echo();
+  const Served served(router);
+  std::vector<std::unique_ptr<Wire>> silent;
+  for (int i = 0; i < 600; ++i) silent.push_back(std::make_unique<Wire>(served.port()));
+  EXPECT_EQ(status_of(ask(served, "GET", "/api/ping")), 200);
+  EXPECT_EQ(silent.front()->read_to_end(), "");
+}
+
 TEST(HttpServer, FiftyClientsAtOnceAreAnsweredWhileOthersSayNothing) {
   const Router router = echo();
   const Served served(router);
@@ -209,6 +269,18 @@ TEST(HttpServer, AClientThatHangsUpIsNoticedWhileItsAnswerIsMade) {
   ASSERT_TRUE(changed.wait_for(lock, std::chrono::minutes(1), [&] { return has_begun; }));
   wire.close();
   EXPECT_TRUE(changed.wait_for(lock, std::chrono::minutes(1), [&] { return was_noticed; }));
+}
+
+TEST(HttpServer, AnEmptyAddressAndAPortOfTheAdministratorAreSentences) {
+  const Router router = echo();
+  const Assets assets("no-such-folder");
+  const auto sentence = [&](const ServedPlace& place) {
+    return test::refusal_of([&] { const HttpServer server(router, assets, place, "token"); });
+  };
+  EXPECT_NE(sentence({"", 0}).find("--host is empty"), std::string::npos);
+  EXPECT_NE(sentence({"no such host", 0}).find("no address of this machine"), std::string::npos);
+  if (::geteuid() == 0) GTEST_SKIP() << "the administrator may take every port";
+  EXPECT_NE(sentence({"127.0.0.1", 80}).find("administrator"), std::string::npos);
 }
 
 TEST(HttpServer, APortInUseIsOneSentence) {

@@ -61,6 +61,10 @@ TEST(ModuliSettings, TakeTablesByIdentifierOrItemAndNeverByPath) {
   expect_refusal({{"table", -1}}, "the number of an item");
 }
 
+TEST(ModuliSettings, PolygonsAreNeverReadFromFiles) {
+  expect_refusal({{"polygon", {"/data/filters.poly"}}}, "features and corners, not a file");
+}
+
 TEST(ModuliSettings, ThatAreWrongAreNamed) {
   expect_refusal({{"output", "/tmp"}}, "no setting output");
   expect_refusal({{"channel_width_um", "20"}}, "channel_width_um is a number");

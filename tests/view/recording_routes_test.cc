@@ -16,6 +16,7 @@
 #include "case/json_guard.h"
 #include "extract/extract_recording.h"
 #include "measurement/recording_writer.h"
+#include "store/file_version.h"
 #include "view/view_items.h"
 #include "virtual_cells.h"
 
@@ -40,6 +41,15 @@ class RecordingRoutes : public testing::Test {
   void open_virtual_cells(int cells) {
     test::write_virtual_cells(folder_ / "cells.rtdc", cells);
     open(folder_ / "cells.rtdc");
+  }
+  /// Other cells in the place of those of a file, which is written into.
+  void write_over(const std::string& name, int cells, int seed) {
+    test::write_virtual_cells(folder_ / "others.rtdc", cells, seed);
+    fs::copy_file(folder_ / "others.rtdc", folder_ / name, fs::copy_options::overwrite_existing);
+  }
+  void wait_until_described() const {
+    for (int round = 0; round < 3000 && json("GET", "/api/items")[0]["state"] == "loading"; ++round)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   void open(const fs::path& file) {
     const std::array<fs::path, 1> paths{file};
@@ -108,8 +118,10 @@ TEST_F(RecordingRoutes, GiveColumnsOneAfterAnotherAsTheyAreStored) {
   const Answer answer = ask("GET", "/api/items/0/events", {{"features", "area_um,deform"}, {"type", "float64"}});
   ASSERT_EQ(answer.status, 200) << answer.body;
   ASSERT_EQ(answer.headers.size(), 1u);
-  EXPECT_EQ(parse_sound_json(answer.headers[0].second),
-            (Json{{"features", {"area_um", "deform"}}, {"events", 3}, {"type", "float64"}}));
+  EXPECT_EQ(parse_sound_json(answer.headers[0].second), (Json{{"features", {"area_um", "deform"}},
+                                                              {"events", 3},
+                                                              {"version", file_version(folder_ / "a.rtdc")},
+                                                              {"type", "float64"}}));
   const auto numbers = numbers_in<double>(bytes_of(answer));
   ASSERT_EQ(numbers.size(), 6u);
   EXPECT_EQ(numbers[1], 90.2);
@@ -239,8 +251,71 @@ TEST_F(RecordingRoutes, TellAnEventFromTheFileAndTheModuliAsTheyAreNow) {
   EXPECT_GT(after["young_modulus_kPa"].get<double>(), before["young_modulus_kPa"].get<double>());
   EXPECT_EQ(after["features"]["emodulus"], after["young_modulus_kPa"]);
   test::write_virtual_cells(folder_ / "cells.rtdc", 10);
-  fs::last_write_time(folder_ / "cells.rtdc", fs::file_time_type::clock::now() + std::chrono::seconds(10));
   EXPECT_EQ(ask("GET", "/api/items/0/events/15").status, 400);
+}
+
+TEST_F(RecordingRoutes, HaveNoModuliOfARecordingThatHasChanged) {
+  open_virtual_cells(20);
+  ASSERT_EQ(moduli({{"temperature", 23}})["state"], "ready");
+  EXPECT_EQ(json("GET", "/api/items/0/events/3")["features"].contains("emodulus"), true);
+  write_over("cells.rtdc", 20, 31);
+  const Json state = json("GET", "/api/items/0/moduli");
+  EXPECT_EQ(state["state"], "failed");
+  EXPECT_NE(state["error"].get<std::string>().find("has changed since"), std::string::npos) << state;
+  EXPECT_FALSE(state.contains("summary"));
+  EXPECT_EQ(state["settings"]["temperature"], "23") << "for lines and single events";
+  EXPECT_FALSE(json("GET", "/api/items")[0].contains("counts"));
+  EXPECT_EQ(ask("GET", "/api/items/0/events", {{"features", "emodulus"}}).status, 400);
+  EXPECT_FALSE(json("GET", "/api/items/0/events/3")["features"].contains("emodulus"));
+  ASSERT_EQ(moduli({{"temperature", 23}})["state"], "ready");
+  EXPECT_EQ(ask("GET", "/api/items/0/events", {{"features", "emodulus"}}).status, 200);
+}
+
+TEST_F(RecordingRoutes, HaveNoModuliOnceABasinHasChanged) {
+  test::write_virtual_cells(folder_ / "cells.rtdc", 20);
+  extract(folder_ / "cells.rtdc", {folder_ / "other_rheocyte.rtdc", folder_ / "other.tsv"});
+  open(folder_ / "other_rheocyte.rtdc");
+  ASSERT_EQ(moduli(Json::object())["state"], "ready");
+  write_over("cells.rtdc", 20, 31);
+  EXPECT_EQ(json("GET", "/api/items/0/moduli")["state"], "failed");
+}
+
+TEST_F(RecordingRoutes, RefuseToExportTheGateOfARecordingThatHasChangedSince) {
+  open_virtual_cells(20);
+  const std::string before = file_version(folder_ / "cells.rtdc");
+  const auto status = [&](const char* name) {
+    const Json wish{{"what", "events"}, {"item", 0}, {"name", name}, {"gate", {3}}, {"version", before}};
+    return ask("POST", "/api/export", {}, json_text(wish)).status;
+  };
+  EXPECT_EQ(status("before.tsv"), 200);
+  write_over("cells.rtdc", 20, 31);
+  EXPECT_EQ(status("after.tsv"), 409);
+}
+
+TEST_F(RecordingRoutes, KeepAStoredModulusApartFromTheComputedOneAndOfferNoNumbersOfBasins) {
+  open("a.rtdc", [](RecordingWriter& writer) {
+    writer.scalar("area_um", {80, 90, 100});
+    writer.scalar("deform", {0.02, 0.03, 0.04});
+    writer.scalar("emodulus", {1.5, 1.25, 1});
+    writer.scalar("basinmap0", {4, 5, 6});
+  });
+  const auto offers = [&](const char* name) {
+    const Json features = json("GET", "/api/items/0")["features"];
+    return std::ranges::find(features, name) != features.end();
+  };
+  const auto first = [&](const char* name) {
+    return numbers_in<double>(
+        bytes_of(ask("GET", "/api/items/0/events", {{"features", name}, {"type", "float64"}})))[0];
+  };
+  wait_until_described();
+  EXPECT_TRUE(offers("emodulus_stored"));
+  EXPECT_FALSE(offers("emodulus") || offers("basinmap0"));
+  EXPECT_EQ(first("emodulus_stored"), 1.5);
+  EXPECT_EQ(ask("GET", "/api/items/0/events", {{"features", "emodulus"}}).status, 400);
+  ASSERT_EQ(moduli({{"temperature", 23}})["state"], "ready");
+  EXPECT_TRUE(offers("emodulus"));
+  EXPECT_EQ(first("emodulus_stored"), 1.5);
+  EXPECT_NE(first("emodulus"), 1.5);
 }
 
 TEST_F(RecordingRoutes, ASessionComputesItsModuliAgain) {

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <nlohmann/json.hpp>
+
 #include "case/user_error.h"
+#include "store/system_limit.h"
 
 namespace rheocyte::router_test {
 namespace {
@@ -12,6 +16,8 @@ Router router() {
   r.add("GET", "/api/items/{item}",
         [](const Request& q) -> Answer { return {.body = std::to_string(q.number("item"))}; });
   r.add("GET", "/api/items/fixed/name", [](const Request&) -> Answer { return {.body = "fixed"}; });
+  r.add("POST", "/api/object", [](const Request& q) -> Answer { return {.body = std::to_string(q.json().size())}; });
+  r.add("POST", "/api/limit", [](const Request&) -> Answer { throw SystemLimit("threads", EAGAIN); });
   r.add("POST", "/api/user", [](const Request&) -> Answer { throw UserError("a sentence"); });
   r.add(
       "POST", "/api/bug", [](const Request&) -> Answer { throw std::logic_error("oops"); }, 5);
@@ -39,6 +45,28 @@ TEST(Router, WhatIsThrownBecomesAnAnswer) {
   EXPECT_EQ(answer("POST", "/api/user").status, 400);
   EXPECT_EQ(answer("POST", "/api/user").body, R"({"error":"a sentence","reason":"input"})");
   EXPECT_EQ(answer("POST", "/api/bug").status, 500);
+}
+
+TEST(Router, WhatTheSystemDoesNotGiveIsNoFaultOfTheRequest) {
+  const Answer refused = answer("POST", "/api/limit");
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_NE(refused.body.find("gives no more threads"), std::string::npos) << refused.body;
+}
+
+TEST(Router, ObjectsWithVeryManyKeysAreRefused) {
+  // Each key of nlohmann's ordered objects is compared with all before it.
+  const auto object_of = [](int keys) {
+    std::string text = "{";
+    for (int i = 0; i < keys; ++i) text += (i ? ",\"" : "\"") + std::to_string(i) + "\":0";
+    return text + "}";
+  };
+  const auto ask = [&](int keys) {
+    return router().answer({.method = "POST", .path = "/api/object", .body = object_of(keys)});
+  };
+  EXPECT_EQ(ask(2000).body, "2000");
+  EXPECT_EQ(ask(2001).status, 400);
+  const std::string nested = R"({"a": {"b": 1}, "c": )" + object_of(2001) + "}";
+  EXPECT_EQ(router().answer({.method = "POST", .path = "/api/object", .body = nested}).status, 400);
 }
 
 TEST(Router, BodiesHaveTheLimitOfTheirRoute) {

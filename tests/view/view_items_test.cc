@@ -20,12 +20,12 @@ using Json = nlohmann::ordered_json;
 
 class Items : public testing::Test {
  protected:
-  void write_recording(const std::string& name) const {
+  void write_recording(const std::string& name, const std::vector<double>& areas = {80, 90, 100}) const {
     fs::create_directories((folder_ / name).parent_path());
     RecordingWriter writer(folder_ / name);
     test::write_usual_metadata(writer);
-    writer.scalar("area_um", {80, 90, 100});
-    writer.scalar("deform", {0.03, 0.04, 0.05});
+    writer.scalar("area_um", areas);
+    writer.scalar("deform", std::vector<double>(areas.size(), 0.03));
   }
   void write(const std::string& name, const std::string& text) const {
     fs::create_directories((folder_ / name).parent_path());
@@ -94,6 +94,27 @@ TEST_F(Items, ThatVanishAndComeBackAreNoticed) {
   EXPECT_EQ(loaded(items)[0]["state"], "ready");
 }
 
+TEST_F(Items, ThatChangeAreReadAgain) {
+  write_recording("a.rtdc");
+  const std::array<fs::path, 1> paths{folder_ / "a.rtdc"};
+  ViewItems items(paths);
+  const Json before = loaded(items);
+  EXPECT_EQ(before[0]["events"], 3);
+  EXPECT_EQ(items.list(), before) << "while nothing changes, nothing is read";
+  write_recording("b.rtdc", {80, 90});
+  fs::copy_file(folder_ / "b.rtdc", folder_ / "a.rtdc", fs::copy_options::overwrite_existing);
+  EXPECT_EQ(items.list()[0]["state"], "loading");
+  const Json after = loaded(items);
+  EXPECT_EQ(after[0]["events"], 2);
+  EXPECT_NE(after[0]["version"], before[0]["version"]);
+  write("a.rtdc", "no recording");
+  static_cast<void>(items.list());
+  EXPECT_EQ(loaded(items)[0]["state"], "failed");
+  fs::copy_file(folder_ / "b.rtdc", folder_ / "a.rtdc", fs::copy_options::overwrite_existing);
+  static_cast<void>(items.list());
+  EXPECT_EQ(loaded(items)[0]["events"], 2);
+}
+
 TEST_F(Items, KeepLabelsAndPathsInASession) {
   write_recording("a.rtdc");
   write_recording("b.rtdc");
@@ -114,6 +135,33 @@ TEST_F(Items, KeepLabelsAndPathsInASession) {
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list[1]["condition"], "treated");
   EXPECT_EQ(list[1]["replicate"], "3");
+}
+
+TEST_F(Items, MayHaveNamesThatAreNotUtf8) {
+  const std::string name = "zellen \xE4\xF6.rtdc";
+  write_recording("plain.rtdc");
+  std::error_code error;
+  fs::rename(folder_ / "plain.rtdc", folder_ / name, error);
+  if (error) GTEST_SKIP() << "this file system takes names of UTF-8 alone";
+  const std::array<fs::path, 1> paths{folder_ / name};
+  ViewItems items(paths);
+  EXPECT_EQ(loaded(items)[0]["state"], "ready");
+  ViewItems again({});
+  again.restore(Json::parse(items.kept().dump()));
+  const Json list = loaded(again);
+  EXPECT_EQ(list[0]["state"], "ready") << list;
+}
+
+TEST_F(Items, OfASessionAreNotSearchedFor) {
+  // A session of somebody else may name any folder, be it that of the whole disk.
+  write_recording("data/a.rtdc");
+  write("data/result/result.json", R"({"case": {"cell": {"radius_um": 7}}})");
+  ViewItems items({});
+  items.restore({{{"path", (folder_ / "data").string()}}, {{"path", (folder_ / "data/result").string()}}});
+  const Json list = loaded(items);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0]["state"], "failed");
+  EXPECT_EQ(list[1]["kind"], "result");
 }
 
 TEST_F(Items, LeaveNoTemporaryFolderBehind) {

@@ -1,6 +1,7 @@
 // The plane of area and deformation: isoelasticity lines of this channel and flow, the cell, and its trace.
 import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
-import type { Lines } from '../api';
+import type { Isoelastic, Lines } from '../api';
+import { placeLabels, widthOf, type NamedLine } from '../draw/line_labels';
 import { plain, tickLabels, ticks } from '../draw/numbers';
 import { useStore } from '../shell/store';
 import * as model from './model';
@@ -70,20 +71,32 @@ function Frame({ axes }: { axes: Axes }) {
   );
 }
 
-function Isoelastic({ axes, lines }: { axes: Axes; lines: Lines }) {
+const fontSize = 11;
+
+/** A line with its modulus behind its end. */
+function named(axes: Axes, line: Isoelastic): NamedLine {
+  const text = `${plain(Number(line.young_modulus_kPa.toPrecision(3)))} kPa`;
+  const points = line.x.map((area, k): [number, number] => [x(axes, area), y(axes, line.y[k])]);
+  const [right, middle] = points[points.length - 1] ?? [NaN, NaN];
+  return { text, points, wanted: { left: right + 4, right: right + 4 + widthOf(text, fontSize), top: middle - 5, bottom: middle + 4 } };
+}
+
+function IsoelasticLines({ axes, lines }: { axes: Axes; lines: Lines }) {
+  const all = lines.lines.map((line) => named(axes, line));
+  const labels = placeLabels(all, { left: margin.left, right: axes.width, top: 0, bottom: axes.height - margin.bottom + 8 });
   return (
     <g fill="none" stroke="var(--line-strong)" stroke-width={1}>
-      {lines.lines.map((line) => {
-        const last = line.x.length - 1;
-        return (
-          <g key={line.young_modulus_kPa}>
-            <path d={`M${line.x.map((area, k) => `${x(axes, area).toFixed(1)} ${y(axes, line.y[k]).toFixed(1)}`).join('L')}`} />
-            <text x={x(axes, line.x[last]) + 4} y={y(axes, line.y[last]) + 4} font-size={11} fill="var(--ink-soft)" stroke="none">
-              {`${plain(Number(line.young_modulus_kPa.toPrecision(3)))} kPa`}
+      {all.map(({ points }, k) => (
+        <path key={k} d={`M${points.map(([left, top]) => `${left.toFixed(1)} ${top.toFixed(1)}`).join('L')}`} />
+      ))}
+      {labels.map(
+        (label, k) =>
+          label && (
+            <text key={k} class="line-modulus" font-size={fontSize} x={label.left} y={label.bottom}>
+              {all[k].text}
             </text>
-          </g>
-        );
-      })}
+          ),
+      )}
     </g>
   );
 }
@@ -126,7 +139,7 @@ export function Plane() {
     () => (
       <>
         <Frame axes={axes} />
-        {lines && <Isoelastic axes={axes} lines={lines} />}
+        {lines && <IsoelasticLines axes={axes} lines={lines} />}
       </>
     ),
     [axes, lines],

@@ -15,11 +15,12 @@ const boltzmann_mN_um = 4.116e-12; // k_B T at 25 degrees C as mN/m x um^2
 const tubeRadius = (values: Case) =>
   Number(values['channel.radius_um'] ?? 0.547 * Number(values['channel.width_um'] ?? 20));
 
-/** Size of a quantity for this cell that may be zero, by its unit: modulus x radius, modulus x radius^3. */
+/** Size of a quantity for this cell that may be zero, by its unit: modulus, modulus x radius, modulus x radius^3. */
 function naturalSize(key: KeyDescription, values: Case): number | null {
   const radius = Number(values['cell.radius_um'] ?? 7);
   const modulus = Number(values['cell.bulk.young_modulus_kPa'] ?? 0);
   const tension = Math.max(modulus * radius, Number(values['cell.cortex.modulus_mN_per_m'] ?? 0)) || 30;
+  if (key.unit === 'Pa') return (1000 * tension) / radius;
   if (key.unit === 'mN/m') return tension;
   if (key.unit === 'kBT') return (tension * radius * radius) / (100 * boltzmann_mN_um * 1e6);
   return null;

@@ -7,12 +7,16 @@ import { maskOf, statisticsOf } from './analysis';
 import { column, columnsVersion, wantColumns } from './columns';
 import { labelOf, unitOf } from './features';
 import { gates, items, measured, paintedGates, recordings, titleOf } from './model';
+import { distinctNames } from './names';
 import { rangeOf, ticksOf, type ScaleKind, type Span } from './scale';
+import { useOrigin } from './StatisticsTable';
+import { useSize } from './use_size';
 import { byCondition, valuesAlong, violinCells, violinOf, type Violin } from './violins';
 
-const slot = 92;
+const slots = { least: 46, greatest: 92 };
 const height = 210;
 const left = 62;
+const right = 12;
 const inner = { top: 8, bottom: 34 };
 
 interface Entry {
@@ -44,7 +48,7 @@ function useEntries(feature: string, scale: ScaleKind): { entries: Entry[]; span
 const up = (span: Span, place: number) =>
   height - inner.bottom - ((place - span.low) / (span.high - span.low)) * (height - inner.top - inner.bottom);
 
-function ViolinShape({ violin, span, middle }: { violin: Violin; span: Span; middle: number }) {
+function ViolinShape({ violin, span, middle, slot }: { violin: Violin; span: Span; middle: number; slot: number }) {
   const places = Array.from(violin.outline, (width, k) => {
     const y = up(span, span.low + ((k + 0.5) / violinCells) * (span.high - span.low)).toFixed(1);
     return [width * 0.36 * slot, y] as const;
@@ -68,8 +72,19 @@ function ViolinShape({ violin, span, middle }: { violin: Violin; span: Span; mid
   );
 }
 
-function Violins({ entries, span, scale, feature }: { entries: Entry[]; span: Span; scale: ScaleKind; feature: string }) {
-  const width = left + slot * entries.length + 12;
+interface ViolinsProps {
+  entries: Entry[];
+  span: Span;
+  scale: ScaleKind;
+  feature: string;
+  /** So much room there is, in pixels: all recordings share it as long as they can be told apart. */
+  room: number;
+}
+
+function Violins({ entries, span, scale, feature, room }: ViolinsProps) {
+  const slot = Math.max(slots.least, Math.min(slots.greatest, Math.floor((room - left - right) / entries.length)));
+  const width = left + slot * entries.length + right;
+  const names = distinctNames(entries.map(({ item }) => titleOf(item)));
   const violins = useMemo(() => entries.map(({ values }) => violinOf(values, span)), [entries, span]);
   return (
     <svg class="violins" width={width} height={height} role="img" aria-label={`Distributions of ${labelOf(feature)} by recording`}>
@@ -89,24 +104,25 @@ function Violins({ entries, span, scale, feature }: { entries: Entry[]; span: Sp
         {entries.map(({ item }, k) => (
           <text key={item.item} x={left + slot * (k + 0.5)} y={height - 18} text-anchor="middle">
             <title>{item.name}</title>
-            {shortened(titleOf(item))}
+            {shortened(names[k], slot)}
             <tspan class="soft" x={left + slot * (k + 0.5)} dy={14}>
-              {shortened(item.condition)}
+              {shortened(item.condition, slot)}
             </tspan>
           </text>
         ))}
       </g>
       {violins.map((violin, k) => (
-        <ViolinShape key={entries[k].item.item} violin={violin} span={span} middle={left + slot * (k + 0.5)} />
+        <ViolinShape key={entries[k].item.item} violin={violin} span={span} middle={left + slot * (k + 0.5)} slot={slot} />
       ))}
     </svg>
   );
 }
 
-const shortened = (name: string) => {
-  const bare = name.replace(/\.rtdc$/, '');
-  return bare.length > 13 ? `${bare.slice(0, 12)}…` : bare;
-};
+/** As many letters as fit into the width of a violin, in pixels. */
+function shortened(name: string, width: number): string {
+  const most = Math.floor((width - 10) / 7.5);
+  return name.length > most ? `${name.slice(0, most - 1)}…` : name;
+}
 
 function Conditions({ entries, feature }: { entries: Entry[]; feature: string }) {
   const active = useStore(gates);
@@ -149,11 +165,13 @@ export function Distributions() {
   const feature = useStore(measured);
   const [scale, setScale] = useState<ScaleKind>('linear');
   const { entries, span } = useEntries(feature, scale);
+  const { element, width } = useSize<HTMLDivElement>();
+  const origin = useOrigin(feature);
   return (
     <div class="distributions">
-      <div class="distribution-plot" tabIndex={0} role="region" aria-label="Distributions by recording">
+      <div class="distribution-plot" ref={element} tabIndex={0} role="region" aria-label="Distributions by recording">
         {entries.length > 0 ? (
-          <Violins entries={entries} span={span} scale={scale} feature={feature} />
+          <Violins entries={entries} span={span} scale={scale} feature={feature} room={width} />
         ) : (
           <p class="soft">No recording has this feature yet; moduli are computed on the left.</p>
         )}
@@ -164,6 +182,7 @@ export function Distributions() {
           Logarithmic
         </label>
         <Conditions entries={entries} feature={feature} />
+        {origin && <p class="soft">{origin}</p>}
         <p class="soft">
           Dot: median; short lines: its 95 % interval from the ranks; bar: quartiles. Intervals of conditions: Student's t over their
           replicates, from two on.

@@ -1,6 +1,6 @@
 // The image of an event at true scale: mask, outline, and the contour of the model's cell over it.
 import { useEffect, useState } from 'preact/hooks';
-import { eventImage, eventMask, type EventDetail } from '../api';
+import { eventPicture, type EventDetail } from '../api';
 import { store, useStore } from '../shell/store';
 import type { Choice } from './model';
 
@@ -59,11 +59,12 @@ interface ViewProps {
 
 function View({ chosen, detail }: ViewProps) {
   const shown = useStore(visible);
-  const image = usePicture(eventImage(chosen.item, chosen.event));
-  const mask = usePicture(eventMask(chosen.item, chosen.event));
+  const image = usePicture(eventPicture('image', chosen.item, chosen.event, detail.version));
+  const mask = usePicture(eventPicture('mask', chosen.item, chosen.event, detail.version));
   const pixel = detail.pixel_um || 1;
   const { x, y, width, height } = windowOf(detail, pixel, image.element ?? mask.element);
   const bar = barOf(width);
+  if (image.missing && !detail.outline && !detail.model) return <p class="soft">The recording has no image of this event.</p>;
   const size = (picture: HTMLImageElement) => ({ width: picture.naturalWidth * pixel, height: picture.naturalHeight * pixel });
   return (
     <>

@@ -15,7 +15,7 @@ const bare = (item: Item) => titleOf(item).replace(/\.rtdc$/, '');
 function events(what: 'events' | 'companion', item: Item): ExportRequest {
   const inside = maskOf(item, gates.get());
   const gate = inside ? numbersWithin(inside) : null;
-  return { what, item: item.item, gate, name: what === 'events' ? `${bare(item)}_events.tsv` : `${bare(item)}_companion.rtdc` };
+  return { what, item: item.item, gate, version: item.version, name: what === 'events' ? `${bare(item)}_events.tsv` : `${bare(item)}_companion.rtdc` };
 }
 
 async function picture(what: 'svg' | 'png', item: Item): Promise<ExportRequest> {

@@ -8,39 +8,50 @@ import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
 import { nameOf, unitOf } from './features';
 import { EventImage } from './EventImage';
-import { choice, focus, itemOf, items, titleOf, type Choice } from './model';
+import { choice, focus, itemOf, items, readRecordings, titleOf, type Choice } from './model';
 import { moduliVersion } from './moduli';
 import { ResidualPlot } from './ResidualPlot';
 import { counted } from './scale';
 
+/** An event and what the program says of it. */
+interface Inspected {
+  of: Choice;
+  detail: EventDetail;
+}
+
 interface Found {
-  detail: EventDetail | null;
+  inspected: Inspected | null;
   error: string;
   stop: () => void;
   running: boolean;
 }
 
-/** The event's details; those of the one before stay until they have come. */
+/** The event's details; those of the one before in the same recording stay until they have come. */
 function useDetail(chosen: Choice | null): Found {
-  const [detail, setDetail] = useState<EventDetail | null>(null);
+  const [inspected, setInspected] = useState<Inspected | null>(null);
   const [error, setError] = useState('');
   const [stop, setStop] = useState<AbortController | null>(null);
   const version = useStore(moduliVersion);
   useEffect(() => {
     setError('');
-    if (!chosen) return setDetail(null);
+    if (!chosen) return setInspected(null);
     const control = new AbortController();
     setStop(control);
     readEvent(chosen.item, chosen.event, control.signal)
-      .then(setDetail)
+      .then((detail) => {
+        // Of another file than the list knows: it is read again, and the choice falls.
+        if (detail.version !== itemOf(chosen.item)?.version) return readRecordings();
+        setInspected({ of: chosen, detail });
+      })
       .catch((failure: Error & { reason?: string }) => {
-        setDetail(null);
+        setInspected(null);
         if (failure.reason !== 'stopped') setError(failure.message);
       })
       .finally(() => setStop((now) => (now === control ? null : now)));
     return () => control.abort();
   }, [chosen?.item, chosen?.event, version]);
-  return { detail, error, stop: () => stop?.abort(), running: stop !== null };
+  const shown = inspected?.of.item === chosen?.item ? inspected : null;
+  return { inspected: shown, error, stop: () => stop?.abort(), running: stop !== null };
 }
 
 /** "1.860 ± 0.093": two digits of the error, and the value to the same place. */
@@ -61,7 +72,12 @@ function Modulus({ detail }: { detail: EventDetail }) {
       ) : (
         <p class="large none">No modulus: {detail.state}</p>
       )}
-      {detail.sentence && <p class="soft">{detail.sentence}</p>}
+      {detail.sentence && (
+        <p class="soft">
+          {value !== null && detail.state !== 'valid' && <strong>{detail.state}: </strong>}
+          {detail.sentence}
+        </p>
+      )}
     </div>
   );
 }
@@ -131,10 +147,10 @@ function Steps({ chosen }: { chosen: Choice }) {
   );
 }
 
-function Detail({ chosen, detail }: { chosen: Choice; detail: EventDetail }) {
+function Detail({ of, detail }: Inspected) {
   return (
     <>
-      <EventImage key={`${chosen.item}/${chosen.event}`} chosen={chosen} detail={detail} />
+      <EventImage key={`${of.item}/${of.event}`} chosen={of} detail={detail} />
       <Modulus detail={detail} />
       {detail.outline && detail.model && <ResidualPlot outline={detail.outline} model={detail.model} pixel={detail.pixel_um ?? 0} />}
       {detail.case && (
@@ -163,7 +179,7 @@ function useReadiness(): void {
 export function Inspector() {
   useReadiness();
   const chosen = useStore(choice);
-  const { detail, error, stop, running } = useDetail(chosen);
+  const { inspected, error, stop, running } = useDetail(chosen);
   const lasting = useLasting(running);
   const item = chosen ? itemOf(chosen.item) : undefined;
   return (
@@ -178,7 +194,7 @@ export function Inspector() {
       )}
       {lasting && <Progress label="The model's cell" onStop={stop} />}
       {error && <p class="alarm">{error}</p>}
-      {chosen && detail && <Detail chosen={chosen} detail={detail} />}
+      {inspected && <Detail {...inspected} />}
     </section>
   );
 }

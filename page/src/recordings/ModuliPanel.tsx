@@ -5,12 +5,14 @@ import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
 import { focus, gates, itemOf, items, moduliSettings, recordings, titleOf } from './model';
 import { gateOptions } from './gates';
+import { replacedTemperatures } from './origin';
 import { endModuli, moduli, runModuli } from './moduli';
 
 const fields: { name: string; label: string; numeric: boolean }[] = [
   { name: 'table', label: 'Table', numeric: false },
   { name: 'medium', label: 'Medium', numeric: false },
   { name: 'temperature', label: 'Temperature, °C', numeric: true },
+  { name: 'temperature_if_missing', label: 'Temperature if missing, °C', numeric: true },
   { name: 'viscosity_mPas', label: 'Viscosity, mPa s', numeric: true },
 ];
 
@@ -37,6 +39,14 @@ function Setting({ name, label, numeric }: (typeof fields)[number]) {
       )}
     </label>
   );
+}
+
+/** What a typed temperature does to recordings that have one of their own. */
+function Replaced() {
+  const typed = useStore(moduliSettings).temperature ?? '';
+  const all = recordings(useStore(items)).filter((item) => item.state === 'ready');
+  const sentence = replacedTemperatures(typed, all);
+  return sentence === '' ? null : <p class="caution">{sentence}</p>;
 }
 
 /** The command that gives the same numbers; null before there is one. */
@@ -95,6 +105,7 @@ export function ModuliPanel() {
           <Setting key={field.name} {...field} />
         ))}
       </div>
+      <Replaced />
       <Run />
       {run?.state === 'failed' && run.error && <p class="alarm">{run.error}</p>}
       {run?.state === 'ready' && run.lines && run.lines.length > 0 && (

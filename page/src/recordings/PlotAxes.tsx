@@ -37,7 +37,7 @@ export function PlotAxes({ frame, x, y }: PlotAxesProps) {
       <text class="plot-title" x={(left + right) / 2} y={frame.height - 8} text-anchor="middle">
         {labelOf(x.feature)}
       </text>
-      <text class="plot-title" transform={`translate(13 ${(top + bottom) / 2}) rotate(-90)`} text-anchor="middle">
+      <text class="plot-title" transform={`translate(12 ${(top + bottom) / 2}) rotate(-90)`} text-anchor="middle">
         {labelOf(y.feature)}
       </text>
     </g>

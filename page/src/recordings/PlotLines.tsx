@@ -1,6 +1,7 @@
 // What lies over the events: the table's range, isoelasticity lines, contours of the density, gates.
 import { useMemo } from 'preact/hooks';
 import type { Lines } from '../api';
+import { placeLabels, type Box } from '../draw/line_labels';
 import { significant } from '../draw/numbers';
 import { densityCells, levelsEnclosing, type Density } from './density';
 import type { Gate, PolygonGate } from './gates';
@@ -15,44 +16,41 @@ type Points = [number, number][];
 const along = (plot: Plot, x: number[], y: number[]): Points =>
   x.map((value, k) => [forward(plot.x.scale, value), forward(plot.y.scale, y[k])]);
 
-/** Where a line's number stands: at its last point from which the number fits into the frame. */
-function endOf(frame: Frame, points: Points): [number, number] | null {
-  for (let k = points.length - 1; k >= 0; --k) {
-    const x = pixelX(frame, points[k][0]);
-    const y = pixelY(frame, points[k][1]);
-    if (x > margins.left + 28 && x < frame.width - margins.right - 2 && y > margins.top + 18 && y < frame.height - margins.bottom) return [x, y];
-  }
-  return null;
-}
+/** In pixels, as far as they are numbers. */
+const onScreen = (frame: Frame, points: Points): Points =>
+  points.filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y)).map(([x, y]) => [pixelX(frame, x), pixelY(frame, y)]);
 
 interface TableLinesProps {
   plot: Plot;
   frame: Frame;
   lines: Lines;
+  /** Where no number of a line may stand. */
+  taken: Box[];
 }
 
-export function TableLines({ plot, frame, lines }: TableLinesProps) {
+export function TableLines({ plot, frame, lines, taken }: TableLinesProps) {
   const { range } = lines;
-  const named: [number, number][] = [];
+  const inner = { left: margins.left, right: frame.width - margins.right, top: margins.top, bottom: frame.height - margins.bottom };
+  const drawn = lines.lines.map((line) => ({ text: significant(line.young_modulus_kPa, 2), curve: along(plot, line.x, line.y) }));
+  const labels = placeLabels(
+    drawn.map(({ text, curve }) => ({ text, points: onScreen(frame, curve) })),
+    inner,
+    taken,
+  );
   return (
     <g class="table-lines">
       {range && <path class="table-range" d={`${pathOf(frame, along(plot, range.x, range.y))}Z`} />}
-      {lines.lines.map((line) => {
-        const points = along(plot, line.x, line.y);
-        const end = endOf(frame, points);
-        const free = end !== null && named.every(([x, y]) => Math.abs(x - end[0]) > 30 || Math.abs(y - end[1]) > 15);
-        if (free) named.push(end);
-        return (
-          <g key={line.young_modulus_kPa}>
-            <path class="isoelastic" d={pathOf(frame, points)} />
-            {free && (
-              <text class="line-number" x={end[0] - 3} y={end[1] - 4} text-anchor="end">
-                {significant(line.young_modulus_kPa, 2)}
-              </text>
-            )}
-          </g>
-        );
-      })}
+      {drawn.map(({ curve }, k) => (
+        <path key={k} class="isoelastic" d={pathOf(frame, curve)} />
+      ))}
+      {labels.map(
+        (label, k) =>
+          label && (
+            <text key={k} class="line-number" x={label.right} y={label.bottom} text-anchor="end">
+              {drawn[k].text}
+            </text>
+          ),
+      )}
     </g>
   );
 }

@@ -5,7 +5,7 @@ import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
 import { countWithin } from './analysis';
 import { columnsVersion } from './columns';
-import { hasModulus, states } from './features';
+import { hasModulus, meaningOf, states } from './features';
 import { focus, gates, items, recordings, rename, titleOf } from './model';
 import { moduli } from './moduli';
 import { counted } from './scale';
@@ -35,10 +35,10 @@ function countsOf(item: Item, summary: Record<string, unknown> | undefined): [st
 
 function StateCounts({ item }: { item: Item }) {
   const summary = useStore(moduli)[item.item]?.summary;
+  const isFocused = useStore(focus) === item.item;
   const counts = countsOf(item, summary);
   if (counts.length === 0) return null;
   const total = counts.reduce((sum, [, count]) => sum + count, 0);
-  const meaning = new Map(states);
   return (
     <div class="states">
       <div class="state-bar" aria-hidden="true">
@@ -48,8 +48,9 @@ function StateCounts({ item }: { item: Item }) {
       </div>
       <ul>
         {counts.map(([state, count]) => (
-          <li key={state} title={meaning.get(state)}>
+          <li key={state} class={isFocused && state !== 'valid' ? 'explained' : ''} title={meaningOf(state)}>
             {counted(count)} {state}
+            {isFocused && state !== 'valid' && <span class="meaning">{meaningOf(state)}</span>}
           </li>
         ))}
       </ul>

@@ -3,6 +3,7 @@ import { useEffect } from 'preact/hooks';
 import { notifyFailure } from '../shell/notices';
 import { Progress, useLasting } from '../shell/Progress';
 import { useStore } from '../shell/store';
+import { watchChanges } from './changes';
 import { loadingColumns, stopLoading } from './columns';
 import { Distributions } from './Distributions';
 import { ExportMenu } from './ExportMenu';
@@ -37,6 +38,7 @@ function useStart(): void {
     if (begun) return;
     begun = true;
     keepModel();
+    watchChanges();
     readRecordings()
       .then(() => recordings(items.get()).filter((item) => item.state === 'ready'))
       .then((ready) => Promise.all(ready.map((item) => readKnownModuli(item.item))))

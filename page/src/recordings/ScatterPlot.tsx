@@ -1,13 +1,14 @@
 // One plot: any two features of a recording, its events by density or by a third feature, lines and gates over them.
-import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
 import type { Item, Lines } from '../api';
 import { pixelX, pixelY, margins, innerHeight, innerWidth, type Frame } from './plot_frame';
 import { useStore } from '../shell/store';
 import { counted } from './scale';
-import { nameOf } from './features';
+import { column, columnsVersion } from './columns';
+import { nameOf, stateLegend } from './features';
 import { changePlot, choice, focus, gates, itemOf, items, recordings, titleOf, tool, type Plot } from './model';
 import { moduliVersion } from './moduli';
-import { ColourScale } from './ColourScale';
+import { ColourScale, colourScaleBox } from './ColourScale';
 import { PlotActions } from './plot_actions';
 import { PlotAxes } from './PlotAxes';
 import { useLines, usePlotData, type PlotData } from './plot_data';
@@ -15,20 +16,7 @@ import { DensityContours, Draft, GateShapes, TableLines } from './PlotLines';
 import { AxisSelects, ColourSelect } from './PlotSelects';
 import { PointsCanvas } from './PointsCanvas';
 import { useDrawing, type Drawing } from './use_drawing';
-
-function useSize() {
-  const element = useRef<HTMLDivElement>(null);
-  const [size, setSize] = useState({ width: 0, height: 0 });
-  useEffect(() => {
-    const observer = new ResizeObserver(([entry]) => {
-      const { width, height } = entry.contentRect;
-      setSize({ width: Math.floor(width), height: Math.floor(height) });
-    });
-    observer.observe(element.current!);
-    return () => observer.disconnect();
-  }, []);
-  return { element, ...size };
-}
+import { useSize } from './use_size';
 
 /** The wheel zooms; it must not scroll the page, so the listener may not be passive. */
 function useWheel(target: { current: HTMLElement | null }, actions: PlotActions | null): void {
@@ -84,7 +72,7 @@ function Layers({ plot, item, frame, data, lines, drawing }: LayersProps) {
         <rect x={margins.left} y={margins.top} width={innerWidth(frame)} height={innerHeight(frame)} />
       </clipPath>
       <g clip-path={`url(#${clip})`}>
-        {lines && <TableLines plot={plot} frame={frame} lines={lines} />}
+        {lines && <TableLines plot={plot} frame={frame} lines={lines} taken={data?.colour ? [colourScaleBox(frame)] : []} />}
         {data?.density && plot.contours && (item.events ?? 0) >= 20 && <DensityContours density={data.density} frame={frame} />}
         <GateShapes plot={plot} frame={frame} gates={active} />
         <Draft frame={frame} points={drawing.points} closed={drawing.closed} crosshair={drawing.crosshair} />
@@ -96,8 +84,17 @@ function Layers({ plot, item, frame, data, lines, drawing }: LayersProps) {
   );
 }
 
+/** What lines and numbers of states mean. */
+function PlotNote({ plot, item, lines }: { plot: Plot; item: Item; lines: Lines | null }) {
+  useStore(columnsVersion);
+  const states = [plot.x.feature, plot.y.feature, plot.colour].includes('state') ? column(item.item, 'state') : undefined;
+  const legend = useMemo(() => states && stateLegend(states), [states]);
+  const told = plot.lines ? (lines?.sentence ?? (lines?.table ? `Isoelasticity lines in kPa: ${lines.table}` : '')) : '';
+  return <p class={legend ? 'plot-note whole' : 'plot-note'}>{legend || told}</p>;
+}
+
 function Drawn({ plot, item }: { plot: Plot; item: Item }) {
-  const { element, width, height } = useSize();
+  const { element, width, height } = useSize<HTMLDivElement>();
   const data = usePlotData(plot, item);
   const lines = useLines(plot, item, useStore(moduliVersion));
   const mode = useStore(tool);
@@ -131,7 +128,7 @@ function Drawn({ plot, item }: { plot: Plot; item: Item }) {
       <p class="plot-keys" aria-hidden="true">
         Arrows move, + − zoom, 0 all · Shift + arrows: crosshair, Enter chooses · N, P next, previous · B box, G polygon, C closes
       </p>
-      <p class="plot-note">{plot.lines ? (lines?.sentence ?? (lines?.table ? `Isoelasticity lines in kPa: ${lines.table}` : '')) : ''}</p>
+      <PlotNote plot={plot} item={item} lines={lines} />
     </>
   );
 }
@@ -164,7 +161,7 @@ export function ScatterPlot({ plot, several }: { plot: Plot; several: boolean })
         <AxisSelects plot={plot} features={item?.features ?? []} />
         {!several && colour}
       </div>
-      {item && item.state === 'ready' ? <Drawn plot={plot} item={item} /> : <div class="plot-frame empty">No recording.</div>}
+      {item && item.state === 'ready' ? <Drawn plot={plot} item={item} /> : <div class="plot-frame empty">{item?.state === 'loading' ? 'The recording is being opened.' : 'No recording.'}</div>}
     </section>
   );
 }

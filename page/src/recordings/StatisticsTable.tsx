@@ -6,6 +6,8 @@ import { countWithin, statisticsOf } from './analysis';
 import { columnsVersion } from './columns';
 import { isComputed, labelOf, unitOf } from './features';
 import { focus, gates, items, measured, recordings, titleOf } from './model';
+import { moduli } from './moduli';
+import { originOf } from './origin';
 import { FeatureOptions } from './PlotSelects';
 import { counted } from './scale';
 
@@ -20,6 +22,18 @@ export function MeasuredSelect() {
       </select>
     </label>
   );
+}
+
+/** Where the numbers of a feature come from, of all recordings that can be read. */
+export function useOrigin(feature: string): string {
+  const runs = useStore(moduli);
+  const shown = recordings(useStore(items)).filter((item) => item.state === 'ready');
+  const tables = new Map<number, string>();
+  for (const { item } of shown) {
+    const table = runs[item]?.summary?.table;
+    if (typeof table === 'string') tables.set(item, table);
+  }
+  return originOf(feature, shown, tables);
 }
 
 function Row({ item, feature }: { item: Item; feature: string }) {
@@ -51,9 +65,11 @@ export function StatisticsTable() {
   const shown = recordings(useStore(items)).filter((item) => item.state === 'ready');
   const missing = isComputed(feature) && !shown.some((item) => item.features?.includes(feature));
   const unit = unitOf(feature);
+  const origin = useOrigin(feature);
   return (
     <div class="statistics">
       {missing && <p class="soft">There are no moduli yet: choose “Compute moduli” on the left.</p>}
+      {origin && <p class="soft origin">{origin}</p>}
       <table>
         <caption class="hidden">{labelOf(feature)} by recording</caption>
         <thead>

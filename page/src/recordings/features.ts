@@ -1,5 +1,6 @@
 // Names of the features as people read them; what is not listed appears as the file names it.
-const known: Record<string, [string, string]> = {
+// No plain object: a file may call a feature "constructor".
+const known = new Map<string, [string, string]>(Object.entries({
   area_um: ['Area', 'µm²'],
   area_cvx: ['Area of the convex hull', 'px'],
   area_msd: ['Area of the contour', 'px'],
@@ -10,6 +11,7 @@ const known: Record<string, [string, string]> = {
   circ: ['Circularity', ''],
   deform: ['Deformation', ''],
   emodulus: ["Young's modulus E", 'kPa'],
+  emodulus_stored: ["Young's modulus stored in the file", 'kPa'],
   frame: ['Frame', ''],
   index: ['Index', ''],
   inert_ratio_cvx: ['Inertia ratio of the hull', ''],
@@ -25,6 +27,7 @@ const known: Record<string, [string, string]> = {
   standard_error_asymmetry: ['Standard error of E from the asymmetry', 'kPa'],
   state: ['State of the modulus', ''],
   temp: ['Temperature', '°C'],
+  systematic_error_asymmetry: ['E from the asymmetry may be too high by', 'kPa'],
   tilt: ['Tilt', 'rad'],
   time: ['Time', 's'],
   volume: ['Volume', 'µm³'],
@@ -33,7 +36,7 @@ const known: Record<string, [string, string]> = {
   stiffness_kPa: ['Stiffness E + E2D/r0', 'kPa'],
   cortex_modulus_mN_per_m: ['Cortex modulus E2D', 'mN/m'],
   tension_mN_per_m: ['Cortex tension', 'mN/m'],
-};
+}));
 
 const spoken: [RegExp, string][] = [
   [/_kPa$/, 'kPa'],
@@ -43,11 +46,12 @@ const spoken: [RegExp, string][] = [
 ];
 
 export function unitOf(feature: string): string {
-  return known[feature]?.[1] ?? spoken.find(([ending]) => ending.test(feature))?.[1] ?? '';
+  return known.get(feature)?.[1] ?? spoken.find(([ending]) => ending.test(feature))?.[1] ?? '';
 }
 
 export function nameOf(feature: string): string {
-  if (known[feature]) return known[feature][0];
+  const own = known.get(feature);
+  if (own) return own[0];
   const bare = spoken.reduce((text, [ending]) => text.replace(ending, ''), feature).replace(/_/g, ' ');
   return bare.charAt(0).toUpperCase() + bare.slice(1);
 }
@@ -59,12 +63,15 @@ export function labelOf(feature: string): string {
 }
 
 export const youngModulus = 'emodulus';
+/** A modulus that the recording brings along: of another program, or of a companion that is opened as a recording. */
+export const storedModulus = 'emodulus_stored';
 const computed = new Set([
   youngModulus,
   'state',
   'standard_error',
   'young_modulus_asymmetry',
   'standard_error_asymmetry',
+  'systematic_error_asymmetry',
   'shape_excess',
   'odd_share',
   'young_modulus_with_cortex_kPa',
@@ -74,6 +81,9 @@ const computed = new Set([
 ]);
 /** What the program computes with the moduli; all else is in the file. */
 export const isComputed = (feature: string): boolean => computed.has(feature);
+
+/** The names of the numbers in the feature "state". */
+const stateNames = ['valid', 'no data', 'too small', 'too large', 'too stiff', 'too soft', 'unstable', 'unresolved', 'regularised', 'gated', 'inertial'];
 
 /** The states of events in the order in which they are listed, with what they mean. */
 export const states: [string, string][] = [
@@ -89,4 +99,18 @@ export const states: [string, string][] = [
   ['gated', 'outside the limits of the settings'],
   ['no data', 'area, deformation or viscosity is missing'],
 ];
+const meanings = new Map(states);
+export const meaningOf = (state: string): string => meanings.get(state) ?? '';
+
+/** What the numbers of a column "state" say, as far as they occur: "State: 0 valid, 7 unresolved (the standard ...)". */
+export function stateLegend(values: ArrayLike<number>): string {
+  const found = new Set<number>();
+  for (let i = 0; i < values.length; ++i) found.add(values[i]);
+  const told = stateNames.flatMap((name, k) => {
+    if (!found.has(k)) return [];
+    return [k === 0 ? `${k} ${name}` : `${k} ${name} (${meaningOf(name)})`];
+  });
+  return told.length > 0 ? `State: ${told.join(', ')}` : '';
+}
+
 export const hasModulus = (state: string): boolean => ['valid', 'regularised', 'inertial'].includes(state);

@@ -1,4 +1,5 @@
 // Gates: limits of a feature, polygons in the plane of two features. Events count that lie within all that are on.
+import { storedModulus } from './features';
 import { forward, type ScaleKind } from './scale';
 
 export interface RangeGate {
@@ -120,13 +121,16 @@ export function numbersWithin(inside: Uint8Array): number[] {
   return numbers;
 }
 
+/** The command line gates by what is in the file, under the file's own names. */
+const nameInFile = (feature: string) => (feature === storedModulus ? 'emodulus' : feature);
+
 const rangeOptions = ({ feature, low, high }: RangeGate): string[] => [
-  ...(low === null ? [] : [`--min ${feature}=${low}`]),
-  ...(high === null ? [] : [`--max ${feature}=${high}`]),
+  ...(low === null ? [] : [`--min ${nameInFile(feature)}=${low}`]),
+  ...(high === null ? [] : [`--max ${nameInFile(feature)}=${high}`]),
 ];
 
 function polygonOption({ x, y, xScale, yScale, points }: PolygonGate): string {
-  const axis = (feature: string, scale: ScaleKind) => (scale === 'log' ? `log:${feature}` : feature);
+  const axis = (feature: string, scale: ScaleKind) => `${scale === 'log' ? 'log:' : ''}${nameInFile(feature)}`;
   return `--polygon ${axis(x, xScale)},${axis(y, yScale)}=${points.map((point) => point.join(',')).join(':')}`;
 }
 

@@ -55,6 +55,13 @@ export const gates = store<Gate[]>([]);
 export const paintedGates = store<Gate[]>([]);
 gates.subscribe((latest) => void nextPicture().then(() => latest === gates.get() && paintedGates.set(latest)));
 export const choice = store<Choice | null>(null);
+/** An event is looked at as long as its recording stands in a plot. */
+const leaveEvent = () => {
+  const item = choice.get()?.item;
+  if (item !== undefined && !plots.get().some((plot) => (plot.item ?? focus.get()) === item)) choice.set(null);
+};
+focus.subscribe(leaveEvent);
+plots.subscribe(leaveEvent);
 export const tool = store<Tool>('look');
 export const panel = store<Panel>('statistics');
 /** The feature of the statistics and the distributions. */
@@ -89,15 +96,43 @@ export async function refreshItem(number: number): Promise<void> {
   replaceItem(await readItem(number));
 }
 
-/** Reads the list, again after a moment while recordings are being opened; features come with a second request. */
-export async function readRecordings(): Promise<void> {
-  const found = await readItems();
+let listed = '';
+let next: number | undefined;
+const readLater = (milliseconds: number) => {
+  window.clearTimeout(next);
+  next = window.setTimeout(readAgain, milliseconds);
+};
+
+/** Files may change while the page is open; one that nobody looks at does not ask. */
+function readAgain(): void {
+  if (document.hidden) readLater(3000);
+  else readRecordings().catch(() => readLater(3000)); // whoever wants something of the program is told that it has gone
+}
+document.addEventListener('visibilitychange', () => void (next !== undefined && readAgain()));
+
+/** The list holds no features; those of the same file are known already. */
+const withFeatures = (item: Item, before?: Item): Item =>
+  before && before.version === item.version ? { features: before.features, metadata: before.metadata, ...item } : item;
+
+/** Takes what the list says; features and metadata come with a second request. */
+function takeList(found: Item[]): void {
+  const text = JSON.stringify(found);
+  if (text === listed) return;
+  listed = text;
   const before = new Map((items.get() ?? []).map((item) => [item.item, item]));
-  items.set(found.map((item) => ({ ...before.get(item.item), ...item })));
+  items.set(found.map((item) => withFeatures(item, before.get(item.item))));
+}
+
+/** Reads the list, and from then on again and again: soon while recordings are being opened. */
+export async function readRecordings(): Promise<void> {
+  window.clearTimeout(next);
+  const found = await readItems();
+  takeList(found);
   const ready = recordings(found).filter((item) => item.state === 'ready');
-  if (!ready.some((item) => item.item === focus.get())) focus.set(ready[0]?.item ?? null);
+  const own = recordings(found).find((item) => item.item === focus.get());
+  if (!own || own.state === 'failed') focus.set(ready[0]?.item ?? null);
   for (const item of ready) if (!itemOf(item.item)?.features) await refreshItem(item.item).catch(notifyFailure);
-  if (found.some((item) => item.state === 'loading')) window.setTimeout(() => void readRecordings().catch(notifyFailure), 600);
+  readLater(found.some((item) => item.state === 'loading') ? 600 : 3000);
 }
 
 export async function rename(number: number, change: { condition?: string; replicate?: string }): Promise<void> {

@@ -1,5 +1,6 @@
 // Runs of the moduli of recordings: settings, progress, what came out.
 import { readModuli, startModuli, stopModuli, type Moduli } from '../api';
+import { numberIn } from '../draw/numbers';
 import { notify, notifyFailure } from '../shell/notices';
 import { store } from '../shell/store';
 import { forgetComputed } from './columns';
@@ -48,7 +49,7 @@ export async function readKnownModuli(item: number): Promise<void> {
   if (found.state === 'ready') moduliVersion.update((version) => version + 1);
 }
 
-const numeric = new Set(['viscosity_mPas', 'temperature']);
+const numeric = new Set(['viscosity_mPas', 'temperature', 'temperature_if_missing']);
 
 /** Settings as the interface wants them: what is empty comes from the recording; own tables go by their number. */
 export function settingsToSend(typed: Record<string, string>): Record<string, unknown> {
@@ -57,8 +58,7 @@ export function settingsToSend(typed: Record<string, string>): Record<string, un
     given.map(([name, text]) => {
       const table = name === 'table' && items.get()?.find((item) => item.kind === 'table' && item.name === text.trim());
       if (table) return [name, table.item];
-      const number = Number(text);
-      return [name, numeric.has(name) && Number.isFinite(number) ? number : text.trim()];
+      return [name, (numeric.has(name) ? numberIn(text) : null) ?? text.trim()];
     }),
   );
 }

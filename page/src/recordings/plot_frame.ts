@@ -1,7 +1,7 @@
 // The rectangle of a plot on the screen: between places along the axes and pixels of the page.
 import type { Span } from './scale';
 
-export const margins = { left: 58, right: 14, top: 12, bottom: 44 };
+export const margins = { left: 64, right: 14, top: 12, bottom: 44 };
 
 export interface Frame {
   /** Of the whole plot, with its margins, in pixels of the page. */

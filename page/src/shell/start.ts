@@ -1,4 +1,4 @@
-// Where the page begins: at its address, as the session left it, or at what the program was given.
+// Where the page begins: at its address, or at what the program was given.
 import { readItem, readItems, type Item } from '../api';
 import { caseOf } from '../cell/case';
 import { openCase } from '../cell/model';
@@ -18,11 +18,11 @@ async function openItem(item: number): Promise<void> {
   }
 }
 
-/** Recordings go before cells: who names a recording wants to see it. */
-export async function startAtItems(): Promise<void> {
+/** Recordings go before cells: who names a recording wants to see it. A session holds its case already. */
+export async function startAtItems(hasSession: boolean): Promise<void> {
   if (window.location.hash) return;
   const items = await readItems().catch((): Item[] => []);
   if (items.some(({ kind }) => kind === 'recording')) return replacePlace({ workspace: 'recordings', query: new URLSearchParams() });
   const first = items.find(({ kind }) => kind === 'case' || kind === 'result');
-  if (first) await openItem(first.item).catch(() => undefined);
+  if (first && !hasSession) await openItem(first.item).catch(() => undefined);
 }

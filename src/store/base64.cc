@@ -1,4 +1,4 @@
-#include "view/base64.h"
+#include "store/base64.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,13 @@
+// Which of the program's other tables has cells that look like those of a recording.
+#pragma once
+#include "extract/modulus_tables.h"
+#include "extract/shape_verdict.h"
+
+namespace rheocyte {
+
+/// Of the tables for other laws or another section of the channel the one whose inertia ratios the events have, by
+/// their median; if several have, the nearest. Without a name if none has. UserError if a table cannot be read.
+FittingTable fitting_table(const ModulusTables& tables, const MeasuringConditions& conditions,
+                           const JudgedShapes& events);
+
+}  // namespace rheocyte

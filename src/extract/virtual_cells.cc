@@ -1,0 +1,37 @@
+#include "extract/virtual_cells.h"
+
+#include <system_error>
+
+#include "extract/modulus_tables.h"
+#include "extract/shipped_tables.h"
+#include "synth/synth_shapes.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+double flow_exponent(const SynthSpec& spec) {
+  if (spec.viscosity_mPas) return 1;
+  return Buffer(medium_of_name(spec.medium).value(), spec.viscosity_model).flow_exponent(spec.temperature_C.mean);
+}
+
+fs::path found_table(const SynthSpec& spec, const fs::path& folder) {
+  if (spec.table.empty()) return ModulusTables("").file(flow_exponent(spec));
+  const fs::path beside = folder / spec.table;  // an absolute one stays
+  std::error_code error;
+  if (fs::exists(beside, error)) return beside;
+  const auto shipped = shipped_tables();
+  const auto found = shipped.find(spec.table.string());
+  return found == shipped.end() ? beside : found->second;
+}
+
+}  // namespace
+
+std::unique_ptr<CellShapes> virtual_cells(SynthSpec& spec, const fs::path& folder) {
+  if (!spec.analytical) spec.table = found_table(spec, folder);
+  return shapes_of(spec);
+}
+
+}  // namespace rheocyte
