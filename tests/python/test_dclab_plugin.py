@@ -54,7 +54,8 @@ def recording(file, *, medium="CellCarrier", width=20, rate=0.04, temperature=No
     deformation = np.exp(rng.uniform(np.log(1e-3), np.log(0.12), events))
     deformation[::50] *= -1
     area[5] = deformation[6] = np.nan
-    metadata = {"experiment": {"event count": events, "sample": "made", "run index": 1},
+    metadata = {"experiment": {"event count": events, "sample": "made", "run index": 1, "date": "2026-11-25",
+                               "time": "12:00:00"},
                 "setup": {"channel width": width, "flow rate": rate, "medium": medium, "chip region": "channel"},
                 "imaging": {"pixel size": 0.34}, "user": user or {}}
     if temperature:
@@ -230,6 +231,7 @@ for settings in ({}, {"emodulus scenario": "manual", "emodulus temperature": 30.
     slot.__setstate__(state)
     medians.append(str(np.nanmedian(slot.get_dataset()["rheocyte_modulus"])))
 app.processEvents()
+print(failures, file=sys.stderr)
 print(len(failures), *medians, flush=True)
 os._exit(0)  # threads of DCscope go on
 """
@@ -244,8 +246,8 @@ def test_dcscope_takes_the_file_and_still_has_it_after_a_restart(plugin_file, tm
     for folder in ("CONFIG", "DATA", "CACHE"):
         environment[f"XDG_{folder}_HOME"] = str(tmp_path / folder.lower())
     for given in ([plugin_file], []):
-        said = subprocess.run([sys.executable, "-c", DCSCOPE, file, *given], env=environment, cwd=tmp_path, check=True,
-                              capture_output=True, text=True).stdout
-        failures, *medians = said.splitlines()[-1].split()
-        assert failures == "0"
+        ran = subprocess.run([sys.executable, "-c", DCSCOPE, file, *given], env=environment, cwd=tmp_path, check=True,
+                             capture_output=True, text=True)
+        failures, *medians = ran.stdout.splitlines()[-1].split()
+        assert failures == "0", ran.stderr
         assert np.allclose([float(median) for median in medians], expected, rtol=1e-5)
