@@ -13,6 +13,7 @@ import base64
 import functools
 import json
 import logging
+import re
 from typing import NamedTuple
 
 import numpy as np
@@ -23,6 +24,7 @@ DATA = "{}"  # `rheocyte dclab-plugin` puts tables and laws behind this text
 VALID, NO_DATA, TOO_SMALL, TOO_LARGE, TOO_STIFF, UNRESOLVED, REGULARISED, INERTIAL = 0, 1, 2, 3, 4, 7, 8, 10
 WITH_MODULUS = (VALID, REGULARISED, INERTIAL)
 FEATURES = ("rheocyte_modulus", "rheocyte_modulus_error", "rheocyte_state", "rheocyte_shape_excess")
+WORDS_OF_SOLUTIONS = set("mc pbs methyl cellulose methylcellulose in w v wt 1x solution buffer".split())
 EVENTS_AT_ONCE = 1 << 16  # memory does not grow with the recording
 
 
@@ -100,10 +102,14 @@ def liquid_of(dataset):
 
 
 def known_medium(name):
-    """dclab's name of a medium whose viscosity it knows, or None."""
+    """dclab's name of a medium whose viscosity it knows, or None; solutions of methyl cellulose by their percentage."""
     from dclab.features.emodulus.viscosity import ALIAS_MEDIA
-    wanted = str(name).strip().lower()
-    return ALIAS_MEDIA.get(wanted + " mc-pbs" if wanted.endswith("%") else wanted)
+    text, percentage = str(name).lower().replace(",", "."), r"(?<![a-z\d.-])(\d*\.?\d+)[ _\t]*%"
+    percent, words = re.findall(percentage, text), re.findall("[a-z0-9]+", re.sub(percentage, " ", text))
+    if not percent:
+        return ALIAS_MEDIA.get("".join(words))
+    is_mc = WORDS_OF_SOLUTIONS.issuperset(words) and (not words or {"mc", "cellulose", "methylcellulose"} & {*words})
+    return ALIAS_MEDIA.get(f"{float(percent[0]):g}% mc-pbs") if len(percent) == 1 and is_mc else None
 
 
 def viscosity_at(settings, celsius, rate_factor=1):
@@ -239,13 +245,15 @@ class Shapes(Patch):
         return np.where(is_known, ratio - 1 - np.where(deformation > 0, expected, 0), np.nan)
 
 
+@functools.cache  # one of each name
 class Table:
     """Young's modulus over area and deformation, in the channel for which it was computed."""
-    def __init__(self, record):
+    def __init__(self, name):
+        record = data()["tables"][name]
         self.width_um, self.load = record["channel_width_um"], record["flow_rate_ul_per_s"] * record["viscosity_mPas"]
         self.least_log_area, self.step, self.columns = (record[k] for k in ("least_log_area", "column_step", "columns"))
         self.patches = [Stiffness(patch) for patch in record["patches"]]
-        self.shapes = Shapes(record["shapes"]) if "shapes" in record else None
+        self.shapes = Shapes(record["shapes"])
 
     def answer(self, log_area, log_deformation):
         """ln(kPa), its slopes by ln(area) and ln(deformation), the relative error (4 rows); and the states."""
@@ -272,20 +280,15 @@ class Table:
         return found, state
 
 
-@functools.cache
-def table_named(name):
-    return Table(data()["tables"][name])
-
-
 def table_for(settings, exponent):
     """The one that is set, else the one whose liquid is as shear-thinning, else that of a Newtonian liquid."""
     exponents = {name: record["flow_exponent"] for name, record in data()["tables"].items()}
     if settings.look_up_table in exponents:
-        return table_named(settings.look_up_table)
+        return Table(settings.look_up_table)
     nearest = min(exponents, key=lambda name: abs(exponents[name] - exponent))
     if abs(exponents[nearest] - exponent) <= data()["limits"]["flow_exponent_tolerance"]:
-        return table_named(nearest)
-    return table_named(next(name for name, own in exponents.items() if own == 1))
+        return Table(nearest)
+    return Table(next(name for name, own in exponents.items() if own == 1))
 
 
 def without_pixels(area, deformation, settings, table):
@@ -329,10 +332,10 @@ def modulus(smooth, viscosity, settings, table):
 
 
 def column_of(dataset, name):
-    """A feature with one value per event; NaN behind the end of one that is shorter."""
+    """A feature with one value per event; NaN for what is no number and behind the end of one that is shorter."""
     values, column = np.asarray(dataset[name][:], dtype=float), np.full(len(dataset), np.nan)
     column[:len(values)] = values[:len(column)]
-    return column
+    return np.where(np.isfinite(column), column, np.nan)
 
 
 def inertia_ratios(dataset):
@@ -354,8 +357,7 @@ def moduli_of(dataset):
         some = slice(first, first + EVENTS_AT_ONCE)
         smooth = without_pixels(area[some], deformation[some], settings, table)
         found[:3, some] = modulus(smooth, viscosity[some], settings, table)
-        if table.shapes:
-            found[3, some] = table.shapes.excess(*smooth[:2], ratio[some])
+        found[3, some] = table.shapes.excess(*smooth[:2], ratio[some])
     return found
 
 

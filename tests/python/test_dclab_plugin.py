@@ -113,9 +113,22 @@ def test_the_command_prints_what_the_package_writes(plugin_file, tmp_path):
         rheocyte.dclab_plugin(written)
 
 
+@pytest.mark.parametrize("name", [
+    "CellCarrier", "Cell Carrier-B", "0.5%", "0,60 % (w/v) MC in PBS", "0.8% methyl cellulose", "0.49 MC-PBS", "0.8% Ficoll",
+    "0.7% MC", "-0.5%", "MC0.5%", "PBS 0.5%", "0.5% 0.6% MC", "Water ", "H2O", ""])
+def test_media_are_known_by_the_same_names(plugin, name):
+    measured = {"channel_width_um": 20, "flow_rate_ul_s": 0.04, "temperature_C": 23}
+    found = plugin.known_medium(name)
+    if found is None:
+        with pytest.raises(rheocyte.UserError):
+            rheocyte.viscosity(name, **measured)
+    else:
+        assert rheocyte.viscosity(name, **measured) == rheocyte.viscosity(found, **measured)
+
+
 @pytest.mark.parametrize("made", [
     {}, {"temperature": 30}, {"medium": "CellCarrierB", "temperature": 23}, {"medium": "0.83% MC-PBS"},
-    {"medium": " 0.5% ", "width": 30, "rate": 0.16}, {"medium": "water", "temperature": 25},
+    {"medium": "0,60 % (w/v) MC in PBS", "width": 30, "rate": 0.16}, {"medium": "water", "temperature": 25},
     {"medium": "water", "width": 30, "rate": 0.16, "temperature": 25},
     {"medium": "other", "user": {"rheocyte viscosity_mPas": 7.5}}], ids=str)
 def test_moduli_are_those_of_extract(plugin, tmp_path, made):
