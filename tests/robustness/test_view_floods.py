@@ -7,6 +7,7 @@ import json
 import os
 import random
 import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -29,14 +30,15 @@ LIMITS = {"none": "", "small stacks": "ulimit -S -s 1024", "stacks without limit
 class View:
     """A running view in a folder of its own."""
 
-    def __init__(self, limit):
+    def __init__(self, limit, before=()):
         self.folder = tempfile.TemporaryDirectory()
+        os.chmod(self.folder.name, 0o777)  # also for another user
         self.process = subprocess.Popen(
-            ["/bin/sh", "-c", f"{limit or ':'}; exec \"$0\" view --no-browser --output \"$1\"", PROGRAM, self.folder.name],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            [*before, "/bin/sh", "-c", f"{limit or ':'}; exec \"$0\" view --no-browser --output \"$1\"", PROGRAM,
+             self.folder.name], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         line = self.process.stdout.readline()
         found = re.fullmatch(r"view: http://127.0.0.1:(\d+)/\?token=(\S+)\n", line)
-        self.port, self.token = int(found[1]), found[2]
+        self.port, self.token = (int(found[1]), found[2]) if found else (None, None)
 
     def head(self, method, path, more=""):
         return (f"{method} {path} HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nAuthorization: Bearer {self.token}\r\n"
@@ -61,7 +63,8 @@ class View:
             return b""
 
     def close(self):
-        self.process.send_signal(signal.SIGINT)
+        if self.port:
+            self.process.send_signal(signal.SIGINT)
         _, err = self.process.communicate(timeout=120)
         self.folder.cleanup()
         return self.process.returncode, err
@@ -120,6 +123,23 @@ class Floods(unittest.TestCase):
                 self.answers(view)
                 code, err = view.close()
                 self.assertEqual((code, err), (0, ""))
+
+    @unittest.skipUnless(os.geteuid() == 0 and shutil.which("setpriv"), "needs a user without other processes")
+    def test_where_the_system_gives_few_threads_it_answers_or_says_so(self):
+        """A limit of processes, which counts threads, ends no view by an exception that nobody takes."""
+        user = ["setpriv", "--reuid", "54321", "--regid", "54321", "--clear-groups"]
+        answered = 0
+        for most in (1, 2, 3, 4, 5, 6, 8, 12):
+            with self.subTest(processes=most):
+                view = View(f"ulimit -u {most}", user)
+                if view.port:
+                    flood(view, most, self.count)
+                    self.answers(view)
+                    answered += 1
+                code, err = view.close()
+                self.assertEqual(code, 0 if view.port else 2, err)
+                self.assertIn("gives no more" if not view.port else "", err)
+        self.assertGreater(answered, 2)
 
     def test_silent_connections_keep_nobody_out(self):
         """More of them than the view keeps, and it still answers others."""

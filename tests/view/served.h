@@ -15,6 +15,8 @@ class Served {
   ~Served();
   int port() const { return server_.port(); }
   const std::string& token() const { return token_; }
+  /// What a browser that the server starts asks for.
+  std::string first_target() const { return server_.address_of_once().substr(server_.address_of_once().find("/?")); }
 
  private:
   std::string token_ = "0123456789abcdef0123456789abcdef";
