@@ -38,9 +38,13 @@ int last_degree_of(const Problem& problem) {
 
 /// A deformation changes by about as much, relative, as the residual that is left: far less than the wanted accuracy. A
 /// factorisation costs as much as tens of chord steps at high degrees. From one degree to the next, or to a nearby
-/// case, a state takes one to three; beyond the end of the branch Newton wanders.
-NewtonOptions fine_newton(double accuracy, const std::atomic<bool>* stop) {
-  return {.tolerance = std::min(1e-8, 1e-5 * accuracy), .iteration_limit = 5, .chord_reduction = 0.5, .stop = stop};
+/// case, a state takes one to three; beyond the end of the branch Newton wanders. Off the axis it takes up to eight in
+/// strongly shear-thinning liquids, whose viscosity is the least smooth where the cell no longer covers the axis.
+NewtonOptions fine_newton(const Problem& problem, const std::atomic<bool>* stop) {
+  return {.tolerance = std::min(1e-8, 1e-5 * problem.accuracy),
+          .iteration_limit = problem.offset == 0 ? 5 : 12,
+          .chord_reduction = 0.5,
+          .stop = stop};
 }
 
 /// While it lives, the system gives up its work once it is to stop.
@@ -130,7 +134,7 @@ Status DuctSolver::climb(DuctState& state, DuctLadder& ladder) {
     if (degree > last_degree_of(problem_)) return Status::accuracy_not_reached;
     // Two degrees' factors at a time would take the most memory.
     if (!ladder.keeps_systems) ladder.rungs.back().discrete->system.drop_factors();
-    DuctState next = at_degree(ladder.rungs.back(), degree, fine_newton(problem_.accuracy, stop_));
+    DuctState next = at_degree(ladder.rungs.back(), degree, fine_newton(problem_, stop_));
     if (next.status != Status::converged) return next.status;
     if (wants_stable_ && !is_stable(next)) return Status::surface_unstable;
     state = next;
@@ -173,7 +177,7 @@ Status DuctSolver::carry(const Problem& from, const DuctLadder& ladder, DuctLadd
       const DuctSpace &lower = coarse.discrete->space, &space = next.discrete->space;
       next.branch.unknowns += transfer(lower, coarse.branch.unknowns, space) - transfer(lower, before, space);
     }
-    NewtonOptions options = fine_newton(problem_.accuracy, stop_);
+    NewtonOptions options = fine_newton(problem_, stop_);
     options.keep_factors = next.discrete->system.has_factors();
     const DuctState found = solved(next.discrete, next.branch, options);
     const bool is_good = found.status == Status::converged &&
