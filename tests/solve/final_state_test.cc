@@ -52,5 +52,15 @@ TEST(FinalState, AMotionThatIsAskedForIsWhatConverges) {
     EXPECT_NEAR(state.*member / exact.*member, 1, state.estimated_error + exact.estimated_error);
 }
 
+TEST(FinalState, AStronglyShearThinningLiquidDoesNotEndTheBranch) {
+  // Far from the limit (margin 0.8), but from degree 3 to 4 Newton's method takes more factorisations than on the axis.
+  const StationaryState state =
+      solved({"channel.width_um=14.015", "flow.law=power-law", "flow.exponent=0.524", "flow.consistency_Pa_sn=0.05924",
+              "flow.rate_ul_per_s=0.001725", "cell.radius_um=3.2085", "cell.bulk.young_modulus_kPa=0.11346",
+              "cell.offset_um=[0, -1.125]", "numerics.accuracy=0.03"});
+  EXPECT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
+  EXPECT_GT(state.stability_margin, 0.5);
+}
+
 }  // namespace
 }  // namespace rheocyte::final_state_test
