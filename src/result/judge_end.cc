@@ -89,9 +89,13 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   const bool failed = record.end == TimeEnd::failure;
   if (there == Status::stopped) return;
   if (!has_state(there)) {
+    const bool seems_settled =
+        !failed && (record.end == TimeEnd::settled || has_settled(record, 0, result.problem.accuracy));
     outcome.message += fmt::format(" There is no stationary shape of this cell ({}){}", name(there),
-                                   failed ? "." : ": what seems to settle is held by the mesh.");
-    if (record.end == TimeEnd::settled) outcome.status = there;
+                                   failed          ? "."
+                                   : seems_settled ? ": what seems to settle is held by the mesh."
+                                                   : ": it has not settled, and will not.");
+    if (seems_settled) outcome.status = there;
     return;
   }
   if (failed) return;

@@ -198,6 +198,15 @@ TEST_F(InTime, ARunThatStopsTellsThatTheCellHasNoStationaryShape) {
       << ended.err;
 }
 
+TEST_F(InTime, ACellThatWillNotSettleIsConvergedWhereItIs) {
+  // The same cell after 20 us: its shape there is right, and it is told that it goes on changing.
+  const auto ended = run(solve("soft", {"--set", "cell.bulk.young_modulus_kPa=1", "--set", "time.end_us=20"}));
+  const auto numbers = nlohmann::json::parse(text("soft/result.json"));
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(numbers["message"].get<std::string>().find("it has not settled, and will not"), std::string::npos)
+      << numbers["message"];
+}
+
 TEST_F(InTime, AnotherCaseStartsFromALastState) {
   // From its own end state nothing but the formulas' start changes: d at 40 + 20 us as in one run, within 1e-5. With
   // ten times less flow the cell relaxes towards the sphere. Other sizes are refused.
