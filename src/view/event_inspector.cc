@@ -160,12 +160,12 @@ void add_modulus(const EventBlock& block, Json& j) {
   j["systematic_error_asymmetry_kPa"] = number_or_null(first_of(block.asymmetry_systematic_kPa));
   j["viscosity_mPas"] = number_or_null(block.viscosity_mPas[0]);
   const double share = first_of(block.asymmetry_systematic_kPa) / first_of(block.asymmetry_kPa);
-  if (j["elongated"] && share > 0)
-    j["sentence"] = fmt::format(
-        "{} The cell is elongated along the flow more than those of the table: its modulus from deformation is too "
-        "low, "
-        "that from the asymmetry too high, by {:.0f} % of itself if the cell is a solid.",
-        sentence_of(block.state[0]), 100 * share);
+  if (!has_shape || !block.shape[0].is_elongated() || !(share > 0)) return;
+  const std::string on_state(sentence_of(block.state[0]));
+  j["sentence"] = fmt::format(
+      "{}{}The cell is longer along the flow than those of the table; if it is a solid that is drawn out, its modulus "
+      "from deformation is too low, that from the asymmetry too high by {:.0f} % of itself.",
+      on_state, on_state.empty() ? "" : " ", 100 * share);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "synth/synth_shapes.h"
+#include "extract/virtual_cells.h"
 #include "synth/virtual_recording.h"
 
 namespace rheocyte::test {
@@ -19,7 +19,7 @@ inline void write_virtual_cells(const std::filesystem::path& file, int cells, in
   const std::vector<std::string> settings{"recording.cells=" + std::to_string(cells),
                                           "recording.seed=" + std::to_string(seed)};
   SynthSpec spec = parse_synth_spec(text, spec_file, settings);
-  write_virtual_recording(spec, *shapes_of(spec), {"rheocyte test", text}, file, [](double) {});
+  write_virtual_recording(spec, *virtual_cells(spec, {}), {"rheocyte test", text}, file, [](double) {});
 }
 
 }  // namespace rheocyte::test
