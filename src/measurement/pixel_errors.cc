@@ -10,28 +10,29 @@ namespace {
 
 using Law = PixelErrorLaws::Law;
 
-// Coefficients of deformation^i s^j, s = (area in pixels)^(-1/3); bench/pixel_errors fitted them to shapes of the table
-// LE-2D-26 (3000 shapes at 200 places each).
-constexpr Law area_law{{{3.94262, -7.32887, 15.9769},
-                        {-9.27827, 102.943, -333.656},
-                        {60.4384, -1161.07, 3844.76},
-                        {-107.715, 3548.28, -12038.4}}};
-constexpr Law deformation_law{{{0.665119, -1.80376, 3.93623},
-                               {-6.85248, 37.1915, -99.2552},
-                               {36.9698, -368.271, 1008.98},
-                               {-55.7111, 1037.55, -2871.52}}};
-constexpr Law area_deviation_law{{{0.375726, 0.74986, -2.88345},
-                                  {-0.195399, 17.2389, -35.4547},
-                                  {19.8009, -324.359, 743.517},
-                                  {-89.6644, 1263.87, -2986.36}}};
-constexpr Law deformation_deviation_law{{{0.0920098, -0.00839, -1.2748},
-                                         {0.419083, 28.0091, -53.0592},
-                                         {8.35079, -382.294, 973.785},
-                                         {-40.5009, 1287.57, -3819.62}}};
-constexpr Law correlation_law{{{-1.0575, 2.81051, -9.41081},
-                               {16.342, -153.175, 590.268},
-                               {-213.815, 2413.81, -8839.48},
-                               {728.66, -8786.06, 31960.6}}};
+// Coefficients of deformation^i s^j, s = (area in pixels)^(-1/3); bench/pixel_errors fitted them to shapes of several
+// models: LE-2D-26 (to d = 0.19 and, by its modes, to 0.06), HE-3D-26, HE-3D-MC083-26 and LE-3D-MC049-26 (500 shapes of
+// each at 60 places).
+constexpr Law area_law{{{3.95086, -7.00899, 13.1321},
+                        {-20.2256, 197.827, -468.645},
+                        {324.267, -3711.12, 9134.66},
+                        {-1384.83, 16350.1, -41474.5}}};
+constexpr Law deformation_law{{{0.669843, -1.65438, 2.94628},
+                               {-12.3629, 80.4938, -169.002},
+                               {151.988, -1354.67, 3007.39},
+                               {-592.891, 5883.52, -13727}}};
+constexpr Law area_deviation_law{{{0.359697, 1.31717, -6.03224},
+                                  {0.129849, 2.29342, 80.2986},
+                                  {22.59, -155.88, -812.134},
+                                  {-96.0034, 321.426, 4108.41}}};
+constexpr Law deformation_deviation_law{{{0.0909649, 0.121596, -2.3013},
+                                         {-0.364209, 38.9552, -55.5344},
+                                         {45.6183, -861.063, 1888.32},
+                                         {-240.972, 3877.99, -9298.85}}};
+constexpr Law correlation_law{{{-1.11222, 3.80416, -14.5582},
+                               {25.7011, -281.941, 1112.77},
+                               {-437, 5265.94, -19648.1},
+                               {1789.2, -22097.7, 81869.6}}};
 
 // Coefficients of c_2^i |c_3|^j s^k, k running fastest; bench/asymmetry_errors fitted them to shapes of the table
 // LE-2D-26 with added ellipses (4000 shapes at 80 places each).

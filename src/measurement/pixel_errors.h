@@ -23,7 +23,7 @@ using PixelErrors = PixelErrorsOf<double>;
 /// Areas (pixels) for which the law was fitted; outside, the nearest one counts.
 inline constexpr double min_fitted_area_px = 50, max_fitted_area_px = 9000;
 /// Deformations go up to this; greater ones count as this.
-inline constexpr double max_fitted_deformation = 0.2;
+inline constexpr double max_fitted_deformation = 0.15;
 
 /// By the natural logarithm of the measured area in pixels and the measured deformation of a solid. By what one solid
 /// differs from another of the same area and deformation counts as scatter; a shell differs by more.
