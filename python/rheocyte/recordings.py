@@ -74,20 +74,30 @@ def extract(
     return frame
 
 
-def moduli(recording, table, *, fit_tension=False, only_figure=False, progress=None, **measuring):
+def _set_section(options, section, function):
+    if word(section, "section") not in ("tube", "square"):
+        raise UserError(f"{function}: section = {section!r}: give \"tube\" or \"square\".")
+    options.set_section(section == "square")
+
+
+def moduli(recording, table, *, section="square", fit_tension=False, only_figure=False, progress=None, **measuring):
     """Moduli of bulk and cortex of each cell from its contour, as `rheocyte moduli` gives them.
 
-    table           folder of a combined table (examples/tables/combined.toml)
+    table           folder of a combined table (examples/tables/combined.toml), which is one of the tube
+    section         of the channel: "square", by the difference between solids there and in the tube, or "tube", as virtual
+                    cells of such a table have it
     fit_tension     the tension, too, by a table with several of them
     only_figure     by area, deformation and Lambda1/Lambda2 alone
     others          as for extract
 
     Returns a pandas.DataFrame: area_um2, deformation, viscosity_mPas, young_modulus_kPa, cortex_modulus_mN_per_m,
-    tension_mN_per_m and stiffness_kPa with their standard errors, chi_squared, status. attrs: settings, warnings.
+    tension_mN_per_m and stiffness_kPa with their standard errors, chi_squared, status, section_factor (c3 over that in the
+    tube). attrs: settings, warnings.
     """
     options = native.ModuliOptions()
     options.measuring = _measuring(measuring, "moduli")
     options.table = path(table, "table")
+    _set_section(options, section, "moduli")
     options.fit_tension = truth(fit_tension, "fit_tension")
     options.only_figure = truth(only_figure, "only_figure")
     with progress_bar(progress) as tell:
@@ -98,17 +108,19 @@ def moduli(recording, table, *, fit_tension=False, only_figure=False, progress=N
     return frame
 
 
-def time_course(recordings, table, contraction_um, *, progress=None, **measuring):
+def time_course(recordings, table, contraction_um, *, section="square", progress=None, **measuring):
     """Young's modulus and viscosity of cells from how c3 changes along the channel, as `rheocyte time-course` does.
 
     recordings      one, or several of one population, as for extract
     table           dynamic table: the folder of one that `rheocyte table` has made, or its dynamic_*.cbor
     contraction_um  pos_x of the end of the contraction, from which the cells come; one for all, or one each
+    section         as for moduli
     others          as for extract
 
     Returns a pandas.DataFrame with one row per cell that was seen over at least 20 um: places, radius_um,
-    young_modulus_kPa and viscosity_Pas with the ends of their 90 % intervals, chi_squared, status, event_numbers. attrs:
-    settings, population (sentences; of at least 50 cells, also of those that were seen once). UserError says why single
+    young_modulus_kPa and viscosity_Pas with the ends of their 90 % intervals, chi_squared, section_factor (c3 over that in
+    the tube), section_error (relative, of E, within its interval), status, event_numbers. attrs: settings, population
+    (sentences; of at least 50 cells, also of those that were seen once). UserError says why single
     images, or pictures at one place, do not tell a viscosity.
     """
     several = recordings if isinstance(recordings, (list, tuple)) else [recordings]
@@ -116,9 +128,12 @@ def time_course(recordings, table, contraction_um, *, progress=None, **measuring
     if len(places) not in (1, len(several)):
         raise UserError(f"contraction_um has {len(places)} places for {len(several)} recordings; give one, or one each.")
     each = [number(place, "contraction_um") for place in np.broadcast_to(places, len(several))]
+    options = native.ModuliOptions()
+    options.measuring = _measuring(measuring, "time_course")
+    _set_section(options, section, "time_course")
     with progress_bar(progress) as tell:
         text, lines = native.time_course([_path(recording) for recording in several], path(table, "table"), each,
-                                         _measuring(measuring, "time_course"), tell)
+                                         options, tell)
     frame = _frame(text)
     frame.attrs.update(population=lines)
     return frame

@@ -26,6 +26,7 @@ def moduli(
     recording: _Path | _Dataset,
     table: _Path,
     *,
+    section: Literal["tube", "square"] = "square",
     fit_tension: bool = False,
     only_figure: bool = False,
     progress: _Progress = None,
@@ -36,6 +37,7 @@ def time_course(
     table: _Path,
     contraction_um: ArrayLike,
     *,
+    section: Literal["tube", "square"] = "square",
     progress: _Progress = None,
     **measuring: Any,
 ) -> pandas.DataFrame: ...

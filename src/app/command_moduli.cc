@@ -73,6 +73,7 @@ void add_moduli_command(CLI::App& app, int& exit_code) {
                    "folder of a combined table of `rheocyte table` (examples/tables/combined.toml)")
       ->required()
       ->type_name("DIR");
+  declare_channel_option(*command, options->section);
   declare_measuring_options(*command, options->measuring);
   command->add_flag("--fit-tension", options->fit_tension, "the tension, too, by a table with several of them");
   command->add_flag("--only-figure", options->only_figure,

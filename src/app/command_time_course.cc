@@ -28,6 +28,7 @@ struct TimeCourseOptions {
   MeasuringOptions measuring;
   std::filesystem::path table, file;
   std::vector<double> contraction_um;  ///< one for all recordings, or one each
+  Section section = Section::square;   ///< of the channel
 };
 
 CourseEvents read(const RecordingTask& task, const TimeCourseOptions& options) {
@@ -55,7 +56,7 @@ int run(const TimeCourseOptions& options) {
   const auto tasks = tasks_of(options.batch);
   const DynamicTable table = read_dynamic_table(options.table);
   check_replaceable(options.file, mark_of_courses, Foreign::keep);
-  CourseTable courses(table);
+  CourseTable courses(table, options.section);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const double contraction_um = contraction_of(options, i, tasks.size());
     const std::string name = one_line(tasks[i].recording.string(), 200);
@@ -93,6 +94,7 @@ void add_time_course_command(CLI::App& app, int& exit_code) {
       ->required();
   command->add_flag("-r,--recursive", options->batch.recursive, "search the given folders for recordings");
   command->add_flag("--quiet", options->batch.quiet, "print neither progress nor results");
+  declare_channel_option(*command, options->section);
   declare_measuring_options(*command, options->measuring);
   command->callback([options, &exit_code] {
     check_measuring_options(options->measuring);

@@ -60,15 +60,35 @@ void declare_measuring_options(CLI::App& command, MeasuringOptions& options) {
                      "give a recording up when nothing was read from it for so many seconds (60)");
 }
 
-void declare_section_option(CLI::App& command, std::optional<Section>& section) {
+namespace {
+
+/// "tube" or "square".
+CLI::CheckedTransformer section_by_name() {
   static const std::map<std::string, Section> sections{{"tube", Section::tube}, {"square", Section::square}};
+  CLI::CheckedTransformer by_name(sections);
+  by_name.description("");
+  return by_name;
+}
+
+}  // namespace
+
+void declare_channel_option(CLI::App& command, Section& section) {
+  command
+      .add_option("--section", section,
+                  "of the channel: square, by the difference between solids there and in the tube of the table "
+                  "(default), or tube, as virtual cells of such a table have it")
+      ->type_name("tube|square")
+      ->transform(section_by_name());
+}
+
+void declare_section_option(CLI::App& command, std::optional<Section>& section) {
   command
       .add_option(
           "--section", section,
           "which of the program's own tables: square, the channel itself in three dimensions (default), or tube, "
           "of equal pressure drop, which reaches greater deformations")
       ->type_name("tube|square")
-      ->transform(CLI::CheckedTransformer(sections).description(""))
+      ->transform(section_by_name())
       ->excludes("--table");
 }
 

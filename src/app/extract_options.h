@@ -20,6 +20,9 @@ void declare_measuring_options(CLI::App& command, MeasuringOptions& options);
 /// Declares all options on the command; `run` is called when they are complete. UserError if they contradict.
 void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run);
 
+/// --section, of the channel in which the cells were seen, where the table that is given is one of the tube.
+void declare_channel_option(CLI::App& command, Section& section);
+
 /// --section, for which the program's own tables are.
 void declare_section_option(CLI::App& command, std::optional<Section>& section);
 

@@ -174,7 +174,7 @@ CourseEvents read_course_events(const std::filesystem::path& path, const Measuri
 }
 
 CourseCells course_cells(const CourseEvents& events, const std::string& name, double contraction_um,
-                         const DynamicTable& table) {
+                         const DynamicTable& table, const SquareCourse* square) {
   check_channel(events.flow, name, table);
   const double direction = median_place(events) < contraction_um ? -1 : 1;
   const TimeCourse course(table);
@@ -188,7 +188,7 @@ CourseCells course_cells(const CourseEvents& events, const std::string& name, do
     const bool has_place = table.has_place(image.place_um), has_area = course.has_area(image.area_um2);
     result.outside_places += !has_place;
     result.outside_areas += has_place && !has_area;
-    if (has_place && has_area) placed.push_back({event, image});
+    if (has_place && has_area) placed.push_back({event, square ? square->in_tube(image) : image});
   }
   const double unit_s = std::numbers::pi * R_mm * R_mm * R_mm / events.flow.rate_ul_s;
   result.cells = Linker(table, R_um, unit_s).link(std::move(placed), events.has_time);

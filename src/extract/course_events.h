@@ -8,6 +8,7 @@
 
 #include "case/channel_flow.h"
 #include "extract/options.h"
+#include "infer/square_course.h"
 #include "infer/time_course.h"
 #include "store/progress.h"
 
@@ -39,7 +40,7 @@ CourseEvents read_course_events(const std::filesystem::path& recording, const Me
 
 /// A cell, or one that was not seen again.
 struct CourseCell {
-  CellImages images;           ///< in the channel of the table
+  CellImages images;           ///< in the channel of the table, which is a tube
   std::vector<double> events;  ///< their numbers
 };
 
@@ -49,9 +50,10 @@ struct CourseCells {
 };
 
 /// The same in the channel of the table. `contraction_um`: pos_x of the end of the contraction, from which the cells
-/// move away. UserError naming the recording if its channel is another one.
+/// move away. `square`: brings pictures of a square channel to the table's tube; null: it is that tube. UserError
+/// naming the recording if its channel is another one.
 CourseCells course_cells(const CourseEvents& events, const std::string& name, double contraction_um,
-                         const DynamicTable& table);
+                         const DynamicTable& table, const SquareCourse* square);
 
 /// UserError: why these cells do not tell Young's modulus and viscosity.
 void check_places_seen(const std::vector<CourseCell>& cells);

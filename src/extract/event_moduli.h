@@ -1,6 +1,7 @@
 // Moduli of bulk and cortex of single events of one recording, by a combined table.
 #pragma once
 #include "extract/extract_settings.h"
+#include "extract/square_section.h"
 #include "infer/rendered_errors.h"
 #include "infer/several_moduli.h"
 
@@ -16,6 +17,7 @@ struct ModuliTable {
   CombinedTable content;
   CombinedInterpolation between;
   ChannelFlow simulated;
+  SquareSection section;
 };
 
 class EventModuli {
@@ -26,8 +28,13 @@ class EventModuli {
   /// From the shape in pixels (EventOutlines) and the viscosity of the event.
   ModuliEstimate fit(const ShapeVector& seen, double viscosity_mPas) const;
 
+  /// By which the cells of the tube become those of the square channel; empty: they do not.
+  const std::string& square_table() const { return square_table_; }
+
  private:
   ChannelFlow flow_;
+  std::string square_table_;
+  std::optional<SquareShapes> square_;
   RenderedErrors pixels_;
   SeveralModuli moduli_;
 };

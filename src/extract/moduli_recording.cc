@@ -27,7 +27,8 @@ constexpr std::string_view more_columns =
     "young_modulus_error_kPa\t"
     "cortex_modulus_mN_per_m\tcortex_modulus_error_mN_per_m\ttension_mN_per_m\ttension_error_mN_per_m\t"
     "stiffness_kPa\tstiffness_error_kPa\tchi_squared\tstatus\t"
-    "shape_excess\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa\tsystematic_error_asymmetry_kPa\n";
+    "shape_excess\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa\tsystematic_error_asymmetry_kPa\t"
+    "section_factor\n";
 
 std::string line(std::size_t event, const ShapeVector& seen, double viscosity_mPas, const ModuliEstimate& e) {
   std::string text = fmt::format("{}\t{:.6g}\t{:.6g}\t{:.6g}", event + 1, std::exp(seen(0)), seen(1), viscosity_mPas);
@@ -43,6 +44,8 @@ class Fits {
   Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table)
       : events_(recording, options.measuring, "the shape of each cell is fitted"),
         simulated_exponent_(table.simulated.exponent),
+        is_square_(options.section == Section::square),
+        solids_(std::string(), options.section),
         shapes_of_solids_(solids_.shapes(conditions().flow.exponent)),
         moduli_(events_.settings(), options, table) {}
 
@@ -54,7 +57,8 @@ class Fits {
         fmt::format(
             "by {}; {}",
             options.only_figure ? "area, deformation and Lambda1/Lambda2" : "area and modes 2 .. 6 of the contour",
-            options.fit_tension ? "the tension is fitted" : "the tension is that of the table")};
+            options.fit_tension ? "the tension is fitted" : "the tension is that of the table"),
+        section_text()};
     const auto settings = events_.settings().lines();
     remarks.insert(remarks.end(), settings.begin(), settings.end());
     if (!events_.gates().empty()) remarks.push_back("only events with " + events_.gates().description());
@@ -74,8 +78,8 @@ class Fits {
       const ModuliEstimate estimate = events_.is_inside(i) ? moduli_.fit(seen[i], viscosity[i]) : gated();
       tally_.take(estimate);
       text += line(first + i, seen[i], viscosity[i], estimate) +
-              fmt::format("\t{:.4g}\t{:.6g}\t{:.3g}\t{:.3g}\n", excess_[i].excess, solid_kPa_[i], solid_error_kPa_[i],
-                          solid_systematic_kPa_[i]);
+              fmt::format("\t{:.4g}\t{:.6g}\t{:.3g}\t{:.3g}\t{:.4g}\n", excess_[i].excess, solid_kPa_[i], solid_error_kPa_[i],
+                          solid_systematic_kPa_[i], estimate.section_factor);
     }
     return text;
   }
@@ -89,7 +93,9 @@ class Fits {
     if (const auto outside = events_.outside_temperature())
       s.warnings.push_back(settings.outside_temperature_text(outside));
     if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
-    if (std::abs(conditions().flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
+    if (is_square_) s.warnings.push_back(moduli_.square_table().empty() ? std::string(no_square_text) : section_text());
+    if (moduli_.square_table().empty() &&
+        std::abs(conditions().flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
       s.warnings.push_back(fmt::format(
           "the medium is shear-thinning with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at the "
           "wall stands for both, and moduli are off by up to 5 %, those of large cells most.",
@@ -102,6 +108,16 @@ class Fits {
 
  private:
   const MeasuringConditions& conditions() const { return events_.settings().conditions; }
+
+  std::string section_text() const {
+    if (!is_square_) return "channel: the tube of equal pressure drop, as in the table";
+    if (moduli_.square_table().empty()) return "channel: square, but the cells are compared with those of the tube";
+    return fmt::format(
+        "the channel is square, and the table one of the tube of equal pressure drop: its shapes are changed as {} "
+        "says "
+        "of solids without a cortex, and a third of each change is counted as an error.",
+        moduli_.square_table());
+  }
 
   /// With the solids of the table that comes with the program.
   void compare(std::span<const ShapeVector> seen) {
@@ -144,7 +160,8 @@ class Fits {
 
   OutlinedEvents events_;
   double simulated_exponent_;
-  ModulusTables solids_{std::string(), Section::tube};
+  bool is_square_;
+  ModulusTables solids_;
   const ShapeMap* shapes_of_solids_;
   EventModuli moduli_;
   std::vector<ShapeExcess> excess_;

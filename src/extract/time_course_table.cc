@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "case/user_error.h"
 #include "extract/event_table.h"
@@ -16,7 +18,7 @@ namespace {
 
 constexpr std::string_view course_columns =
     "last_place_um\tradius_um\tyoung_modulus_kPa\tyoung_modulus_low_kPa\tyoung_modulus_high_kPa\tviscosity_Pas\t"
-    "viscosity_low_Pas\tviscosity_high_Pas\tchi_squared\tstatus\tevent_numbers\n";
+    "viscosity_low_Pas\tviscosity_high_Pas\tchi_squared\tsection_factor\tsection_error\tstatus\tevent_numbers\n";
 constexpr double flow_tolerance = 0.02;  // relative, between the recordings of one population
 
 /// From the channel of the table to that of the recording.
@@ -32,6 +34,33 @@ Physical physical(const DynamicTable& table, const ChannelFlow& flow) {
 
 Credible times(const Credible& value, double factor) {
   return {value.value * factor, value.low * factor, value.high * factor};
+}
+
+/// By how much c_3 is greater than in the tube, on average over pictures.
+double section_factor_of(std::span<const CellImages> cells) {
+  double sum = 0, count = 0;
+  for (const CellImages& images : cells)
+    for (const CourseImage& image : images) sum += std::log(image.section_factor), ++count;
+  return std::exp(sum / count);
+}
+
+/// Standard deviations of ln(E) and ln(viscosity) by what is left of the correction for the square channel.
+struct SectionErrors {
+  double modulus = 0, viscosity = 0;
+};
+
+SectionErrors section_errors(double factor, double unsettled) {
+  if (factor == 1) return {};
+  const double modulus = std::hypot(error_left_by_section(factor), unsettled);
+  return {modulus, std::hypot(modulus, error_of_speed_by_section)};
+}
+
+/// The same value with an interval that holds this error, too.
+Credible widened(const Credible& value, double error) {
+  const auto end = [&](double old, double sign) {
+    return value.value * std::exp(sign * std::hypot(std::log(old / value.value), normal_quantile_of_credible * error));
+  };
+  return {value.value, end(value.low, -1), end(value.high, 1)};
 }
 
 std::string columns_of(const Credible& value) {
@@ -75,7 +104,13 @@ void CourseTable::add(const CourseEvents& events, const std::string& name, doubl
                       "recordings of one population must be of one flow, take them one by one.",
                       name, events.flow.rate_ul_s, events.flow.viscosity_mPas, first.rate_ul_s, first.viscosity_mPas));
   }
-  CourseCells cells = course_cells(events, name, contraction_um, table_);
+  std::optional<SquareCourse> to_tube;
+  if (const ModulusMap* const square = square_.table(events.flow.exponent)) {
+    to_tube.emplace(table_, *square);
+    square_table_ = square->origin().identifier;
+    unsettled_ = to_tube->unsettled();
+  }
+  CourseCells cells = course_cells(events, name, contraction_um, table_, to_tube ? &*to_tube : nullptr);
   for (CourseCell& cell : cells.cells) rows_.push_back({name, std::move(cell), events.flow});
   outside_places_ += cells.outside_places;
   outside_areas_ += cells.outside_areas;
@@ -85,17 +120,34 @@ void CourseTable::add(const CourseEvents& events, const std::string& name, doubl
 }
 
 std::string CourseTable::line(const Row& row, std::size_t number) const {
-  const CourseEstimate estimate = TimeCourse(table_).cell(row.cell.images);
+  CourseEstimate estimate = TimeCourse(table_).cell(row.cell.images);
+  const double factor = section_factor_of({&row.cell.images, 1});
+  const SectionErrors errors = section_errors(factor, unsettled_);
+  estimate.young_modulus_kPa = widened(estimate.young_modulus_kPa, errors.modulus);
+  estimate.viscosity_Pas = widened(estimate.viscosity_Pas, errors.viscosity);
   const Physical in = physical(table_, row.flow);
   std::string text = fmt::format("{}\t{}\t{}\t{:.4g}\t{:.4g}\t{:.4g}", row.recording, number, row.cell.images.size(),
                                  row.cell.images.front().place_um * in.length,
                                  row.cell.images.back().place_um * in.length, estimate.radius_um * in.length);
-  text += columns_of(times(estimate.young_modulus_kPa, in.modulus)) +
-          columns_of(times(estimate.viscosity_Pas, in.viscosity)) +
-          fmt::format("\t{:.3g}\t{}\t", estimate.chi_squared, status_of(estimate));
+  text +=
+      columns_of(times(estimate.young_modulus_kPa, in.modulus)) +
+      columns_of(times(estimate.viscosity_Pas, in.viscosity)) +
+      fmt::format("\t{:.3g}\t{:.4g}\t{:.2g}\t{}\t", estimate.chi_squared, factor, errors.modulus, status_of(estimate));
   for (std::size_t i = 0; i < row.cell.events.size(); ++i)
     text += fmt::format("{}{}", i == 0 ? "" : " ", row.cell.events[i]);
   return text + "\n";
+}
+
+std::string CourseTable::section_text(const std::vector<CellImages>& cells) const {
+  if (square_table_.empty()) return std::string(no_square_text);
+  const double factor = section_factor_of(cells);
+  const SectionErrors errors = section_errors(factor, unsettled_);
+  return fmt::format(
+      "the channel is square, and the table one of the tube of equal pressure drop: c3 was divided by {:.3f} (mean), "
+      "as "
+      "{} says of stationary solids; what may be left, {:.1f} % of E and {:.1f} % of the viscosity, is in the "
+      "intervals",
+      factor, square_table_, 100 * errors.modulus, 100 * errors.viscosity);
 }
 
 CourseReport CourseTable::report() const {
@@ -119,8 +171,12 @@ CourseReport CourseTable::report() const {
                   "areas that the table does not have",
                   cells.size(), seen_again, min_seen_um, outside_places_, outside_areas_));
   if (const auto text = elongation_text(images); !text.empty()) report.lines.push_back(text);
+  if (section_ == Section::square) report.lines.push_back(section_text(images));
   if (cells.size() >= min_population) {
     PopulationEstimate& population = report.population = TimeCourse(table_).population(images);
+    const SectionErrors errors = section_errors(section_factor_of(images), unsettled_);
+    population.young_modulus_kPa = widened(population.young_modulus_kPa, errors.modulus);
+    population.viscosity_Pas = widened(population.viscosity_Pas, errors.viscosity);
     const Physical in = physical(table_, rows_.front().flow);
     if (population.cells == 0)
       throw UserError(fmt::format(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "extract/course_events.h"
+#include "extract/square_section.h"
 
 namespace rheocyte {
 
@@ -19,8 +20,9 @@ struct CourseReport {
 
 class CourseTable {
  public:
-  /// The table must outlive it.
-  explicit CourseTable(const DynamicTable& table) : table_(table) {}
+  /// The table, which is one of the tube, must outlive it. `section`: of the channel in which the cells were seen.
+  CourseTable(const DynamicTable& table, Section section)
+      : table_(table), section_(section), square_(section, table.spec().base) {}
 
   /// UserError as course_cells, and if its flow or viscosity differs from that of the recordings before.
   void add(const CourseEvents& events, const std::string& name, double contraction_um);
@@ -35,8 +37,14 @@ class CourseTable {
     ChannelFlow flow;
   };
   std::string line(const Row& row, std::size_t number) const;
+  /// What is said of the square channel, if it is one.
+  std::string section_text(const std::vector<CellImages>& cells) const;
 
   const DynamicTable& table_;
+  Section section_;
+  SquareSection square_;
+  std::string square_table_;  ///< by which the cells are brought to the tube; empty: they are not
+  double unsettled_ = 0;
   std::vector<Row> rows_;
   std::vector<std::string> remarks_;
   std::size_t outside_places_ = 0, outside_areas_ = 0;

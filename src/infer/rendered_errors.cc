@@ -70,12 +70,19 @@ ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
 }
 
 ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
-                          const ChannelFlow& flow) {
+                          const ChannelFlow& flow, const SquareShapes* square) {
   constexpr int rounds = 3;  // the bias hardly depends on the cell: the third one changes nothing that matters
+  constexpr int x_share = int(CellCoordinate::cortex_share);
   CellCoordinates cell = errors.middle();
   ModuliEstimate estimate;
   for (int round = 0; round < rounds; ++round) {
-    estimate = moduli.fit({measured, errors.at(cell)}, flow);
+    ShapeErrors added = errors.at(cell);
+    SquareShapes::Change by_square;
+    if (square && measured.allFinite()) by_square = square->change(measured - added.bias, flow, cell(x_share));
+    added.bias += by_square.errors.bias;
+    added.covariance += by_square.errors.covariance;
+    estimate = moduli.fit({measured, added}, flow);
+    estimate.section_factor = by_square.factor_of_mode_3;
     if (estimate.status == ModuliStatus::no_data) break;
     cell = estimate.cell;
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "infer/several_moduli.h"
+#include "infer/square_shapes.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte {
@@ -31,8 +32,9 @@ class RenderedErrors {
   std::vector<ShapeErrors> errors_;
 };
 
-/// The moduli of a cell in pixels: the errors are those at the cell that is found.
+/// The moduli of a cell in pixels: the errors are those at the cell that is found. `square`: what the square channel
+/// adds to the shapes of the table; null: the channel is the tube.
 ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
-                          const ChannelFlow& flow);
+                          const ChannelFlow& flow, const SquareShapes* square = nullptr);
 
 }  // namespace rheocyte

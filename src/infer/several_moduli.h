@@ -39,6 +39,7 @@ struct ModuliEstimate {
   CellCoordinates cell = CellCoordinates::Zero();  ///< in the table's channel
   double chi_squared = no_value;
   int freedom = 0;
+  double section_factor = 1;  ///< c_3 of a solid like it over that in the tube, where the channel is square
 
   double value(Modulus m) const { return modulus(int(m)); }
   double error(Modulus m) const;

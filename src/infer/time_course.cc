@@ -17,10 +17,9 @@ namespace rheocyte {
 
 namespace {
 
-constexpr int coarse = 48, fine = 40;             // points along each axis: together whole packets
-constexpr double relevant = 12;                   // of ln(likelihood) below the maximum
-constexpr double step_of_radius = 0.03;           // in ln(radius), to both sides
-constexpr double normal_quantile = 1.6448536270;  // of 95 %
+constexpr int coarse = 48, fine = 40;    // points along each axis: together whole packets
+constexpr double relevant = 12;          // of ln(likelihood) below the maximum
+constexpr double step_of_radius = 0.03;  // in ln(radius), to both sides
 
 std::vector<double> spaced(double first, double last, int count) {
   std::vector<double> values;
@@ -270,8 +269,8 @@ CellImages with_factors(CellImages images, double middle_um, double near, double
 }
 
 Credible around(double logarithm, double error) {
-  return {std::exp(logarithm), std::exp(logarithm - normal_quantile * error),
-          std::exp(logarithm + normal_quantile * error)};
+  return {std::exp(logarithm), std::exp(logarithm - normal_quantile_of_credible * error),
+          std::exp(logarithm + normal_quantile_of_credible * error)};
 }
 
 }  // namespace

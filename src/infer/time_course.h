@@ -18,6 +18,9 @@ struct CourseImage {
   double deviation = 0;  ///< standard deviation of mode_3
   /// What it has beyond that of the table's cell counts as an added ellipse (added_ellipse.h); NaN: it has nothing.
   double mode_2 = no_value;
+  /// By what mode_3 was divided because the cell flows in a square channel, and not in the tube of the table
+  /// (square_course.h); what that leaves is an error of the estimates.
+  double section_factor = 1;
 };
 
 /// All pictures of one cell.
@@ -31,6 +34,7 @@ struct Credible {
 };
 
 inline constexpr double credible_share = 0.9;
+inline constexpr double normal_quantile_of_credible = 1.6448536270;  ///< in standard deviations
 
 struct CourseEstimate {
   double radius_um = no_value;

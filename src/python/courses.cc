@@ -23,12 +23,13 @@ namespace {
 
 // The file of `rheocyte time-course` as text, and what it says in sentences; a contraction for each recording.
 py::tuple time_course(const std::vector<std::filesystem::path>& recordings, const std::filesystem::path& place,
-                      const std::vector<double>& contraction_um, const MeasuringOptions& measuring,
+                      const std::vector<double>& contraction_um, const ModuliOptions& options,
                       const PythonProgress& progress) {
+  const MeasuringOptions& measuring = options.measuring;
   check_measuring_options(measuring);
   const auto report = interruptible([&](const std::atomic<bool>& stop) -> CourseReport {
     const DynamicTable table = read_dynamic_table(place);
-    CourseTable courses(table);
+    CourseTable courses(table, options.section);
     for (std::size_t i = 0; i < recordings.size(); ++i) {
       const auto work = [&](const TellProgress& tell_progress) {
         return read_course_events(recordings[i], measuring, [&](double share) {

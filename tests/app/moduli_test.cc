@@ -85,7 +85,7 @@ class ModuliCommand : public testing::Test {
   fs::path table_folder() const { return folder_.path() / "table"; }
   fs::path recording() const { return folder_.path() / "M1.rtdc"; }
   Ended moduli(std::vector<std::string> more) const {
-    std::vector<std::string> all{RHEOCYTE, "moduli", recording().string(), "--table"};
+    std::vector<std::string> all{RHEOCYTE, "moduli", recording().string(), "--section", "tube", "--table"};
     all.insert(all.end(), more.begin(), more.end());
     return run({all});
   }

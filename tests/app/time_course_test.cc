@@ -52,7 +52,8 @@ class TimeCourseCommand : public ::testing::Test {
     return call(arguments);
   }
   Ended time_course(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"time-course", "cells.rtdc", "--table", "table", "-o", "cells.tsv"};
+    std::vector<std::string> arguments{"time-course", "cells.rtdc", "--table",   "table",
+                                       "-o",          "cells.tsv",  "--section", "tube"};
     if (more.empty()) arguments.insert(arguments.end(), {"--contraction-um", "0"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return call(arguments);

@@ -76,6 +76,7 @@ def test_a_file_that_is_none_or_damaged_is_named(tmp_path):
     lambda file: rheocyte.synth("a\nb", file), lambda file: rheocyte.synth({}, file, replace="no"),
     lambda file: rheocyte.analytic(None, young_modulus_kPa=1),
     lambda file: rheocyte.analytic(5, young_modulus_kPa=1, square_duct="no"), lambda file: rheocyte.moduli(file, None),
+    lambda file: rheocyte.moduli(file, file, section="round"),
     lambda file: rheocyte.time_course(file, None, 0), lambda file: rheocyte.time_course(file, file, "x"),
     lambda file: rheocyte.synth({}, 5), lambda file: rheocyte.table({}, 5), lambda file: rheocyte.table({}, file, jobs=-1),
     lambda file: rheocyte.solve(radius_um=5, progress=5), lambda file: rheocyte.Session("large"),
@@ -240,9 +241,9 @@ def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
             "shapes": {"table": str(folder)}}
     assert rheocyte.synth(spec, tmp_path / "cells.rtdc") > 50
     shares = []
-    frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, progress=shares.append)
+    frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, section="tube", progress=shares.append)
     assert shares[-1] == 1 and frame.attrs["settings"]
-    subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--quiet"], cwd=tmp_path, check=True)
+    subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--section", "tube", "--quiet"], cwd=tmp_path, check=True)
     written = pandas.read_csv(tmp_path / "cells_moduli.tsv", sep="\t", comment="#").drop(columns="event")
     pandas.testing.assert_frame_equal(frame, written, check_exact=True)
     # Of 60 cells with 10 % each; the sum is what the deformation tells.
@@ -295,9 +296,9 @@ checks = 0
 
 
 def test_the_time_course_is_that_of_the_command(program, on_their_way):
-    frame = rheocyte.time_course(on_their_way / "cells.rtdc", on_their_way / "dynamic", 0)
+    frame = rheocyte.time_course(on_their_way / "cells.rtdc", on_their_way / "dynamic", 0, section="tube")
     subprocess.run([program, "time-course", "cells.rtdc", "--table", "dynamic", "--contraction-um", "0", "-o", "cells.tsv",
-                    "--quiet"], cwd=on_their_way, check=True)
+                    "--section", "tube", "--quiet"], cwd=on_their_way, check=True)
     written = pandas.read_csv(on_their_way / "cells.tsv", sep="\t", comment="#")
     pandas.testing.assert_frame_equal(frame.drop(columns="recording"), written.drop(columns="recording"))
     assert len(frame) == 60 and set(frame["events"]) == {2}

@@ -192,6 +192,7 @@ TEST(EventInspector, SaysWhatModuliSaysByACombinedTable) {
   write_combined_cells(folder / "a.rtdc", test::invented_outline({7, 0.5, 0}, 1.2), 4);
   ModuliOptions moduli;
   moduli.table = folder / "table";
+  moduli.section = Section::tube;  // as the invented cells
   moduli.measuring.viscosity_mPas = 15;
   const ModuliTable combined(moduli);
   moduli_of_recording(folder / "a.rtdc", folder / "a.tsv", moduli, combined, [](double) {});
