@@ -2,11 +2,13 @@
 
 import io
 from collections.abc import Mapping
+from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
 
 from rheocyte.arrays import number, numbers, positive, truth
+from rheocyte.datasets import source_of
 from rheocyte.errors import UserError
 from rheocyte.memory_file import written
 from rheocyte.native_module import native
@@ -26,7 +28,8 @@ def extract(
 ):
     """Young's modulus of each event of a recording, as `rheocyte extract` gives it.
 
-    recording       path of an .rtdc file, or an open dclab dataset of one
+    recording       path of an .rtdc file, or an open dclab dataset: its own events (those of a child are the rows) and
+                    metadata are taken, also where they are not those of its file
     table           name or path of a table, as for Table; "": the shipped one that fits the medium
     section         of the shipped tables: "square", the channel itself (the default), or "tube", of equal pressure drop,
                     which reaches greater deformations
@@ -35,9 +38,11 @@ def extract(
     progress        called with the share that is done; True: a bar of tqdm where it is installed
     channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas, medium, viscosity_model,
     temperature     replace the metadata; temperature is a number in degrees Celsius, "feature" or "metadata"
+    temperature_if_missing  degrees Celsius, only where none is recorded, also of single events
     least, greatest dictionaries of limits of features: least={"area_ratio": 1}, greatest={"area_ratio": 1.05}
     polygons        corners in the plane of two features: {("area_um", "deform"): [(40, 0.01), (90, 0.01), (90, 0.1)]};
-                    edges are straight over the logarithm of "log:area_um"
+                    edges are straight over the logarithm of "log:area_um"; or the name of a file of polygon filters of
+                    DCscope or dclab (.poly), or a list of such names
 
     Returns a pandas.DataFrame with one row per event: area_um2, deformation, viscosity_mPas, young_modulus_kPa,
     standard_error_kPa (without it for published tables), state (a category). Where the recording has inertia ratios,
@@ -62,8 +67,11 @@ def extract(
     options.no_pixelation = not truth(pixelation, "pixelation")
     options.no_area_correction = not truth(correct_area, "correct_area")
     options.no_asymmetry = not truth(asymmetry, "asymmetry")
-    with progress_bar(progress) as tell:
-        columns, attributes = native.extract(_path(recording), options, tell)
+    with source_of(recording, _gated(measuring)) as source, progress_bar(progress) as tell:
+        columns, attributes = native.extract(source.place, options, tell)
+    for name in ("settings", "shapes", "warnings"):
+        attributes[name] = source.told(attributes[name])
+    attributes["warnings"] += source.warnings
     if not len(columns["standard_error_kPa"]) or np.isnan(columns["standard_error_kPa"]).all():
         del columns["standard_error_kPa"]
     if "elongated" in columns:
@@ -100,11 +108,11 @@ def moduli(recording, table, *, section="square", fit_tension=False, only_figure
     _set_section(options, section, "moduli")
     options.fit_tension = truth(fit_tension, "fit_tension")
     options.only_figure = truth(only_figure, "only_figure")
-    with progress_bar(progress) as tell:
-        text, warnings = written(lambda place: native.moduli(_path(recording), place, options, tell))
-    frame = _frame(text.decode())
+    with source_of(recording, _gated(measuring)) as source, progress_bar(progress) as tell:
+        text, warnings = written(lambda place: native.moduli(source.place, place, options, tell))
+    frame = _frame(source.named(text.decode()))
     del frame["event"]
-    frame.attrs.update(warnings=warnings)
+    frame.attrs.update(warnings=source.told(warnings) + source.warnings)
     return frame
 
 
@@ -131,9 +139,11 @@ def time_course(recordings, table, contraction_um, *, section="square", progress
     options = native.ModuliOptions()
     options.measuring = _measuring(measuring, "time_course")
     _set_section(options, section, "time_course")
-    with progress_bar(progress) as tell:
-        text, lines = native.time_course([_path(recording) for recording in several], path(table, "table"), each,
-                                         options, tell)
+    with ExitStack() as stack, progress_bar(progress) as tell:
+        sources = [stack.enter_context(source_of(recording, _gated(measuring))) for recording in several]
+        text, lines = native.time_course([source.place for source in sources], path(table, "table"), each, options, tell)
+    for source in sources:
+        text, lines = source.named(text), source.told(lines)
     frame = _frame(text)
     frame.attrs.update(population=lines)
     return frame
@@ -197,20 +207,16 @@ def _frame(text):
     return frame
 
 
-def _path(recording):
-    return path(getattr(recording, "path", recording), "the recording")
-
-
 _NUMBERS = ("channel_width_um", "flow_rate_ul_s", "pixel_size_um", "viscosity_mPas")
 _TEXTS = ("medium", "viscosity_model")
 
 
 def _measuring(given, function):
-    options = native.MeasuringOptions()
-    least, greatest, polygons = (_limits(given.pop(name, None), name) for name in ("least", "greatest", "polygons"))
+    given, options = dict(given), native.MeasuringOptions()
+    least, greatest = (_limits(given.pop(name, None), name) for name in ("least", "greatest"))
     options.set_gates(*([f"{feature}={number(limit, feature)!r}" for feature, limit in limits.items()]
                         for limits in (least, greatest)),
-                      [f"{','.join(features)}={_corners(corners)}" for features, corners in polygons.items()])
+                      _polygons(given.pop("polygons", None)))
     for name, value in given.items():
         if value is None:
             continue
@@ -218,18 +224,40 @@ def _measuring(given, function):
             setattr(options, name, positive(value, name))
         elif name in _TEXTS:
             setattr(options, name, word(value, name))
+        elif name == "temperature_if_missing":
+            options.temperature_if_missing = repr(number(value, name))
         elif name == "temperature":
             options.temperature = word(value, name) if isinstance(value, str) else repr(number(value, name))
         else:
-            known = ", ".join((*_NUMBERS, *_TEXTS, "temperature", "least", "greatest", "polygons"))
+            known = ", ".join((*_NUMBERS, *_TEXTS, "temperature", "temperature_if_missing", "least", "greatest", "polygons"))
             raise UserError(f"{function} has no argument {name!r}; there are {known}.")
     return options
+
+
+def _gated(measuring):
+    """Features on which limits and polygons look."""
+    limits = {*(measuring.get("least") or {}), *(measuring.get("greatest") or {})}
+    polygons = measuring.get("polygons")
+    axes = {axis for axes in polygons for axis in axes} if isinstance(polygons, Mapping) else set()
+    return limits | {axis.removeprefix("log:") for axis in axes}
 
 
 def _limits(limits, name):
     if limits is not None and not isinstance(limits, Mapping):
         raise UserError(f"{name} is {limits!r}; give a dictionary of features, such as {{\"area_ratio\": 1.05}}.")
     return limits or {}
+
+
+def _polygons(polygons):
+    """As the command line has them: descriptions, or names of files."""
+    if polygons is None or isinstance(polygons, Mapping):
+        return [f"{','.join(features)}={_corners(corners)}" for features, corners in (polygons or {}).items()]
+    files = polygons if isinstance(polygons, (list, tuple)) else [polygons]
+    names = [path(file, "polygons") for file in files]
+    for name in names:
+        if not name.endswith(".poly"):
+            raise UserError(f"polygons: {name} is no file of polygon filters (.poly).")
+    return names
 
 
 def _corners(corners):

@@ -78,8 +78,8 @@ class Fits {
       const ModuliEstimate estimate = events_.is_inside(i) ? moduli_.fit(seen[i], viscosity[i]) : gated();
       tally_.take(estimate);
       text += line(first + i, seen[i], viscosity[i], estimate) +
-              fmt::format("\t{:.4g}\t{:.6g}\t{:.3g}\t{:.3g}\t{:.4g}\n", excess_[i].excess, solid_kPa_[i], solid_error_kPa_[i],
-                          solid_systematic_kPa_[i], estimate.section_factor);
+              fmt::format("\t{:.4g}\t{:.6g}\t{:.3g}\t{:.3g}\t{:.4g}\n", excess_[i].excess, solid_kPa_[i],
+                          solid_error_kPa_[i], solid_systematic_kPa_[i], estimate.section_factor);
     }
     return text;
   }

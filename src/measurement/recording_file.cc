@@ -7,6 +7,7 @@
 #include <map>
 
 #include "case/refuse_path.h"
+#include "measurement/basin.h"
 #include "measurement/hdf5_writing.h"
 #include "store/whole_file.h"
 
@@ -23,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 hid_t stored_type(const std::string& feature) {
-  return feature == "index" ? H5T_STD_U32LE : feature == "frame" ? H5T_STD_U64LE : H5T_IEEE_F64LE;
+  if (feature == "index") return H5T_STD_U32LE;
+  return feature == "frame" || feature.starts_with("basinmap") ? H5T_STD_U64LE : H5T_IEEE_F64LE;
 }
 
 // Without it the field's programs would show an array of numbers, not pictures.
@@ -134,6 +136,11 @@ void RecordingFile::append_images(const std::string& name, ImageSize size, std::
   }
   const void* const values = name == "mask" ? masks.data() : pixels.data();
   content_->check(append_rows(feature, {count, size.height, size.width}, H5T_NATIVE_UINT8, values), name);
+}
+
+void RecordingFile::add_basin(const fs::path& recording, const std::string& map) {
+  const auto lines = file_basin_lines("original", {recording.string()}, map);
+  content_->check(write_lines(content_->file.get(), "basins/original", lines), "the basin");
 }
 
 void RecordingFile::add_log(const std::string& name, const std::vector<std::string>& lines) {

@@ -26,12 +26,15 @@ class RecordingFile {
   void add_metadata(const std::string& key, std::int64_t value);
   void add_metadata(const std::string& key, const std::string& text);
 
-  /// Appends one number per event to a feature, which appears with its first values; "index" and "frame" are stored as
-  /// the whole numbers that they are. UserError, e.g. if the disk is full.
+  /// Appends one number per event to a feature, which appears with its first values; "index", "frame" and
+  /// maps of basins are stored as the whole numbers that they are. UserError, e.g. if the disk is full.
   void append(const std::string& feature, std::span<const double> values);
 
   /// Appends pictures, row by row, to "mask" (anything but 0 becomes 255), "image" or another feature of pictures.
   void append_images(const std::string& feature, ImageSize size, std::span<const std::uint8_t> pixels);
+
+  /// A basin: another recording, whose event map[i] is event i; `map` is a feature that is appended, "basinmap0".
+  void add_basin(const std::filesystem::path& recording, const std::string& map);
 
   /// A log of the given name.
   void add_log(const std::string& name, const std::vector<std::string>& lines);

@@ -39,7 +39,7 @@ ShapeSource::ShapeSource(const Recording& recording, double pixel_size_um)
   }
   if (area_from_ != "area_um" && !(pixel_size_um > 0))
     throw UserError(
-        fmt::format("{}: its areas are in pixels, and the pixel size is missing; give --pixel-size (um).", name));
+        fmt::format("{}: its areas are in pixels, and the pixel size is missing; give it with --pixel-size-um.", name));
 }
 
 void ShapeSource::check_outlines(const Recording& recording, std::string_view use) {

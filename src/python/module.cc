@@ -18,7 +18,8 @@ void translate(std::exception_ptr thrown) {
     const std::string_view text = error.what();  // with names of files, which need not be UTF-8
     const auto sentence = py::reinterpret_steal<py::str>(
         PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
-    py::set_error(py::module_::import("rheocyte.errors").attr("UserError"), sentence);
+    const py::module_ errors = py::module_::import("rheocyte.errors");
+    py::set_error(errors.attr("UserError"), errors.attr("in_words_of_python")(sentence));
   }
 }
 
@@ -39,6 +40,7 @@ PYBIND11_MODULE(native, module) {
   rheocyte::bind_recordings(module);
   rheocyte::bind_events(module);
   rheocyte::bind_courses(module);
+  rheocyte::bind_recording_file(module);
   rheocyte::bind_masks(module);
   rheocyte::bind_analysis(module);
 }

@@ -24,6 +24,7 @@ void bind_options(py::module_& module) {
       .def_readwrite("medium", &M::medium)
       .def_readwrite("viscosity_model", &M::viscosity_model)
       .def_readwrite("temperature", &M::temperature)
+      .def_readwrite("temperature_if_missing", &M::temperature_if_missing)
       .def("set_gates", [](M& m, const std::vector<std::string>& min, const std::vector<std::string>& max,
                            const std::vector<std::string>& polygons) {
         m.gates = {min, max, polygons};

@@ -167,3 +167,109 @@ def test_a_companion_is_complete_without_its_recording(program, recorded, tmp_pa
         assert {"emodulus", "area_um", "deform", named} <= set(dataset.features_innate)
         for name in ("volume", "inert_ratio_cvx", "inert_ratio_prnc", "inert_ratio_raw"):
             same(np.array(dataset[name]), features[name].to_numpy())
+
+
+@pytest.fixture(scope="module")
+def in_a_buffer(tmp_path_factory):
+    """Virtual cells with masks in a medium whose viscosity depends on the temperature."""
+    file = tmp_path_factory.mktemp("in-a-buffer") / "cells.rtdc"
+    rheocyte.synth({"recording": {"cells": 80, "seed": 7}, "channel": {"width_um": 20},
+                    "flow": {"rate_ul_per_s": 0.04, "medium": "CellCarrier", "temperature_C": {"mean": 23, "sd": 0.3}},
+                    "cell": {"radius_um": {"mean": 5.8, "sd": 0.4}, "bulk": {"young_modulus_kPa": {"mean": 1.2, "sd": 0.2}}}},
+                   file)
+    return file
+
+
+def child_of(dataset, **ranges):
+    for feature, ends in ranges.items():
+        for end, value in zip(("min", "max"), ends):
+            dataset.config["filtering"][f"{feature} {end}"] = value
+    dataset.apply_filter()
+    return dclab.new_dataset(dataset)
+
+
+def same_frames(a, b):
+    pytest.importorskip("pandas").testing.assert_frame_equal(a.reset_index(drop=True), b.reset_index(drop=True))
+
+
+def test_an_open_dataset_is_read_as_its_file(in_a_buffer):
+    whole = rheocyte.extract(in_a_buffer)
+    with dclab.new_dataset(in_a_buffer) as dataset:
+        frame = rheocyte.extract(dataset)
+    same_frames(frame, whole)
+    assert frame.attrs == whole.attrs
+
+
+def test_the_rows_of_a_child_are_its_events(in_a_buffer):
+    """Also of a child of a child; with the outlines of these events, not of others."""
+    whole = rheocyte.extract(in_a_buffer)
+    with dclab.new_dataset(in_a_buffer) as dataset:
+        child = child_of(dataset, area_um=(90, 120))
+        inside = whole["area_um2"].between(90, 120)
+        assert 0 < len(child) == inside.sum() < len(whole)
+        frame = rheocyte.extract(child)
+        same_frames(frame, whole[inside])
+        assert np.isfinite(frame["mode_3"]).all() and "dataset.rtdc" not in str(frame.attrs)
+        grandchild = child_of(child, deform=(float(np.median(child["deform"])), 1))
+        same_frames(rheocyte.extract(grandchild), whole[inside & (whole["deformation"] >= np.median(child["deform"]))])
+        with pytest.raises(rheocyte.UserError, match="no events"):
+            rheocyte.extract(child_of(child, deform=(0.9, 1)))
+
+
+def test_metadata_that_were_corrected_in_memory_count(in_a_buffer):
+    with dclab.new_dataset(in_a_buffer) as dataset:
+        dataset.config["setup"]["medium"] = "water"
+        same_frames(rheocyte.extract(dataset), rheocyte.extract(in_a_buffer, medium="water"))
+        child = child_of(dataset, area_um=(100, 1000))
+        whole = rheocyte.extract(in_a_buffer, medium="water")
+        same_frames(rheocyte.extract(child), whole[whole["area_um2"] >= 100])
+        dataset.config["setup"].pop("flow rate")
+        with pytest.raises(rheocyte.UserError, match="cells.rtdc: setup:flow rate is missing; give it with flow_rate_ul_s"):
+            rheocyte.extract(dataset)
+        assert len(rheocyte.extract(dataset, flow_rate_ul_s=0.04)) == len(whole)
+
+
+def test_features_in_memory_may_be_gated(in_a_buffer):
+    with dclab.new_dataset(in_a_buffer) as dataset:
+        dclab.register_temporary_feature("my_choice")
+        chosen = np.arange(len(dataset)) % 3
+        dclab.set_temporary_feature(dataset, "my_choice", chosen)
+        frame = rheocyte.extract(dataset, least={"my_choice": 2})
+    assert ((frame["state"] == "gated") == (chosen < 2)).all()
+
+
+def test_a_dataset_without_a_file_is_read_from_memory(in_a_buffer):
+    """Of a dictionary, whole or filtered: as the file from which its features and metadata come."""
+    whole = rheocyte.extract(in_a_buffer)
+    with dclab.new_dataset(in_a_buffer) as dataset:
+        features = {name: np.array(dataset[name]) for name in ("area_um", "deform", "temp")}
+        from_memory = dclab.new_dataset({**features, "mask": np.array(dataset["mask"][:], dtype=bool)})
+        for section in ("setup", "imaging"):
+            from_memory.config[section].update(dataset.config[section])
+    frame = rheocyte.extract(from_memory)
+    same_frames(frame[list(whole)], whole)
+    inside = whole["area_um2"] >= 100
+    same_frames(rheocyte.extract(child_of(from_memory, area_um=(100, 1000))), frame[inside])
+    from_memory.config["setup"].pop("channel width")
+    with pytest.raises(rheocyte.UserError, match=r"the dataset .*: setup:channel width is missing"):
+        rheocyte.extract(from_memory)
+
+
+def test_polygon_filters_of_dclab_take_the_events_that_dclab_takes(program, in_a_buffer, tmp_path):
+    """Two of them, one inverted, in one file, by the package and by the program."""
+    dclab.PolygonFilter.clear_all_filters()
+    corners = [[[80, 0], [130, 0], [130, 1], [105, 0.02], [80, 1]], [[0, 0.012], [105, 0.012], [105, 0.03], [0, 0.03]]]
+    for points, inverted in zip(corners, (False, True)):
+        dclab.PolygonFilter(axes=("area_um", "deform"), points=points, inverted=inverted)
+    dclab.PolygonFilter.save_all(tmp_path / "two.poly")
+    with dclab.new_dataset(in_a_buffer) as dataset:
+        for each in dclab.PolygonFilter.instances:
+            dataset.polygon_filter_add(each)
+        dataset.apply_filter()
+        inside = dataset.filter.all.copy()
+    dclab.PolygonFilter.clear_all_filters()
+    frame = rheocyte.extract(in_a_buffer, polygons=tmp_path / "two.poly")
+    assert ((frame["state"] != "gated") == inside).all() and 0 < inside.sum() < len(inside)
+    subprocess.run([program, "extract", in_a_buffer, "-o", tmp_path, "--quiet", "--polygon", tmp_path / "two.poly"], check=True)
+    written = pytest.importorskip("pandas").read_csv(tmp_path / "cells_rheocyte.tsv", sep="\t", comment="#")
+    assert list(written["state"] != "gated") == list(inside)

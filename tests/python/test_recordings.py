@@ -215,6 +215,46 @@ def test_virtual_cells_come_back(tmp_path):
         rheocyte.synth(CELLS, tmp_path / "other.h5")
 
 
+def test_a_temperature_fills_what_is_missing(tmp_path):
+    """Of single events whose own is 0, and of a recording without any."""
+    h5py = pytest.importorskip("h5py")
+    file = tmp_path / "cells.rtdc"
+    rheocyte.synth(CELLS, file, recording__cells=40)
+    at_30 = rheocyte.extract(file, temperature=30)["viscosity_mPas"]
+    with h5py.File(file, "r+") as recording:
+        del recording["events/temp"]
+        recording["events/temp"] = np.repeat([0.0, 23.0], [5, len(at_30) - 5])
+        recording.attrs.pop("setup:temperature", None)
+    without = rheocyte.extract(file)
+    filled = rheocyte.extract(file, temperature_if_missing=30)
+    assert without["young_modulus_kPa"][:5].isna().all() and (without["state"][:5] == "no data").all()
+    assert np.allclose(filled["viscosity_mPas"][:5], at_30[:5], rtol=1e-3)  # the exponent is that of the median
+    assert filled["viscosity_mPas"][5:].equals(without["viscosity_mPas"][5:])
+    with h5py.File(file, "r+") as recording:
+        del recording["events/temp"]
+    with pytest.raises(UserError, match="give temperature in degrees Celsius, or the viscosity with viscosity_mPas."):
+        rheocyte.extract(file)
+    assert np.allclose(rheocyte.extract(file, temperature_if_missing=30)["viscosity_mPas"], at_30)
+
+
+@pytest.mark.parametrize("arguments, sentence", [
+    ({"viscosity_mPas": 5, "medium": "water"}, "viscosity_mPas and medium contradict"),
+    ({"temperature": 296}, "temperature 296"), ({"least": {"bright": 1}}, "for which least or greatest"),
+    ({"polygons": {("a", "b"): [(1, 2)]}}, r"three corners at least\.$"), ({"polygons": "filters.txt"}, "no file of polygon"),
+    ({"polygons": "nowhere.poly"}, "nowhere.poly: there is no such file")])
+def test_what_is_said_names_arguments_not_options(arguments, sentence, tmp_path):
+    rheocyte.synth(CELLS, tmp_path / "cells.rtdc", recording__cells=20)
+    with pytest.raises(UserError, match=sentence) as caught:
+        rheocyte.extract(tmp_path / "cells.rtdc", **arguments)
+    assert "--" not in str(caught.value)
+
+
+def test_warnings_name_arguments_too(tmp_path):
+    rheocyte.synth(CELLS, tmp_path / "cells.rtdc", recording__cells=20)
+    said = rheocyte.extract(tmp_path / "cells.rtdc", temperature=25).attrs["warnings"]
+    assert any(line.startswith("temperature 25 is taken") and "temperature_if_missing" in line for line in said)
+
+
 def test_moduli_of_bulk_and_cortex_need_their_table(tmp_path):
     file = tmp_path / "cells.rtdc"
     rheocyte.synth(CELLS, file)
