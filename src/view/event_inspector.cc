@@ -18,6 +18,7 @@
 #include "view/event_json.h"
 #include "view/fitted_cell.h"
 #include "view/grey_png.h"
+#include "view/page_words.h"
 #include "view/recording_columns.h"
 
 namespace rheocyte {
@@ -181,7 +182,7 @@ EventInspector::EventInspector(const InspectedRecording& file, const ExtractOpti
   try {
     extraction_ = std::make_unique<Extraction>(recording_, options, tables);
   } catch (const UserError& missing) {
-    missing_ = missing.what();
+    missing_ = in_words_of_page(missing.what());
   }
   if (!file.combined || !outlines_) return;
   try {

@@ -4,6 +4,7 @@
 
 #include "case/user_error.h"
 #include "extract/plot_lines.h"
+#include "view/page_words.h"
 #include "view/plane_lines.h"
 
 namespace rheocyte {
@@ -24,7 +25,7 @@ nlohmann::ordered_json recording_lines(const Recording& recording, const Extract
   try {
     take_conditions(recording, plot, panel);
   } catch (const UserError& missing) {
-    return no_lines_json(missing.what());
+    return no_lines_json(in_words_of_page(missing.what()));
   }
   return lines_json(lines.for_panel(panel), panel.measured);
 }

@@ -8,6 +8,7 @@
 #include "case/split.h"
 #include "case/user_error.h"
 #include "store/system_limit.h"
+#include "view/page_words.h"
 
 namespace rheocyte {
 
@@ -61,7 +62,7 @@ Answer Router::answer(Request request) const {
   } catch (const SystemLimit& limit) {
     return refusal(503, "limit", limit.what());
   } catch (const UserError& error) {
-    return refusal(400, "input", error.what());
+    return refusal(400, "input", in_words_of_page(error.what()));
   } catch (const std::bad_alloc&) {
     return refusal(500, "memory", "The memory of this machine does not suffice.");
   } catch (const std::exception& error) {
