@@ -44,11 +44,11 @@ std::string in_words_of_page(const std::string& sentence) {
     std::size_t end = at;
     if (begins && sentence.compare(at, 2, "--") == 0)
       while (end < sentence.size() && is_of_a_name(sentence[end])) ++end;
-    if (end > at + 2)
-      text += word_for(std::string_view(sentence).substr(at, end - at));
-    else
-      text += sentence[end++];
-    at = std::max(end, at + 1);
+    const bool is_option = end > at + 2;
+    if (!is_option) end = at + 1;
+    const auto piece = std::string_view(sentence).substr(at, end - at);
+    text += is_option ? word_for(piece) : piece;
+    at = end;
   }
   return text;
 }
