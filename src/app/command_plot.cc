@@ -59,7 +59,6 @@ class Plot {
   explicit Plot(const PlotOptions& options) : options_(options), stem_(picture_stem(options)), lines_(options) {}
 
   int run() {
-    if (const std::string why = lines_.why_none(); !why.empty() && !options_.quiet) tell(why);
     json panels = json::array();
     for (const auto& recording : options_.inputs) {
       const auto name = fmt::format("events-{}", panels.size());
@@ -69,6 +68,7 @@ class Plot {
       panels.push_back(described(recording, read.result));
       panels.back()["events_file"] = name;
     }
+    if (const std::string why = lines_.why_none(); !why.empty() && !options_.quiet) tell(why);
     const auto text = json_line({{"panels", panels}});
     if (write_part(folder_.path() / "plot.json", text))
       throw UserError("rheocyte: the disk for temporary files is full; TMPDIR names another folder.");
