@@ -31,9 +31,7 @@ Json describe_recording(const fs::path& file) {
   Json pictures = Json::array();
   for (const char* feature : {"image", "mask"})
     if (recording.image_size(feature)) pictures.push_back(feature);
-  Json basins = Json::array();
-  for (const auto& basin : recording.files_of_basins()) basins.push_back(basin.string());
-  return {{"basins", basins},
+  return {{"basins", paths_json(recording.files_of_basins())},
           {"events", recording.events()},
           {"conditions", stated_conditions(recording.metadata())},
           {"features", columns.names()},
@@ -75,6 +73,12 @@ Json describe_combined(const fs::path& folder) {
 }
 
 }  // namespace
+
+Json paths_json(std::span<const fs::path> paths) {
+  Json names = Json::array();
+  for (const auto& path : paths) names.push_back(path.string());
+  return names;
+}
 
 Json stated_conditions(const Metadata& metadata) {
   Json conditions;

@@ -141,9 +141,7 @@ void add_several_moduli(const Json& request, const ExtractOptions& options, cons
 /// The other files that the recording is read from, and what they are now.
 Json basins_of(const fs::path& file) {
   const auto basins = Recording(file).files_of_basins();
-  Json names = Json::array();
-  for (const auto& basin : basins) names.push_back(basin.string());
-  return {{"basins", names}, {"version_of_basins", file_version(basins)}};
+  return {{"basins", paths_json(basins)}, {"version_of_basins", file_version(basins)}};
 }
 
 // The files are published here, as the command does: the process that reads may break.
