@@ -168,12 +168,12 @@ Json ModuliRuns::state(std::size_t item) const {
   const std::scoped_lock lock(run->mutex);
   Json state{{"state", run->state}, {"done", run->done}, {"settings", run->settings}, {"command", run->command}};
   if (!run->command_several.empty()) state["command_several"] = run->command_several;
-    if (run->has_ended_well() && !run->is_ready()) {
-      state["state"] = "failed";
-      state["error"] = "The recording or its table has changed since its moduli were computed; compute them again.";
-      return state;
-    }
-    if (!run->error.empty()) state["error"] = in_words_of_page(run->error);
+  if (run->has_ended_well() && !run->is_ready()) {
+    state["state"] = "failed";
+    state["error"] = "The recording or its table has changed since its moduli were computed; compute them again.";
+    return state;
+  }
+  if (!run->error.empty()) state["error"] = in_words_of_page(run->error);
   state.update(run->report);
   return state;
 }
