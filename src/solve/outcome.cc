@@ -75,8 +75,9 @@ std::string explanation_of_wanted(Status status, const LastState& last) {
     return "A shape was found on a coarse mesh; its surface is so near the limit against short wrinkles that finer "
            "meshes do not hold it; " +
            ways;
-  return fmt::format("A shape was found on a coarse mesh, but on no finer one ({}): the branch ends here; {}",
-                     name(status), ways_to_stability(SurfaceKind::held, false));
+  return fmt::format(
+      "A shape was found on a coarse mesh, but on no finer one ({}): it is close to the end of its branch; {}",
+      name(status), ways_to_stability(SurfaceKind::held, false));
 }
 
 std::string inaccurate(const LastState& last) {
