@@ -83,7 +83,7 @@ std::string error_remark(const Result& result) {
   const bool in_time = input.time.scheme != TimeScheme::stationary;
   const std::optional<double> wanted = in_time ? input.time.mesh_accuracy : input.numerics.accuracy;
   std::string remark = "of the deformation";
-  if (input.numerics.accuracy_of == AccuracyOf::motion)
+  if (input.numerics.accuracy_of == AccuracyOf::motion && result.state.offset != 0)
     remark = "of velocity, drift and rotation";
   else if (result.state.shape.deformation < result.state.deformation_floor)
     remark = fmt::format("of a deformation of {:.1e}", result.state.deformation_floor);

@@ -38,7 +38,7 @@ int last_degree_of(const Problem& problem) {
 
 /// A deformation changes by about as much, relative, as the residual that is left: far less than the wanted accuracy. A
 /// factorisation costs as much as tens of chord steps at high degrees. From one degree to the next, or to a nearby
-/// case, a state takes one to three; beyond the end of the branch Newton wanders. Off the axis it takes up to eight in
+/// case, a state takes one to three; beyond the end of the branch Newton wanders. Off the axis it takes more in
 /// strongly shear-thinning liquids, whose viscosity is the least smooth where the cell no longer covers the axis.
 NewtonOptions fine_newton(const Problem& problem, const std::atomic<bool>* stop) {
   return {.tolerance = std::min(1e-8, 1e-5 * problem.accuracy),
