@@ -170,12 +170,15 @@ int take_descriptor(int socket) {
   ::_exit(0);
 }
 
-/// Also removes those that killed programs have left.
+/// Within one that this program claims: whoever puts files in their places claims their folder and would wait. Also
+/// removes those that killed programs have left.
 Scratch new_private_folder() {
   std::error_code error, ignored;
   const fs::path place = fs::temp_directory_path(error) / "rheocyte-view";
   for (const Scratch& left : left_over_folders(place)) fs::remove_all(left.path, ignored);
   Scratch made = new_scratch_folder(place);
+  made.path /= "files";
+  if (!made.failed) fs::create_directory(made.path, error);
   if (error || made.failed)
     refuse_path(place.parent_path(),
                 "no folder for temporary files can be made there; is the disk full? TMPDIR names "
@@ -285,7 +288,7 @@ WorkHost::WorkHost(const Work& work, const std::function<void()>& prepare) : fol
   if (host_ < 0) throw SystemLimit("processes", errno);
   if (host_ == 0) {
     ::close(ends[0]);
-    be_the_host(ends[1], work, prepare, folder_.path);
+    be_the_host(ends[1], work, prepare, folder_.path.parent_path());
   }
   ::close(ends[1]);
   control_ = ends[0];

@@ -65,6 +65,12 @@ TEST(WorkHost, RemovesTheFoldersThatKilledHostsHaveLeft) {
   EXPECT_TRUE(fs::exists(first.folder())) << "it is in use";
 }
 
+TEST(WorkHost, NobodyHoldsTheFolderForItsFiles) {
+  // Whoever puts files in their places claims their folder meanwhile.
+  const WorkHost host([](const std::string&, const WorkReply&) {});
+  EXPECT_TRUE(claim_on(host.folder()));
+}
+
 TEST(WorkHost, EndsWorkForWhichNobodyWaitsAnyMore) {
   const WorkHost host([](const std::string&, const WorkReply& reply) {
     reply.give("begun");
