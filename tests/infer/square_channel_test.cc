@@ -141,8 +141,8 @@ TEST(SquareCourse, NothingIsChangedMoreThanTheLargestCellsAndAllIsFinite) {
     }
 }
 
-TEST(SquareShapes, ASolidAsTheSquareShowsItGivesBackItsModuliByATableOfTheTube) {
-  // The change is taken at the measured shape and undone by the fit: what is left is that of interpolations, 1 %.
+TEST(SquareShapes, TheChangeOfASolidIsItsShapeInTheSquareLessThatOfTheTubeInAnyChannel) {
+  // The change is that at the measured shape: what is left is that of interpolations, 5 % of it.
   const CombinedTable& table = test::whole_combined_table();
   const CombinedInterpolation between(table);
   const ChannelFlow simulated = channel_flow_of(table.spec.base), flow{30, 0.12, 8};
@@ -150,7 +150,7 @@ TEST(SquareShapes, ASolidAsTheSquareShowsItGivesBackItsModuliByATableOfTheTube) 
   const SquareShapes square(between, simulated, *map);
   const SquareSolids solids(*map, simulated);
   const ScaleFactors scale = scale_factors(simulated, flow);
-  for (const double stiffness : {1.5, 3.0}) {
+  for (const double stiffness : {4.0, 6.0}) {
     const BranchPlace place{6.5, 0, 0};
     const ShapeVector tube = test::invented_features(place, stiffness);
     const double area = std::exp(tube(0));
@@ -159,7 +159,7 @@ TEST(SquareShapes, ASolidAsTheSquareShowsItGivesBackItsModuliByATableOfTheTube) 
     seen(0) += std::log(scale.area);
     const auto change = square.change(seen, flow, 0);
     for (int k = 1; k <= int(ShapeFeature::first_mode) + 4; ++k)
-      EXPECT_NEAR(change.errors.bias(k), by_square(k), 0.02 * std::abs(by_square(k)) + 2e-4) << stiffness << " " << k;
+      EXPECT_NEAR(change.errors.bias(k), by_square(k), 0.05 * std::abs(by_square(k)) + 5e-4) << stiffness << " " << k;
     EXPECT_NEAR(change.errors.covariance(1, 1), std::pow(left_by_section * change.errors.bias(1), 2), 1e-12);
     EXPECT_LT(std::abs(square.change(seen, flow, 1).errors.bias(1)), std::abs(change.errors.bias(1)));
   }

@@ -130,7 +130,7 @@ TEST(TimeCourse, AnEllipseThatTheTableDoesNotHaveIsTakenBack) {
 TEST(TimeCourse, WhatNoCellOfTheTableCanBeHasNoModulus) {
   // Numbers like these are refused where tables are read; here they must not end the program.
   DynamicContent content = test::invented_dynamic();
-  for (CellCourse& course : content.courses) course.value.setZero();
+  for (CellCourse& course : content.courses) course.value.setConstant(no_value);
   const DynamicTable table(std::move(content));
   const CellImages images{{100, 130, 0.05, noise}};
   EXPECT_TRUE(std::isnan(TimeCourse(table).cell(images).young_modulus_kPa.value));
