@@ -26,7 +26,7 @@ void explain(const Problem& problem, StationaryState& r) {
                                           .wanted_error = problem.accuracy,
                                           .stability_margin = r.stability_margin,
                                           .surface = surface_kind(problem),
-                                          .can_have_cortex = problem.offset == 0});
+                                          .can_bend = problem.offset == 0});
 }
 
 /// Whether the unknowns of both problems mean the same.

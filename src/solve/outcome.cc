@@ -18,8 +18,10 @@ SurfaceKind surface_kind(const Problem& problem) {
 namespace {
 
 /// What keeps short waves off the surface.
-constexpr std::string_view stabiliser =
-    "a little bending stiffness (cell.cortex.bending_kBT = 1e4) or tension (cell.cortex.tension_mN_per_m)";
+std::string stabilise_it(bool can_bend) {
+  return fmt::format("stabilise the surface by a little {}tension (cell.cortex.tension_mN_per_m)",
+                     can_bend ? "bending stiffness (cell.cortex.bending_kBT = 1e4) or " : "");
+}
 
 }  // namespace
 
@@ -29,10 +31,9 @@ Status judged(Status way, const FinalState& state) {
   return state.estimated_error > state.wanted_error ? Status::accuracy_not_reached : way;
 }
 
-std::string ways_to_stability(SurfaceKind surface, bool can_have_cortex) {
-  return std::string("raise the moduli, lower flow rate or viscosity") +
-         (surface != SurfaceKind::held && can_have_cortex ? fmt::format(", or stabilise the surface by {}.", stabiliser)
-                                                          : ".");
+std::string ways_to_stability(SurfaceKind surface, bool can_bend) {
+  const std::string held = surface == SurfaceKind::held ? "" : ", or " + stabilise_it(can_bend);
+  return "raise the moduli, lower flow rate or viscosity" + held + ".";
 }
 
 std::string ways_to_accuracy(std::string_view key, double estimated_error) {
@@ -59,7 +60,7 @@ std::string unstable_surface(const std::string& where, const LastState& last) {
                                ? "The cortex of so soft a cell is compressed and wrinkles: the smooth branch ends at "
                                : "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder): the "
                                  "smooth branch ends at ";
-  return what + where + "; " + ways_to_stability(last.surface, last.can_have_cortex);
+  return what + where + "; " + ways_to_stability(last.surface, last.can_bend);
 }
 
 /// Of a cell with the wanted moduli, of which there was a state on some mesh.
@@ -69,8 +70,8 @@ std::string explanation_of_wanted(Status status, const LastState& last) {
         "A shape was found, but its surface is beyond the limit against short wrinkles (stability_margin {:.2g}), "
         "where "
         "shapes depend on the mesh; {}",
-        last.stability_margin, ways_to_stability(last.surface, last.can_have_cortex));
-  const std::string ways = ways_to_stability(last.surface, last.can_have_cortex);
+        last.stability_margin, ways_to_stability(last.surface, last.can_bend));
+  const std::string ways = ways_to_stability(last.surface, last.can_bend);
   if (status == Status::surface_unstable)
     return "A shape was found on a coarse mesh; its surface is so near the limit against short wrinkles that finer "
            "meshes do not hold it; " +
@@ -100,8 +101,7 @@ std::string nothing_found(Status status, const LastState& last) {
   if (status == Status::stopped) return "Stopped by a signal before the first state.";
   if (status == Status::surface_unstable)
     return fmt::format("The surface of this cell wrinkles at the smallest load already; {}.",
-                       last.can_have_cortex ? fmt::format("stabilise it by {}", stabiliser)
-                                            : std::string("raise the moduli, or lower flow rate or viscosity"));
+                       stabilise_it(last.can_bend));
   return "No state was found, not even of a nearly rigid cell: the case is far outside what the solver can follow; "
          "check the units of its numbers.";
 }

@@ -70,16 +70,16 @@ struct LastState {
   double wanted_error = 0;       ///< relative
   double stability_margin = 1;
   SurfaceKind surface = SurfaceKind::bare;
-  bool can_have_cortex = true;  ///< not off the axis of a duct
-  bool is_coarse = false;       ///< the end was seen on coarse meshes alone
-  double known_end = 0;         ///< least modulus over the wanted one, where it was known beforehand
+  bool can_bend = true;    ///< not off the axis of a duct
+  bool is_coarse = false;  ///< the end was seen on coarse meshes alone
+  double known_end = 0;    ///< least modulus over the wanted one, where it was known beforehand
 };
 
 /// One sentence for the user: what happened, where, what to try.
 std::string explanation(const Outcome&, const LastState&);
 
 /// The end of a sentence on a surface beyond its limit: "raise the moduli ... ."
-std::string ways_to_stability(SurfaceKind, bool can_have_cortex);
+std::string ways_to_stability(SurfaceKind, bool can_bend);
 /// The end of a sentence on a relative error above that of a key ("numerics.accuracy"), as far as the key takes it.
 std::string ways_to_accuracy(std::string_view key, double estimated_error);
 

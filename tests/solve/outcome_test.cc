@@ -66,7 +66,7 @@ TEST(Outcome, AdviceCanBeFollowed) {
 
 TEST(Outcome, AShapeBeyondItsLimitSaysByHowMuch) {
   const std::string sentence = explanation({Status::surface_unstable, "", 1},
-                                           {.deformation = 0.05, .stability_margin = -0.071, .can_have_cortex = false});
+                                           {.deformation = 0.05, .stability_margin = -0.071, .can_bend = false});
   EXPECT_NE(sentence.find("stability_margin -0.071"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("raise the moduli"), std::string::npos) << sentence;
 }
@@ -115,12 +115,12 @@ TEST(Outcome, AnUnstableSurfaceIsOfferedWhatCouldHoldIt) {
             std::string::npos);
 }
 
-TEST(Outcome, ACellOffTheAxisIsNotOfferedTheCortexThatItCannotHave) {
+TEST(Outcome, ACellOffTheAxisIsNotOfferedTheBendingStiffnessThatItCannotHave) {
   for (const double reached : {0.0, 0.4}) {
     const std::string sentence =
-        explanation({Status::surface_unstable, "", reached}, {.surface = SurfaceKind::bare, .can_have_cortex = false});
-    EXPECT_EQ(sentence.find("cell.cortex"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("raise the moduli"), std::string::npos) << sentence;
+        explanation({Status::surface_unstable, "", reached}, {.surface = SurfaceKind::bare, .can_bend = false});
+    EXPECT_EQ(sentence.find("bending"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("cell.cortex.tension_mN_per_m"), std::string::npos) << sentence;
   }
 }
 
