@@ -48,7 +48,7 @@ install_packages() {
   local -a missing as_root=()
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     printf 'This system has no apt-get, so nothing is installed here. Needed are a C++20 compiler, CMake 3.25, Ninja,\n'
-    printf 'and the libraries that Debian 12 calls:\n    %s\nGoing on with what is there.\n' "$*"
+    printf 'and the libraries that Debian calls:\n    %s\nGoing on with what is there.\n' "$*"
     command -v cmake >/dev/null || fail 'cmake is not there.'
     command -v ninja >/dev/null || fail 'ninja is not there.'
     return
@@ -77,7 +77,7 @@ install_packages() {
     grep -vE '^(dlstatus|pmstatus):' "$log" | tail -n 15 >&2
     rm -f "$log"
     fail 'apt-get could not install the packages (its last lines are above). Is there a network connection, and is
-this Debian 12? With the packages of the list installed in another way, the same command goes on from here.'
+this Debian 12 or 13? With the packages of the list installed in another way, the same command goes on from here.'
   fi
   rm -f "$log"
 }
