@@ -263,13 +263,15 @@ def draw_numbers(figure, result, total):
     """What came out, and what was asked."""
     found = [deformation_with_error(result), part("area {:.5g} µm²", result, "area_um2")]
     asked = made_of(result)
-    moved = [part("r₀ = {:.4g} µm", result, "case", "cell", "radius_um"),
+    moved = [part("r₀ = {:.4g} µm", result, "case", "cell", "radius_um"), *elongated_by(result),
              part("cell velocity {:.4g} m/s", result, "cell_velocity_m_per_s"),
              part("pressure drop {:.4g} Pa", result, "pressure_drop_Pa")]
     for height, parts, weight in ((0.34, found, "bold"), (0.205, asked, "normal"), (0.075, moved, "normal")):
         parts = list(filter(None, parts))
         gap, size = (" " * 6, 6.5) if len(parts) < 5 else (" " * 3, 5.4)
-        figure.text(0.5, height / total, gap.join(parts), ha="center", va="baseline", weight=weight, fontsize=size)
+        line = figure.text(0.5, height / total, gap.join(parts), ha="center", va="baseline", weight=weight, fontsize=size)
+        width = line.get_window_extent().width / figure.bbox.width
+        line.set_fontsize(size * min(1, 0.96 / width))
 
 
 def written(law):
@@ -289,11 +291,14 @@ def made_of(result):
                   part("E2D = {:.4g} mN/m", result, "cortex_modulus_reached_mN_per_m")]
     if find(result, "tension_mN_per_m"):
         parts.append(part("γ = {:.3g} mN/m", result, "tension_mN_per_m"))
-    if find(cell, "rest_aspect") not in (None, 1):
-        parts.append(part("rest aspect {:.3g}", cell, "rest_aspect"))
-    if find(result, "case", "flow", "axial_tension_Pa"):
-        parts.append(part("axial tension {:.4g} Pa", result, "case", "flow", "axial_tension_Pa"))
     return parts
+
+
+def elongated_by(result):
+    """What draws the cell out along the flow beside the flow itself."""
+    aspect, tension = find(result, "case", "cell", "rest_aspect"), find(result, "case", "flow", "axial_tension_Pa")
+    return [f"rest aspect {aspect:.3g}" if aspect not in (None, 1) else None,
+            f"axial tension {tension:.4g} Pa" if tension else None]
 
 
 def deformation_with_error(result):
