@@ -61,8 +61,6 @@ struct Condition {
   bool negated = false;
 };
 
-;
-
 /// What happens when a key is not given: it is missed where it has an effect; nothing; or it has this value.
 struct Required {};
 struct Absent {};

@@ -182,7 +182,8 @@ std::string without_tension() {
 }
 
 TEST_F(Synth, ModuliOfCombinedCellsAreThoseOfTheirTruth) {
-  // The whole way through a table of one tension (none): pixels of 0.1 um and 60 cells leave a few percent of the mean.
+  // The whole way through a table of one tension (none), whose cells are those of the tube: pixels of 0.1 um and 60
+  // cells leave a few percent of the mean.
   write_combined_table(folder_ / "table", without_tension());
   test::write_file(folder_ / "combined.toml", combined_cells);
   const auto made = run({"synth", path("combined.toml"), "-o", path("v.rtdc")});
@@ -192,7 +193,7 @@ TEST_F(Synth, ModuliOfCombinedCellsAreThoseOfTheirTruth) {
   EXPECT_EQ(column("v.rtdc", "userdef8"), std::vector<double>(young.size(), 0));
   const Recording recording(folder_ / "v.rtdc");
   EXPECT_EQ(recording.metadata().text("user:rheocyte userdef7"), "true cortex modulus E2D (mN/m)");
-  const auto ended = run({"moduli", path("v.rtdc"), "--table", path("table")});
+  const auto ended = run({"moduli", path("v.rtdc"), "--table", path("table"), "--section", "tube"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   std::istringstream lines(test::content_of(folder_ / "v_moduli.tsv"));
   std::size_t event = 0;
