@@ -9,6 +9,7 @@ class _ChannelProfile:
     x_um: list[float] | None  # places along a channel that is not straight, in place of its width or radius; the cell starts at 0
     R_um: list[float] | None  # radii of the wall at these places, smooth and monotonic in between, constant beyond the ends
     width_um: list[float] | None  # widths at these places of a channel whose height is the least of them, linear in between, in place of radii; mapped to the tube that has the same mean speed everywhere
+    axial_tension_Pa: list[float] | None  # even axial tension of the surroundings where the cell is at these places, linear in between, constant beyond the ends; in place of flow.axial_tension_Pa
 
 class _Channel:
     section: Literal["tube", "square", "rectangle"]  # cross-section that is computed: a tube, which also stands for the square channel of the same pressure drop, or the square or a rectangle itself in three dimensions
@@ -34,6 +35,7 @@ class _Flow:
     yasuda_exponent: float | None  # exponent a of Carreau and Yasuda's law: how sharply thinning begins
     shear_rate_floor: float | None  # shear rate, relative to mean speed / tube radius, below which the viscosity levels off
     density_kg_per_m3: float | None  # density of the liquid, 0 = no inertia (Stokes flow)
+    axial_tension_Pa: float | None  # even tension of the surroundings along the flow, as of an elastic liquid: a traction T n_x e_x on the cell
 
 class _CellBulk:
     law: Literal["linear", "neo-hookean", "mooney-rivlin", "none"]  # elastic law of the cell's interior, none: a liquid, which makes the cell a shell
@@ -51,6 +53,7 @@ class _Cell:
     radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.965 of the tube radius or of half the lesser width
     offset_um: list[float] | None  # place of a cell off the axis of a duct, [along the width, along the height]; one of the two is 0, and the camera looks along the other
     place: Literal["given", "equilibrium"] | None  # where a cell off the axis is, given: at its offset; equilibrium: where it does not drift, sought from there along the drift
+    rest_aspect: float | None  # length over width of the cell without stress, a spheroid along the flow with the volume of the sphere
     viscosity_mPas: float | None  # viscosity of the cell's interior; a stationary shape does not depend on it
     viscoelasticity: Literal["kelvin-voigt", "maxwell", "standard-linear-solid"] | None  # what the viscosity is to the elastic interior, kelvin-voigt: beside it; maxwell: in series with it; standard-linear-solid: in series with a spring of its own, both beside it
     branch_modulus_kPa: float | None  # Young's modulus of the spring in series with the viscosity
@@ -73,6 +76,7 @@ class _Time:
 
 class _Numerics:
     accuracy: float | None  # wanted relative accuracy of the deformation, mesh and degree are chosen for it
+    accuracy_of: Literal["deformation", "motion"] | None  # what the accuracy is wanted of for a cell off the axis, deformation: of its silhouette, below 1e-4 relative to 1e-4; motion: of its velocity, its rotation, and its drift or the place where it does not drift
 
 class Case:
     channel: _Channel

@@ -14,6 +14,8 @@ namespace rheocyte {
 namespace {
 
 constexpr double share_of_time = 0.1, share_of_distance = 0.1;
+/// Of the accuracy that is wanted of the run, what the stationary shape that it is compared with may be off.
+constexpr double share_of_stationary = 0.1;
 
 TimeEnd end_of(const TimeRecord& record, const Result& result) {
   if (result.state.outcome.status != Status::converged) return TimeEnd::failure;
@@ -89,8 +91,7 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   const bool failed = record.end == TimeEnd::failure;
   if (there == Status::stopped) return;
   if (!has_state(there)) {
-    const bool seems_settled =
-        !failed && (record.end == TimeEnd::settled || has_settled(record, 0, result.problem.accuracy));
+    const bool seems_settled = !failed && (record.end == TimeEnd::settled || has_settled(record, 0, problem.accuracy));
     outcome.message += fmt::format(" There is no stationary shape of this cell ({}){}", name(there),
                                    failed          ? "."
                                    : seems_settled ? ": what seems to settle is held by the mesh."
@@ -101,8 +102,7 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   if (failed) return;
   record.stationary_deformation = stationary.shape.deformation;
   const double distance = result.state.shape.deformation / stationary.shape.deformation - 1;
-  const bool settled =
-      record.end == TimeEnd::settled || has_settled(record, std::abs(distance), result.problem.accuracy);
+  const bool settled = record.end == TimeEnd::settled || has_settled(record, std::abs(distance), problem.accuracy);
   const double d = stationary.shape.deformation, share = d / std::max(d, result.state.deformation_floor);
   if (settled) result.state.estimated_error = share * (std::abs(distance) + stationary.estimated_error);
   if (settled)
@@ -161,8 +161,11 @@ void judge_end(Result& result, TimeRecord& record, const std::atomic<bool>& stop
   record.end = end_of(record, result);
   record.comparison = result.state.comparison;
   if (result.state.outcome.status != Status::stopped)
-    if (const auto problem = straight_from_here(result, record))
+    if (auto problem = straight_from_here(result, record)) {
+      const double wanted = result.input.time.mesh_accuracy.value_or(HUGE_VAL);
+      problem->accuracy = std::min(problem->accuracy, share_of_stationary * wanted);
       compare_with_stationary(result, record, *problem, stop);
+    }
   result.state.outcome.message += told_of_surface(record, result.problem);
   judge(result);
 }
