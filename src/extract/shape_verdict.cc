@@ -53,7 +53,7 @@ std::string changes_text(const char* name, const Trend& trend) {
 /// Which cells they are, and what that means for the moduli.
 std::string text_of(const FittingTable& table) {
   const double percent = 100 * (table.modulus_over_its - 1);
-  const std::string moduli =
+  std::string moduli =
       std::abs(percent) < 0.5 || !std::isfinite(percent)
           ? std::string("take the table")
           : fmt::format(
@@ -77,7 +77,7 @@ std::string text_on_elongated(const ShapeVerdict& v, const std::string& cells, c
 }
 
 std::string asymmetry_text(const ShapeVerdict& v) {
-  const std::string moduli =
+  std::string moduli =
       fmt::format("E from the asymmetry of {} event{}: median {:.4g} kPa (quartiles {:.4g} to {:.4g})",
                   v.with_asymmetry, v.with_asymmetry == 1 ? "" : "s", v.asymmetry_kPa.median,
                   v.asymmetry_kPa.first_quartile, v.asymmetry_kPa.third_quartile);

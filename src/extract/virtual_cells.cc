@@ -19,7 +19,7 @@ double flow_exponent(const SynthSpec& spec) {
 
 fs::path found_table(const SynthSpec& spec, const fs::path& folder) {
   if (spec.table.empty()) return ModulusTables("").file(flow_exponent(spec));
-  const fs::path beside = folder / spec.table;  // an absolute one stays
+  fs::path beside = folder / spec.table;  // an absolute one stays
   std::error_code error;
   if (fs::exists(beside, error)) return beside;
   const auto shipped = shipped_tables();
