@@ -142,7 +142,7 @@ TimeCourse::Points TimeCourse::points(const CellImages& images, const Box& box, 
 TimeCourse::Points TimeCourse::refined_points(const CellImages& images) const {
   const auto axes = nodes_of(table_.spec());
   const Box whole{axes[1].front(), axes[1].back(), axes[2].front(), axes[2].back()};
-  const Points seen = points(images, whole, coarse);
+  Points seen = points(images, whole, coarse);
   if (seen.weight.empty()) return seen;
   const auto [low_modulus, high_modulus] = std::ranges::minmax(seen.modulus);
   const auto [low_time, high_time] = std::ranges::minmax(seen.time);
