@@ -77,10 +77,9 @@ std::string text_on_elongated(const ShapeVerdict& v, const std::string& cells, c
 }
 
 std::string asymmetry_text(const ShapeVerdict& v) {
-  std::string moduli =
-      fmt::format("E from the asymmetry of {} event{}: median {:.4g} kPa (quartiles {:.4g} to {:.4g})",
-                  v.with_asymmetry, v.with_asymmetry == 1 ? "" : "s", v.asymmetry_kPa.median,
-                  v.asymmetry_kPa.first_quartile, v.asymmetry_kPa.third_quartile);
+  std::string moduli = fmt::format("E from the asymmetry of {} event{}: median {:.4g} kPa (quartiles {:.4g} to {:.4g})",
+                                   v.with_asymmetry, v.with_asymmetry == 1 ? "" : "s", v.asymmetry_kPa.median,
+                                   v.asymmetry_kPa.first_quartile, v.asymmetry_kPa.third_quartile);
   constexpr double worth_a_word = 0.03;
   if (v.fit() == ShapeVerdict::Fit::other_table || !(v.asymmetry_bias > worth_a_word)) return moduli;
   return fmt::format(
