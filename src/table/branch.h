@@ -65,6 +65,7 @@ struct SampledBranch {
   int solves = 0, newton_iterations = 0, refused = 0;  ///< refused: states that were wrinkled or not accurate
   double seconds = 0, factorisation_seconds = 0;
   double cortex_share = 0, tension_ratio = 0;  ///< of combined cells, see BranchPlace
+  double axial_ratio = 0;                      ///< of elongated cells, likewise
 
   bool empty() const { return stiffness.empty(); }
   int samples() const { return int(stiffness.size()); }

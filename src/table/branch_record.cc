@@ -52,6 +52,7 @@ json record_of(const SampledBranch& branch) {
   return {{"radius_um", branch.radius_um},
           {"cortex_share", branch.cortex_share},
           {"tension_ratio", branch.tension_ratio},
+          {"axial_ratio", branch.axial_ratio},
           {"bending_kBT", branch.bending_kBT},
           {"samples", branch.samples()},
           {"measures", measure_names()},
@@ -92,6 +93,7 @@ SampledBranch branch_of(const json& record) {
   branch.radius_um = record.at("radius_um");
   branch.cortex_share = record.value("cortex_share", 0.0);
   branch.tension_ratio = record.value("tension_ratio", 0.0);
+  branch.axial_ratio = record.value("axial_ratio", 0.0);
   branch.bending_kBT = record.at("bending_kBT");
   branch.stiffness = numbers_of(record, "stiffness", samples);
   branch.value = matrix(record, "value", samples);

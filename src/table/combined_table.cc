@@ -34,7 +34,7 @@ Eigen::VectorXd modes_of(const Eigen::MatrixX2d& meridian) {
 CombinedBranch combined_branch(const SampledBranch& branch) {
   constexpr double step = 1e-4;  // in ln S; the hull's corners make differences over smaller steps no better
   const int n = branch.samples();
-  CombinedBranch combined{{branch.radius_um, branch.cortex_share, branch.tension_ratio},
+  CombinedBranch combined{{branch.radius_um, branch.cortex_share, branch.tension_ratio, branch.axial_ratio},
                           branch.stiffness,
                           Eigen::MatrixXd(n, feature_count),
                           Eigen::MatrixXd(n, feature_count),
@@ -56,7 +56,7 @@ CombinedBranch combined_branch(const SampledBranch& branch) {
 }
 
 std::string row_text(const CombinedBranch& branch, int i) {
-  const auto& [radius, share, ratio] = branch.place;
+  const auto& [radius, share, ratio, axial] = branch.place;
   const double S = branch.stiffness_kPa[std::size_t(i)], cortex = share * S * radius;
   std::vector<double> numbers{radius,          share,  ratio,          S,
                               (1 - share) * S, cortex, ratio * cortex, branch.error[std::size_t(i)]};

@@ -155,6 +155,7 @@ class BranchSampler {
     result.radius_um = place_.radius_um;
     result.cortex_share = place_.cortex_share;
     result.tension_ratio = place_.tension_ratio;
+    result.axial_ratio = place_.axial_ratio;
     // A stop looks like a failure to whatever it interrupts.
     result.end = stop_ && *stop_ ? end_of(Status::stopped) : end;
     result.value.resize(Eigen::Index(nodes_.size()), measure_count);
@@ -193,7 +194,7 @@ SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own
   constexpr double overlap = 1.25;  // of the stiffness
   if (!can_be_held(spec, own)) return {};
   const double stiffness = std::min(overlap * own.stiffness.back(), own.stiffness.front());
-  const BranchPlace place{own.radius_um, own.cortex_share, own.tension_ratio};
+  const BranchPlace place{own.radius_um, own.cortex_share, own.tension_ratio, own.axial_ratio};
   SampledBranch branch = BranchSampler(held_spec(spec), place, stop).from_stiffness(stiffness);
   branch.bending_kBT = spec.bending_beyond_kBT;
   return branch;

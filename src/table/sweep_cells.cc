@@ -78,13 +78,15 @@ double radius_coordinate(double radius_ratio) { return -std::log(beyond_wall - r
 std::vector<BranchPlace> sweep_places(const TableSpec& spec) {
   std::vector<BranchPlace> places;
   const auto radii = spec.is_square() ? computed_radii_um(spec) : sweep_radii_um(spec);
-  const auto add = [&](double share, double ratio) {
-    for (const double radius : radii) places.push_back({radius, share, ratio});
+  const auto add = [&](double share, double ratio, double axial) {
+    for (const double radius : radii) places.push_back({radius, share, ratio, axial});
   };
-  if (!spec.is_combined()) add(0, 0);
-  for (const double ratio : spec.tension_ratios)
-    for (const double share : spec.cortex_shares)
-      if (share > 0 || ratio == spec.tension_ratios.front()) add(share, ratio);
+  for (const double axial : spec.is_elongated() ? spec.axial_ratios : std::vector{0.0}) {
+    if (!spec.is_combined()) add(0, 0, axial);
+    for (const double ratio : spec.tension_ratios)
+      for (const double share : spec.cortex_shares)
+        if (share > 0 || ratio == spec.tension_ratios.front()) add(share, ratio, axial);
+  }
   return places;
 }
 
@@ -95,6 +97,7 @@ Case case_at(const TableSpec& spec, const BranchPlace& place, double stiffness) 
     set_moduli(c, place, stiffness);
   else
     case_key(spec.stiffness_key).set(c, stiffness);
+  c.flow.axial_tension_Pa = 1e3 * place.axial_ratio * stiffness;
   if (spec.bending_ratio > 0) c.cell.cortex.bending_kBT = bending_kBT(spec, place, stiffness);
   c.numerics.accuracy = spec.accuracy;
   return c;

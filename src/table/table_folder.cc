@@ -60,7 +60,8 @@ std::string mark_of_earlier_builds(const std::string& spec_hash) {
 
 bool is_cell_of(const BranchPlace& place, const SampledBranch& branch) {
   return std::abs(branch.radius_um - place.radius_um) < 1e-9 * place.radius_um &&
-         branch.cortex_share == place.cortex_share && branch.tension_ratio == place.tension_ratio;
+         branch.cortex_share == place.cortex_share && branch.tension_ratio == place.tension_ratio &&
+         branch.axial_ratio == place.axial_ratio;
 }
 
 void write_whole(const fs::path& path, std::string_view content) {
@@ -88,9 +89,11 @@ TableFolder::TableFolder(const fs::path& folder, const TableSpec& spec)
 // last bits of a radius depend on the processor for which a program was built.
 std::string TableFolder::layout() const {
   std::string text = branch_record_format() + "\n";
-  for (int i = 0; i < branches(); ++i)
-    text += fmt::format("{} {:.6g} {:.6g} {:.6g}{}\n", record(i, false).filename().string(), place(i).radius_um,
+  for (int i = 0; i < branches(); ++i) {
+    text += fmt::format("{} {:.6g} {:.6g} {:.6g}{}", record(i, false).filename().string(), place(i).radius_um,
                         place(i).cortex_share, place(i).tension_ratio, spec_.wants_held() ? " held" : "");
+    text += spec_.is_elongated() ? fmt::format(" axial {:.6g}\n", place(i).axial_ratio) : "\n";
+  }
   return text;
 }
 

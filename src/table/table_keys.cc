@@ -59,6 +59,10 @@ const std::array table = {
     key<&Spec::tension_ratios>({"table.tension_ratio", "",
                                 "tensions of combined cells as shares of the modulus of the cortex",
                                 List{{0, 1e3}, true}, absent, combined}),
+    key<&Spec::axial_ratios>({"table.axial_ratio", "",
+                              "tensions of the liquid along the flow, flow.axial_tension_Pa, as shares of the swept "
+                              "stiffness: cells that are elongated; 0 must be among them",
+                              List{{-0.5, 1}, true}, absent}),
     key<&Spec::bending_ratio>({"table.bending_ratio", "",
                                "bending stiffness of combined cells over S r0^3, 0 = cell.cortex.bending_kBT",
                                Number{{0, 1}}, 0.0, combined}),

@@ -31,6 +31,7 @@ constexpr std::string_view bulk_modulus_key = "cell.bulk.young_modulus_kPa",
                            bending_key = "cell.cortex.bending_kBT", beyond_key = "table.bending_beyond_kBT",
                            beyond_ratio_key = "table.bending_beyond_ratio",
                            from_margin_key = "table.bending_from_margin", channel_section_key = "channel.section";
+constexpr std::string_view axial_key = "table.axial_ratio";
 constexpr std::array<std::string_view, 3> stiffness_keys{bulk_modulus_key, cortex_modulus_key, combined_stiffness};
 // Those that programs know already; they must not appear on other numbers.
 constexpr std::array<std::string_view, 4> foreign_identifiers{"LE-2D-FEM-19", "HE-2D-FEM-22", "HE-3D-FEM-22",
@@ -183,6 +184,22 @@ void check_bending(const TableSpec& spec, const KeyReading& keys) {
                             beyond_key, spec.bending_beyond_kBT, bending_key, own));
 }
 
+/// Solids in the square channel, or cells with bulk and cortex.
+void check_elongation(const TableSpec& spec, const KeyReading& keys) {
+  if (!spec.is_elongated()) return;
+  if (!spec.is_combined() && (!spec.is_square() || spec.sweeps_cortex()))
+    keys.refuse(axial_key, fmt::format("{} is for solids in the square channel (channel.section = \"square\"), and for "
+                                       "cells with bulk and cortex (table.cortex_share).",
+                                       axial_key));
+  if (spec.axial_ratios.size() < 4 || !std::ranges::binary_search(spec.axial_ratios, 0.0))
+    keys.refuse(
+        axial_key,
+        fmt::format("{} needs at least four numbers, 0 among them, such as [-0.1, 0, 0.15, 0.3, 0.45].", axial_key));
+  if (spec.bending_beyond_ratio > 0)
+    keys.refuse(beyond_ratio_key,
+                fmt::format("{} does not go with {}; leave it out.", keys.stated(beyond_ratio_key), axial_key));
+}
+
 void check_section(const Case& c, const KeyReading& keys) {
   if (c.channel.section == Section::rectangle)
     keys.refuse(channel_section_key,
@@ -221,6 +238,7 @@ TableSpec parse_table_spec(std::string_view text, const std::string& name, std::
   spec.base = case_at(spec, middle_of(spec), 1);
   check_areas(spec, keys);
   check_bending(spec, keys);
+  check_elongation(spec, keys);
   return spec;
 }
 

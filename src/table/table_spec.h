@@ -14,11 +14,12 @@ namespace rheocyte {
 /// (docs/tables.md, sec. "combined cells").
 inline constexpr std::string_view combined_stiffness = "combined";
 
-/// The cells of one branch; share and tension have a meaning for combined cells only.
+/// The cells of one branch; share and tension of the cortex have a meaning for combined cells only.
 struct BranchPlace {
   double radius_um = 0;      ///< of the sphere at rest
   double cortex_share = 0;   ///< (E2D / r0) / S
   double tension_ratio = 0;  ///< gamma / E2D
+  double axial_ratio = 0;    ///< flow.axial_tension_Pa over the swept stiffness, E or S
 };
 
 struct TableSpec {
@@ -36,6 +37,7 @@ struct TableSpec {
   double bending_beyond_kBT = 0, bending_beyond_ratio = 0;
   double bending_from_margin = 0;  ///< in a square channel: bare branches end where the surface is that stable
   std::vector<double> cortex_shares, tension_ratios;  ///< of combined cells, ascending; else empty
+  std::vector<double> axial_ratios;                   ///< of elongated cells, ascending; else empty
   double bending_ratio = 0;        ///< c_b / (S r0^3), S = E or E2D / r0; 0: the base's bending stiffness for all
   double max_deformation_raw = 1;  ///< of the contour itself, dent included: where branches of combined cells end
   /// In a square channel: branches and states on each that are computed, between which the others lie, and the tube's
@@ -45,6 +47,7 @@ struct TableSpec {
 
   bool is_combined() const { return stiffness_key == combined_stiffness; }
   bool sweeps_cortex() const { return stiffness_key == "cell.cortex.modulus_mN_per_m"; }
+  bool is_elongated() const { return !axial_ratios.empty(); }
   bool is_square() const { return base.channel.section == Section::square; }
   bool wants_held() const { return bending_beyond_kBT > 0 || bending_beyond_ratio > 0; }
 };
@@ -66,8 +69,8 @@ std::vector<double> computed_radii_um(const TableSpec&);
 /// the gap's logarithm. For r0 / h.
 double radius_coordinate(double radius_ratio);
 
-/// All branches of the sweep: radius by radius within each share, share by share within each tension. Cells without a
-/// cortex have no tension: they stand once, with the first one.
+/// All branches of the sweep: radius by radius within each share, share by share within each tension of the cortex, and
+/// that within each axial tension. Cells without a cortex have no tension of it: they stand once, with the first one.
 std::vector<BranchPlace> sweep_places(const TableSpec&);
 
 /// The case of one cell of the table.

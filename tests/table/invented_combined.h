@@ -9,7 +9,7 @@ namespace rheocyte::test {
 
 /// The outline of a cell in um. The cortex lifts the third mode and lowers the second, the tension changes the fourth.
 inline Eigen::MatrixX2d invented_outline(const BranchPlace& place, double stiffness) {
-  const auto& [radius, share, ratio] = place;
+  const auto& [radius, share, ratio, axial] = place;
   const double a = 0.3 * std::pow(radius / 8, 1.5) / stiffness, tension = share * ratio;
   std::array<double, mode_count> modes{};
   modes[0] = a * (1 - 0.4 * share) * (1 + 0.3 * a);
