@@ -20,7 +20,8 @@ from rheocyte.stiffness_tables import place_of_table
 _UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "young_modulus_kPa": "kPa",
           "standard_error_kPa": "kPa", "state": "", "shape_excess": "", "shape_excess_error": "", "elongated": "",
           "odd_share": "", "mode_3": "", "young_modulus_asymmetry_kPa": "kPa", "standard_error_asymmetry_kPa": "kPa",
-          "systematic_error_asymmetry_kPa": "kPa"}
+          "young_modulus_inertia_kPa": "kPa", "standard_error_inertia_kPa": "kPa", "elongation": "", "elongation_error": "",
+          "axial_tension_Pa": "Pa", "axial_tension_error_Pa": "Pa"}
 
 
 def extract(
@@ -47,9 +48,10 @@ def extract(
     Returns a pandas.DataFrame with one row per event: area_um2, deformation, viscosity_mPas, young_modulus_kPa,
     standard_error_kPa (without it for published tables), state (a category). Where the recording has inertia ratios,
     contours or masks: shape_excess (inertia ratio - that of the table's cell), shape_excess_error, elongated (a flag),
-    odd_share (of the deformation). With contours or masks: mode_3, young_modulus_asymmetry_kPa,
-    standard_error_asymmetry_kPa, systematic_error_asymmetry_kPa (by how much it is too high if the cell is a solid that
-    is drawn out along the flow; docs/real-cells.md). attrs: units, table, settings, warnings, shapes (what is said
+    odd_share (of the deformation). With contours or masks: mode_3, and by the table of elongated cells
+    young_modulus_asymmetry_kPa, standard_error_asymmetry_kPa, elongation (length over width that the liquid's tension
+    alone would give the cell), axial_tension_Pa (of the liquid, along the flow) and their errors; without outlines the
+    modulus is young_modulus_inertia_kPa, by area, deformation and inertia ratio (docs/real-cells.md). attrs: units, table, settings, warnings, shapes (what is said
     about the shapes of all events, in sentences).
 
     UserError for what is wrong with the recording, naming what it lacks. It is read in a child of this process, for HDF5 is

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "extract/elongation_columns.h"
+#include "infer/elongated_liquid.h"
 #include "infer/shape_map.h"
 #include "measurement/contour_features.h"
 #include "measurement/event_outlines.h"
@@ -15,10 +17,9 @@ namespace rheocyte {
 struct ShapeColumns {
   std::vector<double> inertia_ratio, x_um;  ///< NaN where unknown
   std::vector<double> mode_2, mode_3;       ///< of a cell that moves towards +x; empty without contours and masks
+  std::vector<double> mode_4, mode_5;       ///< beyond those of the elongated solid
   std::vector<ShapeExcess> excess;
-  /// From the asymmetry, its standard error, and by how much it may be too high; empty without contours and masks.
-  std::vector<double> modulus_kPa, standard_error_kPa, systematic_error_kPa;
-  std::vector<ModulusState> states;
+  ElongationValues elongation;            ///< empty without a table of elongated cells
   std::vector<ContourFeatures> outlines;  ///< empty unless measure_outlines() was called
 };
 
@@ -27,14 +28,22 @@ class EventShapes {
   /// Whether a recording has anything to compare with the shapes of a table, which then must be read.
   static bool are_measured(const Recording& recording);
 
-  /// The recording and the map must outlive it; without a map nothing is known. `with_asymmetry`: contours or masks are
-  /// read, where there are any. UserError if the data are damaged.
-  EventShapes(const Recording& recording, const MeasuringConditions& conditions, const ShapeMap* map,
+  /// The tables with which shapes are compared, which must outlive it; null where there is none.
+  struct Tables {
+    const ShapeMap* round = nullptr;  ///< without it nothing is known
+    const ElongatedLiquid* elongated = nullptr;
+  };
+  /// The recording must outlive it. `with_asymmetry`: contours or masks are read, where there are any. UserError if the
+  /// data are damaged.
+  EventShapes(const Recording& recording, const MeasuringConditions& conditions, const Tables& tables,
               bool with_asymmetry);
 
-  bool is_known() const { return map_ != nullptr && !inertia_ratio_from_.empty(); }
+  bool is_known() const { return tables_.round != nullptr && !inertia_ratio_from_.empty(); }
+  /// Whether outlines are read.
   bool has_asymmetry() const { return outlines_.has_value(); }
-  const ShapeMap* map() const { return map_; }
+  /// By what moduli of elongated cells are told; nothing if they are not.
+  std::optional<ElongatedBy> elongated_by() const;
+  const ShapeMap* map() const { return tables_.round; }
   const std::string& inertia_ratio_from() const { return inertia_ratio_from_; }
   /// In which the cells move, from the sign of the mean asymmetry: +1, -1 along x, 0 if chance decides.
   int direction() const { return direction_; }
@@ -50,12 +59,13 @@ class EventShapes {
  private:
   void find_direction();
   void read_outlines(std::size_t first, ShapeColumns& columns);
+  void compare_with_solids(ShapeColumns& columns) const;
   /// NaN where there is no cell. The features are told, too, if `measured` is given.
   HullAsymmetry asymmetry(std::size_t event, ContourFeatures* measured);
 
   const Recording& recording_;
   MeasuringConditions conditions_;
-  const ShapeMap* map_;
+  Tables tables_;
   std::optional<EventOutlines> outlines_;
   double measured_pixel_um_ = 0;  ///< 0: outlines are not measured
   ContourMeasurer measurer_;

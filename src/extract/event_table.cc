@@ -54,8 +54,8 @@ EventTable::EventTable(const std::filesystem::path& file, const std::vector<std:
   if (columns_.errors) text_ += "standard_error_kPa\t";
   text_ += "state";
   if (columns_.shapes) text_ += "\tshape_excess\tshape_excess_error\telongated\todd_share";
-  if (columns_.asymmetry)
-    text_ += "\tmode_3\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa\tsystematic_error_asymmetry_kPa";
+  if (columns_.asymmetry) text_ += "\tmode_3";
+  for (const ElongationColumn& column : columns_.elongation) text_ += "\t" + column.name;
   text_ += '\n';
   text_ += commented(remarks);
   write_out();
@@ -82,12 +82,12 @@ void EventTable::append(const EventBlock& block) {
     *at++ = '\t';
     for (const char c : name_of(block.state[i])) *at++ = c == ' ' ? '_' : c;
     if (columns_.shapes) at = put_shape(at, block.shape[i]);
-    if (columns_.asymmetry)
-      for (const double number :
-           {block.mode_3[i], block.asymmetry_kPa[i], block.asymmetry_error_kPa[i], block.asymmetry_systematic_kPa[i]}) {
-        *at++ = '\t';
-        at = put_number(at, number);
-      }
+    const auto add = [&](double number) {
+      *at++ = '\t';
+      at = put_number(at, number);
+    };
+    if (columns_.asymmetry) add(block.mode_3[i]);
+    for (const ElongationColumn& column : columns_.elongation) add((block.elongation.*column.values)[i]);
     *at++ = '\n';
     text_.append(line, at);
   }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "extract/elongation_columns.h"
 #include "infer/modulus_state.h"
 #include "infer/shape_excess.h"
 #include "measurement/contour_features.h"
@@ -19,15 +20,15 @@ struct EventBlock {
   std::span<const double> standard_error_kPa;  ///< empty if unknown
   std::span<const ModulusState> state;
   std::span<const ShapeExcess> shape;  ///< empty if nothing is known of the shapes
-  std::span<const double> mode_3;      ///< empty, as the next three, without contours and masks
-  /// Young's modulus from the asymmetry, its standard error, and by how much it may be too high.
-  std::span<const double> asymmetry_kPa, asymmetry_error_kPa, asymmetry_systematic_kPa;
+  std::span<const double> mode_3;      ///< empty without contours and masks
+  ElongationBlock elongation;
   std::span<const ContourFeatures> outlines;  ///< empty unless they are measured, too
 };
 
 /// Columns beside those that every table of events has.
 struct EventColumns {
   bool errors = false, shapes = false, asymmetry = false;
+  std::vector<ElongationColumn> elongation = {};
 };
 
 /// With these words a table of events begins: its first line holds the names of all columns, so that programs of every

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 std::string meaning_of_states() {
   std::string text = "state of emodulus:";
-  for (std::size_t k = 0; k < names_of_modulus_states.size(); ++k)
-    text += fmt::format("{} {} {}", k == 0 ? "" : ",", k, names_of_modulus_states[k]);
+  for (std::size_t k = 0; k < states_by_deformation().size(); ++k)
+    text += fmt::format("{} {} {}", k == 0 ? "" : ",", k, states_by_deformation()[k]);
   return text;
 }
 
@@ -40,17 +40,10 @@ std::vector<OwnColumn> own_columns(const Extraction& extraction) {
   if (extraction.table().is_own())
     columns.push_back({"standard error", "standard error of emodulus (kPa), of pixels, table and inertia",
                        &EventBlock::standard_error_kPa});
-  if (extraction.event_shapes().has_asymmetry()) {
-    columns.push_back({"young_modulus_asymmetry",
-                       "Young's modulus (kPa) from area and asymmetry (mode c3) of the outline, see docs/real-cells.md",
-                       &EventBlock::asymmetry_kPa});
-    columns.push_back({"standard error asymmetry", "standard error of young_modulus_asymmetry (kPa)",
-                       &EventBlock::asymmetry_error_kPa});
-    columns.push_back({"systematic error asymmetry",
-                       "by how much (kPa) young_modulus_asymmetry is too high if the cell is a solid that is drawn out "
-                       "along the flow",
-                       &EventBlock::asymmetry_systematic_kPa});
-  }
+  if (const auto by = extraction.event_shapes().elongated_by())
+    for (const ElongationColumn& column : elongation_columns(*by))
+      columns.push_back({column.role, column.meaning,
+                         [values = column.values](const EventBlock& block) { return block.elongation.*values; }});
   if (extraction.event_shapes().is_known()) {
     columns.push_back({"shape_excess",
                        "inertia ratio - that of the table's cell of this area and deformation; elongated: above 0.05",
@@ -102,7 +95,9 @@ class Writers {
     remarks.insert(remarks.begin(), {program() + " extract", "recording: " + recording.file().string()});
     const EventShapes& shapes = extraction.event_shapes();
     table_.emplace(*files.events(), remarks,
-                   EventColumns{extraction.table().is_own(), shapes.is_known(), shapes.has_asymmetry()});
+                   EventColumns{extraction.table().is_own(), shapes.is_known(), shapes.has_asymmetry(),
+                                shapes.elongated_by() ? elongation_columns(*shapes.elongated_by())
+                                                      : std::vector<ElongationColumn>{}});
   }
 
   void write(std::size_t first, const EventBlock& block) {

@@ -28,6 +28,10 @@ std::string corrected_for_pixels(const MeasuringConditions& conditions, const Mo
   return table.is_own() && conditions.correct_area ? "area and deformation" : "deformation";
 }
 
+EventShapes::Tables shape_tables(const ModulusTables& tables, double flow_exponent) {
+  return {tables.shapes(flow_exponent), tables.elongated(flow_exponent)};
+}
+
 }  // namespace
 
 Extraction::Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables)
@@ -39,7 +43,8 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
       are_square_(tables.are_square()),
       shapes_(recording, settings_.pixel_size_um),
       event_shapes_(recording, settings_.conditions,
-                    EventShapes::are_measured(recording) ? tables.shapes(settings_.conditions.flow.exponent) : nullptr,
+                    EventShapes::are_measured(recording) ? shape_tables(tables, settings_.conditions.flow.exponent)
+                                                         : EventShapes::Tables{},
                     !options.no_asymmetry),
       gates_(options.measuring.gates),
       features_(recording, shapes_) {
@@ -80,29 +85,19 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   if (!gates_.empty()) shut_out(first);
   collect();
   const auto& s = c.shapes;
-  return {c.area,
-          c.deformation,
-          c.viscosity,
-          c.modulus,
-          c.standard_error,
-          c.states,
-          s.excess,
-          s.mode_3,
-          s.modulus_kPa,
-          s.standard_error_kPa,
-          s.systematic_error_kPa,
-          s.outlines};
+  return {c.area,   c.deformation, c.viscosity,          c.modulus, c.standard_error, c.states,
+          s.excess, s.mode_3,      s.elongation.block(), s.outlines};
 }
 
 void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events) {
-  ShapeColumns& c = columns_.shapes;
-  event_shapes_.compute(first, events, c);
-  if (!event_shapes_.has_asymmetry()) return;
-  const Moduli moduli{c.modulus_kPa, c.standard_error_kPa, c.states};
+  event_shapes_.compute(first, events, columns_.shapes);
+  if (!event_shapes_.elongated_by()) return;
+  ElongationValues& e = columns_.shapes.elongation;
+  const Moduli moduli{e.modulus_kPa, e.standard_error_kPa, e.states};
   take_account_of_inertia(moduli);
   set_aside_unresolved(moduli);
-  for (std::size_t i = 0; i < c.modulus_kPa.size(); ++i)
-    if (std::isnan(c.modulus_kPa[i])) c.systematic_error_kPa[i] = no_value;
+  for (std::size_t i = 0; i < e.modulus_kPa.size(); ++i)
+    if (std::isnan(e.modulus_kPa[i])) e.forget(i);
 }
 
 ExtractSummary Extraction::summary() {
@@ -127,6 +122,8 @@ ExtractSummary Extraction::summary() {
   s.shapes.missing = event_shapes_.missing();
   if (const ShapeMap* const map = event_shapes_.map()) s.shapes.model = map->origin().cells();
   s.shapes.made_of = made_of();
+  s.shapes.by_deformation_kPa = s.modulus_kPa.median;
+  s.shapes.elongated_by = event_shapes_.elongated_by().value_or(ElongatedBy::modes);
   if (s.shapes.fit() != ShapeVerdict::Fit::unknown && s.shapes.fit() != ShapeVerdict::Fit::model)
     s.shapes.other = fitting_table(tables_, settings_.conditions, shape_tally_.judged());
   s.warnings = recording_.remarks();
@@ -206,7 +203,7 @@ void Extraction::collect() {
   }
   const ShapeColumns& s = columns_.shapes;
   shape_tally_.take({s.excess, s.inertia_ratio, columns_.area, columns_.deformation, s.mode_3, s.x_um, columns_.modulus,
-                     s.modulus_kPa, s.systematic_error_kPa});
+                     s.elongation.block(), s.mode_4, s.mode_5});
 }
 
 void Extraction::count_inertial(double viscosity_mPas) {
@@ -250,8 +247,7 @@ void Extraction::shut_out(std::size_t first) {
     c.modulus[i] = c.standard_error[i] = no_value;
     c.states[i] = ModulusState::gated;
     c.shapes.excess[i] = {no_value, no_value, no_value, no_value};
-    if (event_shapes_.has_asymmetry())
-      c.shapes.modulus_kPa[i] = c.shapes.standard_error_kPa[i] = c.shapes.systematic_error_kPa[i] = no_value;
+    if (event_shapes_.elongated_by()) c.shapes.elongation.forget(i);
   }
 }
 

@@ -27,8 +27,14 @@ constexpr std::string_view more_columns =
     "young_modulus_error_kPa\t"
     "cortex_modulus_mN_per_m\tcortex_modulus_error_mN_per_m\ttension_mN_per_m\ttension_error_mN_per_m\t"
     "stiffness_kPa\tstiffness_error_kPa\tchi_squared\tstatus\t"
-    "shape_excess\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa\tsystematic_error_asymmetry_kPa\t"
-    "section_factor\n";
+    "shape_excess\t";
+
+std::string names_of_columns() {
+  std::string names(first_columns_of_events);
+  names += more_columns;
+  for (const ElongationColumn& column : elongation_columns(ElongatedBy::modes)) names += column.name + "\t";
+  return names + "section_factor\n";
+}
 
 std::string line(std::size_t event, const ShapeVector& seen, double viscosity_mPas, const ModuliEstimate& e) {
   std::string text = fmt::format("{}\t{:.6g}\t{:.6g}\t{:.6g}", event + 1, std::exp(seen(0)), seen(1), viscosity_mPas);
@@ -47,6 +53,7 @@ class Fits {
         is_square_(options.section == Section::square),
         solids_(std::string(), options.section),
         shapes_of_solids_(solids_.shapes(conditions().flow.exponent)),
+        elongated_solids_(solids_.elongated(conditions().flow.exponent)),
         moduli_(events_.settings(), options, table) {}
 
   /// The names of the columns, and the settings.
@@ -62,7 +69,7 @@ class Fits {
     const auto settings = events_.settings().lines();
     remarks.insert(remarks.end(), settings.begin(), settings.end());
     if (!events_.gates().empty()) remarks.push_back("only events with " + events_.gates().description());
-    return std::string(first_columns_of_events).append(more_columns) + commented(remarks);
+    return names_of_columns() + commented(remarks);
   }
 
   /// The lines of a block of events.
@@ -77,9 +84,10 @@ class Fits {
     for (std::size_t i = 0; i < count; ++i) {
       const ModuliEstimate estimate = events_.is_inside(i) ? moduli_.fit(seen[i], viscosity[i]) : gated();
       tally_.take(estimate);
-      text += line(first + i, seen[i], viscosity[i], estimate) +
-              fmt::format("\t{:.4g}\t{:.6g}\t{:.3g}\t{:.3g}\t{:.4g}\n", excess_[i].excess, solid_kPa_[i],
-                          solid_error_kPa_[i], solid_systematic_kPa_[i], estimate.section_factor);
+      text += line(first + i, seen[i], viscosity[i], estimate) + fmt::format("\t{:.4g}", excess_[i].excess);
+      for (const ElongationColumn& column : elongation_columns(ElongatedBy::modes))
+        text += fmt::format("\t{:.6g}", (solids_values_.block().*column.values)[i]);
+      text += fmt::format("\t{:.4g}\n", estimate.section_factor);
     }
     return text;
   }
@@ -131,14 +139,12 @@ class Fits {
       third.push_back(seen[i](mode_2 + 1));
     }
     excess_.assign(seen.size(), {no_value, no_value, no_value, no_value});
-    for (auto* column : {&solid_kPa_, &solid_error_kPa_, &solid_systematic_kPa_}) column->assign(seen.size(), no_value);
-    if (!shapes_of_solids_) return;
+    solids_values_.assign(seen.size());
     const MeasuredEvents events{area, deformation, events_.viscosity_mPas()};
-    std::vector<ModulusState> states(seen.size());
-    shapes_of_solids_->compare(conditions(), events, ratio, excess_);
-    if (shapes_of_solids_->has_asymmetry())
-      shapes_of_solids_->estimate(conditions(), events, {second, third},
-                                  {solid_kPa_, solid_error_kPa_, states, solid_systematic_kPa_});
+    if (shapes_of_solids_) shapes_of_solids_->compare(conditions(), events, ratio, excess_);
+    if (elongated_solids_)
+      elongated_solids_->estimate(conditions(), events, {ElongatedBy::modes, second, third},
+                                  solids_values_.estimates());
   }
 
   void count_inertial() {
@@ -163,10 +169,10 @@ class Fits {
   bool is_square_;
   ModulusTables solids_;
   const ShapeMap* shapes_of_solids_;
+  const ElongatedLiquid* elongated_solids_;
   EventModuli moduli_;
   std::vector<ShapeExcess> excess_;
-  std::vector<double> solid_kPa_, solid_error_kPa_,
-      solid_systematic_kPa_;  ///< by the asymmetry, as if they were solids
+  ElongationValues solids_values_;  ///< as if they were solids
   std::size_t inertial_ = 0;
   double max_reynolds_number_ = 0;
   ModuliTally tally_;

@@ -1,11 +1,13 @@
 // The tables of one call of `rheocyte extract` or `rheocyte plot`, and which of them a recording gets.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "infer/elongated_liquid.h"
 #include "infer/modulus_map.h"
 
 namespace rheocyte {
@@ -33,6 +35,10 @@ class ModulusTables {
   /// What cells look like: by the table that is used, or that of a Newtonian liquid that comes with the program; null
   /// if neither knows.
   const ShapeMap* shapes(double flow_exponent) const;
+
+  /// Of cells that are drawn out along the flow, in the square channel: the table that comes with the program for this
+  /// liquid, or that of a Newtonian one changed to it; null in the tube, and where there is none.
+  const ElongatedLiquid* elongated(double flow_exponent) const;
 
   /// Of all that can be used.
   std::vector<std::filesystem::path> files() const;
@@ -68,7 +74,16 @@ class ModulusTables {
   std::vector<Table> tables_;
   mutable std::vector<Table> shipped_;                  ///< all of them, once others are wanted
   mutable std::unique_ptr<const ModulusMap> standard_;  ///< once its shapes are needed
-  bool given_ = false;                                  ///< the first one is the user's choice
+  /// Once it is needed: the table, and cells without elongation in its liquid and in that of the recording.
+  struct Elongated {
+    ElongatedSolids solids;
+    std::unique_ptr<const ModulusMap> computed, measured;
+    ElongatedLiquid liquid;
+    Elongated(ElongatedContent content, std::unique_ptr<const ModulusMap> same,
+              std::unique_ptr<const ModulusMap> other);
+  };
+  mutable std::map<double, std::unique_ptr<const Elongated>> elongated_;  ///< by the exponent of the recording's liquid
+  bool given_ = false;                                                    ///< the first one is the user's choice
 };
 
 }  // namespace rheocyte

@@ -28,7 +28,7 @@ ShapeFeatures::ShapeFeatures(const Recording& recording, ShapeSource& source, co
       settings_(
           extract_settings(options.measuring, options.no_pixelation ? PixelUse::ignore : PixelUse::correct, recording)),
       tables_(options.table, options.section),
-      shapes_(recording, settings_.conditions, tables_.shapes(settings_.conditions.flow.exponent),
+      shapes_(recording, settings_.conditions, {tables_.shapes(settings_.conditions.flow.exponent)},
               options.x == "mode_3" || options.y == "mode_3") {
   const bool wants_asymmetry = options.x == "mode_3" || options.y == "mode_3";
   if (!shapes_.is_known() || (wants_asymmetry && !shapes_.has_asymmetry()))

@@ -63,29 +63,25 @@ std::string text_of(const FittingTable& table) {
                      table.expected_inertia_ratio, table.excess.value, table.excess.error, moduli, table.identifier);
 }
 
-/// No factor: what the asymmetry gives is itself too high, by an amount that only a model of the elongation could tell.
 std::string text_on_elongated(const ShapeVerdict& v, const std::string& cells, const std::string& numbers) {
   // Where both are known the asymmetry must give more.
   const std::string meaning =
-      v.modulus_ratio >= 1 ? "; yet Young's moduli from deformation are not below those from the asymmetry: are pixel "
+      v.modulus_ratio >= 1 ? "; yet Young's moduli from deformation are not below those of elongated cells: are pixel "
                              "size and channel right?"
-                           : fmt::format("; Young's moduli from deformation are too low{}, see docs/real-cells.md.",
-                                         v.with_asymmetry > 0 ? ", those from the asymmetry too high" : "");
+                           : "; Young's moduli from deformation are too low, see docs/real-cells.md.";
   return fmt::format(
       "the cells are elongated along the flow more than {} and than the cells of any other table of the program ({}){}",
       cells, numbers, meaning);
 }
 
-std::string asymmetry_text(const ShapeVerdict& v) {
-  std::string moduli = fmt::format("E from the asymmetry of {} event{}: median {:.4g} kPa (quartiles {:.4g} to {:.4g})",
-                                   v.with_asymmetry, v.with_asymmetry == 1 ? "" : "s", v.asymmetry_kPa.median,
-                                   v.asymmetry_kPa.first_quartile, v.asymmetry_kPa.third_quartile);
-  constexpr double worth_a_word = 0.03;
-  if (v.fit() == ShapeVerdict::Fit::other_table || !(v.asymmetry_bias > worth_a_word)) return moduli;
+std::string elongated_text(const ShapeVerdict& v) {
   return fmt::format(
-      "{}; if they are solids that are drawn out along the flow it is too high, by {:.0f} % of itself (median; "
-      "one-sided systematic error, see docs/real-cells.md)",
-      moduli, 100 * v.asymmetry_bias);
+      "E by {} of {} event{} as of cells that the liquid draws out: median {:.4g} kPa (quartiles {:.4g} to {:.4g}); "
+      "elongation {:.3f} +- {:.3f}, axial tension {:.3g} +- {:.2g} Pa",
+      v.elongated_by == ElongatedBy::modes ? "the outlines" : "deformation and inertia ratio", v.with_elongation,
+      v.with_elongation == 1 ? "" : "s", v.elongated_kPa.median, v.elongated_kPa.first_quartile,
+      v.elongated_kPa.third_quartile, v.elongation.value, v.elongation.error, v.axial_tension_Pa.value,
+      v.axial_tension_Pa.error);
 }
 
 }  // namespace
@@ -115,12 +111,11 @@ void ShapeTally::take(const JudgedEvents& e) {
       ++red_cells_;
       continue;
     }
-    if (!e.asymmetry_kPa.empty() && std::isfinite(e.asymmetry_kPa[i])) {
-      asymmetry_kPa_.push_back(e.asymmetry_kPa[i]);
-      if (!e.asymmetry_systematic_kPa.empty())
-        biases_.push_back(static_cast<float>(e.asymmetry_systematic_kPa[i] / e.asymmetry_kPa[i]));
-      if (std::isfinite(e.modulus_kPa[i])) ratios_.push_back(static_cast<float>(e.modulus_kPa[i] / e.asymmetry_kPa[i]));
-    }
+    const ElongationBlock& drawn = e.elongation;
+    if (!drawn.modulus_kPa.empty() && std::isfinite(drawn.modulus_kPa[i]))
+      drawn_.push_back({drawn.modulus_kPa[i], static_cast<float>(e.modulus_kPa[i] / drawn.modulus_kPa[i]),
+                        at(drawn.elongation, i), at(drawn.axial_tension_Pa, i), at(e.mode_4_excess, i),
+                        at(e.mode_5_excess, i)});
     elongated_ += excess.is_elongated() ? 1 : 0;
     events_.push_back({static_cast<float>(excess.excess), static_cast<float>(excess.expected), at(e.inertia_ratio, i),
                        static_cast<float>(excess.odd_share), at(e.area_um2, i), at(e.deformation, i), at(e.mode_3, i),
@@ -131,6 +126,12 @@ void ShapeTally::take(const JudgedEvents& e) {
 std::vector<double> ShapeTally::column(float Event::*member) const {
   std::vector<double> values;
   for (const Event& event : events_) values.push_back(event.*member);
+  return values;
+}
+
+std::vector<double> ShapeTally::drawn(float Drawn::*member) const {
+  std::vector<double> values;
+  for (const Drawn& cell : drawn_) values.push_back(cell.*member);
   return values;
 }
 
@@ -155,10 +156,15 @@ ShapeVerdict ShapeTally::verdict() const {
   v.inertia_ratio_trend = trend_of(x, column(&Event::inertia_ratio), v.seen_um);
   v.deformation_trend = trend_of(x, column(&Event::deformation), v.seen_um);
   v.asymmetry_trend = trend_of(x, column(&Event::mode_3), v.seen_um);
-  v.asymmetry_kPa = distribution_of(asymmetry_kPa_);
-  v.with_asymmetry = asymmetry_kPa_.size();
-  v.modulus_ratio = median_of(ratios_);
-  v.asymmetry_bias = median_of(biases_);
+  std::vector<double> moduli;
+  for (const Drawn& cell : drawn_) moduli.push_back(cell.modulus_kPa);
+  v.elongated_kPa = distribution_of(moduli);
+  v.with_elongation = drawn_.size();
+  v.modulus_ratio = median_with_error(drawn(&Drawn::ratio)).value;
+  v.elongation = median_with_error(drawn(&Drawn::elongation));
+  v.axial_tension_Pa = median_with_error(drawn(&Drawn::axial_tension_Pa));
+  v.cortex_mode_4 = median_with_error(drawn(&Drawn::mode_4_excess));
+  v.cortex_mode_5 = median_with_error(drawn(&Drawn::mode_5_excess));
   return v;
 }
 
@@ -194,6 +200,46 @@ std::string ShapeVerdict::text() const {
   return text_on_elongated(*this, cells, numbers);
 }
 
+bool ShapeVerdict::has_cortex_shapes() const {
+  // Pixels change both by less than that.
+  constexpr double least = 0.01, deviations = 4;
+  const auto differs = [&](const Median& excess) {
+    return std::abs(excess.value) > std::max(least, deviations * excess.error);
+  };
+  return with_elongation >= fewest_for_a_verdict && (differs(cortex_mode_4) || differs(cortex_mode_5));
+}
+
+ShapeVerdict::Modulus ShapeVerdict::recommended() const {
+  if (fit() == Fit::model || fit() == Fit::unknown) return Modulus::by_deformation;
+  if (with_elongation < fewest_for_a_verdict || has_cortex_shapes()) return Modulus::none;
+  return Modulus::elongated;
+}
+
+std::string ShapeVerdict::recommended_text() const {
+  switch (recommended()) {
+    case Modulus::none:
+      if (has_cortex_shapes())
+        return fmt::format(
+            "no single modulus describes these cells: the outlines have the flat rear and the straight flanks of cells "
+            "with a cortex (c4 {:+.3f} +- {:.3f}, c5 {:+.3f} +- {:.3f} beyond those of solids); c3 then tells little "
+            "of "
+            "stiffness: use `rheocyte moduli`.",
+            cortex_mode_4.value, cortex_mode_4.error, cortex_mode_5.value, cortex_mode_5.error);
+      return "no modulus can be recommended: the cells are not those of the table, and too few have one as elongated "
+             "cells.";
+    case Modulus::by_deformation:
+      if (!std::isfinite(by_deformation_kPa)) return {};
+      return fmt::format("report E = {:.4g} kPa (median, from area and deformation){}", by_deformation_kPa,
+                         fit() == Fit::model ? ": the shapes are those of the model."
+                                             : "; whether the shapes are those of the model is unknown.");
+    case Modulus::elongated: break;
+  }
+  return fmt::format(
+      "report E = {:.4g} kPa (median, by the table of elongated cells): the cells are longer than the flow alone would "
+      "make them, which a tension of {:.3g} Pa along the flow does.",
+      elongated_kPa.median, axial_tension_Pa.value);
+}
+
 std::string ShapeVerdict::trend_text() const {
   if (judged == 0) return {};
   if (!std::isfinite(seen_um)) return "no pos_x: whether the shapes still change along the channel is unknown.";
@@ -215,7 +261,8 @@ std::vector<std::string> shape_lines(const ShapeVerdict& v) {
   if (!v.made_of.empty()) lines.push_back(v.made_of);
   if (v.judged > 0) lines.insert(lines.end(), {v.text(), v.trend_text()});
   if (!v.missing.empty()) lines.push_back(v.missing);
-  if (v.with_asymmetry > 0) lines.push_back(asymmetry_text(v));
+  if (v.with_elongation > 0) lines.push_back(elongated_text(v));
+  if (const auto text = v.recommended_text(); !text.empty()) lines.push_back(text);
   if (v.red_cells > 0)
     lines.push_back(fmt::format("{} {} above {:g}, as of red cells; {} not count here.", v.red_cells,
                                 v.red_cells == 1 ? "event has an inertia ratio" : "events have inertia ratios",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "extract/distribution.h"
+#include "extract/elongation_columns.h"
 #include "infer/shape_excess.h"
 #include "numeric/no_value.h"
 
@@ -15,7 +16,13 @@ namespace rheocyte {
 
 /// Median and its standard error, 1.25 robust sigma / sqrt(n); NaN without values.
 struct Median {
-  double value = 0, error = 0;
+  double value = no_value, error = no_value;
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.value, s.error);
+  }
 };
 
 /// How a feature changes along the channel.
@@ -60,19 +67,23 @@ struct ShapeVerdict {
   double inertia_ratio = 0, expected_inertia_ratio = 0, odd_share = 0;  ///< medians
   double seen_um = 0;  ///< along the channel, 5 % to 95 % of the events; NaN without pos_x
   Trend inertia_ratio_trend, deformation_trend, asymmetry_trend;
-  int direction = 0;                 ///< in which the cells move: along +x or -x; 0 if that is unknown
-  Distribution asymmetry_kPa;        ///< Young's moduli from the asymmetry
-  std::size_t with_asymmetry = 0;    ///< events that have one
-  double modulus_ratio = 0;          ///< median of E from deformation / E from asymmetry; NaN if unknown
-  double asymmetry_bias = no_value;  ///< median share by which E from asymmetry may be too high (asymmetry_bias.h)
+  int direction = 0;                     ///< in which the cells move: along +x or -x; 0 if that is unknown
+  double by_deformation_kPa = no_value;  ///< median Young's modulus from area and deformation
+  ElongatedBy elongated_by = ElongatedBy::modes;
+  Distribution elongated_kPa;       ///< Young's moduli by the table of elongated cells
+  std::size_t with_elongation = 0;  ///< events that have one
+  double modulus_ratio = 0;         ///< median of E from deformation / that; NaN if unknown
+  Median elongation, axial_tension_Pa;
+  Median cortex_mode_4, cortex_mode_5;  ///< c_4 and c_5 beyond those of the elongated solids, where outlines tell them
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.judged, s.elongated, s.red_cells, s.missing, s.inertia_ratio_from, s.model, s.made_of, s.other,
                     s.excess, s.inertia_ratio, s.expected_inertia_ratio, s.odd_share, s.seen_um, s.inertia_ratio_trend,
-                    s.deformation_trend, s.asymmetry_trend, s.direction, s.asymmetry_kPa, s.with_asymmetry,
-                    s.modulus_ratio, s.asymmetry_bias);
+                    s.deformation_trend, s.asymmetry_trend, s.direction, s.by_deformation_kPa, s.elongated_by,
+                    s.elongated_kPa, s.with_elongation, s.modulus_ratio, s.elongation, s.axial_tension_Pa,
+                    s.cortex_mode_4, s.cortex_mode_5);
   }
 
   double elongated_percent() const;
@@ -81,6 +92,12 @@ struct ShapeVerdict {
   Fit fit() const;
   /// In one sentence.
   std::string text() const;
+  /// Whether the outlines have the flat rear and the straight flanks of cells with a cortex, which no solid has.
+  bool has_cortex_shapes() const;
+  /// Which number is to be reported, and why; nothing without one.
+  enum class Modulus { none, by_deformation, elongated };
+  Modulus recommended() const;
+  std::string recommended_text() const;
   /// "settled", "still changing", or why that is unknown, with numbers.
   std::string trend_text() const;
 };
@@ -94,7 +111,10 @@ std::vector<std::string> shape_lines(const ShapeVerdict& verdict);
 struct JudgedEvents {
   std::span<const ShapeExcess> excess;
   std::span<const double> inertia_ratio, area_um2, deformation, mode_3, x_um;
-  std::span<const double> modulus_kPa, asymmetry_kPa, asymmetry_systematic_kPa;
+  std::span<const double> modulus_kPa;
+  ElongationBlock elongation;
+  /// c_4 and c_5 beyond those of the elongated cell; empty where no outlines are measured.
+  std::span<const double> mode_4_excess, mode_5_excess;
 };
 
 /// The events that were judged, one value each, as measured.
@@ -116,8 +136,12 @@ class ShapeTally {
   };
   std::vector<double> column(float Event::*member) const;
   std::vector<Event> events_;
-  std::vector<double> asymmetry_kPa_;
-  std::vector<float> ratios_, biases_;
+  struct Drawn {
+    double modulus_kPa;
+    float ratio, elongation, axial_tension_Pa, mode_4_excess, mode_5_excess;
+  };
+  std::vector<double> drawn(float Drawn::*member) const;
+  std::vector<Drawn> drawn_;
   std::size_t elongated_ = 0, red_cells_ = 0;
 };
 

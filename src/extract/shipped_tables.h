@@ -10,4 +10,7 @@ namespace rheocyte {
 /// data of the sources; RHEOCYTE_TABLES in the environment names another folder.
 std::map<std::string, std::filesystem::path> shipped_tables();
 
+/// Likewise the files elongated_<identifier>.cbor of elongated cells.
+std::map<std::string, std::filesystem::path> shipped_elongated_tables();
+
 }  // namespace rheocyte

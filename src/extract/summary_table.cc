@@ -27,19 +27,28 @@ constexpr std::string_view mark = "recording\tevents\tvalid\t";
 /// By the names of their columns.
 using Row = std::map<std::string, std::string, std::less<>>;
 
-constexpr std::array<std::string_view, 48> columns_after_counts{"with_modulus_percent",
+constexpr std::array<std::string_view, 57> columns_after_counts{"with_modulus_percent",
                                                                 "young_modulus_median_kPa",
                                                                 "young_modulus_first_quartile_kPa",
                                                                 "young_modulus_third_quartile_kPa",
                                                                 "young_modulus_mean_kPa",
                                                                 "young_modulus_standard_deviation_kPa",
                                                                 "young_modulus_standard_error_median_kPa",
-                                                                "young_modulus_asymmetry_median_kPa",
-                                                                "young_modulus_asymmetry_first_quartile_kPa",
-                                                                "young_modulus_asymmetry_third_quartile_kPa",
-                                                                "young_modulus_asymmetry_systematic_error_percent",
-                                                                "with_asymmetry",
-                                                                "deformation_over_asymmetry_modulus",
+                                                                "recommended_modulus",
+                                                                "recommended_young_modulus_median_kPa",
+                                                                "recommended_text",
+                                                                "young_modulus_elongated_median_kPa",
+                                                                "young_modulus_elongated_first_quartile_kPa",
+                                                                "young_modulus_elongated_third_quartile_kPa",
+                                                                "with_elongation",
+                                                                "elongated_by",
+                                                                "deformation_over_elongated_modulus",
+                                                                "elongation_median",
+                                                                "elongation_median_error",
+                                                                "axial_tension_median_Pa",
+                                                                "axial_tension_median_error_Pa",
+                                                                "mode_4_beyond_solids",
+                                                                "mode_5_beyond_solids",
                                                                 "shapes",
                                                                 "shapes_of_model",
                                                                 "fitting_table",
@@ -91,7 +100,7 @@ std::string column_of(std::string_view state) {
 
 std::vector<std::string> columns() {
   std::vector<std::string> names{"recording", "events"};
-  for (const auto state : names_of_modulus_states) names.push_back(column_of(state));
+  for (const auto state : states_by_deformation()) names.push_back(column_of(state));
   for (const auto name : columns_after_counts) names.emplace_back(name);
   return names;
 }
@@ -106,23 +115,38 @@ constexpr std::array<const char*, 5> names_of_fits{"unknown", "model", "other-ta
 
 void add_shapes(const ShapeVerdict& v, Row& row) {
   for (const auto& [name, value] :
-       {std::pair("young_modulus_asymmetry_median_kPa", v.asymmetry_kPa.median),
-        std::pair("young_modulus_asymmetry_first_quartile_kPa", v.asymmetry_kPa.first_quartile),
-        std::pair("young_modulus_asymmetry_third_quartile_kPa", v.asymmetry_kPa.third_quartile),
-        std::pair("young_modulus_asymmetry_systematic_error_percent", 100 * v.asymmetry_bias),
-        std::pair("deformation_over_asymmetry_modulus", v.modulus_ratio),
+       {std::pair("young_modulus_elongated_median_kPa", v.elongated_kPa.median),
+        std::pair("young_modulus_elongated_first_quartile_kPa", v.elongated_kPa.first_quartile),
+        std::pair("young_modulus_elongated_third_quartile_kPa", v.elongated_kPa.third_quartile),
+        std::pair("deformation_over_elongated_modulus", v.modulus_ratio),
+        std::pair("elongation_median", v.elongation.value),
+        std::pair("elongation_median_error", v.elongation.error),
+        std::pair("axial_tension_median_Pa", v.axial_tension_Pa.value),
+        std::pair("axial_tension_median_error_Pa", v.axial_tension_Pa.error),
+        std::pair("mode_4_beyond_solids", v.cortex_mode_4.value),
+        std::pair("mode_5_beyond_solids", v.cortex_mode_5.value),
         std::pair("modulus_over_that_of_fitting_table", v.other.modulus_over_its),
-        std::pair("shape_excess_median", v.excess.value), std::pair("shape_excess_median_error", v.excess.error),
+        std::pair("shape_excess_median", v.excess.value),
+        std::pair("shape_excess_median_error", v.excess.error),
         std::pair("inertia_ratio_median", v.inertia_ratio),
         std::pair("inertia_ratio_expected", v.expected_inertia_ratio),
-        std::pair("elongated_percent", v.elongated_percent()), std::pair("odd_share_median", v.odd_share),
+        std::pair("elongated_percent", v.elongated_percent()),
+        std::pair("odd_share_median", v.odd_share),
         std::pair("inertia_ratio_change", v.inertia_ratio_trend.change),
         std::pair("deformation_change", v.deformation_trend.change),
         std::pair("deformation_change_error", v.deformation_trend.error),
         std::pair("mode_3_change", v.asymmetry_trend.change)})
     row[name] = number_text(value);
-  row["with_asymmetry"] = std::to_string(v.with_asymmetry);
+  row["with_elongation"] = std::to_string(v.with_elongation);
+  if (v.with_elongation > 0) row["elongated_by"] = v.elongated_by == ElongatedBy::modes ? "outlines" : "inertia ratio";
   row["red_cells"] = std::to_string(v.red_cells);
+  constexpr std::array<const char*, 3> recommended{"none", "deformation", "elongated"};
+  row["recommended_modulus"] = recommended.at(static_cast<std::size_t>(v.recommended()));
+  row["recommended_young_modulus_median_kPa"] =
+      number_text(v.recommended() == ShapeVerdict::Modulus::elongated        ? v.elongated_kPa.median
+                  : v.recommended() == ShapeVerdict::Modulus::by_deformation ? v.by_deformation_kPa
+                                                                             : no_value);
+  row["recommended_text"] = v.recommended_text();
   row["shapes"] = names_of_fits.at(static_cast<std::size_t>(v.fit()));
   row["shapes_of_model"] = v.model;
   row["fitting_table"] = v.other.identifier;
@@ -138,8 +162,8 @@ Row row_of(const SummaryLine& line) {
   }
   const ExtractSummary& s = line.summary;
   row["events"] = std::to_string(s.events);
-  for (std::size_t k = 0; k < s.counts.size(); ++k)
-    row[column_of(names_of_modulus_states[k])] = std::to_string(s.counts[k]);
+  for (std::size_t k = 0; k < states_by_deformation().size(); ++k)
+    row[column_of(states_by_deformation()[k])] = std::to_string(s.counts[k]);
   const auto events = static_cast<double>(std::max<std::size_t>(s.events, 1));
   const auto& d = s.modulus_kPa;
   const auto& c = s.conditions;

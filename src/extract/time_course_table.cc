@@ -8,7 +8,6 @@
 
 #include "case/user_error.h"
 #include "extract/event_table.h"
-#include "infer/asymmetry_bias.h"
 #include "numeric/quantile.h"
 #include "store/build_info.h"
 
@@ -69,22 +68,6 @@ std::string columns_of(const Credible& value) {
 
 std::string with_interval(const Credible& value, std::string_view unit) {
   return fmt::format("{:.3g} {} (90 %: {:.3g} to {:.3g})", value.value, unit, value.low, value.high);
-}
-
-/// What a mechanical elongation does to the moduli, which the table's cells do not have; empty where there is none.
-std::string elongation_text(const std::vector<CellImages>& cells) {
-  constexpr double more_than_cells_of_the_model = 0.05;
-  std::vector<double> mode_2;
-  for (const CellImages& images : cells)
-    for (const auto& image : images)
-      if (std::isfinite(image.mode_2)) mode_2.push_back(image.mode_2);
-  const double median = median_of(mode_2);
-  if (!(median > more_than_cells_of_the_model)) return {};
-  return fmt::format(
-      "the cells are elongated along the flow (median c2 {:.2f}); if they are solids that are drawn out, Young's "
-      "moduli "
-      "are too high, by about {:.0f} % of themselves, see docs/real-cells.md",
-      median, 100 * too_high_by_asymmetry(median));
 }
 
 std::string status_of(const CourseEstimate& estimate) {
@@ -170,7 +153,6 @@ CourseReport CourseTable::report() const {
       fmt::format("{} cells, {} of them seen over at least {:g} um; {} events at places and {} with "
                   "areas that the table does not have",
                   cells.size(), seen_again, min_seen_um, outside_places_, outside_areas_));
-  if (const auto text = elongation_text(images); !text.empty()) report.lines.push_back(text);
   if (section_ == Section::square) report.lines.push_back(section_text(images));
   if (cells.size() >= min_population) {
     PopulationEstimate& population = report.population = TimeCourse(table_).population(images);

@@ -29,7 +29,6 @@ struct EstimatedModuli {
   std::span<double> modulus_kPa;         ///< NaN without a modulus
   std::span<double> standard_error_kPa;  ///< of pixels and of the table; NaN where the table does not know its error
   std::span<ModulusState> state;
-  std::span<double> systematic_error_kPa = {};  ///< one-sided, as in asymmetry_bias.h; of a ShapeMap, if it is wanted
 };
 
 class ShapeMap;

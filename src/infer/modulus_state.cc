@@ -15,6 +15,8 @@ std::string_view sentence_of(ModulusState state) {
       return "The standard error is greater than the modulus, or the table has a gap here.";
     case ModulusState::regularised: return "The modulus is that of a cell whose surface is held smooth by bending.";
     case ModulusState::gated: return "The event lies outside the gates.";
+    case ModulusState::too_round: return "The cell is flatter along the flow than any cell of the table.";
+    case ModulusState::too_elongated: return "The cell is longer along the flow than any cell of the table.";
     case ModulusState::inertial: return "The liquid's inertia, which the table does not hold, changes this modulus.";
   }
   return "";

@@ -11,6 +11,7 @@
 #include "infer/grid_map.h"
 #include "infer/published_map.h"
 #include "store/read_file.h"
+#include "table/origin_record.h"
 
 namespace rheocyte {
 

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "case/channel_flow.h"
-#include "infer/added_ellipse.h"
+#include "infer/elongation_law.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/quantile.h"
 
@@ -62,19 +62,19 @@ struct TimeCourse::Points {
   double min_chi_squared = 0;
 };
 
-/// What is to be added to ln|c_3| and to ln(area) of an image, for each modulus and time, to be without the ellipse
-/// that such a cell of the table does not have.
-struct TimeCourse::Ellipse {
+/// What is to be added to ln|c_3| and to ln(area) of an image, for each modulus and time, to be without the tension
+/// that draws it out more than such a cell of the table.
+struct TimeCourse::Tension {
   Eigen::ArrayXXd log_mode_3, log_area;
   double deviation = 0;  ///< of ln|c_3|, by the law
 };
 
-TimeCourse::Ellipse TimeCourse::ellipse_of(const CourseImage& image, double radius_um,
+TimeCourse::Tension TimeCourse::tension_of(const CourseImage& image, double radius_um,
                                            std::span<const double> log_modulus,
                                            std::span<const double> log_time) const {
   const auto rows = Eigen::Index(log_modulus.size()), columns = Eigen::Index(log_time.size());
-  Ellipse ellipse{Eigen::ArrayXXd::Zero(rows, columns), Eigen::ArrayXXd::Zero(rows, columns)};
-  if (std::isnan(image.mode_2)) return ellipse;
+  Tension tension{Eigen::ArrayXXd::Zero(rows, columns), Eigen::ArrayXXd::Zero(rows, columns)};
+  if (std::isnan(image.mode_2)) return tension;
   const Eigen::ArrayXXd excess =
       image.mode_2 - table_.values(CourseMeasure::mode_2, radius_um, image.place_um, log_modulus, log_time).array();
   const double half_width = channel_flow_of(table_.spec().base).width_um / 2;
@@ -83,13 +83,13 @@ TimeCourse::Ellipse TimeCourse::ellipse_of(const CourseImage& image, double radi
   assert(excess.size() % packet_size == 0);
   double deviations = 0;
   for (Eigen::Index i = 0; i < excess.size(); i += packet_size) {
-    const auto change = without_ellipse({excess.reshaped().segment<packet_size>(i), mode_3, log_area});
-    ellipse.log_mode_3.reshaped().segment<packet_size>(i) = change.log_mode_3;
-    ellipse.log_area.reshaped().segment<packet_size>(i) = change.log_area;
+    const auto change = without_elongation({excess.reshaped().segment<packet_size>(i), mode_3, log_area});
+    tension.log_mode_3.reshaped().segment<packet_size>(i) = change.log_mode_3;
+    tension.log_area.reshaped().segment<packet_size>(i) = change.log_area;
     deviations += change.deviation.sum();
   }
-  ellipse.deviation = deviations / double(excess.size());
-  return ellipse;
+  tension.deviation = deviations / double(excess.size());
+  return tension;
 }
 
 bool TimeCourse::has_area(double area_um2) const { return table_.has_radius(std::sqrt(area_um2 / std::numbers::pi)); }
@@ -102,22 +102,22 @@ TimeCourse::Points TimeCourse::points(const CellImages& images, const Box& box, 
   double guess = 0;  // of ln(radius), as if no area changed
   for (const CourseImage& image : images) guess += share * std::log(image.area_um2 / std::numbers::pi) / 2;
   const double radius = std::exp(guess);
-  std::vector<Ellipse> ellipses;
+  std::vector<Tension> tensions;
   for (const CourseImage& image : images) {
-    const Ellipse& ellipse = ellipses.emplace_back(ellipse_of(image, radius, moduli, times));
+    const Tension& tension = tensions.emplace_back(tension_of(image, radius, moduli, times));
     const auto ratio = table_.values(CourseMeasure::area_ratio, radius, image.place_um, moduli, times);
-    log_radius += share * (std::log(image.area_um2 / std::numbers::pi) + ellipse.log_area - ratio.array().log()) / 2;
+    log_radius += share * (std::log(image.area_um2 / std::numbers::pi) + tension.log_area - ratio.array().log()) / 2;
   }
   for (std::size_t i = 0; i < images.size(); ++i) {
     const CourseImage& image = images[i];
-    const Ellipse& ellipse = ellipses[i];
+    const Tension& tension = tensions[i];
     const auto at = [&](double step) -> Eigen::ArrayXXd {
       return table_.values(CourseMeasure::mode_3, radius * std::exp(step), image.place_um, moduli, times).array();
     };
     const Eigen::ArrayXXd less = at(-step_of_radius), more = at(step_of_radius);
     const Eigen::ArrayXXd expected = (less + more) / 2 + (more - less) / (2 * step_of_radius) * (log_radius - guess);
-    const double deviation = std::hypot(image.deviation, image.mode_3 * ellipse.deviation);
-    chi_squared += ((image.mode_3 * ellipse.log_mode_3.exp() - expected) / deviation).square();
+    const double deviation = std::hypot(image.deviation, image.mode_3 * tension.deviation);
+    chi_squared += ((image.mode_3 * tension.log_mode_3.exp() - expected) / deviation).square();
   }
   // Where polynomials between the nodes leave what cells can be, there is no cell.
   chi_squared = chi_squared.isFinite().select(chi_squared, HUGE_VAL);

@@ -16,7 +16,8 @@ struct CourseImage {
   double area_um2 = 0;  ///< without what the pixels do, as mode_3 of a cell that moves towards +x
   double mode_3 = 0;
   double deviation = 0;  ///< standard deviation of mode_3
-  /// What it has beyond that of the table's cell counts as an added ellipse (added_ellipse.h); NaN: it has nothing.
+  /// What it has beyond that of the table's cell counts as drawn out by the liquid (elongation_law.h); NaN: it has
+  /// nothing.
   double mode_2 = no_value;
   /// By what mode_3 was divided because the cell flows in a square channel, and not in the tube of the table
   /// (square_course.h); what that leaves is an error of the estimates.
@@ -73,8 +74,8 @@ class TimeCourse {
  private:
   struct Points;
   struct Box;
-  struct Ellipse;
-  Ellipse ellipse_of(const CourseImage& image, double radius_um, std::span<const double> log_modulus,
+  struct Tension;
+  Tension tension_of(const CourseImage& image, double radius_um, std::span<const double> log_modulus,
                      std::span<const double> log_time) const;
   Points points(const CellImages& images, const Box& box, int count) const;
   Points refined_points(const CellImages& images) const;

@@ -34,17 +34,36 @@ constexpr Law correlation_law{{{-1.11222, 3.80416, -14.5582},
                                {-437, 5265.94, -19648.1},
                                {1789.2, -22097.7, 81869.6}}};
 
-// Coefficients of c_2^i |c_3|^j s^k, k running fastest; bench/asymmetry_errors fitted them to shapes of the table
-// LE-2D-26 with added ellipses (4000 shapes at 80 places each).
-constexpr int powers_of_mode = 3, powers_of_s = 2;
-using AsymmetryLaw = std::array<double, powers_of_mode * powers_of_mode * powers_of_s>;
-constexpr AsymmetryLaw asymmetry_law{-2.67223, 6.18995, 19.351,   -57.3574, -1.98186, 2.82509,
-                                     -153.477, 289.294, 1775.81,  -3741.11, -5332.71, 11215.8,
-                                     241.079,  27.5765, -1895.08, -3100.73, 1605.49,  25223.2};
-constexpr double min_fitted_mode_2 = -0.02, max_fitted_mode_2 = 0.28, max_fitted_mode_3 = 0.15;
+// Coefficients of x^i y^j s^k, k running fastest, with x = c_2 and y = |c_3|, or x = deformation and y = inertia ratio
+// - 1; bench/mode_errors fitted them to shapes of the table HE-3D-el-26 (3000 shapes at 100 places each).
+constexpr int powers_of_shape = 3, powers_of_s = 2;
+using LongLaw = std::array<double, powers_of_shape * powers_of_shape * powers_of_s>;
+constexpr LongLaw mode_2_law{0.074341, -0.2486, -8.3124, 28.525, 37.927,  -169.7, 2.0016,  -2.0112, -33.712,
+                             138.76,   197.36,  -957.34, 2.4937, -5.1939, 39.617, -365.87, -916.31, 4238.4};
+constexpr LongLaw mode_3_law{-7.2937, 18.343,  123.79, -394.52, -518.43, 1708.8, -47.596, 108.87, 396.6,
+                             -1501.3, -996.08, 6827.6, -165.06, 479.48,  3331.9, -7427.6, -13692, 13303};
+constexpr LongLaw mode_correlation{-0.05813, 0.28134, -7.8654, -13.118, 20.318,  124.71,  -0.78387, 2.9352, 1.3726,
+                                   -220.65,  20.317,  1474.1,  -3.0831, 0.81143, -32.719, 576.41,   917.08, -5898.2};
+constexpr LongLaw long_deformation_law{0.61177, -0.015962, 0.058773, 0.25764, 3.4554,  -9.3191,
+                                       -22.993, 38.318,    -19.119,  76.241,  -21.499, 55.828,
+                                       416.79,  -1118.9,   -361.76,  890.28,  199,     -522.05};
+constexpr LongLaw inertia_law{-0.086916, 2.6408,  0.85733, 2.291,  7.6324,  -17.564, -39.788, 35.668, -49.461,
+                              205.43,    -13.901, 27.182,  602.93, -1409.4, -596.23, 677.79,  162.32, 1.3674};
+constexpr LongLaw inertia_correlation{-0.15287, 3.7676,  2.379,  10.377, 6.3809, -19.458, -44.355, -7.6735, -74.094,
+                                      33.392,   -10.504, 120.99, 685.52, -1059,  -304.18, 1038.1,  84.11,   -618.16};
+// Coefficients of 1, |c_3| and c_2.
+using DeviationLaw = std::array<double, 3>;
+constexpr DeviationLaw mode_2_deviation{0.43299, -1.0171, 0.072584}, mode_3_deviation{0.26209, 1.0601, -0.17585},
+    long_deformation_deviation{0.098452, 0.38616, 0.079869}, inertia_deviation{0.79366, -1.571, 1.9729};
+// What the laws leave of single shapes (in s^2); alike in all pictures of one.
+constexpr double left_of_mode_2 = 0.1, left_of_mode_3 = 0.065, left_of_deformation = 0.05, left_of_inertia = 0.16;
+constexpr double max_correlation = 0.95;
+constexpr double min_fitted_mode_2 = -0.1, max_fitted_mode_2 = 0.4, max_fitted_mode_3 = 0.15, min_fitted_inertia = -0.2,
+                 max_fitted_inertia = 1.2;
 
 // Below what masks show; for shapes that few pixels cannot have.
-constexpr double min_area_deviation = 0.2, min_deformation_deviation = 0.05, min_asymmetry_deviation = 0.14;
+constexpr double min_area_deviation = 0.2, min_deformation_deviation = 0.05, min_asymmetry_deviation = 0.14,
+                 min_inertia_deviation = 0.4;
 
 template <class Number>
 Number value(const Law& law, const Number& deformation, const Number& s) {
@@ -53,18 +72,21 @@ Number value(const Law& law, const Number& deformation, const Number& s) {
   return sum;
 }
 
-template <class Number>
-Number value(const AsymmetryLaw& law, const Number& ellipse, const Number& asymmetry, const Number& s) {
-  Number sum = 0 * ellipse;
-  for (std::size_t i = powers_of_mode; i-- > 0;) {
-    Number row = 0 * ellipse;
-    for (std::size_t j = powers_of_mode; j-- > 0;) {
-      const std::size_t first = powers_of_s * (powers_of_mode * i + j);
-      row = row * asymmetry + law[first] + s * law[first + 1];
+double value(const LongLaw& law, double x, double y, double s) {
+  double sum = 0;
+  for (std::size_t i = powers_of_shape; i-- > 0;) {
+    double row = 0;
+    for (std::size_t j = powers_of_shape; j-- > 0;) {
+      const std::size_t first = powers_of_s * (powers_of_shape * i + j);
+      row = row * y + law[first] + s * law[first + 1];
     }
-    sum = sum * ellipse + row;
+    sum = sum * x + row;
   }
   return sum;
+}
+
+double value(const DeviationLaw& law, double mode_2, double mode_3) {
+  return law[0] + law[1] * mode_3 + law[2] * mode_2;
 }
 
 /// (area in pixels)^(-1/3)
@@ -87,15 +109,32 @@ PixelErrorsOf<Number> pixel_errors(const Number& log_area_px, const Number& defo
           clamped(value(correlation_law, d, s), -1, 1)};
 }
 
-template <class Number>
-AsymmetryErrorsOf<Number> asymmetry_errors(const Number& log_area_px, const Number& mode_2, const Number& mode_3) {
-  using std::abs, std::sqrt;
-  const Number s = inverse_root(log_area_px), s2 = s * s;
-  const Number ellipse = clamped(mode_2, min_fitted_mode_2, max_fitted_mode_2),
-               held = clamped(mode_3, -max_fitted_mode_3, max_fitted_mode_3), asymmetry = abs(held);
-  const Number by_chance = s2 * at_least(Number(0.28 + 0.75 * asymmetry - 0.38 * ellipse), min_asymmetry_deviation),
-               by_law = left_by_asymmetry_law * asymmetry;
-  return {s2 * held * value(asymmetry_law, ellipse, asymmetry, s), sqrt(by_chance * by_chance + by_law * by_law)};
+ModeErrors mode_errors(double log_area_px, double mode_2, double mode_3) {
+  const double s = inverse_root(log_area_px), s2 = s * s;
+  const double second = clamped(mode_2, min_fitted_mode_2, max_fitted_mode_2),
+               third = clamped(mode_3, -max_fitted_mode_3, max_fitted_mode_3), size = std::abs(third);
+  const auto deviation = [&](const DeviationLaw& law, double left) {
+    return s2 * std::hypot(std::max(value(law, second, size), min_asymmetry_deviation), left);
+  };
+  const double correlation = clamped(value(mode_correlation, second, size, s), -max_correlation, max_correlation);
+  return {{s2 * value(mode_2_law, second, size, s), deviation(mode_2_deviation, left_of_mode_2)},
+          {s2 * third * value(mode_3_law, second, size, s), deviation(mode_3_deviation, left_of_mode_3)},
+          third < 0 ? -correlation : correlation};
+}
+
+InertiaErrors inertia_errors(double log_area_px, double deformation, double inertia_ratio) {
+  const double s = inverse_root(log_area_px), s2 = s * s;
+  const double d = clamped(deformation, 0, max_fitted_deformation),
+               longer = clamped(inertia_ratio - 1, min_fitted_inertia, max_fitted_inertia);
+  // To second order, for the scatter: i = (1 + c_2) / (1 - c_2) and d = 3/4 c_2^2 + 2 c_3^2.
+  const double mode_2 = longer / (2 + longer), mode_3 = std::sqrt(std::max(d - 0.75 * mode_2 * mode_2, 0.0) / 2);
+  const auto deviation = [&](const DeviationLaw& law, double least, double left) {
+    return s2 * std::hypot(std::max(value(law, mode_2, mode_3), least), left);
+  };
+  return {s2 * value(long_deformation_law, d, longer, s), s2 * value(inertia_law, d, longer, s),
+          deviation(long_deformation_deviation, min_deformation_deviation, left_of_deformation),
+          deviation(inertia_deviation, min_inertia_deviation, left_of_inertia),
+          clamped(value(inertia_correlation, d, longer, s), -max_correlation, max_correlation)};
 }
 
 PixelErrorLaws pixel_error_laws() {
@@ -105,17 +144,15 @@ PixelErrorLaws pixel_error_laws() {
 
 template PixelErrors pixel_errors(const double&, const double&);
 template PixelErrorsOf<Packet> pixel_errors(const Packet&, const Packet&);
-template AsymmetryErrors asymmetry_errors(const double&, const double&, const double&);
-template AsymmetryErrorsOf<Packet> asymmetry_errors(const Packet&, const Packet&, const Packet&);
 
 SmoothAsymmetry without_pixels(const ShapeVector& measured, double pixel_size_um) {
   constexpr int second = int(ShapeFeature::first_mode), third = second + 1;
   const double log_area = measured(int(ShapeFeature::area_um2));
   const double log_area_px = log_area - 2 * std::log(pixel_size_um);
   const PixelErrors pixels = pixel_errors(log_area_px, measured(int(ShapeFeature::deformation)));
-  const AsymmetryErrors asymmetry = asymmetry_errors(log_area_px, measured(second), measured(third));
-  return {std::exp(log_area) * pixels.area_factor, measured(second), measured(third) - asymmetry.excess,
-          asymmetry.deviation};
+  const ModeErrors modes = mode_errors(log_area_px, measured(second), measured(third));
+  return {std::exp(log_area) * pixels.area_factor, measured(second) - modes.mode_2.excess,
+          measured(third) - modes.mode_3.excess, modes.mode_3.deviation};
 }
 
 PixelShape seen_through_pixels(const PixelShape& smooth) {

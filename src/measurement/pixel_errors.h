@@ -40,18 +40,27 @@ struct PixelErrorLaws {
 };
 PixelErrorLaws pixel_error_laws();
 
-/// For the third mode of the outline's radius (docs/theory-extract.md, eq:asymmetry-errors).
-template <class Number>
-struct AsymmetryErrorsOf {
-  Number excess;     ///< measured c_3 - that of the smooth contour
-  Number deviation;  ///< standard deviation of the measured c_3
+/// For the second and third mode of the outline's radius (docs/theory-extract.md, eq:mode-errors).
+struct ModeErrors {
+  struct OfMode {
+    double excess;     ///< measured - that of the smooth contour
+    double deviation;  ///< standard deviation of the measured one
+  };
+  OfMode mode_2, mode_3;
+  double correlation;  ///< of the scatter of both
 };
-using AsymmetryErrors = AsymmetryErrorsOf<double>;
 
 /// By the natural logarithm of the measured area in pixels and the measured c_2 and c_3. Pixels make the ends of an
 /// elongated cell more alike: they take away the more of c_3 the greater c_2 is.
-template <class Number>
-AsymmetryErrorsOf<Number> asymmetry_errors(const Number& log_area_px, const Number& mode_2, const Number& mode_3);
+ModeErrors mode_errors(double log_area_px, double mode_2, double mode_3);
+
+/// For the deformation and the inertia ratio of an elongated cell, whose deformation pixels change in another way than
+/// a round one's (docs/theory-extract.md, eq:inertia-errors).
+struct InertiaErrors {
+  double deformation_excess, inertia_excess;  ///< measured - that of the smooth contour
+  double deformation_deviation, inertia_deviation, correlation;
+};
+InertiaErrors inertia_errors(double log_area_px, double deformation, double inertia_ratio);
 
 /// What the law leaves of c_3 of a single shape, in parts of it (standard deviation); alike in all pictures of it.
 inline constexpr double left_by_asymmetry_law = 0.01;

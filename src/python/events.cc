@@ -26,8 +26,9 @@ namespace {
 struct Events {
   std::vector<double> area, deformation, viscosity, modulus, standard_error;
   std::vector<std::int8_t> state, elongated;
-  std::vector<double> shape_excess, shape_excess_error, odd_share, mode_3, asymmetry, asymmetry_error,
-      asymmetry_systematic;
+  std::vector<double> shape_excess, shape_excess_error, odd_share, mode_3;
+  std::vector<ElongationColumn> elongation_columns;
+  std::vector<std::vector<double>> elongation;  ///< column by column
   ExtractSummary summary;
   std::vector<std::string> lines;
 
@@ -48,9 +49,8 @@ struct Events {
       odd_share.push_back(shape.odd_share);
     }
     add(mode_3, b.mode_3);
-    add(asymmetry, b.asymmetry_kPa);
-    add(asymmetry_error, b.asymmetry_error_kPa);
-    add(asymmetry_systematic, b.asymmetry_systematic_kPa);
+    elongation.resize(elongation_columns.size());
+    for (std::size_t k = 0; k < elongation.size(); ++k) add(elongation[k], b.elongation.*elongation_columns[k].values);
   }
 };
 
@@ -60,6 +60,7 @@ Events events_of(const std::filesystem::path& file, const ExtractOptions& option
   EventPass pass(recording, tell_progress);
   Extraction extraction(recording, options, tables);
   Events events;
+  if (const auto by = extraction.event_shapes().elongated_by()) events.elongation_columns = elongation_columns(*by);
   pass.in_blocks(extraction.block(),
                  [&](std::size_t first, std::size_t count) { events.append(extraction.compute(first, count)); });
   events.summary = extraction.summary();
@@ -100,12 +101,8 @@ Told written(const Events& e, const SharedColumns& memory) {
     write("elongated", e.elongated);
     write("odd_share", e.odd_share);
   }
-  if (!e.mode_3.empty()) {
-    write("mode_3", e.mode_3);
-    write("young_modulus_asymmetry_kPa", e.asymmetry);
-    write("standard_error_asymmetry_kPa", e.asymmetry_error);
-    write("systematic_error_asymmetry_kPa", e.asymmetry_systematic);
-  }
+  if (!e.mode_3.empty()) write("mode_3", e.mode_3);
+  for (std::size_t k = 0; k < e.elongation.size(); ++k) write(e.elongation_columns[k].name.c_str(), e.elongation[k]);
   return told;
 }
 

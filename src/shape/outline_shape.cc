@@ -144,10 +144,11 @@ RadiusModes hull_modes(const Polygon& hull) {
 }
 
 HullAsymmetry hull_asymmetry(const Polygon& hull) {
-  if (hull.corners() < 3) return {no_value, no_value, no_value};
+  if (hull.corners() < 3) return {no_value, no_value, no_value, no_value, no_value};
   const PolygonMoments m = hull.moments();
-  const auto integral = radius_integrals<3>(hull, m);
-  return {m.mu02 / m.mu20, 2 * integral[2] / integral[0], 2 * integral[3] / integral[0]};
+  const auto integral = radius_integrals<5>(hull, m);
+  const auto mode = [&](std::size_t k) { return 2 * integral[k] / integral[0]; };
+  return {m.mu02 / m.mu20, mode(2), mode(3), mode(4), mode(5)};
 }
 
 OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) {

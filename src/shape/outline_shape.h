@@ -46,7 +46,7 @@ RadiusModes hull_modes(const Polygon& hull);
 
 /// Of the same polygon, what tells a cell of the model from any other; NaN below three points.
 struct HullAsymmetry {
-  double moment_ratio, mode_2, mode_3;
+  double moment_ratio, mode_2, mode_3, mode_4, mode_5;
 };
 HullAsymmetry hull_asymmetry(const Polygon& hull);
 

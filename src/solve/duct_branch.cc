@@ -27,48 +27,53 @@ constexpr double min_step = 0.01;
 
 /// A state of the way at the first degree.
 struct Milestone {
-  double compliance, deformation;
+  double compliance, height;  ///< as DuctBranchWay has it, but not relative
   VectorXd unknowns;
 };
 
 class DuctBranchFollower {
  public:
-  DuctBranchFollower(const Problem& problem, const MediaAt& media, double max_deformation, double least_margin,
+  DuctBranchFollower(const Problem& problem, const MediaAt& media, const DuctBranchWay& wanted,
                      const std::atomic<bool>* stop)
-      : wanted_(max_deformation),
-        least_margin_(least_margin),
-        solver_(problem, media, nobody_, stop, counts_),
-        stop_(stop) {
+      : wanted_(wanted), solver_(problem, media, nobody_, stop, counts_), stop_(stop) {
     solver_.keep_systems();
     solver_.want_stable();
   }
 
-  DuctBranch follow(std::span<const double> heights) {
+  DuctBranch follow() {
     DuctBranch branch;
     branch.end = walk();
     if (way_.empty() || is_stopped()) return branch;
-    double last = is_passed() ? share_beyond * wanted_ : share_of_end * way_.back().deformation;
+    double last = is_passed() ? height_of(share_beyond * wanted_.max_deformation, way_.back().compliance)
+                              : height_of(share_of_end) * way_.back().height;
     for (int attempt = 0; branch.states.empty() && !is_stopped() && attempt <= max_steps_back; ++attempt) {
-      if (attempt > 0) last *= step_back;
-      branch.states = states_to(last, heights);
+      if (attempt > 0) last *= height_of(step_back);
+      branch.states = states_to(last);
     }
     if (branch.states.empty()) return branch;
     const StationaryState& softest = branch.states.back();
-    if (branch.end == Status::converged && softest.shape.deformation < share_covered * wanted_)
+    if (branch.end == Status::converged && softest.shape.deformation < share_covered * wanted_.max_deformation)
       branch.end = is_at_limit(softest.stability_margin) ? Status::surface_unstable : Status::accuracy_not_reached;
     return branch;
   }
 
  private:
   bool is_stopped() const { return stop_ && *stop_; }
-  bool is_at_limit(double margin) const { return margin < least_margin_ + small_margin; }
-  bool is_passed() const { return !way_.empty() && way_.back().deformation > share_beyond * wanted_; }
+  bool is_at_limit(double margin) const { return margin < wanted_.least_margin + small_margin; }
+  bool is_passed() const { return last_deformation_ > share_beyond * wanted_.max_deformation; }
+
+  bool goes_by_deformation() const { return wanted_.height == DuctBranchWay::Height::root_of_deformation; }
+  double height_of(double deformation, double compliance) const {
+    return goes_by_deformation() ? std::sqrt(deformation) : compliance;
+  }
+  /// Of a share of the deformation; near the end of a branch the compliance goes about as the deformation's root.
+  double height_of(double share) const { return std::sqrt(share); }
 
   /// Nothing if the end is too near for one of the states.
-  std::vector<StationaryState> states_to(double last, std::span<const double> heights) {
+  std::vector<StationaryState> states_to(double last) {
     std::vector<StationaryState> states;
-    for (auto height = heights.rbegin(); height != heights.rend(); ++height) {
-      auto state = state_of(*height * *height * last);
+    for (auto height = wanted_.heights.rbegin(); height != wanted_.heights.rend(); ++height) {
+      auto state = state_of(*height * last);
       const bool gains = *height > soft_height;
       if (!state || is_stopped() || (gains && state->outcome.status != Status::converged)) return {};
       states.push_back(std::move(*state));
@@ -79,21 +84,26 @@ class DuctBranchFollower {
 
   /// At the first degree from the sphere on.
   Status walk() {
-    ContinuationOptions options = solver_.options(false, least_margin_);
+    ContinuationOptions options = solver_.options(false, wanted_.least_margin);
     options.min_step = min_step;
     options.accept = [this, is_good = options.accept](const NonlinearSystem& system, const BranchState& state) {
       if (!is_good(system, state)) return false;
       const double d = counts_.branch.back().deformation;
-      if (d > 1.3 * share_beyond * wanted_) return false;  // rather a nearer one
-      way_.push_back({state.parameter, d, state.unknowns});
+      if (d > 1.3 * share_beyond * wanted_.max_deformation) return false;  // rather a nearer one
+      way_.push_back({state.parameter, height_of(d, state.parameter), state.unknowns});
+      last_deformation_ = d;
       return true;
     };
     first_ = solver_.enter(DuctSolver::first_degree, options);
     if (first_.status != Status::converged) return first_.status;
     DuctState state = first_;
+    if (state.branch.parameter < wanted_.first_compliance) {
+      solver_.advance(state, wanted_.first_compliance, options);
+      first_ = state;
+    }
     while (state.status == Status::converged && !is_passed())
       solver_.advance(state, 1.5 * state.branch.parameter, options);
-    return way_.back().deformation > wanted_ ? Status::converged : reason(state);
+    return last_deformation_ > wanted_.max_deformation ? Status::converged : reason(state);
   }
 
   Status reason(const DuctState& state) const {
@@ -104,11 +114,11 @@ class DuctBranchFollower {
     return state.status == Status::iteration_limit ? Status::branch_ended : state.status;
   }
 
-  /// The state whose deformation is about this at the first degree; nothing if it is not one at the higher ones.
-  std::optional<StationaryState> state_of(double deformation) {
+  /// The state that is about so high at the first degree; nothing if it is not one at the higher ones.
+  std::optional<StationaryState> state_of(double height) {
     StationaryState result;
     solver_.count_in(result);
-    const Milestone guess = guess_of(deformation);
+    const Milestone guess = guess_of(height);
     DuctState state = solver_.at_compliance(first_, guess.compliance, guess.unknowns);
     DuctLadder ladder;
     if (state.status == Status::converged) result.outcome.status = solver_.climb(state, ladder);
@@ -120,37 +130,37 @@ class DuctBranchFollower {
     return result;
   }
 
-  Milestone guess_of(double deformation) const {
-    const auto beyond = std::ranges::lower_bound(way_, deformation, {}, &Milestone::deformation);
+  Milestone guess_of(double height) const {
+    const auto beyond = std::ranges::lower_bound(way_, height, {}, &Milestone::height);
     if (beyond == way_.end()) return way_.back();
     if (beyond == way_.begin()) {
       // d goes with the square of the compliance, displacements with the compliance.
-      Milestone guess{way_.front().compliance * std::sqrt(deformation / way_.front().deformation), deformation,
-                      way_.front().unknowns};
+      Milestone guess{way_.front().compliance * height / way_.front().height, height, way_.front().unknowns};
       first_.discrete->system.scale_displacement(guess.compliance / way_.front().compliance, guess.unknowns);
       return guess;
     }
     const Milestone &a = *(beyond - 1), &b = *beyond;
-    const double share = std::log(deformation / a.deformation) / std::log(b.deformation / a.deformation);
+    const double share = std::log(height / a.height) / std::log(b.height / a.height);
     const double compliance = a.compliance * std::pow(b.compliance / a.compliance, share);
     const double way = (compliance - a.compliance) / (b.compliance - a.compliance);
-    return {compliance, deformation, (1 - way) * a.unknowns + way * b.unknowns};
+    return {compliance, height, (1 - way) * a.unknowns + way * b.unknowns};
   }
 
-  double wanted_, least_margin_;
+  const DuctBranchWay& wanted_;
   StationaryState counts_;
   ProgressCallback nobody_;
   DuctSolver solver_;
   const std::atomic<bool>* stop_;
   DuctState first_;
   std::vector<Milestone> way_;
+  double last_deformation_ = 0;
 };
 
 }  // namespace
 
-DuctBranch follow_in_duct(const Problem& problem, const MediaAt& media, double max_deformation,
-                          std::span<const double> heights, double least_margin, const std::atomic<bool>* stop) {
-  return DuctBranchFollower(problem, media, max_deformation, least_margin, stop).follow(heights);
+DuctBranch follow_in_duct(const Problem& problem, const MediaAt& media, const DuctBranchWay& wanted,
+                          const std::atomic<bool>* stop) {
+  return DuctBranchFollower(problem, media, wanted, stop).follow();
 }
 
 }  // namespace rheocyte

@@ -14,13 +14,24 @@ struct DuctBranch {
   Status end = Status::not_started;  ///< why the branch goes no farther; converged: it passes the greatest deformation
 };
 
+/// How far a branch is followed, and which of its states are wanted.
+struct DuctBranchWay {
+  double max_deformation = 1;
+  double least_margin = 0;      ///< of the surface from its limit (surface_stability.h)
+  std::vector<double> heights;  ///< of the states; ascending, the last one 1
+  /// What heights are shares of, at the last state: the root of the deformation, or the compliance where cells are
+  /// deformed by something else than the flow, too.
+  enum class Height { root_of_deformation, compliance };
+  Height height = Height::root_of_deformation;
+  double first_compliance = 0;  ///< before it no state is wanted: there the way may lead from the sphere
+};
+
 /// The branch of a problem, whose media are those given at a compliance of 1, is followed from the sphere to its end,
-/// or a little past the greatest deformation d, or to where its surface is closer to its limit than the least margin
-/// (surface_stability.h; end: surface_unstable). Then it has one state for each height, a share of sqrt(d) at the last
-/// state (ascending, the last one 1; met within some per cent), with a stable surface at all degrees. Those above a
-/// height of 0.6 are as accurate as the problem says, the others where the finest mesh allows. Without states if there
-/// are none such, and when it was stopped.
-DuctBranch follow_in_duct(const Problem&, const MediaAt&, double max_deformation, std::span<const double> heights,
-                          double least_margin = 0, const std::atomic<bool>* stop = nullptr);
+/// or a little past the greatest deformation d, or to where its surface has the least margin (end: surface_unstable).
+/// Then it has one state for each height (met within some per cent), with a stable surface at all degrees. Those above
+/// a height of 0.6 are as accurate as the problem says, the others where the finest mesh allows. Without states if
+/// there are none such, and when it was stopped.
+DuctBranch follow_in_duct(const Problem&, const MediaAt&, const DuctBranchWay&,
+                          const std::atomic<bool>* stop = nullptr);
 
 }  // namespace rheocyte

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "table/combined_table.h"
+#include "table/elongated_table.h"
 #include "table/grid_from_branches.h"
 #include "table/lookup_table.h"
 #include "table/simulations_file.h"
@@ -33,12 +34,14 @@ std::vector<std::string> write_simple(const TableFolder& folder, const std::vect
 
 std::vector<std::string> finish_table(const TableFolder& folder, std::span<const double> levels,
                                       std::string_view version) {
-  const auto branches = folder.all_branches();
+  const TableSpec& spec = folder.spec();
   std::vector<std::string> sentences;
-  if (folder.spec().is_combined())
-    write_combined(folder, branches);
+  if (spec.is_combined())
+    write_combined(folder, folder.all_branches());
+  else if (spec.is_elongated())
+    folder.publish(elongated_file_name(spec.identifier), to_bytes(elongated_content(spec, folder.read_all(), version)));
   else
-    sentences = write_simple(folder, branches, levels, version);
+    sentences = write_simple(folder, folder.all_branches(), levels, version);
   folder.tidy();
   return sentences;
 }

@@ -11,7 +11,8 @@ namespace rheocyte {
 
 /// Writes them beside the spec and removes what claims have left; returns sentences about what could not be made.
 /// Simple cells: text table, lines of these stiffnesses (none given: chosen by the table), simulations, grid. Combined
-/// ones: the table of their shapes. UserError if a record is damaged or the disk is full.
+/// ones: the table of their shapes. Elongated solids: their states. UserError if a record is damaged or the disk is
+/// full.
 std::vector<std::string> finish_table(const TableFolder& folder, std::span<const double> levels,
                                       std::string_view version);
 

@@ -7,6 +7,7 @@
 
 #include "numeric/lagrange.h"
 #include "table/branch_border.h"
+#include "table/origin_record.h"
 #include "table/shapes_from_branches.h"
 #include "table/table_metadata.h"
 
@@ -188,13 +189,6 @@ class PatchMaker {
   std::vector<LogBranch> branches_;
   Columns columns_;
 };
-
-TableOrigin origin_of(const TableSpec& spec, std::string_view version) {
-  const Case& c = spec.base;
-  return {spec.identifier,  model_text(c),      fmt::format("rheocyte {}", version),
-          to_toml(spec),    channel_flow_of(c), stiffness_unit(spec) != "kPa",
-          c.channel.section};
-}
 
 // Bending makes cells stiffer: moduli drop by some percent where it takes over, and nobody knows the bending of a cell.
 void add_step_to_error(const GridPatch& bare, GridPatch& held) {

@@ -92,7 +92,7 @@ class Curve {
  public:
   Curve(const SampledBranch& branch, const ReferenceStiffness& reference) : branch_(&branch) {
     const int samples = branch.samples();
-    for (int k = 0; k < samples; ++k) s_.push_back(sqrt_deformation(branch, k));
+    s_ = roots_of_deformation(branch);
     numbers_.resize(samples, measure_count + 1);
     for (int k = 0; k < samples; ++k) {
       const double s = s_[std::size_t(k)];
@@ -329,15 +329,19 @@ SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double
 
 }  // namespace
 
-void set_slopes(SampledBranch& branch) {
+std::vector<double> roots_of_deformation(const SampledBranch& branch) {
+  std::vector<double> roots;
+  for (int k = 0; k < branch.samples(); ++k) roots.push_back(sqrt_deformation(branch, k));
+  return roots;
+}
+
+void set_slopes(SampledBranch& branch, const std::vector<double>& s) {
   const int n = branch.samples();
   branch.slope = Eigen::MatrixXd::Zero(n, measure_count);
   branch.contour_slope.assign(std::size_t(n), {});
-  std::vector<double> s;
-  for (int k = 0; k < n; ++k) s.push_back(sqrt_deformation(branch, k));
   for (int k = 0; k < n; ++k) {
     const auto weights = lagrange_weights(s, s[std::size_t(k)]).slope;
-    double of_log_stiffness = -1 / s[std::size_t(k)];  // E sqrt(d) is nearly constant
+    double of_log_stiffness = -1 / s[std::size_t(k)];
     auto& contour = branch.contour_slope[std::size_t(k)] = Eigen::MatrixX2d::Zero(branch.contour.front().rows(), 2);
     for (std::size_t j = 0; j < weights.size(); ++j) {
       of_log_stiffness += weights[j] * std::log(branch.stiffness[j] * s[j]);

@@ -99,9 +99,6 @@ std::string to_bytes(const GridContent&);
 GridContent grid_from_bytes(std::string_view bytes, const std::string& name);
 /// Bytes of its file at most.
 inline constexpr std::size_t largest_grid = std::size_t{64} << 20U;
-/// From the beginning of its file, of which grid_head_bytes are enough; nothing if that is none.
-std::optional<GridHead> grid_head(std::string_view head);
-inline constexpr std::size_t grid_head_bytes = 4096;
 
 /// Name of the file beside the other files of a table: grid_<identifier>.cbor.
 std::string grid_file_name(const std::string& identifier);

@@ -7,6 +7,7 @@
 
 #include "numeric/fingerprint.h"
 #include "table/checked_record.h"
+#include "table/origin_record.h"
 #include "table/stiffness_grid.h"
 
 namespace rheocyte {
@@ -18,8 +19,6 @@ using nlohmann::json;
 constexpr RecordKind grid_kind{"rheocyte grid", "1", "grid of a table",
                                "`rheocyte table` with the table's spec writes it anew"};
 constexpr int max_side = 10000;
-/// Only in grids of square channels; keys of a record stand in the order of their letters, and this one comes first.
-constexpr const char *section_key = "channel_section", *square_section = "square";
 
 json record_of(const GridPatch& patch) {
   return {{"regularised", patch.regularised},
@@ -47,23 +46,13 @@ json record_of(const ShapeNodes& shapes) {
 }
 
 json record_of(const GridContent& grid) {
-  const TableOrigin& o = grid.origin;
   json patches = json::array();
   for (const auto& patch : grid.patches) patches.push_back(record_of(patch));
-  json record = {{"identifier", o.identifier},
-                 {"model", o.model},
-                 {"program", o.program},
-                 {"spec", o.spec},
-                 {"channel_width_um", o.flow.width_um},
-                 {"flow_rate_ul_per_s", o.flow.rate_ul_s},
-                 {"viscosity_mPas", o.flow.viscosity_mPas},
-                 {"flow_exponent", o.flow.exponent},
-                 {"is_shell", o.is_shell},
-                 {"least_log_area", grid.min_log_area},
+  json record = {{"least_log_area", grid.min_log_area},
                  {"column_step", grid.column_step},
                  {"columns", grid.columns},
                  {"patches", std::move(patches)}};
-  if (o.section == Section::square) record[section_key] = square_section;
+  put_origin(grid.origin, record);
   if (grid.shapes) record["shapes"] = record_of(*grid.shapes);
   return record;
 }
@@ -71,12 +60,6 @@ json record_of(const GridContent& grid) {
 int side(const json& record, const char* key, int least, int greatest) {
   const int value = record.at(key);
   check_record(value >= least && value <= greatest, "a size is out of range");
-  return value;
-}
-
-double positive(const json& record, const char* key) {
-  const double value = record.at(key);
-  check_record(value > 0 && std::isfinite(value), "a number is out of range");
   return value;
 }
 
@@ -123,7 +106,7 @@ GridPatch patch_of(const json& record, int columns) {
 ShapeNodes shapes_of(const json& record) {
   ShapeNodes shapes;
   shapes.min_log_area = record.at("least_log_area");
-  shapes.column_step = positive(record, "column_step");
+  shapes.column_step = positive_number(record, "column_step");
   shapes.columns = side(record, "columns", 2, max_side);
   shapes.rows = side(record, "rows", 2, max_side);
   check_areas(shapes.min_log_area, shapes.column_step, shapes.columns);
@@ -143,22 +126,9 @@ ShapeNodes shapes_of(const json& record) {
 
 GridContent content_of(const json& record) {
   GridContent grid;
-  TableOrigin& o = grid.origin;
-  o.identifier = record.at("identifier");
-  o.model = record.at("model");
-  o.program = record.at("program");
-  o.spec = record.at("spec");
-  o.flow.width_um = positive(record, "channel_width_um");
-  o.flow.rate_ul_s = positive(record, "flow_rate_ul_per_s");
-  o.flow.viscosity_mPas = positive(record, "viscosity_mPas");
-  o.flow.exponent = positive(record, "flow_exponent");
-  o.is_shell = record.at("is_shell");
-  if (record.contains(section_key)) {
-    check_record(record.at(section_key) == square_section, "a section is unknown");
-    o.section = Section::square;
-  }
+  grid.origin = origin_from(record);
   grid.min_log_area = record.at("least_log_area");
-  grid.column_step = positive(record, "column_step");
+  grid.column_step = positive_number(record, "column_step");
   grid.columns = side(record, "columns", 2, max_side);
   check_areas(grid.min_log_area, grid.column_step, grid.columns);
   for (const auto& patch : record.at("patches")) grid.patches.push_back(patch_of(patch, grid.columns));
@@ -169,47 +139,8 @@ GridContent content_of(const json& record) {
 
 }  // namespace
 
-std::string TableOrigin::description() const {
-  const auto conditions =
-      fmt::format("{} um, {} ul/s, {:.6g} mPa s", flow.width_um, flow.rate_ul_s, flow.viscosity_mPas);
-  return model.empty() ? fmt::format("{} ({})", identifier, conditions)
-                       : fmt::format("{} ({}, {}, by {})", identifier, model, conditions, program);
-}
-
-std::string TableOrigin::cells() const { return cells_in_words(model, section); }
-
-std::string cells_in_words(std::string_view model, Section section) {
-  std::string cells(model.substr(0, model.find(" / ")));
-  if (cells.empty()) return cells;
-  for (const auto& [written, name] : {std::pair<std::string_view, std::string_view>{"neo-hookean", "neo-Hookean"},
-                                      {"mooney-rivlin", "Mooney-Rivlin"}})
-    if (const auto at = cells.find(written); at != std::string::npos) cells.replace(at, written.size(), name);
-  return fmt::format("{}s in the {}", cells, section == Section::square ? "square channel" : "tube");
-}
-
 std::string to_bytes(const GridContent& grid) {
   return sealed_record(grid_kind, fingerprint(grid.origin.spec), record_of(grid));
-}
-
-// Keys of a record stand in the order of their letters, so the long columns of numbers come behind these.
-std::optional<GridHead> grid_head(std::string_view head) {
-  head = head.substr(0, grid_head_bytes);
-  constexpr std::size_t longest = 200;  // bytes of CBOR
-  const auto value_of = [head](std::string_view key) {
-    const auto place = head.find(key);
-    if (place == std::string_view::npos) return json();
-    const auto value = head.substr(place + key.size(), longest);
-    constexpr unsigned char first_of_lists = 0x80, first_of_numbers = 0xe0;  // lists would let the reader nest
-    if (value.empty() || (static_cast<unsigned char>(value.front()) >= first_of_lists &&
-                          static_cast<unsigned char>(value.front()) < first_of_numbers))
-      return json();
-    return json::from_cbor(value.begin(), value.end(), false, false);
-  };
-  const json exponent = value_of("flow_exponent"), model = value_of("model");
-  if (!exponent.is_number() || !model.is_string()) return {};
-  return GridHead{exponent.get<double>(),
-                  head.find(section_key) != std::string_view::npos ? Section::square : Section::tube,
-                  model.get<std::string>()};
 }
 
 GridContent grid_from_bytes(std::string_view bytes, const std::string& name) {

@@ -67,13 +67,15 @@ std::vector<double> computed_radii_um(const TableSpec& spec) {
   std::vector<double> radii;
   for (const double at :
        chebyshev_points(radius_coordinate(first_um / h), radius_coordinate(last_um / h), spec.computed_radii.value()))
-    radii.push_back(h * (beyond_wall - std::exp(-at)));
+    radii.push_back(h * radius_ratio_at(at));
   radii.front() = first_um;
   radii.back() = last_um;
   return radii;
 }
 
 double radius_coordinate(double radius_ratio) { return -std::log(beyond_wall - radius_ratio); }
+
+double radius_ratio_at(double radius_coordinate) { return beyond_wall - std::exp(-radius_coordinate); }
 
 std::vector<BranchPlace> sweep_places(const TableSpec& spec) {
   std::vector<BranchPlace> places;

@@ -68,6 +68,8 @@ std::vector<double> computed_radii_um(const TableSpec&);
 /// Over which cells of a square channel vary smoothly up to the largest: where the gap to the wall closes it is nearly
 /// the gap's logarithm. For r0 / h.
 double radius_coordinate(double radius_ratio);
+/// Its inverse.
+double radius_ratio_at(double radius_coordinate);
 
 /// All branches of the sweep: radius by radius within each share, share by share within each tension of the cortex, and
 /// that within each axial tension. Cells without a cortex have no tension of it: they stand once, with the first one.

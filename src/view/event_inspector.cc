@@ -156,17 +156,22 @@ void add_modulus(const EventBlock& block, Json& j) {
   j["elongated"] = has_shape && block.shape[0].is_elongated();
   j["odd_share"] = number_or_null(has_shape ? block.shape[0].odd_share : NAN);
   j["mode_3"] = number_or_null(first_of(block.mode_3));
-  j["young_modulus_asymmetry_kPa"] = number_or_null(first_of(block.asymmetry_kPa));
-  j["standard_error_asymmetry_kPa"] = number_or_null(first_of(block.asymmetry_error_kPa));
-  j["systematic_error_asymmetry_kPa"] = number_or_null(first_of(block.asymmetry_systematic_kPa));
+  const ElongationBlock& drawn = block.elongation;
+  j["young_modulus_elongated_kPa"] = number_or_null(first_of(drawn.modulus_kPa));
+  j["standard_error_elongated_kPa"] = number_or_null(first_of(drawn.standard_error_kPa));
+  j["elongation"] = number_or_null(first_of(drawn.elongation));
+  j["elongation_error"] = number_or_null(first_of(drawn.elongation_error));
+  j["axial_tension_Pa"] = number_or_null(first_of(drawn.axial_tension_Pa));
+  j["axial_tension_error_Pa"] = number_or_null(first_of(drawn.axial_tension_error_Pa));
   j["viscosity_mPas"] = number_or_null(block.viscosity_mPas[0]);
-  const double share = first_of(block.asymmetry_systematic_kPa) / first_of(block.asymmetry_kPa);
-  if (!has_shape || !block.shape[0].is_elongated() || !(share > 0)) return;
+  const double modulus = first_of(drawn.modulus_kPa), tension = first_of(drawn.axial_tension_Pa);
+  if (!has_shape || !block.shape[0].is_elongated() || !std::isfinite(modulus)) return;
   const std::string on_state(sentence_of(block.state[0]));
   j["sentence"] = fmt::format(
-      "{}{}The cell is longer along the flow than those of the table; if it is a solid that is drawn out, its modulus "
-      "from deformation is too low, that from the asymmetry too high by {:.0f} % of itself.",
-      on_state, on_state.empty() ? "" : " ", 100 * share);
+      "{}{}The cell is longer along the flow than those of the table, so that its modulus from deformation is too low; "
+      "a "
+      "solid that a tension of {:.0f} Pa draws out has such a shape with {:.3g} kPa.",
+      on_state, on_state.empty() ? "" : " ", tension, modulus);
 }
 
 }  // namespace
@@ -219,7 +224,7 @@ Json EventInspector::inspect(std::size_t event) {
   for (const char* feature : {"image", "mask"})
     if (const auto size = recording_.image_size(feature))
       j["image_size"] = {{"width", size->width}, {"height", size->height}};
-  for (const char* key : {"young_modulus_kPa", "standard_error_kPa", "shape_excess", "young_modulus_asymmetry_kPa",
+  for (const char* key : {"young_modulus_kPa", "standard_error_kPa", "shape_excess", "young_modulus_elongated_kPa",
                           "outline", "model", "combined", "case"})
     j[key] = nullptr;
   const Eigen::MatrixX2d points = outline(event);

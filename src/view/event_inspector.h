@@ -34,7 +34,7 @@ class EventInspector {
   ~EventInspector();
 
   /// {"event", "features", "young_modulus_kPa", "standard_error_kPa", "state", "sentence", "shape_excess",
-  /// "young_modulus_asymmetry_kPa", "viscosity_mPas", "pixel_um", "image_size", "outline", "model", "combined", "case",
+  /// "young_modulus_elongated_kPa", "viscosity_mPas", "pixel_um", "image_size", "outline", "model", "combined", "case",
   /// ...}, with the numbers that `rheocyte extract` with these options gives for this event; what is not known is null.
   /// Lengths in um in the frame of the picture: x along its rows, y down, from its corner. UserError: no such event,
   /// damaged data.

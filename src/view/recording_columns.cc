@@ -22,7 +22,12 @@ constexpr std::array roles{"state",
                            "standard error",
                            "young_modulus_asymmetry",
                            "standard error asymmetry",
-                           "systematic error asymmetry",
+                           "young_modulus_inertia",
+                           "standard error inertia",
+                           "elongation",
+                           "elongation error",
+                           "axial_tension",
+                           "axial tension error",
                            "shape_excess",
                            "odd_share"};
 

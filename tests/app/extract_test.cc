@@ -109,7 +109,7 @@ TEST_F(Extract, RedCellsDoNotTellInWhichDirectionTheOthersMove) {
   }
   const auto ended = test::run({{RHEOCYTE, "extract", path("v.rtdc")}});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("E from the asymmetry of 10 events"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("E by the outlines of 10 events"), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("10 events have inertia ratios above 2"), std::string::npos) << ended.out;
 }
 

@@ -338,7 +338,7 @@ TEST_F(OwnTable, ModuliComeBackAndIntervalsHoldWhatTheyPromise) {
   }
 }
 
-TEST_F(OwnTable, AnAddedEllipseIsToldAndLeavesTheModulusFromTheAsymmetryAlone) {
+TEST_F(OwnTable, AnAddedEllipseIsTold) {
   write_closed_table("table");
   for (const double ellipse : {0.0, 0.1}) {
     test::write_file(folder_ / "spec.toml",
@@ -354,16 +354,8 @@ TEST_F(OwnTable, AnAddedEllipseIsToldAndLeavesTheModulusFromTheAsymmetryAlone) {
                                           : "the shapes are those of the model, neo-Hookean solids in the tube";
     EXPECT_NE(ended.out.find(words), std::string::npos) << ended.out;
     EXPECT_NE(ended.out.find("seen at one place"), std::string::npos) << ended.out;
-    const auto name =
-        Recording(folder_ / "v_rheocyte.rtdc").metadata().text("user:rheocyte young_modulus_asymmetry").value_or("");
-    const auto found = column(folder_ / "v_rheocyte.rtdc", name), truth = column(folder_ / "v.rtdc", "userdef2");
-    std::vector<double> bias;
-    for (std::size_t i = 0; i < found.size(); ++i)
-      if (std::isfinite(found[i])) bias.push_back(found[i] / truth[i] - 1);
-    ASSERT_GT(bias.size(), 250U) << ended.out;
-    std::ranges::nth_element(bias, bias.begin() + static_cast<std::ptrdiff_t>(bias.size() / 2));
-    // Without the ellipse as good as the fitted law of the pixels; products of modes move c_3 by a few percent with it.
-    EXPECT_NEAR(bias[bias.size() / 2], 0, ellipse > 0 ? 0.05 : 0.03) << ellipse;
+    // A table of the tube has no elongated cells.
+    EXPECT_NE(ended.out.find("there is no table of elongated cells for this channel"), std::string::npos) << ended.out;
   }
 }
 

@@ -40,11 +40,9 @@ TEST(ShapeVerdict, TheModelIsNamedAndNoFactorIs) {
             std::string::npos)
       << v.text();
   EXPECT_NE(v.text().find("from deformation are too low, see"), std::string::npos) << v.text();
-  v.with_asymmetry = 30;
-  EXPECT_NE(v.text().find("too low, those from the asymmetry too high, see"), std::string::npos) << v.text();
   EXPECT_EQ(v.text().find("factor"), std::string::npos) << v.text();
   v.modulus_ratio = 1.2;
-  EXPECT_NE(v.text().find("not below those from the asymmetry: are pixel size"), std::string::npos) << v.text();
+  EXPECT_NE(v.text().find("not below those of elongated cells: are pixel size"), std::string::npos) << v.text();
   v.excess.value = 0.005;
   EXPECT_NE(v.text().find("those of the model, neo-Hookean solids in the square channel ("), std::string::npos);
 }
@@ -60,19 +58,50 @@ TEST(ShapeVerdict, CellsOfAnotherTableAreNotAccused) {
   EXPECT_EQ(v.fit(), ShapeVerdict::Fit::model) << "the table that is used comes first";
 }
 
-TEST(ShapeVerdict, TheModulusFromTheAsymmetryIsToldWithItsOneSidedError) {
-  const std::vector<ShapeExcess> excesses(30, {1, 0.2, 0.01, 0.3});
-  const std::vector<double> ratio(30, 1.2), deformation(30, 0.02), modulus(30, 1), asymmetry(30, 2.5),
-      systematic(30, 0.6);
+/// Thirty cells with moduli as of elongated ones, whose c_4 and c_5 are beyond those of solids by so much.
+ShapeVerdict elongated_verdict(double mode_4, double mode_5, double excess = 0.2) {
+  const std::vector<ShapeExcess> excesses(30, {1, excess, 0.01, 0.3});
+  const std::vector<double> ratio(30, 1 + excess), deformation(30, 0.02), modulus(30, 1), elongated(30, 2.5),
+      error(30, 0.1), elongation(30, 1.2), tension(30, 250), fourth(30, mode_4), fifth(30, mode_5);
   ShapeTally tally;
-  tally.take({excesses, ratio, {}, deformation, {}, {}, modulus, asymmetry, systematic});
-  const ShapeVerdict v = tally.verdict();
+  tally.take({.excess = excesses,
+              .inertia_ratio = ratio,
+              .area_um2 = {},
+              .deformation = deformation,
+              .mode_3 = {},
+              .x_um = {},
+              .modulus_kPa = modulus,
+              .elongation = {elongated, error, elongation, error, tension, error},
+              .mode_4_excess = fourth,
+              .mode_5_excess = fifth});
+  ShapeVerdict verdict = tally.verdict();
+  verdict.by_deformation_kPa = 1;
+  return verdict;
+}
+
+TEST(ShapeVerdict, TheModulusOfElongatedCellsIsToldAndRecommended) {
+  const ShapeVerdict v = elongated_verdict(0.002, -0.003);
   EXPECT_NEAR(v.modulus_ratio, 0.4, 1e-6);  // kept in single precision
-  EXPECT_EQ(v.with_asymmetry, 30u);
-  EXPECT_NEAR(v.asymmetry_bias, 0.24, 1e-6);
+  EXPECT_EQ(v.with_elongation, 30u);
+  EXPECT_NEAR(v.axial_tension_Pa.value, 250, 1e-3);
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
   const auto lines = shape_lines(v);
   ASSERT_FALSE(lines.empty());
-  EXPECT_NE(lines.back().find("it is too high, by 24 % of itself"), std::string::npos) << lines.back();
+  EXPECT_NE(lines.back().find("report E = 2.5 kPa"), std::string::npos) << lines.back();
+  EXPECT_NE(lines.back().find("a tension of 250 Pa"), std::string::npos) << lines.back();
+}
+
+TEST(ShapeVerdict, CellsOfTheModelAreReportedByTheirDeformation) {
+  const ShapeVerdict v = elongated_verdict(0, 0, 0.005);
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation);
+  EXPECT_NE(v.recommended_text().find("report E = 1 kPa"), std::string::npos) << v.recommended_text();
+}
+
+TEST(ShapeVerdict, OutlinesOfCellsWithACortexHaveNoModulusOfASolid) {
+  for (const ShapeVerdict& v : {elongated_verdict(-0.025, 0), elongated_verdict(0, 0.02)}) {
+    EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::none);
+    EXPECT_NE(v.recommended_text().find("use `rheocyte moduli`"), std::string::npos) << v.recommended_text();
+  }
 }
 
 TEST(ShapeVerdict, TheErrorOfTheMedianIsThatOfItsRobustScatter) {

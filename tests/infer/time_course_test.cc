@@ -12,7 +12,7 @@
 
 #include "../table/invented_dynamic.h"
 #include "case/channel_flow.h"
-#include "infer/added_ellipse.h"
+#include "infer/elongation_law.h"
 #include "numeric/cell_random.h"
 
 namespace rheocyte::time_course_test {
@@ -94,8 +94,8 @@ TEST(TimeCourse, APopulationOfEqualCellsHasAnIntervalThatHoldsThem) {
 CourseImage with_ellipse(CourseImage image, double mode_2_of_table, double half_width, double ellipse) {
   const CourseImage bare = image;
   for (int i = 0; i < 20; ++i) {
-    const auto change = without_ellipse({Packet::Constant(ellipse), Packet::Constant(std::abs(image.mode_3)),
-                                         Packet::Constant(std::log(image.area_um2 / (half_width * half_width)))});
+    const auto change = without_elongation({Packet::Constant(ellipse), Packet::Constant(std::abs(image.mode_3)),
+                                            Packet::Constant(std::log(image.area_um2 / (half_width * half_width)))});
     image.mode_3 = bare.mode_3 * std::exp(-change.log_mode_3[0]);
     image.area_um2 = bare.area_um2 * std::exp(-change.log_area[0]);
   }

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "invented_branch.h"
-#include "table/grid_by_asymmetry.h"
 #include "table/grid_from_branches.h"
 
 namespace rheocyte::shape_grid_test {
@@ -40,31 +39,6 @@ TEST_F(ShapesOfATable, KnowTheNearestCellOutsideAndTheCircleBelow) {
   EXPECT_TRUE(std::isnan(shapes_.inertia_ratio(NAN, 0.01)));
   EXPECT_TRUE(shapes_.has_area(std::log(77.7)));
   EXPECT_FALSE(shapes_.has_area(std::log(20.0)));
-}
-
-TEST_F(ShapesOfATable, TheModulusIsTheSameFromDeformationAndFromAsymmetry) {
-  const auto grids = grids_by_asymmetry(grid_, shapes_).value();
-  const StiffnessGrid by_asymmetry(grids.stiffness), mode_2(grids.mode_2);
-  for (const double area : {31.0, 77.7, 150.0, 280.0})
-    for (const double d : {1e-4, 0.0123, 0.09}) {
-      const auto answer = by_asymmetry.answer(area, invented_asymmetry(d));
-      ASSERT_EQ(answer.reason, NoAnswer::none) << area << " " << d;
-      // d ln E / d ln c_3 is about -1, and c_3 is known to 1e-3.
-      EXPECT_NEAR(std::exp(answer.log_stiffness) / invented_modulus(area, d), 1, 2e-3) << area << " " << d;
-      EXPECT_NEAR(mode_2.answer(area, invented_asymmetry(d)).log_stiffness, invented_mode_2(d), 2e-3 * d) << d;
-    }
-}
-
-TEST_F(ShapesOfATable, AsymmetriesOutsideTheTableHaveNoModulus) {
-  const StiffnessGrid by_asymmetry(grids_by_asymmetry(grid_, shapes_).value().stiffness);
-  EXPECT_EQ(by_asymmetry.answer(77.7, 0).reason, NoAnswer::too_stiff);
-  EXPECT_EQ(by_asymmetry.answer(77.7, 0.5).reason, NoAnswer::too_soft);
-}
-
-TEST_F(ShapesOfATable, WithoutAsymmetryThereIsNoGridOfIt) {
-  ShapeNodes round = shapes_.nodes();
-  for (double& value : round.modes[1]) value = 0;
-  EXPECT_FALSE(grids_by_asymmetry(grid_, ShapeGrid(round)));
 }
 
 TEST_F(ShapesOfATable, SurviveTheFile) {

@@ -184,7 +184,7 @@ TEST(SquareChannelSlow, StatesOfABranchAreThoseOfTheCellsThemselves) {
   Problem problem = newtonian_cell(0.4, 0.15);
   problem.accuracy = 0.05;
   const std::vector heights{0.6, 1.0};
-  const DuctBranch branch = follow_in_duct(problem, softening(problem), 0.01, heights);
+  const DuctBranch branch = follow_in_duct(problem, softening(problem), {.max_deformation = 0.01, .heights = heights});
   EXPECT_EQ(branch.end, Status::converged);
   ASSERT_EQ(branch.states.size(), heights.size());
   EXPECT_NEAR(branch.states[1].shape.deformation / 0.01, 1, 0.1);
@@ -207,7 +207,7 @@ TEST(SquareChannelSlow, AlongABranchWhatDoesNotSoftenStaysAsItIs) {
     at.bulk.shear_modulus /= compliance;
     return at;
   };
-  const DuctBranch branch = follow_in_duct(problem, media, 0.01, std::array{0.6, 1.0});
+  const DuctBranch branch = follow_in_duct(problem, media, {.max_deformation = 0.01, .heights = {0.6, 1}});
   ASSERT_EQ(branch.states.size(), 2);
   Problem one = problem;
   static_cast<Media&>(one) = media(branch.states[1].outcome.reached);
@@ -222,7 +222,7 @@ TEST(SquareChannelSlow, AlongABranchWhatDoesNotSoftenStaysAsItIs) {
 TEST(SquareChannel, ABranchMayEndBeforeTheFirstStepOfAWayWould) {
   Problem problem = newtonian_cell(0.6, 1);
   problem.accuracy = 0.05;
-  const DuctBranch branch = follow_in_duct(problem, softening(problem), 1e-4, std::array{0.5, 1.0});
+  const DuctBranch branch = follow_in_duct(problem, softening(problem), {.max_deformation = 1e-4, .heights = {0.5, 1}});
   ASSERT_EQ(branch.end, Status::converged);
   ASSERT_EQ(branch.states.size(), 2);
   EXPECT_NEAR(branch.states[1].shape.deformation, 1e-4, 1e-5);
@@ -232,7 +232,7 @@ TEST(SquareChannel, ABranchEndsWhereItsSurfaceIsAsNearToTheLimitAsItMayBe) {
   Problem problem = newtonian_cell(0.6, 1);
   problem.accuracy = 0.05;
   constexpr double least_margin = 0.6;
-  const DuctBranch branch = follow_in_duct(problem, softening(problem), 0.05, std::array{1.0}, least_margin);
+  const DuctBranch branch = follow_in_duct(problem, softening(problem), {0.05, least_margin, {1}});
   EXPECT_EQ(branch.end, Status::surface_unstable);
   ASSERT_EQ(branch.states.size(), 1);
   EXPECT_GT(branch.states[0].stability_margin, least_margin);
@@ -245,14 +245,14 @@ TEST(SquareChannelSlow, ABranchEndsWhereHigherDegreesHaveNoStableState) {
   problem.liquid = {.law = LiquidLaw::power_law, .exponent = 0.5149};
   problem.bulk.shear_modulus = 1e3 / 3 / (1.4936 * std::pow(mean_velocity / half_width_m, problem.liquid.exponent));
   problem.accuracy = 2e-3;
-  const DuctBranch bare = follow_in_duct(problem, softening(problem), 0.06, std::array{1.0});
+  const DuctBranch bare = follow_in_duct(problem, softening(problem), {.max_deformation = 0.06, .heights = {1}});
   EXPECT_EQ(bare.end, Status::surface_unstable);
   ASSERT_EQ(bare.states.size(), 1);
   EXPECT_LT(bare.states[0].shape.deformation, 0.058);
   EXPECT_GT(bare.states[0].stability_margin, 0);
   EXPECT_LT(bare.states[0].estimated_error, problem.accuracy);
   problem.cortex.bending = 3e-5 * 3 * problem.bulk.shear_modulus * std::pow(problem.radius_ratio, 3);
-  const DuctBranch held = follow_in_duct(problem, softening(problem), 0.06, std::array{1.0});
+  const DuctBranch held = follow_in_duct(problem, softening(problem), {.max_deformation = 0.06, .heights = {1}});
   EXPECT_EQ(held.end, Status::converged);
   ASSERT_EQ(held.states.size(), 1);
   EXPECT_GT(held.states[0].shape.deformation, 0.06);

@@ -15,9 +15,10 @@ COLOURS = {"elongated": ELONGATED, "model": OF_THE_MODEL, "doubtful": DOUBTFUL, 
 WANTED = ["recording", "shapes", "inertia_ratio_median", "inertia_ratio_expected", "shape_excess_median",
           "shape_excess_median_error", "elongated_percent", "odd_share_median", "red_cells", "deformation_change",
           "deformation_change_error", "young_modulus_median_kPa", "young_modulus_first_quartile_kPa",
-          "young_modulus_third_quartile_kPa", "young_modulus_asymmetry_median_kPa",
-          "young_modulus_asymmetry_first_quartile_kPa", "young_modulus_asymmetry_third_quartile_kPa",
-          "deformation_over_asymmetry_modulus", "with_asymmetry", "shapes_text", "trend_text", "remarks"]
+          "young_modulus_third_quartile_kPa", "young_modulus_elongated_median_kPa",
+          "young_modulus_elongated_first_quartile_kPa", "young_modulus_elongated_third_quartile_kPa",
+          "deformation_over_elongated_modulus", "with_elongation", "recommended_modulus",
+          "recommended_young_modulus_median_kPa", "axial_tension_median_Pa", "shapes_text", "trend_text", "remarks"]
 
 
 def make(laboratory):
@@ -54,7 +55,7 @@ def label(row):
 
 
 def draw(rows):
-    """Measured and expected inertia ratios, and moduli from deformation and from asymmetry."""
+    """Measured and expected inertia ratios, and moduli from deformation and as of elongated cells."""
     figure = style.new_figure(1.1 + 0.24 * len(rows), layout="constrained")
     ratios, moduli = figure.subplots(1, 2, sharey=True)
     places = np.arange(len(rows))[::-1]
@@ -64,7 +65,7 @@ def draw(rows):
         ratios.plot([expected, measured], [place, place], color=colour, linewidth=0.8)
         ratios.plot(expected, place, "o", markerfacecolor="white", color=colour, markersize=4)
         ratios.plot(measured, place, "o", color=colour, markersize=4)
-        for name, offset, face in (("young_modulus", 0.12, "white"), ("young_modulus_asymmetry", -0.12, colour)):
+        for name, offset, face in (("young_modulus", 0.12, "white"), ("young_modulus_elongated", -0.12, colour)):
             low, middle, high = (value(row, f"{name}_{part}_kPa") for part in ("first_quartile", "median",
                                                                                "third_quartile"))
             moduli.plot([low, high], [place + offset] * 2, color=colour, linewidth=1)
@@ -73,7 +74,7 @@ def draw(rows):
     ratios.set(title="a   inertia ratio: ○ expected, ● measured", xlabel="inertia ratio",
                ylim=(-0.7, len(rows) - 0.3))
     ratios.axvline(1, color="#9aa3ab", linewidth=0.6, zorder=0)
-    moduli.set(title="b   from □ deformation, ■ asymmetry", xlabel="Young's modulus (kPa), median and quartiles",
+    moduli.set(title="b   from □ deformation, ■ elongated cells", xlabel="Young's modulus (kPa), median and quartiles",
                xscale="log")
     moduli.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     moduli.xaxis.set_major_formatter(FuncFormatter(lambda kPa, _: f"{kPa:g}"))

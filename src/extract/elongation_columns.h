@@ -1,0 +1,46 @@
+// What is said about events by a table of elongated cells: the columns of files, of Python and of the view.
+#pragma once
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "infer/elongated_solids.h"
+
+namespace rheocyte {
+
+/// One value per event of a block, NaN without a modulus; all empty without a table of elongated cells.
+struct ElongationBlock {
+  std::span<const double> modulus_kPa, standard_error_kPa, elongation, elongation_error, axial_tension_Pa,
+      axial_tension_error_Pa;
+};
+
+struct ElongationColumn {
+  std::string name;     ///< in text tables and Python
+  std::string role;     ///< in companions, which have the name that is free
+  std::string unit;     ///< empty for a pure number
+  std::string meaning;  ///< in one line
+  std::span<const double> ElongationBlock::*values;
+};
+
+/// In their order; the modulus is named by what tells it.
+std::vector<ElongationColumn> elongation_columns(ElongatedBy by);
+
+/// The values of a block, to be computed.
+struct ElongationValues {
+  std::vector<double> modulus_kPa, standard_error_kPa, elongation, elongation_error, axial_tension_Pa,
+      axial_tension_error_Pa;
+  std::vector<ModulusState> states;
+  std::vector<ElongatedCell> cells;
+
+  void assign(std::size_t count);
+  ElongatedEstimates estimates();
+  ElongationBlock block() const;
+  /// An event without a modulus has none of the numbers.
+  void forget(std::size_t event);
+
+ private:
+  std::array<std::vector<double>*, 6> all();
+};
+
+}  // namespace rheocyte
