@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extract/shape_verdict.h"
+#include "extract/direction_of_cells.h"
+#include "measurement/contour_tilt.h"
 #include "measurement/shape_source.h"
 #include "numeric/no_value.h"
 
@@ -12,9 +13,6 @@ namespace rheocyte {
 namespace {
 
 constexpr const char* stored_ratio = "inert_ratio_cvx";
-constexpr std::size_t outlines_looked_at = 1024, at_a_time = 64;  // events, for the direction
-
-double inertia_ratio(const HullAsymmetry& hull) { return 1 / std::sqrt(hull.moment_ratio); }
 
 }  // namespace
 
@@ -38,48 +36,35 @@ EventShapes::EventShapes(const Recording& recording, const MeasuringConditions& 
   const bool has_outlines = ShapeSource::has_outlines(recording), has_ratio = recording.has_scalar(stored_ratio);
   if (has_outlines && ((with_asymmetry && map->has_asymmetry()) || !has_ratio)) {
     outlines_.emplace(recording, conditions.pixel_size_um > 0 ? conditions.pixel_size_um : 1);
-    find_direction();
+    direction_ = direction_of_cells(*outlines_, map->sign_of_asymmetry());
   }
   inertia_ratio_from_ = has_ratio ? stored_ratio : recording.has_contours() ? "contour" : "mask";
   if (!has_outlines)
     missing_ = "the recording has neither contours nor masks: there are no moduli from the asymmetry of the outlines.";
 }
 
-void EventShapes::find_direction() {
-  const std::size_t events = recording_.events(), pieces = std::min(outlines_looked_at, events) / at_a_time + 1;
-  double sum = 0, squares = 0, count = 0;
-  for (std::size_t piece = 0; piece < pieces; ++piece) {
-    const std::size_t first = piece * events / pieces, last = std::min(first + at_a_time, events);
-    for (std::size_t event = first; event < last; ++event) {
-      const HullAsymmetry hull = asymmetry(event, nullptr);
-      const double c = hull.mode_3;
-      if (!(std::abs(c) < 0.3) || inertia_ratio(hull) > max_inertia_ratio_of_cells) continue;  // no cell, or a red one
-      sum += c;
-      squares += c * c;
-      ++count;
-    }
-  }
-  if (count < 2) return;
-  const double mean = sum / count, error = std::sqrt(std::max(0.0, squares / count - mean * mean) / count);
-  if (std::abs(mean) > 2 * error) direction_ = mean * map_->sign_of_asymmetry() > 0 ? 1 : -1;
-}
-
-HullAsymmetry EventShapes::asymmetry(std::size_t event, ContourFeatures* measured) {
-  const PixelContour contour = outlines_->outline(event);
+HullAsymmetry EventShapes::asymmetry(const PixelContour& contour, ContourFeatures* measured) {
   if (measured) *measured = measurer_.measure(contour, measured_pixel_um_);
-  if (contour.size() < fewest_outline_points) return {no_value, no_value, no_value};
+  if (contour.size() < fewest_outline_points) return {};
   return hull_asymmetry(measured ? measurer_.hull() : measurer_.find_hull(contour));
 }
 
 void EventShapes::read_outlines(std::size_t first, ShapeColumns& columns) {
   const int direction = direction_ < 0 ? -1 : 1;
-  const bool stored = inertia_ratio_from_ == stored_ratio;
+  const bool stored = inertia_ratio_from_ == stored_ratio, has_y = recording_.has_scalar("pos_y");
   for (std::size_t i = 0; i < columns.mode_3.size(); ++i) {
-    const HullAsymmetry hull = asymmetry(first + i, measured_pixel_um_ > 0 ? &columns.outlines[i] : nullptr);
+    const PixelContour contour = outlines_->outline(first + i);
+    const HullAsymmetry hull = asymmetry(contour, measured_pixel_um_ > 0 ? &columns.outlines[i] : nullptr);
     columns.mode_2[i] = hull.mode_2;
     columns.mode_3[i] = direction * hull.mode_3;
-    if (!stored) columns.inertia_ratio[i] = inertia_ratio(hull);
+    columns.mode_4[i] = hull.mode_4;
+    columns.tilt[i] = contour_tilt(contour, measurer_.hull(), hull.sine_modes, direction, outlines_->picture());
+    if (!stored) columns.inertia_ratio[i] = hull.inertia_ratio();
+    if (!has_y)
+      columns.y_um[i] =
+          std::isfinite(hull.mode_3) ? conditions_.pixel_size_um * measurer_.hull().moments().y : no_value;
   }
+  if (has_y) recording_.read_scalar("pos_y", first, columns.y_um);
 }
 
 void EventShapes::compute(std::size_t first, const MeasuredEvents& events, ShapeColumns& c) {
@@ -96,7 +81,8 @@ void EventShapes::compute(std::size_t first, const MeasuredEvents& events, Shape
   if (recording_.has_scalar("pos_x")) recording_.read_scalar("pos_x", first, c.x_um);
   if (inertia_ratio_from_ == stored_ratio) recording_.read_scalar(stored_ratio, first, c.inertia_ratio);
   if (outlines_) {
-    for (auto* column : {&c.mode_2, &c.mode_3}) column->resize(count);
+    for (auto* column : {&c.mode_2, &c.mode_3, &c.mode_4, &c.y_um}) column->resize(count);
+    c.tilt.resize(count);
     for (auto* column : {&c.modulus_kPa, &c.standard_error_kPa, &c.systematic_error_kPa})
       column->assign(count, no_value);
     if (measured_pixel_um_ > 0) c.outlines.resize(count);

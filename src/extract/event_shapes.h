@@ -15,6 +15,8 @@ namespace rheocyte {
 struct ShapeColumns {
   std::vector<double> inertia_ratio, x_um;  ///< NaN where unknown
   std::vector<double> mode_2, mode_3;       ///< of a cell that moves towards +x; empty without contours and masks
+  std::vector<double> mode_4, y_um;         ///< likewise; y is pos_y, or that of the outline where it is not stored
+  std::vector<OutlineTilt> tilt;            ///< likewise; NaN of outlines that are cut by the border or too small
   std::vector<ShapeExcess> excess;
   /// From the asymmetry, its standard error, and by how much it may be too high; empty without contours and masks.
   std::vector<double> modulus_kPa, standard_error_kPa, systematic_error_kPa;
@@ -48,10 +50,9 @@ class EventShapes {
   void compute(std::size_t first, const MeasuredEvents& events, ShapeColumns& columns);
 
  private:
-  void find_direction();
   void read_outlines(std::size_t first, ShapeColumns& columns);
-  /// NaN where there is no cell. The features are told, too, if `measured` is given.
-  HullAsymmetry asymmetry(std::size_t event, ContourFeatures* measured);
+  /// NaN where there is no cell. The features are told, too, if `measured` is given. The hull is that of the measurer.
+  HullAsymmetry asymmetry(const PixelContour& contour, ContourFeatures* measured);
 
   const Recording& recording_;
   MeasuringConditions conditions_;

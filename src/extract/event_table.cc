@@ -34,6 +34,19 @@ char* put_shape(char* at, const ShapeExcess& shape) {
   return put_number(at, shape.odd_share);
 }
 
+char* put_asymmetry(char* at, const EventBlock& block, std::size_t i) {
+  for (const double number :
+       {block.mode_3[i], block.asymmetry_kPa[i], block.asymmetry_error_kPa[i], block.asymmetry_systematic_kPa[i]}) {
+    *at++ = '\t';
+    at = put_number(at, number);
+  }
+  for (const TiltFeature& feature : tilt_features()) {
+    *at++ = '\t';
+    at = put_number(at, block.tilt[i].*feature.value);
+  }
+  return at;
+}
+
 }  // namespace
 
 std::string_view mark_of_events(const std::filesystem::path& file) {
@@ -54,8 +67,10 @@ EventTable::EventTable(const std::filesystem::path& file, const std::vector<std:
   if (columns_.errors) text_ += "standard_error_kPa\t";
   text_ += "state";
   if (columns_.shapes) text_ += "\tshape_excess\tshape_excess_error\telongated\todd_share";
-  if (columns_.asymmetry)
+  if (columns_.asymmetry) {
     text_ += "\tmode_3\tyoung_modulus_asymmetry_kPa\tstandard_error_asymmetry_kPa\tsystematic_error_asymmetry_kPa";
+    for (const TiltFeature& feature : tilt_features()) text_.append("\t").append(feature.name);
+  }
   text_ += '\n';
   text_ += commented(remarks);
   write_out();
@@ -82,12 +97,7 @@ void EventTable::append(const EventBlock& block) {
     *at++ = '\t';
     for (const char c : name_of(block.state[i])) *at++ = c == ' ' ? '_' : c;
     if (columns_.shapes) at = put_shape(at, block.shape[i]);
-    if (columns_.asymmetry)
-      for (const double number :
-           {block.mode_3[i], block.asymmetry_kPa[i], block.asymmetry_error_kPa[i], block.asymmetry_systematic_kPa[i]}) {
-        *at++ = '\t';
-        at = put_number(at, number);
-      }
+    if (columns_.asymmetry) at = put_asymmetry(at, block, i);
     *at++ = '\n';
     text_.append(line, at);
   }

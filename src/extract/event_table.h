@@ -9,6 +9,7 @@
 #include "infer/modulus_state.h"
 #include "infer/shape_excess.h"
 #include "measurement/contour_features.h"
+#include "shape/outline_tilt.h"
 #include "store/file_writer.h"
 
 namespace rheocyte {
@@ -23,6 +24,7 @@ struct EventBlock {
   /// Young's modulus from the asymmetry, its standard error, and by how much it may be too high.
   std::span<const double> asymmetry_kPa, asymmetry_error_kPa, asymmetry_systematic_kPa;
   std::span<const ContourFeatures> outlines;  ///< empty unless they are measured, too
+  std::span<const OutlineTilt> tilt;          ///< empty without contours and masks
 };
 
 /// Columns beside those that every table of events has.

@@ -91,7 +91,8 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
           s.modulus_kPa,
           s.standard_error_kPa,
           s.systematic_error_kPa,
-          s.outlines};
+          s.outlines,
+          s.tilt};
 }
 
 void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events) {
@@ -124,6 +125,7 @@ ExtractSummary Extraction::summary() {
   s.shapes = shape_tally_.verdict();
   s.shapes.inertia_ratio_from = event_shapes_.inertia_ratio_from();
   s.shapes.direction = event_shapes_.direction();
+  s.shapes.beside_axis = shape_tally_.beside_axis(s.shapes.direction, settings_.conditions.flow);
   s.shapes.missing = event_shapes_.missing();
   if (const ShapeMap* const map = event_shapes_.map()) s.shapes.model = map->origin().cells();
   s.shapes.made_of = made_of();
@@ -206,7 +208,7 @@ void Extraction::collect() {
   }
   const ShapeColumns& s = columns_.shapes;
   shape_tally_.take({s.excess, s.inertia_ratio, columns_.area, columns_.deformation, s.mode_3, s.x_um, columns_.modulus,
-                     s.modulus_kPa, s.systematic_error_kPa});
+                     s.modulus_kPa, s.systematic_error_kPa, s.mode_4, s.y_um, s.tilt});
 }
 
 void Extraction::count_inertial(double viscosity_mPas) {

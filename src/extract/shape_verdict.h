@@ -7,9 +7,11 @@
 #include <tuple>
 #include <vector>
 
+#include "extract/beside_axis.h"
 #include "extract/distribution.h"
 #include "infer/shape_excess.h"
 #include "numeric/no_value.h"
+#include "shape/outline_tilt.h"
 
 namespace rheocyte {
 
@@ -60,19 +62,21 @@ struct ShapeVerdict {
   double inertia_ratio = 0, expected_inertia_ratio = 0, odd_share = 0;  ///< medians
   double seen_um = 0;  ///< along the channel, 5 % to 95 % of the events; NaN without pos_x
   Trend inertia_ratio_trend, deformation_trend, asymmetry_trend;
+  Trend mode_4_trend;
   int direction = 0;                 ///< in which the cells move: along +x or -x; 0 if that is unknown
   Distribution asymmetry_kPa;        ///< Young's moduli from the asymmetry
   std::size_t with_asymmetry = 0;    ///< events that have one
   double modulus_ratio = 0;          ///< median of E from deformation / E from asymmetry; NaN if unknown
   double asymmetry_bias = no_value;  ///< median share by which E from asymmetry may be too high (asymmetry_bias.h)
+  BesideAxis beside_axis;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.judged, s.elongated, s.red_cells, s.missing, s.inertia_ratio_from, s.model, s.made_of, s.other,
                     s.excess, s.inertia_ratio, s.expected_inertia_ratio, s.odd_share, s.seen_um, s.inertia_ratio_trend,
-                    s.deformation_trend, s.asymmetry_trend, s.direction, s.asymmetry_kPa, s.with_asymmetry,
-                    s.modulus_ratio, s.asymmetry_bias);
+                    s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction, s.asymmetry_kPa,
+                    s.with_asymmetry, s.modulus_ratio, s.asymmetry_bias, s.beside_axis);
   }
 
   double elongated_percent() const;
@@ -81,7 +85,8 @@ struct ShapeVerdict {
   Fit fit() const;
   /// In one sentence.
   std::string text() const;
-  /// "settled", "still changing", or why that is unknown, with numbers.
+  /// "settled", "still changing", or why that is unknown, with numbers; of an asymmetry that changes, whether cells
+  /// that approach the axis explain it.
   std::string trend_text() const;
 };
 
@@ -95,6 +100,8 @@ struct JudgedEvents {
   std::span<const ShapeExcess> excess;
   std::span<const double> inertia_ratio, area_um2, deformation, mode_3, x_um;
   std::span<const double> modulus_kPa, asymmetry_kPa, asymmetry_systematic_kPa;
+  std::span<const double> mode_4 = {}, y_um = {};
+  std::span<const OutlineTilt> tilt = {};
 };
 
 /// The events that were judged, one value each, as measured.
@@ -102,17 +109,19 @@ struct JudgedShapes {
   std::vector<double> inertia_ratio, area_um2, deformation;
 };
 
-/// Takes block by block; keeps 48 bytes per event.
+/// Takes block by block; keeps 64 bytes per event.
 class ShapeTally {
  public:
   void take(const JudgedEvents& events);
   /// Of all events taken so far; what the tally does not know (source, direction) is left to the caller.
   ShapeVerdict verdict() const;
+  BesideAxis beside_axis(int direction, const ChannelFlow& flow) const;
   JudgedShapes judged() const;
 
  private:
   struct Event {
     float excess, expected, inertia_ratio, odd_share, area, deformation, mode_3, x;
+    float mode_4, y, sine_mode_2, flank_slope;
   };
   std::vector<double> column(float Event::*member) const;
   std::vector<Event> events_;

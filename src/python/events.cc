@@ -28,6 +28,7 @@ struct Events {
   std::vector<std::int8_t> state, elongated;
   std::vector<double> shape_excess, shape_excess_error, odd_share, mode_3, asymmetry, asymmetry_error,
       asymmetry_systematic;
+  std::vector<OutlineTilt> tilt;
   ExtractSummary summary;
   std::vector<std::string> lines;
 
@@ -51,6 +52,7 @@ struct Events {
     add(asymmetry, b.asymmetry_kPa);
     add(asymmetry_error, b.asymmetry_error_kPa);
     add(asymmetry_systematic, b.asymmetry_systematic_kPa);
+    tilt.insert(tilt.end(), b.tilt.begin(), b.tilt.end());
   }
 };
 
@@ -105,6 +107,11 @@ Told written(const Events& e, const SharedColumns& memory) {
     write("young_modulus_asymmetry_kPa", e.asymmetry);
     write("standard_error_asymmetry_kPa", e.asymmetry_error);
     write("systematic_error_asymmetry_kPa", e.asymmetry_systematic);
+    std::vector<double> values(e.tilt.size());
+    for (const TiltFeature& feature : tilt_features()) {
+      std::ranges::transform(e.tilt, values.begin(), feature.value);
+      write(feature.name, values);
+    }
   }
   return told;
 }

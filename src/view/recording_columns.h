@@ -24,7 +24,8 @@ struct ComputedColumn {
 inline constexpr std::string_view stored_modulus_name = "emodulus_stored";
 
 /// Of a companion: emodulus, and what its metadata tells of userdef0 to userdef9: state, standard_error,
-/// young_modulus_asymmetry, standard_error_asymmetry, systematic_error_asymmetry, shape_excess, odd_share.
+/// young_modulus_asymmetry, standard_error_asymmetry, systematic_error_asymmetry, shape_excess, odd_share,
+/// sine_mode_2, flank_slope, sine_mode_3, sine_mode_4.
 std::vector<ComputedColumn> computed_columns(const Recording& companion);
 
 /// What has been computed from a recording; null: nothing.
