@@ -169,30 +169,42 @@ Pieces farthest_places(const DuctSurfaceMap& surface, const View& view, const Ve
   return result;
 }
 
+/// Points that lie farthest in so many directions in the image plane of x and `across`, from the front on.
+std::vector<Eigen::Vector2d> farthest_points(const DuctSurfaceMap& surface, const DuctPoint& across, int directions) {
+  const FarthestPlace farthest(surface);
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < directions; ++i) {
+    const double angle = std::numbers::pi * i / off_axis_pieces;
+    const DuctPoint x = surface.point(farthest(std::cos(angle) * DuctPoint::UnitX() + std::sin(angle) * across));
+    points.emplace_back(x(0), across.dot(x));
+  }
+  return points;
+}
+
 /// Their outline: parabolas with the tangents that are known at the places. Where faces of the surface meet in an edge,
 /// however blunt, neighbouring directions have the same place, and nothing lies between them.
-Contour off_axis_contour(const DuctSurfaceMap& surface, const View& view) {
-  const FarthestPlace farthest(surface);
-  const auto point = [&](const SurfacePlace& place) {
-    const DuctPoint x = surface.point(place);
-    return Eigen::Vector2d(x(0), view.across.dot(x));
-  };
-  Contour contour;
-  Eigen::Vector2d from = point(farthest(DuctPoint::UnitX()));
-  from(1) = 0;
-  for (int i = 1; i <= off_axis_pieces; ++i) {
-    const double step = std::numbers::pi / off_axis_pieces, angle = i * step;
-    Eigen::Vector2d to = point(farthest(direction_at(view, angle)));
-    if (i == off_axis_pieces) to(1) = 0;
-    const Eigen::Vector2d way = to - from, along(-std::sin(angle - step), std::cos(angle - step)),
+std::vector<CurvePiece> outline_of(const std::vector<Eigen::Vector2d>& points) {
+  constexpr double step = std::numbers::pi / off_axis_pieces;
+  std::vector<CurvePiece> outline;
+  Eigen::Vector2d from = points.front();
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double angle = double(i) * step;
+    const Eigen::Vector2d &to = points[i], way = to - from, along(-std::sin(angle - step), std::cos(angle - step)),
                           normal(std::cos(angle), std::sin(angle));
     if (way.norm() < same_place) continue;
     const Eigen::Vector2d corner = from + along * (way.dot(normal) / along.dot(normal));
-    CurvePiece& piece = contour.pieces.emplace_back(3, 2);
+    CurvePiece& piece = outline.emplace_back(3, 2);
     piece << from.transpose(), (from + 2 * corner + to).transpose() / 4, to.transpose();
     from = to;
   }
-  return contour;
+  return outline;
+}
+
+/// Half of one that is symmetric.
+Contour off_axis_contour(const DuctSurfaceMap& surface, const View& view) {
+  std::vector<Eigen::Vector2d> points = farthest_points(surface, view.across, off_axis_pieces + 1);
+  points.front()(1) = points.back()(1) = 0;
+  return {outline_of(points)};
 }
 
 Pieces silhouette(const DuctSurfaceMap& surface, const View& view, const VectorXd& along) {
@@ -252,6 +264,18 @@ Contour duct_contour(const DuctSpace& space, const VectorXd& unknowns, Camera ca
   contour.pieces.front()(0, 1) = 0;
   contour.pieces.back()(contour.pieces.back().rows() - 1, 1) = 0;
   return contour;
+}
+
+Eigen::MatrixX2d duct_offset_outline(const DuctSpace& space, const VectorXd& unknowns) {
+  const DuctSurfaceMap surface(space, unknowns);
+  const std::vector<CurvePiece> pieces =
+      outline_of(farthest_points(surface, DuctPoint::UnitY(), 2 * off_axis_pieces + 1));
+  constexpr int corners_per_piece = 8;
+  const VectorXd along = VectorXd::LinSpaced(corners_per_piece, 0, 1 - 1.0 / corners_per_piece);
+  Eigen::MatrixX2d outline(Eigen::Index(pieces.size()) * corners_per_piece, 2);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    outline.middleRows(Eigen::Index(i) * corners_per_piece, corners_per_piece) = evaluate(pieces[i], along);
+  return outline;
 }
 
 DuctMeridian duct_meridian(const DuctSpace& space, const VectorXd& unknowns, Camera camera, const VectorXd& parameters,
