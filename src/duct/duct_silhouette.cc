@@ -16,6 +16,7 @@ namespace {
 constexpr double right_angle = std::numbers::pi / 2;
 /// Of an outline that is no line of the mesh.
 constexpr int off_axis_pieces = 48;
+constexpr double direction_step = std::numbers::pi / off_axis_pieces;
 /// Of a contour's pieces at least: arcs of the sphere then are round to 1e-12.
 constexpr int contour_degree = 9;
 
@@ -174,28 +175,38 @@ std::vector<Eigen::Vector2d> farthest_points(const DuctSurfaceMap& surface, cons
   const FarthestPlace farthest(surface);
   std::vector<Eigen::Vector2d> points;
   for (int i = 0; i < directions; ++i) {
-    const double angle = std::numbers::pi * i / off_axis_pieces;
+    const double angle = i * direction_step;
     const DuctPoint x = surface.point(farthest(std::cos(angle) * DuctPoint::UnitX() + std::sin(angle) * across));
     points.emplace_back(x(0), across.dot(x));
   }
   return points;
 }
 
-/// Their outline: parabolas with the tangents that are known at the places. Where faces of the surface meet in an edge,
-/// however blunt, neighbouring directions have the same place, and nothing lies between them.
+/// A parabola from one point to the next, which lie farthest in the direction `angle` and a step before: its tangents
+/// are at right angles to them. Straight where the way does not lie between the tangents: beside an edge of the
+/// surface, whose places are known along it to some 1e-6 only.
+CurvePiece parabola(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double angle) {
+  const auto direction = [](double a) { return Eigen::Vector2d(std::cos(a), std::sin(a)); };
+  const auto tangent = [](double a) { return Eigen::Vector2d(-std::sin(a), std::cos(a)); };
+  const Eigen::Vector2d way = to - from;
+  const double before = angle - direction_step, forth = way.dot(direction(angle)) / std::sin(direction_step),
+               back = -way.dot(direction(before)) / std::sin(direction_step);
+  Eigen::Vector2d corner = (from + to) / 2;
+  if (forth >= 0 && back >= 0) corner = from + forth * tangent(before);
+  CurvePiece piece(3, 2);
+  piece << from.transpose(), (from + 2 * corner + to).transpose() / 4, to.transpose();
+  return piece;
+}
+
+/// Their outline. Where faces of the surface meet in an edge, however blunt, neighbouring directions have the same
+/// place, and nothing lies between them.
 std::vector<CurvePiece> outline_of(const std::vector<Eigen::Vector2d>& points) {
-  constexpr double step = std::numbers::pi / off_axis_pieces;
   std::vector<CurvePiece> outline;
   Eigen::Vector2d from = points.front();
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const double angle = double(i) * step;
-    const Eigen::Vector2d &to = points[i], way = to - from, along(-std::sin(angle - step), std::cos(angle - step)),
-                          normal(std::cos(angle), std::sin(angle));
-    if (way.norm() < same_place) continue;
-    const Eigen::Vector2d corner = from + along * (way.dot(normal) / along.dot(normal));
-    CurvePiece& piece = outline.emplace_back(3, 2);
-    piece << from.transpose(), (from + 2 * corner + to).transpose() / 4, to.transpose();
-    from = to;
+    if ((points[i] - from).norm() < same_place) continue;
+    outline.push_back(parabola(from, points[i], double(i) * direction_step));
+    from = points[i];
   }
   return outline;
 }
