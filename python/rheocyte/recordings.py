@@ -21,7 +21,8 @@ _UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "youn
           "standard_error_kPa": "kPa", "state": "", "shape_excess": "", "shape_excess_error": "", "elongated": "",
           "odd_share": "", "mode_3": "", "young_modulus_asymmetry_kPa": "kPa", "standard_error_asymmetry_kPa": "kPa",
           "young_modulus_inertia_kPa": "kPa", "standard_error_inertia_kPa": "kPa", "elongation": "", "elongation_error": "",
-          "axial_tension_Pa": "Pa", "axial_tension_error_Pa": "Pa"}
+          "axial_tension_Pa": "Pa", "axial_tension_error_Pa": "Pa", "sine_mode_2": "", "flank_slope": "",
+          "sine_mode_3": "", "sine_mode_4": ""}
 
 
 def extract(
@@ -48,10 +49,12 @@ def extract(
     Returns a pandas.DataFrame with one row per event: area_um2, deformation, viscosity_mPas, young_modulus_kPa,
     standard_error_kPa (without it for published tables), state (a category). Where the recording has inertia ratios,
     contours or masks: shape_excess (inertia ratio - that of the table's cell), shape_excess_error, elongated (a flag),
-    odd_share (of the deformation). With contours or masks: mode_3, and by the table of elongated cells
-    young_modulus_asymmetry_kPa, standard_error_asymmetry_kPa, elongation (length over width that the liquid's tension
-    alone would give the cell), axial_tension_Pa (of the liquid, along the flow) and their errors; without outlines the
-    modulus is young_modulus_inertia_kPa, by area, deformation and inertia ratio (docs/real-cells.md). attrs: units, table, settings, warnings, shapes (what is said
+    odd_share (of the deformation). With contours or masks: mode_3, sine_mode_2 .. sine_mode_4 and flank_slope (how the
+    outline lies to the flow), and by the table of elongated cells young_modulus_asymmetry_kPa,
+    standard_error_asymmetry_kPa, elongation (length over width that the liquid's tension alone would give the cell),
+    axial_tension_Pa (of the liquid, along the flow) and their errors; without outlines the modulus is
+    young_modulus_inertia_kPa, by area, deformation and inertia ratio (docs/real-cells.md). attrs: units, table,
+    settings, warnings, shapes (what is said
     about the shapes of all events, in sentences).
 
     UserError for what is wrong with the recording, naming what it lacks. It is read in a child of this process, for HDF5 is
@@ -182,7 +185,8 @@ def features(masks, pixel_size_um):
     Returns a pandas.DataFrame with one row per event, NaN where there is no cell. Of the convex hull: area_um (um2),
     area_cvx (pixels), deform, circ, pos_x, pos_y (um), inert_ratio_cvx. Of the outline: area_msd (pixels), area_um_raw
     (um2), deform_raw, per_um_raw (um), inert_ratio_raw, inert_ratio_prnc, eccentr_prnc, tilt (radian), volume (um3),
-    size_x, size_y (um), aspect. Of both: area_ratio, per_ratio. Cosine modes of the hull's radius: mode_2 .. mode_7.
+    size_x, size_y (um), aspect. Of both: area_ratio, per_ratio. Cosine modes of the hull's radius: mode_2 .. mode_7; how
+    it lies to the flow, for cells that move along +x and do not touch the border: sine_mode_2 .. sine_mode_4, flank_slope.
     """
     import pandas
 

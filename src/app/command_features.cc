@@ -45,8 +45,8 @@ class FeaturesJob {
   bool take(const RecordingTask& task, const FeaturesSummary& summary) const {
     const std::string name = one_line(task.recording.string(), 200);
     if (!options_.batch.quiet)
-      print(fmt::format("{}: {} features of {} of {} events, see {}\n", name, outline_features().size(),
-                        summary.with_outline, summary.events, place_for(task).string()));
+      print(fmt::format("{}: {} features of {} of {} events, see {}\n", name, summary.features, summary.with_outline,
+                        summary.events, place_for(task).string()));
     if (summary.with_outline == 0) tell(fmt::format("{}: no event has an outline.", name));
     return summary.with_outline > 0;
   }

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
@@ -55,6 +56,19 @@ std::optional<Metadata> metadata_in(const fs::path& place) {
 }  // namespace
 
 std::string program() { return fmt::format("rheocyte {}", version); }
+
+std::vector<std::string> free_features(const Recording& recording) {
+  std::vector<std::string> names;
+  for (int k = 0; k < 10; ++k)
+    if (auto name = fmt::format("userdef{}", k); !recording.has_scalar(name)) names.push_back(std::move(name));
+  return names;
+}
+
+void describe_feature(CompanionFile& companion, const std::string& feature, const std::string& role,
+                      const std::string& meaning) {
+  companion.add_user_metadata("rheocyte " + feature, meaning);
+  companion.add_user_metadata("rheocyte " + role, feature);
+}
 
 void add_origin(CompanionFile& companion, const std::string& command, const Recording& recording,
                 const fs::path& folder, const std::vector<std::string>& lines) {

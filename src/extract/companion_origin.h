@@ -12,6 +12,14 @@ namespace rheocyte {
 /// Name and version of this program.
 std::string program();
 
+/// Of userdef0 to userdef9 those that the recording does not use itself: for values for which the field's programs have
+/// no name.
+std::vector<std::string> free_features(const Recording& recording);
+
+/// Says what stands in a feature of no name: `role` in one word, `meaning` in a sentence.
+void describe_feature(CompanionFile& companion, const std::string& feature, const std::string& role,
+                      const std::string& meaning);
+
 /// Adds the log `rheocyte-COMMAND` (program, time, recording, and these lines) and the basin that leads from `folder`
 /// to the recording: where it is now, seen from there, and in that folder.
 void add_origin(CompanionFile& companion, const std::string& command, const Recording& recording,

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extract/shape_verdict.h"
+#include "extract/direction_of_cells.h"
+#include "measurement/contour_tilt.h"
 #include "measurement/shape_source.h"
 #include "numeric/no_value.h"
 
@@ -12,9 +13,6 @@ namespace rheocyte {
 namespace {
 
 constexpr const char* stored_ratio = "inert_ratio_cvx";
-constexpr std::size_t outlines_looked_at = 1024, at_a_time = 64;  // events, for the direction
-
-double inertia_ratio(const HullAsymmetry& hull) { return 1 / std::sqrt(hull.moment_ratio); }
 
 }  // namespace
 
@@ -38,7 +36,7 @@ EventShapes::EventShapes(const Recording& recording, const MeasuringConditions& 
   const bool has_outlines = ShapeSource::has_outlines(recording), has_ratio = recording.has_scalar(stored_ratio);
   if (has_outlines && (with_asymmetry || !has_ratio)) {
     outlines_.emplace(recording, conditions.pixel_size_um > 0 ? conditions.pixel_size_um : 1);
-    find_direction();
+    direction_ = direction_of_cells(*outlines_, tables.round->sign_of_asymmetry());
   }
   inertia_ratio_from_ = has_ratio ? stored_ratio : recording.has_contours() ? "contour" : "mask";
   if (!has_outlines)
@@ -56,54 +54,41 @@ std::optional<ElongatedBy> EventShapes::elongated_by() const {
   return has_asymmetry() ? ElongatedBy::modes : ElongatedBy::inertia;
 }
 
-void EventShapes::find_direction() {
-  const std::size_t events = recording_.events(), pieces = std::min(outlines_looked_at, events) / at_a_time + 1;
-  double sum = 0, squares = 0, count = 0;
-  for (std::size_t piece = 0; piece < pieces; ++piece) {
-    const std::size_t first = piece * events / pieces, last = std::min(first + at_a_time, events);
-    for (std::size_t event = first; event < last; ++event) {
-      const HullAsymmetry hull = asymmetry(event, nullptr);
-      const double c = hull.mode_3;
-      if (!(std::abs(c) < 0.3) || inertia_ratio(hull) > max_inertia_ratio_of_cells) continue;  // no cell, or a red one
-      sum += c;
-      squares += c * c;
-      ++count;
-    }
-  }
-  if (count < 2) return;
-  const double mean = sum / count, error = std::sqrt(std::max(0.0, squares / count - mean * mean) / count);
-  if (std::abs(mean) > 2 * error) direction_ = mean * tables_.round->sign_of_asymmetry() > 0 ? 1 : -1;
-}
-
-HullAsymmetry EventShapes::asymmetry(std::size_t event, ContourFeatures* measured) {
-  const PixelContour contour = outlines_->outline(event);
+HullAsymmetry EventShapes::asymmetry(const PixelContour& contour, ContourFeatures* measured) {
   if (measured) *measured = measurer_.measure(contour, measured_pixel_um_);
-  if (contour.size() < fewest_outline_points) return {no_value, no_value, no_value, no_value, no_value};
+  if (contour.size() < fewest_outline_points) return {};
   return hull_asymmetry(measured ? measurer_.hull() : measurer_.find_hull(contour));
 }
 
 void EventShapes::read_outlines(std::size_t first, ShapeColumns& columns) {
   const int direction = direction_ < 0 ? -1 : 1;
-  const bool stored = inertia_ratio_from_ == stored_ratio;
+  const bool stored = inertia_ratio_from_ == stored_ratio, has_y = recording_.has_scalar("pos_y");
   for (std::size_t i = 0; i < columns.mode_3.size(); ++i) {
-    const HullAsymmetry hull = asymmetry(first + i, measured_pixel_um_ > 0 ? &columns.outlines[i] : nullptr);
+    const PixelContour contour = outlines_->outline(first + i);
+    const HullAsymmetry hull = asymmetry(contour, measured_pixel_um_ > 0 ? &columns.outlines[i] : nullptr);
     columns.mode_2[i] = hull.mode_2;
     columns.mode_3[i] = direction * hull.mode_3;
     columns.mode_4[i] = hull.mode_4;
     columns.mode_5[i] = direction * hull.mode_5;
-    if (!stored) columns.inertia_ratio[i] = inertia_ratio(hull);
+    columns.tilt[i] = contour_tilt(contour, measurer_.hull(), hull.sine_modes, direction, outlines_->picture());
+    if (!stored) columns.inertia_ratio[i] = hull.inertia_ratio();
+    if (!has_y)
+      columns.y_um[i] =
+          std::isfinite(hull.mode_3) ? conditions_.pixel_size_um * measurer_.hull().moments().y : no_value;
   }
+  if (has_y) recording_.read_scalar("pos_y", first, columns.y_um);
 }
 
 /// What is left of the next modes is that of cells with a cortex.
 void EventShapes::compare_with_solids(ShapeColumns& c) const {
   constexpr int fourth = number_of(ElongatedMeasure::mode_3) + 1;
   const ElongatedTable& table = tables_.elongated->solids().table();
+  for (auto* column : {&c.mode_4_excess, &c.mode_5_excess}) column->assign(c.mode_4.size(), no_value);
   for (std::size_t i = 0; i < c.mode_4.size(); ++i) {
-    const bool has_cell = c.elongation.states[i] == ModulusState::valid;
-    const ElongatedState solid = has_cell ? table.at(c.elongation.cells[i]) : ElongatedState{};
-    c.mode_4[i] = has_cell ? c.mode_4[i] - solid.value(fourth) : no_value;
-    c.mode_5[i] = has_cell ? c.mode_5[i] - solid.value(fourth + 1) : no_value;
+    if (c.elongation.states[i] != ModulusState::valid) continue;
+    const ElongatedState solid = table.at(c.elongation.cells[i]);
+    c.mode_4_excess[i] = c.mode_4[i] - solid.value(fourth);
+    c.mode_5_excess[i] = c.mode_5[i] - solid.value(fourth + 1);
   }
 }
 
@@ -121,7 +106,8 @@ void EventShapes::compute(std::size_t first, const MeasuredEvents& events, Shape
   if (recording_.has_scalar("pos_x")) recording_.read_scalar("pos_x", first, c.x_um);
   if (inertia_ratio_from_ == stored_ratio) recording_.read_scalar(stored_ratio, first, c.inertia_ratio);
   if (outlines_) {
-    for (auto* column : {&c.mode_2, &c.mode_3, &c.mode_4, &c.mode_5}) column->resize(count);
+    for (auto* column : {&c.mode_2, &c.mode_3, &c.mode_4, &c.mode_5, &c.y_um}) column->resize(count);
+    c.tilt.resize(count);
     if (measured_pixel_um_ > 0) c.outlines.resize(count);
     read_outlines(first, c);
   }

@@ -15,9 +15,11 @@ namespace rheocyte {
 
 /// One value per event of a block.
 struct ShapeColumns {
-  std::vector<double> inertia_ratio, x_um;  ///< NaN where unknown
-  std::vector<double> mode_2, mode_3;       ///< of a cell that moves towards +x; empty without contours and masks
-  std::vector<double> mode_4, mode_5;       ///< beyond those of the elongated solid
+  std::vector<double> inertia_ratio, x_um;   ///< NaN where unknown
+  std::vector<double> mode_2, mode_3;        ///< of a cell that moves towards +x; empty without contours and masks
+  std::vector<double> mode_4, mode_5, y_um;  ///< likewise; y is pos_y, or that of the outline where it is not stored
+  std::vector<double> mode_4_excess, mode_5_excess;  ///< beyond those of the elongated solid; empty without one
+  std::vector<OutlineTilt> tilt;  ///< likewise; NaN of outlines that are cut by the border or too small
   std::vector<ShapeExcess> excess;
   ElongationValues elongation;            ///< empty without a table of elongated cells
   std::vector<ContourFeatures> outlines;  ///< empty unless measure_outlines() was called
@@ -57,11 +59,10 @@ class EventShapes {
   void compute(std::size_t first, const MeasuredEvents& events, ShapeColumns& columns);
 
  private:
-  void find_direction();
   void read_outlines(std::size_t first, ShapeColumns& columns);
   void compare_with_solids(ShapeColumns& columns) const;
-  /// NaN where there is no cell. The features are told, too, if `measured` is given.
-  HullAsymmetry asymmetry(std::size_t event, ContourFeatures* measured);
+  /// NaN where there is no cell. The features are told, too, if `measured` is given. The hull is that of the measurer.
+  HullAsymmetry asymmetry(const PixelContour& contour, ContourFeatures* measured);
 
   const Recording& recording_;
   MeasuringConditions conditions_;

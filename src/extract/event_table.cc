@@ -56,6 +56,8 @@ EventTable::EventTable(const std::filesystem::path& file, const std::vector<std:
   if (columns_.shapes) text_ += "\tshape_excess\tshape_excess_error\telongated\todd_share";
   if (columns_.asymmetry) text_ += "\tmode_3";
   for (const ElongationColumn& column : columns_.elongation) text_ += "\t" + column.name;
+  if (columns_.asymmetry)
+    for (const TiltFeature& feature : tilt_features()) text_.append("\t").append(feature.name);
   text_ += '\n';
   text_ += commented(remarks);
   write_out();
@@ -88,6 +90,8 @@ void EventTable::append(const EventBlock& block) {
     };
     if (columns_.asymmetry) add(block.mode_3[i]);
     for (const ElongationColumn& column : columns_.elongation) add((block.elongation.*column.values)[i]);
+    if (columns_.asymmetry)
+      for (const TiltFeature& feature : tilt_features()) add(block.tilt[i].*feature.value);
     *at++ = '\n';
     text_.append(line, at);
   }

@@ -10,6 +10,7 @@
 #include "infer/modulus_state.h"
 #include "infer/shape_excess.h"
 #include "measurement/contour_features.h"
+#include "shape/outline_tilt.h"
 #include "store/file_writer.h"
 
 namespace rheocyte {
@@ -23,6 +24,7 @@ struct EventBlock {
   std::span<const double> mode_3;      ///< empty without contours and masks
   ElongationBlock elongation;
   std::span<const ContourFeatures> outlines;  ///< empty unless they are measured, too
+  std::span<const OutlineTilt> tilt;          ///< empty without contours and masks
 };
 
 /// Columns beside those that every table of events has.

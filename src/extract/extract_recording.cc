@@ -51,24 +51,21 @@ std::vector<OwnColumn> own_columns(const Extraction& extraction) {
     columns.push_back(
         {"odd_share", "share of the deformation that is not that of an ellipse of this inertia ratio", {}});
   }
+  if (extraction.event_shapes().has_asymmetry())
+    for (const TiltFeature& feature : tilt_features()) columns.push_back({feature.name, feature.sentence, {}});
   return columns;
 }
 
-/// Of userdef0 to userdef9 those that the recording does not use itself.
 void give_names(const Recording& recording, std::vector<OwnColumn>& columns) {
-  auto next = columns.begin();
-  for (int k = 0; k < 10 && next != columns.end(); ++k)
-    if (const auto name = fmt::format("userdef{}", k); !recording.has_scalar(name)) (next++)->name = name;
+  const std::vector<std::string> names = free_features(recording);
+  for (std::size_t k = 0; k < std::min(names.size(), columns.size()); ++k) columns[k].name = names[k];
 }
 
 void describe(CompanionFile& companion, const fs::path& folder, const Recording& recording,
               const Extraction& extraction, const std::vector<OwnColumn>& columns) {
   companion.add_user_metadata("rheocyte emodulus", "Young's modulus (kPa), with the settings in the log");
-  for (const auto& column : columns) {
-    if (column.name.empty()) continue;
-    companion.add_user_metadata("rheocyte " + column.name, column.meaning);
-    companion.add_user_metadata("rheocyte " + column.role, column.name);
-  }
+  for (const auto& column : columns)
+    if (!column.name.empty()) describe_feature(companion, column.name, column.role, column.meaning);
   companion.add_user_metadata("rheocyte table", extraction.table().origin().identifier);
   add_origin(companion, "extract", recording, folder, extraction.lines());
 }
@@ -139,7 +136,10 @@ class Writers {
   std::span<const double> values_of(const OwnColumn& column, const EventBlock& block) {
     if (column.values) return column.values(block);
     values_.resize(block.state.size());
-    if (column.role == "state")
+    const auto tilt = std::ranges::find(tilt_features(), column.role, &TiltFeature::name);
+    if (tilt != tilt_features().end())
+      std::ranges::transform(block.tilt, values_.begin(), tilt->value);
+    else if (column.role == "state")
       std::ranges::transform(block.state, values_.begin(), [](ModulusState s) { return static_cast<double>(s); });
     else
       std::ranges::transform(block.shape, values_.begin(),

@@ -85,8 +85,8 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   if (!gates_.empty()) shut_out(first);
   collect();
   const auto& s = c.shapes;
-  return {c.area,   c.deformation, c.viscosity,          c.modulus, c.standard_error, c.states,
-          s.excess, s.mode_3,      s.elongation.block(), s.outlines};
+  return {c.area,   c.deformation,        c.viscosity, c.modulus, c.standard_error, c.states, s.excess,
+          s.mode_3, s.elongation.block(), s.outlines,  s.tilt};
 }
 
 void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events) {
@@ -119,6 +119,7 @@ ExtractSummary Extraction::summary() {
   s.shapes = shape_tally_.verdict();
   s.shapes.inertia_ratio_from = event_shapes_.inertia_ratio_from();
   s.shapes.direction = event_shapes_.direction();
+  s.shapes.beside_axis = shape_tally_.beside_axis(s.shapes.direction, settings_.conditions.flow);
   s.shapes.missing = event_shapes_.missing();
   if (const ShapeMap* const map = event_shapes_.map()) s.shapes.model = map->origin().cells();
   s.shapes.made_of = made_of();
@@ -203,7 +204,7 @@ void Extraction::collect() {
   }
   const ShapeColumns& s = columns_.shapes;
   shape_tally_.take({s.excess, s.inertia_ratio, columns_.area, columns_.deformation, s.mode_3, s.x_um, columns_.modulus,
-                     s.elongation.block(), s.mode_4, s.mode_5});
+                     s.elongation.block(), s.mode_4_excess, s.mode_5_excess, s.mode_4, s.y_um, s.tilt});
 }
 
 void Extraction::count_inertial(double viscosity_mPas) {

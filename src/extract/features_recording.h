@@ -11,15 +11,15 @@
 namespace rheocyte {
 
 struct FeaturesSummary {
-  std::size_t events = 0, with_outline = 0;
+  std::size_t events = 0, with_outline = 0, features = 0;
 };
 
 /// The companion of a recording while it is written; UserError if a file stands there that is not ours.
 WholeFile features_file(const std::filesystem::path& place);
 
-/// Computes all of outline_features() block by block. `place` is where the companion will stand, `scratch` where it is
-/// written; the pixel size (um) is that of the recording if none is given. UserError: no contours or masks, no pixel
-/// size, damaged data, a full disk.
+/// Computes all of outline_features(), and of tilt_features() as far as userdef0 to userdef9 are free, block by block.
+/// `place` is where the companion will stand, `scratch` where it is written; the pixel size (um) is that of the
+/// recording if none is given. UserError: no contours or masks, no pixel size, damaged data, a full disk.
 FeaturesSummary features_of_recording(const std::filesystem::path& recording, const std::filesystem::path& place,
                                       const std::filesystem::path& scratch, std::optional<double> given_pixel_size_um,
                                       const TellProgress& on_progress);

@@ -50,6 +50,30 @@ std::string changes_text(const char* name, const Trend& trend) {
   return fmt::format("{} {:+.2g} +- {:.2g} of {:.3g}", name, trend.change, trend.error, trend.median);
 }
 
+/// Which of both explains an asymmetry that grows downstream: cells that approach the axis, or that creep. Empty where
+/// it does not grow.
+std::string centring_or_creep(const ShapeVerdict& v) {
+  const double growth = v.direction * v.asymmetry_trend.change;
+  if (!v.asymmetry_trend.is_changing() || !(growth > 0) || !std::isfinite(v.mode_4_trend.error)) return {};
+  // Of a cell that approaches the axis, with its cortex as those of HL60 have it (docs/real-cells.md).
+  constexpr double mode_3_per_um2 = -0.0146, mode_4_over_mode_3 = -0.007 / 0.0065, sure = 2;
+  const double fall = v.direction * v.mode_4_trend.change, expected = mode_4_over_mode_3 * growth;
+  const double error = std::hypot(v.mode_4_trend.error, mode_4_over_mode_3 * v.asymmetry_trend.error);
+  const std::string change = fmt::format("c4 changes by {:+.2g} +- {:.1g}, {:+.2g} if cells approach the axis", fall,
+                                         v.mode_4_trend.error, expected);
+  if (!(fall < -sure * v.mode_4_trend.error) || !(std::abs(fall - expected) < sure * error + std::abs(expected) / 2))
+    return fmt::format("; downstream c3 grows, as of cells that creep, not of cells that approach the axis ({})",
+                       change);
+  if (!v.beside_axis.is_centring())
+    return fmt::format("; downstream c3 grows, as of cells that approach the axis ({}), but pos_y does not show it",
+                       change);
+  return fmt::format(
+      "; downstream c3 grows, as of cells that still approach the axis, not of cells that creep ({}; it takes {:.2g} "
+      "um2 of "
+      "their squared distance from the axis, height included)",
+      change, -growth / mode_3_per_um2);
+}
+
 /// Which cells they are, and what that means for the moduli.
 std::string text_of(const FittingTable& table) {
   const double percent = 100 * (table.modulus_over_its - 1);
@@ -117,9 +141,11 @@ void ShapeTally::take(const JudgedEvents& e) {
                         at(drawn.elongation, i), at(drawn.axial_tension_Pa, i), at(e.mode_4_excess, i),
                         at(e.mode_5_excess, i)});
     elongated_ += excess.is_elongated() ? 1 : 0;
+    const OutlineTilt tilt = e.tilt.empty() ? OutlineTilt{} : e.tilt[i];
     events_.push_back({static_cast<float>(excess.excess), static_cast<float>(excess.expected), at(e.inertia_ratio, i),
                        static_cast<float>(excess.odd_share), at(e.area_um2, i), at(e.deformation, i), at(e.mode_3, i),
-                       at(e.x_um, i)});
+                       at(e.x_um, i), at(e.mode_4, i), at(e.y_um, i), static_cast<float>(tilt.sine_mode_2),
+                       static_cast<float>(tilt.flank_slope)});
   }
 }
 
@@ -139,6 +165,12 @@ JudgedShapes ShapeTally::judged() const {
   return {column(&Event::inertia_ratio), column(&Event::area), column(&Event::deformation)};
 }
 
+BesideAxis ShapeTally::beside_axis(int direction, const ChannelFlow& flow) const {
+  const auto x = column(&Event::x), y = column(&Event::y), sine = column(&Event::sine_mode_2),
+             flank = column(&Event::flank_slope), area = column(&Event::area), ratio = column(&Event::inertia_ratio);
+  return rheocyte::beside_axis({x, y, sine, flank, area, ratio}, direction, flow);
+}
+
 ShapeVerdict ShapeTally::verdict() const {
   ShapeVerdict v;
   v.judged = events_.size();
@@ -156,6 +188,7 @@ ShapeVerdict ShapeTally::verdict() const {
   v.inertia_ratio_trend = trend_of(x, column(&Event::inertia_ratio), v.seen_um);
   v.deformation_trend = trend_of(x, column(&Event::deformation), v.seen_um);
   v.asymmetry_trend = trend_of(x, column(&Event::mode_3), v.seen_um);
+  v.mode_4_trend = trend_of(x, column(&Event::mode_4), v.seen_um);
   std::vector<double> moduli;
   for (const Drawn& cell : drawn_) moduli.push_back(cell.modulus_kPa);
   v.elongated_kPa = distribution_of(moduli);
@@ -252,14 +285,16 @@ std::string ShapeVerdict::trend_text() const {
   if (std::isfinite(asymmetry_trend.change)) changes += ", " + changes_text("c3", asymmetry_trend);
   const bool is_changing =
       inertia_ratio_trend.is_changing() || deformation_trend.is_changing() || asymmetry_trend.is_changing();
-  return fmt::format("the shapes are {} over {:.0f} um along x ({}).", is_changing ? "still changing" : "settled",
-                     seen_um, changes);
+  return fmt::format("the shapes are {} over {:.0f} um along x ({}){}.", is_changing ? "still changing" : "settled",
+                     seen_um, changes, centring_or_creep(*this));
 }
 
 std::vector<std::string> shape_lines(const ShapeVerdict& v) {
   std::vector<std::string> lines;
   if (!v.made_of.empty()) lines.push_back(v.made_of);
   if (v.judged > 0) lines.insert(lines.end(), {v.text(), v.trend_text()});
+  for (const std::string& sentence : {v.beside_axis.turn_text(), v.beside_axis.centring_text()})
+    if (!sentence.empty()) lines.push_back(sentence);
   if (!v.missing.empty()) lines.push_back(v.missing);
   if (v.with_elongation > 0) lines.push_back(elongated_text(v));
   if (const auto text = v.recommended_text(); !text.empty()) lines.push_back(text);

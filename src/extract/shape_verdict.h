@@ -7,10 +7,12 @@
 #include <tuple>
 #include <vector>
 
+#include "extract/beside_axis.h"
 #include "extract/distribution.h"
 #include "extract/elongation_columns.h"
 #include "infer/shape_excess.h"
 #include "numeric/no_value.h"
+#include "shape/outline_tilt.h"
 
 namespace rheocyte {
 
@@ -67,6 +69,7 @@ struct ShapeVerdict {
   double inertia_ratio = 0, expected_inertia_ratio = 0, odd_share = 0;  ///< medians
   double seen_um = 0;  ///< along the channel, 5 % to 95 % of the events; NaN without pos_x
   Trend inertia_ratio_trend, deformation_trend, asymmetry_trend;
+  Trend mode_4_trend;
   int direction = 0;                     ///< in which the cells move: along +x or -x; 0 if that is unknown
   double by_deformation_kPa = no_value;  ///< median Young's modulus from area and deformation
   ElongatedBy elongated_by = ElongatedBy::modes;
@@ -75,15 +78,16 @@ struct ShapeVerdict {
   double modulus_ratio = 0;         ///< median of E from deformation / that; NaN if unknown
   Median elongation, axial_tension_Pa;
   Median cortex_mode_4, cortex_mode_5;  ///< c_4 and c_5 beyond those of the elongated solids, where outlines tell them
+  BesideAxis beside_axis;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.judged, s.elongated, s.red_cells, s.missing, s.inertia_ratio_from, s.model, s.made_of, s.other,
                     s.excess, s.inertia_ratio, s.expected_inertia_ratio, s.odd_share, s.seen_um, s.inertia_ratio_trend,
-                    s.deformation_trend, s.asymmetry_trend, s.direction, s.by_deformation_kPa, s.elongated_by,
-                    s.elongated_kPa, s.with_elongation, s.modulus_ratio, s.elongation, s.axial_tension_Pa,
-                    s.cortex_mode_4, s.cortex_mode_5);
+                    s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction, s.by_deformation_kPa,
+                    s.elongated_by, s.elongated_kPa, s.with_elongation, s.modulus_ratio, s.elongation,
+                    s.axial_tension_Pa, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
   }
 
   double elongated_percent() const;
@@ -98,7 +102,8 @@ struct ShapeVerdict {
   enum class Modulus { none, by_deformation, elongated };
   Modulus recommended() const;
   std::string recommended_text() const;
-  /// "settled", "still changing", or why that is unknown, with numbers.
+  /// "settled", "still changing", or why that is unknown, with numbers; of an asymmetry that changes, whether cells
+  /// that approach the axis explain it.
   std::string trend_text() const;
 };
 
@@ -112,9 +117,11 @@ struct JudgedEvents {
   std::span<const ShapeExcess> excess;
   std::span<const double> inertia_ratio, area_um2, deformation, mode_3, x_um;
   std::span<const double> modulus_kPa;
-  ElongationBlock elongation;
+  ElongationBlock elongation = {};
   /// c_4 and c_5 beyond those of the elongated cell; empty where no outlines are measured.
-  std::span<const double> mode_4_excess, mode_5_excess;
+  std::span<const double> mode_4_excess = {}, mode_5_excess = {};
+  std::span<const double> mode_4 = {}, y_um = {};
+  std::span<const OutlineTilt> tilt = {};
 };
 
 /// The events that were judged, one value each, as measured.
@@ -122,17 +129,19 @@ struct JudgedShapes {
   std::vector<double> inertia_ratio, area_um2, deformation;
 };
 
-/// Takes block by block; keeps 48 bytes per event.
+/// Takes block by block; keeps 64 bytes per event.
 class ShapeTally {
  public:
   void take(const JudgedEvents& events);
   /// Of all events taken so far; what the tally does not know (source, direction) is left to the caller.
   ShapeVerdict verdict() const;
+  BesideAxis beside_axis(int direction, const ChannelFlow& flow) const;
   JudgedShapes judged() const;
 
  private:
   struct Event {
     float excess, expected, inertia_ratio, odd_share, area, deformation, mode_3, x;
+    float mode_4, y, sine_mode_2, flank_slope;
   };
   std::vector<double> column(float Event::*member) const;
   std::vector<Event> events_;

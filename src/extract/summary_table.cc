@@ -27,7 +27,7 @@ constexpr std::string_view mark = "recording\tevents\tvalid\t";
 /// By the names of their columns.
 using Row = std::map<std::string, std::string, std::less<>>;
 
-constexpr std::array<std::string_view, 57> columns_after_counts{"with_modulus_percent",
+constexpr std::array<std::string_view, 67> columns_after_counts{"with_modulus_percent",
                                                                 "young_modulus_median_kPa",
                                                                 "young_modulus_first_quartile_kPa",
                                                                 "young_modulus_third_quartile_kPa",
@@ -64,8 +64,18 @@ constexpr std::array<std::string_view, 57> columns_after_counts{"with_modulus_pe
                                                                 "deformation_change",
                                                                 "deformation_change_error",
                                                                 "mode_3_change",
+                                                                "pos_y_rms_um",
+                                                                "sine_mode_2_per_um",
+                                                                "sine_mode_2_per_um_error",
+                                                                "flank_slope_per_um",
+                                                                "flank_slope_per_um_error",
+                                                                "flank_slope_per_um_change",
+                                                                "flank_slope_per_um_stored",
+                                                                "pos_y_rms_change_per_um",
+                                                                "pos_y_rms_change_per_um_error",
                                                                 "shapes_text",
                                                                 "trend_text",
+                                                                "beside_axis_text",
                                                                 "table",
                                                                 "medium",
                                                                 "viscosity_model",
@@ -113,6 +123,19 @@ std::string all_of(const std::vector<std::string>& sentences) {
 
 constexpr std::array<const char*, 5> names_of_fits{"unknown", "model", "other-table", "doubtful", "elongated"};
 
+void add_beside_axis(const BesideAxis& b, Row& row) {
+  for (const auto& [name, value] :
+       {std::pair("pos_y_rms_um", b.spread_um), std::pair("sine_mode_2_per_um", b.sine_slope.value),
+        std::pair("sine_mode_2_per_um_error", b.sine_slope.error), std::pair("flank_slope_per_um", b.flank_slope.value),
+        std::pair("flank_slope_per_um_error", b.flank_slope.error),
+        std::pair("flank_slope_per_um_change", b.flank_change().value),
+        std::pair("flank_slope_per_um_stored", b.stored_slope), std::pair("pos_y_rms_change_per_um", b.centring.value),
+        std::pair("pos_y_rms_change_per_um_error", b.centring.error)})
+    row[name] = number_text(value);
+  const std::string turn = b.turn_text(), centring = b.centring_text();
+  row["beside_axis_text"] = turn + (turn.empty() || centring.empty() ? "" : " ") + centring;
+}
+
 void add_shapes(const ShapeVerdict& v, Row& row) {
   for (const auto& [name, value] :
        {std::pair("young_modulus_elongated_median_kPa", v.elongated_kPa.median),
@@ -137,6 +160,7 @@ void add_shapes(const ShapeVerdict& v, Row& row) {
         std::pair("deformation_change_error", v.deformation_trend.error),
         std::pair("mode_3_change", v.asymmetry_trend.change)})
     row[name] = number_text(value);
+  add_beside_axis(v.beside_axis, row);
   row["with_elongation"] = std::to_string(v.with_elongation);
   if (v.with_elongation > 0) row["elongated_by"] = v.elongated_by == ElongatedBy::modes ? "outlines" : "inertia ratio";
   row["red_cells"] = std::to_string(v.red_cells);

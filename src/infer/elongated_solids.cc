@@ -138,8 +138,9 @@ ElongatedSolids::Found ElongatedSolids::find(const Eigen::Vector3d& seen, Elonga
   Found found;
   found.cell = (least + greatest) / 2;
   if (!seen.allFinite()) return found.reason = ModulusState::no_data, found;
-  found.cell(0) =
-      std::clamp(table_.coordinate_of(std::exp(seen(0) / 2) / std::sqrt(std::numbers::pi)), low(0), high(0));
+  const double radius_um = std::exp(seen(0) / 2) * std::numbers::inv_sqrtpi;
+  if (radius_um > origin().flow.width_um / 2) return found.reason = ModulusState::too_large, found;
+  found.cell(0) = std::clamp(table_.coordinate_of(radius_um), low(0), high(0));
   double change = 1;
   for (int step = 0; step < most_steps && change > settled; ++step) {
     found.state = table_.at(found.cell);

@@ -9,10 +9,12 @@
 
 namespace rheocyte {
 
-EventOutlines::EventOutlines(const Recording& recording, double pixel_um) : recording_(recording), pixel_um_(pixel_um) {
+EventOutlines::EventOutlines(const Recording& recording, double pixel_um)
+    : recording_(recording), pixel_um_(pixel_um), picture_(recording.size_of_pictures()) {
   if (recording.has_contours()) return;
   size_ = recording.image_size("mask");
   assert(size_);
+  picture_ = *size_;
   block_ = recording.image_rows_per_chunk("mask");
 }
 

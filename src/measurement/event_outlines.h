@@ -21,11 +21,15 @@ class EventOutlines {
   ShapeVector features(std::size_t event);
   /// Empty where there is no cell. UserError if the data are damaged.
   PixelContour outline(std::size_t event);
+  /// The size of the pictures; 0 x 0 if unknown.
+  const ImageSize& picture() const { return picture_; }
+  std::size_t events() const { return recording_.events(); }
 
  private:
   const Recording& recording_;
   double pixel_um_;
-  std::optional<ImageSize> size_;                  ///< of the masks, if there are no contours
+  std::optional<ImageSize> size_;  ///< of the masks, if there are no contours
+  ImageSize picture_;
   std::size_t block_ = 1, first_ = 0, count_ = 0;  ///< events whose masks are at hand
   std::vector<std::uint8_t> pixels_;
   ContourFinder finder_;

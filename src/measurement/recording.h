@@ -70,6 +70,10 @@ class Recording {
   void read_images(const std::string& feature, std::size_t first, std::size_t count,
                    std::span<std::uint8_t> pixels) const;
 
+  /// Of the pictures that the events were cut from, stored or not: what the metadata say, else that of stored ones; 0 x
+  /// 0 if unknown.
+  ImageSize size_of_pictures() const;
+
   bool has_contours() const;
   /// The contour of one event; empty if the event has none or it is damaged.
   PixelContour read_contour(std::size_t event) const;
@@ -93,7 +97,6 @@ class Recording {
   void add_file_basin(const BasinDefinition& definition, Basin basin, Opening& opening);
   /// Last of all, for size and background of the pictures may come from other basins.
   void add_cropped_images(const BasinDefinition& definition);
-  ImageSize size_of_pictures() const;
   /// Why not; empty if the basin can be read from this file.
   std::string open_basin_file(const std::filesystem::path& file, Basin& basin, Opening& opening) const;
   enum class Kind { scalar, pictures, contours };

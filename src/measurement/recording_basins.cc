@@ -125,7 +125,6 @@ void Recording::add_cropped_images(const BasinDefinition& definition) {
     c.basins.push_back(std::move(basin));
 }
 
-// As the metadata say, else that of pictures which are whole.
 ImageSize Recording::size_of_pictures() const {
   const auto width = content_->metadata.number("imaging:roi size x"),
              height = content_->metadata.number("imaging:roi size y");

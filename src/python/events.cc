@@ -29,6 +29,7 @@ struct Events {
   std::vector<double> shape_excess, shape_excess_error, odd_share, mode_3;
   std::vector<ElongationColumn> elongation_columns;
   std::vector<std::vector<double>> elongation;  ///< column by column
+  std::vector<OutlineTilt> tilt;
   ExtractSummary summary;
   std::vector<std::string> lines;
 
@@ -51,6 +52,7 @@ struct Events {
     add(mode_3, b.mode_3);
     elongation.resize(elongation_columns.size());
     for (std::size_t k = 0; k < elongation.size(); ++k) add(elongation[k], b.elongation.*elongation_columns[k].values);
+    tilt.insert(tilt.end(), b.tilt.begin(), b.tilt.end());
   }
 };
 
@@ -101,8 +103,15 @@ Told written(const Events& e, const SharedColumns& memory) {
     write("elongated", e.elongated);
     write("odd_share", e.odd_share);
   }
-  if (!e.mode_3.empty()) write("mode_3", e.mode_3);
   for (std::size_t k = 0; k < e.elongation.size(); ++k) write(e.elongation_columns[k].name.c_str(), e.elongation[k]);
+  if (!e.mode_3.empty()) {
+    write("mode_3", e.mode_3);
+    std::vector<double> values(e.tilt.size());
+    for (const TiltFeature& feature : tilt_features()) {
+      std::ranges::transform(e.tilt, values.begin(), feature.value);
+      write(feature.name, values);
+    }
+  }
   return told;
 }
 

@@ -8,6 +8,7 @@
 
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
+#include "measurement/contour_tilt.h"
 #include "numeric/no_value.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
@@ -25,6 +26,7 @@ using Masks = py::array_t<std::uint8_t, py::array::c_style>;
 struct Found {
   std::vector<ContourFeatures> features;
   std::vector<RadiusModes> modes;
+  std::vector<OutlineTilt> tilt;
 };
 
 // Names and values (names, events) of masks (events, rows, columns), not empty; the caller has looked.
@@ -45,11 +47,13 @@ py::tuple features(const Masks& masks, double pixel_size_um) {
       all.features.push_back(measurer.measure(contour, pixel_size_um));
       const bool is_cell = std::isfinite(all.features.back().area_um2);
       all.modes.push_back(is_cell ? hull_modes(measurer.hull()) : no_modes);
+      all.tilt.push_back(is_cell ? contour_tilt(contour, measurer.hull(), 1, size) : OutlineTilt{});
     }
     return all;
   });
   py::list names;
-  py::array_t<double> columns({outline_features().size() + std::tuple_size_v<RadiusModes>, count});
+  py::array_t<double> columns(
+      {outline_features().size() + std::tuple_size_v<RadiusModes> + tilt_features().size(), count});
   double* values = columns.mutable_data();
   for (const OutlineFeature& feature : outline_features()) {
     names.append(feature.name);
@@ -59,6 +63,10 @@ py::tuple features(const Masks& masks, double pixel_size_um) {
     names.append("mode_" + std::to_string(k));
     const auto place = std::size_t(k - first_radius_mode);
     values = std::ranges::transform(found.modes, values, [place](const RadiusModes& m) { return m[place]; }).out;
+  }
+  for (const TiltFeature& feature : tilt_features()) {
+    names.append(feature.name);
+    values = std::ranges::transform(found.tilt, values, feature.value).out;
   }
   return py::make_tuple(names, columns);
 }

@@ -45,6 +45,9 @@ struct ProfilePoint {
 std::string contour_csv(const SurfaceProfile&, const Scales&);
 std::span<const Field<ProfilePoint>> contour_fields();  ///< its columns; the values are dimensionless
 
+/// contour_offset.csv: the closed outline of a cell off the axis in the plane of its offset, in um.
+std::string offset_outline_csv(const Eigen::MatrixX2d& outline, const Scales&);
+
 /// The lines that `rheocyte solve` prints at its end.
 std::string summary(const Result&, const std::string& folder);
 

@@ -52,26 +52,30 @@ std::vector<Row> rows_of_outputs() {
 }
 
 std::vector<Chapter> chapters() {
-  return {{"result.json", "How the computation ended, and for which moduli:", rows_of(outcome_fields())},
-          {"Measures in result.json", "Of the state, or of the last one on the way to it:", rows_of_measures()},
-          {"Computation in result.json", "What was computed, and how:", rows_of(computation_fields())},
-          {"branch in result.json", "Each of its steps has:", rows_of(branch_fields())},
-          {"statistics in result.json", "Of the solver:", rows_of(statistics_fields())},
-          {"threads in result.json", "Of the machine:", rows_of(thread_fields())},
-          {"time in result.json", "Of a case in time:", rows_of(time_fields())},
-          {"history.csv", "Of a case in time, one line for each step:", rows_of_history()},
-          {"outputs.csv", "Of a case in time, one line for each output, between steps:", rows_of_outputs()},
-          {"contour.csv",
-           "The surface from the front pole to the rear one, in a square channel or a rectangle along the silhouette "
-           "that the camera sees "
-           "(contour_side.csv and contour_diagonal.csv: along either of a square):",
-           rows_of(contour_fields())},
-          {"contours.csv",
-           "Of a case in time, the contours one after another:",
-           {{"t_us", "time"}, {"x_um", "as in contour.csv"}, {"r_um", "likewise"}}},
-          {"channel.csv",
-           "The wall of a channel that is not straight:",
-           {{"x_um", "along the channel, from the start of the cell"}, {"R_um", "radius"}}}};
+  return {
+      {"result.json", "How the computation ended, and for which moduli:", rows_of(outcome_fields())},
+      {"Measures in result.json", "Of the state, or of the last one on the way to it:", rows_of_measures()},
+      {"Computation in result.json", "What was computed, and how:", rows_of(computation_fields())},
+      {"branch in result.json", "Each of its steps has:", rows_of(branch_fields())},
+      {"statistics in result.json", "Of the solver:", rows_of(statistics_fields())},
+      {"threads in result.json", "Of the machine:", rows_of(thread_fields())},
+      {"time in result.json", "Of a case in time:", rows_of(time_fields())},
+      {"history.csv", "Of a case in time, one line for each step:", rows_of_history()},
+      {"outputs.csv", "Of a case in time, one line for each output, between steps:", rows_of_outputs()},
+      {"contour.csv",
+       "The surface from the front pole to the rear one, in a square channel or a rectangle along the silhouette "
+       "that the camera sees "
+       "(contour_side.csv and contour_diagonal.csv: along either of a square):",
+       rows_of(contour_fields())},
+      {"contour_offset.csv",
+       "Of a cell off the axis, its closed convex outline in the plane of the flow and the offset, from the front on:",
+       {{"x_um", "along the flow, from the barycentre"}, {"y_um", "along the offset, from the axis"}}},
+      {"contours.csv",
+       "Of a case in time, the contours one after another:",
+       {{"t_us", "time"}, {"x_um", "as in contour.csv"}, {"r_um", "likewise"}}},
+      {"channel.csv",
+       "The wall of a channel that is not straight:",
+       {{"x_um", "along the channel, from the start of the cell"}, {"R_um", "radius"}}}};
 }
 
 constexpr std::string_view rules =

@@ -133,6 +133,13 @@ std::string contour_csv(const SurfaceProfile& surface, const Scales& scales) {
   return text;
 }
 
+std::string offset_outline_csv(const Eigen::MatrixX2d& outline, const Scales& scales) {
+  std::string text = "x_um,y_um\n";
+  for (const auto& point : outline.rowwise())
+    text += fmt::format("{:.10g},{:.10g}\n", point(0) * scales.length_um(), point(1) * scales.length_um());
+  return text;
+}
+
 std::string summary(const Result& result, const std::string& folder) {
   const StationaryState& state = result.state;
   std::string text = fmt::format("rheocyte {}: {}\n", version, name(state.outcome.status));

@@ -44,6 +44,8 @@ void write_result(const Result& result, ResultFolder& folder, const fs::path& wa
   folder.write("contour.csv", contour_csv(result.state.surface, result.scales));
   for (const auto& [name, surface] : result.state.views)
     folder.write(fmt::format("contour_{}.csv", name), contour_csv(surface, result.scales));
+  if (result.state.offset_outline.rows() > 0)
+    folder.write("contour_offset.csv", offset_outline_csv(result.state.offset_outline, result.scales));
   if (result.state.write_fields)  // else stopped or failed before there was any state
     write_field_file(result.state.write_fields, result.scales, folder.scratch() / "fields.vtu", wanted_folder);
   folder.write("result.json", result_json);

@@ -66,11 +66,20 @@ struct Multiples {
   }
 };
 
-/// Adds int r cos(k theta) d(theta) over some edges, k = 0, 1, ... Exact: with phi counted from the normal of an
-/// edge, r = d / cos(phi) and theta = phi + beta, where C_k + i S_k = int exp(i k phi) / cos(phi) d(phi) obeys
+/// int r cos(k theta) d(theta) and int r sin(k theta) d(theta), k = 0 .. last.
+template <class Number, int last>
+struct Harmonics {
+  std::array<Number, last + 1> cosine, sine;
+
+  double c(int k) const { return 2 * cosine[std::size_t(k)] / cosine[0]; }
+  double s(int k) const { return 2 * sine[std::size_t(k)] / cosine[0]; }
+};
+
+/// Adds those of some edges. Exact: with phi counted from the normal of an edge, r = d / cos(phi) and theta = phi +
+/// beta, where C_k + i S_k = int exp(i k phi) / cos(phi) d(phi) obeys
 /// C_k + C_{k-2} + i (S_k + S_{k-2}) = 2 [exp(i (k-1) phi)] / (i (k-1)): the sum has no denominator any more.
-template <std::size_t count>
-void add_radius_integrals(const Edges& e, const Lanes& weight, std::array<Lanes, count>& integral) {
+template <int last>
+void add_radius_integrals(const Edges& e, const Lanes& weight, Harmonics<Lanes, last>& integral) {
   const Lanes start_radius = (e.distance.square() + e.along_start.square()).sqrt();
   const Lanes end_radius = (e.distance.square() + e.along_end.square()).sqrt();
   const auto sum_of = [&](const Lanes& along, const Lanes& radius) {  // along + radius without cancellation
@@ -89,8 +98,9 @@ void add_radius_integrals(const Edges& e, const Lanes& weight, std::array<Lanes,
   Multiples start_cos{Lanes::Ones(), start_cosine}, start_sin{Lanes::Zero(), e.along_start / start_radius};
   Multiples end_cos{Lanes::Ones(), end_cosine}, end_sin{Lanes::Zero(), e.along_end / end_radius};
   Multiples normal_cos{e.normal_x, Lanes::Ones()}, normal_sin{-e.normal_y, Lanes::Zero()};  // of -beta, then of 0
-  for (std::size_t k = 0; k < count; ++k) {
-    integral[k] += weight * (normal_cos.here * c - normal_sin.here * s);
+  for (std::size_t k = 0; k <= last; ++k) {
+    integral.cosine[k] += weight * (normal_cos.here * c - normal_sin.here * s);
+    integral.sine[k] += weight * (normal_sin.here * c + normal_cos.here * s);
     const Lanes after_c = 2.0 / double(k + 1) * (end_sin.here - start_sin.here) - c;
     const Lanes after_s = -2.0 / double(k + 1) * (end_cos.here - start_cos.here) - s;
     c = next_c, s = next_s, next_c = after_c, next_s = after_s;
@@ -100,19 +110,22 @@ void add_radius_integrals(const Edges& e, const Lanes& weight, std::array<Lanes,
   }
 }
 
-/// Of k = 0 .. last, once around a hull that runs counterclockwise about its centroid.
+/// Once around a hull that runs counterclockwise about its centroid.
 template <int last>
-std::array<double, last + 1> radius_integrals(const Polygon& hull, const PolygonMoments& moments) {
+Harmonics<double, last> radius_integrals(const Polygon& hull, const PolygonMoments& moments) {
   const Point centre = Point(moments.x, moments.y) - hull.origin();
-  std::array<Lanes, last + 1> sums;
-  sums.fill(Lanes::Zero());
+  Harmonics<Lanes, last> sums;
+  sums.cosine.fill(Lanes::Zero());
+  sums.sine.fill(Lanes::Zero());
   Lanes weight;
   for (std::size_t first = 0; first < hull.edges(); first += Polygon::block) {
     const Edges edges = edges_from(hull, first, centre, weight);
     add_radius_integrals(edges, weight, sums);
   }
-  std::array<double, last + 1> integral;
-  std::ranges::transform(sums, integral.begin(), [](const Lanes& sum) { return sum.sum(); });
+  Harmonics<double, last> integral;
+  const auto add_up = [](const Lanes& sum) { return sum.sum(); };
+  std::ranges::transform(sums.cosine, integral.cosine.begin(), add_up);
+  std::ranges::transform(sums.sine, integral.sine.begin(), add_up);
   return integral;
 }
 
@@ -127,9 +140,8 @@ OutlineShape hull_shape(const Polygon& hull) {
   const PolygonMoments m = hull.moments();
   OutlineShape shape{m.area, 1 - 2 * std::sqrt(std::numbers::pi * m.area) / m.perimeter, m.mu02 / m.mu20, m.x, m.y};
   const auto integral = radius_integrals<max_mode>(hull, m);
-  shape.mean_radius = integral[0] / (2 * std::numbers::pi);
-  for (int k = min_mode; k <= max_mode; ++k)
-    shape.modes[std::size_t(k - min_mode)] = 2 * integral[std::size_t(k)] / integral[0];
+  shape.mean_radius = integral.cosine[0] / (2 * std::numbers::pi);
+  for (int k = min_mode; k <= max_mode; ++k) shape.modes[std::size_t(k - min_mode)] = integral.c(k);
   return shape;
 }
 
@@ -138,17 +150,16 @@ RadiusModes hull_modes(const Polygon& hull) {
   modes.fill(no_value);
   if (hull.corners() < 3) return modes;
   const auto integral = radius_integrals<last_radius_mode>(hull, hull.moments());
-  for (int k = first_radius_mode; k <= last_radius_mode; ++k)
-    modes[std::size_t(k - first_radius_mode)] = 2 * integral[std::size_t(k)] / integral[0];
+  for (int k = first_radius_mode; k <= last_radius_mode; ++k) modes[std::size_t(k - first_radius_mode)] = integral.c(k);
   return modes;
 }
 
 HullAsymmetry hull_asymmetry(const Polygon& hull) {
-  if (hull.corners() < 3) return {no_value, no_value, no_value, no_value, no_value};
+  if (hull.corners() < 3) return {};
   const PolygonMoments m = hull.moments();
   const auto integral = radius_integrals<5>(hull, m);
-  const auto mode = [&](std::size_t k) { return 2 * integral[k] / integral[0]; };
-  return {m.mu02 / m.mu20, mode(2), mode(3), mode(4), mode(5)};
+  return {m.mu02 / m.mu20, integral.c(2), integral.c(3),
+          integral.c(4),   integral.c(5), {integral.s(2), integral.s(3), integral.s(4)}};
 }
 
 OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) {

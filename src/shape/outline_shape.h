@@ -2,7 +2,9 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 
+#include "shape/outline_tilt.h"
 #include "shape/polygon.h"
 #include "shape/radius_modes.h"
 
@@ -44,9 +46,13 @@ OutlineShape hull_shape(const Polygon& hull);
 /// The first of its modes alone.
 RadiusModes hull_modes(const Polygon& hull);
 
-/// Of the same polygon, what tells a cell of the model from any other; NaN below three points.
+/// Of the same polygon, what tells a cell of the model from any other, and how it lies to the flow; NaN below three
+/// points.
 struct HullAsymmetry {
-  double moment_ratio, mode_2, mode_3, mode_4, mode_5;
+  double moment_ratio = no_value, mode_2 = no_value, mode_3 = no_value, mode_4 = no_value, mode_5 = no_value;  ///< c_k
+  SineModes sine_modes{no_value, no_value, no_value};
+
+  double inertia_ratio() const { return 1 / std::sqrt(moment_ratio); }
 };
 HullAsymmetry hull_asymmetry(const Polygon& hull);
 

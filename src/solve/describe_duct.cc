@@ -11,6 +11,7 @@
 #include "duct/sample_duct_fields.h"
 #include "duct/write_duct_fields.h"
 #include "laws/surface_form.h"
+#include "shape/outline_shape.h"
 #include "solve/surface_stability.h"
 
 namespace rheocyte {
@@ -97,6 +98,10 @@ void read_turning(const DuctDiscrete& discrete, const VectorXd& unknowns, StateN
   r.drift_velocity = unknowns(space.drift());
   r.spin = unknowns(space.spin());
   r.offset = cell_moments(space, discrete.system.element(), unknowns).barycentre(1);
+  Polygon outline;
+  const Eigen::MatrixX2d corners = duct_offset_outline(space, unknowns);
+  outline.assign(std::vector<Eigen::Vector2d>(corners.rowwise().begin(), corners.rowwise().end()));
+  r.tilt = outline_tilt(outline, hull_asymmetry(outline).sine_modes, 1);
 }
 
 }  // namespace
@@ -163,6 +168,10 @@ void describe_duct(const Problem& problem, const DuctDiscrete& discrete, const V
   r.surface = profile(space, unknowns, problem.cortex, seen_from, volume.barycentre);
   r.contour = duct_contour(space, unknowns, seen_from);
   shift(-volume.barycentre, r.contour);
+  if (space.turns()) {
+    r.offset_outline = duct_offset_outline(space, unknowns);
+    r.offset_outline.col(0).array() -= volume.barycentre;
+  }
   static_cast<StateNumbers&>(r) = duct_numbers(problem, discrete, unknowns);
   r.statistics.unknowns = space.unknowns();
   r.statistics.elements = int(space.elements().size());

@@ -11,6 +11,7 @@
 #include "case/unit.h"
 #include "numeric/no_value.h"
 #include "shape/measures.h"
+#include "shape/outline_tilt.h"
 
 namespace rheocyte {
 
@@ -25,6 +26,7 @@ struct StateNumbers {
   double spin = no_value;                      ///< rate at which its material turns, in U/R
   double offset = no_value;                    ///< of its barycentre, in R
   double offset_error = no_value;              ///< of the place of equilibrium, likewise
+  OutlineTilt tilt;                            ///< of its outline in the plane of the offset
   double flow_rate = no_value;                 ///< mean velocity in U
   double volume_flow = no_value;               ///< in R^2 U
   double pressure_drop = no_value;             ///< over the simulated channel, in S
@@ -53,7 +55,7 @@ struct ShapeMode {
 struct StateMeasure {
   std::string_view name;  ///< ends with its unit
   std::string_view sentence;
-  std::variant<double StateNumbers::*, double ShapeMeasures::*, ShapeMode> member;
+  std::variant<double StateNumbers::*, double ShapeMeasures::*, ShapeMode, double OutlineTilt::*> member;
   AlsoIn columns = AlsoIn::none;     ///< a column of tables must be smooth along a branch
   std::string_view null_where = {};  ///< where there is no such number; elsewhere it is finite
   double factor = 1;                 ///< of the unit of the number in powers of R, U and S
@@ -66,6 +68,7 @@ struct StateMeasure {
     if (const auto* of_shape = std::get_if<double ShapeMeasures::*>(&member)) return numbers.shape.**of_shape;
     if (const auto* mode = std::get_if<ShapeMode>(&member))
       return (numbers.shape.*mode->modes)[std::size_t(mode->k - first_radius_mode)];
+    if (const auto* of_tilt = std::get_if<double OutlineTilt::*>(&member)) return numbers.tilt.**of_tilt;
     return numbers.*std::get<double StateNumbers::*>(member);
   }
   constexpr double value(const StateNumbers& numbers) const { return of(numbers); }
@@ -131,6 +134,18 @@ inline constexpr StateMeasure state_measures[] = {
      "for a cell on the axis"},
     {"offset_error_um", "error of the place where it does not drift (cell.place = \"equilibrium\")",
      &StateNumbers::offset_error, AlsoIn::none, "for a given place, and on the axis"},
+    {"sine_mode_2",
+     "sine mode s_2 of the radius of its outline in the plane of the offset about its centroid, over the mean radius: "
+     "r = "
+     "1 + sum c_k cos(k theta) + s_k sin(k theta), theta = 0 along the flow, 90 degrees along the offset",
+     &OutlineTilt::sine_mode_2, AlsoIn::none, "for a cell on the axis"},
+    {"sine_mode_3", "its sine mode s_3", &OutlineTilt::sine_mode_3, AlsoIn::none, "for a cell on the axis"},
+    {"sine_mode_4", "its sine mode s_4", &OutlineTilt::sine_mode_4, AlsoIn::none, "for a cell on the axis"},
+    {"flank_slope",
+     "slope dy/dx, y along the offset, of the line midway between both flanks of this outline, from 20 to 75 % of its "
+     "length "
+     "behind the nose; negative beside the axis (y > 0) where the nose points to it",
+     &OutlineTilt::flank_slope, AlsoIn::none, "for a cell on the axis"},
     {"mean_velocity_m_per_s", "flow rate over the area of the channel", &StateNumbers::flow_rate},
     {.name = "flow_rate_ul_per_s",
      .sentence = "flow rate through the channel; the given one unless the pressure drop is given",

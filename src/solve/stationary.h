@@ -67,6 +67,7 @@ struct StationaryState : StateNumbers {
   Outcome outcome;
   Contour contour;  ///< barycentre at x = 0; in a duct the silhouette that the camera sees
   SurfaceProfile surface;
+  Eigen::MatrixX2d offset_outline;    ///< of a cell off the axis, in the plane of its offset; else empty
   std::vector<DuctView> views;        ///< in a square channel both, in a rectangle the one along the height
   double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
   double estimated_error = no_value;  ///< of the deformation, relative to it or to the floor below which it is

@@ -10,6 +10,7 @@
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
+#include "shape/outline_tilt.h"
 
 namespace rheocyte {
 
@@ -69,10 +70,12 @@ void append(std::span<const double> values, std::string& bytes) {
 std::vector<ComputedColumn> computed_columns(const Recording& companion) {
   std::vector<ComputedColumn> columns;
   if (companion.has_scalar("emodulus")) columns.push_back({"emodulus", "emodulus"});
-  for (const char* role : roles)
-    if (const auto feature = companion.metadata().text(fmt::format("user:rheocyte {}", role));
-        feature && companion.has_scalar(*feature))
-      columns.push_back({as_name(role), *feature});
+  const auto add = [&](const char* role) {
+    const auto feature = companion.metadata().text(fmt::format("user:rheocyte {}", role));
+    if (feature && companion.has_scalar(*feature)) columns.push_back({as_name(role), *feature});
+  };
+  std::ranges::for_each(roles, add);
+  for (const TiltFeature& feature : tilt_features()) add(feature.name);
   return columns;
 }
 

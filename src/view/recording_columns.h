@@ -24,8 +24,9 @@ struct ComputedColumn {
 inline constexpr std::string_view stored_modulus_name = "emodulus_stored";
 
 /// Of a companion: emodulus, and what its metadata tells of userdef0 to userdef9: state, standard_error,
-/// young_modulus_asymmetry, standard_error_asymmetry, elongation, elongation_error, axial_tension,
-/// axial_tension_error, (with inertia in place of asymmetry where there are no outlines) shape_excess, odd_share.
+/// young_modulus_asymmetry, standard_error_asymmetry, elongation, elongation_error, axial_tension, axial_tension_error
+/// (with inertia in place of asymmetry where there are no outlines), shape_excess, odd_share, sine_mode_2, flank_slope,
+/// sine_mode_3, sine_mode_4.
 std::vector<ComputedColumn> computed_columns(const Recording& companion);
 
 /// What has been computed from a recording; null: nothing.

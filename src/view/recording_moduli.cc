@@ -24,13 +24,28 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 // Columns of words; a sample that is called 007 stays so.
-constexpr std::array<std::string_view, 21> words{"recording",       "table",         "medium",
-                                                 "viscosity_model", "temperature",   "corrected_for_pixels",
-                                                 "gates",           "area_from",     "deformation_from",
-                                                 "sample",          "date",          "time",
-                                                 "run_index",       "chip",          "remarks",
-                                                 "shapes",          "shapes_text",   "trend_text",
-                                                 "shapes_of_model", "fitting_table", "error"};
+constexpr std::array<std::string_view, 22> words{"recording",
+                                                 "table",
+                                                 "medium",
+                                                 "viscosity_model",
+                                                 "temperature",
+                                                 "corrected_for_pixels",
+                                                 "gates",
+                                                 "area_from",
+                                                 "deformation_from",
+                                                 "sample",
+                                                 "date",
+                                                 "time",
+                                                 "run_index",
+                                                 "chip",
+                                                 "remarks",
+                                                 "shapes",
+                                                 "shapes_text",
+                                                 "trend_text",
+                                                 "shapes_of_model",
+                                                 "fitting_table",
+                                                 "beside_axis_text",
+                                                 "error"};
 
 Json cell(const std::string& column, const std::string& text) {
   if (text.empty()) return nullptr;

@@ -69,6 +69,35 @@ TEST_F(Features, ARectangleHasThoseOfARectangle) {
   EXPECT_EQ(features({path("a.rtdc")}).exit_code, 0);  // its own result may be replaced
 }
 
+TEST_F(Features, HowAnOutlineLiesToTheFlowIsToldWhereItIsWhole) {
+  // A sheared rectangle: its flanks rise by one pixel in three; the second one touches the border.
+  constexpr hsize_t height = 40, width = 60;
+  std::vector<std::uint8_t> masks(2 * height * width, 0);
+  for (hsize_t x = 0; x < 36; ++x)
+    for (hsize_t y = 0; y < 12; ++y) {
+      masks[(10 + y + x / 3) * width + 12 + x] = 255;
+      masks[height * width + (10 + y + x / 3) * width + x] = 255;
+    }
+  {
+    test::RecordingWriter writer(folder_ / "a.rtdc");
+    test::write_usual_metadata(writer);
+    writer.scalar("userdef0", {1, 2});
+    writer.images("mask", masks, height, width);
+  }
+  const auto ended = features({path("a.rtdc")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("25 features"), std::string::npos) << ended.out;
+  const Recording made(folder_ / "a_features_rheocyte.rtdc");
+  const auto column = [&](const std::string& role) {
+    return test::column(made, made.metadata().text("user:rheocyte " + role).value_or("missing"));
+  };
+  EXPECT_EQ(made.metadata().text("user:rheocyte sine_mode_2"), "userdef1") << "userdef0 is the recording's own";
+  EXPECT_NEAR(column("flank_slope")[0], 1.0 / 3, 0.02);  // of pixels
+  EXPECT_GT(column("sine_mode_2")[0], 0.05);
+  for (const auto* role : {"sine_mode_2", "sine_mode_3", "sine_mode_4", "flank_slope"})
+    EXPECT_TRUE(std::isnan(column(role)[1])) << role;
+}
+
 TEST_F(Features, WhatIsMissingIsSaid) {
   {
     test::RecordingWriter writer(folder_ / "scalars.rtdc");

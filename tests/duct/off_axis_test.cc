@@ -8,6 +8,7 @@
 #include "duct/duct_silhouette.h"
 #include "duct/duct_system.h"
 #include "shape/measures.h"
+#include "shape/outline_shape.h"
 #include "taylor.h"
 
 namespace rheocyte::off_axis_test {
@@ -125,6 +126,22 @@ TEST(OffAxis, ASphereThatIsStretchedAndShearedIsSeenAsTheProjectionOfItsEllipsoi
   EXPECT_NEAR(seen.area / (M_PI * a * a), long_axis, 2e-4);
   EXPECT_NEAR(seen.inertia_ratio, long_axis, 5e-4);
   EXPECT_NEAR(seen.modes[1], 0, 2e-4);
+  // In the plane of the offset, its own section: chords at x have their middle at y = shear x / (stretch^2 + shear^2).
+  Polygon outline, ellipse;
+  const Eigen::MatrixX2d corners = duct_offset_outline(space, x);
+  outline.assign(std::vector<Eigen::Vector2d>(corners.rowwise().begin(), corners.rowwise().end()));
+  std::vector<Eigen::Vector2d> exact;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 2 * M_PI * i / 1000;
+    exact.emplace_back(stretch * std::cos(t) + shear * std::sin(t), std::sin(t));
+  }
+  ellipse.assign(exact);
+  const HullAsymmetry section = hull_asymmetry(outline), wanted = hull_asymmetry(ellipse);
+  EXPECT_NEAR(outline.moments().area, M_PI * a * a * stretch, 2e-4);
+  EXPECT_NEAR(outline.moments().y, offset, 1e-5);
+  EXPECT_NEAR(section.mode_2, wanted.mode_2, 3e-4);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(section.sine_modes[k], wanted.sine_modes[k], 3e-4) << k + 2;
+  EXPECT_NEAR(flank_slope(outline, 1), shear / (stretch * stretch + shear * shear), 1e-3);
   const CellMoments moments = cell_moments(space, duct.system.element(), x);
   EXPECT_NEAR(moments.barycentre(1), offset, 1e-12);
   EXPECT_NEAR(5 * moments.second(0, 0) / (a * a), long_axis * long_axis, 1e-4);

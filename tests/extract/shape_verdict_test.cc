@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 namespace rheocyte::shape_verdict_test {
@@ -118,6 +119,44 @@ TEST(ShapeVerdict, SettledCellsAreToldFromThoseThatStillChange) {
   EXPECT_NE(growing.trend_text().find("still changing"), std::string::npos) << growing.trend_text();
   // Over 90 % of the places.
   EXPECT_NEAR(growing.deformation_trend.change, 0.9 * 0.008, 5 * growing.deformation_trend.error);
+}
+
+/// Cells whose c3 grows from 0.066 to 0.074 over 60 um, while c4 and the distances from the axis change by so much.
+std::string trend_of_asymmetry(double change_of_c4, double centring_per_um) {
+  std::vector<ShapeExcess> excesses;
+  std::vector<double> ratio, deformation, x, mode_3, mode_4, y;
+  std::vector<OutlineTilt> tilt;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  constexpr int events = 2000;
+  for (int i = 0; i < events; ++i) {
+    const double place = double(i) / events, off_axis = 0.4 * std::exp(centring_per_um * 60 * place) * normal(random);
+    excesses.push_back({1, 0.2, 0.01, 0.3});
+    ratio.push_back(1.5);
+    deformation.push_back(0.06);
+    x.push_back(60 * place);
+    mode_3.push_back(0.066 + 0.008 * place + 0.01 * normal(random));
+    mode_4.push_back(0.005 + change_of_c4 * place + 0.01 * normal(random));
+    y.push_back(13 + off_axis);
+    tilt.push_back({.sine_mode_2 = -0.05 * off_axis, .sine_mode_3 = 0, .sine_mode_4 = 0, .flank_slope = 0});
+  }
+  const std::vector<double> area(events, 140);
+  ShapeTally tally;
+  tally.take({excesses, ratio, area, deformation, mode_3, x, {}, {}, {}, mode_4, y, tilt});
+  ShapeVerdict v = tally.verdict();
+  v.direction = 1;
+  v.beside_axis = tally.beside_axis(1, {.width_um = 20, .rate_ul_s = 0.04});
+  return v.trend_text();
+}
+
+TEST(ShapeVerdict, AGrowingAsymmetryIsThatOfCellsThatApproachTheAxisIfC4FallsWithIt) {
+  const std::string centring = trend_of_asymmetry(-0.0086, -0.006), creep = trend_of_asymmetry(0, -0.006),
+                    unseen = trend_of_asymmetry(-0.0086, 0);
+  EXPECT_NE(centring.find("still changing"), std::string::npos) << centring;
+  EXPECT_NE(centring.find("as of cells that still approach the axis, not of cells that creep"), std::string::npos)
+      << centring;
+  EXPECT_NE(creep.find("as of cells that creep, not of cells that approach the axis"), std::string::npos) << creep;
+  EXPECT_NE(unseen.find("but pos_y does not show it"), std::string::npos) << unseen;
 }
 
 TEST(ShapeVerdict, WithoutPlacesOrAtOnePlaceThereIsNoTrend) {

@@ -160,6 +160,8 @@ def test_a_disc_of_pixels_has_the_features_of_a_disc():
     assert found.loc[0, "area_um"] == pytest.approx(np.pi * (20 * 0.34) ** 2, rel=0.02)  # of 40 pixels across
     assert (found.loc[0, "pos_x"], found.loc[0, "pos_y"]) == pytest.approx((120 * 0.34, 40 * 0.34))
     assert found.loc[0, "inert_ratio_cvx"] == pytest.approx(1, abs=1e-12)
+    for tilt in ("sine_mode_2", "sine_mode_3", "sine_mode_4", "flank_slope"):
+        assert found.loc[0, tilt] == pytest.approx(0, abs=1e-12)
     assert found.loc[1].isna().all()
     for kind in ("i8", "u1", "i1"):
         assert rheocyte.features(masks.astype(kind), 0.34).equals(found)

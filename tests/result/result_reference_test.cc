@@ -67,6 +67,7 @@ TEST(ResultReference, ExplainsEveryColumn) {
   EXPECT_EQ(columns(channel_csv({{0, 1}, {1, 1}}, {})), explained({"channel.csv"}));
   const Case c = read_case(std::filesystem::path(EXAMPLES) / "paper-cell.toml", {});
   EXPECT_EQ(columns(contour_csv({}, scales_of(c))), explained({"contour.csv"}));
+  EXPECT_EQ(columns(offset_outline_csv({}, scales_of(c))), explained({"contour_offset.csv"}));
 }
 
 TEST(ResultReference, InDocsIsUpToDate) {

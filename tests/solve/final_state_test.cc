@@ -39,6 +39,16 @@ TEST(FinalState, AStiffCellOffTheAxisConverges) {
   EXPECT_NE(state.outcome.message.find("it is known within 1e-06"), std::string::npos) << state.outcome.message;
 }
 
+TEST(FinalState, AnOutlineOverAnEdgeOfTheMeshIsWhole) {
+  // Two of the farthest places lay 2e-6 apart along an edge of the cell's surface, but not on the way between them: the
+  // outline turned back, and the numbers were not finite.
+  const StationaryState state = solved({"cell.radius_um=6.25", "cell.offset_um=[0, 0.05]", "flow.axial_tension_Pa=242",
+                                        "cell.bulk.young_modulus_kPa=0.2", "cell.cortex.law=neo-hookean",
+                                        "cell.cortex.modulus_mN_per_m=2.2", "cell.cortex.tension_mN_per_m=0.6"});
+  EXPECT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
+  EXPECT_GT(state.shape.deformation, 0.03);
+}
+
 TEST(FinalState, AMotionThatIsAskedForIsWhatConverges) {
   // Velocity, drift and rotation change by no more than the stated error up to the highest degree.
   const StationaryState state = solved({"cell.bulk.young_modulus_kPa=200", "numerics.accuracy_of=motion"}),
