@@ -139,6 +139,7 @@ function solidOf(physics) {
 export function stateOf(physics, accuracy) {
   const { deformation, radius, speed, wall, sections } = physics;
   const contour = contourOf(physics);
+  const pressureDrop = 61000 * speed * (1 + 0.1 * accuracy);
   return {
     program: 'rheocyte',
     version: 'mock',
@@ -147,9 +148,16 @@ export function stateOf(physics, accuracy) {
     deformation: deformation * (1 + 0.02 * accuracy),
     area_um2: Math.PI * radius * radius * (1 + deformation),
     cell_velocity_m_per_s: 1.4 * speed,
-    pressure_drop_Pa: 61000 * speed * (1 + 0.1 * accuracy),
+    pressure_drop_Pa: pressureDrop,
     stability_margin: Math.max(0, 1 - deformation / 0.15),
     estimated_error: 0.2 * accuracy,
+    errors: {
+      deformation: 0.2 * accuracy * deformation,
+      area_um2: 20 * accuracy,
+      cell_velocity_m_per_s: null,
+      pressure_drop_Pa: 0.1 * accuracy * pressureDrop,
+      stability_margin: 0.3 * accuracy,
+    },
     tube_radius_um: wall,
     wall_time_s: 0.02,
     case: sections,

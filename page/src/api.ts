@@ -76,6 +76,8 @@ export interface Result {
   pressure_drop_Pa: number;
   stability_margin: number | null;
   estimated_error: number | null;
+  /** of each measure, in its unit */
+  errors: Record<string, number | null>;
   wall_time_s: number;
   tube_radius_um: number;
   case: Sections;

@@ -87,15 +87,7 @@ test('The event panel lets an event go when its recording leaves the plots', { s
 );
 
 test('A second window shows the recordings, too', { skip }, () =>
-  inPage(async (page, { target }) => {
-    const saved = page.waitForRequest((each) => each.method() === 'PUT' && each.url().endsWith('/api/session'));
-    await page.getByLabel('Two plots').check();
-    await saved;
-    const second = await page.context().newPage();
-    await second.goto(target.address);
-    await recordings.drawn(second);
-    assert.equal(new URL(second.url()).hash, '#recordings');
-  }),
+  inPage((page, { target }) => recordings.aSecondWindowShowsTheRecordings(page, target.address)),
 );
 
 test('A feature that is called like a property of every object leaves the menus whole', { skip }, () =>

@@ -100,15 +100,7 @@ test('With seven recordings the button for moduli is in sight and all seven dist
 );
 
 test('A second window shows the recordings, too', { skip }, () =>
-  inFolder(async (page, _, target) => {
-    const saved = page.waitForRequest((each) => each.method() === 'PUT' && each.url().endsWith('/api/session'));
-    await page.getByLabel('Two plots').check();
-    await saved;
-    const second = await page.context().newPage();
-    await second.goto(target.address);
-    await recordings.drawn(second);
-    assert.equal(new URL(second.url()).hash, '#recordings');
-  }),
+  inFolder((page, _, target) => recordings.aSecondWindowShowsTheRecordings(page, target.address)),
 );
 
 test('A recording that changes on disk is read again, and its moduli are gone', { skip }, () =>

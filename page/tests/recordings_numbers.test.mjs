@@ -4,7 +4,7 @@ import { loadModule } from './load_module.mjs';
 
 const { describe, medianInterval, meanInterval, quantiles, studentPoint } = await loadModule('recordings/statistics.ts');
 const { ticksOf, counted, zoomed, spanOf } = await loadModule('recordings/scale.ts');
-const { applyGates, gateOptions, SlabbedPolygon } = await loadModule('recordings/gates.ts');
+const { applyGates, gateOptions, gatesWithoutOption, SlabbedPolygon } = await loadModule('recordings/gates.ts');
 const { Density, densityCells, levelsEnclosing } = await loadModule('recordings/density.ts');
 const { isolines } = await loadModule('recordings/isolines.ts');
 const { placesOf } = await loadModule('recordings/places.ts');
@@ -150,6 +150,14 @@ test('several gates count together; a feature that is missing excludes all event
   assert.deepEqual([...applyGates([low], 2, () => undefined)], [0, 0]);
   assert.equal(gateOptions([low, { ...high, on: false }]), '--min a=2');
   assert.equal(gateOptions([{ ...low, feature: 'emodulus_stored' }]), '--min emodulus=2'); // its name in the file
+});
+
+test('a gate on a computed modulus is no option of the command that computes it', () => {
+  const area = { kind: 'range', id: 1, on: true, feature: 'area_um', low: 40, high: null };
+  const modulus = { kind: 'range', id: 2, on: true, feature: 'emodulus', low: 2, high: null };
+  const polygon = { kind: 'polygon', id: 3, on: true, x: 'area_um', y: 'emodulus', xScale: 'log', yScale: 'linear', points: [[40, 1], [90, 1], [90, 5]] };
+  assert.equal(gateOptions([area, modulus, polygon]), '--min area_um=40');
+  assert.deepEqual(gatesWithoutOption([area, modulus, { ...polygon, on: false }]), [modulus]);
 });
 
 test('the contours enclose the shares of the events that they state', () => {

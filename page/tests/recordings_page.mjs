@@ -1,4 +1,5 @@
 // The workspace "Recordings" as a person uses it, for the tests.
+import assert from 'node:assert/strict';
 import { startMock } from '../mock/serve.mjs';
 import { openPage } from './browser.mjs';
 import { startTarget } from './target.mjs';
@@ -77,4 +78,15 @@ export async function exportRequest(page, title) {
   const request = page.waitForRequest((each) => each.url().endsWith('/api/export'));
   await page.getByLabel('Export').selectOption({ label: title });
   return JSON.parse((await request).postData());
+}
+
+/** A window that is opened at the same address while the recordings are shown, asserted to show them, too. */
+export async function aSecondWindowShowsTheRecordings(page, address) {
+  const saved = page.waitForRequest((each) => each.method() === 'PUT' && each.url().endsWith('/api/session'));
+  await page.getByLabel('Two plots').check();
+  await saved;
+  const second = await page.context().newPage();
+  await second.goto(address);
+  await drawn(second);
+  assert.equal(new URL(second.url()).hash, '#recordings');
 }

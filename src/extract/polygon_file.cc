@@ -6,14 +6,14 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
 #include "case/refuse_path.h"
 #include "numeric/no_value.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_bytes_of_polygons = 16 << 20;
+constexpr std::size_t most_bytes_of_polygons = 16 << 20;
 
 std::string_view stripped(std::string_view text, std::string_view characters = " \t\r") {
   const auto first = text.find_first_not_of(characters);
@@ -110,16 +110,9 @@ class PolygonReader {
 };
 
 std::vector<PolygonGate> polygons_of_file(const fs::path& file) {
-  std::error_code error;
-  const auto status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) refuse_path(file, "there is no such file.");
-  if (!fs::is_regular_file(status)) refuse_path(file, "is not a file; give one with polygon filters (.poly).");
-  if (fs::file_size(file, error) > most_bytes_of_polygons || error)
-    refuse_path(file, "is too large for polygon filters.");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse_path(file, "cannot be read; check its permissions.");
+  std::istringstream text(content_of_file(file, most_bytes_of_polygons));
   PolygonReader reader(file);
-  for (std::string line; std::getline(stream, line);) reader.read(line);
+  for (std::string line; std::getline(text, line);) reader.read(line);
   return reader.end();
 }
 

@@ -1,18 +1,13 @@
 #include "measurement/companion_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <map>
 
-#include "case/refuse_path.h"
 #include "measurement/basin.h"
-#include "measurement/hdf5_handle.h"
 #include "measurement/hdf5_reading.h"
 #include "measurement/hdf5_writing.h"
-#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -81,15 +76,14 @@ bool copy_chunks(hid_t original, hid_t copy, hsize_t rows, hsize_t chunk) {
 }
 
 // As it is stored, without its attributes. All of it has been read, and thus checked, by now.
-bool copy_original(CompanionFeature& feature, hid_t file, const std::string& path) {
+bool copy_original(CompanionFeature& feature, WrittenFile& file, const std::string& path) {
   const hid_t original = feature.original.get();
   const Hdf5Handle type(::H5Dget_type(original)), space(::H5Dget_space(original)),
       properties(::H5Dget_create_plist(original));
   hsize_t rows = 0, chunk = 0;
   if (::H5Sget_simple_extent_dims(space.get(), &rows, nullptr) != 1 || ::H5Pget_chunk(properties.get(), 1, &chunk) != 1)
     return false;
-  feature.dataset =
-      Hdf5Handle(::H5Dcreate2(file, path.c_str(), type.get(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT));
+  feature.dataset = file.dataset(path, type.get(), space.get(), properties.get());
   if (!feature.dataset || !copy_chunks(original, feature.dataset.get(), rows, chunk)) return false;
   feature.original = {};
   return true;
@@ -98,28 +92,16 @@ bool copy_original(CompanionFeature& feature, hid_t file, const std::string& pat
 }  // namespace
 
 struct CompanionFile::Content {
-  fs::path path;
-  Hdf5Handle file;
-  std::size_t events = 0;
-  std::map<std::string, CompanionFeature> features;
+  Content(const fs::path& path, std::size_t count) : file(path), events(count) {}
 
-  void check(bool good, const std::string& what) const {
-    if (good) return;
-    refuse_path(place_of(path),
-                fmt::format("{} cannot be written; is the disk full, or is writing there not allowed?", what));
-  }
+  WrittenFile file;
+  std::size_t events;
+  std::map<std::string, CompanionFeature> features;
 };
 
 CompanionFile::CompanionFile(const fs::path& file, const Recording& original, const std::string& program)
-    : content_(std::make_unique<Content>()) {
-  prepare_hdf5();
+    : content_(std::make_unique<Content>(file, original.events())) {
   Content& c = *content_;
-  c.path = file;
-  c.events = original.events();
-  const Hdf5Handle access(::H5Pcreate(H5P_FILE_ACCESS));
-  ::H5Pset_file_locking(access.get(), false, true);
-  c.file = Hdf5Handle(::H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
-  c.check(bool(c.file), "the file");
   hid_t target = c.file.get();
   ::H5Aiterate2(original.root(), H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &target);
   const auto events = static_cast<std::int64_t>(c.events);
@@ -127,7 +109,7 @@ CompanionFile::CompanionFile(const fs::path& file, const Recording& original, co
   bool good = write_attribute(target, count_key, H5T_NATIVE_INT64, &events);
   good = good && write_text(target, version_key, version ? *version + " | " + program : program);
   const Hdf5Handle group(::H5Gcreate2(target, "events", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  c.check(good && group, "the metadata");
+  c.file.check(good && group, "the metadata");
 }
 
 CompanionFile::~CompanionFile() = default;
@@ -135,7 +117,7 @@ CompanionFile::~CompanionFile() = default;
 void CompanionFile::add_user_metadata(const std::string& key, const std::string& text) {
   const std::string name = "user:" + key;
   ::H5Adelete(content_->file.get(), name.c_str());  // a companion of a companion
-  content_->check(write_text(content_->file.get(), name, text), name);
+  content_->file.check(write_text(content_->file.get(), name, text), name);
 }
 
 void CompanionFile::add_feature(const std::string& feature) {
@@ -146,9 +128,8 @@ void CompanionFile::add_feature(const std::string& feature) {
   const Hdf5Handle access(::H5Pcreate(H5P_DATASET_ACCESS));
   ::H5Pset_chunk_cache(access.get(), 521, 4 * written_chunk_bytes, 1.0);
   CompanionFeature& added = c.features[feature];
-  added.dataset = Hdf5Handle(::H5Dcreate2(c.file.get(), ("events/" + feature).c_str(), H5T_IEEE_F64LE, space.get(),
-                                          H5P_DEFAULT, properties.get(), access.get()));
-  c.check(bool(added.dataset), feature);
+  added.dataset = c.file.dataset("events/" + feature, H5T_IEEE_F64LE, space.get(), properties.get(), access.get());
+  c.file.check(bool(added.dataset), feature);
 }
 
 void CompanionFile::add_feature_of(const Recording& original, const std::string& feature) {
@@ -168,25 +149,26 @@ void CompanionFile::write(const std::string& feature, std::size_t first, std::sp
   const bool good =
       ::H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &start, nullptr, &count, nullptr) >= 0 &&
       ::H5Dwrite(target.dataset.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()) >= 0;
-  c.check(good, feature);
+  c.file.check(good, feature);
 }
 
 void CompanionFile::add_log(const std::string& name, const std::vector<std::string>& lines) {
-  content_->check(write_lines(content_->file.get(), "logs/" + name, broken_lines(lines)), "the log");
+  content_->file.check(write_lines(content_->file, "logs/" + name, broken_lines(lines)), "the log");
 }
 
 void CompanionFile::add_basin(const std::vector<std::string>& paths) {
-  content_->check(write_lines(content_->file.get(), "basins/original", file_basin_lines("original recording", paths)),
-                  "the basin");
+  content_->file.check(write_lines(content_->file, "basins/original", file_basin_lines("original recording", paths)),
+                       "the basin");
 }
 
 void CompanionFile::close() {
   Content& c = *content_;
   for (auto& [name, feature] : c.features)
-    if (feature.original) c.check(copy_original(feature, c.file.get(), "events/" + name), name);
-  for (const auto& [name, feature] : c.features) c.check(write_extremes(feature.dataset.get(), feature.extremes), name);
+    if (feature.original) c.file.check(copy_original(feature, c.file, "events/" + name), name);
+  for (const auto& [name, feature] : c.features)
+    c.file.check(write_extremes(feature.dataset.get(), feature.extremes), name);
   c.features.clear();
-  c.check(close_on_disk(c.file, c.path.string()), "the file");
+  c.file.close();
 }
 
 }  // namespace rheocyte

@@ -24,6 +24,8 @@ class Hdf5Handle {
   }
 
   hid_t get() const { return id_; }
+  /// Gives the identifier up without closing it.
+  hid_t release() { return std::exchange(id_, -1); }
   explicit operator bool() const { return id_ >= 0; }
 
  private:

@@ -99,6 +99,7 @@ herr_t collect_attribute(hid_t object, const char* name, const H5A_info_t*, void
 
 void prepare_hdf5() {
   static const bool done = [] {
+    ::H5dont_atexit();  // what could not be written whole would be closed then (measurement/written_file.h)
     ::H5open();
     ::H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     register_zstd_filter();

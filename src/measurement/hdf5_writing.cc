@@ -1,8 +1,5 @@
 #include "measurement/hdf5_writing.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -60,7 +57,7 @@ bool is_compressed(hid_t dataset) {
              0;
 }
 
-bool write_lines(hid_t file, const std::string& path, const std::vector<std::string>& lines) {
+bool write_lines(WrittenFile& file, const std::string& path, const std::vector<std::string>& lines) {
   std::size_t longest = longest_log_line;
   for (const auto& line : lines) longest = std::max(longest, line.size());
   std::vector<char> characters(longest * lines.size(), '\0');
@@ -69,10 +66,7 @@ bool write_lines(hid_t file, const std::string& path, const std::vector<std::str
   const hsize_t extent = lines.size();
   const Hdf5Handle type = text_type(longest), space(::H5Screate_simple(1, &extent, nullptr));
   const hsize_t chunk = std::max<hsize_t>(extent, 1);
-  const Hdf5Handle links(::H5Pcreate(H5P_LINK_CREATE)), properties = compressed({&chunk, 1});
-  ::H5Pset_create_intermediate_group(links.get(), 1);
-  const Hdf5Handle dataset(
-      ::H5Dcreate2(file, path.c_str(), type.get(), space.get(), links.get(), properties.get(), H5P_DEFAULT));
+  const Hdf5Handle dataset = file.dataset(path, type.get(), space.get(), compressed({&chunk, 1}).get());
   return dataset && ::H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, characters.data()) >= 0;
 }
 
@@ -107,16 +101,6 @@ bool write_extremes(hid_t dataset, const Extremes& extremes) {
   const hid_t type = H5T_NATIVE_DOUBLE;
   return write_attribute(dataset, "min", type, &extremes.least) &&
          write_attribute(dataset, "max", type, &extremes.greatest) && write_attribute(dataset, "mean", type, &mean);
-}
-
-bool close_on_disk(Hdf5Handle& file, const std::string& path) {
-  // Closing flushes the chunks; only flushing says whether that worked.
-  const bool flushed = ::H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0;
-  file = Hdf5Handle();
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool on_disk = descriptor >= 0 && ::fsync(descriptor) == 0;
-  if (descriptor >= 0) ::close(descriptor);
-  return flushed && on_disk;
 }
 
 }  // namespace rheocyte

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "measurement/hdf5_handle.h"
+#include "measurement/written_file.h"
 
 namespace rheocyte {
 
@@ -17,7 +17,7 @@ bool write_attribute(hid_t object, const std::string& name, hid_t type, const vo
 bool write_text(hid_t object, const std::string& name, const std::string& text);
 
 /// A dataset of texts of fixed length, at least longest_log_line, with the groups above it; false if that fails.
-bool write_lines(hid_t file, const std::string& path, const std::vector<std::string>& lines);
+bool write_lines(WrittenFile& file, const std::string& path, const std::vector<std::string>& lines);
 
 /// The lines, broken where they are longer than longest_log_line.
 std::vector<std::string> broken_lines(const std::vector<std::string>& lines);
@@ -37,8 +37,5 @@ struct Extremes {
 
 /// Attributes min, max, mean of a dataset; none if no value was finite. False if that fails.
 bool write_extremes(hid_t dataset, const Extremes&);
-
-/// Flushes and closes; false unless everything is on the disk.
-bool close_on_disk(Hdf5Handle& file, const std::string& path);
 
 }  // namespace rheocyte

@@ -1,15 +1,11 @@
 #include "measurement/recording_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <map>
 
-#include "case/refuse_path.h"
 #include "measurement/basin.h"
 #include "measurement/hdf5_writing.h"
-#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -58,15 +54,10 @@ bool append_rows(GrowingFeature& feature, std::vector<hsize_t> extent, hid_t typ
 }  // namespace
 
 struct RecordingFile::Content {
-  fs::path path;
-  Hdf5Handle file;
-  std::map<std::string, GrowingFeature> features;
+  explicit Content(const fs::path& path) : file(path) {}
 
-  void check(bool good, const std::string& what) const {
-    if (good) return;
-    refuse_path(place_of(path),
-                fmt::format("{} cannot be written; is the disk full, or is writing there not allowed?", what));
-  }
+  WrittenFile file;
+  std::map<std::string, GrowingFeature> features;
 
   // `extent` of one chunk; the dataset is empty at first.
   GrowingFeature& feature(const std::string& name, hid_t type, std::vector<hsize_t> extent) {
@@ -80,36 +71,29 @@ struct RecordingFile::Content {
     const Hdf5Handle space(::H5Screate_simple(rank, extent.data(), greatest.data()));
     const Hdf5Handle access(::H5Pcreate(H5P_DATASET_ACCESS));
     ::H5Pset_chunk_cache(access.get(), 521, 4 * written_chunk_bytes, 1.0);
-    there->second.dataset = Hdf5Handle(::H5Dcreate2(file.get(), ("events/" + name).c_str(), type, space.get(),
-                                                    H5P_DEFAULT, properties.get(), access.get()));
-    check(bool(there->second.dataset), name);
+    there->second.dataset = file.dataset("events/" + name, type, space.get(), properties.get(), access.get());
+    file.check(bool(there->second.dataset), name);
     return there->second;
   }
 };
 
-RecordingFile::RecordingFile(const fs::path& file) : content_(std::make_unique<Content>()) {
-  prepare_hdf5();
-  content_->path = file;
-  const Hdf5Handle access(::H5Pcreate(H5P_FILE_ACCESS));
-  ::H5Pset_file_locking(access.get(), false, true);
-  content_->file = Hdf5Handle(::H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
-  content_->check(bool(content_->file), "the file");
+RecordingFile::RecordingFile(const fs::path& file) : content_(std::make_unique<Content>(file)) {
   const Hdf5Handle group(::H5Gcreate2(content_->file.get(), "events", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  content_->check(bool(group), "the file");
+  content_->file.check(bool(group), "the file");
 }
 
 RecordingFile::~RecordingFile() = default;
 
 void RecordingFile::add_metadata(const std::string& key, double value) {
-  content_->check(write_attribute(content_->file.get(), key, H5T_NATIVE_DOUBLE, &value), key);
+  content_->file.check(write_attribute(content_->file.get(), key, H5T_NATIVE_DOUBLE, &value), key);
 }
 
 void RecordingFile::add_metadata(const std::string& key, std::int64_t value) {
-  content_->check(write_attribute(content_->file.get(), key, H5T_NATIVE_INT64, &value), key);
+  content_->file.check(write_attribute(content_->file.get(), key, H5T_NATIVE_INT64, &value), key);
 }
 
 void RecordingFile::add_metadata(const std::string& key, const std::string& text) {
-  content_->check(write_text(content_->file.get(), key, text), key);
+  content_->file.check(write_text(content_->file.get(), key, text), key);
 }
 
 void RecordingFile::append(const std::string& name, std::span<const double> values) {
@@ -117,7 +101,7 @@ void RecordingFile::append(const std::string& name, std::span<const double> valu
   constexpr hsize_t chunk =
       1 << 14;  // 128 KiB: small recordings stay small, HDF5 pads the last chunk before compressing
   GrowingFeature& feature = content_->feature(name, stored_type(name), {chunk});
-  content_->check(append_rows(feature, {values.size()}, H5T_NATIVE_DOUBLE, values.data()), name);
+  content_->file.check(append_rows(feature, {values.size()}, H5T_NATIVE_DOUBLE, values.data()), name);
   feature.extremes.add(values);
 }
 
@@ -128,23 +112,23 @@ void RecordingFile::append_images(const std::string& name, ImageSize size, std::
   const hsize_t chunk = std::max<hsize_t>(10, written_chunk_bytes / size.pixels());
   const bool is_new = !content_->features.contains(name);
   GrowingFeature& feature = content_->feature(name, H5T_STD_U8LE, {chunk, size.height, size.width});
-  if (is_new) content_->check(mark_as_images(feature.dataset.get()), name);
+  if (is_new) content_->file.check(mark_as_images(feature.dataset.get()), name);
   std::vector<std::uint8_t> masks;
   if (name == "mask") {
     masks.assign(pixels.begin(), pixels.end());
     for (auto& pixel : masks) pixel = pixel ? 255 : 0;
   }
   const void* const values = name == "mask" ? masks.data() : pixels.data();
-  content_->check(append_rows(feature, {count, size.height, size.width}, H5T_NATIVE_UINT8, values), name);
+  content_->file.check(append_rows(feature, {count, size.height, size.width}, H5T_NATIVE_UINT8, values), name);
 }
 
 void RecordingFile::add_basin(const fs::path& recording, const std::string& map) {
   const auto lines = file_basin_lines("original", {recording.string()}, map);
-  content_->check(write_lines(content_->file.get(), "basins/original", lines), "the basin");
+  content_->file.check(write_lines(content_->file, "basins/original", lines), "the basin");
 }
 
 void RecordingFile::add_log(const std::string& name, const std::vector<std::string>& lines) {
-  content_->check(write_lines(content_->file.get(), "logs/" + name, broken_lines(lines)), "the log");
+  content_->file.check(write_lines(content_->file, "logs/" + name, broken_lines(lines)), "the log");
 }
 
 void RecordingFile::close() {
@@ -153,10 +137,10 @@ void RecordingFile::close() {
   add_metadata("experiment:event count", static_cast<std::int64_t>(events));
   for (const auto& [name, feature] : c.features) {
     assert(feature.events == events);
-    c.check(write_extremes(feature.dataset.get(), feature.extremes), name);
+    c.file.check(write_extremes(feature.dataset.get(), feature.extremes), name);
   }
   c.features.clear();
-  c.check(close_on_disk(c.file, c.path.string()), "the file");
+  c.file.close();
 }
 
 }  // namespace rheocyte

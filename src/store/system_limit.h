@@ -1,5 +1,6 @@
 // What the system does not give.
 #pragma once
+#include <string>
 #include <string_view>
 
 #include "case/user_error.h"
@@ -11,6 +12,8 @@ class SystemLimit final : public UserError {
  public:
   /// `what` is missing ("threads", "processes", "open files"), `reason` is the number of the error (errno).
   SystemLimit(std::string_view what, int reason);
+  /// What another process was told, which met the limit.
+  explicit SystemLimit(const std::string& sentence) : UserError(sentence) {}
 };
 
 }  // namespace rheocyte

@@ -31,7 +31,15 @@ namespace fs = std::filesystem;
 
 // Each message is one packet, so that two processes may answer in turn and one that breaks leaves no half message. The
 // first byte says what it is.
-enum class Word : char { request = 'q', request_end = 'r', piece = 'd', progress = 'p', done = 'f', sentence = 'e' };
+enum class Word : char {
+  request = 'q',
+  request_end = 'r',
+  piece = 'd',
+  progress = 'p',
+  done = 'f',
+  sentence = 'e',
+  limit = 'l'
+};
 
 constexpr std::size_t longest_piece = std::size_t{1} << 16U;  // packets of this size always fit
 constexpr int patience_ms = 100'000;  // longer than that of contained work, which tells of its end itself
@@ -133,6 +141,8 @@ int take_descriptor(int socket) {
   try {
     work(*request, WorkReply(socket));
     send_message(socket, Word::done, {});
+  } catch (const SystemLimit& limit) {
+    send_message(socket, Word::limit, limit.what());
   } catch (const UserError& error) {
     send_message(socket, Word::sentence, error.what());
   } catch (const std::bad_alloc&) {
@@ -157,10 +167,12 @@ int take_descriptor(int socket) {
   for (;;) {
     const int socket = take_descriptor(control);
     if (socket < 0) break;
-    if (const pid_t child = ::fork(); child == 0) {
+    const pid_t child = ::fork();
+    if (child == 0) {
       ::close(control);
       be_a_worker(socket, work);
     }
+    if (child < 0) send_message(socket, Word::limit, SystemLimit("processes", errno).what());
     ::close(socket);
   }
   while (::waitpid(-1, nullptr, 0) > 0) {  // until all have noticed that nobody waits for them
@@ -252,6 +264,7 @@ void HostedWork::read(const Take& take, const TellProgress& on_progress) {
         }
         break;
       case Word::done: return;
+      case Word::limit: throw SystemLimit(message->text);
       default: throw UserError(message->text);
     }
   }

@@ -51,8 +51,8 @@ class HostedWork {
   /// Asks work that stays for another answer, once the one before has been read.
   void ask(const std::string& request) const;
 
-  /// Hands on all pieces, until the work is done or `take` returns false. UserError with the sentence of the work, or
-  /// because its process broke down.
+  /// Hands on all pieces, until the work is done or `take` returns false. UserError with the sentence of the work
+  /// (SystemLimit if it met one), or because its process broke down.
   using Take = std::function<bool(std::string_view piece)>;
   void read(const Take& take, const TellProgress& on_progress = {});
   /// Asked several times a second while an answer is read, which ends with a UserError once it is false.

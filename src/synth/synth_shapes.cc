@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <system_error>
 
@@ -11,11 +9,13 @@
 #include "case/joined.h"
 #include "case/refuse_path.h"
 #include "case/user_error.h"
+#include "store/read_file.h"
 #include "synth/analytic_shapes.h"
 #include "synth/branch_shapes.h"
 #include "synth/combined_shapes.h"
 #include "synth/course_shapes.h"
 #include "synth/grid_shapes.h"
+#include "table/stiffness_grid.h"
 #include "table/table_folder.h"
 #include "table/table_metadata.h"
 
@@ -26,11 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string cells_of(const Case& base) { return cells_in_words(model_text(base), base.channel.section); }
-
-std::string text_of_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // Those that are there: a table that is still being computed serves, too.
 std::vector<SampledBranch> finished_branches(const TableFolder& folder) {
@@ -89,7 +84,7 @@ std::unique_ptr<CellShapes> shapes_of_dynamic_table(SynthSpec& spec) {
 
 std::unique_ptr<CellShapes> shapes_of_grid(SynthSpec& spec) {
   const std::string name = one_line(spec.table.string(), 300);
-  GridContent grid = grid_from_bytes(text_of_file(spec.table), name);
+  GridContent grid = grid_from_bytes(content_of_file(spec.table, largest_grid), name);
   if (grid.origin.is_shell || spec.kind != CellKind::solid)
     refuse_path(spec.table,
                 "shapes come from a grid of solids only, so cell.kind must be \"solid\"; of other cells give "

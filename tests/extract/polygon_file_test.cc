@@ -77,9 +77,9 @@ TEST(PolygonFile, WhatIsNoneIsRefusedWithItsLine) {
   expect_file_refused(with("[Polygon 0]\nX Axis = a\npoint0 = 1 inf\n"), "line 3 is none");
   expect_file_refused(with("[Polygon 0]\nColour = red\n"), "line 2 is none");
   expect_file_refused(with("[Polygon 0]\nX Axis = a\nY Axis = b\npoint0 = 1 2\n"), "three corners");
-  expect_file_refused(folder / "missing.poly", "there is no such file");
+  expect_file_refused(folder / "missing.poly", "cannot be read (No such file");
   ASSERT_EQ(::mkfifo((folder / "pipe.poly").c_str(), 0600), 0);
-  expect_file_refused(folder / "pipe.poly", "is not a file");
+  expect_file_refused(folder / "pipe.poly", "is not a regular file");
 }
 
 }  // namespace

@@ -4,6 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "measurement/recording_writer.h"
 
 namespace rheocyte::summary_table_test {
 namespace {
@@ -37,6 +42,22 @@ TEST(SummaryTable, LinesOfOtherRecordingsStayAndThoseOfTheSameAreReplaced) {
   const auto text = summary_table(second, summary_table(first));
   const std::vector<SummaryLine> all{line_of("a.rtdc", 3), line_of("b.rtdc", 1), line_of("c.rtdc", 4)};
   EXPECT_EQ(text, summary_table(all));
+}
+
+TEST(SummaryTable, CallsAtTheSameTimeLeaveTheLinesOfAll) {
+  // As jobs of a workflow do, whose recordings lie in one folder.
+  const test::ScratchFolder folder;
+  constexpr int calls = 8;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < calls; ++i)
+    threads.emplace_back([&folder, i] {
+      const std::vector<SummaryLine> lines{line_of(std::to_string(i) + ".rtdc", 1)};
+      add_to_summary(folder / "out/rheocyte_summary.tsv", lines);
+    });
+  for (auto& thread : threads) thread.join();
+  std::ifstream stream(folder / "out/rheocyte_summary.tsv");
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  EXPECT_EQ(std::ranges::count(text, '\n'), calls + 1) << text;
 }
 
 TEST(SummaryTable, LinesOfAnOlderVersionKeepWhatTheirColumnsHold) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "case/user_error.h"
+#include "store/system_limit.h"
 
 namespace rheocyte::work_host_test {
 namespace {
@@ -97,6 +99,16 @@ TEST(WorkHost, TellsWhyWorkHasFailed) {
   expect_sentence(host.ask("die"), "ended before it had answered");
   expect_sentence(host.ask("break"), "cells.rtdc: the HDF5 library broke down");
   expect_sentence(host.ask("user"), "the file is red");
+}
+
+TEST(WorkHost, ALimitOfTheSystemThatTheWorkHasMetIsOneForWhoeverAsked) {
+  const WorkHost host([](const std::string&, const WorkReply&) { throw SystemLimit("processes", EAGAIN); });
+  try {
+    static_cast<void>(host.ask("").all());
+    FAIL() << "no limit is told";
+  } catch (const SystemLimit& limit) {
+    EXPECT_EQ(std::string(limit.what()), SystemLimit("processes", EAGAIN).what());
+  }
 }
 
 TEST(WorkHost, StopsContainedWorkForWhichNobodyWaits) {

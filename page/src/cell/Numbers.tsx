@@ -14,22 +14,20 @@ interface Row {
 
 const power = (value: number) => value.toExponential(0).replace('e', ' × 10^');
 
-/** The program estimates the error of the deformation; of the others the page knows what the last refinement changed. */
-function changeOf({ state, coarse }: model.Solved, name: 'area_um2' | 'cell_velocity_m_per_s' | 'pressure_drop_Pa' | 'stability_margin'): string | null {
-  const moved = coarse ? Math.abs((state[name] ?? 0) - (coarse[name] ?? 0)) : 0;
-  return moved > 0 ? power(moved) : null;
+/** The error that the program states beside a number of result.json; null where it states none. */
+function errorOf({ state }: model.Solved, name: string): string | null {
+  const error = state.errors[name];
+  return error ? power(error) : null;
 }
 
 function rowsOf(solved: model.Solved): Row[] {
   const { state } = solved;
-  const relative = state.estimated_error;
-  const refined = (name: Parameters<typeof changeOf>[1]) => changeOf(solved, name);
-  const error = relative === null ? null : power(relative * Math.abs(state.deformation));
+  const error = (name: string) => errorOf(solved, name);
   return [
-    { title: 'Deformation', value: state.deformation.toFixed(5), unit: '', error, lead: true },
-    { title: 'Area', value: significant(state.area_um2, 5), unit: 'µm²', error: refined('area_um2') },
-    { title: 'Cell velocity', value: significant(state.cell_velocity_m_per_s), unit: 'm/s', error: refined('cell_velocity_m_per_s') },
-    { title: 'Pressure drop', value: significant(state.pressure_drop_Pa), unit: 'Pa', error: refined('pressure_drop_Pa') },
+    { title: 'Deformation', value: state.deformation.toFixed(5), unit: '', error: error('deformation'), lead: true },
+    { title: 'Area', value: significant(state.area_um2, 5), unit: 'µm²', error: error('area_um2') },
+    { title: 'Cell velocity', value: significant(state.cell_velocity_m_per_s), unit: 'm/s', error: error('cell_velocity_m_per_s') },
+    { title: 'Pressure drop', value: significant(state.pressure_drop_Pa), unit: 'Pa', error: error('pressure_drop_Pa') },
   ];
 }
 
@@ -53,7 +51,7 @@ function Measure({ row }: { row: Row }) {
 function Margin({ solved }: { solved: model.Solved }) {
   const margin = solved.state.stability_margin;
   const low = margin !== null && margin < 0.1;
-  const error = changeOf(solved, 'stability_margin');
+  const error = errorOf(solved, 'stability_margin');
   return (
     <div class="measure margin" data-measure="Margin">
       <dt>Margin to the instability</dt>

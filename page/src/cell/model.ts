@@ -18,8 +18,6 @@ export interface Solved {
   /** of this state, or of the one before until they are there */
   fields: Fields | null;
   final: boolean;
-  /** the same case at display accuracy, once the final answer is there */
-  coarse: State | null;
 }
 
 export interface TracePoint {
@@ -65,9 +63,7 @@ function take({ revision: answered, state, final }: Answer): void {
   const of = cases.get(answered) ?? values.get();
   for (const old of [...cases.keys()]) if (old < answered) cases.delete(old);
   refused.set(null);
-  const former = solved.get();
-  const coarse = final && former?.revision === answered && !former.final ? former.state : null;
-  solved.set({ revision: answered, of, state, fields: former?.fields ?? null, final, coarse });
+  solved.set({ revision: answered, of, state, fields: solved.get()?.fields ?? null, final });
   const point = { area_um2: state.area_um2, deformation: state.deformation };
   trace.update((points) => [...points.slice(-400), point]);
 }

@@ -22,7 +22,8 @@ function legendSvg({ field, map, low, high }: Legend, x: number, y: number): str
 }
 
 function numbersText({ state }: Solved): string {
-  const error = state.estimated_error === null ? '' : ` ± ${(state.estimated_error * state.deformation).toExponential(0)}`;
+  const stated = state.errors.deformation;
+  const error = stated ? ` ± ${stated.toExponential(0)}` : '';
   return `deformation ${state.deformation.toFixed(6)}${error}   area ${state.area_um2.toFixed(2)} µm²   velocity ${state.cell_velocity_m_per_s.toPrecision(4)} m/s   pressure drop ${state.pressure_drop_Pa.toPrecision(4)} Pa`;
 }
 

@@ -4,7 +4,8 @@ import { notify } from '../shell/notices';
 import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
 import { focus, gates, itemOf, items, moduliSettings, recordings, titleOf } from './model';
-import { gateOptions } from './gates';
+import { nameOf } from './features';
+import { featuresOf, gateOptions, gatesWithoutOption } from './gates';
 import { replacedTemperatures } from './origin';
 import { endModuli, moduli, runModuli } from './moduli';
 
@@ -68,6 +69,11 @@ export function Command({ title, command }: { title: string; command: string }) 
         </button>
       </div>
       <code tabIndex={0}>{whole}</code>
+      {gatesWithoutOption(active).map((gate) => (
+        <p key={gate.id} class="caution">
+          The gate on {featuresOf(gate).map(nameOf).join(' and ')} is not part of the command, which computes these numbers itself.
+        </p>
+      ))}
     </div>
   );
 }

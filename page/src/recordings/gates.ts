@@ -1,5 +1,5 @@
 // Gates: limits of a feature, polygons in the plane of two features. Events count that lie within all that are on.
-import { storedModulus } from './features';
+import { isComputed, storedModulus } from './features';
 import { forward, type ScaleKind } from './scale';
 
 export interface RangeGate {
@@ -134,10 +134,15 @@ function polygonOption({ x, y, xScale, yScale, points }: PolygonGate): string {
   return `--polygon ${axis(x, xScale)},${axis(y, yScale)}=${points.map((point) => point.join(',')).join(':')}`;
 }
 
-/** The gates that are on, as options of the command line. */
+const isOfResults = (gate: Gate) => featuresOf(gate).some(isComputed);
+
+/** The gates that are on, as options of the command line, which has none for what it computes itself. */
 export function gateOptions(gates: Gate[]): string {
   return gates
-    .filter((gate) => gate.on)
+    .filter((gate) => gate.on && !isOfResults(gate))
     .flatMap((gate) => (gate.kind === 'range' ? rangeOptions(gate) : [polygonOption(gate)]))
     .join(' ');
 }
+
+/** The gates that are on and that the command line has no options for. */
+export const gatesWithoutOption = (gates: Gate[]): Gate[] => gates.filter((gate) => gate.on && isOfResults(gate));
