@@ -21,9 +21,9 @@ std::vector<ElongationColumn> elongation_columns(ElongatedBy by) {
        fmt::format("standard error of young_modulus_{} (kPa)", word), &B::standard_error_kPa},
       {"elongation", "elongation", "", "length over width that the liquid's tension alone would give the cell",
        &B::elongation},
-      {"elongation_error", "elongation error", "", "standard error of elongation", &B::elongation_error},
       {"axial_tension_Pa", "axial_tension", "Pa",
        "tension of the liquid along the flow (Pa) that elongates the cell so", &B::axial_tension_Pa},
+      {"elongation_error", "elongation error", "", "standard error of elongation", &B::elongation_error},
       {"axial_tension_error_Pa", "axial tension error", "Pa", "standard error of axial_tension (Pa)",
        &B::axial_tension_error_Pa}};
 }

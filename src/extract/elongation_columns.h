@@ -23,7 +23,7 @@ struct ElongationColumn {
   std::span<const double> ElongationBlock::*values;
 };
 
-/// In their order; the modulus is named by what tells it.
+/// In their order, the last two being the errors of the two before; the modulus is named by what tells it.
 std::vector<ElongationColumn> elongation_columns(ElongatedBy by);
 
 /// The values of a block, to be computed.

@@ -40,10 +40,13 @@ std::vector<OwnColumn> own_columns(const Extraction& extraction) {
   if (extraction.table().is_own())
     columns.push_back({"standard error", "standard error of emodulus (kPa), of pixels, table and inertia",
                        &EventBlock::standard_error_kPa});
+  std::vector<OwnColumn> elongation;
   if (const auto by = extraction.event_shapes().elongated_by())
     for (const ElongationColumn& column : elongation_columns(*by))
-      columns.push_back({column.role, column.meaning,
-                         [values = column.values](const EventBlock& block) { return block.elongation.*values; }});
+      elongation.push_back({column.role, column.meaning,
+                            [values = column.values](const EventBlock& block) { return block.elongation.*values; }});
+  const auto first_errors = elongation.end() - (elongation.empty() ? 0 : 2);
+  columns.insert(columns.end(), elongation.begin(), first_errors);
   if (extraction.event_shapes().is_known()) {
     columns.push_back({"shape_excess",
                        "inertia ratio - that of the table's cell of this area and deformation; elongated: above 0.05",
@@ -53,6 +56,7 @@ std::vector<OwnColumn> own_columns(const Extraction& extraction) {
   }
   if (extraction.event_shapes().has_asymmetry())
     for (const TiltFeature& feature : tilt_features()) columns.push_back({feature.name, feature.sentence, {}});
+  columns.insert(columns.end(), first_errors, elongation.end());
   return columns;
 }
 

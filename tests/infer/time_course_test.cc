@@ -90,20 +90,20 @@ TEST(TimeCourse, APopulationOfEqualCellsHasAnIntervalThatHoldsThem) {
   EXPECT_LT(found.viscosity_spread, 0.1);
 }
 
-/// The picture of the same cell with an ellipse that the table's cells do not have.
-CourseImage with_ellipse(CourseImage image, double mode_2_of_table, double half_width, double ellipse) {
+/// The picture of the same cell, drawn out as the table's cells are not.
+CourseImage drawn_out(CourseImage image, double mode_2_of_table, double half_width, double more) {
   const CourseImage bare = image;
   for (int i = 0; i < 20; ++i) {
-    const auto change = without_elongation({Packet::Constant(ellipse), Packet::Constant(std::abs(image.mode_3)),
+    const auto change = without_elongation({Packet::Constant(more), Packet::Constant(std::abs(image.mode_3)),
                                             Packet::Constant(std::log(image.area_um2 / (half_width * half_width)))});
     image.mode_3 = bare.mode_3 * std::exp(-change.log_mode_3[0]);
     image.area_um2 = bare.area_um2 * std::exp(-change.log_area[0]);
   }
-  image.mode_2 = mode_2_of_table + ellipse;
+  image.mode_2 = mode_2_of_table + more;
   return image;
 }
 
-TEST(TimeCourse, AnEllipseThatTheTableDoesNotHaveIsTakenBack) {
+TEST(TimeCourse, ATensionThatTheTableDoesNotHaveIsTakenBack) {
   const DynamicTable table(test::invented_dynamic());
   const double half_width = channel_flow_of(table.spec().base).width_um / 2;
   const DynamicCell cell{6.5, 5, 0.6};
@@ -112,8 +112,8 @@ TEST(TimeCourse, AnEllipseThatTheTableDoesNotHaveIsTakenBack) {
   CellImages as_seen, with_its_own;
   for (const CourseImage& image : bare) {
     const double mode_2 = table.value(CourseMeasure::mode_2, cell, image.place_um);
-    as_seen.push_back(with_ellipse(image, mode_2, half_width, 0.2));
-    with_its_own.push_back(with_ellipse(image, mode_2, half_width, 0));
+    as_seen.push_back(drawn_out(image, mode_2, half_width, 0.2));
+    with_its_own.push_back(drawn_out(image, mode_2, half_width, 0));
   }
   const TimeCourse course(table);
   const CourseEstimate wanted = course.cell(bare), found = course.cell(as_seen);
@@ -123,8 +123,9 @@ TEST(TimeCourse, AnEllipseThatTheTableDoesNotHaveIsTakenBack) {
   for (CourseImage& image : as_seen) image.mode_2 = no_value;
   const double left = course.cell(as_seen).young_modulus_kPa.value / wanted.young_modulus_kPa.value;
   EXPECT_GT(std::abs(std::log(left)), 0.03);  // what there was to take back
+  // Cells that fit less well have another c_2, which then counts as drawn out.
   EXPECT_NEAR(course.cell(with_its_own).young_modulus_kPa.value, wanted.young_modulus_kPa.value,
-              0.01 * wanted.young_modulus_kPa.value);
+              0.015 * wanted.young_modulus_kPa.value);
 }
 
 TEST(TimeCourse, WhatNoCellOfTheTableCanBeHasNoModulus) {
