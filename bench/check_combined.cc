@@ -149,7 +149,7 @@ struct Comparison {
   static CellCoordinates place_of(const SolvedCell& cell, const CombinedInterpolation& between) {
     const double S = cell.young_kPa + cell.cortex_mN_m / cell.radius_um;
     return {std::log(cell.radius_um), 1 - cell.young_kPa / S, std::log(outline_shape(cell.outline).deformation),
-            between.tension_ratios().front()};
+            between.tension_ratios().front(), 0.0};
   }
 };
 
@@ -164,7 +164,7 @@ void print_errors_of_pixels(const CombinedInterpolation& table, const RenderedEr
       Eigen::Array<double, 8, 1> sum = Eigen::Array<double, 8, 1>::Zero();
       int count = 0;
       for (const double radius : {4.5, 5.5, 6.5, 7.5}) {
-        const CellCoordinates cell(std::log(radius), share, std::log(d), table.tension_ratios().front());
+        const CellCoordinates cell(std::log(radius), share, std::log(d), table.tension_ratios().front(), 0.0);
         const CombinedState state = table.at(cell);
         if (!state.inside) continue;
         const ShapeErrors errors = rendered.at(cell);

@@ -93,13 +93,16 @@ def _set_section(options, section, function):
     options.set_section(section == "square")
 
 
-def moduli(recording, table, *, section="square", fit_tension=False, only_figure=False, progress=None, **measuring):
+def moduli(recording, table, *, section="square", fit_tension=False, axial_tension_Pa=None, only_figure=False,
+           progress=None, **measuring):
     """Moduli of bulk and cortex of each cell from its contour, as `rheocyte moduli` gives them.
 
     table           folder of a combined table (examples/tables/combined.toml), which is one of the tube
     section         of the channel: "square", by the difference between solids there and in the tube, or "tube", as virtual
                     cells of such a table have it
-    fit_tension     the tension, too, by a table with several of them
+    fit_tension     the tension of the cortex, too, by a table with several of them; tables of elongated cells always do
+    axial_tension_Pa  tension of the liquid, which elongates the cells, 0 = none; None: the one that is found for the recording,
+                    if the table has elongated cells (examples/tables/combined-elongated.toml)
     only_figure     by area, deformation and Lambda1/Lambda2 alone
     others          as for extract
 
@@ -112,6 +115,8 @@ def moduli(recording, table, *, section="square", fit_tension=False, only_figure
     options.table = path(table, "table")
     _set_section(options, section, "moduli")
     options.fit_tension = truth(fit_tension, "fit_tension")
+    if axial_tension_Pa is not None:
+        options.axial_tension_Pa = number(axial_tension_Pa, "axial_tension_Pa")
     options.only_figure = truth(only_figure, "only_figure")
     with source_of(recording, _gated(measuring)) as source, progress_bar(progress) as tell:
         text, warnings = written(lambda place: native.moduli(source.place, place, options, tell))

@@ -28,6 +28,7 @@ def moduli(
     *,
     section: Literal["tube", "square"] = "square",
     fit_tension: bool = False,
+    axial_tension_Pa: float | None = None,
     only_figure: bool = False,
     progress: _Progress = None,
     **measuring: Any,

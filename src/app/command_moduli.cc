@@ -6,7 +6,9 @@
 
 #include "app/commands.h"
 #include "app/extract_options.h"
+#include "app/key_option.h"
 #include "app/recording_batch.h"
+#include "case/case_keys.h"
 #include "case/user_error.h"
 #include "extract/event_table.h"
 #include "extract/moduli_recording.h"
@@ -43,6 +45,8 @@ class ModuliJob {
     const std::string name = one_line(task.recording.string(), 200);
     if (!options_.batch.quiet) {
       print(fmt::format("{}: {}, see {}\n", name, in_one_line(summary), file_for(task).string()));
+      for (const auto& lines : {tension_lines(summary.axial), slope_lines(summary.axial)})
+        for (const auto& line : lines) print(fmt::format("{}: {}\n", name, line));
       for (const auto& warning : summary.warnings) tell(fmt::format("{}: {}", name, warning));
     }
     if (summary.with_stiffness() > 0) return true;
@@ -75,7 +79,14 @@ void add_moduli_command(CLI::App& app, int& exit_code) {
       ->type_name("DIR");
   declare_channel_option(*command, options->section);
   declare_measuring_options(*command, options->measuring);
-  command->add_flag("--fit-tension", options->fit_tension, "the tension, too, by a table with several of them");
+  command->add_flag("--fit-tension", options->fit_tension,
+                    "the tension of the cortex, too, by a table with several of them; tables of elongated cells always "
+                    "do");
+  add_key_option(
+      *command, case_key("flow.axial_tension_Pa"), "--axial-tension",
+      "tension of the liquid along the flow, which elongates the cells, 0 = none; by default it is found for "
+      "each recording, if the table has elongated cells (examples/tables/combined-elongated.toml)",
+      [options](double value) { options->axial_tension_Pa = value; });
   command->add_flag("--only-figure", options->only_figure,
                     "by area, deformation and Lambda1/Lambda2, the measures of the paper's figure 9");
   command->callback([options, &exit_code] {

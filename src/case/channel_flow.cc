@@ -36,6 +36,12 @@ double consistency_Pa_sn(const ChannelFlow& flow) {
   return 1e-3 * flow.viscosity_mPas / thinning(flow.width_um, flow.rate_ul_s, flow.exponent);
 }
 
+double wall_shear_stress_Pa(const ChannelFlow& at) {
+  const double R = tube_radius_per_channel_width * at.width_um * 1e-6, n = at.exponent;
+  const double shear_rate = 4 * at.rate_ul_s * 1e-9 / (std::numbers::pi * R * R * R) * (3 * n + 1) / (4 * n);
+  return consistency_Pa_sn(at) * std::pow(shear_rate, n);
+}
+
 double reynolds_number(double density_kg_per_m3, const ChannelFlow& at) {
   const double R = tube_radius_per_channel_width * at.width_um * 1e-6, Q = at.rate_ul_s * 1e-9;
   return density_kg_per_m3 * Q / (std::numbers::pi * R * at.viscosity_mPas * 1e-3);

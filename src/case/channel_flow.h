@@ -21,6 +21,10 @@ ChannelFlow channel_flow_of(const Case&);
 /// K of the power-law liquid that has this effective viscosity and exponent (Pa s^n).
 double consistency_Pa_sn(const ChannelFlow&);
 
+/// Shear stress of the liquid at the wall of the tube that stands for the channel, without a cell: eta g with g = 4 Q /
+/// (pi R^3), R = tube_radius_per_channel_width times the width; of a power-law liquid K (g (3 n + 1) / (4 n))^n.
+double wall_shear_stress_Pa(const ChannelFlow&);
+
 /// rho Q / (pi R eta), with the mean speed and the radius R of the tube that stands for the channel.
 double reynolds_number(double density_kg_per_m3, const ChannelFlow&);
 

@@ -6,6 +6,21 @@
 
 namespace rheocyte {
 
+namespace {
+
+/// With a tension of the liquid one mode more: there is one unknown more.
+std::vector<int> features_of(const ModuliOptions& options, const ModuliTable& table) {
+  constexpr int last_of_elongated = 7;
+  if (options.only_figure) return features_of_figure();
+  return table.between.is_elongated() ? features_of_contour(last_of_elongated) : features_of_contour();
+}
+
+bool has_free_tension(const ModuliOptions& options, const ModuliTable& table) {
+  return options.fit_tension || table.between.is_elongated();
+}
+
+}  // namespace
+
 ModuliTable::ModuliTable(const ModuliOptions& options)
     : content(read_combined_table(options.table)),
       between(content),
@@ -15,14 +30,23 @@ ModuliTable::ModuliTable(const ModuliOptions& options)
     throw UserError(
         fmt::format("rheocyte: --fit-tension needs a table with several tensions (table.tension_ratio); {} has one.",
                     content.spec.identifier));
+  if (options.axial_tension_Pa && *options.axial_tension_Pa != 0 && !between.is_elongated())
+    throw UserError(
+        fmt::format("rheocyte: --axial-tension needs a table of elongated cells (table.axial_ratio); those of {} have "
+                    "none.",
+                    content.spec.identifier));
+  if (options.only_figure && between.is_elongated() && !options.axial_tension_Pa)
+    throw UserError(
+        "rheocyte: --only-figure leaves too few features to find the axial tension; give --axial-tension, or leave "
+        "--only-figure out.");
 }
 
 EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table)
     : flow_(settings.conditions.flow),
       pixels_(table.between, settings.pixel_size_um * table.simulated.width_um / flow_.width_um),
       moduli_(table.between, table.simulated,
-              {options.only_figure ? features_of_figure() : features_of_contour(), options.fit_tension,
-               table.between.tension_ratios().front()}) {
+              {features_of(options, table), has_free_tension(options, table), table.between.tension_ratios().front()}),
+      tension_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()) {
   const ModulusMap* const square = table.section.table(flow_.exponent);
   if (!square || table.content.spec.cortex_shares.front() > 0) return;
   square_.emplace(table.between, table.simulated, *square);
@@ -32,7 +56,16 @@ EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& o
 ModuliEstimate EventModuli::fit(const ShapeVector& seen, double viscosity_mPas) const {
   ChannelFlow flow = flow_;
   flow.viscosity_mPas = viscosity_mPas;
-  return fit_pixels(moduli_, pixels_, seen, flow, square_ ? &*square_ : nullptr);
+  return fit_pixels(moduli_, pixels_, seen, flow, square(), tension_);
+}
+
+std::optional<SeenCell> EventModuli::seen_cell(const ShapeVector& seen, double viscosity_mPas) const {
+  ChannelFlow flow = flow_;
+  flow.viscosity_mPas = viscosity_mPas;
+  MeasuredShape shape = seen_shape(pixels_, seen, flow, square(), pixels_.middle()).shape;
+  const auto cell = moduli_.nearest(shape, flow, AxialTension::unknown());
+  if (!cell) return {};
+  return SeenCell{seen_shape(pixels_, seen, flow, square(), cell->cell).shape, flow};
 }
 
 }  // namespace rheocyte

@@ -2,6 +2,7 @@
 #pragma once
 #include "extract/extract_settings.h"
 #include "extract/square_section.h"
+#include "infer/common_tension.h"
 #include "infer/rendered_errors.h"
 #include "infer/several_moduli.h"
 
@@ -9,7 +10,7 @@ namespace rheocyte {
 
 /// A combined table, ready for use.
 struct ModuliTable {
-  /// UserError, also if the tension is to be fitted with a table of a single one.
+  /// UserError, also if the table does not have what is to be fitted or is given.
   explicit ModuliTable(const ModuliOptions& options);
   ModuliTable(const ModuliTable&) = delete;
   ModuliTable& operator=(const ModuliTable&) = delete;
@@ -25,18 +26,29 @@ class EventModuli {
   /// Renders the errors of the recording's pixels, which takes about a second. The table must outlive it.
   EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table);
 
-  /// From the shape in pixels (EventOutlines) and the viscosity of the event.
+  /// From the shape in pixels (EventOutlines) and the viscosity of the event, with what is known of the axial tension:
+  /// nothing, unless it is given or `know_tension` was called.
   ModuliEstimate fit(const ShapeVector& seen, double viscosity_mPas) const;
+  void know_tension(const AxialTension& tension) { tension_ = tension; }
+
+  /// What the tension of a recording is found from; nothing without a shape.
+  std::optional<SeenCell> seen_cell(const ShapeVector& seen, double viscosity_mPas) const;
+  CommonTension common_tension(std::span<const SeenCell> cells) const {
+    return rheocyte::common_tension(moduli_, cells);
+  }
 
   /// By which the cells of the tube become those of the square channel; empty: they do not.
   const std::string& square_table() const { return square_table_; }
 
  private:
+  const SquareShapes* square() const { return square_ ? &*square_ : nullptr; }
+
   ChannelFlow flow_;
   std::string square_table_;
   std::optional<SquareShapes> square_;
   RenderedErrors pixels_;
   SeveralModuli moduli_;
+  AxialTension tension_;
 };
 
 }  // namespace rheocyte

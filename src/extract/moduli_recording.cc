@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "extract/event_pass.h"
@@ -22,6 +24,9 @@ namespace rheocyte {
 namespace {
 
 constexpr std::size_t events_between_progress = 256;
+/// So many cells tell the axial tension of a recording; events are read in blocks from all over it.
+constexpr std::size_t wanted_for_tension = 200, tension_block = 16;
+constexpr std::string_view use_of_outlines = "the shape of each cell is fitted";
 
 constexpr std::string_view more_columns =
     "young_modulus_error_kPa\t"
@@ -48,24 +53,41 @@ std::string line(std::size_t event, const ShapeVector& seen, double viscosity_mP
 class Fits {
  public:
   Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table)
-      : events_(recording, options.measuring, "the shape of each cell is fitted"),
+      : events_(recording, options.measuring, use_of_outlines),
         simulated_exponent_(table.simulated.exponent),
         is_square_(options.section == Section::square),
         solids_(std::string(), options.section),
         shapes_of_solids_(solids_.shapes(conditions().flow.exponent)),
         elongated_solids_(solids_.elongated(conditions().flow.exponent)),
-        moduli_(events_.settings(), options, table) {}
+        moduli_(events_.settings(), options, table),
+        table_(table) {
+    axial_.is_of_elongated_cells = table.between.is_elongated();
+    axial_.is_given = options.axial_tension_Pa.has_value();
+    if (axial_.is_given) axial_.common.value_Pa = *options.axial_tension_Pa;
+  }
+
+  /// Before the first block, where the table has elongated cells.
+  void find_tension(const Recording& recording, const ModuliOptions& options) {
+    if (!axial_.is_of_elongated_cells) return;
+    axial_.wall_stress_Pa = wall_shear_stress_Pa(conditions().flow);
+    if (axial_.is_given) return;
+    axial_.common = moduli_.common_tension(cells_for_tension(recording, options));
+    moduli_.know_tension(axial_.common.tension());
+  }
 
   /// The names of the columns, and the settings.
   std::string header(const ModuliOptions& options) const {
     std::vector<std::string> remarks{
         fmt::format("rheocyte {} moduli", version), "recording: " + events_.recording().file().string(),
         "table: " + options.table.string(),
-        fmt::format(
-            "by {}; {}",
-            options.only_figure ? "area, deformation and Lambda1/Lambda2" : "area and modes 2 .. 6 of the contour",
-            options.fit_tension ? "the tension is fitted" : "the tension is that of the table"),
+        fmt::format("by {}; {}",
+                    options.only_figure            ? "area, deformation and Lambda1/Lambda2"
+                    : axial_.is_of_elongated_cells ? "area and modes 2 .. 7 of the contour"
+                                                   : "area and modes 2 .. 6 of the contour",
+                    options.fit_tension || axial_.is_of_elongated_cells ? "the tension of the cortex is fitted"
+                                                                        : "the tension is that of the table"),
         section_text()};
+    for (const auto& line : tension_lines(axial_)) remarks.push_back(line);
     const auto settings = events_.settings().lines();
     remarks.insert(remarks.end(), settings.begin(), settings.end());
     if (!events_.gates().empty()) remarks.push_back("only events with " + events_.gates().description());
@@ -84,6 +106,7 @@ class Fits {
     for (std::size_t i = 0; i < count; ++i) {
       const ModuliEstimate estimate = events_.is_inside(i) ? moduli_.fit(seen[i], viscosity[i]) : gated();
       tally_.take(estimate);
+      if (axial_.is_of_elongated_cells && has_cell(estimate)) slopes_.take(seen[i], estimate.cell);
       text += line(first + i, seen[i], viscosity[i], estimate) + fmt::format("\t{:.4g}", excess_[i].excess);
       for (const ElongationColumn& column : elongation_columns(ElongatedBy::modes))
         text += fmt::format("\t{:.6g}", (solids_values_.block().*column.values)[i]);
@@ -92,8 +115,15 @@ class Fits {
     return text;
   }
 
+  /// Behind all events.
+  std::string footer() {
+    slopes_.finish(table_.between, axial_);
+    return commented(slope_lines(axial_));
+  }
+
   ModuliSummary summary() {
     ModuliSummary s = tally_.summary();
+    s.axial = axial_;
     const ExtractSettings& settings = events_.settings();
     s.gates = events_.gates().description();
     s.warnings = events_.recording().remarks();
@@ -116,6 +146,35 @@ class Fits {
 
  private:
   const MeasuringConditions& conditions() const { return events_.settings().conditions; }
+
+  static bool has_cell(const ModuliEstimate& e) {
+    return e.status == ModuliStatus::resolved || e.status == ModuliStatus::not_told_apart;
+  }
+
+  /// Of blocks far from each other, until they are enough.
+  std::vector<SeenCell> cells_for_tension(const Recording& recording, const ModuliOptions& options) const {
+    OutlinedEvents events(recording, options.measuring, use_of_outlines);
+    const std::size_t blocks = (recording.events() + tension_block - 1) / tension_block;
+    std::vector<SeenCell> cells;
+    for (std::size_t k = 0; k < blocks && cells.size() < wanted_for_tension; ++k) {
+      const std::size_t first = far_apart(k, blocks) * tension_block;
+      const std::size_t count = std::min(tension_block, recording.events() - first);
+      events.read(first, count);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!events.is_inside(i)) continue;
+        if (auto cell = moduli_.seen_cell(events.shape(first + i), events.viscosity_mPas()[i]))
+          cells.push_back(std::move(*cell));
+      }
+    }
+    return cells;
+  }
+
+  /// Each of `count` places once, neighbours in the order far from each other.
+  static std::size_t far_apart(std::size_t k, std::size_t count) {
+    std::size_t step = std::max<std::size_t>(1, std::size_t(0.618 * double(count)));
+    while (std::gcd(step, count) > 1) ++step;
+    return k * step % count;
+  }
 
   std::string section_text() const {
     if (!is_square_) return "channel: the tube of equal pressure drop, as in the table";
@@ -171,6 +230,9 @@ class Fits {
   const ShapeMap* shapes_of_solids_;
   const ElongatedLiquid* elongated_solids_;
   EventModuli moduli_;
+  const ModuliTable& table_;
+  AxialSummary axial_;
+  SlopeTally slopes_;
   std::vector<ShapeExcess> excess_;
   ElongationValues solids_values_;  ///< as if they were solids
   std::size_t inertial_ = 0;
@@ -186,10 +248,12 @@ ModuliSummary moduli_of_recording(const std::filesystem::path& path, const std::
   Recording recording(path);
   EventPass pass(recording, tell_progress);
   Fits fits(recording, options, table);
+  fits.find_tension(recording, options);
   FileWriter writer(file);
   writer.append(fits.header(options));
   pass.in_blocks(events_between_progress,
                  [&](std::size_t first, std::size_t count) { writer.append(fits.take(first, count)); });
+  writer.append(fits.footer());
   writer.close();
   return fits.summary();
 }

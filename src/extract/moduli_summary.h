@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "extract/axial_summary.h"
 #include "extract/extract_summary.h"
 #include "infer/several_moduli.h"
 
@@ -17,11 +18,12 @@ struct ModuliSummary {
   Distribution stiffness_kPa;                             ///< E + E2D / r0, of all events that have it
   std::string gates;                                      ///< limits of the events that count; empty: all
   std::vector<std::string> warnings;
+  AxialSummary axial;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.gates, s.warnings);
+    return std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.gates, s.warnings, s.axial);
   }
 
   std::size_t events() const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <numeric>
 
 #include "measurement/shape_in_pixels.h"
 
@@ -12,6 +14,8 @@ namespace {
 
 // Stiffer cells are round for a camera.
 constexpr double min_deformation = 1e-3;
+// Where not all elongated cells of a table go.
+constexpr double max_mode_3 = 0.1;
 constexpr int outline_points = 400;
 
 std::array<double, mode_count> modes_of(const CombinedState& state) {
@@ -24,65 +28,81 @@ std::array<double, mode_count> modes_of(const CombinedState& state) {
 
 RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, int draws)
     : box_(table.box()) {
-  double& least = box_.least(int(CellCoordinate::log_deformation));
-  least = std::max(least, std::log(min_deformation));
-  std::uint64_t number = 0;
-  for (int i = 0; i < nodes[0]; ++i)
-    for (int j = 0; j < nodes[1]; ++j)
-      for (int k = 0; k < nodes[2]; ++k) {
-        CellCoordinates cell = box_.least;
-        const std::array<double, axes> share{double(i) / (nodes[0] - 1), double(j) / (nodes[1] - 1),
-                                             double(k) / (nodes[2] - 1)};
-        for (int axis = 0; axis < axes; ++axis)
-          cell(axis) += share[std::size_t(axis)] * (box_.greatest(axis) - box_.least(axis));
-        const auto state = table.at(cell);
-        CellRandom random(1, number++, Purpose::picture);
-        const auto outline = outline_of_modes(modes_of(state), std::exp(state.value(log_area_row)), outline_points);
-        errors_.push_back(errors_in_pixels(outline, pixel_size_um, draws, random));
-      }
+  constexpr int x_progress = int(CellCoordinate::log_progress);
+  if (table.is_elongated()) {
+    nodes_ = {4, 3, 4, 1, 4};
+    box_.greatest(x_progress) = std::min(box_.greatest(x_progress), std::log(max_mode_3));
+  } else {
+    box_.least(x_progress) = std::max(box_.least(x_progress), std::log(min_deformation));
+  }
+  const std::size_t count = count_of(nodes_);
+  for (std::uint64_t number = 0; errors_.size() < count; ++number) {
+    CellCoordinates cell = box_.least;
+    auto rest = std::size_t(number);
+    for (int axis = coordinate_count - 1; axis >= 0; --axis) {
+      const auto n = std::size_t(nodes_[std::size_t(axis)]);
+      if (n > 1) cell(axis) += double(rest % n) / double(n - 1) * (box_.greatest(axis) - box_.least(axis));
+      rest /= n;
+    }
+    const auto state = table.at(cell);
+    CellRandom random(1, number, Purpose::picture);
+    const auto outline = outline_of_modes(modes_of(state), std::exp(state.value(log_area_row)), outline_points);
+    errors_.push_back(errors_in_pixels(outline, pixel_size_um, draws, random));
+  }
+}
+std::size_t RenderedErrors::count_of(const Nodes& nodes) {
+  return std::accumulate(nodes.begin(), nodes.end(), std::size_t{1}, std::multiplies<>());
 }
 
 ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
-  std::array<int, axes> below{};
-  std::array<double, axes> share{};
-  for (std::size_t axis = 0; axis < axes; ++axis) {
+  Nodes below{};
+  std::array<double, coordinate_count> share{};
+  for (std::size_t axis = 0; axis < coordinate_count; ++axis) {
     const auto a = Eigen::Index(axis);
-    const double range = box_.greatest(a) - box_.least(a);
-    const double place =
-        std::clamp((cell(a) - box_.least(a)) / (range > 0 ? range : 1) * (nodes[axis] - 1), 0., nodes[axis] - 1.);
-    below[axis] = std::min(int(place), nodes[axis] - 2);
+    const double range = box_.greatest(a) - box_.least(a), last = nodes_[axis] - 1;
+    const double place = std::clamp((cell(a) - box_.least(a)) / (range > 0 ? range : 1) * last, 0., last);
+    below[axis] = std::min(int(place), std::max(nodes_[axis] - 2, 0));
     share[axis] = place - below[axis];
   }
   ShapeErrors sum;
-  for (int corner = 0; corner < 8; ++corner) {
+  for (int corner = 0; corner < 1 << coordinate_count; ++corner) {
     double weight = 1;
-    std::array<int, axes> at{};
-    for (std::size_t axis = 0; axis < axes; ++axis) {
+    std::size_t number = 0;
+    for (std::size_t axis = 0; axis < coordinate_count; ++axis) {
       const int up = corner >> axis & 1;
-      at[axis] = below[axis] + up;
+      number = number * std::size_t(nodes_[axis]) + std::size_t(below[axis] + up);
       weight *= up ? share[axis] : 1 - share[axis];
     }
-    const auto& node = errors_[std::size_t((at[0] * nodes[1] + at[1]) * nodes[2] + at[2])];
+    if (weight == 0) continue;  // also what would lie beyond a single node
+    const auto& node = errors_[number];
     sum.bias += weight * node.bias;
     sum.covariance += weight * node.covariance;
   }
   return sum;
 }
 
-ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
-                          const ChannelFlow& flow, const SquareShapes* square) {
-  constexpr int rounds = 3;  // the bias hardly depends on the cell: the third one changes nothing that matters
+SeenShape seen_shape(const RenderedErrors& errors, const ShapeVector& measured, const ChannelFlow& flow,
+                     const SquareShapes* square, const CellCoordinates& cell) {
   constexpr int x_share = int(CellCoordinate::cortex_share);
+  SeenShape seen{{measured, errors.at(cell)}};
+  ShapeErrors& added = seen.shape.errors;
+  if (!square || !measured.allFinite()) return seen;
+  const auto by_square = square->change(measured - added.bias, flow, cell(x_share));
+  added.bias += by_square.errors.bias;
+  added.covariance += by_square.errors.covariance;
+  seen.section_factor = by_square.factor_of_mode_3;
+  return seen;
+}
+
+ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
+                          const ChannelFlow& flow, const SquareShapes* square, const AxialTension& tension) {
+  constexpr int rounds = 3;  // the bias hardly depends on the cell: the third one changes nothing that matters
   CellCoordinates cell = errors.middle();
   ModuliEstimate estimate;
   for (int round = 0; round < rounds; ++round) {
-    ShapeErrors added = errors.at(cell);
-    SquareShapes::Change by_square;
-    if (square && measured.allFinite()) by_square = square->change(measured - added.bias, flow, cell(x_share));
-    added.bias += by_square.errors.bias;
-    added.covariance += by_square.errors.covariance;
-    estimate = moduli.fit({measured, added}, flow);
-    estimate.section_factor = by_square.factor_of_mode_3;
+    const SeenShape seen = seen_shape(errors, measured, flow, square, cell);
+    estimate = moduli.fit(seen.shape, flow, tension);
+    estimate.section_factor = seen.section_factor;
     if (estimate.status == ModuliStatus::no_data) break;
     cell = estimate.cell;
   }

@@ -15,7 +15,8 @@
 namespace rheocyte {
 
 /// Bias (measured - true) and covariance of the features of a true shape at a few radii, shares and deformations of a
-/// table, by rendering at random positions; linear in ln r0, share and ln d between them. Repeatable.
+/// table, and axial ratios where it has some, by rendering at random positions; linear in the coordinates between them.
+/// Repeatable.
 class RenderedErrors {
  public:
   /// The pixel (um) as wide as in the table's channel: pixel size x table's width / recording's width.
@@ -25,16 +26,27 @@ class RenderedErrors {
   CellCoordinates middle() const { return (box_.least + box_.greatest) / 2; }
 
  private:
-  static constexpr int axes = 3;
-  static constexpr std::array<int, axes> nodes{6, 3, 6};
+  using Nodes = std::array<int, coordinate_count>;
+  static std::size_t count_of(const Nodes& nodes);
 
   CellBox box_;
+  Nodes nodes_{6, 3, 6, 1, 1};  ///< along each coordinate
   std::vector<ShapeErrors> errors_;
 };
+
+/// A shape with what pixels and the square channel add to it.
+struct SeenShape {
+  MeasuredShape shape;
+  double section_factor = 1;  ///< see ModuliEstimate
+};
+/// As far as this is known, for such a cell of the table; `square` as below.
+SeenShape seen_shape(const RenderedErrors& errors, const ShapeVector& measured, const ChannelFlow& flow,
+                     const SquareShapes* square, const CellCoordinates& cell);
 
 /// The moduli of a cell in pixels: the errors are those at the cell that is found. `square`: what the square channel
 /// adds to the shapes of the table; null: the channel is the tube.
 ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
-                          const ChannelFlow& flow, const SquareShapes* square = nullptr);
+                          const ChannelFlow& flow, const SquareShapes* square = nullptr,
+                          const AxialTension& tension = {});
 
 }  // namespace rheocyte

@@ -10,118 +10,22 @@
 #include <span>
 #include <utility>
 
-#include "numeric/dense_solve.h"
+#include "infer/moduli_misfit.h"
 
 namespace rheocyte {
 
 namespace {
 
 constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
-              x_deformation = int(CellCoordinate::log_deformation), x_ratio = int(CellCoordinate::tension_ratio);
+              x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio),
+              x_axial = int(CellCoordinate::axial_ratio);
 /// Cells whose misfits differ by less cannot be distinguished at 90 %.
 constexpr double same_chi_squared = 2.7;
 /// What is known before: an error of so many widths of the table's range. Keeps covariances finite.
 constexpr double prior_widths = 3;
-/// Beyond the table the features go straight on, and each of so many widths counts as one standard error.
-constexpr double fence_widths = 0.2;
-
-CellCoordinates widths(const CellBox& box) {
-  const CellCoordinates range = box.greatest - box.least;
-  return (range.array() > 0).select(range, CellCoordinates::Ones());
-}
-
-/// Residuals of the chosen features in standard errors, over the free coordinates; in the form that ceres::TinySolver
-/// wants.
-class Misfit {
- public:
-  using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = Eigen::Dynamic };
-  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, coordinate_count>;
-
-  Misfit(const CombinedInterpolation& table, const MeasuredShape& shape, std::span<const int> features)
-      : table_(table), features_(features), size_is_volume_(shape.size_is_volume) {
-    const auto n = Eigen::Index(features.size());
-    measured_.resize(n);
-    Eigen::MatrixXd covariance(n, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const int f = features[std::size_t(i)];
-      measured_(i) = shape.features(f) - shape.errors.bias(f);
-      for (Eigen::Index k = 0; k < n; ++k) covariance(i, k) = shape.errors.covariance(f, features[std::size_t(k)]);
-    }
-    whitening_ = whitening(covariance);
-  }
-
-  bool is_usable() const { return measured_.allFinite() && whitening_.size() > 0; }
-  int NumResiduals() const { return int(features_.size()) + coordinate_count; }
-  int NumParameters() const { return int(free_.size()); }
-
-  /// The coordinates that are fitted; the others stay as in `cell`.
-  void set_free(std::vector<int> free, const CellCoordinates& cell) {
-    free_ = std::move(free);
-    cell_ = cell;
-  }
-
-  bool operator()(const double* parameters, double* residuals, double* jacobian) const {
-    CellCoordinates cell = cell_;
-    for (std::size_t i = 0; i < free_.size(); ++i) cell(free_[i]) = parameters[i];
-    Jacobian all;
-    Eigen::Map<Eigen::VectorXd>(residuals, NumResiduals()) = evaluate(cell, all);
-    for (std::size_t i = 0; jacobian && i < free_.size(); ++i)
-      Eigen::Map<Eigen::VectorXd>(jacobian + i * std::size_t(NumResiduals()), NumResiduals()) = all.col(free_[i]);
-    return true;
-  }
-
-  /// Of the features, and behind them of the fence.
-  Eigen::VectorXd evaluate(const CellCoordinates& cell, Jacobian& jacobian) const {
-    const auto n = Eigen::Index(features_.size());
-    const CellBox& box = table_.box();
-    const CellCoordinates held = cell.cwiseMax(box.least).cwiseMin(box.greatest), beyond = cell - held;
-    const CombinedState state = table_.at(held);
-    Eigen::VectorXd residual(n + coordinate_count);
-    jacobian = Jacobian::Zero(n + coordinate_count, coordinate_count);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto [value, gradient] = feature(features_[std::size_t(i)], held, state);
-      residual(i) = value + gradient.dot(beyond) - measured_(i);
-      jacobian.row(i) = gradient.transpose();
-    }
-    residual.head(n) = whitening_ * residual.head(n);
-    jacobian.topRows(n) = whitening_ * jacobian.topRows(n);
-    const CellCoordinates fence = fence_widths * widths(box);
-    for (int x = 0; x < coordinate_count; ++x) {
-      residual(n + x) = beyond(x) / fence(x);
-      if (beyond(x) != 0) jacobian(n + x, x) = 1 / fence(x);
-    }
-    return residual;
-  }
-
- private:
-  struct Feature {
-    double value;
-    CellCoordinates gradient;
-  };
-
-  Feature feature(int number, const CellCoordinates& cell, const CombinedState& state) const {
-    if (number == int(ShapeFeature::area_um2) && size_is_volume_)
-      return {std::log(4 * std::numbers::pi / 3) + 3 * cell(x_radius), 3 * CellCoordinates::Unit(x_radius)};
-    if (number == int(ShapeFeature::area_um2))
-      return {state.value(log_area_row), state.gradient.row(log_area_row).transpose()};
-    if (number == int(ShapeFeature::deformation)) {
-      const double d = std::exp(cell(x_deformation));
-      return {d, d * CellCoordinates::Unit(x_deformation)};
-    }
-    static_assert(moment_ratio_row == int(ShapeFeature::moment_ratio) &&
-                  first_mode_row == int(ShapeFeature::first_mode));
-    return {state.value(number), state.gradient.row(number).transpose()};
-  }
-
-  const CombinedInterpolation& table_;
-  std::span<const int> features_;
-  bool size_is_volume_;
-  Eigen::VectorXd measured_;
-  Eigen::MatrixXd whitening_;
-  std::vector<int> free_;
-  CellCoordinates cell_ = CellCoordinates::Zero();
-};
+/// Of the wall's shear stress: what is said to be known exactly is known that well. Hundred times as well as a cell
+/// tells the tension, it leaves the minimum smooth enough for Newton's method.
+constexpr double least_tension_error = 1e-3;
 
 /// d(E, E2D, gamma)/d(coordinates), in the units of the table.
 struct Moduli {
@@ -149,12 +53,6 @@ Moduli moduli_at(const CellCoordinates& cell, const CombinedState& state) {
 }
 
 }  // namespace
-
-/// A minimum, and what is fitted in it.
-struct SeveralModuli::Candidate {
-  CellCoordinates cell;
-  double chi_squared;
-};
 
 std::string_view name_of(ModuliStatus status) {
   switch (status) {
@@ -212,16 +110,36 @@ SeveralModuli::SeveralModuli(const CombinedInterpolation& table, const ChannelFl
   if (table.tension_ratios().size() == 1) options_.tension_ratio = table.tension_ratios().front();
 }
 
+ModuliMisfit SeveralModuli::misfit(const MeasuredShape& measured, const ChannelFlow& flow,
+                                   const AxialTension& tension) const {
+  MeasuredShape shape = measured;
+  const ScaleFactors scale = scale_factors(simulated_, flow);
+  shape.features(0) -= std::log(shape.size_is_volume ? scale.volume : scale.area);
+  if (!std::isfinite(scale.load)) shape.features.setConstant(no_value);
+  const double least_error = least_tension_error * wall_shear_stress_Pa(simulated_);
+  return {table_,
+          shape,
+          options_.features,
+          {tension.value_Pa / scale.modulus, std::max(tension.error_Pa / scale.modulus, least_error)}};
+}
+
+int SeveralModuli::freedom() const { return int(options_.features.size()) - (options_.free_tension ? 4 : 3); }
+
+double SeveralModuli::axial_tension_Pa(const CellCoordinates& cell, const ChannelFlow& flow) const {
+  return 1e3 * cell(x_axial) * std::exp(table_.at(cell).value(log_stiffness_row)) *
+         scale_factors(simulated_, flow).modulus;
+}
+
 // All coordinates free, then those that left the table's share and tension held at its border.
-SeveralModuli::Candidate SeveralModuli::minimum_from(const MeasuredShape& shape, const CellCoordinates& start,
+SeveralModuli::Candidate SeveralModuli::minimum_from(ModuliMisfit& misfit, const CellCoordinates& start,
                                                      Share share) const {
-  Misfit misfit(table_, shape, options_.features);
-  std::vector<int> free{x_radius, x_deformation};
+  std::vector<int> free{x_radius, x_progress};
   if (share == Share::fitted) free.push_back(x_share);
   if (options_.free_tension) free.push_back(x_ratio);
+  if (table_.is_elongated()) free.push_back(x_axial);
   CellCoordinates cell = start;
   const CellBox& box = table_.box();
-  ceres::TinySolver<Misfit> solver;
+  ceres::TinySolver<ModuliMisfit> solver;
   solver.options.function_tolerance = 1e-9;
   while (true) {
     misfit.set_free(free, cell);
@@ -238,83 +156,105 @@ SeveralModuli::Candidate SeveralModuli::minimum_from(const MeasuredShape& shape,
   }
 }
 
-ModuliEstimate SeveralModuli::fit(const MeasuredShape& measured, const ChannelFlow& flow) const {
-  MeasuredShape shape = measured;
-  const ScaleFactors scale = scale_factors(simulated_, flow);
-  shape.features(0) -= std::log(shape.size_is_volume ? scale.volume : scale.area);
-  if (!std::isfinite(scale.load) || !shape.features.allFinite() ||
-      !Misfit(table_, shape, options_.features).is_usable())
-    return {};
+SeveralModuli::Candidate SeveralModuli::nearest(ModuliMisfit& misfit) const {
   const CellBox& box = table_.box();
-  CellCoordinates start = start_for(shape);
+  CellCoordinates start = start_for(misfit.shape());
   std::vector<Candidate> minima;
   for (const double place : {0.1, 0.5, 0.9}) {
     start(x_share) = box.least(x_share) + place * (box.greatest(x_share) - box.least(x_share));
-    minima.push_back(minimum_from(shape, start, Share::fitted));
+    minima.push_back(minimum_from(misfit, start, Share::fitted));
   }
-  const Candidate best = *std::ranges::min_element(minima, {}, &Candidate::chi_squared);
-  ModuliEstimate estimate = estimate_of(shape, best, profile(shape, best));
+  return *std::ranges::min_element(minima, {}, &Candidate::chi_squared);
+}
+
+std::optional<SeveralModuli::Candidate> SeveralModuli::nearest(const MeasuredShape& shape, const ChannelFlow& flow,
+                                                               const AxialTension& tension,
+                                                               const CellCoordinates* start) const {
+  ModuliMisfit in_table = misfit(shape, flow, tension);
+  if (!in_table.shape().features.allFinite() || !in_table.is_usable()) return {};
+  return start ? minimum_from(in_table, *start, Share::fitted) : nearest(in_table);
+}
+
+ModuliEstimate SeveralModuli::fit(const MeasuredShape& shape, const ChannelFlow& flow,
+                                  const AxialTension& tension) const {
+  ModuliMisfit in_table = misfit(shape, flow, tension);
+  if (!in_table.shape().features.allFinite() || !in_table.is_usable()) return {};
+  const Candidate best = nearest(in_table);
+  const auto others = profile(in_table, best);
+  ModuliEstimate estimate = estimate_of(in_table, best, others);
+  const ScaleFactors scale = scale_factors(simulated_, flow);
   const Eigen::Vector3d factor(scale.modulus, scale.cortex_modulus, scale.cortex_modulus);
   estimate.modulus = estimate.modulus.cwiseProduct(factor);
   estimate.covariance = factor.asDiagonal() * estimate.covariance * factor.asDiagonal();
-  estimate.stiffness_kPa *= scale.modulus;
-  estimate.stiffness_error_kPa *= scale.modulus;
+  for (double* stress : {&estimate.stiffness_kPa, &estimate.stiffness_error_kPa, &estimate.axial_tension_Pa,
+                         &estimate.axial_tension_error_Pa})
+    *stress *= scale.modulus;
   return estimate;
 }
 
 CellCoordinates SeveralModuli::start_for(const MeasuredShape& shape) const {
   const CellBox& box = table_.box();
   CellCoordinates start = CellCoordinates::Zero();
-  const double size = shape.features(0) - shape.errors.bias(0);
-  const double d = shape.features(int(ShapeFeature::deformation)) - shape.errors.bias(int(ShapeFeature::deformation));
+  const auto feature = [&](int number) { return shape.features(number) - shape.errors.bias(number); };
+  constexpr int mode_2 = int(ShapeFeature::first_mode);
+  const double size = feature(0);
+  const double progress = feature(table_.is_elongated() ? mode_2 + 1 : int(ShapeFeature::deformation));
   start(x_radius) =
       shape.size_is_volume ? (size - std::log(4 * std::numbers::pi / 3)) / 3 : (size - std::log(std::numbers::pi)) / 2;
-  start(x_deformation) = std::log(std::max(d, 1.01 * std::exp(box.least(x_deformation))));
+  start(x_progress) = std::log(std::max(progress, 1.01 * std::exp(box.least(x_progress))));
   start(x_ratio) = options_.tension_ratio;
+  start(x_axial) = feature(mode_2);  // of a solid 3/4 of the ratio at first
   return start.cwiseMax(box.least).cwiseMin(box.greatest);
 }
 
 // The best cells of other shares of the cortex that fit nearly as well. The covariance alone does not see them where
 // the features depend on the share in a bent way.
-std::vector<SeveralModuli::Candidate> SeveralModuli::profile(const MeasuredShape& shape, const Candidate& best) const {
+std::vector<SeveralModuli::Candidate> SeveralModuli::profile(ModuliMisfit& misfit, const Candidate& best) const {
   constexpr int places = 13;
   const CellBox& box = table_.box();
   std::vector<Candidate> alike;
   for (int i = 0; i < places; ++i) {
     CellCoordinates start = best.cell;
     start(x_share) = box.least(x_share) + i * (box.greatest(x_share) - box.least(x_share)) / (places - 1);
-    const Candidate held = minimum_from(shape, start, Share::held);
+    const Candidate held = minimum_from(misfit, start, Share::held);
     if (held.chi_squared < best.chi_squared + same_chi_squared) alike.push_back(held);
   }
   return alike;
 }
 
-ModuliEstimate SeveralModuli::estimate_of(const MeasuredShape& shape, const Candidate& best,
-                                          std::span<const Candidate> others) const {
-  const Misfit misfit(table_, shape, options_.features);
-  const CombinedState state = table_.at(best.cell.cwiseMax(table_.box().least).cwiseMin(table_.box().greatest));
-  Misfit::Jacobian jacobian;
-  misfit.evaluate(best.cell, jacobian);
-  const auto n = Eigen::Index(options_.features.size());
-  Eigen::Matrix4d information = jacobian.topRows(n).transpose() * jacobian.topRows(n);
+SeveralModuli::Covariance SeveralModuli::covariance_at(const ModuliMisfit& misfit, const CellCoordinates& cell) const {
+  Covariance information = misfit.information(cell);
   information.diagonal() += (prior_widths * widths(table_.box())).cwiseInverse().cwiseAbs2();
-  if (!options_.free_tension) {  // known exactly
-    information.row(x_ratio).setZero();
-    information.col(x_ratio).setZero();
-    information(x_ratio, x_ratio) = 1;
+  std::vector<int> known;  // exactly
+  if (!options_.free_tension) known.push_back(x_ratio);
+  if (!table_.is_elongated()) known.push_back(x_axial);
+  for (const int x : known) {
+    information.row(x).setZero();
+    information.col(x).setZero();
+    information(x, x) = 1;
   }
-  Eigen::Matrix4d covariance = information.inverse();
-  if (!options_.free_tension) covariance(x_ratio, x_ratio) = 0;
+  Covariance covariance = information.inverse();
+  for (const int x : known) covariance(x, x) = 0;
+  return covariance;
+}
 
+ModuliEstimate SeveralModuli::estimate_of(const ModuliMisfit& misfit, const Candidate& best,
+                                          std::span<const Candidate> others) const {
+  const CombinedState state = table_.at(best.cell.cwiseMax(table_.box().least).cwiseMin(table_.box().greatest));
+  const Covariance covariance = covariance_at(misfit, best.cell);
+  const auto error_of = [&](const CellCoordinates& gradient) { return std::sqrt(gradient.dot(covariance * gradient)); };
   ModuliEstimate e;
   const Moduli moduli = moduli_at(best.cell, state);
   e.cell = best.cell;
   e.modulus = moduli.value;
   e.covariance = moduli.gradient * covariance * moduli.gradient.transpose();
   e.stiffness_kPa = moduli.stiffness;
-  e.stiffness_error_kPa = std::sqrt(moduli.stiffness_gradient.dot(covariance * moduli.stiffness_gradient));
+  e.stiffness_error_kPa = error_of(moduli.stiffness_gradient);
+  e.axial_tension_Pa = 1e3 * best.cell(x_axial) * moduli.stiffness;
+  e.axial_tension_error_Pa = 1e3 * error_of(best.cell(x_axial) * moduli.stiffness_gradient +
+                                            moduli.stiffness * CellCoordinates::Unit(x_axial));
   e.chi_squared = best.chi_squared;
-  e.freedom = int(n) - (options_.free_tension ? 4 : 3);
+  e.freedom = freedom();
   bool all_known = true;
   for (const Modulus m : {Modulus::young, Modulus::cortex, Modulus::tension}) {
     const auto is_near = [&](const Candidate& other) {

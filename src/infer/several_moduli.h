@@ -2,6 +2,8 @@
 // (docs/theory-extract.md, sec. "several moduli").
 #pragma once
 #include <array>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +30,14 @@ enum class ModuliStatus {
 inline constexpr int moduli_status_count = int(ModuliStatus::count);
 std::string_view name_of(ModuliStatus status);
 
+/// What is known of the tension of the liquid along the flow by which cells are elongated (docs/theory.md,
+/// eq:axial-tension). Only tables of elongated cells have one.
+struct AxialTension {
+  double value_Pa = 0;
+  double error_Pa = 0;  ///< standard error; infinite: nothing is known, and it is fitted with each cell
+  static AxialTension unknown() { return {0, HUGE_VAL}; }
+};
+
 struct ModuliEstimate {
   ModuliStatus status = ModuliStatus::no_data;
   /// Young's modulus (kPa), E2D (mN/m), tension (mN/m), and their covariance.
@@ -35,7 +45,8 @@ struct ModuliEstimate {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(no_value);
   std::array<bool, modulus_count> is_known{};  ///< standard error below `max_relative_error`
   double stiffness_kPa = no_value,
-         stiffness_error_kPa = stiffness_kPa;      ///< E + E2D / r0
+         stiffness_error_kPa = stiffness_kPa;  ///< E + E2D / r0
+  double axial_tension_Pa = 0, axial_tension_error_Pa = 0;
   CellCoordinates cell = CellCoordinates::Zero();  ///< in the table's channel
   double chi_squared = no_value;
   int freedom = 0;
@@ -66,20 +77,40 @@ std::vector<int> features_of_figure();
 /// Area and the modes up to `last`, 2 <= last <= max_mode: the whole contour.
 std::vector<int> features_of_contour(int last = 6);
 
+class ModuliMisfit;
+
 /// The table's interpolation must outlive it.
 class SeveralModuli {
  public:
   SeveralModuli(const CombinedInterpolation& table, const ChannelFlow& simulated, FitOptions options);
 
-  ModuliEstimate fit(const MeasuredShape& shape, const ChannelFlow& flow) const;
+  ModuliEstimate fit(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension = {}) const;
+
+  /// A cell of the table, and how far its features are off.
+  struct Candidate {
+    CellCoordinates cell;
+    double chi_squared;
+  };
+  /// The nearest one: of all, or on the way down from a cell. Nothing if a feature or its error is not a number.
+  std::optional<Candidate> nearest(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension,
+                                   const CellCoordinates* start = nullptr) const;
+  /// Of a cell of the table that is seen in a flow.
+  double axial_tension_Pa(const CellCoordinates& cell, const ChannelFlow& flow) const;
+  const CombinedInterpolation& table() const { return table_; }
+  /// Features less parameters, the axial tension being known.
+  int freedom() const;
 
  private:
-  struct Candidate;
   enum class Share { fitted, held };
+  using Covariance = Eigen::Matrix<double, coordinate_count, coordinate_count>;
+  /// In the table's channel and flow.
+  ModuliMisfit misfit(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension) const;
   CellCoordinates start_for(const MeasuredShape& shape) const;
-  Candidate minimum_from(const MeasuredShape& shape, const CellCoordinates& start, Share share) const;
-  std::vector<Candidate> profile(const MeasuredShape& shape, const Candidate& best) const;
-  ModuliEstimate estimate_of(const MeasuredShape& shape, const Candidate& best,
+  Candidate nearest(ModuliMisfit& misfit) const;
+  Candidate minimum_from(ModuliMisfit& misfit, const CellCoordinates& start, Share share) const;
+  std::vector<Candidate> profile(ModuliMisfit& misfit, const Candidate& best) const;
+  Covariance covariance_at(const ModuliMisfit& misfit, const CellCoordinates& cell) const;
+  ModuliEstimate estimate_of(const ModuliMisfit& misfit, const Candidate& best,
                              std::span<const Candidate> others) const;
 
   const CombinedInterpolation& table_;

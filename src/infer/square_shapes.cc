@@ -26,25 +26,26 @@ SquareShapes::SquareShapes(const CombinedInterpolation& tube, const ChannelFlow&
 }
 
 SquareShapes::Solid SquareShapes::solid_of(double area_um2, double modulus_kPa) const {
-  constexpr int x_radius = int(CellCoordinate::log_radius), x_deformation = int(CellCoordinate::log_deformation);
+  constexpr int x_radius = int(CellCoordinate::log_radius), x_progress = int(CellCoordinate::log_progress);
   const CellBox& box = tube_.box();
   CellCoordinates cell = box.least;
+  cell(int(CellCoordinate::axial_ratio)) = 0;
   cell(x_radius) = std::log(area_um2 / std::numbers::pi) / 2;
   CombinedState state;
   constexpr int rounds = 3, halvings = 30;  // the area of a cell changes by some per cent; of ten: to 1e-8
   for (int round = 0; round < rounds; ++round) {
     cell(x_radius) = std::clamp(cell(x_radius), box.least(x_radius), box.greatest(x_radius));
-    double low = box.least(x_deformation), high = box.greatest(x_deformation);
+    double low = box.least(x_progress), high = box.greatest(x_progress);
     for (int i = 0; i < halvings; ++i) {
-      cell(x_deformation) = (low + high) / 2;
+      cell(x_progress) = (low + high) / 2;
       state = tube_.at(cell);
-      (state.value(log_stiffness_row) > std::log(modulus_kPa) ? low : high) = cell(x_deformation);
+      (state.value(log_stiffness_row) > std::log(modulus_kPa) ? low : high) = cell(x_progress);
     }
     cell(x_radius) += (std::log(area_um2) - state.value(log_area_row)) / 2;
   }
   Solid solid{std::exp(state.value(log_stiffness_row)), ShapeVector::Zero()};
   solid.shape(int(ShapeFeature::area_um2)) = std::log(area_um2);
-  solid.shape(int(ShapeFeature::deformation)) = std::exp(cell(x_deformation));
+  solid.shape(int(ShapeFeature::deformation)) = state.value(deformation_row);
   solid.shape(int(ShapeFeature::moment_ratio)) = state.value(moment_ratio_row);
   for (int k = first_radius_mode; k <= last_radius_mode; ++k)
     solid.shape(int(ShapeFeature::first_mode) + k - min_mode) = state.value(first_mode_row + k - min_mode);
@@ -54,10 +55,12 @@ SquareShapes::Solid SquareShapes::solid_of(double area_um2, double modulus_kPa) 
 SquareShapes::Change SquareShapes::change(const ShapeVector& smooth, const ChannelFlow& flow,
                                           double cortex_share) const {
   const double area = std::exp(smooth(int(ShapeFeature::area_um2))) * scale_factors(flow, simulated_).area;
-  const double seen = std::max(smooth(int(ShapeFeature::deformation)), 0.0);
+  constexpr int third = int(ShapeFeature::first_mode) + 3 - min_mode;
+  // The tension that elongates cells is in both channels the same, and the third mode is not of its making.
+  const double seen = tube_.is_elongated() ? square_.deformation_by_mode_3(area, std::max(smooth(third), 0.0))
+                                           : std::max(smooth(int(ShapeFeature::deformation)), 0.0);
   const Solid tube = solid_of(area, square_.modulus_kPa(area, seen));
   const ShapeVector square = square_.shape(area, square_.deformation_by_modulus(area, tube.modulus_kPa));
-  constexpr int third = int(ShapeFeature::first_mode) + 3 - min_mode;
   Change change;
   change.errors.bias = square - tube.shape;
   change.errors.covariance.diagonal() = (left_by_section * change.errors.bias).cwiseAbs2();

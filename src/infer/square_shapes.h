@@ -13,8 +13,9 @@ class SquareShapes {
   SquareShapes(const CombinedInterpolation& tube, const ChannelFlow& simulated, const ModulusMap& square);
 
   /// What is added to the features of a cell of the tube's table that is seen in the square channel, as a stationary
-  /// solid with this area and deformation tells, less what it is less with such a share of the cortex, and how well
-  /// that is known. The shape is one without pixels, as seen in a channel with this flow.
+  /// solid with this area and deformation tells, or third mode where the table is one of elongated cells, less what it
+  /// is less with such a share of the cortex, and how well that is known. The shape is one without pixels, as seen in a
+  /// channel with this flow.
   struct Change {
     ShapeErrors errors;
     double factor_of_mode_3 = 1;

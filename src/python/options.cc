@@ -42,6 +42,7 @@ void bind_options(py::module_& module) {
       .def_readwrite("measuring", &ModuliOptions::measuring)
       .def_readwrite("table", &ModuliOptions::table)
       .def_readwrite("fit_tension", &ModuliOptions::fit_tension)
+      .def_readwrite("axial_tension_Pa", &ModuliOptions::axial_tension_Pa)
       .def_readwrite("only_figure", &ModuliOptions::only_figure)
       .def("set_section", [](ModuliOptions& o, bool square) { o.section = square ? Section::square : Section::tube; });
 }

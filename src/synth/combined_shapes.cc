@@ -7,13 +7,14 @@
 #include <utility>
 
 #include "numeric/roots.h"
+#include "table/progress.h"
 
 namespace rheocyte {
 
 namespace {
 
 constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
-              x_deformation = int(CellCoordinate::log_deformation), x_ratio = int(CellCoordinate::tension_ratio);
+              x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio);
 
 std::vector<SampledBranch> without_empty(std::vector<SampledBranch> branches) {
   std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
@@ -23,7 +24,10 @@ std::vector<SampledBranch> without_empty(std::vector<SampledBranch> branches) {
 }  // namespace
 
 CombinedShapes::CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches, const SimulatedCells& cells)
-    : branches_(without_empty(std::move(branches))), between_(make_combined_table(spec, branches_)), cells_(cells) {}
+    : branches_(without_empty(std::move(branches))),
+      between_(make_combined_table(spec, branches_)),
+      cells_(cells),
+      progress_(progress_of(spec)) {}
 
 std::variant<CellShape, NoShape> CombinedShapes::shape(const VirtualCell& cell) const {
   const ScaleFactors scale = cells_.scale_for(cell);
@@ -35,45 +39,48 @@ std::variant<CellShape, NoShape> CombinedShapes::shape(const VirtualCell& cell) 
   const auto& ratios = tension_ratios();
   const double ratio =
       ratios.size() == 1 || !(cortex > 0) ? ratios.front() : cell.tension_mN_per_m / cell.cortex_modulus_mN_per_m;
-  return scaled(at({std::log(radius), cortex / radius / S, 0, ratio}, std::log(S)), scale);
+  CellCoordinates place = CellCoordinates::Zero();
+  place(x_radius) = std::log(radius);
+  place(x_share) = cortex / radius / S;
+  place(x_ratio) = ratio;
+  return scaled(at(place, std::log(S)), scale);
 }
 
-// Where the table has this stiffness: it falls with the deformation.
+// Where the table has this stiffness: it falls the more the flow deforms the cell.
 std::variant<CellShape, NoShape> CombinedShapes::at(CellCoordinates cell, double log_stiffness) const {
   const CellBox& box = between_.box();
   if (cell(x_radius) < box.least(x_radius)) return NoShape::too_small;
   if (cell(x_radius) > box.greatest(x_radius)) return NoShape::too_large;
   for (const int x : {x_share, x_ratio})
     if (!(cell(x) >= box.least(x) && cell(x) <= box.greatest(x))) return NoShape::outside_sheets;
-  const double low = box.least(x_deformation), high = box.greatest(x_deformation);
-  const auto excess = [&](double log_d) {
-    cell(x_deformation) = log_d;
+  const double low = box.least(x_progress), high = box.greatest(x_progress);
+  const auto excess = [&](double progress) {
+    cell(x_progress) = progress;
     const CombinedState state = between_.at(cell);
-    return ValueAndSlope{state.value(log_stiffness_row) - log_stiffness,
-                         state.gradient(log_stiffness_row, x_deformation)};
+    return ValueAndSlope{state.value(log_stiffness_row) - log_stiffness, state.gradient(log_stiffness_row, x_progress)};
   };
   if (excess(low).value < 0) return NoShape::too_stiff;
   if (excess(high).value > 0) return NoShape::too_soft;
-  const double log_d = bracketed_newton(excess, low, high, (low + high) / 2, false, 1e-12);
-  cell(x_deformation) = log_d;
+  cell(x_progress) = bracketed_newton(excess, low, high, (low + high) / 2, false, 1e-12);
   if (!between_.at(cell).inside) return NoShape::too_soft;  // all branches begin alike but end one by one
   return blended(cell);
 }
 
 CellShape CombinedShapes::blended(const CellCoordinates& cell) const {
-  const double radius = std::exp(cell(x_radius)), deformation = std::exp(cell(x_deformation));
+  const double radius = std::exp(cell(x_radius)), progress = std::exp(cell(x_progress));
   CellShape shape;
   shape.meridian = Eigen::MatrixX2d::Zero(branches_.front().contour.front().rows(), 2);
   for (const auto& [number, weight] : between_.weights(cell)) {
     const SampledBranch& branch = branches_[std::size_t(number)];
-    const double within = std::clamp(deformation, branch.at(0, Measure::deformation),  // but for rounding
-                                     branch.at(branch.samples() - 1, Measure::deformation));
-    const double scale = radius / branch.radius_um, stiffness = stiffness_at(branch, Measure::deformation, within);
+    const double within = std::clamp(progress, branch.at(0, progress_),  // but for rounding
+                                     branch.at(branch.samples() - 1, progress_));
+    const double scale = radius / branch.radius_um, stiffness = stiffness_at(branch, progress_, within);
     shape.meridian += weight * scale * interpolate_contour(branch, stiffness);
     shape.volume_um3 += weight * scale * scale * scale * interpolate(branch, Measure::volume_um3, stiffness);
   }
-  shape.area_um2 = std::exp(between_.at(cell).value(log_area_row));
-  shape.deformation = deformation;
+  const CombinedState state = between_.at(cell);
+  shape.area_um2 = std::exp(state.value(log_area_row));
+  shape.deformation = state.value(deformation_row);
   return shape;
 }
 
@@ -84,9 +91,11 @@ std::string CombinedShapes::description() const {
   return fmt::format(
       "simulated branches of combined cells, {} radii from {:.4g} to {:.4g} um, shares of the cortex from {:g} to "
       "{:g}, "
-      "tensions from {:g} to {:g} E2D, deformations up to {:.3g}",
+      "tensions from {:g} to {:g} E2D, {} up to {:.3g}",
       radii.size(), radii.front() * width, radii.back() * width, box.least(x_share), box.greatest(x_share),
-      box.least(x_ratio), box.greatest(x_ratio), std::exp(box.greatest(x_deformation)));
+      box.least(x_ratio), box.greatest(x_ratio),
+      between_.is_elongated() ? "without a tension of the liquid, third modes" : "deformations",
+      std::exp(box.greatest(x_progress)));
 }
 
 }  // namespace rheocyte

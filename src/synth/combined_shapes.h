@@ -29,6 +29,7 @@ class CombinedShapes : public CellShapes {
   std::vector<SampledBranch> branches_;  ///< in the order of the table's
   CombinedInterpolation between_;
   SimulatedCells cells_;
+  Measure progress_;  ///< of the branches
 };
 
 }  // namespace rheocyte

@@ -21,7 +21,7 @@ class Measure {
   constexpr bool operator==(const Measure&) const = default;
 
   /// Those that the program asks for itself.
-  static const Measure deformation, deformation_raw, area_um2, volume_um3, moment_ratio, min_meridional_stretch,
+  static const Measure deformation, deformation_raw, area_um2, volume_um3, moment_ratio, mode_3, min_meridional_stretch,
       stability_margin;
 
   /// By its name, which must be that of a column: no other compiles.
@@ -37,6 +37,7 @@ class Measure {
 inline constexpr Measure Measure::deformation = named("deformation"),
                          Measure::deformation_raw = named("deformation_raw"), Measure::area_um2 = named("area_um2"),
                          Measure::volume_um3 = named("volume_um3"), Measure::moment_ratio = named("moment_ratio"),
+                         Measure::mode_3 = named("mode_3"),
                          Measure::min_meridional_stretch = named("least_meridional_stretch"),
                          Measure::stability_margin = named("stability_margin");
 

@@ -24,14 +24,17 @@ double factorisation_seconds_of(const Discrete& discrete) { return discrete.syst
 
 }  // namespace
 
-double BranchNode::log_d() const { return std::log(at(Measure::deformation)); }
-double BranchNode::log_d_slope() const { return slope(int(Measure::deformation)) / at(Measure::deformation); }
-
 BranchStates::BranchStates(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop)
-    : spec_(spec), place_(place) {
+    : spec_(spec), place_(place), axial_ratio_(place.axial_ratio) {
   static_assert(resolutions.size() == levels);
+  place_.axial_ratio = 0;
   newton_.stop = stop;
   newton_.tolerance = tolerance;
+}
+
+double BranchStates::log_progress(const BranchNode& node) const { return std::log(node.at(progress_of(spec_))); }
+double BranchStates::log_progress_slope(const BranchNode& node) const {
+  return node.slope(int(progress_of(spec_))) / node.at(progress_of(spec_));
 }
 
 double BranchStates::stiffness(double u) const { return first_stiffness_ * std::exp(-u); }
@@ -72,6 +75,11 @@ BranchNode unmeasured(double u, int level, VectorXd unknowns) {
 }  // namespace
 
 BranchStates::Way BranchStates::enter() {
+  Way way = enter_round();
+  return way.status == Status::converged && axial_ratio_ != 0 ? draw_out(way.last) : way;
+}
+
+BranchStates::Way BranchStates::enter_round() {
   Discrete& discrete = at_level(0);
   ContinuationOptions start = continuation();
   start.accept = {};
@@ -80,7 +88,7 @@ BranchStates::Way BranchStates::enter() {
     const ContinuationReport report = start_branch(stiffness_path(discrete.system, problem(0)), start);
     count(report.newton_iterations);
     if (report.status != Status::converged) return {report.status, {}};
-    const double d = deformation(0, report.last.unknowns);
+    const double d = shape(0, report.last.unknowns).deformation;
     if (report.last.parameter == 1 && d <= spec_.min_deformation)
       return {Status::converged, unmeasured(0, 0, report.last.unknowns)};
     // The deformation goes with the square of the compliance.
@@ -88,6 +96,24 @@ BranchStates::Way BranchStates::enter() {
         report.last.parameter < 1 ? 1.01 / report.last.parameter : 1.05 * std::sqrt(d / spec_.min_deformation);
   }
   return {Status::iteration_limit, {}};
+}
+
+BranchStates::Way BranchStates::draw_out(const BranchNode& round) {
+  const auto problem_at = [this](double share) {
+    BranchPlace place = place_;
+    place.axial_ratio = share * axial_ratio_;
+    return problem_of(case_at(spec_, place, first_stiffness_));
+  };
+  Path drawing = stiffness_path(at_level(0).system, [&](double share) { return media_at(problem_at(share), 1); });
+  drawing.origin = -std::numeric_limits<double>::infinity();
+  ContinuationOptions options = continuation();
+  options.accept = [&](const NonlinearSystem& system, const BranchState& state) {
+    return !is_wrinkled(problem_at(state.parameter), space_of(system), state.unknowns);
+  };
+  const ContinuationReport report = continue_branch(drawing, options, {0, round.unknowns, {}, 0});
+  count(report.newton_iterations);
+  place_.axial_ratio = axial_ratio_;
+  return {report.status, unmeasured(0, 0, report.last.unknowns)};
 }
 
 BranchStates::Way BranchStates::advance(const BranchNode& from, double u) {
@@ -130,7 +156,7 @@ double BranchStates::error_of(const BranchNode& node) {
   const NewtonReport report = newton(before.system, media_at(problem(node.u), 1), options, unknowns);
   count(report.iterations);
   if (report.status != Status::converged) return std::numeric_limits<double>::infinity();
-  return share_of_change * std::abs(deformation(node.level - 1, unknowns) / node.at(Measure::deformation) - 1);
+  return share_of_change * std::abs(progress(node.level - 1, unknowns) / node.at(progress_of(spec_)) - 1);
 }
 
 bool BranchStates::refine(BranchNode& node) {
@@ -146,13 +172,19 @@ bool BranchStates::refine(BranchNode& node) {
   return true;
 }
 
-double BranchStates::deformation_in_the_middle(const BranchNode& a, const BranchNode& b) {
+double BranchStates::progress_in_the_middle(const BranchNode& a, const BranchNode& b) {
   const double h = b.u - a.u;
-  return deformation(a.level, (a.unknowns + b.unknowns) / 2 + h / 8 * (a.tangent - b.tangent));
+  return progress(a.level, (a.unknowns + b.unknowns) / 2 + h / 8 * (a.tangent - b.tangent));
 }
 
-double BranchStates::deformation(int level, const VectorXd& unknowns) {
-  return rheocyte::measure(contour(at_level(level).space, unknowns)).deformation;
+ShapeMeasures BranchStates::shape(int level, const VectorXd& unknowns) {
+  return rheocyte::measure(contour(at_level(level).space, unknowns));
+}
+
+double BranchStates::progress(int level, const VectorXd& unknowns) {
+  StateNumbers numbers;
+  numbers.shape = shape(level, unknowns);
+  return table_measures[std::size_t(int(progress_of(spec_)))].value(numbers);
 }
 
 void BranchStates::count(int iterations) {

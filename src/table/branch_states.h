@@ -7,6 +7,7 @@
 #include "case/scales.h"
 #include "solve/resolved_branch.h"
 #include "table/measured_state.h"
+#include "table/progress.h"
 #include "table/table_spec.h"
 
 namespace rheocyte {
@@ -19,11 +20,9 @@ struct BranchNode {
   MeasuredState state;
   Eigen::VectorXd slope;  ///< d(value)/du
   Eigen::MatrixX2d contour_slope;
-  double error = 0;  ///< estimated, relative, of the deformation
+  double error = 0;  ///< estimated, relative, of what tells how far the flow has deformed the cell
 
   double at(Measure m) const { return state.value(int(m)); }
-  double log_d() const;
-  double log_d_slope() const;
 };
 
 /// Finds states; how far apart they are is up to the caller.
@@ -32,13 +31,16 @@ class BranchStates {
   BranchStates(const TableSpec&, const BranchPlace&, const std::atomic<bool>* stop);
 
   double stiffness(double u) const;
+  double log_progress(const BranchNode& node) const;
+  double log_progress_slope(const BranchNode& node) const;
 
   /// How a way along the branch ended, and the farthest state, not measured yet.
   struct Way {
     Status status;
     BranchNode last;
   };
-  /// The first state, at u = 0: that of a cell less deformed than the table's least deformation.
+  /// The first state, at u = 0: that of a cell less deformed than the table's least deformation, or would be without
+  /// the tension that elongates it.
   Way enter();
   /// Goes to `u` as far as the branch goes, at the resolution of `from`.
   Way advance(const BranchNode& from, double u);
@@ -47,7 +49,7 @@ class BranchStates {
   /// Carries a state to the next level; false if there is none or the state does not hold there.
   bool refine(BranchNode&);
   /// Between two nodes of one level, by the cubic through both.
-  double deformation_in_the_middle(const BranchNode& a, const BranchNode& b);
+  double progress_in_the_middle(const BranchNode& a, const BranchNode& b);
   /// A state needs its own level and the one before, which tells its error; factors take some 100 MB on the others.
   void release_coarser_than(int level);
 
@@ -59,16 +61,21 @@ class BranchStates {
  private:
   static constexpr int levels = 5;
 
+  Way enter_round();
+  /// To the wanted axial ratio at the first stiffness.
+  Way draw_out(const BranchNode& round);
   Problem problem(double u) const;
   Discrete& at_level(int level);
   Path path(int level, double end);
   ContinuationOptions continuation();
   double error_of(const BranchNode&);
-  double deformation(int level, const VectorXd& unknowns);
+  ShapeMeasures shape(int level, const VectorXd& unknowns);
+  double progress(int level, const VectorXd& unknowns);
   void count(int iterations);
 
   TableSpec spec_;
   BranchPlace place_;
+  double axial_ratio_;  ///< that is wanted; the place's own is the one that is reached
   NewtonOptions newton_;
   double first_stiffness_ = 1;
   std::array<std::shared_ptr<Discrete>, levels> discrete_;

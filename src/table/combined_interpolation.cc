@@ -20,6 +20,10 @@ namespace {
 /// Where a dent appears, the hull's features bend at another deformation in each branch: higher degrees do worse.
 constexpr int max_combined_stencil = 4;
 
+constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
+              x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio),
+              x_axial = int(CellCoordinate::axial_ratio);
+
 /// The interval of ascending nodes that holds x, or the nearest one.
 int interval_of(std::span<const double> nodes, double x) {
   const auto above = std::ranges::upper_bound(nodes, x);
@@ -41,6 +45,10 @@ Window window_of(std::span<const double> nodes, double x, const std::function<bo
     if (up && window.end - window.first < max_combined_stencil) ++window.end;
   }
   return window;
+}
+
+std::span<const double> part(std::span<const double> nodes, const Window& window) {
+  return nodes.subspan(std::size_t(window.first), std::size_t(window.end - window.first));
 }
 
 template <class Value>
@@ -65,98 +73,131 @@ struct CombinedInterpolation::Sum {
   }
 };
 
-// Stiffness, area and modes change with the square root of d to first order; what is left is nearly constant.
-CombinedInterpolation::Curve CombinedInterpolation::curve_of(const CombinedBranch& branch) {
-  Curve curve;
+// Stiffness, area and modes change with the square root of d to first order. With a tension along the flow the even
+// modes are those that it alone makes, and the flow adds odd ones, the stiffness being one over the third.
+double CombinedInterpolation::growth(int row) const {
+  if (row == log_stiffness_row) return is_elongated() ? 1 : 0.5;
+  if (!is_elongated()) return row == deformation_row ? 1 : 0.5;
+  const bool is_odd = row >= first_mode_row && row < deformation_row && (row - first_mode_row + min_mode) % 2 == 1;
+  return is_odd ? 1 : 0;
+}
+
+CombinedInterpolation::Curve CombinedInterpolation::curve_of(const CombinedBranch& branch) const {
+  constexpr int mode_3 = int(ShapeFeature::first_mode) + 3 - min_mode;
+  const int progress = is_elongated() ? mode_3 : int(ShapeFeature::deformation);
   const double disc = std::numbers::pi * branch.place.radius_um * branch.place.radius_um;
+  Curve curve;
   for (int i = 0; i < branch.samples(); ++i) {
     const auto value = branch.value.row(i), slope = branch.slope.row(i);
-    const double d = value(int(ShapeFeature::deformation)), log_d = std::log(d);
-    const double by_stiffness = slope(int(ShapeFeature::deformation)) / d;  // d(ln d)/d(ln S)
-    if (by_stiffness >= 0 || (!curve.log_d.empty() && log_d <= curve.log_d.back())) break;
-    const double root = std::sqrt(d), area = value(int(ShapeFeature::area_um2));
+    const double here = value(progress), place = std::log(here);
+    const double by_stiffness = slope(progress) / here;  // d(ln progress)/d(ln S)
+    if (!(by_stiffness < 0) || (!curve.place.empty() && place <= curve.place.back())) break;
     Row g, g_slope;
     const auto scaled = [&](int row, double number, double number_slope) {
-      g(row) = number / root;
-      g_slope(row) = number_slope / (by_stiffness * root) - g(row) / 2;
+      const double power = growth(row), unit = power == 0.5 ? std::sqrt(here) : power == 0 ? 1 : here;
+      g(row) = number / unit;
+      g_slope(row) = number_slope / (by_stiffness * unit) - power * g(row);
     };
-    g(log_stiffness_row) = std::log(branch.stiffness_kPa[std::size_t(i)]) + log_d / 2;
-    g_slope(log_stiffness_row) = 1 / by_stiffness + 0.5;
+    const double area = value(int(ShapeFeature::area_um2));
+    g(log_stiffness_row) = std::log(branch.stiffness_kPa[std::size_t(i)]) + growth(log_stiffness_row) * place;
+    g_slope(log_stiffness_row) = 1 / by_stiffness + growth(log_stiffness_row);
     scaled(log_area_row, std::log(area / disc), slope(int(ShapeFeature::area_um2)) / area);
     scaled(moment_ratio_row, value(int(ShapeFeature::moment_ratio)) - 1, slope(int(ShapeFeature::moment_ratio)));
     for (int k = 0; k < mode_count; ++k)
       scaled(first_mode_row + k, value(int(ShapeFeature::first_mode) + k), slope(int(ShapeFeature::first_mode) + k));
-    curve.log_d.push_back(log_d);
+    scaled(deformation_row, value(int(ShapeFeature::deformation)), slope(int(ShapeFeature::deformation)));
+    curve.place.push_back(place);
     curve.value.push_back(g);
     curve.slope.push_back(g_slope);
   }
   return curve;
 }
 
+CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable& table,
+                                                             const BranchPlace& wanted) const {
+  const auto is_it = [&](const CombinedBranch& branch) {
+    const auto& place = branch.place;
+    return place.radius_um == wanted.radius_um && place.cortex_share == wanted.cortex_share &&
+           place.axial_ratio == wanted.axial_ratio &&
+           (place.tension_ratio == wanted.tension_ratio || place.cortex_share == 0);
+  };
+  const auto found = std::ranges::find_if(table.branches, is_it);
+  if (found == table.branches.end()) return {};
+  Curve curve = curve_of(*found);
+  curve.branch = int(found - table.branches.begin());
+  return curve;
+}
+
 CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
     : radii_(distinct(table, [](const BranchPlace& place) { return place.radius_um; })),
       shares_(distinct(table, [](const BranchPlace& place) { return place.cortex_share; })),
-      ratios_(table.spec.tension_ratios) {
+      ratios_(table.spec.tension_ratios),
+      axial_ratios_(table.spec.is_elongated() ? table.spec.axial_ratios : std::vector{0.0}) {
   if (radii_.size() < 2 || shares_.size() < 2)
     throw UserError(fmt::format("{}: the combined table has branches of {} radii and {} shares; it needs two of each.",
                                 table.spec.identifier, radii_.size(), shares_.size()));
   for (const double radius : radii_) log_radii_.push_back(std::log(radius));
   double least = -1e9, greatest = -1e9;
-  for (const double ratio : ratios_)
-    for (const double share : shares_)
-      for (const double radius : radii_) {
-        const auto is_it = [&](const CombinedBranch& branch) {
-          const auto& place = branch.place;
-          return place.radius_um == radius && place.cortex_share == share &&
-                 (place.tension_ratio == ratio || place.cortex_share == 0);
-        };
-        const auto found = std::ranges::find_if(table.branches, is_it);
-        curves_.push_back(found == table.branches.end() ? Curve{} : curve_of(*found));
-        if (found != table.branches.end()) curves_.back().branch = int(found - table.branches.begin());
-        if (curves_.back().log_d.empty()) continue;
-        least = std::max(least, curves_.back().log_d.front());
-        greatest = std::max(greatest, curves_.back().log_d.back());
-      }
+  for (const double axial : axial_ratios_)
+    for (const double ratio : ratios_)
+      for (const double share : shares_)
+        for (const double radius : radii_) {
+          const Curve& curve = curves_.emplace_back(curve_at(table, {radius, share, ratio, axial}));
+          if (curve.place.empty()) continue;
+          least = std::max(least, curve.place.front());
+          greatest = std::max(greatest, curve.place.back());
+        }
   if (!(least < greatest))
     throw UserError(
         fmt::format("{}: no branch of the combined table has cells that deform the more the softer they are.",
                     table.spec.identifier));
-  box_.least << log_radii_.front(), shares_.front(), least, ratios_.front();
-  box_.greatest << log_radii_.back(), shares_.back(), greatest, ratios_.back();
+  box_.least << log_radii_.front(), shares_.front(), least, ratios_.front(), axial_ratios_.front();
+  box_.greatest << log_radii_.back(), shares_.back(), greatest, ratios_.back(), axial_ratios_.back();
 }
 
-const CombinedInterpolation::Curve& CombinedInterpolation::curve(int ratio, int share, int radius) const {
+const CombinedInterpolation::Curve& CombinedInterpolation::curve(int sheet, int share, int radius) const {
   const auto shares = shares_.size(), radii = radii_.size();
-  return curves_[(std::size_t(ratio) * shares + std::size_t(share)) * radii + std::size_t(radius)];
+  return curves_[(std::size_t(sheet) * shares + std::size_t(share)) * radii + std::size_t(radius)];
 }
 
-bool CombinedInterpolation::reaches(int ratio, int share, double log_radius, double log_deformation) const {
-  const int below = interval_of(log_radii_, log_radius);
-  return curve(ratio, share, below).reaches(log_deformation) && curve(ratio, share, below + 1).reaches(log_deformation);
+bool CombinedInterpolation::reaches(int sheet, int share, const CellCoordinates& cell) const {
+  const double progress = cell(x_progress);
+  const int below = interval_of(log_radii_, cell(x_radius));
+  return curve(sheet, share, below).reaches(progress) && curve(sheet, share, below + 1).reaches(progress);
 }
 
-CombinedInterpolation::Sum CombinedInterpolation::over_radii(int ratio, int share, const CellCoordinates& cell) const {
-  const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
-  const auto window = window_of(log_radii_, x, [&](int i) { return curve(ratio, share, i).reaches(log_d); });
-  const auto weights = lagrange_weights(
-      std::span(log_radii_).subspan(std::size_t(window.first), std::size_t(window.end - window.first)), x);
+bool CombinedInterpolation::sheet_reaches(int sheet, const CellCoordinates& cell) const {
+  const int below = interval_of(shares_, cell(x_share));
+  return reaches(sheet, below, cell) && reaches(sheet, below + 1, cell);
+}
+
+bool CombinedInterpolation::axial_reaches(int axial, const CellCoordinates& cell) const {
+  const int below = interval_of(ratios_, cell(x_ratio));
+  return sheet_reaches(sheet_of(axial, below), cell) &&
+         (ratios_.size() == 1 || sheet_reaches(sheet_of(axial, below + 1), cell));
+}
+
+CombinedInterpolation::Sum CombinedInterpolation::over_radii(int sheet, int share, const CellCoordinates& cell) const {
+  const double progress = cell(x_progress), x = cell(x_radius);
+  const auto window = window_of(log_radii_, x, [&](int i) { return curve(sheet, share, i).reaches(progress); });
+  const auto weights = lagrange_weights(part(log_radii_, window), x);
   Sum sum;
   for (int i = window.first; i < window.end; ++i) {
-    const Curve& branch = curve(ratio, share, i);
-    if (branch.log_d.empty()) continue;
+    const Curve& branch = curve(sheet, share, i);
+    if (branch.place.empty()) continue;
     Sum term;
-    if (branch.log_d.size() < 2 || !branch.reaches(log_d)) {  // straight on from the end
-      const bool soft = log_d > branch.log_d.front();
-      const auto end = soft ? branch.log_d.size() - 1 : 0;
-      term.value = branch.value[end] + (log_d - branch.log_d[end]) * branch.slope[end];
-      term.gradient.col(int(CellCoordinate::log_deformation)) = branch.slope[end];
+    if (branch.place.size() < 2 || !branch.reaches(progress)) {  // straight on from the end
+      const bool soft = progress > branch.place.front();
+      const auto end = soft ? branch.place.size() - 1 : 0;
+      term.value = branch.value[end] + (progress - branch.place[end]) * branch.slope[end];
+      term.gradient.col(x_progress) = branch.slope[end];
     } else {
-      const auto k = std::size_t(interval_of(branch.log_d, log_d));
-      const double h = branch.log_d[k + 1] - branch.log_d[k], t = (log_d - branch.log_d[k]) / h;
+      const auto k = std::size_t(interval_of(branch.place, progress));
+      const double h = branch.place[k + 1] - branch.place[k], t = (progress - branch.place[k]) / h;
       const Row &a = branch.value[k], &b = branch.value[k + 1];
       const Row slope_a = h * branch.slope[k], slope_b = h * branch.slope[k + 1];
       term.value = hermite(t)(a, b, slope_a, slope_b);
-      term.gradient.col(int(CellCoordinate::log_deformation)) = hermite_slope(t)(a, b, slope_a, slope_b) / h;
+      term.gradient.col(x_progress) = hermite_slope(t)(a, b, slope_a, slope_b) / h;
     }
     const auto w = std::size_t(i - window.first);
     sum.add(term, weights.value[w], weights.slope[w], CellCoordinate::log_radius);
@@ -164,71 +205,85 @@ CombinedInterpolation::Sum CombinedInterpolation::over_radii(int ratio, int shar
   return sum;
 }
 
-CombinedInterpolation::Sum CombinedInterpolation::over_shares(int ratio, const CellCoordinates& cell) const {
-  const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
-  const double share = cell(int(CellCoordinate::cortex_share));
-  const auto window = window_of(shares_, share, [&](int j) { return reaches(ratio, j, x, log_d); });
-  const auto weights = lagrange_weights(
-      std::span(shares_).subspan(std::size_t(window.first), std::size_t(window.end - window.first)), share);
+CombinedInterpolation::Sum CombinedInterpolation::over_shares(int sheet, const CellCoordinates& cell) const {
+  const double share = cell(x_share);
+  const auto window = window_of(shares_, share, [&](int j) { return reaches(sheet, j, cell); });
+  const auto weights = lagrange_weights(part(shares_, window), share);
   Sum sum;
   for (int j = window.first; j < window.end; ++j) {
     const auto w = std::size_t(j - window.first);
-    sum.add(over_radii(ratio, j, cell), weights.value[w], weights.slope[w], CellCoordinate::cortex_share);
+    sum.add(over_radii(sheet, j, cell), weights.value[w], weights.slope[w], CellCoordinate::cortex_share);
+  }
+  return sum;
+}
+
+CombinedInterpolation::Sum CombinedInterpolation::over_ratios(int axial, const CellCoordinates& cell) const {
+  const auto window = window_of(ratios_, cell(x_ratio), [&](int i) { return sheet_reaches(sheet_of(axial, i), cell); });
+  const auto weights = lagrange_weights(part(ratios_, window), cell(x_ratio));
+  Sum sum;
+  for (int i = window.first; i < window.end; ++i) {
+    const auto w = std::size_t(i - window.first);
+    sum.add(over_shares(sheet_of(axial, i), cell), weights.value[w], weights.slope[w], CellCoordinate::tension_ratio);
   }
   return sum;
 }
 
 bool CombinedInterpolation::is_inside(const CellCoordinates& cell) const {
   if (!((cell - box_.least).array() >= -1e-12).all() || !((box_.greatest - cell).array() >= -1e-12).all()) return false;
-  const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
-  const int below = interval_of(shares_, cell(int(CellCoordinate::cortex_share)));
-  for (int i = 0; i < int(ratios_.size()); ++i)
-    if (!reaches(i, below, x, log_d) || !reaches(i, below + 1, x, log_d)) return false;
-  return true;
+  const int below = interval_of(axial_ratios_, cell(x_axial));
+  return axial_reaches(below, cell) && (!is_elongated() || axial_reaches(below + 1, cell));
 }
 
 std::vector<BranchWeight> CombinedInterpolation::weights(const CellCoordinates& cell) const {
   if (!is_inside(cell)) return {};
-  const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
-  const double share = cell(int(CellCoordinate::cortex_share));
-  const auto of_ratios = lagrange_weights(ratios_, cell(int(CellCoordinate::tension_ratio)));
-  const auto part = [](const std::vector<double>& nodes, const Window& window) {
-    return std::span(nodes).subspan(std::size_t(window.first), std::size_t(window.end - window.first));
-  };
+  const auto axial = window_of(axial_ratios_, cell(x_axial), [&](int i) { return axial_reaches(i, cell); });
+  const auto of_axial = lagrange_weights(part(axial_ratios_, axial), cell(x_axial));
   std::vector<BranchWeight> all;
-  for (int i = 0; i < int(ratios_.size()); ++i) {
-    const auto sheets = window_of(shares_, share, [&](int j) { return reaches(i, j, x, log_d); });
-    const auto of_shares = lagrange_weights(part(shares_, sheets), share);
-    for (int j = sheets.first; j < sheets.end; ++j) {
-      const auto radii = window_of(log_radii_, x, [&](int k) { return curve(i, j, k).reaches(log_d); });
-      const auto of_radii = lagrange_weights(part(log_radii_, radii), x);
-      for (int k = radii.first; k < radii.end; ++k)
-        all.push_back(
-            {curve(i, j, k).branch, of_ratios.value[std::size_t(i)] * of_shares.value[std::size_t(j - sheets.first)] *
-                                        of_radii.value[std::size_t(k - radii.first)]});
-    }
+  for (int i = axial.first; i < axial.end; ++i) {
+    const auto ratios = window_of(ratios_, cell(x_ratio), [&](int k) { return sheet_reaches(sheet_of(i, k), cell); });
+    const auto of_ratios = lagrange_weights(part(ratios_, ratios), cell(x_ratio));
+    for (int k = ratios.first; k < ratios.end; ++k)
+      add_weights(sheet_of(i, k),
+                  of_axial.value[std::size_t(i - axial.first)] * of_ratios.value[std::size_t(k - ratios.first)], cell,
+                  all);
   }
   return all;
 }
 
+void CombinedInterpolation::add_weights(int sheet, double factor, const CellCoordinates& cell,
+                                        std::vector<BranchWeight>& all) const {
+  const double progress = cell(x_progress), x = cell(x_radius), share = cell(x_share);
+  const auto sheets = window_of(shares_, share, [&](int j) { return reaches(sheet, j, cell); });
+  const auto of_shares = lagrange_weights(part(shares_, sheets), share);
+  for (int j = sheets.first; j < sheets.end; ++j) {
+    const auto radii = window_of(log_radii_, x, [&](int k) { return curve(sheet, j, k).reaches(progress); });
+    const auto of_radii = lagrange_weights(part(log_radii_, radii), x);
+    for (int k = radii.first; k < radii.end; ++k)
+      all.push_back({curve(sheet, j, k).branch, factor * of_shares.value[std::size_t(j - sheets.first)] *
+                                                    of_radii.value[std::size_t(k - radii.first)]});
+  }
+}
+
 CombinedState CombinedInterpolation::at(const CellCoordinates& cell) const {
-  const double log_d = cell(int(CellCoordinate::log_deformation)), x = cell(int(CellCoordinate::log_radius));
-  const auto weights = lagrange_weights(ratios_, cell(int(CellCoordinate::tension_ratio)));
+  const auto axial = window_of(axial_ratios_, cell(x_axial), [&](int i) { return axial_reaches(i, cell); });
+  const auto weights = lagrange_weights(part(axial_ratios_, axial), cell(x_axial));
   Sum sum;
-  for (int i = 0; i < int(ratios_.size()); ++i) {
-    const auto w = std::size_t(i);
-    sum.add(over_shares(i, cell), weights.value[w], weights.slope[w], CellCoordinate::tension_ratio);
+  for (int i = axial.first; i < axial.end; ++i) {
+    const auto w = std::size_t(i - axial.first);
+    sum.add(over_ratios(i, cell), weights.value[w], weights.slope[w], CellCoordinate::axial_ratio);
   }
   // Back from what hardly varies to what is asked for.
-  const double root = std::exp(log_d / 2);
-  const int by_d = int(CellCoordinate::log_deformation);
-  CombinedState state{root * sum.value, root * sum.gradient, is_inside(cell)};
-  state.gradient.col(by_d) += state.value / 2;
-  state.value(log_stiffness_row) = sum.value(log_stiffness_row) - log_d / 2;
-  state.gradient.row(log_stiffness_row) = sum.gradient.row(log_stiffness_row);
-  state.gradient(log_stiffness_row, by_d) -= 0.5;
-  state.value(log_area_row) += std::log(std::numbers::pi) + 2 * x;
-  state.gradient(log_area_row, int(CellCoordinate::log_radius)) += 2;
+  CombinedState state{sum.value, sum.gradient, is_inside(cell)};
+  for (int row = log_area_row; row < row_count; ++row) {
+    const double power = growth(row), unit = std::exp(power * cell(x_progress));
+    state.value(row) *= unit;
+    state.gradient.row(row) *= unit;
+    state.gradient(row, x_progress) += power * state.value(row);
+  }
+  state.value(log_stiffness_row) -= growth(log_stiffness_row) * cell(x_progress);
+  state.gradient(log_stiffness_row, x_progress) -= growth(log_stiffness_row);
+  state.value(log_area_row) += std::log(std::numbers::pi) + 2 * cell(x_radius);
+  state.gradient(log_area_row, x_radius) += 2;
   state.value(moment_ratio_row) += 1;
   return state;
 }

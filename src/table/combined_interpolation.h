@@ -7,15 +7,16 @@
 
 namespace rheocyte {
 
-/// The coordinates of a cell. The deformation is one of them, not the stiffness: all branches reach the same
-/// deformations and turn back at none, and states of equal deformation change least from branch to branch.
-enum class CellCoordinate { log_radius, cortex_share, log_deformation, tension_ratio, count };
+/// The coordinates of a cell. How far the flow has deformed it is one of them, not the stiffness: all branches reach
+/// the same deformations and turn back at none, and states of equal deformation change least from branch to branch. It
+/// is the deformation; of a table of elongated cells, which have one without flow, the third mode.
+enum class CellCoordinate { log_radius, cortex_share, log_progress, tension_ratio, axial_ratio, count };
 inline constexpr int coordinate_count = int(CellCoordinate::count);
 using CellCoordinates = Eigen::Matrix<double, coordinate_count, 1>;
 
-/// Columns of what is interpolated: ln(S / kPa), ln(area / um2), Lambda1 / Lambda2 and the modes.
+/// Rows of what is interpolated: ln(S / kPa), ln(area / um2), Lambda1 / Lambda2, the modes and the deformation.
 inline constexpr int log_stiffness_row = 0, log_area_row = 1, moment_ratio_row = 2, first_mode_row = 3,
-                     row_count = first_mode_row + mode_count;
+                     deformation_row = first_mode_row + mode_count, row_count = deformation_row + 1;
 
 struct CombinedState {
   Eigen::Matrix<double, row_count, 1> value;
@@ -23,7 +24,7 @@ struct CombinedState {
   bool inside = false;  ///< between branches that reach this deformation; else it is continued from the nearest ones
 };
 
-/// Range of the coordinates; the greatest deformation is that of the branch that goes farthest.
+/// Range of the coordinates; the greatest progress is that of the branch that goes farthest.
 struct CellBox {
   CellCoordinates least, greatest;
 };
@@ -34,8 +35,8 @@ struct BranchWeight {
   double weight = 0;
 };
 
-/// Cubics along the branches in ln d, of quantities that hardly vary there; between the branches polynomials through up
-/// to four radii, four shares, and all tensions.
+/// Cubics along the branches in ln of the progress, of quantities that hardly vary there; between the branches
+/// polynomials through up to four radii, four shares, four tensions of the cortex and four axial ratios.
 class CombinedInterpolation {
  public:
   /// At least two radii and two shares, the same radii in all sheets; UserError otherwise.
@@ -48,29 +49,40 @@ class CombinedInterpolation {
   const CellBox& box() const { return box_; }
   const std::vector<double>& radii_um() const { return radii_; }
   const std::vector<double>& tension_ratios() const { return ratios_; }
+  bool is_elongated() const { return axial_ratios_.size() > 1; }
 
  private:
   using Row = Eigen::Matrix<double, row_count, 1>;
-  /// Scaled values and slopes over ln d.
+  /// Scaled values and slopes over ln of the progress.
   struct Curve {
     int branch = -1;  ///< of the table; -1: none
-    std::vector<double> log_d;
+    std::vector<double> place;
     std::vector<Row> value, slope;
-    bool reaches(double log_deformation) const {
-      return !log_d.empty() && log_deformation >= log_d.front() && log_deformation <= log_d.back();
+    bool reaches(double log_progress) const {
+      return !place.empty() && log_progress >= place.front() && log_progress <= place.back();
     }
   };
   struct Sum;
 
-  static Curve curve_of(const CombinedBranch& branch);
-  const Curve& curve(int ratio, int share, int radius) const;
-  Sum over_shares(int ratio, const CellCoordinates& cell) const;
-  Sum over_radii(int ratio, int share, const CellCoordinates& cell) const;
-  bool reaches(int ratio, int share, double log_radius, double log_deformation) const;
+  /// The power of the progress with which a quantity grows at first; what is left varies little.
+  double growth(int row) const;
+  Curve curve_of(const CombinedBranch& branch) const;
+  Curve curve_at(const CombinedTable& table, const BranchPlace& place) const;
+  /// A sheet has one tension of the cortex and one axial ratio.
+  int sheet_of(int axial, int ratio) const { return axial * int(ratios_.size()) + ratio; }
+  const Curve& curve(int sheet, int share, int radius) const;
+  Sum over_ratios(int axial, const CellCoordinates& cell) const;
+  Sum over_shares(int sheet, const CellCoordinates& cell) const;
+  Sum over_radii(int sheet, int share, const CellCoordinates& cell) const;
+  void add_weights(int sheet, double factor, const CellCoordinates& cell, std::vector<BranchWeight>& all) const;
+  bool reaches(int sheet, int share, const CellCoordinates& cell) const;
+  /// With the two shares beside the cell's; with the two tensions of the cortex, too.
+  bool sheet_reaches(int sheet, const CellCoordinates& cell) const;
+  bool axial_reaches(int axial, const CellCoordinates& cell) const;
   bool is_inside(const CellCoordinates& cell) const;
 
-  std::vector<double> radii_, log_radii_, shares_, ratios_;  ///< of the sheets
-  std::vector<Curve> curves_;                                ///< radius by radius, share by share, ratio by ratio
+  std::vector<double> radii_, log_radii_, shares_, ratios_, axial_ratios_;  ///< of the sheets; one axial ratio: zero
+  std::vector<Curve> curves_;  ///< radius by radius, share by share, sheet by sheet
   CellBox box_;
 };
 

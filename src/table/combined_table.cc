@@ -15,12 +15,14 @@ namespace rheocyte {
 
 namespace {
 
-constexpr int leading_columns = 8;  // before the features
+constexpr int leading_columns = 8;  // before the features, without the next one
+constexpr int axial_column = 3;     // of elongated cells, between the others
 
-std::vector<std::string> column_names() {
+std::vector<std::string> column_names(const TableSpec& spec) {
   std::vector<std::string> names{"radius_um",        "cortex_share",      "tension_ratio",
                                  "stiffness_kPa",    "young_modulus_kPa", "cortex_modulus_mN_per_m",
                                  "tension_mN_per_m", "deformation_error"};
+  if (spec.is_elongated()) names.insert(names.begin() + axial_column, "axial_ratio");
   for (const auto& name : feature_names()) names.push_back(name);
   for (const auto& name : feature_names()) names.push_back("slope_" + name);
   return names;
@@ -55,11 +57,12 @@ CombinedBranch combined_branch(const SampledBranch& branch) {
   return combined;
 }
 
-std::string row_text(const CombinedBranch& branch, int i) {
+std::string row_text(const TableSpec& spec, const CombinedBranch& branch, int i) {
   const auto& [radius, share, ratio, axial] = branch.place;
   const double S = branch.stiffness_kPa[std::size_t(i)], cortex = share * S * radius;
   std::vector<double> numbers{radius,          share,  ratio,          S,
                               (1 - share) * S, cortex, ratio * cortex, branch.error[std::size_t(i)]};
+  if (spec.is_elongated()) numbers.insert(numbers.begin() + axial_column, axial);
   for (const auto* matrix : {&branch.value, &branch.slope})
     for (int f = 0; f < feature_count; ++f) numbers.push_back((*matrix)(i, f));
   return fmt::format("{}\n", joined(numbers, ","));
@@ -89,9 +92,18 @@ class CombinedReader {
 
   CombinedTable read(const TableSpec& spec) {
     CombinedTable table{spec, {}};
-    if (next() != fmt::format("{}", joined(column_names(), ",")))
+    const auto names = column_names(spec);
+    if (next() != fmt::format("{}", joined(names, ",")))
       refuse("the columns are not those of a combined table of this version; let `rheocyte table` write it again");
-    while (!text_.empty()) take_row(numbers_of(next()), table.branches);
+    while (!text_.empty()) {
+      auto row = numbers_of(next(), names.size());
+      double axial = 0;
+      if (spec.is_elongated()) {
+        axial = row[axial_column];
+        row.erase(row.begin() + axial_column);
+      }
+      take_row(row, axial, table.branches);
+    }
     for (auto& branch : table.branches) finish(branch);
     if (table.branches.empty()) refuse("there are no rows");
     return table;
@@ -110,7 +122,7 @@ class CombinedReader {
     return line;
   }
 
-  std::vector<double> numbers_of(std::string_view line) const {
+  std::vector<double> numbers_of(std::string_view line, std::size_t count) const {
     std::vector<double> numbers;
     const char *at = line.data(), *const end = at + line.size();
     while (true) {
@@ -122,16 +134,18 @@ class CombinedReader {
       if (*stop != ',') refuse("there is something else than numbers");
       at = stop + 1;
     }
-    if (int(numbers.size()) != leading_columns + 2 * feature_count) refuse("the row has another number of columns");
+    if (numbers.size() != count) refuse("the row has another number of columns");
     return numbers;
   }
 
-  void take_row(const std::vector<double>& row, std::vector<CombinedBranch>& branches) {
+  /// Without the axial ratio, which stands apart.
+  void take_row(const std::vector<double>& row, double axial, std::vector<CombinedBranch>& branches) {
     const auto is_of = [&](const BranchPlace& place) {
-      return place.radius_um == row[0] && place.cortex_share == row[1] && place.tension_ratio == row[2];
+      return place.radius_um == row[0] && place.cortex_share == row[1] && place.tension_ratio == row[2] &&
+             place.axial_ratio == axial;
     };
     if (branches.empty() || !is_of(branches.back().place)) {
-      branches.push_back({{row[0], row[1], row[2]}, {}, {}, {}, {}});
+      branches.push_back({{row[0], row[1], row[2], axial}, {}, {}, {}, {}});
       rows_.emplace_back();
     }
     CombinedBranch& branch = branches.back();
@@ -177,17 +191,21 @@ CombinedTable make_combined_table(const TableSpec& spec, std::span<const Sampled
 }
 
 std::string combined_table_csv(const CombinedTable& table) {
-  std::string text = fmt::format("{}\n", joined(column_names(), ","));
+  std::string text = fmt::format("{}\n", joined(column_names(table.spec), ","));
   for (const auto& branch : table.branches)
-    for (int i = 0; i < branch.samples(); ++i) text += row_text(branch, i);
+    for (int i = 0; i < branch.samples(); ++i) text += row_text(table.spec, branch, i);
   return text;
 }
 
-std::string combined_ends_csv(std::span<const SampledBranch> branches) {
-  std::string text = "radius_um,cortex_share,tension_ratio,samples,stiffness_kPa,deformation,status\n";
+std::string combined_ends_csv(const TableSpec& spec, std::span<const SampledBranch> branches) {
+  const bool elongated = spec.is_elongated();
+  std::string text = fmt::format("radius_um,cortex_share,tension_ratio,{}samples,stiffness_kPa,deformation,status\n",
+                                 elongated ? "axial_ratio," : "");
   for (const auto& branch : branches) {
     const int last = branch.samples() - 1;
-    text += fmt::format("{},{},{},{},", branch.radius_um, branch.cortex_share, branch.tension_ratio, last + 1);
+    text += fmt::format("{},{},{},", branch.radius_um, branch.cortex_share, branch.tension_ratio);
+    if (elongated) text += fmt::format("{},", branch.axial_ratio);
+    text += fmt::format("{},", last + 1);
     text += last < 0 ? "," : fmt::format("{},{}", branch.stiffness.back(), branch.at(last, Measure::deformation));
     text += fmt::format(",{}\n", name(branch.end.status));
   }

@@ -38,7 +38,7 @@ CombinedTable make_combined_table(const TableSpec& spec, std::span<const Sampled
 /// All samples with E, E2D and tension, and slopes; the shortest digits that give back the same numbers.
 std::string combined_table_csv(const CombinedTable& table);
 /// One line for each branch: how it ended, and where.
-std::string combined_ends_csv(std::span<const SampledBranch> branches);
+std::string combined_ends_csv(const TableSpec& spec, std::span<const SampledBranch> branches);
 
 /// Name of the first of these files.
 std::string combined_table_name(const TableSpec& spec);

@@ -16,7 +16,7 @@ namespace {
 
 void write_combined(const TableFolder& folder, const std::vector<SampledBranch>& branches) {
   folder.publish(combined_table_name(folder.spec()), combined_table_csv(make_combined_table(folder.spec(), branches)));
-  folder.publish("end-of-branch.csv", combined_ends_csv(branches));
+  folder.publish("end-of-branch.csv", combined_ends_csv(folder.spec(), branches));
 }
 
 std::vector<std::string> write_simple(const TableFolder& folder, const std::vector<SampledBranch>& branches,

@@ -19,7 +19,8 @@ constexpr int max_unsampled = 4;
 constexpr double growth = 0.6;
 /// Growth while one interval alone says nothing of the next: a state far beyond the wanted ones is dear.
 constexpr double first_growth = 2;
-/// A branch that is steeper than this (-d ln d / d ln E) nears a fold: finer meshes would not go farther.
+/// A branch that is steeper than this (-d ln d / d ln E, of elongated cells that of the third mode) nears a fold: finer
+/// meshes would not go farther.
 constexpr double steep = 4;
 /// Change of ln d between two samples against the trapezoidal rule of its slopes.
 constexpr double max_mismatch = 0.15;
@@ -30,15 +31,6 @@ constexpr double share_of_interpolation = 0.15;
 BranchEnd end_after(Status failure) {
   const bool is_newton = failure == Status::iteration_limit || failure == Status::converged;
   return end_of(is_newton ? Status::branch_ended : failure);
-}
-
-/// f4 of a function from the error of the cubic through both ends of [a, b] at c beyond b.
-double fourth_derivative(const BranchNode& a, const BranchNode& b, const BranchNode& c) {
-  const double H = b.u - a.u, h = c.u - b.u, t = 1 + h / H;
-  const double h00 = (1 + 2 * t) * (1 - t) * (1 - t), h10 = t * (1 - t) * (1 - t), h01 = t * t * (3 - 2 * t),
-               h11 = t * t * (t - 1);
-  const double cubic = h00 * a.log_d() + h10 * H * a.log_d_slope() + h01 * b.log_d() + h11 * H * b.log_d_slope();
-  return 24 * std::abs(c.log_d() - cubic) / (h * h * (h + H) * (h + H));
 }
 
 class BranchSampler {
@@ -114,15 +106,29 @@ class BranchSampler {
   std::optional<BranchEnd> ends_here(Status failure) {
     BranchNode& node = nodes_.back();
     if (node.at(Measure::stability_margin) < small_margin) return end_of(Status::surface_unstable);
-    if (node.log_d_slope() > steep || !states_.refine(node)) return end_after(failure);
+    if (log_progress_slope(node) > steep || !states_.refine(node)) return end_after(failure);
     return std::nullopt;
   }
 
-  /// The largest step behind which cubic interpolation is accurate, by the fourth derivative of ln d. Where the
+  double log_progress(const BranchNode& node) const { return states_.log_progress(node); }
+  double log_progress_slope(const BranchNode& node) const { return states_.log_progress_slope(node); }
+
+  /// f4 of ln of the progress from the error of the cubic through both ends of [a, b] at c beyond b.
+  double fourth_derivative(const BranchNode& a, const BranchNode& b, const BranchNode& c) const {
+    const double H = b.u - a.u, h = c.u - b.u, t = 1 + h / H;
+    const double h00 = (1 + 2 * t) * (1 - t) * (1 - t), h10 = t * (1 - t) * (1 - t), h01 = t * t * (3 - 2 * t),
+                 h11 = t * t * (t - 1);
+    const double cubic = h00 * log_progress(a) + h10 * H * log_progress_slope(a) + h01 * log_progress(b) +
+                         h11 * H * log_progress_slope(b);
+    return 24 * std::abs(log_progress(c) - cubic) / (h * h * (h + H) * (h + H));
+  }
+
+  /// The largest step behind which cubic interpolation is accurate, by the fourth derivative of ln of the
+  /// progress. Where the
   /// trapezoidal rule is far off, too: another branch was reached, or a fold is near.
   double allowed_step(const BranchNode& before, const BranchNode& next) {
-    const double h = next.u - before.u, change = next.log_d() - before.log_d();
-    const double trapezoid = h * (before.log_d_slope() + next.log_d_slope()) / 2;
+    const double h = next.u - before.u, change = log_progress(next) - log_progress(before);
+    const double trapezoid = h * (log_progress_slope(before) + log_progress_slope(next)) / 2;
     double allowed = nodes_.size() < 2 ? first_growth / growth * h : max_step;
     if (std::abs(change - trapezoid) > max_mismatch * std::abs(change) + 1e-6) allowed = h / 2;
     const double wanted = share_of_interpolation * spec_.accuracy, off = middle_mismatch(before, next);
@@ -132,20 +138,24 @@ class BranchSampler {
     return std::min(allowed, std::pow(384 * wanted / f4, 0.25));
   }
 
-  /// The deformation of the interpolated contour against the interpolated deformation, relative, in the middle: the
-  /// convex hull makes the deformation less smooth than the contour where a dent appears.
+  /// The progress of the interpolated contour against the interpolated progress, relative, in the middle: the
+  /// convex hull makes it less smooth than the contour where a dent appears.
   double middle_mismatch(const BranchNode& a, const BranchNode& b) {
     const auto is_convex = [](const BranchNode& node) {
       return node.at(Measure::deformation_raw) <= node.at(Measure::deformation) * (1 + 1e-5);
     };
     if ((is_convex(a) && is_convex(b)) || a.level != b.level || a.tangent.size() == 0) return 0;
-    const double log_d = (a.log_d() + b.log_d()) / 2 + (b.u - a.u) / 8 * (a.log_d_slope() - b.log_d_slope());
-    return std::abs(std::log(states_.deformation_in_the_middle(a, b)) - log_d);
+    const double middle =
+        (log_progress(a) + log_progress(b)) / 2 + (b.u - a.u) / 8 * (log_progress_slope(a) - log_progress_slope(b));
+    return std::abs(std::log(states_.progress_in_the_middle(a, b)) - middle);
   }
 
   std::optional<BranchEnd> leaves_range(const BranchNode& node) const {
     const bool is_large = !spec_.is_combined() && node.at(Measure::area_um2) > 1.02 * spec_.max_area_um2;
-    if (node.at(Measure::deformation) > spec_.max_deformation || is_large) return end_of(Status::covered);
+    // Of elongated cells, what the flow adds to the deformation by the tension.
+    const double without_flow = spec_.is_elongated() ? nodes_.front().at(Measure::deformation) : 0;
+    if (node.at(Measure::deformation) - without_flow > spec_.max_deformation || is_large)
+      return end_of(Status::covered);
     if (node.at(Measure::deformation_raw) > spec_.max_deformation_raw) return end_of(Status::dented);
     return std::nullopt;
   }

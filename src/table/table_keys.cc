@@ -31,9 +31,12 @@ const std::array table = {
     key<&Spec::min_deformation>(
         renamed({"table.min_deformation", "", "deformation of the stiffest cells", Number{{1e-7, 0.9}}, 5e-5},
                 "table.least_deformation")),
-    key<&Spec::max_deformation>(
-        renamed({"table.max_deformation", "", "deformation of the softest cells", Number{{1e-7, 0.9}}, 0.19},
-                "table.greatest_deformation")),
+    key<&Spec::max_deformation>(renamed(
+        {"table.max_deformation", "",
+         "deformation of the softest cells; of elongated cells with bulk and cortex what the flow adds to that by "
+         "the tension",
+         Number{{1e-7, 0.9}}, 0.19},
+        "table.greatest_deformation")),
     key<&Spec::radii>({"table.radii", "", "number of branches, equally spaced in the radius of the sphere",
                        Number{{2, 10000}, true}, 100.0}),
     key<&Spec::rows_per_radius>({"table.rows_per_radius", "", "rows of a full branch, at deformations of equal ratio",

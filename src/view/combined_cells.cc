@@ -73,7 +73,9 @@ Json CombinedCells::case_of(const ModuliEstimate& estimate, double viscosity_mPa
                           coordinate(estimate, CellCoordinate::cortex_share),
                           coordinate(estimate, CellCoordinate::tension_ratio)};
   const Json cell = to_json(case_at(table_.content.spec, place, estimate.stiffness_kPa));
-  return {{"channel", {{"width_um", flow.width_um}}}, {"flow", flow_json(flow)}, {"cell", cell["cell"]}};
+  Json in_flow = flow_json(flow);
+  if (table_.between.is_elongated()) in_flow["axial_tension_Pa"] = estimate.axial_tension_Pa;
+  return {{"channel", {{"width_um", flow.width_um}}}, {"flow", in_flow}, {"cell", cell["cell"]}};
 }
 
 Eigen::MatrixX2d CombinedCells::outline_of(const ModuliEstimate& estimate) const {

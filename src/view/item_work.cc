@@ -131,7 +131,8 @@ void add_several_moduli(const Json& request, const ExtractOptions& options, cons
     const ModuliTable table(wanted);
     const ModuliSummary summary = moduli_of_recording(path_in(request, "file"), target, wanted, table, tell);
     report["lines"].push_back(table.content.spec.identifier + ": " + in_one_line(summary));
-    for (const auto& warning : summary.warnings) report["lines"].push_back(warning);
+    for (const auto& lines : {tension_lines(summary.axial), slope_lines(summary.axial), summary.warnings})
+      for (const auto& line : lines) report["lines"].push_back(line);
     for (const auto& name : ModuliColumns::names()) report["features"].push_back(name);
   } catch (const UserError& error) {
     report["lines"].push_back(error.what());

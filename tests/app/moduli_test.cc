@@ -8,6 +8,7 @@
 
 #include "../robustness/run_program.h"
 #include "../table/invented_combined.h"
+#include "../table/invented_elongated_combined.h"
 #include "measurement/mask_from_outline.h"
 #include "measurement/recording_writer.h"
 
@@ -216,6 +217,34 @@ TEST_F(ModuliCommand, ARecordingWithoutMadeOutModuliIsSaidAndHasItsExitCode) {
       {table_folder().string(), "--viscosity-mPas", "15", "--min", "index=100", (folder_.path() / "M2.rtdc").string()});
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_NE(both.err.find("M2.rtdc: has neither contours nor masks"), std::string::npos) << both.err;
+}
+
+TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
+  // 1000 Pa at twice the table's viscosity, found from forty pictures within a tenth; the tension stands in the table
+  // of events and on the terminal, over the wall's shear stress (eq:wall-stress: 466.8 Pa), and can be given.
+  const CombinedTable& elongated = whole_elongated_table();
+  const fs::path folder = folder_.path() / "elongated";
+  fs::create_directory(folder);
+  write_file(folder / "spec.toml", to_toml(elongated.spec));
+  write_file(folder / combined_table_name(elongated.spec), combined_table_csv(elongated));
+  write_recording(recording(), invented_elongated_outline({6.7, 0.5, 0.25, 0.5 / 1.8}, 1.8));
+  const Ended found = moduli({folder.string(), "--viscosity-mPas", "12"});
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const auto at = found.out.find("axial tension: ");
+  ASSERT_NE(at, std::string::npos) << found.out;
+  EXPECT_NEAR(std::stod(found.out.substr(at + 15)), 1000, 100) << found.out;
+  EXPECT_NE(found.out.find("of the wall's shear stress of 466.8 Pa"), std::string::npos) << found.out;
+  EXPECT_NE(found.out.find("slopes between "), std::string::npos) << found.out;
+  EXPECT_NE(table().find("\n# axial tension: "), std::string::npos);
+  EXPECT_NE(table().find("\n# slopes between "), std::string::npos);
+  double stiffness = 0;
+  const auto rows = rows_of(table());
+  for (const auto& row : rows) stiffness += std::stod(row.at("stiffness_kPa")) / double(rows.size());
+  EXPECT_NEAR(stiffness / 3.6, 1, 0.1);
+  const Ended given = moduli({folder.string(), "--viscosity-mPas", "12", "--axial-tension", "1000"});
+  EXPECT_NE(given.out.find("axial tension: 1000 Pa as given"), std::string::npos) << given.out << given.err;
+  expect_refusal({table_folder().string(), "--axial-tension", "400"}, "needs a table of elongated cells");
+  expect_refusal({folder.string(), "--only-figure"}, "too few features to find the axial tension");
 }
 
 TEST_F(ModuliCommand, WhatCannotBeUsedIsRefused) {

@@ -6,7 +6,10 @@
 #include <random>
 
 #include "../table/invented_combined.h"
+#include "../table/invented_elongated_combined.h"
+#include "infer/common_tension.h"
 #include "infer/rendered_errors.h"
+#include "infer/slopes_between_cells.h"
 #include "measurement/shape_in_pixels.h"
 
 namespace rheocyte::several_moduli_test {
@@ -151,6 +154,135 @@ TEST_F(SeveralModuliOf, ShapesThatNoCellHasAreSaid) {
   EXPECT_EQ(without_viscosity.status, ModuliStatus::no_data);
   EXPECT_TRUE(std::isnan(without_viscosity.stiffness_kPa)) << "no number stands where nothing is known";
   EXPECT_EQ(status(int(ShapeFeature::first_mode) + 4, 0.2), ModuliStatus::poor_fit);
+}
+
+class ElongatedCells : public testing::Test {
+ protected:
+  ElongatedCells()
+      : between_(whole_elongated_table()),
+        simulated_(channel_flow_of(whole_elongated_table().spec.base)),
+        moduli_(between_, simulated_, {features_of_contour(7), true, 0.25}) {}
+
+  struct Elongated {
+    SeenCell seen;
+    double stiffness;
+  };
+
+  /// With this tension in Pa, at twice the table's viscosity: all stresses are twice as large.
+  Elongated random_cell(double tension_Pa, double scatter) {
+    const auto uniform = [&](double least, double greatest) {
+      return std::uniform_real_distribution(least, greatest)(engine_);
+    };
+    const double S = uniform(1.5, 2.2), in_table_kPa = 1e-3 * tension_Pa / 2;
+    const BranchPlace place{uniform(6.2, 7.2), uniform(0.35, 0.65), uniform(0.15, 0.35), in_table_kPa / S};
+    SeenCell seen{{invented_elongated_features(place, S), fine_errors(1e-3)}, simulated_};
+    seen.flow.viscosity_mPas *= 2;
+    std::normal_distribution normal;
+    for (int f = 0; f < feature_count; ++f)
+      seen.shape.features(f) += scatter * std::sqrt(seen.shape.errors.covariance(f, f)) * normal(engine_);
+    return {seen, 2 * S};
+  }
+
+  std::vector<SeenCell> recording(double tension_Pa, int count) {
+    std::vector<SeenCell> cells;
+    for (int i = 0; i < count; ++i) cells.push_back(random_cell(tension_Pa, 1).seen);
+    return cells;
+  }
+
+  CombinedInterpolation between_;
+  ChannelFlow simulated_;
+  SeveralModuli moduli_;
+  std::mt19937 engine_{5};
+};
+
+TEST_F(ElongatedCells, AnExactShapeAtAKnownTensionGivesTheModuliBack) {
+  // The table's own interpolation leaves a per cent of the stiffness; without the tension the shape alone tells it.
+  for (int trial = 0; trial < 10; ++trial) {
+    const auto [seen, stiffness] = random_cell(1000, 0);
+    const auto known = moduli_.fit(seen.shape, seen.flow, {1000, 0}),
+               free = moduli_.fit(seen.shape, seen.flow, AxialTension::unknown());
+    EXPECT_NEAR(known.stiffness_kPa / stiffness, 1, 0.02) << sentence(known);
+    EXPECT_NEAR(known.axial_tension_Pa, 1000, 5);
+    EXPECT_NEAR(free.axial_tension_Pa, 1000, 30) << sentence(free);
+    EXPECT_GT(free.axial_tension_error_Pa, known.axial_tension_error_Pa);
+  }
+}
+
+TEST_F(ElongatedCells, TheTensionOfARecordingLiesInItsInterval) {
+  // Of 8 recordings of 25 cells, 90 % intervals hold 7 on average and fewer than 5 in one of two hundred; the mean is
+  // off by less than 3 %.
+  constexpr int recordings = 8;
+  constexpr double tension_Pa = 1000;
+  int held = 0;
+  double mean = 0;
+  for (int k = 0; k < recordings; ++k) {
+    const CommonTension found = common_tension(moduli_, recording(tension_Pa, 25));
+    ASSERT_TRUE(found.is_found());
+    EXPECT_LT(found.misfit, 2);
+    held += found.lower_Pa <= tension_Pa && tension_Pa <= found.upper_Pa;
+    mean += found.value_Pa / recordings;
+  }
+  EXPECT_GE(held, 5);
+  EXPECT_NEAR(mean / tension_Pa, 1, 0.03);
+}
+
+TEST_F(ElongatedCells, WithoutATensionNoneIsFound) {
+  // Within three times the half width of the 90 % interval of zero.
+  const CommonTension found = common_tension(moduli_, recording(0, 25));
+  ASSERT_TRUE(found.is_found());
+  EXPECT_LT(std::abs(found.value_Pa), 1.5 * (found.upper_Pa - found.lower_Pa));
+}
+
+TEST_F(ElongatedCells, AFewStrangersHardlyMoveTheTension) {
+  // Four of thirty have another fifth mode: the tension moves by less than its interval.
+  auto cells = recording(1000, 30);
+  const CommonTension alone = common_tension(moduli_, cells);
+  for (std::size_t i = 0; i < 4; ++i) cells[i].shape.features(int(ShapeFeature::first_mode) + 3) += 0.02;
+  const CommonTension among_strangers = common_tension(moduli_, cells);
+  EXPECT_NEAR(among_strangers.value_Pa, alone.value_Pa, alone.upper_Pa - alone.lower_Pa);
+}
+
+TEST_F(ElongatedCells, TooFewCellsTellNoTension) {
+  // Nine cells, and one of which nothing is known.
+  auto cells = recording(1000, 10);
+  cells[0].shape.features.setConstant(std::nan(""));
+  const CommonTension found = common_tension(moduli_, cells);
+  EXPECT_FALSE(found.is_found());
+  EXPECT_EQ(found.cells, 9u);
+  EXPECT_TRUE(std::isinf(found.tension().error_Pa));
+}
+
+TEST_F(ElongatedCells, SlopesBetweenCellsOfOneTensionAreThoseOfTheModel) {
+  // Cells that differ in stiffness alone, and a little: the regression is the derivative along the table, to 0.03 of
+  // curved lines. Cells that differ in tension alone have other slopes.
+  const auto slopes = [&](bool by_tension) {
+    std::vector<CellModes> cells;
+    for (int i = 0; i < 30; ++i) {
+      const double way = (i - 14.5) / 30, S = by_tension ? 1.8 : 1.8 * (1 + 0.3 * way);
+      const double tension_kPa = by_tension ? 0.5 * (1 + 0.3 * way) : 0.5;
+      const BranchPlace place{6.7 * (1 + 0.02 * std::sin(7.0 * i)), 0.5, 0.25, tension_kPa / S};
+      cells.push_back(cell_modes(invented_elongated_features(place, S)));
+    }
+    return slopes_between(cells).value;
+  };
+  const auto seen = invented_elongated_features({6.7, 0.5, 0.25, 0.5 / 1.8}, 1.8);
+  const auto cell = moduli_.nearest({seen, fine_errors(1e-4)}, simulated_, {500, 0});
+  ASSERT_TRUE(cell);
+  const PredictedSlopes predicted = predicted_slopes(between_, cell->cell);
+  const auto by_stiffness = slopes(false), by_tension = slopes(true);
+  for (std::size_t k = 0; k < slope_count; ++k) {
+    EXPECT_NEAR(by_stiffness[k], predicted.by_stiffness[k], 0.03) << k;
+    EXPECT_NEAR(by_tension[k], predicted.by_tension[k], 0.03) << k;
+  }
+}
+
+TEST_F(ElongatedCells, TheWallsShearStressIsThatOfTheTube) {
+  // 0.04 ul/s of 6 mPa s through 20 um: 4 eta Q / (pi R^3) with R = 10.94 um, 233.4 Pa; a liquid that thins at the same
+  // viscosity has the power of its shear rate.
+  EXPECT_NEAR(wall_shear_stress_Pa({20, 0.04, 6}), 233.4, 0.1);
+  const ChannelFlow thinning{20, 0.04, 6, 0.6};
+  const double shear_rate = 4 * 0.04e-9 / (std::numbers::pi * std::pow(10.94e-6, 3)) * 2.8 / 2.4;
+  EXPECT_NEAR(wall_shear_stress_Pa(thinning), consistency_Pa_sn(thinning) * std::pow(shear_rate, 0.6), 0.01);
 }
 
 }  // namespace

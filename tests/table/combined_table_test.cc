@@ -7,6 +7,7 @@
 #include "case/user_error.h"
 #include "invented_branch.h"
 #include "invented_combined.h"
+#include "invented_elongated_combined.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte::combined_table_test {
@@ -76,8 +77,7 @@ class Interpolation : public testing::Test {
     CellCoordinates cell;
     for (int i = 0; i < coordinate_count; ++i)
       cell(i) = std::uniform_real_distribution(between_.box().least(i), between_.box().greatest(i))(engine_);
-    cell(int(CellCoordinate::log_deformation)) =
-        std::uniform_real_distribution(std::log(2e-3), std::log(0.05))(engine_);
+    cell(int(CellCoordinate::log_progress)) = std::uniform_real_distribution(std::log(2e-3), std::log(0.05))(engine_);
     return cell;
   }
 };
@@ -131,12 +131,70 @@ TEST_F(Interpolation, TheWeightsOfTheBranchesAreThoseOfTheState) {
 TEST_F(Interpolation, ACellBeyondTheBranchesIsSaid) {
   // Softer than all, larger than all; the values go on nevertheless.
   CellCoordinates cell = random_cell();
-  cell(int(CellCoordinate::log_deformation)) = std::log(0.5);
+  cell(int(CellCoordinate::log_progress)) = std::log(0.5);
   EXPECT_FALSE(between_.at(cell).inside);
   EXPECT_TRUE(between_.at(cell).value.allFinite());
   cell = random_cell();
   cell(int(CellCoordinate::log_radius)) = std::log(15.0);
   EXPECT_FALSE(between_.at(cell).inside);
+}
+
+TEST(ElongatedTable, HasAColumnOfTheAxialRatio) {
+  // And reads back to the same bits; a table of round cells has none.
+  const CombinedTable& table = whole_elongated_table();
+  const std::string csv = combined_table_csv(table);
+  EXPECT_TRUE(csv.starts_with("radius_um,cortex_share,tension_ratio,axial_ratio,stiffness_kPa"));
+  const CombinedTable back = parse_combined_table(table.spec, csv, "combined.csv");
+  ASSERT_EQ(back.branches.size(), table.branches.size());
+  for (std::size_t i = 0; i < table.branches.size(); ++i) {
+    EXPECT_EQ(back.branches[i].place.axial_ratio, table.branches[i].place.axial_ratio);
+    EXPECT_EQ(back.branches[i].value, table.branches[i].value);
+  }
+  EXPECT_EQ(combined_table_csv(back), csv);
+  EXPECT_EQ(combined_table_csv(invented_combined_table(std::vector<std::string>{"table.radii=2"})).find("axial"),
+            std::string::npos);
+}
+
+/// Anywhere inside an elongated table.
+CellCoordinates random_elongated_cell(const CombinedInterpolation& between, std::mt19937& engine) {
+  CellCoordinates cell;
+  for (int i = 0; i < coordinate_count; ++i)
+    cell(i) = std::uniform_real_distribution(between.box().least(i), between.box().greatest(i))(engine);
+  cell(int(CellCoordinate::log_progress)) = std::uniform_real_distribution(std::log(0.02), std::log(0.05))(engine);
+  return cell;
+}
+
+TEST(ElongatedTable, BetweenTheBranchesItIsTheInventedCell) {
+  // By the third mode, at every tension: cubics through five radii, four shares and five axial ratios leave 2e-3 of the
+  // third mode at a stiffness, and 5e-4 in the others.
+  const CombinedInterpolation between(whole_elongated_table());
+  std::mt19937 engine(2);
+  for (int trial = 0; trial < 50; ++trial) {
+    const CellCoordinates cell = random_elongated_cell(between, engine);
+    const CombinedState state = between.at(cell);
+    EXPECT_TRUE(state.inside);
+    const BranchPlace place{std::exp(cell(0)), cell(1), cell(3), cell(4)};
+    const ShapeVector exact = invented_elongated_features(place, std::exp(state.value(log_stiffness_row)));
+    EXPECT_NEAR(std::log(exact(int(ShapeFeature::first_mode) + 1)), cell(2), 2e-3) << cell.transpose();
+    EXPECT_NEAR(state.value(log_area_row), exact(0), 5e-4);
+    EXPECT_NEAR(state.value(deformation_row), exact(1), 5e-4);
+    for (int f = 2; f < feature_count; ++f) EXPECT_NEAR(state.value(f), exact(f), 5e-4) << f;
+  }
+}
+
+TEST(ElongatedTable, GradientsAreThoseOfTheValues) {
+  // Central differences, as for round cells.
+  const CombinedInterpolation between(whole_elongated_table());
+  std::mt19937 engine(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    const CellCoordinates cell = random_elongated_cell(between, engine);
+    const CombinedState state = between.at(cell);
+    for (int x = 0; x < coordinate_count; ++x) {
+      const CellCoordinates step = 1e-5 * CellCoordinates::Unit(x);
+      const auto difference = ((between.at(cell + step).value - between.at(cell - step).value) / 2e-5).eval();
+      EXPECT_LT((state.gradient.col(x) - difference).cwiseAbs().maxCoeff(), 1e-4) << x;
+    }
+  }
 }
 
 TEST(CombinedSpec, SharesAndTensionsMakeTheSweep) {

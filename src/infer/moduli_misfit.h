@@ -1,0 +1,61 @@
+// By how much the features of a cell of a combined table miss those of a measured one, in standard errors.
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "infer/several_moduli.h"
+#include "table/combined_interpolation.h"
+
+namespace rheocyte {
+
+/// Ranges of the coordinates; one where there is none.
+CellCoordinates widths(const CellBox& box);
+
+/// Residuals of the chosen features, over the free coordinates, in the form that ceres::TinySolver wants. Behind them
+/// stand what it costs to leave the table, and, where cells are elongated, what is known of the tension.
+class ModuliMisfit {
+ public:
+  using Scalar = double;
+  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = Eigen::Dynamic };
+  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, coordinate_count>;
+
+  /// Shape and tension are those in the table's channel and flow. Table and features must outlive it.
+  ModuliMisfit(const CombinedInterpolation& table, MeasuredShape shape, std::span<const int> features,
+               const AxialTension& tension);
+
+  bool is_usable() const { return measured_.allFinite() && whitening_.size() > 0; }
+  const MeasuredShape& shape() const { return shape_; }
+  int NumResiduals() const { return int(features_.size()) + coordinate_count + 1; }
+  int NumParameters() const { return int(free_.size()); }
+
+  /// The coordinates that are fitted; the others stay as in `cell`.
+  void set_free(std::vector<int> free, const CellCoordinates& cell) {
+    free_ = std::move(free);
+    cell_ = cell;
+  }
+
+  bool operator()(const double* parameters, double* residuals, double* jacobian) const;
+
+  Eigen::VectorXd evaluate(const CellCoordinates& cell, Jacobian& jacobian) const;
+  /// What the features and the tension tell of a cell, without the fence: J^T J.
+  Eigen::Matrix<double, coordinate_count, coordinate_count> information(const CellCoordinates& cell) const;
+
+ private:
+  struct Feature {
+    double value;
+    CellCoordinates gradient;
+  };
+  Feature feature(int number, const CellCoordinates& cell, const CombinedState& state) const;
+
+  const CombinedInterpolation& table_;
+  MeasuredShape shape_;
+  std::span<const int> features_;
+  AxialTension tension_;
+  Eigen::VectorXd measured_;
+  Eigen::MatrixXd whitening_;
+  std::vector<int> free_;
+  CellCoordinates cell_ = CellCoordinates::Zero();
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,14 @@
+// By which measure the states of a table tell how far the flow has deformed the cell: it rises from zero along a
+// branch.
+#pragma once
+#include "table/branch.h"
+#include "table/table_spec.h"
+
+namespace rheocyte {
+
+/// The deformation. Elongated cells have one without flow: of them it is the third mode, which tells front from rear.
+inline Measure progress_of(const TableSpec& spec) {
+  return spec.is_elongated() ? Measure::mode_3 : Measure::deformation;
+}
+
+}  // namespace rheocyte
