@@ -14,7 +14,8 @@ namespace rheocyte {
 namespace {
 
 constexpr int most_steps = 30;
-constexpr double settled = 1e-9;
+/// Of the last step; the next one would be about its square.
+constexpr double settled = 1e-6;
 /// So far beyond the table a cell may be on the way, in shares of its widths.
 constexpr double beyond = 0.04;
 /// In shares of the branch: a stiffer cell's asymmetry is none that could be seen.
@@ -136,11 +137,14 @@ ElongatedSolids::Found ElongatedSolids::find(const Eigen::Vector3d& seen, Elonga
   ElongatedCell low = least - beyond * width, high = greatest + beyond * width;
   low(2) = min_height / 2;
   Found found;
-  found.cell = (least + greatest) / 2;
+  found.cell = greatest;
   if (!seen.allFinite()) return found.reason = ModulusState::no_data, found;
   const double radius_um = std::exp(seen(0) / 2) * std::numbers::inv_sqrtpi;
   if (radius_um > origin().flow.width_um / 2) return found.reason = ModulusState::too_large, found;
-  found.cell(0) = std::clamp(table_.coordinate_of(radius_um), low(0), high(0));
+  // To first order c_2 is three quarters of the axial ratio, and i = (1 + c_2) / (1 - c_2).
+  const double mode_2 = by == ElongatedBy::modes ? seen(1) : (seen(1) - 1) / (seen(1) + 1);
+  found.cell = {table_.coordinate_of(radius_um), mode_2 / 0.75, 0.5};
+  found.cell = found.cell.cwiseMax(low).cwiseMin(high);
   double change = 1;
   for (int step = 0; step < most_steps && change > settled; ++step) {
     found.state = table_.at(found.cell);
