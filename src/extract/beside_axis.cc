@@ -130,7 +130,7 @@ BesideAxis beside_axis(const PlacedOutlines& outlines, int direction, const Chan
   BesideAxis r{.events = events.count()};
   if (r.events == 0) return r;
   r.spread_um = rms(events.y);
-  r.inertia_ratio = median_of(events.ratio);
+  r.inertia_ratio = median_of(finite(events.ratio));
   if (r.events < fewest_events || !(r.spread_um > least_spread_um)) return r;
   const RobustLine sine = robust_line(events.y, events.sine);
   r.sine_slope = sine.slope;
@@ -139,7 +139,7 @@ BesideAxis beside_axis(const PlacedOutlines& outlines, int direction, const Chan
   read_thirds(events, r);
   if (!(r.way_um >= least_way_um)) return r;
   r.centring = centring_of(events, r.axis_um);
-  const double radius_um = std::sqrt(median_of(events.area) / std::numbers::pi);
+  const double radius_um = std::sqrt(median_of(finite(events.area)) / std::numbers::pi);
   r.stored_slope = tilt_of_stored_shape(radius_um, r.inertia_ratio, r.way_um, flow);
   return r;
 }
@@ -166,9 +166,8 @@ bool BesideAxis::is_centring() const { return centring.value < -3 * centring.err
 std::string BesideAxis::turn_text() const {
   if (turn() == Turn::unknown) return {};
   const std::string numbers = fmt::format(
-      "slope {} per um beside the axis, change {} over {:.0f} um, where a stored shape would turn by {:+.2g}; s2 {} "
-      "per "
-      "um; {} events with an rms of pos_y of {:.2g} um",
+      "slope {} per um beside the axis, change {} over {:.0f} um, where a stored shape would turn by {:+.2g}; "
+      "s2 {} per um; {} events with an rms of pos_y of {:.2g} um",
       text_of(flank_slope), text_of(flank_change()), way_um, stored_slope, text_of(sine_slope), events, spread_um);
   switch (turn()) {
     case Turn::unknown: break;
@@ -180,9 +179,8 @@ std::string BesideAxis::turn_text() const {
     case Turn::stored: return fmt::format("cells beside the axis are turned as a stored shape would be ({}).", numbers);
     case Turn::towards_axis:
       return fmt::format(
-          "cells beside the axis point their noses to it ({}), as the flow there deforms elastic cells: their "
-          "elongation "
-          "is not a shape that they bring along.",
+          "cells beside the axis point their noses to it ({}), as the flow there deforms elastic cells: "
+          "their elongation is not a shape that they bring along.",
           numbers);
     case Turn::undecided: break;
   }

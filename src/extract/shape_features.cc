@@ -18,9 +18,19 @@ double ShapeExcess::*member_of(const std::string& feature) {
   return feature == "shape_excess" ? &ShapeExcess::excess : &ShapeExcess::odd_share;
 }
 
+/// Null for any other feature.
+const TiltFeature* tilt_feature(const std::string& feature) {
+  const auto found = std::ranges::find(tilt_features(), feature, &TiltFeature::name);
+  return found == tilt_features().end() ? nullptr : &*found;
+}
+
+bool needs_outlines(const std::string& feature) { return feature == "mode_3" || tilt_feature(feature) != nullptr; }
+
 }  // namespace
 
-bool ShapeFeatures::knows(const std::string& feature) { return std::ranges::find(names, feature) != names.end(); }
+bool ShapeFeatures::knows(const std::string& feature) {
+  return std::ranges::find(names, feature) != names.end() || tilt_feature(feature) != nullptr;
+}
 
 ShapeFeatures::ShapeFeatures(const Recording& recording, ShapeSource& source, const PlotOptions& options)
     : recording_(recording),
@@ -29,8 +39,8 @@ ShapeFeatures::ShapeFeatures(const Recording& recording, ShapeSource& source, co
           extract_settings(options.measuring, options.no_pixelation ? PixelUse::ignore : PixelUse::correct, recording)),
       tables_(options.table, options.section),
       shapes_(recording, settings_.conditions, {tables_.shapes(settings_.conditions.flow.exponent)},
-              options.x == "mode_3" || options.y == "mode_3") {
-  const bool wants_asymmetry = options.x == "mode_3" || options.y == "mode_3";
+              needs_outlines(options.x) || needs_outlines(options.y)) {
+  const bool wants_asymmetry = needs_outlines(options.x) || needs_outlines(options.y);
   if (!shapes_.is_known() || (wants_asymmetry && !shapes_.has_asymmetry()))
     refuse_path(recording.file(), shapes_.missing());
 }
@@ -50,6 +60,8 @@ void ShapeFeatures::read(const std::string& feature, std::size_t first, std::spa
     std::ranges::copy(columns_.inertia_ratio, values.begin());
   else if (feature == "mode_3")
     std::ranges::copy(columns_.mode_3, values.begin());
+  else if (const TiltFeature* const tilt = tilt_feature(feature))
+    std::ranges::transform(columns_.tilt, values.begin(), tilt->value);
   else
     std::ranges::transform(columns_.excess, values.begin(), member_of(feature));
 }

@@ -68,9 +68,8 @@ std::string centring_or_creep(const ShapeVerdict& v) {
     return fmt::format("; downstream c3 grows, as of cells that approach the axis ({}), but pos_y does not show it",
                        change);
   return fmt::format(
-      "; downstream c3 grows, as of cells that still approach the axis, not of cells that creep ({}; it takes {:.2g} "
-      "um2 of "
-      "their squared distance from the axis, height included)",
+      "; downstream c3 grows, as of cells that still approach the axis, not of cells that creep ({}; "
+      "it takes {:.2g} um2 of their squared distance from the axis, height included)",
       change, -growth / mode_3_per_um2);
 }
 
