@@ -239,9 +239,9 @@ def test_a_temperature_fills_what_is_missing(tmp_path):
 
 @pytest.mark.parametrize("arguments, sentence", [
     ({"viscosity_mPas": 5, "medium": "water"}, "viscosity_mPas and medium contradict"),
-    ({"temperature": 296}, "temperature 296"), ({"least": {"bright": 1}}, "for which least or greatest"),
+    ({"temperature": 296}, "temperature 296"), ({"least": {"bright": 1}}, "for which least gives a limit"),
     ({"polygons": {("a", "b"): [(1, 2)]}}, r"three corners at least\.$"), ({"polygons": "filters.txt"}, "no file of polygon"),
-    ({"polygons": "nowhere.poly"}, "nowhere.poly: there is no such file")])
+    ({"polygons": "nowhere.poly"}, "nowhere.poly: cannot be read")])
 def test_what_is_said_names_arguments_not_options(arguments, sentence, tmp_path):
     rheocyte.synth(CELLS, tmp_path / "cells.rtdc", recording__cells=20)
     with pytest.raises(UserError, match=sentence) as caught:
