@@ -14,6 +14,10 @@ struct ModuliTable {
   ModuliTable(const ModuliTable&) = delete;
   ModuliTable& operator=(const ModuliTable&) = delete;
 
+  /// In which the cells of a recording were seen: the wanted section; else the table's, the tube, where they are
+  /// virtual cells of this table; else the square.
+  Section section_of(const Recording&, std::optional<Section> wanted) const;
+
   CombinedTable content;
   CombinedInterpolation between;
   ChannelFlow simulated;
@@ -23,7 +27,7 @@ struct ModuliTable {
 class EventModuli {
  public:
   /// Renders the errors of the recording's pixels, which takes about a second. The table must outlive it.
-  EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table);
+  EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table, Section seen_in);
 
   /// From the shape in pixels (EventOutlines) and the viscosity of the event.
   ModuliEstimate fit(const ShapeVector& seen, double viscosity_mPas) const;

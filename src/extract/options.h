@@ -39,10 +39,10 @@ struct ExtractOptions {
 struct ModuliOptions {
   BatchOptions batch;
   MeasuringOptions measuring;
-  std::filesystem::path table;        ///< folder of a combined table
-  bool fit_tension = false;           ///< as a third unknown
-  bool only_figure = false;           ///< by deformation and Lambda1 / Lambda2 in place of the whole contour
-  Section section = Section::square;  ///< in which the cells were seen; the table is of the tube
+  std::filesystem::path table;     ///< folder of a combined table
+  bool fit_tension = false;        ///< as a third unknown
+  bool only_figure = false;        ///< by deformation and Lambda1 / Lambda2 in place of the whole contour
+  std::optional<Section> section;  ///< in which the cells were seen; not given: ModuliTable::section_of
 };
 
 /// UserError if a value is not positive or two of them contradict.
