@@ -281,8 +281,9 @@ def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
             "shapes": {"table": str(folder)}}
     assert rheocyte.synth(spec, tmp_path / "cells.rtdc") > 50
     shares = []
-    frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, section="tube", progress=shares.append)
+    frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, progress=shares.append)
     assert shares[-1] == 1 and frame.attrs["settings"]
+    assert any("the channel is its tube" in line for line in frame.attrs["warnings"])
     subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--section", "tube", "--quiet"], cwd=tmp_path, check=True)
     written = pandas.read_csv(tmp_path / "cells_moduli.tsv", sep="\t", comment="#").drop(columns="event")
     pandas.testing.assert_frame_equal(frame, written, check_exact=True)
