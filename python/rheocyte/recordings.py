@@ -93,13 +93,13 @@ def _set_section(options, section, function):
     options.set_section(section == "square")
 
 
-def moduli(recording, table, *, section="square", fit_tension=False, axial_tension_Pa=None, only_figure=False,
+def moduli(recording, table, *, section=None, fit_tension=False, axial_tension_Pa=None, only_figure=False,
            progress=None, **measuring):
     """Moduli of bulk and cortex of each cell from its contour, as `rheocyte moduli` gives them.
 
     table           folder of a combined table (examples/tables/combined.toml), which is one of the tube
-    section         of the channel: "square", by the difference between solids there and in the tube, or "tube", as virtual
-                    cells of such a table have it
+    section         of the channel: "square", by the difference between solids there and in the tube, or "tube"; if it is not
+                    given, "tube" for virtual cells of the table, else "square"
     fit_tension     the tension of the cortex, too, by a table with several of them; tables of elongated cells always do
     axial_tension_Pa  tension of the liquid, which elongates the cells, 0 = none; None: the one that is found for the recording,
                     if the table has elongated cells (examples/tables/combined-elongated.toml)
@@ -113,7 +113,8 @@ def moduli(recording, table, *, section="square", fit_tension=False, axial_tensi
     options = native.ModuliOptions()
     options.measuring = _measuring(measuring, "moduli")
     options.table = path(table, "table")
-    _set_section(options, section, "moduli")
+    if section is not None:
+        _set_section(options, section, "moduli")
     options.fit_tension = truth(fit_tension, "fit_tension")
     if axial_tension_Pa is not None:
         options.axial_tension_Pa = number(axial_tension_Pa, "axial_tension_Pa")
@@ -132,7 +133,7 @@ def time_course(recordings, table, contraction_um, *, section="square", progress
     recordings      one, or several of one population, as for extract
     table           dynamic table: the folder of one that `rheocyte table` has made, or its dynamic_*.cbor
     contraction_um  pos_x of the end of the contraction, from which the cells come; one for all, or one each
-    section         as for moduli
+    section         of the channel, "square" or "tube", likewise
     others          as for extract
 
     Returns a pandas.DataFrame with one row per cell that was seen over at least 20 um: places, radius_um,

@@ -26,7 +26,7 @@ def moduli(
     recording: _Path | _Dataset,
     table: _Path,
     *,
-    section: Literal["tube", "square"] = "square",
+    section: Literal["tube", "square"] | None = None,
     fit_tension: bool = False,
     axial_tension_Pa: float | None = None,
     only_figure: bool = False,

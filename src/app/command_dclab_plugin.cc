@@ -2,9 +2,8 @@
 // Prints a program text of the Python package and, behind it, the tables.
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "app/commands.h"
@@ -12,16 +11,18 @@
 #include "case/user_error.h"
 #include "extract/dclab_plugin.h"
 #include "store/python_package.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
 namespace {
 
+constexpr std::size_t largest_program_text = 1 << 20;
+
 void print_plugin() {
   const auto path = python_package_folder() / "rheocyte" / "modulus_plugin.py";
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file || text.empty()) refuse_path(path, "cannot be read; it comes with the program, so install that again.");
+  std::string text = content_of_file(path, largest_program_text);
+  if (text.empty()) refuse_path(path, "is empty; it comes with the program, so install that again.");
   text += data_of_dclab_plugin();
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     throw UserError("rheocyte: standard output cannot be written.");

@@ -28,7 +28,7 @@ struct TimeCourseOptions {
   MeasuringOptions measuring;
   std::filesystem::path table, file;
   std::vector<double> contraction_um;  ///< one for all recordings, or one each
-  Section section = Section::square;   ///< of the channel
+  std::optional<Section> section;      ///< of the channel; not given: square
 };
 
 CourseEvents read(const RecordingTask& task, const TimeCourseOptions& options) {
@@ -56,7 +56,7 @@ int run(const TimeCourseOptions& options) {
   const auto tasks = tasks_of(options.batch);
   const DynamicTable table = read_dynamic_table(options.table);
   check_replaceable(options.file, mark_of_courses, Foreign::keep);
-  CourseTable courses(table, options.section);
+  CourseTable courses(table, options.section.value_or(Section::square));
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const double contraction_um = contraction_of(options, i, tasks.size());
     const std::string name = one_line(tasks[i].recording.string(), 200);

@@ -72,11 +72,11 @@ CLI::CheckedTransformer section_by_name() {
 
 }  // namespace
 
-void declare_channel_option(CLI::App& command, Section& section) {
+void declare_channel_option(CLI::App& command, std::optional<Section>& section) {
   command
       .add_option("--section", section,
                   "of the channel: square, by the difference between solids there and in the tube of the table "
-                  "(default), or tube, as virtual cells of such a table have it")
+                  "(default), or tube, as virtual cells of such a table have it (moduli recognises its own)")
       ->type_name("tube|square")
       ->transform(section_by_name());
 }

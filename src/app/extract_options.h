@@ -1,6 +1,7 @@
 // The command line of `rheocyte extract`, and the parts of it that other commands on recordings have, too.
 #pragma once
 #include <functional>
+#include <optional>
 
 #include "extract/options.h"
 
@@ -21,7 +22,7 @@ void declare_measuring_options(CLI::App& command, MeasuringOptions& options);
 void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run);
 
 /// --section, of the channel in which the cells were seen, where the table that is given is one of the tube.
-void declare_channel_option(CLI::App& command, Section& section);
+void declare_channel_option(CLI::App& command, std::optional<Section>& section);
 
 /// --section, for which the program's own tables are.
 void declare_section_option(CLI::App& command, std::optional<Section>& section);

@@ -96,10 +96,15 @@ struct Problem : Media {
   AccuracyOf accuracy_of = AccuracyOf::deformation;  ///< off the axis
 };
 
-/// The problem on its way from the rigid cell.
-inline Problem at_compliance(Problem problem, double compliance) {
-  static_cast<Media&>(problem) = media_at(problem, compliance);
+/// The same cell in the same channel with other media.
+inline Problem with_media(Problem problem, const Media& media) {
+  static_cast<Media&>(problem) = media;
   return problem;
+}
+
+/// The problem on its way from the rigid cell.
+inline Problem at_compliance(const Problem& problem, double compliance) {
+  return with_media(problem, media_at(problem, compliance));
 }
 
 }  // namespace rheocyte

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "case/user_error.h"
+#include "measurement/metadata.h"
+#include "table/table_metadata.h"
 
 namespace rheocyte {
 
@@ -25,7 +27,7 @@ ModuliTable::ModuliTable(const ModuliOptions& options)
     : content(read_combined_table(options.table)),
       between(content),
       simulated(channel_flow_of(content.spec.base)),
-      section(options.section, content.spec.base) {
+      section(options.section.value_or(Section::square), content.spec.base) {
   if (options.fit_tension && between.tension_ratios().size() < 2)
     throw UserError(
         fmt::format("rheocyte: --fit-tension needs a table with several tensions (table.tension_ratio); {} has one.",
@@ -41,13 +43,22 @@ ModuliTable::ModuliTable(const ModuliOptions& options)
         "--only-figure out.");
 }
 
-EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table)
+Section ModuliTable::section_of(const Recording& recording, std::optional<Section> wanted) const {
+  if (wanted) return *wanted;
+  const Case& base = content.spec.base;
+  const auto cells = recording.metadata().text(made_of_key);
+  const bool are_of_this_table = cells && *cells == cells_in_words(model_text(base), base.channel.section);
+  return are_of_this_table ? base.channel.section : Section::square;
+}
+
+EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table,
+                         Section seen_in)
     : flow_(settings.conditions.flow),
       pixels_(table.between, settings.pixel_size_um * table.simulated.width_um / flow_.width_um),
       moduli_(table.between, table.simulated,
               {features_of(options, table), has_free_tension(options, table), table.between.tension_ratios().front()}),
       tension_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()) {
-  const ModulusMap* const square = table.section.table(flow_.exponent);
+  const ModulusMap* const square = seen_in == Section::square ? table.section.table(flow_.exponent) : nullptr;
   if (!square || table.content.spec.cortex_shares.front() > 0) return;
   square_.emplace(table.between, table.simulated, *square);
   square_table_ = square->origin().identifier;

@@ -15,6 +15,10 @@ struct ModuliTable {
   ModuliTable(const ModuliTable&) = delete;
   ModuliTable& operator=(const ModuliTable&) = delete;
 
+  /// In which the cells of a recording were seen: the wanted section; else the table's, the tube, where they are
+  /// virtual cells of this table; else the square.
+  Section section_of(const Recording&, std::optional<Section> wanted) const;
+
   CombinedTable content;
   CombinedInterpolation between;
   ChannelFlow simulated;
@@ -24,7 +28,7 @@ struct ModuliTable {
 class EventModuli {
  public:
   /// Renders the errors of the recording's pixels, which takes about a second. The table must outlive it.
-  EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table);
+  EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table, Section seen_in);
 
   /// From the shape in pixels (EventOutlines) and the viscosity of the event, with what is known of the axial tension:
   /// nothing, unless it is given or `know_tension` was called.

@@ -52,6 +52,11 @@ Gates::Gates(const GateOptions& options) {
   if (events_) std::ranges::sort(*events_);
 }
 
+std::string_view Gates::options_of(const Limit& limit) {
+  if (!std::isfinite(limit.max)) return "--min gives";
+  return std::isfinite(limit.min) ? "--min and --max give" : "--max gives";
+}
+
 Gates::Limit& Gates::limit_of(const std::string& feature) {
   const auto found = std::ranges::find(limits_, feature, &Limit::feature);
   if (found != limits_.end()) return *found;
@@ -76,8 +81,8 @@ void Gates::check(const EventFeatures& features) const {
   for (const auto& limit : limits_)
     if (!features.has(limit.feature))
       refuse_path(features.recording().file(),
-                  fmt::format("has no feature {}, for which --min or --max gives a limit.{}",
-                              one_line(limit.feature, 60), features.near(limit.feature)));
+                  fmt::format("has no feature {}, for which {} a limit.{}", one_line(limit.feature, 60),
+                              options_of(limit), features.near(limit.feature)));
   for (const auto& polygon : polygons_) polygon.check(features);
 }
 

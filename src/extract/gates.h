@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "extract/gate_options.h"
@@ -30,6 +31,8 @@ class Gates {
     std::string feature;
     double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   };
+  /// The options that were given, with their verb.
+  static std::string_view options_of(const Limit& limit);
   Limit& limit_of(const std::string& feature);
   std::vector<Limit> limits_;
   std::vector<PolygonGate> polygons_;

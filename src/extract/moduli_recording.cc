@@ -55,11 +55,12 @@ class Fits {
   Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table)
       : events_(recording, options.measuring, use_of_outlines),
         simulated_exponent_(table.simulated.exponent),
-        is_square_(options.section == Section::square),
-        solids_(std::string(), options.section),
+        section_(table.section_of(recording, options.section)),
+        is_told_(options.section),
+        solids_(std::string(), section_),
         shapes_of_solids_(solids_.shapes(conditions().flow.exponent)),
         elongated_solids_(solids_.elongated(conditions().flow.exponent)),
-        moduli_(events_.settings(), options, table),
+        moduli_(events_.settings(), options, table, section_),
         table_(table) {
     axial_.is_of_elongated_cells = table.between.is_elongated();
     axial_.is_given = options.axial_tension_Pa.has_value();
@@ -131,7 +132,11 @@ class Fits {
     if (const auto outside = events_.outside_temperature())
       s.warnings.push_back(settings.outside_temperature_text(outside));
     if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
-    if (is_square_) s.warnings.push_back(moduli_.square_table().empty() ? std::string(no_square_text) : section_text());
+    if (is_square()) {
+      s.warnings.push_back(moduli_.square_table().empty() ? std::string(no_square_text) : section_text());
+    } else if (!is_told_) {
+      s.warnings.emplace_back("made by rheocyte synth from cells of the table: the channel is its tube.");
+    }
     if (moduli_.square_table().empty() &&
         std::abs(conditions().flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
       s.warnings.push_back(fmt::format(
@@ -145,6 +150,7 @@ class Fits {
   }
 
  private:
+  bool is_square() const { return section_ == Section::square; }
   const MeasuringConditions& conditions() const { return events_.settings().conditions; }
 
   static bool has_cell(const ModuliEstimate& e) {
@@ -177,7 +183,7 @@ class Fits {
   }
 
   std::string section_text() const {
-    if (!is_square_) return "channel: the tube of equal pressure drop, as in the table";
+    if (!is_square()) return "channel: the tube of equal pressure drop, as in the table";
     if (moduli_.square_table().empty()) return "channel: square, but the cells are compared with those of the tube";
     return fmt::format(
         "the channel is square, and the table one of the tube of equal pressure drop: its shapes are changed as {} "
@@ -225,7 +231,8 @@ class Fits {
 
   OutlinedEvents events_;
   double simulated_exponent_;
-  bool is_square_;
+  Section section_;
+  bool is_told_;  ///< by the user
   ModulusTables solids_;
   const ShapeMap* shapes_of_solids_;
   const ElongatedLiquid* elongated_solids_;

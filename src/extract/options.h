@@ -43,7 +43,7 @@ struct ModuliOptions {
   bool fit_tension = false;                ///< as a third unknown
   std::optional<double> axial_tension_Pa;  ///< of the liquid; not given: found for each recording
   bool only_figure = false;                ///< by deformation and Lambda1 / Lambda2 in place of the whole contour
-  Section section = Section::square;       ///< in which the cells were seen; the table is of the tube
+  std::optional<Section> section;          ///< in which the cells were seen; not given: ModuliTable::section_of
 };
 
 /// UserError if a value is not positive or two of them contradict.

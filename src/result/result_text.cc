@@ -57,7 +57,9 @@ std::string measures_text(const Result& result) {
       line("area", area(shape.area, errors.shape.area) + " um^2", "raw " + area(shape.area_raw, errors.shape.area_raw));
   if (std::isfinite(state.deformation_side))
     text += line("by view", deformation(state.deformation_side, errors.deformation_side) + " side",
-                 deformation(state.deformation_diagonal, errors.deformation_diagonal) + " diagonal");
+                 std::isfinite(state.deformation_diagonal)
+                     ? deformation(state.deformation_diagonal, errors.deformation_diagonal) + " diagonal"
+                     : "");  // not of a rectangle
   text += line("cell velocity",
                with_error(fmt::format("{:.5g}", state.cell_velocity * U), errors.cell_velocity * U) + " m/s",
                fmt::format("mean velocity of the liquid {:.5g}", U));

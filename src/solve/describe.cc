@@ -119,9 +119,8 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   r.min_meridional_stretch = least_along(surface, surface.stretch.col(0));
   r.min_tension = least_along(surface, surface_tensions(state.media.cortex, surface).col(0));
   r.biot_ratio = least_along(surface, biot_ratios(surface));
-  Problem softened = state.problem;  // the tension is that of the media, which may be on the way to the wanted ones
-  static_cast<Media&>(softened) = state.media;
-  r.stability_margin = stability_margin(softened, r.biot_ratio, r.min_tension);
+  // Tension and moduli are those of the media, which may be on the way to the wanted ones.
+  r.stability_margin = stability_margin(state.media, state.problem.radius_ratio, {r.biot_ratio, r.min_tension});
   return r;
 }
 

@@ -56,21 +56,14 @@ SurfaceProfile profile(const DuctSpace& space, const VectorXd& unknowns, const C
   return profile;
 }
 
-/// What decides of the surface's stability.
-struct SurfaceExtremes {
-  double min_stretch, biot_ratio, min_tension;
-};
-
-SurfaceExtremes surface_extremes(const Cortex& cortex, const DuctSpace& space, const VectorXd& unknowns) {
-  const Eigen::MatrixX2d stretch = duct_principal_stretches(space, unknowns, cortex.rest_stretch);
+SurfaceExtremes surface_extremes(const Cortex& cortex, const Eigen::MatrixX2d& stretch) {
   double min_tension = std::numeric_limits<double>::infinity();
   for (const auto& row : stretch.rowwise()) {
     const auto [T1, T2] = principal_tensions<double>(cortex, row(0), row(1));
     min_tension = std::min({min_tension, T1, T2});
   }
   // Incompressible: the normal stretch is 1 / (least greatest).
-  return {stretch.col(0).minCoeff(), (stretch.col(0).array().square() * stretch.col(1).array()).minCoeff(),
-          min_tension};
+  return {(stretch.col(0).array().square() * stretch.col(1).array()).minCoeff(), min_tension};
 }
 
 void read_flow(const Media& media, const DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
@@ -131,8 +124,8 @@ double duct_deformation(const DuctSpace& space, const VectorXd& unknowns, Camera
 }
 
 double duct_stability_margin(const Problem& problem, const DuctSpace& space, const VectorXd& unknowns) {
-  const SurfaceExtremes surface = surface_extremes(problem.cortex, space, unknowns);
-  return stability_margin(problem, surface.biot_ratio, surface.min_tension);
+  const auto stretch = duct_principal_stretches(space, unknowns, problem.cortex.rest_stretch);
+  return stability_margin(problem, problem.radius_ratio, surface_extremes(problem.cortex, stretch));
 }
 
 StateNumbers duct_numbers(const Problem& problem, const DuctDiscrete& discrete, const VectorXd& unknowns) {
@@ -148,10 +141,11 @@ StateNumbers duct_numbers(const Problem& problem, const DuctDiscrete& discrete, 
   const double a = space.mesh().geometry().radius();
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
   read_flow(problem, discrete, unknowns, r);
-  const SurfaceExtremes surface = surface_extremes(problem.cortex, space, unknowns);
-  r.min_meridional_stretch = surface.min_stretch;
+  const auto stretch = duct_principal_stretches(space, unknowns, problem.cortex.rest_stretch);
+  const SurfaceExtremes surface = surface_extremes(problem.cortex, stretch);
+  r.min_meridional_stretch = stretch.col(0).minCoeff();
   r.biot_ratio = surface.biot_ratio;
-  r.stability_margin = duct_stability_margin(problem, space, unknowns);
+  r.stability_margin = stability_margin(problem, problem.radius_ratio, surface);
   r.min_tension = surface.min_tension;
   if (const int p = space.inner_pressure(); p >= 0)
     r.inner_pressure = unknowns(p) + rest_pressure(problem.cortex, problem.radius_ratio);

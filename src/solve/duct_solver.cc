@@ -88,11 +88,7 @@ double DuctLadder::motion_error(CellPlace place) const {
   return numbers.size() == 2 ? std::max(error, min_error_of_two_rungs) : error;
 }
 
-Problem DuctSolver::problem_at(double compliance) const {
-  Problem problem = problem_;
-  static_cast<Media&>(problem) = media_(compliance);
-  return problem;
-}
+Problem DuctSolver::problem_at(double compliance) const { return with_media(problem_, media_(compliance)); }
 
 DuctState DuctSolver::follow() {
   DuctState state = scout();

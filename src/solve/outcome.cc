@@ -8,8 +8,8 @@
 
 namespace rheocyte {
 
-SurfaceKind surface_kind(const Problem& problem) {
-  const Cortex& cortex = problem.cortex;
+SurfaceKind surface_kind(const Media& media) {
+  const Cortex& cortex = media.cortex;
   if (cortex.bending > 0) return SurfaceKind::held;
   if (cortex.law != CortexLaw::none) return SurfaceKind::membrane;
   return cortex.tension > 0 ? SurfaceKind::held : SurfaceKind::bare;

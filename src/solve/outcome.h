@@ -56,7 +56,7 @@ inline bool has_wanted_moduli(const Outcome& outcome) {
 /// does where it is compressed along the meridian more than the bulk below supports. held: by tension without a cortex,
 /// or by bending stiffness; short waves are stable.
 enum class SurfaceKind { bare, membrane, held };
-SurfaceKind surface_kind(const Problem&);
+SurfaceKind surface_kind(const Media&);
 
 /// The absolute error that rounding leaves of a deformation: the digits of area and perimeter cancel. No deformation is
 /// resolved better, whatever relative accuracy is wanted.

@@ -15,18 +15,18 @@ constexpr double shortest_wave = 0.05;
 }  // namespace
 
 double stability_margin(const Problem& problem, const SurfaceState& surface) {
-  return stability_margin(problem, min_biot_ratio(surface),
-                          surface_tensions(problem.cortex, surface).col(0).minCoeff());
+  return stability_margin(problem, problem.radius_ratio,
+                          {min_biot_ratio(surface), surface_tensions(problem.cortex, surface).col(0).minCoeff()});
 }
 
-double stability_margin(const Problem& problem, double biot_ratio, double min_tension) {
-  switch (surface_kind(problem)) {
-    case SurfaceKind::bare: return (biot_ratio - biot_limit) / (1 - biot_limit);
+double stability_margin(const Media& media, double radius_ratio, const SurfaceExtremes& least) {
+  switch (surface_kind(media)) {
+    case SurfaceKind::bare: return (least.biot_ratio - biot_limit) / (1 - biot_limit);
     case SurfaceKind::membrane: {
-      const Cortex& cortex = problem.cortex;
-      const double support = problem.bulk.shear_modulus * shortest_wave * problem.radius_ratio / std::numbers::pi;
+      const Cortex& cortex = media.cortex;
+      const double support = media.bulk.shear_modulus * shortest_wave * radius_ratio / std::numbers::pi;
       // Tensions of the order of the modulus are as far as 1 from the limit.
-      return (min_tension + support) / (cortex.modulus + cortex.tension + support);
+      return (least.min_tension + support) / (cortex.modulus + cortex.tension + support);
     }
     case SurfaceKind::held: return 1;
   }
@@ -38,7 +38,9 @@ double stability_margin(const Problem& problem, const Discretisation& space, con
   return stability_margin(problem, surface_state(space, unknowns, per_edge, problem.bulk.rest_stretch));
 }
 
-double margin_at_rest(const Problem& problem) { return stability_margin(problem, 1, problem.cortex.tension); }
+double margin_at_rest(const Problem& problem) {
+  return stability_margin(problem, problem.radius_ratio, {1, problem.cortex.tension});
+}
 
 bool is_wrinkled(const Problem& problem, const Discretisation& space, const VectorXd& unknowns) {
   constexpr int max_sign_changes = 3;  // a rear dent makes one, a hollow flank two

@@ -7,11 +7,17 @@
 
 namespace rheocyte {
 
+/// What a surface has the least of.
+struct SurfaceExtremes {
+  double biot_ratio;   ///< of a tangential to the normal stretch
+  double min_tension;  ///< principal
+};
+
 /// Distance from the limit of stability against short waves: stable above 0, 1 without deformation; 1 throughout where
 /// the surface is held.
 double stability_margin(const Problem&, const SurfaceState&);
-/// The same of the least ratio of a tangential to the normal stretch, and of the least principal tension.
-double stability_margin(const Problem&, double biot_ratio, double min_tension);
+/// The same by what decides of it.
+double stability_margin(const Media&, double radius_ratio, const SurfaceExtremes&);
 double stability_margin(const Problem&, const Discretisation&, const VectorXd& unknowns);
 /// Of the sphere: 0 for a shell without tension, which some load compresses somewhere at once.
 double margin_at_rest(const Problem&);

@@ -48,7 +48,7 @@ CombinedCells::CombinedCells(const Recording& recording, const MeasuringOptions&
       table_(table),
       settings_(extract_settings(measuring, PixelUse::fit, recording)),
       outlines_(recording, settings_.pixel_size_um),
-      moduli_(settings_, {}, table) {}
+      moduli_(settings_, {}, table, table.section_of(recording, {})) {}
 
 CombinedCell CombinedCells::at(std::size_t event) {
   std::array<double, 1> viscosity_mPas{};

@@ -148,7 +148,7 @@ TEST_F(ModuliCommand, EventsOutsideTheGatesAreNotFitted) {
   EXPECT_EQ(within, some) << "a square polygon is a range gate";
   EXPECT_NE(table().find("# only events with index,index in a polygon of 4 corners\n"), std::string::npos);
   const std::string folder = table_folder().string();
-  expect_refusal({folder, "--min", "bright=4"}, "has no feature bright, for which --min or --max");
+  expect_refusal({folder, "--min", "bright=4"}, "has no feature bright, for which --min gives a limit");
   expect_refusal({folder, "--min", "index=5", "--max", "index=4"}, "contradict each other");
 }
 

@@ -200,7 +200,7 @@ TEST_F(OwnTable, GatesShutEventsOut) {
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("has no feature bright"), std::string::npos) << unknown.err;
   expect_refusal({"extract", path("a.rtdc"), "--max", "area_ration=1.05", "--quiet"},
-                 "has no feature area_ration, for which --min or --max gives a limit. Did you mean area_ratio?");
+                 "has no feature area_ration, for which --max gives a limit. Did you mean area_ratio?");
   expect_refusal({"extract", path("a.rtdc"), "--polygon", "area_umm,deform=1,0:2,0:2,1", "--quiet"},
                  "Did you mean area_um?");
   const auto none = run({"extract", path("a.rtdc"), "--max", "area_um=5"});

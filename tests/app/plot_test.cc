@@ -110,7 +110,7 @@ TEST_F(Plot, OtherFeaturesAndGates) {
   expect_refusal({a, "--x", "volume", "--levels", "1"}, "--levels and --x or --y contradict");
   expect_refusal({a, "--min", "area_um"}, "give a feature and a number");
   expect_refusal({a, "--min", "area_um=5", "--max", "area_um=4"}, "contradict each other");
-  expect_refusal({a, "--max", "bright=4"}, "has no feature bright, for which --min or --max");
+  expect_refusal({a, "--max", "bright=4"}, "has no feature bright, for which --max gives a limit");
   expect_refusal({a, "--polygon", "area_um,deform=40,0.01:90,0.01"}, "three corners");
   expect_refusal({a, "--polygon", "area_um,bright=1,2:3,4:5,6"}, "has no feature bright, which --polygon names");
   expect_refusal({a, "--polygon", "area_um,deform=1,2:3,4:5,6"}, "no event inside the gates has area_um and deform");

@@ -241,9 +241,9 @@ def test_a_temperature_fills_what_is_missing(tmp_path):
 
 @pytest.mark.parametrize("arguments, sentence", [
     ({"viscosity_mPas": 5, "medium": "water"}, "viscosity_mPas and medium contradict"),
-    ({"temperature": 296}, "temperature 296"), ({"least": {"bright": 1}}, "for which least or greatest"),
+    ({"temperature": 296}, "temperature 296"), ({"least": {"bright": 1}}, "for which least gives a limit"),
     ({"polygons": {("a", "b"): [(1, 2)]}}, r"three corners at least\.$"), ({"polygons": "filters.txt"}, "no file of polygon"),
-    ({"polygons": "nowhere.poly"}, "nowhere.poly: there is no such file")])
+    ({"polygons": "nowhere.poly"}, "nowhere.poly: cannot be read")])
 def test_what_is_said_names_arguments_not_options(arguments, sentence, tmp_path):
     rheocyte.synth(CELLS, tmp_path / "cells.rtdc", recording__cells=20)
     with pytest.raises(UserError, match=sentence) as caught:
@@ -283,8 +283,9 @@ def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
             "shapes": {"table": str(folder)}}
     assert rheocyte.synth(spec, tmp_path / "cells.rtdc") > 50
     shares = []
-    frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, section="tube", progress=shares.append)
+    frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, progress=shares.append)
     assert shares[-1] == 1 and frame.attrs["settings"]
+    assert any("the channel is its tube" in line for line in frame.attrs["warnings"])
     subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--section", "tube", "--quiet"], cwd=tmp_path, check=True)
     written = pandas.read_csv(tmp_path / "cells_moduli.tsv", sep="\t", comment="#").drop(columns="event")
     pandas.testing.assert_frame_equal(frame, written, check_exact=True)

@@ -1,5 +1,6 @@
 // Whatever is wrong with the command line, the files or the folders: exit code 2 and one sentence, nothing written.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "run_program.h"
@@ -51,6 +52,19 @@ TEST(CommandLine, CaseFilesThatCannotBeReadAreNamed) {
   write_file(folder.path() / "secret.toml", content_of(good_case));
   fs::permissions(folder.path() / "secret.toml", fs::perms::none);
   expect_refusal({"solve", "--check", folder.path() / "secret.toml"}, "Permission denied");
+}
+
+TEST(CommandLine, AFifoInPlaceOfAProgramTextIsNamedAndNotWaitedFor) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "rheocyte");
+  const auto text = folder.path() / "rheocyte" / "modulus_plugin.py";
+  const Command plugin{.arguments = {RHEOCYTE, "dclab-plugin"}, .environment = {{"RHEOCYTE_PYTHON", folder.path()}}};
+  expect_sentence(run(plugin), "modulus_plugin.py: cannot be read (No such file or directory).");
+  ASSERT_EQ(::mkfifo(text.c_str(), 0600), 0);
+  expect_sentence(run(plugin), "modulus_plugin.py: is not a regular file.");
+  fs::remove(text);
+  write_file(text, "");
+  expect_sentence(run(plugin), "modulus_plugin.py: is empty");
 }
 
 TEST(CommandLine, FoldersThatCannotTakeAResultAreNamedBeforeAnythingIsSolved) {

@@ -69,6 +69,8 @@ TEST_F(SolveCommand, ARectangleIsSeenFromAnyAngle) {
   EXPECT_FALSE(fs::exists(result() / "contour_diagonal.csv"));
   EXPECT_TRUE(fs::exists(result() / "picture.png"));
   EXPECT_TRUE(numbers()["deformation_diagonal"].is_null());
+  EXPECT_NE(ended.out.find("by view"), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.out.find("diagonal"), std::string::npos) << ended.out;
   // Seen 11 degrees off the side, not the same and not much else.
   EXPECT_NE(number("deformation"), number("deformation_side"));
   EXPECT_NEAR(number("deformation") / number("deformation_side"), 1, 0.2);

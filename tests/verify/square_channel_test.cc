@@ -209,8 +209,7 @@ TEST(SquareChannelSlow, AlongABranchWhatDoesNotSoftenStaysAsItIs) {
   };
   const DuctBranch branch = follow_in_duct(problem, media, {.max_deformation = 0.01, .heights = {0.6, 1}});
   ASSERT_EQ(branch.states.size(), 2);
-  Problem one = problem;
-  static_cast<Media&>(one) = media(branch.states[1].outcome.reached);
+  Problem one = with_media(problem, media(branch.states[1].outcome.reached));
   const StationaryState state = solve_stationary(one);
   ASSERT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
   ASSERT_EQ(state.statistics.degree, branch.states[1].statistics.degree);
