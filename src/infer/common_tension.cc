@@ -21,27 +21,36 @@ constexpr double resolution = 1e-3;
 /// The robust sum over the cells as a function of the tension. Each cell goes on from where it was.
 class TensionProfile {
  public:
+  /// The cells that are in the table at the tension that most of them have; where they are with a tension of their own
+  /// is not asked, because it would choose among them by that.
   TensionProfile(const SeveralModuli& moduli, std::span<const SeenCell> cells) : moduli_(moduli) {
-    std::vector<double> misfits;
+    std::vector<Free> all;
     for (const SeenCell& cell : cells) {
       const auto free = moduli.nearest(cell.shape, cell.flow, AxialTension::unknown());
-      if (!free || !moduli.table().at(free->cell).inside) continue;
-      misfits.push_back(free->chi_squared);
-      tensions_.push_back(moduli.axial_tension_Pa(free->cell, cell.flow));
-      cells_.push_back(&cell);
-      last_.push_back(free->cell);
+      if (!free) continue;
+      all.push_back({&cell, free->cell});
+      if (moduli.table().at(free->cell).inside) tensions_.push_back(moduli.axial_tension_Pa(free->cell, cell.flow));
+    }
+    std::vector<double> misfits;
+    for (const auto& [cell, start] : all) {
+      const auto found = moduli.nearest(cell->shape, cell->flow, {middle(), 0}, &start);
+      if (!moduli.table().at(found->cell).inside) continue;
+      misfits.push_back(found->chi_squared);
+      cells_.push_back({cell, found->cell});
     }
     limit_ = soft_limit * std::max(double(moduli.freedom()), quantile(misfits, 0.5));
   }
 
   std::size_t cells() const { return cells_.size(); }
-  const std::vector<double>& tensions_of_cells() const { return tensions_; }
+  /// Median and standard deviation of the tensions of single cells.
+  double middle() const { return quantile(tensions_, 0.5); }
+  double spread() const { return central_width(tensions_) / (2 * normal_95); }
 
   double at(double tension_Pa) {
     double sum = 0;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      const auto found = moduli_.nearest(cells_[i]->shape, cells_[i]->flow, {tension_Pa, 0}, &last_[i]);
-      last_[i] = found->cell;
+    for (auto& [cell, last] : cells_) {
+      const auto found = moduli_.nearest(cell->shape, cell->flow, {tension_Pa, 0}, &last);
+      last = found->cell;
       sum += limit_ * std::log1p(found->chi_squared / limit_);
     }
     return sum;
@@ -50,10 +59,14 @@ class TensionProfile {
   double misfit(double sum) const { return sum / (double(cells()) * std::max(moduli_.freedom(), 1)); }
 
  private:
+  struct Free {
+    const SeenCell* seen;
+    CellCoordinates cell;
+  };
+
   const SeveralModuli& moduli_;
   double limit_ = soft_limit;
-  std::vector<const SeenCell*> cells_;
-  std::vector<CellCoordinates> last_;
+  std::vector<Free> cells_;
   std::vector<double> tensions_;
 };
 
@@ -90,9 +103,7 @@ CommonTension common_tension(const SeveralModuli& moduli, std::span<const SeenCe
   CommonTension found;
   found.cells = profile.cells();
   if (found.cells < CommonTension::min_cells) return found;
-  const auto& single = profile.tensions_of_cells();
-  const double middle = quantile(single, 0.5), spread = central_width(single) / (2 * normal_95);
-  const double unit = std::max(spread, 1e-2 * wall_shear_stress_Pa(cells.front().flow));
+  const double middle = profile.middle(), unit = std::max(profile.spread(), 1e-2 * wall_shear_stress_Pa(cells[0].flow));
   const auto sum = [&](double tension_Pa) { return profile.at(tension_Pa); };
   const Minimum least = minimum_between(sum, middle - 2 * unit, middle + 2 * unit, resolution * 4 * unit);
   found.value_Pa = least.place;

@@ -16,7 +16,7 @@ struct SeenCell {
 struct CommonTension {
   double value_Pa = no_value, lower_Pa = no_value, upper_Pa = no_value;  ///< with the 90 % interval
   double misfit = no_value;  ///< chi squared per degree of freedom; where it exceeds one it widens the interval
-  std::size_t cells = 0;     ///< whose neighbour at some tension is in the table; fewer than `min_cells`: no value
+  std::size_t cells = 0;     ///< that the table has at this tension; fewer than `min_cells`: no value
   static constexpr std::size_t min_cells = 10;
 
   bool is_found() const { return cells >= min_cells && value_Pa == value_Pa; }

@@ -45,9 +45,9 @@ struct ModuliEstimate {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(no_value);
   std::array<bool, modulus_count> is_known{};  ///< standard error below `max_relative_error`
   double stiffness_kPa = no_value,
-         stiffness_error_kPa = stiffness_kPa;  ///< E + E2D / r0
-  double axial_tension_Pa = 0, axial_tension_error_Pa = 0;
-  CellCoordinates cell = CellCoordinates::Zero();  ///< in the table's channel
+         stiffness_error_kPa = stiffness_kPa;                             ///< E + E2D / r0
+  double axial_tension_Pa = no_value, axial_tension_error_Pa = no_value;  ///< of the liquid; 0 in tables of round cells
+  CellCoordinates cell = CellCoordinates::Zero();                         ///< in the table's channel
   double chi_squared = no_value;
   int freedom = 0;
   double section_factor = 1;  ///< c_3 of a solid like it over that in the tube, where the channel is square

@@ -74,7 +74,7 @@ TEST(RenderedErrors, BetweenTheCellsOfATableAreThoseOfTheFittedLaw) {
   for (const double radius : {5.0, 6.5, 7.8})
     for (const double share : {0.2, 0.5, 0.8})
       for (const double true_deformation : {0.003, 0.008, 0.015}) {
-        const CellCoordinates cell(std::log(radius), share, std::log(true_deformation), 0.15);
+        const CellCoordinates cell(std::log(radius), share, std::log(true_deformation), 0.15, 0.0);
         const double area_um2 = std::exp(table.at(cell).value(log_area_row));
         const auto off = difference(rendered.at(cell), area_um2, true_deformation);
         const auto where = [&] { return testing::Message() << radius << " " << share << " " << true_deformation; };
