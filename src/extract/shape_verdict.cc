@@ -100,7 +100,7 @@ std::string text_on_elongated(const ShapeVerdict& v, const std::string& cells, c
 std::string elongated_text(const ShapeVerdict& v) {
   return fmt::format(
       "E by {} of {} event{} as of cells that the liquid draws out: median {:.4g} kPa (quartiles {:.4g} to {:.4g}); "
-      "elongation {:.3f} +- {:.3f}, axial tension {:.3g} +- {:.2g} Pa",
+      "elongation {:.3f} +- {:.3f}, axial tension {:.4g} +- {:.3g} Pa",
       v.elongated_by == ElongatedBy::modes ? "the outlines" : "deformation and inertia ratio", v.with_elongation,
       v.with_elongation == 1 ? "" : "s", v.elongated_kPa.median, v.elongated_kPa.first_quartile,
       v.elongated_kPa.third_quartile, v.elongation.value, v.elongation.error, v.axial_tension_Pa.value,
@@ -268,7 +268,7 @@ std::string ShapeVerdict::recommended_text() const {
   }
   return fmt::format(
       "report E = {:.4g} kPa (median, by the table of elongated cells): the cells are longer than the flow alone would "
-      "make them, which a tension of {:.3g} Pa along the flow does.",
+      "make them, which a tension of {:.4g} Pa along the flow does.",
       elongated_kPa.median, axial_tension_Pa.value);
 }
 
