@@ -1,6 +1,7 @@
-// How well moduli of elongated cells come back: round_trip_elongated FILE [CELLS [PLACES [SEED]]]
+// How well moduli of elongated cells come back: round_trip_elongated FILE [CELLS [PLACES [SEED [COMPUTED MEASURED]]]]
 //
-// FILE: a table of elongated cells. Cells of random size, stiffness and elongation, by an axial tension or by their
+// FILE: a table of elongated cells. With COMPUTED and MEASURED, grids of cells without elongation in its liquid and in
+// another one, the cells are in that other liquid. Cells of random size, stiffness and elongation, by an axial tension or by their
 // shape at rest, are solved in the square channel, drawn into masks of pixels at random places, and estimated by modes
 // and by the inertia ratio. None is a node of the table; half of them are not even cells of its model.
 #include <fmt/format.h>
@@ -12,7 +13,8 @@
 
 #include "case/read_case.h"
 #include "case/scales.h"
-#include "infer/elongated_solids.h"
+#include "infer/elongated_liquid.h"
+#include "infer/read_modulus_map.h"
 #include "measurement/shape_in_pixels.h"
 #include "numeric/cell_random.h"
 #include "numeric/quantile.h"
@@ -44,11 +46,12 @@ double ratio_of(double aspect) {
   return (stretch * stretch - 1 / stretch) / 3;
 }
 
-Case case_of(const Drawn& cell) {
+Case case_of(const Drawn& cell, double exponent) {
+  const ChannelFlow flow{20, 0.04, viscosity_mPas, exponent};
   return parse_case(fmt::format("channel.section = \"square\"\nchannel.width_um = 20\nflow.rate_ul_per_s = 0.04\n"
-                                "flow.viscosity_mPas = {}\ncell.radius_um = {}\ncell.bulk.young_modulus_kPa = {}\n"
+                                "flow.law = \"power-law\"\nflow.consistency_Pa_sn = {}\nflow.exponent = {}\ncell.radius_um = {}\ncell.bulk.young_modulus_kPa = {}\n"
                                 "numerics.accuracy = 1e-3\n{}",
-                                viscosity_mPas, cell.radius_um, cell.modulus_kPa,
+                                consistency_Pa_sn(flow), exponent, cell.radius_um, cell.modulus_kPa,
                                 cell.at_rest ? fmt::format("cell.rest_aspect = {}", cell.elongation)
                                              : fmt::format("flow.axial_tension_Pa = {}",
                                                            1e3 * cell.modulus_kPa * ratio_of(cell.elongation))),
@@ -60,7 +63,7 @@ struct Score {
   int seen = 0, told = 0, covered = 0, within = 0;
 };
 
-void take(const ElongatedSolids& solids, ElongatedBy by, const std::vector<ShapeVector>& seen, double truth,
+void take(const ElongatedLiquid& solids, double exponent, ElongatedBy by, const std::vector<ShapeVector>& seen, double truth,
           Score& score) {
   const std::size_t n = seen.size();
   std::vector<double> area, deformation, first, second, viscosity(n, viscosity_mPas), modulus(n), error(n),
@@ -74,7 +77,7 @@ void take(const ElongatedSolids& solids, ElongatedBy by, const std::vector<Shape
     first.push_back(by == ElongatedBy::modes ? v(mode_2) : 1 / std::sqrt(v(2)));
     second.push_back(by == ElongatedBy::modes ? v(mode_2 + 1) : v(1));
   }
-  solids.estimate({{20, 0.04}, pixel_um}, {area, deformation, viscosity}, {by, first, second},
+  solids.estimate({{20, 0.04, 0, exponent}, pixel_um}, {area, deformation, viscosity}, {by, first, second},
                   {{modulus, error, states}, elongation, elongation_error, tension, tension_error, cells});
   for (std::size_t i = 0; i < n; ++i) {
     ++score.seen;
@@ -99,15 +102,19 @@ void tell(const char* name, const Score& s) {
 }  // namespace
 
 int rheocyte::measure(int argc, char** argv) {
-  if (argc < 2) return fmt::print("round_trip_elongated FILE [CELLS [PLACES [SEED]]]\n"), 2;
+  if (argc < 2) return fmt::print("round_trip_elongated FILE [CELLS [PLACES [SEED [COMPUTED MEASURED]]]]\n"), 2;
   const ElongatedSolids solids(elongated_from_bytes(content_of_file(argv[1], largest_elongated), argv[1]));
+  std::unique_ptr<const ModulusMap> computed, measured;
+  if (argc > 6) computed = read_modulus_map(argv[5]), measured = read_modulus_map(argv[6]);
+  const ElongatedLiquid liquid(solids, computed.get(), measured.get());
+  const double exponent = measured ? measured->origin().flow.exponent : 1;
   const int count = argc > 2 ? std::atoi(argv[2]) : 40, places = argc > 3 ? std::atoi(argv[3]) : 80;
   CellRandom random(argc > 4 ? std::uint64_t(std::atoi(argv[4])) : 1, 0, Purpose::place);
   std::map<std::string, Score> scores;
   Session session;
   for (int k = 0; k < count;) {
     const Drawn cell = random_cell(random);
-    const Case c = case_of(cell);
+    const Case c = case_of(cell, exponent);
     const StationaryState state = session.solve(problem_of(c));
     if (state.outcome.status != Status::converged) continue;
     ++k;
@@ -116,8 +123,8 @@ int rheocyte::measure(int argc, char** argv) {
     for (int place = 0; place < places; ++place)
       seen.push_back(features_in_pixels(outline, pixel_um, {random.uniform() - 0.5, random.uniform() - 0.5}));
     const char* kind = cell.at_rest ? "shape at rest" : "tension";
-    take(solids, ElongatedBy::modes, seen, cell.modulus_kPa, scores[fmt::format("modes, {}", kind)]);
-    take(solids, ElongatedBy::inertia, seen, cell.modulus_kPa, scores[fmt::format("inertia, {}", kind)]);
+    take(liquid, exponent, ElongatedBy::modes, seen, cell.modulus_kPa, scores[fmt::format("modes, {}", kind)]);
+    take(liquid, exponent, ElongatedBy::inertia, seen, cell.modulus_kPa, scores[fmt::format("inertia, {}", kind)]);
   }
   for (const auto& [name, score] : scores) tell(name.c_str(), score);
   return 0;
