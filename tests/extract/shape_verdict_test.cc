@@ -142,7 +142,16 @@ std::string trend_of_asymmetry(double change_of_c4, double centring_per_um) {
   }
   const std::vector<double> area(events, 140);
   ShapeTally tally;
-  tally.take({excesses, ratio, area, deformation, mode_3, x, {}, {}, {}, mode_4, y, tilt});
+  tally.take({.excess = excesses,
+              .inertia_ratio = ratio,
+              .area_um2 = area,
+              .deformation = deformation,
+              .mode_3 = mode_3,
+              .x_um = x,
+              .modulus_kPa = {},
+              .mode_4 = mode_4,
+              .y_um = y,
+              .tilt = tilt});
   ShapeVerdict v = tally.verdict();
   v.direction = 1;
   v.beside_axis = tally.beside_axis(1, {.width_um = 20, .rate_ul_s = 0.04});

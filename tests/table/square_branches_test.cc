@@ -46,7 +46,7 @@ std::vector<SampledBranch> computed_branches(const TableSpec& spec, const std::v
       branch.stiffness[std::size_t(k)] = E * ratio(radius, d);
       branch.error[std::size_t(k)] = 1e-4;
     }
-    set_slopes(branch);
+    set_slopes(branch, roots_of_deformation(branch));
     branches.push_back(std::move(branch));
   }
   return branches;
