@@ -1,8 +1,9 @@
 // Throughput of the extraction of moduli, one core: from memory, and outlines from masks.
 //
-//     bench_extract TABLE GRID [options of Google Benchmark]
+//     bench_extract TABLE GRID ELONGATED [options of Google Benchmark]
 //
-// TABLE: a published table, e.g. lut_LE-2D-FEM-19.txt; GRID: one of rheocyte, e.g. data/grid_LE-2D-26.cbor
+// TABLE: a published table, e.g. lut_LE-2D-FEM-19.txt; GRID: one of rheocyte, e.g. data/grid_LE-2D-26.cbor;
+// ELONGATED: data/elongated_HE-3D-el-26.cbor
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,12 +14,14 @@
 #include <vector>
 
 #include "case/user_error.h"
+#include "infer/elongated_solids.h"
 #include "infer/grid_map.h"
 #include "infer/published_map.h"
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "measurement/viscosity.h"
 #include "program.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 namespace {
@@ -27,6 +30,7 @@ constexpr std::size_t events = 1'000'000;
 PublishedTable published;
 std::unique_ptr<PublishedMap> table;
 std::unique_ptr<GridMap> grid;
+std::unique_ptr<ElongatedSolids> elongated;
 
 struct Events {
   std::vector<double> area, deformation, temperature;
@@ -120,22 +124,24 @@ void own_moduli_of_a_population(benchmark::State& state) {
   own_moduli(state, all);
 }
 
-// By the asymmetry: cells of the table, half of them with an ellipse that it does not have.
-void own_moduli_by_asymmetry(benchmark::State& state) {
+// As of elongated cells, half of them drawn out.
+void own_moduli_of_elongated_cells(benchmark::State& state) {
   static const Events all = population();
   std::vector<double> mode_2, mode_3;
   const ShapeGrid& shapes = grid->shapes()->shapes();
   for (std::size_t i = 0; i < events; ++i) {
     const double log_area = std::log(all.area[i]);
     mode_2.push_back(shapes.mode(2, log_area, all.deformation[i]) + (i % 2 ? 0.1 : 0));
-    mode_3.push_back(shapes.mode(3, log_area, all.deformation[i]));
+    mode_3.push_back(0.7 * shapes.mode(3, log_area, all.deformation[i]));
   }
   const std::vector<double> viscosity(events, 5.0);
-  std::vector<double> modulus(events), error(events);
+  std::vector<double> modulus(events), error(events), other(events);
   std::vector<ModulusState> states(events);
+  std::vector<ElongatedCell> cells(events);
   for (auto _ : state) {
-    grid->shapes()->estimate({{20, 0.06}, 0.34}, {all.area, all.deformation, viscosity}, {mode_2, mode_3},
-                             {modulus, error, states});
+    elongated->estimate({{20, 0.06}, 0.34}, {all.area, all.deformation, viscosity},
+                        {ElongatedBy::modes, mode_2, mode_3},
+                        {{modulus, error, states}, other, other, other, other, cells});
     benchmark::DoNotOptimize(modulus.data());
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
@@ -190,7 +196,7 @@ BENCHMARK(moduli_uniform_in_hull)->Unit(benchmark::kMillisecond);
 BENCHMARK(moduli_of_a_population)->Unit(benchmark::kMillisecond);
 BENCHMARK(own_moduli_uniform)->Unit(benchmark::kMillisecond);
 BENCHMARK(own_moduli_of_a_population)->Unit(benchmark::kMillisecond);
-BENCHMARK(own_moduli_by_asymmetry)->Unit(benchmark::kMillisecond);
+BENCHMARK(own_moduli_of_elongated_cells)->Unit(benchmark::kMillisecond);
 BENCHMARK(viscosities)->Unit(benchmark::kMillisecond);
 BENCHMARK(table_and_triangulation)->Unit(benchmark::kMillisecond);
 BENCHMARK(features_from_masks)->Unit(benchmark::kMillisecond);
@@ -200,12 +206,14 @@ BENCHMARK(features_from_masks)->Unit(benchmark::kMillisecond);
 
 int rheocyte::measure(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  if (argc != 3) throw UserError("usage: bench_extract TABLE GRID [options of Google Benchmark]");
+  if (argc != 4) throw UserError("usage: bench_extract TABLE GRID ELONGATED [options of Google Benchmark]");
   published = read_published_table(argv[1]);
   table = std::make_unique<PublishedMap>(published);
   std::ifstream file(argv[2], std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   grid = std::make_unique<GridMap>(grid_from_bytes(bytes, argv[2]));
+  elongated =
+      std::make_unique<ElongatedSolids>(elongated_from_bytes(content_of_file(argv[3], largest_elongated), argv[3]));
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -1,9 +1,10 @@
 // How well moduli of elongated cells come back: round_trip_elongated FILE [CELLS [PLACES [SEED [COMPUTED MEASURED]]]]
 //
 // FILE: a table of elongated cells. With COMPUTED and MEASURED, grids of cells without elongation in its liquid and in
-// another one, the cells are in that other liquid. Cells of random size, stiffness and elongation, by an axial tension or by their
-// shape at rest, are solved in the square channel, drawn into masks of pixels at random places, and estimated by modes
-// and by the inertia ratio. None is a node of the table; half of them are not even cells of its model.
+// another one, the cells are in that other liquid. Cells of random size, stiffness and elongation, by an axial tension
+// or by their shape at rest, are solved in the square channel, drawn into masks of pixels at random places, and
+// estimated by modes and by the inertia ratio. None is a node of the table; half of them are not even cells of its
+// model.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -49,7 +50,8 @@ double ratio_of(double aspect) {
 Case case_of(const Drawn& cell, double exponent) {
   const ChannelFlow flow{20, 0.04, viscosity_mPas, exponent};
   return parse_case(fmt::format("channel.section = \"square\"\nchannel.width_um = 20\nflow.rate_ul_per_s = 0.04\n"
-                                "flow.law = \"power-law\"\nflow.consistency_Pa_sn = {}\nflow.exponent = {}\ncell.radius_um = {}\ncell.bulk.young_modulus_kPa = {}\n"
+                                "flow.law = \"power-law\"\nflow.consistency_Pa_sn = {}\nflow.exponent = "
+                                "{}\ncell.radius_um = {}\ncell.bulk.young_modulus_kPa = {}\n"
                                 "numerics.accuracy = 1e-3\n{}",
                                 consistency_Pa_sn(flow), exponent, cell.radius_um, cell.modulus_kPa,
                                 cell.at_rest ? fmt::format("cell.rest_aspect = {}", cell.elongation)
@@ -63,8 +65,8 @@ struct Score {
   int seen = 0, told = 0, covered = 0, within = 0;
 };
 
-void take(const ElongatedLiquid& solids, double exponent, ElongatedBy by, const std::vector<ShapeVector>& seen, double truth,
-          Score& score) {
+void take(const ElongatedLiquid& solids, double exponent, ElongatedBy by, const std::vector<ShapeVector>& seen,
+          double truth, Score& score) {
   const std::size_t n = seen.size();
   std::vector<double> area, deformation, first, second, viscosity(n, viscosity_mPas), modulus(n), error(n),
       elongation(n), elongation_error(n), tension(n), tension_error(n), told;
