@@ -30,16 +30,24 @@ test('A softer cell deforms more: the slider of the modulus moves the deformatio
 test('Each number stands with the error that the program states for it', { skip: noBrowser }, () =>
   withCell(async ({ page }) => {
     const answers = [];
-    page.on('response', (each) => each.ok() && new URL(each.url()).pathname === '/api/state' && answers.push(each));
+    // Through our hands: what the page itself has read as a stream, the browser does not keep.
+    await page.route(/\/api\/state\?/, async (route) => {
+      const response = await route.fetch();
+      const body = await response.body();
+      if (response.ok()) answers.push(body);
+      await route.fulfill({ response, body });
+    });
     await moveSlider(page, modulus, 450);
-    const state = JSON.parse((await answers.at(-1).body()).toString('utf8').split('\n')[0]);
     const names = { Deformation: 'deformation', Area: 'area_um2', 'Cell velocity': 'cell_velocity_m_per_s', 'Pressure drop': 'pressure_drop_Pa', Margin: 'stability_margin' };
-    for (const [title, name] of Object.entries(names)) {
+    const shown = async (title) => {
       const text = await page.locator(`[data-measure="${title}"] .error`).textContent();
-      const digits = text.replace('± ', '').replace(' × 10', 'e').replace('⁻', '-').replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit));
-      assert.equal(Number(digits), Number((state.errors[name] ?? 0).toExponential(0)), title);
-    }
-    assert.ok(state.errors.deformation > 0);
+      return Number(text.replace('± ', '').replace(' × 10', 'e').replace('⁻', '-').replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)));
+    };
+    const errors = () => JSON.parse(answers.at(-1).toString('utf8').split('\n')[0]).errors;
+    // Finer answers follow the first one.
+    for (const [title, name] of Object.entries(names))
+      assert.ok(await until(async () => (await shown(title)) === Number((errors()[name] ?? 0).toExponential(0))), `${title}: ${await shown(title)} is not ${errors()[name]}`);
+    assert.ok(errors().deformation > 0);
   }));
 
 test('A state that does not exist leaves the last one greyed, says why, and the nearest one is a click away', { skip: noBrowser }, () =>

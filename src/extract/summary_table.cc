@@ -27,73 +27,22 @@ constexpr std::string_view mark = "recording\tevents\tvalid\t";
 /// By the names of their columns.
 using Row = std::map<std::string, std::string, std::less<>>;
 
-constexpr std::array<std::string_view, 67> columns_after_counts{"with_modulus_percent",
-                                                                "young_modulus_median_kPa",
-                                                                "young_modulus_first_quartile_kPa",
-                                                                "young_modulus_third_quartile_kPa",
-                                                                "young_modulus_mean_kPa",
-                                                                "young_modulus_standard_deviation_kPa",
-                                                                "young_modulus_standard_error_median_kPa",
-                                                                "recommended_modulus",
-                                                                "recommended_young_modulus_median_kPa",
-                                                                "recommended_text",
-                                                                "young_modulus_elongated_median_kPa",
-                                                                "young_modulus_elongated_first_quartile_kPa",
-                                                                "young_modulus_elongated_third_quartile_kPa",
-                                                                "with_elongation",
-                                                                "elongated_by",
-                                                                "deformation_over_elongated_modulus",
-                                                                "elongation_median",
-                                                                "elongation_median_error",
-                                                                "axial_tension_median_Pa",
-                                                                "axial_tension_median_error_Pa",
-                                                                "mode_4_beyond_solids",
-                                                                "mode_5_beyond_solids",
-                                                                "shapes",
-                                                                "shapes_of_model",
-                                                                "fitting_table",
-                                                                "modulus_over_that_of_fitting_table",
-                                                                "shape_excess_median",
-                                                                "shape_excess_median_error",
-                                                                "inertia_ratio_median",
-                                                                "inertia_ratio_expected",
-                                                                "elongated_percent",
-                                                                "odd_share_median",
-                                                                "red_cells",
-                                                                "inertia_ratio_change",
-                                                                "deformation_change",
-                                                                "deformation_change_error",
-                                                                "mode_3_change",
-                                                                "pos_y_rms_um",
-                                                                "sine_mode_2_per_um",
-                                                                "sine_mode_2_per_um_error",
-                                                                "flank_slope_per_um",
-                                                                "flank_slope_per_um_error",
-                                                                "flank_slope_per_um_change",
-                                                                "flank_slope_per_um_stored",
-                                                                "pos_y_rms_change_per_um",
-                                                                "pos_y_rms_change_per_um_error",
-                                                                "shapes_text",
-                                                                "trend_text",
-                                                                "beside_axis_text",
-                                                                "table",
-                                                                "medium",
-                                                                "viscosity_model",
-                                                                "mean_viscosity_mPas",
-                                                                "temperature",
-                                                                "channel_width_um",
-                                                                "flow_rate_ul_s",
-                                                                "pixelation_pixel_size_um",
-                                                                "corrected_for_pixels",
-                                                                "gates",
-                                                                "area_from",
-                                                                "deformation_from",
-                                                                "sample",
-                                                                "date",
-                                                                "time",
-                                                                "run_index",
-                                                                "chip",
-                                                                "remarks"};
+constexpr std::string_view columns_after_counts =
+    "with_modulus_percent young_modulus_median_kPa young_modulus_first_quartile_kPa "
+    "young_modulus_third_quartile_kPa young_modulus_mean_kPa young_modulus_standard_deviation_kPa "
+    "young_modulus_standard_error_median_kPa recommended_modulus recommended_young_modulus_median_kPa "
+    "recommended_text young_modulus_elongated_median_kPa young_modulus_elongated_first_quartile_kPa "
+    "young_modulus_elongated_third_quartile_kPa with_elongation elongated_by "
+    "deformation_over_elongated_modulus elongation_median elongation_median_error axial_tension_median_Pa "
+    "axial_tension_median_error_Pa mode_4_beyond_solids mode_5_beyond_solids shapes shapes_of_model "
+    "fitting_table modulus_over_that_of_fitting_table shape_excess_median shape_excess_median_error "
+    "inertia_ratio_median inertia_ratio_expected elongated_percent odd_share_median red_cells "
+    "inertia_ratio_change deformation_change deformation_change_error mode_3_change pos_y_rms_um "
+    "sine_mode_2_per_um sine_mode_2_per_um_error flank_slope_per_um flank_slope_per_um_error "
+    "flank_slope_per_um_change flank_slope_per_um_stored pos_y_rms_change_per_um "
+    "pos_y_rms_change_per_um_error shapes_text trend_text beside_axis_text table medium viscosity_model "
+    "mean_viscosity_mPas temperature channel_width_um flow_rate_ul_s pixelation_pixel_size_um "
+    "corrected_for_pixels gates area_from deformation_from sample date time run_index chip remarks";
 
 std::string number_text(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
@@ -111,7 +60,7 @@ std::string column_of(std::string_view state) {
 std::vector<std::string> columns() {
   std::vector<std::string> names{"recording", "events"};
   for (const auto state : states_by_deformation()) names.push_back(column_of(state));
-  for (const auto name : columns_after_counts) names.emplace_back(name);
+  for (const auto name : split(columns_after_counts, ' ')) names.emplace_back(name);
   return names;
 }
 
