@@ -60,7 +60,7 @@ std::string column_of(std::string_view state) {
 std::vector<std::string> columns() {
   std::vector<std::string> names{"recording", "events"};
   for (const auto state : states_by_deformation()) names.push_back(column_of(state));
-  for (const auto name : split(columns_after_counts, ' ')) names.emplace_back(name);
+  for (const auto& name : split(columns_after_counts, ' ')) names.emplace_back(name);
   return names;
 }
 

@@ -49,11 +49,25 @@ Stencil stencil(double at, int count) {
            (t * a + t * b + a * b) / 6}};
 }
 
+/// The radius in shares of the way from the least to the greatest one.
+struct RadiusScale {
+  explicit RadiusScale(const ElongatedContent& content)
+      : half_width_um(content.origin.flow.width_um / 2),
+        first(radius_coordinate(content.radii_um.front() / half_width_um)),
+        last(radius_coordinate(content.radii_um.back() / half_width_um)) {}
+  double share_of(double radius_um) const {
+    return (radius_coordinate(radius_um / half_width_um) - first) / (last - first);
+  }
+  double radius_um(double share) const { return half_width_um * radius_ratio_at(first + share * (last - first)); }
+
+  double half_width_um, first, last;
+};
+
 /// ln(1 / E) at the ends of the branches: a smooth surface over radius and axial ratio that no branch falls short of by
-/// more than polynomials can go on.
+/// more than polynomials can go on. It is linear in ln(radius) for small cells.
 class BranchEnds {
  public:
-  BranchEnds(const ElongatedContent& content, const std::vector<double>& along) {
+  explicit BranchEnds(const ElongatedContent& content) : scale_(content) {
     constexpr double max_continuation = 0.02;
     const std::size_t radii = content.radii_um.size(), axials = content.axial_ratios.size();
     Eigen::MatrixXd terms(Eigen::Index(radii * axials), count);
@@ -61,7 +75,7 @@ class BranchEnds {
     Eigen::Index row = 0;
     for (std::size_t i = 0; i < radii; ++i)
       for (std::size_t j = 0; j < axials; ++j, ++row) {
-        terms.row(row) = terms_of(along[i], content.axial_ratios[j]);
+        terms.row(row) = terms_of(scale_.share_of(content.radii_um[i]), content.axial_ratios[j]);
         last(row) = -std::log(content.modulus_kPa[content.branch(i, j) + std::size_t(content.states) - 1]);
       }
     weights_ = least_squares(terms, last);
@@ -71,14 +85,15 @@ class BranchEnds {
   double operator()(double radius, double axial_ratio) const { return terms_of(radius, axial_ratio) * weights_; }
 
  private:
-  static constexpr int count = 10;
-  /// All products up to the third degree.
-  static Eigen::RowVectorXd terms_of(double x, double y) {
+  static constexpr int count = 11;
+  /// All products up to the third degree, and the logarithm.
+  Eigen::RowVectorXd terms_of(double x, double y) const {
     Eigen::RowVectorXd terms(count);
-    terms << 1, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y;
+    terms << 1, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y, std::log(scale_.radius_um(x));
     return terms;
   }
 
+  RadiusScale scale_;
   Eigen::VectorXd weights_;
 };
 
@@ -86,7 +101,7 @@ class BranchEnds {
 class ElongatedBranches {
  public:
   explicit ElongatedBranches(const ElongatedContent& content)
-      : content_(content), along_(coordinates(content)), ends_(content, along_) {}
+      : content_(content), along_(coordinates(content)), ends_(content) {}
 
   const std::vector<double>& along() const { return along_; }
   double log_end(double radius, double axial_ratio) const { return ends_(radius, axial_ratio); }
@@ -117,11 +132,9 @@ class ElongatedBranches {
 
  private:
   static std::vector<double> coordinates(const ElongatedContent& content) {
-    const double h = content.origin.flow.width_um / 2, first = radius_coordinate(content.radii_um.front() / h),
-                 last = radius_coordinate(content.radii_um.back() / h);
+    const RadiusScale scale(content);
     std::vector<double> along;
-    for (const double radius : content.radii_um)
-      along.push_back((radius_coordinate(radius / h) - first) / (last - first));
+    for (const double radius : content.radii_um) along.push_back(scale.share_of(radius));
     return along;
   }
 
