@@ -104,7 +104,7 @@ int make_table(const TableOptions& options) {
   }
   if (rank.number > 0) return exit_converged;
   for (const auto& sentence : finish_table(folder, options.levels, version)) tell("rheocyte: warning: " + sentence);
-  if (!options.no_picture && !spec.is_combined()) draw(folder);
+  if (!options.no_picture && !spec.is_combined() && !spec.is_elongated()) draw(folder);
   if (!options.quiet) print(fmt::format("{}  folder {}\n", summary(folder), options.folder.string()));
   return exit_converged;
 }
