@@ -1,5 +1,5 @@
-// Any bytes are a record of a branch, a grid, a cell's way or a dynamic table, or refused. No fuzzer guesses a
-// checksum: the bytes are tried as they stand, and as the content of a record that has been sealed properly.
+// Any bytes are a record of a branch, a grid, elongated cells, a cell's way or a dynamic table, or refused. No fuzzer
+// guesses a checksum: the bytes are tried as they stand, and as the content of a record that has been sealed properly.
 #include <array>
 
 #include "case/json_guard.h"
@@ -7,6 +7,7 @@
 #include "table/branch.h"
 #include "table/checked_record.h"
 #include "table/dynamic_table.h"
+#include "table/elongated_table.h"
 #include "table/stiffness_grid.h"
 
 namespace {
@@ -18,13 +19,20 @@ const std::string spec = "0123456789abcdef";
 void read_all(const std::uint8_t* data, std::size_t size) {
   refused_or_read(data, size, [](auto bytes) { rheocyte::branch_from_bytes(bytes, spec, "branch"); });
   refused_or_read(data, size, [](auto bytes) { rheocyte::grid_from_bytes(bytes, "grid"); });
+  refused_or_read(data, size, [](auto bytes) {
+    const rheocyte::ElongatedTable table(rheocyte::elongated_from_bytes(bytes, "elongated cells"));
+    table.at(table.greatest());
+  });
   refused_or_read(data, size, [](auto bytes) { rheocyte::course_from_bytes(bytes, spec, {6, 5, 0.5}, "course"); });
   refused_or_read(data, size, [](auto bytes) { rheocyte::dynamic_from_bytes(bytes, "dynamic"); });
 }
 
 /// Kind and format of the records, as they are written now.
-constexpr std::array<std::array<std::string_view, 2>, 4> kinds{
-    {{"rheocyte branch", "2"}, {"rheocyte grid", "1"}, {"rheocyte course", "1"}, {"rheocyte dynamic table", "1"}}};
+constexpr std::array<std::array<std::string_view, 2>, 5> kinds{{{"rheocyte branch", "2"},
+                                                                {"rheocyte grid", "1"},
+                                                                {"rheocyte elongated cells", "1"},
+                                                                {"rheocyte course", "1"},
+                                                                {"rheocyte dynamic table", "1"}}};
 
 }  // namespace
 
