@@ -27,7 +27,7 @@ int count_of(const json& record, const char* key) {
 }
 
 std::vector<double> ascending(const json& record, const char* key, const char* count) {
-  const auto values = numbers_of(record, key, std::size_t(count_of(record, count)));
+  auto values = numbers_of(record, key, std::size_t(count_of(record, count)));
   check_record(std::ranges::all_of(values, [](double v) { return std::isfinite(v); }) &&
                    std::ranges::adjacent_find(values, std::ranges::greater_equal()) == values.end(),
                "its cells are not in order");

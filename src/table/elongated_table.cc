@@ -243,9 +243,10 @@ ElongatedTable::ElongatedTable(ElongatedContent content) : content_(std::move(co
     const double place = double(i) / (radius_nodes - 1);
     const auto weights = lagrange_weights(branches.along(), place).value;
     for (std::size_t at = 0; at < std::size_t(axial_nodes * height_nodes); ++at) {
+      const std::size_t sheet = at / std::size_t(height_nodes);
       Node& node = nodes_.emplace_back(Node::Zero());
       for (std::size_t other = 0; other < radii; ++other) node += weights[other] * over_axial[other][at];
-      const double axial = std::lerp(least, greatest, double(at / std::size_t(height_nodes)) / (axial_nodes - 1));
+      const double axial = std::lerp(least, greatest, double(sheet) / (axial_nodes - 1));
       node(elongated_measures) = -branches.log_end(place, axial);
     }
   }

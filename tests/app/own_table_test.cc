@@ -381,7 +381,10 @@ TEST_F(OwnTable, WhatARecordingLacksForItsShapesIsNamed) {
   const auto ended = run({"extract", path("b.rtdc")});
   EXPECT_NE(ended.out.find("neither contours nor masks"), std::string::npos) << ended.out;
   const auto events = test::content_of(folder_ / "b_rheocyte.tsv");
-  EXPECT_NE(events.find("\tstate\tshape_excess\tshape_excess_error\telongated\todd_share\n"), std::string::npos);
+  EXPECT_NE(events.find("\tstate\tshape_excess\tshape_excess_error\telongated\todd_share\tyoung_modulus_inertia_kPa\t"
+                        "standard_error_inertia_kPa\telongation\taxial_tension_Pa\telongation_error\t"
+                        "axial_tension_error_Pa\n"),
+            std::string::npos);
 }
 
 }  // namespace
