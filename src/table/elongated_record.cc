@@ -19,6 +19,7 @@ using nlohmann::json;
 constexpr RecordKind elongated_kind{"rheocyte elongated cells", "1", "table of elongated cells",
                                     "`rheocyte table` with the table's spec writes it anew"};
 constexpr int fewest_nodes = 4, max_nodes = 100;
+constexpr double largest_ratio = 10;  // tensions over moduli are far below
 
 int count_of(const json& record, const char* key) {
   const int count = record.at(key);
@@ -52,6 +53,8 @@ ElongatedContent content_from(const json& record) {
   content.states = count_of(record, "states");
   check_record(content.radii_um.front() > 0 && content.radii_um.back() < content.origin.flow.width_um / 2,
                "a radius is out of range");
+  check_record(content.axial_ratios.front() > -largest_ratio && content.axial_ratios.back() < largest_ratio,
+               "a tension is out of range");
   const std::size_t all = content.branch(content.radii_um.size(), 0);
   content.modulus_kPa = numbers_of(record, "modulus_kPa", all);
   check_moduli(content);
