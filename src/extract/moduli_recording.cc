@@ -109,7 +109,7 @@ class Fits {
       tally_.take(estimate);
       if (axial_.is_of_elongated_cells && has_cell(estimate)) slopes_.take(seen[i], estimate.cell);
       text += line(first + i, seen[i], viscosity[i], estimate) + fmt::format("\t{:.4g}", excess_[i].excess);
-      for (const ElongationColumn& column : elongation_columns(ElongatedBy::modes))
+      for (const ElongationColumn& column : columns_of_solids_)
         text += fmt::format("\t{:.6g}", (solids_values_.block().*column.values)[i]);
       text += fmt::format("\t{:.4g}\n", estimate.section_factor);
     }
@@ -242,6 +242,7 @@ class Fits {
   SlopeTally slopes_;
   std::vector<ShapeExcess> excess_;
   ElongationValues solids_values_;  ///< as if they were solids
+  std::vector<ElongationColumn> columns_of_solids_ = elongation_columns(ElongatedBy::modes);
   std::size_t inertial_ = 0;
   double max_reynolds_number_ = 0;
   ModuliTally tally_;

@@ -119,15 +119,16 @@ class ElongatedBranches {
     const double height = is_odd_measure(measure) ? heights(i, j)[k] : 1;
     return content_.value[std::size_t(measure)][content_.branch(i, j) + k] / height;
   }
-  /// The same at any height.
-  double value_at(std::size_t i, std::size_t j, double height, int measure) const {
+  /// The same of all measures at any height.
+  Eigen::Array<double, elongated_measures, 1> values_at(std::size_t i, std::size_t j, double height) const {
     const auto nodes = heights(i, j);
     const auto weights = lagrange_weights(nodes, height).value;
-    double sum = 0;
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      sum += weights[k] * content_.value[std::size_t(measure)][content_.branch(i, j) + k] /
-             (is_odd_measure(measure) ? nodes[k] : 1);
-    return sum;
+    Eigen::Array<double, elongated_measures, 1> sums = Eigen::Array<double, elongated_measures, 1>::Zero();
+    for (int m = 0; m < elongated_measures; ++m)
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        sums(m) +=
+            weights[k] * content_.value[std::size_t(m)][content_.branch(i, j) + k] / (is_odd_measure(m) ? nodes[k] : 1);
+    return sums;
   }
 
  private:
@@ -164,12 +165,12 @@ double greatest_miss(const ElongatedContent& content) {
     const double height = double(k) / double(states - 1);
     for (std::size_t j = 0; j < axials; ++j) {
       std::vector<double> across;
-      for (std::size_t i = 0; i < radii; ++i) across.push_back(branches.value_at(i, j, height, mode_3));
+      for (std::size_t i = 0; i < radii; ++i) across.push_back(branches.values_at(i, j, height)(mode_3));
       for (std::size_t i = 1; i + 1 < radii; ++i) greatest = std::max(greatest, miss(branches.along(), across, i));
     }
     for (std::size_t i = 0; i < radii; ++i) {
       std::vector<double> across;
-      for (std::size_t j = 0; j < axials; ++j) across.push_back(branches.value_at(i, j, height, mode_3));
+      for (std::size_t j = 0; j < axials; ++j) across.push_back(branches.values_at(i, j, height)(mode_3));
       for (std::size_t j = 1; j + 1 < axials; ++j) greatest = std::max(greatest, miss(content.axial_ratios, across, j));
       for (std::size_t j = 0; j < axials; ++j) {
         std::vector<double> up;
@@ -226,8 +227,7 @@ ElongatedTable::ElongatedTable(ElongatedContent content) : content_(std::move(co
     for (std::size_t j = 0; j < axials; ++j)
       for (int k = 0; k < height_nodes; ++k) {
         Node& node = along[i * axials + j].emplace_back(Node::Zero());
-        for (int m = 0; m < elongated_measures; ++m)
-          node(m) = branches.value_at(i, j, double(k) / (height_nodes - 1), m);
+        node.head<elongated_measures>() = branches.values_at(i, j, double(k) / (height_nodes - 1));
       }
   const auto [least, greatest] = std::pair(content_.axial_ratios.front(), content_.axial_ratios.back());
   for (std::size_t i = 0; i < radii; ++i)
