@@ -3,6 +3,7 @@
 #include "extract/extract_settings.h"
 #include "extract/square_section.h"
 #include "infer/common_tension.h"
+#include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
 #include "infer/several_moduli.h"
 
@@ -37,8 +38,12 @@ class EventModuli {
 
   /// What the tension of a recording is found from; nothing without a shape.
   std::optional<SeenCell> seen_cell(const ShapeVector& seen, double viscosity_mPas) const;
-  CommonTension common_tension(std::span<const SeenCell> cells) const {
-    return rheocyte::common_tension(moduli_, cells);
+  CommonTension common_tension(std::span<const SeenCell> cells, const std::function<void()>& goes_on) const {
+    return rheocyte::common_tension(moduli_, cells, goes_on);
+  }
+  /// With what is known of the tension.
+  MedianCell median_cell(std::span<const SeenCell> cells) const {
+    return rheocyte::median_cell(moduli_, cells, tension_);
   }
 
   /// By which the cells of the tube become those of the square channel; empty: they do not.

@@ -96,16 +96,17 @@ SeenShape seen_shape(const RenderedErrors& errors, const ShapeVector& measured, 
 
 ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
                           const ChannelFlow& flow, const SquareShapes* square, const AxialTension& tension) {
-  constexpr int rounds = 3;  // the bias hardly depends on the cell: the third one changes nothing that matters
+  constexpr int rounds = 2;  // the bias hardly depends on the cell: a third one changes nothing that matters
   CellCoordinates cell = errors.middle();
-  ModuliEstimate estimate;
   for (int round = 0; round < rounds; ++round) {
-    const SeenShape seen = seen_shape(errors, measured, flow, square, cell);
-    estimate = moduli.fit(seen.shape, flow, tension);
-    estimate.section_factor = seen.section_factor;
-    if (estimate.status == ModuliStatus::no_data) break;
-    cell = estimate.cell;
+    const MeasuredShape shape = seen_shape(errors, measured, flow, square, cell).shape;
+    const auto nearest = moduli.nearest(shape, flow, tension, round == 0 ? nullptr : &cell);
+    if (!nearest) return {};
+    cell = nearest->cell;
   }
+  const SeenShape seen = seen_shape(errors, measured, flow, square, cell);
+  ModuliEstimate estimate = moduli.fit(seen.shape, flow, tension);
+  estimate.section_factor = seen.section_factor;
   return estimate;
 }
 
