@@ -73,14 +73,14 @@ class Fits {
     if (axial_.is_given) axial_.common.value_Pa = *options.axial_tension_Pa;
   }
 
-  /// What the cells have in common, before the first block. The median cell has a tension of its own, which is a test
+  /// What the cells have in common, before the first block. The mean cell has a tension of its own, which is a test
   /// of the common one.
   void survey(const Recording& recording, const ModuliOptions& options) {
-    const std::vector<SeenCell> cells = cells_for_survey(recording, options);
-    median_ = moduli_.median_cell(cells);
+    const std::vector<MeasuredCell> cells = cells_for_survey(recording, options);
+    mean_ = moduli_.mean_cell(cells);
     if (!axial_.is_of_elongated_cells) return;
     std::vector<double> wall_stresses;
-    for (const SeenCell& cell : cells) wall_stresses.push_back(wall_shear_stress_Pa(cell.flow));
+    for (const MeasuredCell& cell : cells) wall_stresses.push_back(wall_shear_stress_Pa(cell.flow));
     axial_.wall_stress_Pa = median_of(wall_stresses);
     if (axial_.is_given) return;
     axial_.common = moduli_.common_tension(cells, goes_on_);
@@ -139,7 +139,7 @@ class Fits {
   ModuliSummary summary() {
     ModuliSummary s = tally_.summary();
     s.axial = axial_;
-    s.median = median_;
+    s.mean_cell = mean_;
     const ExtractSettings& settings = events_.settings();
     s.gates = events_.gates().description();
     s.warnings = events_.recording().remarks();
@@ -173,11 +173,11 @@ class Fits {
   }
 
   /// Of blocks far from each other, until they are enough.
-  std::vector<SeenCell> cells_for_survey(const Recording& recording, const ModuliOptions& options) const {
+  std::vector<MeasuredCell> cells_for_survey(const Recording& recording, const ModuliOptions& options) const {
     OutlinedEvents events(recording, options.measuring, use_of_outlines);
     events.turn_downstream();
     const std::size_t blocks = (recording.events() + survey_block - 1) / survey_block;
-    std::vector<SeenCell> cells;
+    std::vector<MeasuredCell> cells;
     for (std::size_t k = 0; k < blocks && cells.size() < wanted_for_survey; ++k) {
       const std::size_t first = far_apart(k, blocks) * survey_block;
       const std::size_t count = std::min(survey_block, recording.events() - first);
@@ -185,8 +185,8 @@ class Fits {
       for (std::size_t i = 0; i < count; ++i) {
         if (!events.is_inside(i)) continue;
         goes_on_();
-        if (auto cell = moduli_.seen_cell(events.shape(first + i), events.viscosity_mPas()[i]))
-          cells.push_back(std::move(*cell));
+        MeasuredCell cell = moduli_.measured(events.shape(first + i), events.viscosity_mPas()[i]);
+        if (cell.shape.allFinite() && std::isfinite(cell.flow.viscosity_mPas)) cells.push_back(std::move(cell));
       }
     }
     return cells;
@@ -258,7 +258,7 @@ class Fits {
   EventModuli moduli_;
   const ModuliTable& table_;
   AxialSummary axial_;
-  MedianCell median_;
+  MeanCell mean_;
   SlopeTally slopes_;
   std::vector<ShapeExcess> excess_;
   ElongationValues solids_values_;  ///< as if they were solids

@@ -21,6 +21,9 @@ constexpr int bits_of_minimum = 10;
 /// Of the spread of the tensions of single cells: over so much the losses of the cells are differentiated.
 constexpr double difference = 0.2;
 
+/// Fewer groups tell no scatter.
+constexpr std::size_t fewest_groups = 3;
+
 /// The robust sum over the cells as a function of the tension. Each cell goes on from where it was.
 class TensionProfile {
  public:
@@ -47,7 +50,12 @@ class TensionProfile {
     limit_ = soft_limit * std::max(double(moduli.freedom()), quantile(misfits, 0.5));
   }
 
-  std::size_t cells() const { return cells_.size(); }
+  std::size_t groups() const { return cells_.size(); }
+  std::size_t cells() const {
+    std::size_t sum = 0;
+    for (const Free& group : cells_) sum += group.seen->cells;
+    return sum;
+  }
   /// Median and standard deviation of the tensions of single cells.
   double middle() const { return quantile(tensions_, 0.5); }
   double spread() const { return central_width(tensions_) / (2 * normal_95); }
@@ -103,12 +111,12 @@ CommonTension common_tension(const SeveralModuli& moduli, std::span<const SeenCe
   TensionProfile profile(moduli, cells, goes_on);
   CommonTension found;
   found.cells = profile.cells();
-  if (found.cells < CommonTension::min_cells) return found;
+  if (found.cells < CommonTension::min_cells || profile.groups() < fewest_groups) return CommonTension{.cells = 0};
   const double middle = profile.middle(), unit = std::max(profile.spread(), 1e-2 * wall_shear_stress_Pa(cells[0].flow));
   const auto [value_Pa, sum] =
       boost::math::tools::brent_find_minima([&](double tension_Pa) { return sum_of(profile.losses(tension_Pa)); },
                                             middle - 2 * unit, middle + 2 * unit, bits_of_minimum);
-  const double n = double(found.cells);
+  const double n = double(profile.groups());
   const double error_Pa = error_of_minimum(profile, value_Pa, sum, difference * unit);
   const double half_width_Pa = error_Pa * boost::math::quantile(boost::math::students_t(n - 1), 0.95);
   found.value_Pa = value_Pa;

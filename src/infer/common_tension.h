@@ -4,15 +4,9 @@
 #include <functional>
 #include <span>
 
-#include "infer/several_moduli.h"
+#include "infer/seen_cells.h"
 
 namespace rheocyte {
-
-/// A cell as it was seen, with the errors of its features.
-struct SeenCell {
-  MeasuredShape shape;
-  ChannelFlow flow;
-};
 
 struct CommonTension {
   double value_Pa = no_value, lower_Pa = no_value, upper_Pa = no_value;  ///< with the 90 % interval
@@ -25,9 +19,9 @@ struct CommonTension {
   AxialTension tension() const;
 };
 
-/// Where the sum of chi squared over the cells is least, each with the moduli that fit it best at this tension. The
-/// share of a cell in the sum is bounded: a few that are no cells of the model hardly move it. `goes_on` is called from
-/// cell to cell.
+/// Where the sum of chi squared over the cells, or groups of them (means_by_size), is least, each with the moduli that
+/// fit it best at this tension. The share of each in the sum is bounded: a few that are no cells of the model hardly
+/// move it. `goes_on` is called from one to the next.
 CommonTension common_tension(
     const SeveralModuli& moduli, std::span<const SeenCell> cells, const std::function<void()>& goes_on = [] {});
 

@@ -1,15 +1,14 @@
-// The cell of a combined table whose shape is the median of those of a recording (docs/theory-extract.md, sec. "One
+// The cell of a combined table whose shape is the mean of those of a recording (docs/theory-extract.md, sec. "One
 // tension for a recording").
 #pragma once
 #include <array>
-#include <span>
 
 #include "infer/common_tension.h"
 
 namespace rheocyte {
 
 /// Numbers alone (store/bytes.h).
-struct MedianCell {
+struct MeanCell {
   /// ln(area / um2), deformation, Lambda1 / Lambda2 and the modes, without what pixels add to them.
   using Features = std::array<double, feature_count>;
 
@@ -27,8 +26,8 @@ struct MedianCell {
   static constexpr std::size_t min_cells = 5;
 };
 
-/// The medians of all features, fitted with the errors of the cell that is nearest to them. The axial tension is
-/// fitted, too, unless `tension` tells it.
-MedianCell median_cell(const SeveralModuli& moduli, std::span<const SeenCell> cells, const AxialTension& tension);
+/// The mean of the cells, fitted with the errors of one picture. The axial tension is fitted, too, unless `tension`
+/// tells it.
+MeanCell mean_cell(const SeveralModuli& moduli, const SeenCell& mean, const AxialTension& tension);
 
 }  // namespace rheocyte
