@@ -111,7 +111,7 @@ CommonTension common_tension(const SeveralModuli& moduli, std::span<const SeenCe
   TensionProfile profile(moduli, cells, goes_on);
   CommonTension found;
   found.cells = profile.cells();
-  if (found.cells < CommonTension::min_cells || profile.groups() < fewest_groups) return CommonTension{.cells = 0};
+  if (found.cells < CommonTension::min_cells || profile.groups() < fewest_groups) return found;
   const double middle = profile.middle(), unit = std::max(profile.spread(), 1e-2 * wall_shear_stress_Pa(cells[0].flow));
   const auto [value_Pa, sum] =
       boost::math::tools::brent_find_minima([&](double tension_Pa) { return sum_of(profile.losses(tension_Pa)); },
