@@ -85,7 +85,7 @@ console.log(`${size} pixels; pan: ${summary(pan)}; zoom: ${summary(zoom)}`);
 await page.getByRole('tab', { name: /^Gates/ }).click();
 await page.getByLabel('Limit').selectOption('area_um');
 const gates = [];
-for (let k = 0; k < 15; ++k) gates.push(await page.evaluate(gate, 40 + 2 * k));
+for (let k = 0; k < 15; ++k) gates.push(await page.evaluate(gate, 90 + k));
 console.log(`a gate's counts on the screen: ${summary(gates.map(({ time }) => time))}; last: ${gates.at(-1).says}`);
 const events_ms = [];
 for (let k = 0; k < 15; ++k) events_ms.push(await page.evaluate(nextEvent));
@@ -98,7 +98,7 @@ const times = [];
 for (let k = 0; k < 15; ++k) {
   await page.getByRole('tab', { name: /^Gates/ }).click();
   await page.getByLabel('Least Area').waitFor();
-  times.push(await page.evaluate(statistics, 45 + k));
+  times.push(await page.evaluate(statistics, 90.5 + k));
 }
 console.log(`a gate's statistics of the moduli on the screen: ${summary(times)}`);
 await target.stop();

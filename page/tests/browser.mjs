@@ -1,6 +1,5 @@
 // The browser under the tests: Debian's chromium, headless and without traffic of its own; one for a file of tests.
 import { existsSync } from 'node:fs';
-import { after } from 'node:test';
 import { chromium } from 'playwright-core';
 import { noProgram, patience_ms } from './target.mjs';
 
@@ -20,7 +19,8 @@ const flags = [
 ];
 
 let browser = null;
-after(async () => (await browser)?.close());
+const isTest = process.argv[1].endsWith('.test.mjs'); // bench/ ends by itself, and prints nothing but its numbers
+if (isTest) (await import('node:test')).after(async () => (await browser)?.close());
 
 /** A window with nothing kept from others, in the one browser of a file of tests. */
 export async function openWindow(options = {}) {
