@@ -54,7 +54,7 @@ test('By keys alone a gate gets its limits as numbers', { skip }, () =>
     await page.getByLabel('Limit').selectOption('area_um');
     await page.getByLabel('Greatest Area').fill('70');
     await press(page, ['Enter']);
-    await page.getByText(/^\d+ of 290 events/).waitFor();
+    await page.getByText(/^\d+ of \d+ events/).waitFor();
   }),
 );
 
