@@ -51,7 +51,7 @@ class ModuliJob {
       print(fmt::format("{}: {}, see {}\n", name, in_one_line(summary), file_for(task).string()));
       for (const auto& lines : {tension_lines(summary.axial), slope_lines(summary.axial)})
         for (const auto& line : lines) print(fmt::format("{}: {}\n", name, line));
-      if (const auto line = mean_line(summary); !line.empty()) print(fmt::format("{}: {}\n", name, line));
+      if (const auto line = median_line(summary); !line.empty()) print(fmt::format("{}: {}\n", name, line));
       for (const auto& warning : summary.warnings) tell(fmt::format("{}: {}", name, warning));
     }
     if (summary.with_stiffness() > 0) return true;

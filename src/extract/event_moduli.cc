@@ -96,10 +96,10 @@ CommonTension EventModuli::common_tension(std::span<const MeasuredCell> cells,
   return rheocyte::common_tension(moduli_, groups, goes_on);
 }
 
-MeanCell EventModuli::mean_cell(std::span<const MeasuredCell> cells) const {
+MedianCell EventModuli::median_cell(std::span<const MeasuredCell> cells) const {
   if (cells.empty()) return {};
-  const auto seen = seen_cell(mean_of(cells), ErrorsOf::picture);
-  return seen ? rheocyte::mean_cell(moduli_, *seen, tension_) : MeanCell{.cells = cells.size()};
+  const auto seen = seen_cell(median_of(cells), ErrorsOf::picture);
+  return seen ? rheocyte::median_cell(moduli_, *seen, tension_) : MedianCell{.cells = cells.size()};
 }
 
 }  // namespace rheocyte

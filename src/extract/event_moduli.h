@@ -3,7 +3,7 @@
 #include "extract/extract_settings.h"
 #include "extract/square_section.h"
 #include "infer/common_tension.h"
-#include "infer/mean_cell.h"
+#include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
 #include "infer/several_moduli.h"
 
@@ -39,7 +39,7 @@ class EventModuli {
   /// Of some cells, in pixels. `goes_on` is called from group to group.
   CommonTension common_tension(std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) const;
   /// With what is known of the tension.
-  MeanCell mean_cell(std::span<const MeasuredCell> cells) const;
+  MedianCell median_cell(std::span<const MeasuredCell> cells) const;
   /// What `fit` would be asked with.
   MeasuredCell measured(const ShapeVector& seen, double viscosity_mPas) const {
     return {seen, {flow_.width_um, flow_.rate_ul_s, viscosity_mPas, flow_.exponent}};

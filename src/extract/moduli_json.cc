@@ -49,7 +49,7 @@ ordered_json slopes_of(const AxialSummary& s) {
   return slopes;
 }
 
-ordered_json features_of_mean(const MeanCell& m) {
+ordered_json features_of_median(const MedianCell& m) {
   ordered_json features = ordered_json::array();
   const auto add = [&](std::string name, double measured, double error, double fitted) {
     features.push_back({{"name", std::move(name)}, {"measured", measured}, {"error", error}, {"fitted", fitted}});
@@ -64,8 +64,8 @@ ordered_json features_of_mean(const MeanCell& m) {
   return features;
 }
 
-ordered_json mean_cell_of(const MeanCell& m) {
-  if (m.cells < MeanCell::min_cells || m.status == ModuliStatus::no_data) return nullptr;
+ordered_json median_cell_of(const MedianCell& m) {
+  if (m.cells < MedianCell::min_cells || m.status == ModuliStatus::no_data) return nullptr;
   return {{"cells", m.cells},
           {"status", name_of(m.status)},
           {"young_modulus_kPa", m.young_kPa},
@@ -80,7 +80,7 @@ ordered_json mean_cell_of(const MeanCell& m) {
           {"axial_tension_error_Pa", m.axial_tension_error_Pa},
           {"chi_squared", m.chi_squared},
           {"degrees_of_freedom", m.freedom},
-          {"features", features_of_mean(m)}};
+          {"features", features_of_median(m)}};
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ std::string moduli_json(const std::filesystem::path& recording, const std::files
                              {"stiffness_kPa", quartiles_of(s.stiffness_kPa, s.with_stiffness())},
                              {"axial_tension", tension_of(s.axial)},
                              {"slopes_between_cells", slopes_of(s.axial)},
-                             {"mean_cell", mean_cell_of(s.mean_cell)},
+                             {"median_cell", median_cell_of(s.median_cell)},
                              {"warnings", s.warnings}};
   return content.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

@@ -77,7 +77,7 @@ class Fits {
   /// of the common one.
   void survey(const Recording& recording, const ModuliOptions& options) {
     const std::vector<MeasuredCell> cells = cells_for_survey(recording, options);
-    mean_ = moduli_.mean_cell(cells);
+    median_ = moduli_.median_cell(cells);
     if (!axial_.is_of_elongated_cells) return;
     std::vector<double> wall_stresses;
     for (const MeasuredCell& cell : cells) wall_stresses.push_back(wall_shear_stress_Pa(cell.flow));
@@ -139,7 +139,7 @@ class Fits {
   ModuliSummary summary() {
     ModuliSummary s = tally_.summary();
     s.axial = axial_;
-    s.mean_cell = mean_;
+    s.median_cell = median_;
     const ExtractSettings& settings = events_.settings();
     s.gates = events_.gates().description();
     s.warnings = events_.recording().remarks();
@@ -258,7 +258,7 @@ class Fits {
   EventModuli moduli_;
   const ModuliTable& table_;
   AxialSummary axial_;
-  MeanCell mean_;
+  MedianCell median_;
   SlopeTally slopes_;
   std::vector<ShapeExcess> excess_;
   ElongationValues solids_values_;  ///< as if they were solids

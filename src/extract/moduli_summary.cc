@@ -45,13 +45,13 @@ std::string in_one_line(const ModuliSummary& s) {
   return text + others;
 }
 
-std::string mean_line(const ModuliSummary& s) {
-  const MeanCell& m = s.mean_cell;
-  if (m.cells < MeanCell::min_cells) return {};
+std::string median_line(const ModuliSummary& s) {
+  const MedianCell& m = s.median_cell;
+  if (m.cells < MedianCell::min_cells) return {};
   if (m.status == ModuliStatus::outside_table || m.status == ModuliStatus::no_data)
-    return fmt::format("the mean outline of {} cells: none of the table's cells has it", m.cells);
+    return fmt::format("the median outline of {} cells: none of the table's cells has it", m.cells);
   std::string text = fmt::format(
-      "the mean outline of {} cells: E {:.3g} +- {:.2g} kPa, E2D {:.3g} +- {:.2g} mN/m, tension {:.3g} +- {:.2g} "
+      "the median outline of {} cells: E {:.3g} +- {:.2g} kPa, E2D {:.3g} +- {:.2g} mN/m, tension {:.3g} +- {:.2g} "
       "mN/m",
       m.cells, m.young_kPa, m.young_error_kPa, m.cortex_mN_per_m, m.cortex_error_mN_per_m, m.tension_mN_per_m,
       m.tension_error_mN_per_m);

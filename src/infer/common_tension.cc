@@ -21,6 +21,9 @@ constexpr int bits_of_minimum = 10;
 /// Of the spread of the tensions of single cells: over so much the losses of the cells are differentiated.
 constexpr double difference = 0.2;
 
+/// Relative standard error of what all cells of a recording have in common: tensions of virtual recordings in pixels of
+/// 0.34 um are off by 5 % in the mean square (docs/verification.md, sec. 7).
+constexpr double common_error = 0.05;
 /// Fewer groups tell no scatter.
 constexpr std::size_t fewest_groups = 3;
 
@@ -118,7 +121,8 @@ CommonTension common_tension(const SeveralModuli& moduli, std::span<const SeenCe
                                             middle - 2 * unit, middle + 2 * unit, bits_of_minimum);
   const double n = double(profile.groups());
   const double error_Pa = error_of_minimum(profile, value_Pa, sum, difference * unit);
-  const double half_width_Pa = error_Pa * boost::math::quantile(boost::math::students_t(n - 1), 0.95);
+  const double of_scatter_Pa = error_Pa * boost::math::quantile(boost::math::students_t(n - 1), 0.95);
+  const double half_width_Pa = std::hypot(of_scatter_Pa, normal_95 * common_error * value_Pa);
   found.value_Pa = value_Pa;
   found.misfit = sum / (n * std::max(moduli.freedom(), 1));
   found.lower_Pa = value_Pa - half_width_Pa;

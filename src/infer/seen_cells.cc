@@ -30,21 +30,27 @@ double mean_without_strangers(const std::vector<double>& values) {
   return sum / count;
 }
 
-}  // namespace
-
-MeasuredCell mean_of(std::span<const MeasuredCell> cells) {
+/// Of each feature and the viscosity, by a function of all values.
+template <class Middle>
+MeasuredCell middle_of(std::span<const MeasuredCell> cells, const Middle& middle) {
   assert(!cells.empty());
-  MeasuredCell mean = cells.front();
+  MeasuredCell found = cells.front();
   std::vector<double> values(cells.size());
-  const auto mean_by = [&](const auto& number_of_cell) {
+  const auto middle_by = [&](const auto& number_of_cell) {
     std::ranges::transform(cells, values.begin(), number_of_cell);
-    return mean_without_strangers(values);
+    return middle(values);
   };
   for (int f = 0; f < feature_count; ++f)
-    mean.shape(f) = mean_by([f](const MeasuredCell& cell) { return cell.shape(f); });
-  mean.flow.viscosity_mPas = mean_by([](const MeasuredCell& cell) { return cell.flow.viscosity_mPas; });
-  mean.cells = cells.size();
-  return mean;
+    found.shape(f) = middle_by([f](const MeasuredCell& cell) { return cell.shape(f); });
+  found.flow.viscosity_mPas = middle_by([](const MeasuredCell& cell) { return cell.flow.viscosity_mPas; });
+  found.cells = cells.size();
+  return found;
+}
+
+}  // namespace
+
+MeasuredCell median_of(std::span<const MeasuredCell> cells) {
+  return middle_of(cells, [](const std::vector<double>& values) { return quantile(values, 0.5); });
 }
 
 std::vector<MeasuredCell> means_by_size(std::span<const MeasuredCell> cells) {
@@ -54,7 +60,8 @@ std::vector<MeasuredCell> means_by_size(std::span<const MeasuredCell> cells) {
   std::vector<MeasuredCell> means;
   for (std::size_t group = 0; group < count; ++group) {
     const std::size_t first = group * cells.size() / count, last = (group + 1) * cells.size() / count;
-    means.push_back(mean_of(std::span(sorted).subspan(first, last - first)));
+    means.push_back(
+        middle_of(std::span<const MeasuredCell>(sorted).subspan(first, last - first), mean_without_strangers));
   }
   return means;
 }

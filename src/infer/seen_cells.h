@@ -1,4 +1,4 @@
-// Cells of a recording as they were measured, and means of several of them.
+// Cells of a recording as they were measured, and medians and means of several.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace rheocyte {
 
-/// The shape of a cell in pixels, or the mean of several.
+/// The shape of a cell in pixels, or the median or mean of several.
 struct MeasuredCell {
   ShapeVector shape;
   ChannelFlow flow;
@@ -23,11 +23,11 @@ struct SeenCell {
   std::size_t cells = 1;
 };
 
-/// The mean of each feature without strangers, and of the viscosity. At least one cell (asserted).
-MeasuredCell mean_of(std::span<const MeasuredCell> cells);
+/// The median of each feature and of the viscosity. At least one cell (asserted).
+MeasuredCell median_of(std::span<const MeasuredCell> cells);
 
-/// Of groups of equal count and of neighbouring sizes. The scatter of pixels hardly moves what is fitted to them, where
-/// it would move the mean of single fits: moduli depend on shapes in a bent way.
+/// Means, without strangers, of groups of equal count and of neighbouring sizes. The scatter of pixels hardly moves
+/// what is fitted to them, where it would move the mean of single fits: moduli depend on shapes in a bent way.
 std::vector<MeasuredCell> means_by_size(std::span<const MeasuredCell> cells);
 
 }  // namespace rheocyte

@@ -1,4 +1,4 @@
-// The cell of a combined table whose shape is the mean of those of a recording (docs/theory-extract.md, sec. "One
+// The cell of a combined table whose shape is the median of those of a recording (docs/theory-extract.md, sec. "One
 // tension for a recording").
 #pragma once
 #include <array>
@@ -8,7 +8,7 @@
 namespace rheocyte {
 
 /// Numbers alone (store/bytes.h).
-struct MeanCell {
+struct MedianCell {
   /// ln(area / um2), deformation, Lambda1 / Lambda2 and the modes, without what pixels add to them.
   using Features = std::array<double, feature_count>;
 
@@ -26,8 +26,8 @@ struct MeanCell {
   static constexpr std::size_t min_cells = 5;
 };
 
-/// The mean of the cells, fitted with the errors of one picture. The axial tension is fitted, too, unless `tension`
+/// The median of the cells, fitted with the errors of one picture. The axial tension is fitted, too, unless `tension`
 /// tells it.
-MeanCell mean_cell(const SeveralModuli& moduli, const SeenCell& mean, const AxialTension& tension);
+MedianCell median_cell(const SeveralModuli& moduli, const SeenCell& cell, const AxialTension& tension);
 
 }  // namespace rheocyte

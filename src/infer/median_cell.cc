@@ -1,4 +1,4 @@
-#include "infer/mean_cell.h"
+#include "infer/median_cell.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,18 +7,18 @@ namespace rheocyte {
 
 namespace {
 
-MeanCell::Features array_of(const ShapeVector& shape) {
-  MeanCell::Features features;
+MedianCell::Features array_of(const ShapeVector& shape) {
+  MedianCell::Features features;
   std::ranges::copy(shape, features.begin());
   return features;
 }
 
 }  // namespace
 
-MeanCell mean_cell(const SeveralModuli& moduli, const SeenCell& cell, const AxialTension& tension) {
-  MeanCell found;
+MedianCell median_cell(const SeveralModuli& moduli, const SeenCell& cell, const AxialTension& tension) {
+  MedianCell found;
   found.cells = cell.cells;
-  if (found.cells < MeanCell::min_cells) return found;
+  if (found.cells < MedianCell::min_cells) return found;
   const ModuliEstimate e = moduli.fit(cell.shape, cell.flow, tension);
   found.measured = array_of(cell.shape.features - cell.shape.errors.bias);
   found.error = array_of(cell.shape.errors.covariance.diagonal().cwiseSqrt());
