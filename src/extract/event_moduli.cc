@@ -51,6 +51,11 @@ Section ModuliTable::section_of(const Recording& recording, std::optional<Sectio
   return are_of_this_table ? base.channel.section : Section::square;
 }
 
+double ModuliTable::sign_of_asymmetry() const {
+  const CellBox& box = between.box();
+  return between.at((box.least + box.greatest) / 2).value(first_mode_row + 1);
+}
+
 EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table,
                          Section seen_in)
     : flow_(settings.conditions.flow),

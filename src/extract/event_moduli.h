@@ -20,6 +20,9 @@ struct ModuliTable {
   /// virtual cells of this table; else the square.
   Section section_of(const Recording&, std::optional<Section> wanted) const;
 
+  /// Of c_3 of its cells.
+  double sign_of_asymmetry() const;
+
   CombinedTable content;
   CombinedInterpolation between;
   ChannelFlow simulated;

@@ -67,7 +67,7 @@ class Fits {
         elongated_solids_(solids_.elongated(conditions().flow.exponent)),
         moduli_(events_.settings(), options, table, section_),
         table_(table) {
-    direction_ = events_.turn_downstream();
+    direction_ = events_.turn_downstream(table.sign_of_asymmetry());
     axial_.is_of_elongated_cells = table.between.is_elongated();
     axial_.is_given = options.axial_tension_Pa.has_value();
     if (axial_.is_given) axial_.common.value_Pa = *options.axial_tension_Pa;
@@ -175,7 +175,7 @@ class Fits {
   /// Of blocks far from each other, until they are enough.
   std::vector<MeasuredCell> cells_for_survey(const Recording& recording, const ModuliOptions& options) const {
     OutlinedEvents events(recording, options.measuring, use_of_outlines);
-    events.turn_downstream();
+    events.turn_downstream(table_.sign_of_asymmetry());
     const std::size_t blocks = (recording.events() + survey_block - 1) / survey_block;
     std::vector<MeasuredCell> cells;
     for (std::size_t k = 0; k < blocks && cells.size() < wanted_for_survey; ++k) {

@@ -49,7 +49,7 @@ class ModuliTally {
 
 /// For the terminal: how many events are resolved, their moduli, and how many have another status.
 std::string in_one_line(const ModuliSummary&);
-/// Of the median cell; empty if too few were seen.
+/// Of the median cell by a table of elongated cells; empty if too few were seen.
 std::string median_line(const ModuliSummary&);
 
 }  // namespace rheocyte

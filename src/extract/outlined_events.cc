@@ -23,8 +23,8 @@ OutlinedEvents::OutlinedEvents(const Recording& recording, const MeasuringOption
   gates_.check(features_);
 }
 
-int OutlinedEvents::turn_downstream() {
-  const int direction = direction_of_cells(outlines_, 1);
+int OutlinedEvents::turn_downstream(double sign) {
+  const int direction = direction_of_cells(outlines_, sign);
   is_mirrored_ = direction < 0;
   return direction;
 }

@@ -35,8 +35,9 @@ class OutlinedEvents {
   std::size_t outside_temperature() const { return outside_temperature_; }
 
   /// Shapes are seen as if the cells moved towards greater x, from here on; the sign of their mean asymmetry tells
-  /// whether they do. Returns what it tells (direction_of_cells.h). UserError if the data are damaged.
-  int turn_downstream();
+  /// whether they do (`sign`: of c_3 of such cells). Returns what it tells (direction_of_cells.h). UserError if the
+  /// data are damaged.
+  int turn_downstream(double sign);
   /// Of any event; NaN where there is no cell. UserError if the data are damaged.
   ShapeVector shape(std::size_t event);
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
 
@@ -241,10 +242,35 @@ TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
   const auto rows = rows_of(table());
   for (const auto& row : rows) stiffness += std::stod(row.at("stiffness_kPa")) / double(rows.size());
   EXPECT_NEAR(stiffness / 3.6, 1, 0.1);
+  const auto summary = nlohmann::json::parse(content_of(folder_.path() / "M1_moduli.json"));
+  EXPECT_NEAR(summary.at("axial_tension").at("value_Pa").get<double>(), 1000, 100);
+  EXPECT_LT(summary.at("axial_tension").at("lower_Pa"), summary.at("axial_tension").at("upper_Pa"));
+  EXPECT_EQ(summary.at("slopes_between_cells").size(), 3U);
+  const auto& median = summary.at("median_cell");
+  EXPECT_EQ(median.at("cells"), events);
+  EXPECT_NEAR(median.at("stiffness_kPa").get<double>() / 3.6, 1, 0.15);
+  for (const auto& feature : median.at("features")) {
+    const double error = feature.at("error");
+    EXPECT_NEAR(feature.at("measured").get<double>(), feature.at("fitted").get<double>(), 3 * error) << feature;
+  }
   const Ended given = moduli({folder.string(), "--viscosity-mPas", "12", "--axial-tension", "1000"});
   EXPECT_NE(given.out.find("axial tension: 1000 Pa as given"), std::string::npos) << given.out << given.err;
   expect_refusal({table_folder().string(), "--axial-tension", "400"}, "needs a table of elongated cells");
   expect_refusal({folder.string(), "--only-figure"}, "too few features to find the axial tension");
+}
+
+TEST_F(ModuliCommand, CellsThatMoveTowardsSmallerXHaveTheSameModuli) {
+  const Eigen::MatrixX2d outline = invented_outline({7, 0.5, 0}, 1.2);
+  const auto median_stiffness = [&] {
+    EXPECT_EQ(moduli({table_folder().string(), "--viscosity-mPas", "15"}).exit_code, 0);
+    return nlohmann::json::parse(content_of(folder_.path() / "M1_moduli.json")).at("stiffness_kPa").at("median");
+  };
+  const double there = median_stiffness();
+  EXPECT_NE(table().find("\n# direction of the cells: +x"), std::string::npos);
+  write_recording(recording(), outline * Eigen::DiagonalMatrix<double, 2>(-1, 1));
+  const double back = median_stiffness();
+  EXPECT_NE(table().find("\n# direction of the cells: -x"), std::string::npos);
+  EXPECT_NEAR(back / there, 1, 0.03);
 }
 
 TEST_F(ModuliCommand, WhatCannotBeUsedIsRefused) {
@@ -259,6 +285,9 @@ TEST_F(ModuliCommand, WhatCannotBeUsedIsRefused) {
   write_file(folder_.path() / "M1_moduli.tsv", "my own notes");
   expect_refusal({folder, "--min", "index=100"}, "move it away, or name another folder with -o");
   EXPECT_EQ(table(), "my own notes");
+  fs::remove(folder_.path() / "M1_moduli.tsv");
+  write_file(folder_.path() / "M1_moduli.json", "my own notes");
+  expect_refusal({folder, "--min", "index=100"}, "move it away, or name another folder with -o");
 }
 
 }  // namespace
