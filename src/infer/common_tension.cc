@@ -1,8 +1,6 @@
 #include "infer/common_tension.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -16,8 +14,8 @@ namespace {
 constexpr double normal_95 = 1.645;  ///< quantile of a normal distribution
 /// A cell counts ever less if its misfit exceeds so many times that of the median cell, or its degrees of freedom.
 constexpr double soft_limit = 6;
-/// Of the range that is searched: 2^-bits is close enough, a thousandth.
-constexpr int bits_of_minimum = 10;
+/// Of the range that is searched: so closely the minimum is found.
+constexpr double resolution = 1e-3;
 /// Of the spread of the tensions of single cells: over so much the losses of the cells are differentiated.
 constexpr double difference = 0.2;
 
@@ -88,6 +86,37 @@ class TensionProfile {
   std::vector<double> tensions_;
 };
 
+struct Minimum {
+  double place, value;
+};
+
+/// Of a function with one minimum in [low, high]: by the golden section.
+template <class Function>
+Minimum minimum_between(const Function& f, double low, double high, double tolerance) {
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  double a = high - golden * (high - low), b = low + golden * (high - low), fa = f(a), fb = f(b);
+  while (high - low > tolerance) {
+    if (fa < fb) {
+      high = b, b = a, fb = fa;
+      a = high - golden * (high - low), fa = f(a);
+    } else {
+      low = a, a = b, fa = fb;
+      b = low + golden * (high - low), fb = f(b);
+    }
+  }
+  return fa < fb ? Minimum{a, fa} : Minimum{b, fb};
+}
+
+/// Quantile of 95 % of Student's t (Abramowitz and Stegun, 26.7.5): at two degrees of freedom 3 % too small, at more
+/// less.
+double student_95(double freedom) {
+  const double z = normal_95, z2 = z * z;
+  return z + z *
+                 ((z2 + 1) / 4 + ((5 * z2 + 16) * z2 + 3) / (96 * freedom) +
+                  (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * freedom * freedom)) /
+                 freedom;
+}
+
 double sum_of(const std::vector<double>& losses) { return std::accumulate(losses.begin(), losses.end(), 0.0); }
 
 /// Of the place where a sum of the cells' losses is least: by the scatter of their slopes there over the curvature of
@@ -116,12 +145,11 @@ CommonTension common_tension(const SeveralModuli& moduli, std::span<const SeenCe
   found.cells = profile.cells();
   if (found.cells < CommonTension::min_cells || profile.groups() < fewest_groups) return found;
   const double middle = profile.middle(), unit = std::max(profile.spread(), 1e-2 * wall_shear_stress_Pa(cells[0].flow));
-  const auto [value_Pa, sum] =
-      boost::math::tools::brent_find_minima([&](double tension_Pa) { return sum_of(profile.losses(tension_Pa)); },
-                                            middle - 2 * unit, middle + 2 * unit, bits_of_minimum);
+  const auto [value_Pa, sum] = minimum_between([&](double tension_Pa) { return sum_of(profile.losses(tension_Pa)); },
+                                               middle - 2 * unit, middle + 2 * unit, resolution * 4 * unit);
   const double n = double(profile.groups());
   const double error_Pa = error_of_minimum(profile, value_Pa, sum, difference * unit);
-  const double of_scatter_Pa = error_Pa * boost::math::quantile(boost::math::students_t(n - 1), 0.95);
+  const double of_scatter_Pa = error_Pa * student_95(n - 1);
   const double half_width_Pa = std::hypot(of_scatter_Pa, normal_95 * common_error * value_Pa);
   found.value_Pa = value_Pa;
   found.misfit = sum / (n * std::max(moduli.freedom(), 1));
