@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fem/nonlinear_system.h"
-#include "solve/outcome.h"
+#include "state/outcome.h"
 
 namespace rheocyte {
 

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "fem/coupled_system.h"
-#include "solve/outcome.h"
 #include "solve/path.h"
 #include "solve/time_state.h"
+#include "state/outcome.h"
 
 namespace rheocyte {
 
