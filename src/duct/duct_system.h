@@ -44,15 +44,10 @@ class DuctSystem final : public NonlinearSystem {
   /// Of one factorisation of the linear system, and of the entries of its factors.
   double factorisation_flops() const { return lu_.flops(); }
   double factor_entries() const { return lu_.entries(); }
-  /// Of the factors.
-  std::size_t memory_bytes() const { return has_factors_ ? lu_.memory_bytes() : 0; }
-  bool has_factors() const { return has_factors_; }
+  std::size_t memory_bytes() const override { return has_factors_ ? lu_.memory_bytes() : 0; }
   /// Gives the factors to a system whose unknowns mean the same, for chord steps there, and takes the other's.
   void exchange_factors(DuctSystem&);
-  /// Frees their memory.
-  void drop_factors();
-  /// From now on, until null is given: once `stop` is set `linearise` gives up, with numbers that are not finite.
-  void obey(const std::atomic<bool>* stop) { stop_ = stop; }
+  void drop_factors() override;
 
  private:
   /// Of the patches of the surface that an element has a share in.
@@ -65,8 +60,6 @@ class DuctSystem final : public NonlinearSystem {
   DuctCortex cortex_;
   std::vector<int> filled_;  ///< elements that are not empty: the parts of the factorisation
   NestedLU<float> lu_;
-  bool has_factors_ = false;
-  const std::atomic<bool>* stop_ = nullptr;
   VectorXd outlet_load_, inlet_load_;
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
   TurningSurface turning_;

@@ -23,7 +23,7 @@ auto part_with(const Discretisation& space, Parts& parts, const std::vector<int>
 }  // namespace
 
 CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnknowns> elements)
-    : space_(space), elements_(std::move(elements)), surface_(space), place_(space.unknowns(), -1) {
+    : space_(&space), elements_(std::move(elements)), surface_(space), place_(space.unknowns(), -1) {
   for (int e = 0; e < int(elements_.size()); ++e) {
     if (!elements_[e].is_empty()) parts_.push_back({e});
   }
@@ -36,10 +36,10 @@ CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnk
 
 /// Each patch goes to an element at it: with liquid inside to one outside.
 void CoupledSystem::share_out_surface() {
-  const auto& edges = space_.surface();
+  const auto& edges = space_->surface();
   for (int k = 0; k < int(surface_.patches().size()); ++k) {
     const BoundaryEdge& edge = edges[k % edges.size()];  // vertices after the edges that they follow
-    part_with(space_, parts_, edge.nodes)->patches.push_back(k);
+    part_with(*space_, parts_, edge.nodes)->patches.push_back(k);
   }
 }
 
@@ -65,20 +65,21 @@ std::vector<CoupledUnknowns> CoupledSystem::couple() {
       const std::vector<int>& of_patch = surface_.patches()[patch].unknowns;
       unknowns.insert(of_patch.begin(), of_patch.end());
     }
-    if (!part.inlet.empty()) unknowns.insert(space_.cell_velocity());
+    if (!part.inlet.empty()) unknowns.insert(space_->cell_velocity());
     unknowns.erase(-1);
-    coupled.push_back({{unknowns.begin(), unknowns.end()}, space_.pressure(part.element, 0), element.liquid, {}});
-    nodes.push_back(space_.nodes().of_element[part.element]);
+    coupled.push_back({{unknowns.begin(), unknowns.end()}, space_->pressure(part.element, 0), element.liquid, {}});
+    nodes.push_back(space_->nodes().of_element[part.element]);
   }
-  set_neighbours(std::move(nodes), std::size_t(space_.reference().degree()) + 1, coupled);
+  set_neighbours(std::move(nodes), std::size_t(space_->reference().degree()) + 1, coupled);
   return coupled;
 }
 
 CoupledSystem::~CoupledSystem() = default;
 
-void CoupledSystem::follow_space(std::vector<ElementUnknowns> elements) {
+void CoupledSystem::follow_space(const Discretisation& space, std::vector<ElementUnknowns> elements) {
+  space_ = &space;
   elements_ = std::move(elements);
-  surface_ = SurfaceIntegrals(space_);
+  surface_ = SurfaceIntegrals(space);
 }
 
 std::size_t CoupledSystem::memory_bytes() const {
@@ -88,38 +89,43 @@ std::size_t CoupledSystem::memory_bytes() const {
     for (const auto& table : element.position->at_points)
       numbers += table.value.size() + table.slope[0].size() + table.slope[1].size();
   }
-  return lu_->memory_bytes() + numbers * sizeof(double);
+  return (has_factors_ ? lu_->memory_bytes() : 0) + numbers * sizeof(double);
+}
+
+void CoupledSystem::drop_factors() {
+  lu_->drop_factors();
+  has_factors_ = false;
 }
 
 VectorXd CoupledSystem::sphere() const {
-  VectorXd unknowns = VectorXd::Zero(space_.unknowns());
-  unknowns(space_.cell_velocity()) = 1;
+  VectorXd unknowns = VectorXd::Zero(space_->unknowns());
+  unknowns(space_->cell_velocity()) = 1;
   return unknowns;
 }
 
-double CoupledSystem::cell_radius() const { return space_.mesh().geometry().radius(); }
+double CoupledSystem::cell_radius() const { return space_->mesh().geometry().radius(); }
 
 double CoupledSystem::largest_displacement(const VectorXd& unknowns) const {
-  return rheocyte::largest_displacement(space_, unknowns);
+  return rheocyte::largest_displacement(*space_, unknowns);
 }
 
 void CoupledSystem::scale_displacement(double factor, VectorXd& unknowns) const {
-  rheocyte::scale_displacement(space_, factor, unknowns);
+  rheocyte::scale_displacement(*space_, factor, unknowns);
 }
 
 double CoupledSystem::stretch_change(const VectorXd& from, const VectorXd& to) const {
-  return rheocyte::stretch_change(space_, from, to);
+  return rheocyte::stretch_change(*space_, from, to);
 }
 
 VectorXd CoupledSystem::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use, double& min_det) {
   const Want want = use ? Want::residual_and_tangent : Want::residual;
   // Loads are those of this moment: the ends of a channel with walls that are not straight change their size.
-  VectorXd total = -undisturbed_pressure(media.liquid) * outlet_load(space_);
-  const VectorXd load = inlet_load(space_);
+  VectorXd total = -undisturbed_pressure(media.liquid) * outlet_load(*space_);
+  const VectorXd load = inlet_load(*space_);
   InletPressure inlet;
-  if (space_.has_open_inlet()) {
+  if (space_->has_open_inlet()) {
     inlet = inlet_pressure(media);
-    total += (inlet.fixed + inlet.slope * unknowns(space_.cell_velocity())) * load;
+    total += (inlet.fixed + inlet.slope * unknowns(space_->cell_velocity())) * load;
   }
   min_det = std::numeric_limits<double>::infinity();
   for (const int k : lu_->elements()) {
@@ -136,7 +142,7 @@ VectorXd CoupledSystem::assemble(const Media& media, const VectorXd& unknowns, c
       add_surface(parts_[k], media.cortex, unknowns, want, total);
     }
     if (!use) continue;
-    for (const int i : parts_[k].inlet) matrix_(place_[i], place_[space_.cell_velocity()]) += inlet.slope * load(i);
+    for (const int i : parts_[k].inlet) matrix_(place_[i], place_[space_->cell_velocity()]) += inlet.slope * load(i);
     const Stopwatch watch(work_.factorisation_s);
     use(k, order, matrix_);
   }
@@ -178,7 +184,7 @@ VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, 
     lu_->condense(part, tangent);
   };
   VectorXd total = assemble(media, unknowns, condense, min_det);
-  factorised = total.allFinite() && lu_->is_regular();
+  factorised = has_factors_ = total.allFinite() && lu_->is_regular();
   ++work_.factorisations;
   return total;
 }
@@ -190,7 +196,7 @@ VectorXd CoupledSystem::solve(const VectorXd& rhs) {
 
 double CoupledSystem::undisturbed_pressure(const Liquid& liquid) const {
   if (!(undisturbed_ && undisturbed_->first == liquid))
-    undisturbed_ = {liquid, undisturbed_inlet_pressure(space_, liquid)};
+    undisturbed_ = {liquid, undisturbed_inlet_pressure(*space_, liquid)};
   return undisturbed_->second;
 }
 
@@ -199,7 +205,7 @@ CoupledSystem::InletPressure CoupledSystem::inlet_pressure(const Media& media) c
 }
 
 VectorXd CoupledSystem::apply_tangent(const Media& media, const VectorXd& unknowns, const VectorXd& direction) {
-  VectorXd product = VectorXd::Zero(space_.unknowns());
+  VectorXd product = VectorXd::Zero(space_->unknowns());
   double min_det = 0;
   const auto apply = [&](int, const std::vector<int>& order, const MatrixXd& tangent) {
     product(order) += tangent * direction(order);

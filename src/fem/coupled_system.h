@@ -17,7 +17,7 @@ class CoupledSystem : public NonlinearSystem {
  public:
   ~CoupledSystem() override;
 
-  const Discretisation& space() const { return space_; }
+  const Discretisation& space() const { return *space_; }
 
   VectorXd sphere() const override;
   VectorXd residual(const Media&, const VectorXd& unknowns, double& min_det) override;
@@ -32,8 +32,8 @@ class CoupledSystem : public NonlinearSystem {
   VectorXd apply_tangent(const Media&, const VectorXd& unknowns, const VectorXd& direction);
 
   double factorisation_flops() const { return lu_->flops(); }
-  /// Of the factors and tables that it holds, about.
-  std::size_t memory_bytes() const;
+  std::size_t memory_bytes() const override;
+  void drop_factors() override;
 
  protected:
   /// Pressure at an open inlet that depends on the acceleration of the frame: fixed + slope * v_cell.
@@ -44,9 +44,8 @@ class CoupledSystem : public NonlinearSystem {
   /// The discretisation must outlive this object. Which unknowns a column refers to stays as it is given here; factors
   /// and constants of the columns may change.
   CoupledSystem(const Discretisation&, std::vector<ElementUnknowns>);
-  /// Reads the geometry anew after the discretisation was moved; which unknowns couple must be as before. The factors
-  /// stay those of the old geometry.
-  void follow_space(std::vector<ElementUnknowns>);
+  /// Becomes that of another discretisation in which the same unknowns couple. The factors stay those of the old one.
+  void follow_space(const Discretisation&, std::vector<ElementUnknowns>);
   /// Residual and, if wanted, tangent of one element that is not empty.
   virtual void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const = 0;
   /// Only for an open inlet.
@@ -76,7 +75,7 @@ class CoupledSystem : public NonlinearSystem {
   /// Of the last liquid that was asked for: most have to integrate for it.
   double undisturbed_pressure(const Liquid&) const;
 
-  const Discretisation& space_;
+  const Discretisation* space_;
   std::vector<ElementUnknowns> elements_;
   SurfaceIntegrals surface_;
   std::vector<Part> parts_;

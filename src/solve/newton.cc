@@ -5,8 +5,6 @@
 
 namespace rheocyte {
 
-using Eigen::VectorXd;
-
 namespace {
 
 /// A full step may reduce the least det of the mesh to this share at most; else it is shortened.

@@ -20,7 +20,7 @@ constexpr double first_displacement = 0.006;
 /// Step in u for slopes of the measures along the tangent.
 constexpr double slope_step = 1e-4;
 
-double factorisation_seconds_of(const Discrete& discrete) { return discrete.system.work().factorisation_s; }
+double factorisation_seconds_of(TubeDiscrete& discrete) { return discrete.system().work().factorisation_s; }
 
 }  // namespace
 
@@ -40,13 +40,13 @@ double BranchStates::log_progress_slope(const BranchNode& node) const {
 double BranchStates::stiffness(double u) const { return first_stiffness_ * std::exp(-u); }
 Problem BranchStates::problem(double u) const { return problem_of(case_at(spec_, place_, stiffness(u))); }
 
-Discrete& BranchStates::at_level(int level) {
-  if (!discrete_[level]) discrete_[level] = std::make_shared<Discrete>(problem(0), resolutions[level]);
+TubeDiscrete& BranchStates::at_level(int level) {
+  if (!discrete_[level]) discrete_[level] = std::make_unique<TubeDiscrete>(problem(0), resolutions[level]);
   return *discrete_[level];
 }
 
 Path BranchStates::path(int level, double end) {
-  return {[this, level](double) -> NonlinearSystem& { return at_level(level).system; },
+  return {[this, level](double) -> NonlinearSystem& { return at_level(level).system(); },
           [this](double u) { return media_at(problem(u), 1); }, end, -std::numeric_limits<double>::infinity()};
 }
 
@@ -80,12 +80,12 @@ BranchStates::Way BranchStates::enter() {
 }
 
 BranchStates::Way BranchStates::enter_round() {
-  Discrete& discrete = at_level(0);
+  TubeDiscrete& discrete = at_level(0);
   ContinuationOptions start = continuation();
   start.accept = {};
   start.displacement_per_step = first_displacement;
   for (int attempt = 0; attempt < 30; ++attempt) {
-    const ContinuationReport report = start_branch(stiffness_path(discrete.system, problem(0)), start);
+    const ContinuationReport report = start_branch(stiffness_path(discrete.system(), problem(0)), start);
     count(report.newton_iterations);
     if (report.status != Status::converged) return {report.status, {}};
     const double d = shape(0, report.last.unknowns).deformation;
@@ -104,7 +104,7 @@ BranchStates::Way BranchStates::draw_out(const BranchNode& round) {
     place.axial_ratio = share * axial_ratio_;
     return problem_of(case_at(spec_, place, first_stiffness_));
   };
-  Path drawing = stiffness_path(at_level(0).system, [&](double share) { return media_at(problem_at(share), 1); });
+  Path drawing = stiffness_path(at_level(0).system(), [&](double share) { return media_at(problem_at(share), 1); });
   drawing.origin = -std::numeric_limits<double>::infinity();
   ContinuationOptions options = continuation();
   options.accept = [&](const NonlinearSystem& system, const BranchState& state) {
@@ -126,20 +126,20 @@ BranchStates::Way BranchStates::advance(const BranchNode& from, double u) {
 bool BranchStates::measure(BranchNode& node) {
   const Scales scales = scales_of(case_at(spec_, place_, first_stiffness_));
   while (true) {
-    Discrete& discrete = at_level(node.level);
+    TubeDiscrete& discrete = at_level(node.level);
     const Problem here = problem(node.u);
     double det = 0;
     bool factorised = false;
-    discrete.system.linearise(media_at(here, 1), node.unknowns, det, factorised);
+    discrete.system().linearise(media_at(here, 1), node.unknowns, det, factorised);
     if (!factorised) return false;
     node.tangent = branch_tangent(path(node.level, node.u), {node.u, node.unknowns, {}, 0});
-    node.state = measure_state(discrete.space, here, scales, node.unknowns);
+    node.state = measure_state(discrete.space(), here, scales, node.unknowns);
     node.error = error_of(node);
     if (node.error <= spec_.accuracy) break;
     if (!refine(node)) return ++refused_, false;
   }
   const auto moved = [&](double step) {
-    return measure_state(at_level(node.level).space, problem(node.u + step), scales,
+    return measure_state(at_level(node.level).space(), problem(node.u + step), scales,
                          node.unknowns + step * node.tangent);
   };
   const MeasuredState plus = moved(slope_step), minus = moved(-slope_step);
@@ -149,11 +149,11 @@ bool BranchStates::measure(BranchNode& node) {
 }
 
 double BranchStates::error_of(const BranchNode& node) {
-  Discrete& before = at_level(node.level - 1);
-  VectorXd unknowns = transfer(at_level(node.level).space, node.unknowns, before.space);
+  TubeDiscrete& before = at_level(node.level - 1);
+  VectorXd unknowns = transfer(at_level(node.level).space(), node.unknowns, before.space());
   NewtonOptions options = newton_;
   options.tolerance = tolerance_before;
-  const NewtonReport report = newton(before.system, media_at(problem(node.u), 1), options, unknowns);
+  const NewtonReport report = newton(before.system(), media_at(problem(node.u), 1), options, unknowns);
   count(report.iterations);
   if (report.status != Status::converged) return std::numeric_limits<double>::infinity();
   return share_of_change * std::abs(progress(node.level - 1, unknowns) / node.at(progress_of(spec_)) - 1);
@@ -161,11 +161,11 @@ double BranchStates::error_of(const BranchNode& node) {
 
 bool BranchStates::refine(BranchNode& node) {
   if (node.level + 1 >= levels) return false;
-  Discrete& next = at_level(node.level + 1);
-  VectorXd unknowns = transfer(at_level(node.level).space, node.unknowns, next.space);
-  const NewtonReport report = newton(next.system, media_at(problem(node.u), 1), newton_, unknowns);
+  TubeDiscrete& next = at_level(node.level + 1);
+  VectorXd unknowns = transfer(at_level(node.level).space(), node.unknowns, next.space());
+  const NewtonReport report = newton(next.system(), media_at(problem(node.u), 1), newton_, unknowns);
   count(report.iterations);
-  if (report.status != Status::converged || is_wrinkled(problem(node.u), next.space, unknowns)) return false;
+  if (report.status != Status::converged || is_wrinkled(problem(node.u), next.space(), unknowns)) return false;
   ++node.level;
   node.unknowns = unknowns;
   node.tangent = {};
@@ -178,7 +178,7 @@ double BranchStates::progress_in_the_middle(const BranchNode& a, const BranchNod
 }
 
 ShapeMeasures BranchStates::shape(int level, const VectorXd& unknowns) {
-  return rheocyte::measure(contour(at_level(level).space, unknowns));
+  return rheocyte::measure(contour(at_level(level).space(), unknowns));
 }
 
 double BranchStates::progress(int level, const VectorXd& unknowns) {

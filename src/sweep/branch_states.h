@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "case/scales.h"
-#include "solve/resolved_branch.h"
+#include "solve/tube.h"
 #include "sweep/measured_state.h"
 #include "table/progress.h"
 #include "table/table_spec.h"
@@ -65,7 +65,7 @@ class BranchStates {
   /// To the wanted axial ratio at the first stiffness.
   Way draw_out(const BranchNode& round);
   Problem problem(double u) const;
-  Discrete& at_level(int level);
+  TubeDiscrete& at_level(int level);
   Path path(int level, double end);
   ContinuationOptions continuation();
   double error_of(const BranchNode&);
@@ -78,7 +78,7 @@ class BranchStates {
   double axial_ratio_;  ///< that is wanted; the place's own is the one that is reached
   NewtonOptions newton_;
   double first_stiffness_ = 1;
-  std::array<std::shared_ptr<Discrete>, levels> discrete_;
+  std::array<std::unique_ptr<TubeDiscrete>, levels> discrete_;
   double released_factorisation_ = 0;
   int solves_ = 0, newton_iterations_ = 0, refused_ = 0;
 };

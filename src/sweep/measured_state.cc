@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "shape/curve.h"
-#include "solve/describe.h"
 
 namespace rheocyte {
 namespace {
@@ -43,7 +42,7 @@ MeasuredState measure_state(const Discretisation& space, const Problem& problem,
   const Contour curve = contour(space, unknowns);
   const SurfaceState surface =
       surface_state(space, unknowns, 4 * space.reference().degree() + 1, problem.bulk.rest_stretch);
-  const StateNumbers numbers = numbers_of({problem, problem, space, unknowns}, curve, surface);
+  const StateNumbers numbers = numbers_of({problem, space, unknowns}, curve, surface);
   return {physical(numbers, scales), scales.length_um() * resampled(curve, front_edges(curve))};
 }
 

@@ -1,7 +1,7 @@
 // The measures of a state and their slopes along the branch.
 #pragma once
-#include "solve/path.h"
 #include "solve/stationary.h"
+#include "solve/tube.h"
 #include "table/branch.h"
 
 namespace rheocyte {

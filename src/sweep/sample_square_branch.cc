@@ -4,7 +4,7 @@
 
 #include "case/scales.h"
 #include "numeric/lagrange.h"
-#include "solve/duct_branch.h"
+#include "solve/branch_samples.h"
 #include "sweep/measured_state.h"
 #include "table/square_branches.h"
 
@@ -23,14 +23,14 @@ std::vector<double> heights(int count) {
 /// Elongated cells are deformed where nothing flows, too, and large ones of them change in other ways than their
 /// deformation where their surface nears its limit: their branches end at a margin from it that changes smoothly from
 /// one branch to the next.
-DuctBranchWay way_of(const TableSpec& spec) {
-  DuctBranchWay way{.max_deformation = spec.max_deformation,
-                    .least_margin = spec.bending_from_margin,
-                    .heights = heights(spec.computed_states.value())};
+SamplingWay way_of(const TableSpec& spec) {
+  SamplingWay way{.max_deformation = spec.max_deformation,
+                  .least_margin = spec.bending_from_margin,
+                  .heights = heights(spec.computed_states.value())};
   if (!spec.is_elongated()) return way;
   way.max_deformation = 1;
   way.least_margin = margin_of_elongated;
-  way.height = DuctBranchWay::Height::compliance;
+  way.height = SamplingWay::Height::compliance;
   way.first_compliance = first_compliance_of_elongated;
   return way;
 }
@@ -42,14 +42,14 @@ SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& pla
   // Any stiffness: that of the liquid's stress makes the first states of the branch stiffer by a factor of 10 to 100.
   const Scales scales = scales_of(case_at(spec, place, 1));
   const double stiffness = 1e-3 * scales.stress_Pa;
-  const DuctBranchWay way = way_of(spec);
+  const SamplingWay way = way_of(spec);
   const auto problem_at = [&](double compliance) {
     Case c = case_at(spec, place, stiffness / compliance);
     // The tension comes first, the flow's part after it.
     if (compliance < way.first_compliance) c.flow.axial_tension_Pa *= compliance / way.first_compliance;
     return problem_of(c);
   };
-  const auto found = follow_in_duct(problem_at(1), problem_at, way, stop);
+  const auto found = branch_samples(problem_at(1), problem_at, way, stop);
 
   SampledBranch branch;
   branch.radius_um = place.radius_um;

@@ -1,7 +1,8 @@
-#include "solve/describe.h"
+#include "solve/tube.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "fem/sample_fields.h"
@@ -17,18 +18,18 @@ void read_flow(const StateView& state, StateNumbers& r) {
   const ChannelGeometry& geometry = state.space.mesh().geometry();
   const double half = geometry.half_length();
   r.cell_velocity = state.unknowns(state.space.cell_velocity());
-  r.reynolds = state.media.liquid.reynolds * r.cell_velocity;
+  r.reynolds = state.problem.liquid.reynolds * r.cell_velocity;
   r.channel_length = 2 * half;
   // Where the mesh ends the pressure is given.
-  const double outlet = geometry.end() == half ? -undisturbed_pressure_gradient(state.media.liquid) * half
+  const double outlet = geometry.end() == half ? -undisturbed_pressure_gradient(state.problem.liquid) * half
                                                : end_pressure(state.space, state.unknowns, ChannelEnd::downstream);
   r.pressure_drop = end_pressure(state.space, state.unknowns, ChannelEnd::upstream) - outlet;
   r.flow_rate = flow_rate(state.space, state.unknowns);
   r.volume_flow = std::numbers::pi * r.flow_rate;
-  const double undisturbed = undisturbed_pressure_gradient(state.media.liquid, r.flow_rate) * r.channel_length;
+  const double undisturbed = undisturbed_pressure_gradient(state.problem.liquid, r.flow_rate) * r.channel_length;
   if (state.problem.wall.is_straight()) r.additional_pressure_drop = r.pressure_drop - undisturbed;
   if (const int p = state.space.inner_pressure(); p >= 0)
-    r.inner_pressure = state.unknowns(p) + rest_pressure(state.media.cortex, state.problem.radius_ratio);
+    r.inner_pressure = state.unknowns(p) + rest_pressure(state.problem.cortex, state.problem.radius_ratio);
 }
 
 /// 2 D:D in U/R squared at the quadrature points of an element of the liquid, the first coordinate along the columns.
@@ -117,35 +118,116 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   read_flow(state, r);
   r.shear_rate_max = max_shear_rate(state, contour);
   r.min_meridional_stretch = least_along(surface, surface.stretch.col(0));
-  r.min_tension = least_along(surface, surface_tensions(state.media.cortex, surface).col(0));
+  r.min_tension = least_along(surface, surface_tensions(state.problem.cortex, surface).col(0));
   r.biot_ratio = least_along(surface, biot_ratios(surface));
   // Tension and moduli are those of the media, which may be on the way to the wanted ones.
-  r.stability_margin = stability_margin(state.media, state.problem.radius_ratio, {r.biot_ratio, r.min_tension});
+  r.stability_margin = stability_margin(state.problem, state.problem.radius_ratio, {r.biot_ratio, r.min_tension});
   return r;
 }
 
-StateNumbers numbers_of(const StateView& state) {
-  return numbers_of(
-      state, contour(state.space, state.unknowns),
-      surface_state(state.space, state.unknowns, SurfaceProfile::points_per_piece, state.media.bulk.rest_stretch));
+TubeDiscrete::Space::Space(const Problem& problem, const Resolution& resolution)
+    : mesh(geometry_of(problem), resolution.subdivision),
+      of_mesh(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive) {}
+
+TubeDiscrete::TubeDiscrete(const Problem& problem, const Resolution& resolution)
+    : Discrete(resolution), space_(std::make_shared<Space>(problem, resolution)), system_(space_->of_mesh) {}
+
+void TubeDiscrete::move_to(const Problem& problem) {
+  space_ = std::make_shared<Space>(problem, resolution());
+  system_.follow_space(space_->of_mesh);
 }
 
-void describe_state(const Problem& problem, const DiscreteState& state, StationaryState& r) {
-  const Discretisation& space = state.discrete->space;
-  const SurfaceState surface =
-      surface_state(space, state.unknowns, SurfaceProfile::points_per_piece, state.media.bulk.rest_stretch);
-  r.contour = contour(space, state.unknowns);
-  r.surface = {surface.angle, surface.point, surface.stretch, surface_tensions(state.media.cortex, surface),
+VectorXd TubeDiscrete::transfer_from(const Discrete& other, const VectorXd& unknowns) const {
+  return transfer(static_cast<const TubeDiscrete&>(other).space(), unknowns, space());
+}
+
+Contour TubeDiscrete::contour(const Problem&, const VectorXd& unknowns) const {
+  return rheocyte::contour(space(), unknowns);
+}
+
+double TubeDiscrete::stability_margin(const Problem& problem, const VectorXd& unknowns) const {
+  return rheocyte::stability_margin(problem, space(), unknowns);
+}
+
+bool TubeDiscrete::is_wrinkled(const Problem& problem, const VectorXd& unknowns) const {
+  return rheocyte::is_wrinkled(problem, space(), unknowns);
+}
+
+namespace {
+
+SurfaceState written_surface(const Problem& problem, const Discretisation& space, const VectorXd& unknowns) {
+  return surface_state(space, unknowns, SurfaceProfile::points_per_piece, problem.bulk.rest_stretch);
+}
+
+}  // namespace
+
+StateNumbers TubeDiscrete::numbers(const Problem& problem, const VectorXd& unknowns) const {
+  return numbers_of({problem, space(), unknowns}, contour(problem, unknowns),
+                    written_surface(problem, space(), unknowns));
+}
+
+void TubeDiscrete::describe(const Problem& problem, const VectorXd& unknowns, StationaryState& r) const {
+  const SurfaceState surface = written_surface(problem, space(), unknowns);
+  r.contour = contour(problem, unknowns);
+  r.surface = {surface.angle, surface.point, surface.stretch, surface_tensions(problem.cortex, surface),
                surface.curvature};
-  static_cast<StateNumbers&>(r) = numbers_of({problem, state.media, space, state.unknowns}, r.contour, surface);
-  r.statistics.unknowns = space.unknowns();
-  r.statistics.elements = int(space.elements().size());
-  r.write_fields = [state](const std::string& path, const Scales& scales) {
-    return write_fields(state.discrete->space, state.media, state.unknowns, scales, path);
+  static_cast<StateNumbers&>(r) = numbers_of({problem, space(), unknowns}, r.contour, surface);
+  r.statistics.unknowns = space().unknowns();
+  r.statistics.elements = int(space().elements().size());
+  r.statistics.degree = resolution().degree;
+  const Media media = problem;
+  r.write_fields = [shared = space_, media, unknowns](const std::string& path, const Scales& scales) {
+    return write_fields(shared->of_mesh, media, unknowns, scales, path);
   };
-  r.sample_fields = [state](const Scales& scales, int points) {
-    return sample_fields(state.discrete->space, state.media, state.unknowns, scales, points);
+  r.sample_fields = [shared = space_, media, unknowns](const Scales& scales, int points) {
+    return sample_fields(shared->of_mesh, media, unknowns, scales, points);
   };
+}
+
+namespace {
+
+constexpr Subdivision coarse{2, 4, 1, 2}, middle{3, 6, 1, 2}, fine{4, 8, 2, 2};
+
+/// Above this r0 / R the liquid's film is so thin and long that the coarsest mesh is only compared with.
+constexpr double narrow_gap = 0.85;
+
+std::shared_ptr<Discrete> tube_discrete(const Problem& problem, const Resolution& resolution) {
+  return std::make_shared<TubeDiscrete>(problem, resolution);
+}
+
+bool have_same_layers(const Problem& a, const Problem& b, const Resolution& resolution) {
+  return layers_for(ChannelGeometry(a.radius_ratio), resolution.subdivision) ==
+         layers_for(ChannelGeometry(b.radius_ratio), resolution.subdivision);
+}
+
+}  // namespace
+
+/// Coarse resolutions cost 3 ms per Newton iteration and mostly go all the way; near the end of the branch the rear
+/// shoulder and the front tip need the fine ones, which went on by a fifth and by a few times the change between two of
+/// the coarse ones. Intermediate states serve as starting points only.
+Geometry tube_geometry(const Problem& problem) {
+  const NewtonOptions on_the_way{.tolerance = 1e-7};
+  Geometry tube{.make = tube_discrete, .is_alike = have_same_layers};
+  tube.ways = {{{coarse, 4}}, {{coarse, 6}}, {{middle, 6}}, {{middle, 8}}};
+  tube.along = tube.across = on_the_way;
+  tube.along.iteration_limit = 5;
+  tube.min_step_before_refining = 0.03;
+  tube.min_step_at_last = 2e-3;
+  tube.gain_of_finer = 1.2;
+  tube.gain_by_change = 6;
+  tube.margin_at_coarse_ends = 0.3;
+  tube.ends_late_on_finer = true;
+  tube.knows_ends = true;
+
+  const bool is_narrow = problem.radius_ratio > narrow_gap;
+  tube.rungs = {{coarse, 4, is_narrow ? 5 : 9, is_narrow, is_narrow},
+                {middle, 7, 10, false, is_narrow},
+                {fine, 7, 10, false, is_narrow}};
+  tube.fine.tolerance = 1e-10;
+  tube.climbs_anew = true;
+  tube.judges_rungs = true;
+  tube.errors.share_of_inertia = 0.3;
+  return tube;
 }
 
 }  // namespace rheocyte

@@ -1,4 +1,4 @@
-// Some states of one branch in a square duct (docs/theory-square.md, sec. "States of a table").
+// Some states of one branch, from stiff to soft (docs/theory-square.md, sec. "States of a table").
 #pragma once
 #include <span>
 #include <vector>
@@ -9,13 +9,13 @@
 namespace rheocyte {
 
 /// States from stiff to soft, each at the compliance outcome.reached. They write no fields.
-struct DuctBranch {
+struct BranchSamples {
   std::vector<StationaryState> states;
   Status end = Status::not_started;  ///< why the branch goes no farther; converged: it passes the greatest deformation
 };
 
 /// How far a branch is followed, and which of its states are wanted.
-struct DuctBranchWay {
+struct SamplingWay {
   double max_deformation = 1;
   double least_margin = 0;      ///< of the surface from its limit (surface_stability.h)
   std::vector<double> heights;  ///< of the states; ascending, the last one 1
@@ -31,7 +31,7 @@ struct DuctBranchWay {
 /// Then it has one state for each height (met within some per cent), with a stable surface at all degrees. Those above
 /// a height of 0.6 are as accurate as the problem says, the others where the finest mesh allows. Without states if
 /// there are none such, and when it was stopped.
-DuctBranch follow_in_duct(const Problem&, const MediaAt&, const DuctBranchWay&,
-                          const std::atomic<bool>* stop = nullptr);
+BranchSamples branch_samples(const Problem&, const MediaAt&, const SamplingWay&,
+                             const std::atomic<bool>* stop = nullptr);
 
 }  // namespace rheocyte

@@ -1,11 +1,11 @@
-#include "solve/duct_branch.h"
+#include "solve/branch_samples.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "solve/duct_solver.h"
+#include "solve/resolved_branch.h"
 #include "solve/surface_stability.h"
 
 namespace rheocyte {
@@ -25,23 +25,19 @@ constexpr double share_covered = 0.97;
 /// Of the compliance: so closely the end is looked for.
 constexpr double min_step = 0.01;
 
-/// A state of the way at the first degree.
+/// A state of the way at its resolution, the first that is none of a scout.
 struct Milestone {
-  double compliance, height;  ///< as DuctBranchWay has it, but not relative
+  double compliance, height;  ///< as SamplingWay has it, but not relative
   VectorXd unknowns;
 };
 
-class DuctBranchFollower {
+class BranchFollower {
  public:
-  DuctBranchFollower(const Problem& problem, const MediaAt& media, const DuctBranchWay& wanted,
-                     const std::atomic<bool>* stop)
-      : wanted_(wanted), solver_(problem, media, nobody_, stop, counts_), stop_(stop) {
-    solver_.keep_systems();
-    solver_.want_stable();
-  }
+  BranchFollower(const Problem& problem, const MediaAt& media, const SamplingWay& wanted, const std::atomic<bool>* stop)
+      : wanted_(wanted), branch_(problem, media, judging(solver_geometry(problem)), {}, stop) {}
 
-  DuctBranch follow() {
-    DuctBranch branch;
+  BranchSamples follow() {
+    BranchSamples branch;
     branch.end = walk();
     if (way_.empty() || is_stopped()) return branch;
     double last = is_passed() ? height_of(share_beyond * wanted_.max_deformation, way_.back().compliance)
@@ -58,11 +54,11 @@ class DuctBranchFollower {
   }
 
  private:
-  bool is_stopped() const { return stop_ && *stop_; }
+  bool is_stopped() const { return branch_.is_stopped(); }
   bool is_at_limit(double margin) const { return margin < wanted_.least_margin + small_margin; }
   bool is_passed() const { return last_deformation_ > share_beyond * wanted_.max_deformation; }
 
-  bool goes_by_deformation() const { return wanted_.height == DuctBranchWay::Height::root_of_deformation; }
+  bool goes_by_deformation() const { return wanted_.height == SamplingWay::Height::root_of_deformation; }
   double height_of(double deformation, double compliance) const {
     return goes_by_deformation() ? std::sqrt(deformation) : compliance;
   }
@@ -82,49 +78,63 @@ class DuctBranchFollower {
     return states;
   }
 
-  /// At the first degree from the sphere on.
+  /// Near the limit of stability higher degrees take turns in being beyond it.
+  static Geometry judging(Geometry geometry) {
+    geometry.judges_rungs = true;
+    return geometry;
+  }
+
+  bool accept(Discrete& discrete, const BranchState& state) {
+    const Problem here = branch_.problem_at(state.parameter);
+    if (discrete.stability_margin(here, state.unknowns) < wanted_.least_margin) return false;
+    const double d = discrete.deformation(here, state.unknowns);
+    if (d > 1.3 * share_beyond * wanted_.max_deformation) return false;  // rather a nearer one
+    way_.push_back({state.parameter, height_of(d, state.parameter), state.unknowns});
+    last_deformation_ = d;
+    return true;
+  }
+
+  /// From the sphere on.
   Status walk() {
-    ContinuationOptions options = solver_.options(false, wanted_.least_margin);
-    options.min_step = min_step;
-    options.accept = [this, is_good = options.accept](const NonlinearSystem& system, const BranchState& state) {
-      if (!is_good(system, state)) return false;
-      const double d = counts_.branch.back().deformation;
-      if (d > 1.3 * share_beyond * wanted_.max_deformation) return false;  // rather a nearer one
-      way_.push_back({state.parameter, height_of(d, state.parameter), state.unknowns});
-      last_deformation_ = d;
-      return true;
-    };
-    first_ = solver_.enter(DuctSolver::first_degree, options);
+    const ContinuationOptions options = branch_.options(min_step);
+    const auto to_accept = [this](Discrete& discrete, const BranchState& state) { return accept(discrete, state); };
+    const auto& ways = branch_.geometry().ways;
+    const auto first_way = std::ranges::find(ways, false, &CoarseWay::is_scout);
+    first_ = branch_.start(first_way->resolution, options, to_accept);
     if (first_.status != Status::converged) return first_.status;
-    DuctState state = first_;
+    ResolvedState state = first_;
     if (state.branch.parameter < wanted_.first_compliance) {
-      solver_.advance(state, wanted_.first_compliance, options);
+      branch_.advance(state, wanted_.first_compliance, options, to_accept);
       first_ = state;
     }
     while (state.status == Status::converged && !is_passed())
-      solver_.advance(state, 1.5 * state.branch.parameter, options);
+      branch_.advance(state, 1.5 * state.branch.parameter, options, to_accept);
     return last_deformation_ > wanted_.max_deformation ? Status::converged : reason(state);
   }
 
-  Status reason(const DuctState& state) const {
+  Status reason(const ResolvedState& state) const {
     if (state.status == Status::stopped) return state.status;
     const Milestone& last = way_.back();
-    if (is_at_limit(solver_.stability_margin(last.compliance, state.discrete->space, last.unknowns)))
+    if (is_at_limit(state.discrete->stability_margin(branch_.problem_at(last.compliance), last.unknowns)))
       return Status::surface_unstable;
     return state.status == Status::iteration_limit ? Status::branch_ended : state.status;
   }
 
   /// The state that is about so high at the first degree; nothing if it is not one at the higher ones.
   std::optional<StationaryState> state_of(double height) {
-    StationaryState result;
-    solver_.count_in(result);
     const Milestone guess = guess_of(height);
-    DuctState state = solver_.at_compliance(first_, guess.compliance, guess.unknowns);
-    DuctLadder ladder;
-    if (state.status == Status::converged) result.outcome.status = solver_.climb(state, ladder);
-    const Problem here = solver_.problem_at(guess.compliance);
+    branch_.take_statistics();
+    ResolvedState state = branch_.solved(first_.discrete, guess.compliance, guess.unknowns, branch_.geometry().across);
+    Ladder ladder{branch_.geometry().errors};
+    StationaryState result;
+    if (state.status == Status::converged) result.outcome.status = branch_.climb(state, ladder);
     if (!has_state(result.outcome.status)) return {};
-    describe_duct(here, *state.discrete, state.branch.unknowns, result);
+    result.statistics = branch_.take_statistics();
+    const Problem here = branch_.problem_at(guess.compliance);
+    state.discrete->describe(here, state.branch.unknowns, result);
+    result.estimated_error = ladder.stated_error(here);
+    result.deformation_floor = deformation_floor(here);
+    result.errors = ladder.errors();
     result.write_fields = {};
     result.outcome.reached = guess.compliance;
     return result;
@@ -136,7 +146,7 @@ class DuctBranchFollower {
     if (beyond == way_.begin()) {
       // d goes with the square of the compliance, displacements with the compliance.
       Milestone guess{way_.front().compliance * height / way_.front().height, height, way_.front().unknowns};
-      first_.discrete->system.scale_displacement(guess.compliance / way_.front().compliance, guess.unknowns);
+      first_.discrete->system().scale_displacement(guess.compliance / way_.front().compliance, guess.unknowns);
       return guess;
     }
     const Milestone &a = *(beyond - 1), &b = *beyond;
@@ -146,21 +156,18 @@ class DuctBranchFollower {
     return {compliance, height, (1 - way) * a.unknowns + way * b.unknowns};
   }
 
-  const DuctBranchWay& wanted_;
-  StationaryState counts_;
-  ProgressCallback nobody_;
-  DuctSolver solver_;
-  const std::atomic<bool>* stop_;
-  DuctState first_;
+  const SamplingWay& wanted_;
+  ResolvedBranch branch_;
+  ResolvedState first_;
   std::vector<Milestone> way_;
   double last_deformation_ = 0;
 };
 
 }  // namespace
 
-DuctBranch follow_in_duct(const Problem& problem, const MediaAt& media, const DuctBranchWay& wanted,
-                          const std::atomic<bool>* stop) {
-  return DuctBranchFollower(problem, media, wanted, stop).follow();
+BranchSamples branch_samples(const Problem& problem, const MediaAt& media, const SamplingWay& wanted,
+                             const std::atomic<bool>* stop) {
+  return BranchFollower(problem, media, wanted, stop).follow();
 }
 
 }  // namespace rheocyte
