@@ -45,11 +45,9 @@ void print_iteration(int degree) {
       seconds(1, [&] { discrete = std::make_unique<DuctDiscrete>(problem, DuctSubdivision{}, degree); });
   DuctSystem& system = discrete->system();
   VectorXd x = system.sphere(), r;
-  double det = 0;
-  bool factorised = false;
   const int runs = degree < 6 ? 3 : 1;
-  const double tangent = seconds(runs, [&] { r = system.linearise(problem, x, det, factorised); });
-  const double residual = seconds(runs, [&] { system.residual(problem, x, det); });
+  const double tangent = seconds(runs, [&] { r = system.linearise(problem, x).value; });
+  const double residual = seconds(runs, [&] { system.residual(problem, x); });
   const double solve = seconds(runs, [&] { system.solve(r); });
   fmt::print("| {} | {} | {} | {:.2g} | {:.2g} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n", degree,
              discrete->space().elements().size(), discrete->space().unknowns(), system.factorisation_flops(),

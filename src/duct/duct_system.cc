@@ -76,13 +76,13 @@ double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
   return undisturbed_->second;
 }
 
-VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use, double& min_det) {
+Residual DuctSystem::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use) {
   const Want want = use ? Want::residual_and_tangent : Want::residual;
   // The undisturbed pressure vanishes at the cell.
   const double end_pressure = drop_ * undisturbed_gradient(media.liquid) * space_.mesh().geometry().half_length();
   VectorXd total = -end_pressure * outlet_load_;
   if (space_.has_open_inlet()) total -= end_pressure * inlet_load_;
-  min_det = std::numeric_limits<double>::infinity();
+  double min_det = std::numeric_limits<double>::infinity();
   for (const int part : lu_.elements()) {
     const int e = filled_[part];
     const HexahedronUnknowns& self = space_.elements()[e];
@@ -105,10 +105,10 @@ VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, cons
       add_cortex(e, media.cortex, unknowns, want, total);
     }
     const Stopwatch watch(work_.factorisation_s);
-    if (!use(part, lu_.order(part), matrix_)) return VectorXd::Constant(total.size(), no_value);
+    if (!use(part, lu_.order(part), matrix_)) return {VectorXd::Constant(total.size(), no_value), min_det};
   }
   turning_.add_residual(unknowns, total);
-  return total;
+  return {std::move(total), min_det};
 }
 
 void DuctSystem::add_cortex(int element, const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& total) {
@@ -129,20 +129,18 @@ void DuctSystem::add_cortex(int element, const Cortex& cortex, const VectorXd& u
   }
 }
 
-VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, double& min_det) {
-  return assemble(media, unknowns, {}, min_det);
-}
+Residual DuctSystem::residual(const Media& media, const VectorXd& unknowns) { return assemble(media, unknowns, {}); }
 
-VectorXd DuctSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
+Residual DuctSystem::linearise(const Media& media, const VectorXd& unknowns) {
   const auto condense = [this](int part, const std::vector<int>&, Eigen::MatrixXf& tangent) {
     return lu_.condense(part, tangent, stop_);
   };
-  VectorXd total = assemble(media, unknowns, condense, min_det);
+  Residual residual = assemble(media, unknowns, condense);
   const bool is_stopped = stop_ && *stop_;
   if (is_stopped) drop_factors();
-  factorised = has_factors_ = !is_stopped && total.allFinite() && lu_.is_regular();
+  has_factors_ = !is_stopped && residual.value.allFinite() && lu_.is_regular();
   ++work_.factorisations;
-  return total;
+  return residual;
 }
 
 void DuctSystem::exchange_factors(DuctSystem& other) {

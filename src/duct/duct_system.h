@@ -29,9 +29,9 @@ class DuctSystem final : public NonlinearSystem {
 
   VectorXd sphere() const override;
   /// The residual; the tangent, if it is used, is given element by element, and is the sum of these.
-  VectorXd assemble(const Media&, const VectorXd& unknowns, const UseTangent&, double& min_det);
-  VectorXd residual(const Media&, const VectorXd& unknowns, double& min_det) override;
-  VectorXd linearise(const Media&, const VectorXd& unknowns, double& min_det, bool& factorised) override;
+  Residual assemble(const Media&, const VectorXd& unknowns, const UseTangent&);
+  Residual residual(const Media&, const VectorXd& unknowns) override;
+  Residual linearise(const Media&, const VectorXd& unknowns) override;
   VectorXd solve(const VectorXd& rhs) override;
   double cell_radius() const override { return space_.mesh().geometry().radius(); }
   double largest_displacement(const VectorXd& unknowns) const override;

@@ -117,7 +117,7 @@ double CoupledSystem::stretch_change(const VectorXd& from, const VectorXd& to) c
   return rheocyte::stretch_change(*space_, from, to);
 }
 
-VectorXd CoupledSystem::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use, double& min_det) {
+Residual CoupledSystem::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use) {
   const Want want = use ? Want::residual_and_tangent : Want::residual;
   // Loads are those of this moment: the ends of a channel with walls that are not straight change their size.
   VectorXd total = -undisturbed_pressure(media.liquid) * outlet_load(*space_);
@@ -127,7 +127,7 @@ VectorXd CoupledSystem::assemble(const Media& media, const VectorXd& unknowns, c
     inlet = inlet_pressure(media);
     total += (inlet.fixed + inlet.slope * unknowns(space_->cell_velocity())) * load;
   }
-  min_det = std::numeric_limits<double>::infinity();
+  double min_det = std::numeric_limits<double>::infinity();
   for (const int k : lu_->elements()) {
     const std::vector<int>& order = lu_->order(k);
     {
@@ -146,7 +146,7 @@ VectorXd CoupledSystem::assemble(const Media& media, const VectorXd& unknowns, c
     const Stopwatch watch(work_.factorisation_s);
     use(k, order, matrix_);
   }
-  return total;
+  return {std::move(total), min_det};
 }
 
 void CoupledSystem::add_element(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
@@ -175,18 +175,16 @@ void CoupledSystem::add_surface(const Part& part, const Cortex& cortex, const Ve
   }
 }
 
-VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, double& min_det) {
-  return assemble(media, unknowns, {}, min_det);
-}
+Residual CoupledSystem::residual(const Media& media, const VectorXd& unknowns) { return assemble(media, unknowns, {}); }
 
-VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
+Residual CoupledSystem::linearise(const Media& media, const VectorXd& unknowns) {
   const auto condense = [this](int part, const std::vector<int>&, const MatrixXd& tangent) {
     lu_->condense(part, tangent);
   };
-  VectorXd total = assemble(media, unknowns, condense, min_det);
-  factorised = has_factors_ = total.allFinite() && lu_->is_regular();
+  Residual residual = assemble(media, unknowns, condense);
+  has_factors_ = residual.value.allFinite() && lu_->is_regular();
   ++work_.factorisations;
-  return total;
+  return residual;
 }
 
 VectorXd CoupledSystem::solve(const VectorXd& rhs) {
@@ -206,11 +204,10 @@ CoupledSystem::InletPressure CoupledSystem::inlet_pressure(const Media& media) c
 
 VectorXd CoupledSystem::apply_tangent(const Media& media, const VectorXd& unknowns, const VectorXd& direction) {
   VectorXd product = VectorXd::Zero(space_->unknowns());
-  double min_det = 0;
   const auto apply = [&](int, const std::vector<int>& order, const MatrixXd& tangent) {
     product(order) += tangent * direction(order);
   };
-  assemble(media, unknowns, apply, min_det);
+  assemble(media, unknowns, apply);
   return product;
 }
 

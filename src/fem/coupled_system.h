@@ -20,8 +20,8 @@ class CoupledSystem : public NonlinearSystem {
   const Discretisation& space() const { return *space_; }
 
   VectorXd sphere() const override;
-  VectorXd residual(const Media&, const VectorXd& unknowns, double& min_det) override;
-  VectorXd linearise(const Media&, const VectorXd& unknowns, double& min_det, bool& factorised) override;
+  Residual residual(const Media&, const VectorXd& unknowns) override;
+  Residual linearise(const Media&, const VectorXd& unknowns) override;
   VectorXd solve(const VectorXd& rhs) override;
   double cell_radius() const override;
   double largest_displacement(const VectorXd& unknowns) const override;
@@ -68,7 +68,7 @@ class CoupledSystem : public NonlinearSystem {
   void share_out_surface();
   void share_out_inlet(const VectorXd& load);
   /// The residual; the tangent, if it is used, is given part by part, and is the sum of these.
-  VectorXd assemble(const Media&, const VectorXd& unknowns, const UseTangent&, double& min_det);
+  Residual assemble(const Media&, const VectorXd& unknowns, const UseTangent&);
   void add_element(int part, const Media&, const VectorXd& unknowns, Want, VectorXd& total);
   /// Cortex, volume of a pure shell, and barycentre.
   void add_surface(const Part&, const Cortex&, const VectorXd& unknowns, Want, VectorXd& total);

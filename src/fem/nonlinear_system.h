@@ -11,6 +11,12 @@ namespace rheocyte {
 
 using Eigen::VectorXd;
 
+/// Residual of all equations.
+struct Residual {
+  VectorXd value;
+  double min_det = 0;  ///< least relative det of the mesh; <= 0: folded
+};
+
 class NonlinearSystem {
  public:
   NonlinearSystem() = default;
@@ -21,11 +27,10 @@ class NonlinearSystem {
   /// The unstressed sphere in a liquid at rest, moving with the mean speed of the flow.
   virtual VectorXd sphere() const = 0;
 
-  /// Residual of all equations; `min_det` is set to the least relative det of the mesh.
-  virtual VectorXd residual(const Media&, const VectorXd& unknowns, double& min_det) = 0;
-  /// The same, and the tangent factorised. False in `factorised` if the tangent is singular or not finite.
-  virtual VectorXd linearise(const Media&, const VectorXd& unknowns, double& min_det, bool& factorised) = 0;
-  /// Solves with the tangent of the last `linearise`.
+  virtual Residual residual(const Media&, const VectorXd& unknowns) = 0;
+  /// The same, and the tangent factorised; without factors afterwards if it is singular or not finite.
+  virtual Residual linearise(const Media&, const VectorXd& unknowns) = 0;
+  /// With its factors.
   virtual VectorXd solve(const VectorXd& rhs) = 0;
 
   /// Radius of the cell at rest.
@@ -39,7 +44,7 @@ class NonlinearSystem {
 
   /// Of the factors and tables that it holds, about.
   virtual std::size_t memory_bytes() const = 0;
-  /// Whether it can solve.
+  /// Whether it can solve, with the tangent of the last `linearise`.
   bool has_factors() const { return has_factors_; }
   /// Frees their memory.
   virtual void drop_factors() = 0;

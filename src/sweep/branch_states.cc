@@ -128,10 +128,8 @@ bool BranchStates::measure(BranchNode& node) {
   while (true) {
     TubeDiscrete& discrete = at_level(node.level);
     const Problem here = problem(node.u);
-    double det = 0;
-    bool factorised = false;
-    discrete.system().linearise(media_at(here, 1), node.unknowns, det, factorised);
-    if (!factorised) return false;
+    discrete.system().linearise(media_at(here, 1), node.unknowns);
+    if (!discrete.system().has_factors()) return false;
     node.tangent = branch_tangent(path(node.level, node.u), {node.u, node.unknowns, {}, 0});
     node.state = measure_state(discrete.space(), here, scales, node.unknowns);
     node.error = error_of(node);
