@@ -62,6 +62,8 @@ struct BoundaryEdge {
 
 class Discretisation {
  public:
+  static constexpr int dim = 2;
+
   Discretisation(const ChannelMesh&, int degree, const Liquid&, Interior = Interior::elastic, Drive = Drive::rate);
 
   const ChannelMesh& mesh() const { return *mesh_; }

@@ -10,8 +10,8 @@
 
 #include "duct/cell_moments.h"
 #include "duct/duct_ends.h"
-#include "duct/sample_duct_fields.h"
-#include "duct/write_duct_fields.h"
+#include "duct/duct_fields.h"
+#include "fem/write_fields.h"
 #include "laws/surface_form.h"
 #include "shape/outline_shape.h"
 #include "solve/surface_stability.h"
@@ -211,12 +211,12 @@ void DuctDiscrete::describe(const Problem& problem, const VectorXd& unknowns, St
   r.statistics.degree = resolution().degree;
   const Media media = problem;
   r.write_fields = [shared = space_, media, unknowns](const std::string& path, const Scales& scales) {
-    return write_duct_fields(*shared, media, unknowns, scales, path);
+    return write_fields(DuctFields(*shared, media, unknowns, scales), path);
   };
   if (space.turns()) return;  // pictures show halves of planes through the axis
   r.sample_fields = [shared = space_, media, unknowns, camera = problem.camera, barycentre = volume.barycentre](
                         const Scales& scales, int points) {
-    SampledFields fields = sample_duct_fields(*shared, media, unknowns, scales, camera, points);
+    SampledFields fields = DuctFields(*shared, media, unknowns, scales).sample(camera, points);
     const auto place = float(scales.length_um() * barycentre);
     fields.point_um.col(0).array() -= place;
     fields.surface_um.col(0).array() -= place;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "fem/sample_fields.h"
+#include "fem/tube_fields.h"
 #include "fem/write_fields.h"
 #include "laws/developed_flow.h"
 #include "numeric/parabola.h"
@@ -177,10 +177,10 @@ void TubeDiscrete::describe(const Problem& problem, const VectorXd& unknowns, St
   r.statistics.degree = resolution().degree;
   const Media media = problem;
   r.write_fields = [shared = space_, media, unknowns](const std::string& path, const Scales& scales) {
-    return write_fields(shared->of_mesh, media, unknowns, scales, path);
+    return write_fields(TubeFields(shared->of_mesh, media, unknowns, scales), path);
   };
   r.sample_fields = [shared = space_, media, unknowns](const Scales& scales, int points) {
-    return sample_fields(shared->of_mesh, media, unknowns, scales, points);
+    return sample_fields(TubeFields(shared->of_mesh, media, unknowns, scales), points);
   };
 }
 
