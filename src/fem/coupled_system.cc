@@ -1,7 +1,6 @@
 #include "fem/coupled_system.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 #include "fem/end_loads.h"
@@ -23,15 +22,18 @@ auto part_with(const Discretisation& space, Parts& parts, const std::vector<int>
 }  // namespace
 
 CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnknowns> elements)
-    : space_(&space), elements_(std::move(elements)), surface_(space), place_(space.unknowns(), -1) {
+    : AssembledSystem(space.unknowns(), space.cell_velocity()),
+      space_(&space),
+      elements_(std::move(elements)),
+      surface_(space) {
   for (int e = 0; e < int(elements_.size()); ++e) {
     if (!elements_[e].is_empty()) parts_.push_back({e});
   }
   share_out_surface();
   share_out_inlet(inlet_load(space));
-  lu_ = std::make_unique<NestedLU<double>>(space.unknowns(), couple());
+  couple(coupled_unknowns());
   for (int k = 0; k < int(parts_.size()); ++k)
-    places_.emplace_back(elements_[parts_[k].element], lu_->order(k), space.unknowns());
+    places_.emplace_back(elements_[parts_[k].element], order(k), space.unknowns());
 }
 
 /// Each patch goes to an element at it: with liquid inside to one outside.
@@ -54,7 +56,7 @@ void CoupledSystem::share_out_inlet(const VectorXd& load) {
   }
 }
 
-std::vector<CoupledUnknowns> CoupledSystem::couple() {
+std::vector<CoupledUnknowns> CoupledSystem::coupled_unknowns() {
   std::vector<CoupledUnknowns> coupled;
   std::vector<std::vector<int>> nodes;
   for (const Part& part : parts_) {
@@ -89,18 +91,7 @@ std::size_t CoupledSystem::memory_bytes() const {
     for (const auto& table : element.position->at_points)
       numbers += table.value.size() + table.slope[0].size() + table.slope[1].size();
   }
-  return (has_factors_ ? lu_->memory_bytes() : 0) + numbers * sizeof(double);
-}
-
-void CoupledSystem::drop_factors() {
-  lu_->drop_factors();
-  has_factors_ = false;
-}
-
-VectorXd CoupledSystem::sphere() const {
-  VectorXd unknowns = VectorXd::Zero(space_->unknowns());
-  unknowns(space_->cell_velocity()) = 1;
-  return unknowns;
+  return factor_bytes() + numbers * sizeof(double);
 }
 
 double CoupledSystem::cell_radius() const { return space_->mesh().geometry().radius(); }
@@ -117,36 +108,27 @@ double CoupledSystem::stretch_change(const VectorXd& from, const VectorXd& to) c
   return rheocyte::stretch_change(*space_, from, to);
 }
 
-Residual CoupledSystem::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use) {
-  const Want want = use ? Want::residual_and_tangent : Want::residual;
-  // Loads are those of this moment: the ends of a channel with walls that are not straight change their size.
+/// Those of this moment: the ends of a channel with walls that are not straight change their size.
+VectorXd CoupledSystem::loads(const Media& media, const VectorXd& unknowns) {
   VectorXd total = -undisturbed_pressure(media.liquid) * outlet_load(*space_);
-  const VectorXd load = inlet_load(*space_);
-  InletPressure inlet;
+  inlet_load_ = inlet_load(*space_);
   if (space_->has_open_inlet()) {
-    inlet = inlet_pressure(media);
-    total += (inlet.fixed + inlet.slope * unknowns(space_->cell_velocity())) * load;
+    const InletPressure inlet = inlet_pressure(media);
+    inlet_slope_ = inlet.slope;
+    total += (inlet.fixed + inlet.slope * unknowns(space_->cell_velocity())) * inlet_load_;
   }
-  double min_det = std::numeric_limits<double>::infinity();
-  for (const int k : lu_->elements()) {
-    const std::vector<int>& order = lu_->order(k);
-    {
-      const Stopwatch watch(work_.assembly_s);
-      if (use) {
-        const auto size = Eigen::Index(order.size());
-        matrix_.setZero(size, size);
-        for (int i = 0; i < int(size); ++i) place_[order[i]] = i;
-      }
-      add_element(k, media, unknowns, want, total);
-      min_det = std::min(min_det, element_.min_det);
-      add_surface(parts_[k], media.cortex, unknowns, want, total);
-    }
-    if (!use) continue;
-    for (const int i : parts_[k].inlet) matrix_(place_[i], place_[space_->cell_velocity()]) += inlet.slope * load(i);
-    const Stopwatch watch(work_.factorisation_s);
-    use(k, order, matrix_);
+  return total;
+}
+
+double CoupledSystem::add_part(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
+  add_element(part, media, unknowns, want, total);
+  const double min_det = element_.min_det;
+  add_surface(parts_[part], media.cortex, unknowns, want, total);
+  if (want == Want::residual_and_tangent) {
+    for (const int i : parts_[part].inlet)
+      matrix()(place()[i], place()[space_->cell_velocity()]) += inlet_slope_ * inlet_load_(i);
   }
-  return {std::move(total), min_det};
+  return min_det;
 }
 
 void CoupledSystem::add_element(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
@@ -155,7 +137,7 @@ void CoupledSystem::add_element(int part, const Media& media, const VectorXd& un
   for (int i = 0; i < int(element.rows.size()); ++i) {
     if (element.rows[i] >= 0) total(element.rows[i]) += element_.residual(i);
   }
-  if (want == Want::residual_and_tangent) places_[part].add(element, element_.tangent, matrix_);
+  if (want == Want::residual_and_tangent) places_[part].add(element, element_.tangent, matrix());
 }
 
 void CoupledSystem::add_surface(const Part& part, const Cortex& cortex, const VectorXd& unknowns, Want want,
@@ -169,27 +151,10 @@ void CoupledSystem::add_surface(const Part& part, const Cortex& cortex, const Ve
       total(rows[j]) += element_.residual(j);
       if (want == Want::residual) continue;
       for (int i = 0; i < int(rows.size()); ++i) {
-        if (rows[i] >= 0) matrix_(place_[rows[i]], place_[rows[j]]) += element_.tangent(i, j);
+        if (rows[i] >= 0) matrix()(place()[rows[i]], place()[rows[j]]) += element_.tangent(i, j);
       }
     }
   }
-}
-
-Residual CoupledSystem::residual(const Media& media, const VectorXd& unknowns) { return assemble(media, unknowns, {}); }
-
-Residual CoupledSystem::linearise(const Media& media, const VectorXd& unknowns) {
-  const auto condense = [this](int part, const std::vector<int>&, const MatrixXd& tangent) {
-    lu_->condense(part, tangent);
-  };
-  Residual residual = assemble(media, unknowns, condense);
-  has_factors_ = residual.value.allFinite() && lu_->is_regular();
-  ++work_.factorisations;
-  return residual;
-}
-
-VectorXd CoupledSystem::solve(const VectorXd& rhs) {
-  const Stopwatch watch(work_.substitution_s);
-  return lu_->solve(rhs);
 }
 
 double CoupledSystem::undisturbed_pressure(const Liquid& liquid) const {
@@ -200,15 +165,6 @@ double CoupledSystem::undisturbed_pressure(const Liquid& liquid) const {
 
 CoupledSystem::InletPressure CoupledSystem::inlet_pressure(const Media& media) const {
   return {undisturbed_pressure(media.liquid), 0};
-}
-
-VectorXd CoupledSystem::apply_tangent(const Media& media, const VectorXd& unknowns, const VectorXd& direction) {
-  VectorXd product = VectorXd::Zero(space_->unknowns());
-  const auto apply = [&](int, const std::vector<int>& order, const MatrixXd& tangent) {
-    product(order) += tangent * direction(order);
-  };
-  assemble(media, unknowns, apply);
-  return product;
 }
 
 }  // namespace rheocyte
