@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "solve/describe.h"
 #include "solve/resolved_branch.h"
+#include "solve/tube.h"
 
 namespace rheocyte {
 namespace {
@@ -19,9 +19,10 @@ void print_end(BulkLaw law, double radius_ratio) {
   problem.radius_ratio = radius_ratio;
   const bool neo_hookean = law == BulkLaw::neo_hookean;
   problem.bulk = {law, 0.6 * radius_ratio, neo_hookean ? 1.0 : 0.0};
-  const ResolvedState end = follow_branch(problem, {.tolerance = 1e-10}, {}, Search::thorough);
+  ResolvedBranch branch(problem, tube_geometry(problem));
+  const ResolvedState end = branch.follow(Search::thorough);
   StationaryState last;
-  describe_state(problem, {end.discrete, media_at(problem, end.branch.parameter), end.branch.unknowns}, last);
+  end.discrete->describe(branch.problem_at(end.branch.parameter), end.branch.unknowns, last);
   fmt::print("{},{:.3f},{:.5f},{:.4f},{:.4f}\n", neo_hookean ? "neo-hookean" : "linear", radius_ratio,
              std::log(problem.bulk.shear_modulus / end.branch.parameter / radius_ratio), last.shape.deformation,
              last.biot_ratio);

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "program.h"
-#include "shape/measures.h"
 #include "solve/resolved_branch.h"
+#include "solve/tube.h"
 
 namespace {
 
@@ -45,16 +45,16 @@ Problem standard_cell() {
 }
 
 /// A row for each degree at which the state exists.
-void solve(const Problem& problem, const NewtonOptions& options, const ResolvedState& start, const Series& series,
+void solve(const Problem& problem, ResolvedBranch& branch, const ResolvedState& start, const Series& series,
            std::vector<Row>& rows) {
   for (int degree = series.first_degree; degree <= series.last_degree; ++degree) {
-    const ResolvedState state = at_resolution(problem, options, start, {series.subdivision, degree});
+    const ResolvedState state = branch.at_resolution(start, {series.subdivision, degree});
     if (state.status != Status::converged || state.branch.parameter < 1) {
       fmt::print(stderr, "{}, degree {}: {}\n", series.name, degree, name(state.status));
       continue;
     }
-    const Discretisation& space = state.discrete->space;
-    rows.push_back({series.name, degree, space.unknowns(), measure(contour(space, state.branch.unknowns)).deformation});
+    rows.push_back({series.name, degree, int(state.branch.unknowns.size()),
+                    state.discrete->deformation(problem, state.branch.unknowns)});
   }
 }
 
@@ -62,14 +62,15 @@ void solve(const Problem& problem, const NewtonOptions& options, const ResolvedS
 
 int rheocyte::measure(int, char**) {
   const Problem problem = standard_cell();
-  NewtonOptions options;
-  options.tolerance = 1e-12;
-  const ResolvedState start = follow_branch(problem, options, {});
+  Geometry tube = tube_geometry(problem);
+  tube.fine.tolerance = 1e-12;
+  ResolvedBranch branch(problem, tube);
+  const ResolvedState start = branch.follow();
   std::vector<Row> rows;
-  solve(problem, options, start, reference, rows);
+  solve(problem, branch, start, reference, rows);
   if (start.status != Status::converged || rows.empty()) return EXIT_FAILURE;
   const double limit = rows.front().deformation;
-  for (const Series& series : all_series) solve(problem, options, start, series, rows);
+  for (const Series& series : all_series) solve(problem, branch, start, series, rows);
 
   fmt::print("series,degree,unknowns,deformation,error\n");
   for (const Row& row : rows) {

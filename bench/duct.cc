@@ -2,13 +2,14 @@
 // times of one thread; `gflop/s` of a product of large matrices in the same run says what the machine can do.
 //
 //   bench_duct            the table of iterations, then five states
+#include "solve/duct.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <ctime>
 
-#include "solve/describe_duct.h"
-#include "solve/stationary_duct.h"
+#include "solve/stationary.h"
 
 namespace {
 
@@ -42,16 +43,14 @@ void print_iteration(int degree) {
   std::unique_ptr<DuctDiscrete> discrete;
   const double set_up =
       seconds(1, [&] { discrete = std::make_unique<DuctDiscrete>(problem, DuctSubdivision{}, degree); });
-  DuctSystem& system = discrete->system;
+  DuctSystem& system = discrete->system();
   VectorXd x = system.sphere(), r;
-  double det = 0;
-  bool factorised = false;
   const int runs = degree < 6 ? 3 : 1;
-  const double tangent = seconds(runs, [&] { r = system.linearise(problem, x, det, factorised); });
-  const double residual = seconds(runs, [&] { system.residual(problem, x, det); });
+  const double tangent = seconds(runs, [&] { r = system.linearise(problem, x).value; });
+  const double residual = seconds(runs, [&] { system.residual(problem, x); });
   const double solve = seconds(runs, [&] { system.solve(r); });
   fmt::print("| {} | {} | {} | {:.2g} | {:.2g} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n", degree,
-             discrete->space.elements().size(), discrete->space.unknowns(), system.factorisation_flops(),
+             discrete->space().elements().size(), discrete->space().unknowns(), system.factorisation_flops(),
              system.factor_entries(), set_up, tangent, residual, solve);
 }
 
@@ -59,7 +58,7 @@ void print_state(double young_modulus_kPa, double accuracy) {
   Problem problem = standard_cell(young_modulus_kPa);
   problem.accuracy = accuracy;
   StationaryState state;
-  const double s = seconds(1, [&] { state = solve_in_duct(problem); });
+  const double s = seconds(1, [&] { state = solve_stationary(problem); });
   fmt::print("| {} | {:g} | {:.7f} | {:.1e} | {} | {} | {} | {:.2f} |\n", young_modulus_kPa, accuracy,
              state.deformation_side, state.estimated_error, state.statistics.degree, state.statistics.newton_iterations,
              state.statistics.factorisations, s);

@@ -20,7 +20,7 @@
 
 #include "numeric/quantile.h"
 #include "solve/session.h"
-#include "solve/stationary_duct.h"
+#include "solve/stationary.h"
 
 namespace {
 
@@ -88,7 +88,7 @@ void print_states(double accuracy, int first, int last) {
     const Cell& cell = cells[i];
     print_cell(cell);
     const double start = processor_seconds();
-    const StationaryState state = solve_in_duct(cell.problem(accuracy));
+    const StationaryState state = solve_stationary(cell.problem(accuracy));
     times.push_back(processor_seconds() - start);
     const SolveStatistics& s = state.statistics;
     fmt::print("| {:.6g} | {:.1e} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} |{}\n", state.shape.deformation,
@@ -121,9 +121,9 @@ void check_estimates(int count, unsigned seed) {
   fmt::print("|---|---|---|---|---|---|---|---|---|\n");
   while (int(shares.size()) < count) {
     const Cell cell = random_cell(random);
-    const StationaryState state = solve_in_duct(cell.problem(wanted));
+    const StationaryState state = solve_stationary(cell.problem(wanted));
     if (state.outcome.status != Status::converged) continue;  // beyond the end of its branch
-    const StationaryState fine = solve_in_duct(cell.problem(reference));
+    const StationaryState fine = solve_stationary(cell.problem(reference));
     const double error = std::abs(state.shape.deformation / fine.shape.deformation - 1);
     shares.push_back(error / state.estimated_error);
     print_cell(cell);
@@ -158,7 +158,7 @@ void print_warm_starts(double accuracy, int count) {
     const double start = processor_seconds();
     const StationaryState state = session.solve(problem);
     warm.push_back(processor_seconds() - start);
-    const StationaryState anew = solve_in_duct(problem);
+    const StationaryState anew = solve_stationary(problem);
     cold.push_back(processor_seconds() - start - warm.back());
     const double difference = std::abs(state.shape.deformation / anew.shape.deformation - 1);
     max_difference = std::max(max_difference, difference);

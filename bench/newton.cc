@@ -5,7 +5,7 @@
 // `iteration/factorisation` is how many factorisations an iteration costs.
 #include <benchmark/benchmark.h>
 
-#include "solve/resolved_branch.h"
+#include "solve/tube.h"
 
 namespace {
 
@@ -24,24 +24,22 @@ void newton_iteration(benchmark::State& state) {
   const Problem problem = standard_cell();
   const Media media = media_at(problem, 1);
   const Resolution resolution{{2, 4, 1, 2}, int(state.range(0))};
-  Discrete discrete(problem, resolution);
-  StationarySystem& system = discrete.system;
+  TubeDiscrete discrete(problem, resolution);
+  StationarySystem& system = discrete.system();
   VectorXd unknowns = system.sphere();
   newton(system, media_at(problem, 0.5), NewtonOptions{}, unknowns);
 
   const WorkMeter before = system.work();
-  double det = 0;
-  bool factorised = false;
   for (auto _ : state) {
-    const VectorXd residual = system.linearise(media, unknowns, det, factorised);
+    const VectorXd residual = system.linearise(media, unknowns).value;
     const VectorXd correction = system.solve(-residual);
-    benchmark::DoNotOptimize(system.residual(media, unknowns + 1e-3 * correction, det).data());
+    benchmark::DoNotOptimize(system.residual(media, unknowns + 1e-3 * correction).value.data());
   }
   const WorkMeter& after = system.work();
   const double n = double(state.iterations()) * 1e-3;  // counters in ms
   const double assembly = after.assembly_s - before.assembly_s, solve = after.substitution_s - before.substitution_s;
   const double elimination = after.factorisation_s - before.factorisation_s;
-  state.counters["unknowns"] = discrete.space.unknowns();
+  state.counters["unknowns"] = discrete.space().unknowns();
   state.counters["Mflop"] = 1e-6 * system.factorisation_flops();
   state.counters["assembly_ms"] = assembly / n;
   state.counters["elimination_ms"] = elimination / n;
@@ -66,8 +64,8 @@ void warm_started_state(benchmark::State& state) {
     problem.cortex.modulus = 40;
     problem.cortex.tension = 4;
   }
-  Discrete discrete(problem, {{2, 4, 1, 2}, 6});
-  StationarySystem& system = discrete.system;
+  TubeDiscrete discrete(problem, {{2, 4, 1, 2}, 6});
+  StationarySystem& system = discrete.system();
   ContinuationReport start = start_branch(stiffness_path(system, problem), {});
   Path path = stiffness_path(system, problem);
   path.end = 0.95;
@@ -80,7 +78,7 @@ void warm_started_state(benchmark::State& state) {
   }
   if (report.status != Status::converged) state.SkipWithError(name(report.status));
   state.counters["iterations"] = report.iterations;
-  state.counters["unknowns"] = discrete.space.unknowns();
+  state.counters["unknowns"] = discrete.space().unknowns();
 }
 
 BENCHMARK(warm_started_state)->DenseRange(0, 3)->Unit(benchmark::kMillisecond);

@@ -22,7 +22,7 @@
 #include "program.h"
 #include "solve/session.h"
 #include "store/read_file.h"
-#include "table/measured_state.h"
+#include "sweep/measured_state.h"
 
 namespace {
 

@@ -18,9 +18,9 @@
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
-#include "table/dynamic_folder.h"
+#include "sweep/dynamic_folder.h"
+#include "sweep/table_workers.h"
 #include "table/finish_table.h"
-#include "table/table_workers.h"
 
 namespace rheocyte {
 

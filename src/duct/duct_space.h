@@ -34,6 +34,8 @@ struct GivenFlow {
 
 class DuctSpace {
  public:
+  static constexpr int dim = 3;
+
   /// The liquid's undisturbed flow enters, or, where the pressure drop is given, what flows through an open inlet.
   DuctSpace(const DuctMesh&, int degree, const Liquid&, Drive = Drive::rate, Interior = Interior::elastic);
   /// A given velocity along x enters, and the walls move with it.

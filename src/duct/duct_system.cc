@@ -1,15 +1,12 @@
 #include "duct/duct_system.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
 #include "duct/duct_ends.h"
 #include "duct/observe_duct.h"
-#include "numeric/no_value.h"
 
 namespace rheocyte {
 namespace {
@@ -52,22 +49,17 @@ std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space, const Duct
 }  // namespace
 
 DuctSystem::DuctSystem(const DuctSpace& space, double drop, bool bends)
-    : space_(space),
+    : AssembledSystem(space.unknowns(), space.cell_velocity()),
+      space_(space),
       drop_(drop),
       element_(space.reference().degree()),
       tangent_(element_, space.reference()),
       cortex_(space, bends),
       filled_(filled_elements(space)),
-      lu_(space.unknowns(), coupled_unknowns(space, cortex_, filled_)),
       outlet_load_(duct_end_load(space, Face::front)),
       inlet_load_(duct_end_load(space, Face::rear)),
-      turning_(space),
-      place_(space.unknowns(), -1) {}
-
-VectorXd DuctSystem::sphere() const {
-  VectorXd unknowns = VectorXd::Zero(space_.unknowns());
-  unknowns(space_.cell_velocity()) = 1;
-  return unknowns;
+      turning_(space) {
+  couple(coupled_unknowns(space, cortex_, filled_));
 }
 
 double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
@@ -76,39 +68,27 @@ double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
   return undisturbed_->second;
 }
 
-VectorXd DuctSystem::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use, double& min_det) {
-  const Want want = use ? Want::residual_and_tangent : Want::residual;
+VectorXd DuctSystem::loads(const Media& media, const VectorXd&) {
   // The undisturbed pressure vanishes at the cell.
   const double end_pressure = drop_ * undisturbed_gradient(media.liquid) * space_.mesh().geometry().half_length();
   VectorXd total = -end_pressure * outlet_load_;
   if (space_.has_open_inlet()) total -= end_pressure * inlet_load_;
-  min_det = std::numeric_limits<double>::infinity();
-  for (const int part : lu_.elements()) {
-    const int e = filled_[part];
-    const HexahedronUnknowns& self = space_.elements()[e];
-    {
-      const Stopwatch watch(work_.assembly_s);
-      const VectorXd residual = integrate_hexahedron(space_, element_, e, media, unknowns, want, points_);
-      min_det = std::min(min_det, points_.fluxes.min_det);
-      for (int i = 0; i < residual.size(); ++i) {
-        if (self.rows[i] >= 0) total(self.rows[i]) += residual(i);
-      }
-      if (want == Want::residual) {
-        add_cortex(e, media.cortex, unknowns, want, total);
-        continue;
-      }
-      const std::vector<int>& order = lu_.order(part);
-      for (int i = 0; i < int(order.size()); ++i) place_[order[i]] = i;
-      matrix_.setZero(Eigen::Index(order.size()), Eigen::Index(order.size()));
-      tangent_.add(self, media.liquid.reynolds != 0, points_, place_, matrix_);
-      turning_.add_tangent(e, unknowns, place_, matrix_);
-      add_cortex(e, media.cortex, unknowns, want, total);
-    }
-    const Stopwatch watch(work_.factorisation_s);
-    if (!use(part, lu_.order(part), matrix_)) return VectorXd::Constant(total.size(), no_value);
-  }
-  turning_.add_residual(unknowns, total);
   return total;
+}
+
+double DuctSystem::add_part(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
+  const int e = filled_[part];
+  const HexahedronUnknowns& self = space_.elements()[e];
+  const VectorXd residual = integrate_hexahedron(space_, element_, e, media, unknowns, want, points_);
+  for (int i = 0; i < residual.size(); ++i) {
+    if (self.rows[i] >= 0) total(self.rows[i]) += residual(i);
+  }
+  if (want == Want::residual_and_tangent) {
+    tangent_.add(self, media.liquid.reynolds != 0, points_, place(), matrix());
+    turning_.add_tangent(e, unknowns, place(), matrix());
+  }
+  add_cortex(e, media.cortex, unknowns, want, total);
+  return points_.fluxes.min_det;
 }
 
 void DuctSystem::add_cortex(int element, const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& total) {
@@ -123,42 +103,10 @@ void DuctSystem::add_cortex(int element, const Cortex& cortex, const VectorXd& u
     for (int j = 0; j < int(columns.size()) && want == Want::residual_and_tangent; ++j) {
       if (columns(j) < 0) continue;
       for (int i = 0; i < int(rows.size()); ++i) {
-        if (rows(i) >= 0) matrix_(place_[rows(i)], place_[columns(j)]) += float(patch_.tangent(i, j));
+        if (rows(i) >= 0) matrix()(place()[rows(i)], place()[columns(j)]) += float(patch_.tangent(i, j));
       }
     }
   }
-}
-
-VectorXd DuctSystem::residual(const Media& media, const VectorXd& unknowns, double& min_det) {
-  return assemble(media, unknowns, {}, min_det);
-}
-
-VectorXd DuctSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
-  const auto condense = [this](int part, const std::vector<int>&, Eigen::MatrixXf& tangent) {
-    return lu_.condense(part, tangent, stop_);
-  };
-  VectorXd total = assemble(media, unknowns, condense, min_det);
-  const bool is_stopped = stop_ && *stop_;
-  if (is_stopped) drop_factors();
-  factorised = has_factors_ = !is_stopped && total.allFinite() && lu_.is_regular();
-  ++work_.factorisations;
-  return total;
-}
-
-void DuctSystem::exchange_factors(DuctSystem& other) {
-  assert(space_.unknowns() == other.space_.unknowns() && space_.elements().size() == other.space_.elements().size());
-  std::swap(lu_, other.lu_);
-  std::swap(has_factors_, other.has_factors_);
-}
-
-void DuctSystem::drop_factors() {
-  lu_.drop_factors();
-  has_factors_ = false;
-}
-
-VectorXd DuctSystem::solve(const VectorXd& rhs) {
-  const Stopwatch watch(work_.substitution_s);
-  return lu_.solve(rhs);
 }
 
 double DuctSystem::largest_displacement(const VectorXd& unknowns) const {

@@ -15,6 +15,7 @@ struct Subdivision {
   int ring = 1;    ///< layers of the cell round its core
   int axial = 2;   ///< elements from the box to each end of the shortest channel
   int layers = 0;  ///< of liquid from the surface to the box, each twice as high as the one below; 0: layers_for()
+  bool operator==(const Subdivision&) const = default;
 };
 
 /// As many layers of liquid as make the first one half as high as the surface's elements are wide: taller elements

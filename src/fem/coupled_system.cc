@@ -1,7 +1,6 @@
 #include "fem/coupled_system.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 #include "fem/end_loads.h"
@@ -23,23 +22,26 @@ auto part_with(const Discretisation& space, Parts& parts, const std::vector<int>
 }  // namespace
 
 CoupledSystem::CoupledSystem(const Discretisation& space, std::vector<ElementUnknowns> elements)
-    : space_(space), elements_(std::move(elements)), surface_(space), place_(space.unknowns(), -1) {
+    : AssembledSystem(space.unknowns(), space.cell_velocity()),
+      space_(&space),
+      elements_(std::move(elements)),
+      surface_(space) {
   for (int e = 0; e < int(elements_.size()); ++e) {
     if (!elements_[e].is_empty()) parts_.push_back({e});
   }
   share_out_surface();
   share_out_inlet(inlet_load(space));
-  lu_ = std::make_unique<NestedLU<double>>(space.unknowns(), couple());
+  couple(coupled_unknowns());
   for (int k = 0; k < int(parts_.size()); ++k)
-    places_.emplace_back(elements_[parts_[k].element], lu_->order(k), space.unknowns());
+    places_.emplace_back(elements_[parts_[k].element], order(k), space.unknowns());
 }
 
 /// Each patch goes to an element at it: with liquid inside to one outside.
 void CoupledSystem::share_out_surface() {
-  const auto& edges = space_.surface();
+  const auto& edges = space_->surface();
   for (int k = 0; k < int(surface_.patches().size()); ++k) {
     const BoundaryEdge& edge = edges[k % edges.size()];  // vertices after the edges that they follow
-    part_with(space_, parts_, edge.nodes)->patches.push_back(k);
+    part_with(*space_, parts_, edge.nodes)->patches.push_back(k);
   }
 }
 
@@ -54,7 +56,7 @@ void CoupledSystem::share_out_inlet(const VectorXd& load) {
   }
 }
 
-std::vector<CoupledUnknowns> CoupledSystem::couple() {
+std::vector<CoupledUnknowns> CoupledSystem::coupled_unknowns() {
   std::vector<CoupledUnknowns> coupled;
   std::vector<std::vector<int>> nodes;
   for (const Part& part : parts_) {
@@ -65,20 +67,21 @@ std::vector<CoupledUnknowns> CoupledSystem::couple() {
       const std::vector<int>& of_patch = surface_.patches()[patch].unknowns;
       unknowns.insert(of_patch.begin(), of_patch.end());
     }
-    if (!part.inlet.empty()) unknowns.insert(space_.cell_velocity());
+    if (!part.inlet.empty()) unknowns.insert(space_->cell_velocity());
     unknowns.erase(-1);
-    coupled.push_back({{unknowns.begin(), unknowns.end()}, space_.pressure(part.element, 0), element.liquid, {}});
-    nodes.push_back(space_.nodes().of_element[part.element]);
+    coupled.push_back({{unknowns.begin(), unknowns.end()}, space_->pressure(part.element, 0), element.liquid, {}});
+    nodes.push_back(space_->nodes().of_element[part.element]);
   }
-  set_neighbours(std::move(nodes), std::size_t(space_.reference().degree()) + 1, coupled);
+  set_neighbours(std::move(nodes), std::size_t(space_->reference().degree()) + 1, coupled);
   return coupled;
 }
 
 CoupledSystem::~CoupledSystem() = default;
 
-void CoupledSystem::follow_space(std::vector<ElementUnknowns> elements) {
+void CoupledSystem::follow_space(const Discretisation& space, std::vector<ElementUnknowns> elements) {
+  space_ = &space;
   elements_ = std::move(elements);
-  surface_ = SurfaceIntegrals(space_);
+  surface_ = SurfaceIntegrals(space);
 }
 
 std::size_t CoupledSystem::memory_bytes() const {
@@ -88,59 +91,44 @@ std::size_t CoupledSystem::memory_bytes() const {
     for (const auto& table : element.position->at_points)
       numbers += table.value.size() + table.slope[0].size() + table.slope[1].size();
   }
-  return lu_->memory_bytes() + numbers * sizeof(double);
+  return factor_bytes() + numbers * sizeof(double);
 }
 
-VectorXd CoupledSystem::sphere() const {
-  VectorXd unknowns = VectorXd::Zero(space_.unknowns());
-  unknowns(space_.cell_velocity()) = 1;
-  return unknowns;
-}
-
-double CoupledSystem::cell_radius() const { return space_.mesh().geometry().radius(); }
+double CoupledSystem::cell_radius() const { return space_->mesh().geometry().radius(); }
 
 double CoupledSystem::largest_displacement(const VectorXd& unknowns) const {
-  return rheocyte::largest_displacement(space_, unknowns);
+  return rheocyte::largest_displacement(*space_, unknowns);
 }
 
 void CoupledSystem::scale_displacement(double factor, VectorXd& unknowns) const {
-  rheocyte::scale_displacement(space_, factor, unknowns);
+  rheocyte::scale_displacement(*space_, factor, unknowns);
 }
 
 double CoupledSystem::stretch_change(const VectorXd& from, const VectorXd& to) const {
-  return rheocyte::stretch_change(space_, from, to);
+  return rheocyte::stretch_change(*space_, from, to);
 }
 
-VectorXd CoupledSystem::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use, double& min_det) {
-  const Want want = use ? Want::residual_and_tangent : Want::residual;
-  // Loads are those of this moment: the ends of a channel with walls that are not straight change their size.
-  VectorXd total = -undisturbed_pressure(media.liquid) * outlet_load(space_);
-  const VectorXd load = inlet_load(space_);
-  InletPressure inlet;
-  if (space_.has_open_inlet()) {
-    inlet = inlet_pressure(media);
-    total += (inlet.fixed + inlet.slope * unknowns(space_.cell_velocity())) * load;
-  }
-  min_det = std::numeric_limits<double>::infinity();
-  for (const int k : lu_->elements()) {
-    const std::vector<int>& order = lu_->order(k);
-    {
-      const Stopwatch watch(work_.assembly_s);
-      if (use) {
-        const auto size = Eigen::Index(order.size());
-        matrix_.setZero(size, size);
-        for (int i = 0; i < int(size); ++i) place_[order[i]] = i;
-      }
-      add_element(k, media, unknowns, want, total);
-      min_det = std::min(min_det, element_.min_det);
-      add_surface(parts_[k], media.cortex, unknowns, want, total);
-    }
-    if (!use) continue;
-    for (const int i : parts_[k].inlet) matrix_(place_[i], place_[space_.cell_velocity()]) += inlet.slope * load(i);
-    const Stopwatch watch(work_.factorisation_s);
-    use(k, order, matrix_);
+/// Those of this moment: the ends of a channel with walls that are not straight change their size.
+VectorXd CoupledSystem::loads(const Media& media, const VectorXd& unknowns) {
+  VectorXd total = -undisturbed_pressure(media.liquid) * outlet_load(*space_);
+  inlet_load_ = inlet_load(*space_);
+  if (space_->has_open_inlet()) {
+    const InletPressure inlet = inlet_pressure(media);
+    inlet_slope_ = inlet.slope;
+    total += (inlet.fixed + inlet.slope * unknowns(space_->cell_velocity())) * inlet_load_;
   }
   return total;
+}
+
+double CoupledSystem::add_part(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
+  add_element(part, media, unknowns, want, total);
+  const double min_det = element_.min_det;
+  add_surface(parts_[part], media.cortex, unknowns, want, total);
+  if (want == Want::residual_and_tangent) {
+    for (const int i : parts_[part].inlet)
+      matrix()(place()[i], place()[space_->cell_velocity()]) += inlet_slope_ * inlet_load_(i);
+  }
+  return min_det;
 }
 
 void CoupledSystem::add_element(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
@@ -149,7 +137,7 @@ void CoupledSystem::add_element(int part, const Media& media, const VectorXd& un
   for (int i = 0; i < int(element.rows.size()); ++i) {
     if (element.rows[i] >= 0) total(element.rows[i]) += element_.residual(i);
   }
-  if (want == Want::residual_and_tangent) places_[part].add(element, element_.tangent, matrix_);
+  if (want == Want::residual_and_tangent) places_[part].add(element, element_.tangent, matrix());
 }
 
 void CoupledSystem::add_surface(const Part& part, const Cortex& cortex, const VectorXd& unknowns, Want want,
@@ -163,49 +151,20 @@ void CoupledSystem::add_surface(const Part& part, const Cortex& cortex, const Ve
       total(rows[j]) += element_.residual(j);
       if (want == Want::residual) continue;
       for (int i = 0; i < int(rows.size()); ++i) {
-        if (rows[i] >= 0) matrix_(place_[rows[i]], place_[rows[j]]) += element_.tangent(i, j);
+        if (rows[i] >= 0) matrix()(place()[rows[i]], place()[rows[j]]) += element_.tangent(i, j);
       }
     }
   }
 }
 
-VectorXd CoupledSystem::residual(const Media& media, const VectorXd& unknowns, double& min_det) {
-  return assemble(media, unknowns, {}, min_det);
-}
-
-VectorXd CoupledSystem::linearise(const Media& media, const VectorXd& unknowns, double& min_det, bool& factorised) {
-  const auto condense = [this](int part, const std::vector<int>&, const MatrixXd& tangent) {
-    lu_->condense(part, tangent);
-  };
-  VectorXd total = assemble(media, unknowns, condense, min_det);
-  factorised = total.allFinite() && lu_->is_regular();
-  ++work_.factorisations;
-  return total;
-}
-
-VectorXd CoupledSystem::solve(const VectorXd& rhs) {
-  const Stopwatch watch(work_.substitution_s);
-  return lu_->solve(rhs);
-}
-
 double CoupledSystem::undisturbed_pressure(const Liquid& liquid) const {
   if (!(undisturbed_ && undisturbed_->first == liquid))
-    undisturbed_ = {liquid, undisturbed_inlet_pressure(space_, liquid)};
+    undisturbed_ = {liquid, undisturbed_inlet_pressure(*space_, liquid)};
   return undisturbed_->second;
 }
 
 CoupledSystem::InletPressure CoupledSystem::inlet_pressure(const Media& media) const {
   return {undisturbed_pressure(media.liquid), 0};
-}
-
-VectorXd CoupledSystem::apply_tangent(const Media& media, const VectorXd& unknowns, const VectorXd& direction) {
-  VectorXd product = VectorXd::Zero(space_.unknowns());
-  double min_det = 0;
-  const auto apply = [&](int, const std::vector<int>& order, const MatrixXd& tangent) {
-    product(order) += tangent * direction(order);
-  };
-  assemble(media, unknowns, apply, min_det);
-  return product;
 }
 
 }  // namespace rheocyte

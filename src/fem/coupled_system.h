@@ -1,39 +1,26 @@
-// The nonlinear system of cell and liquid: residual, exact tangent, and its factorisation subdomain by subdomain
-// (docs/theory.md, eq:condensation). What an element contributes, the derived systems say.
+// The nonlinear system of cell and liquid with axial symmetry. What an element contributes, the derived systems say.
 #pragma once
-#include <functional>
 #include <optional>
 #include <utility>
 
-#include "fem/element_integrals.h"
+#include "fem/assembled_system.h"
 #include "fem/element_places.h"
-#include "fem/nested_lu.h"
-#include "fem/nonlinear_system.h"
 #include "fem/surface_integrals.h"
 
 namespace rheocyte {
 
-class CoupledSystem : public NonlinearSystem {
+class CoupledSystem : public AssembledSystem<double> {
  public:
   ~CoupledSystem() override;
 
-  const Discretisation& space() const { return space_; }
+  const Discretisation& space() const { return *space_; }
 
-  VectorXd sphere() const override;
-  VectorXd residual(const Media&, const VectorXd& unknowns, double& min_det) override;
-  VectorXd linearise(const Media&, const VectorXd& unknowns, double& min_det, bool& factorised) override;
-  VectorXd solve(const VectorXd& rhs) override;
   double cell_radius() const override;
   double largest_displacement(const VectorXd& unknowns) const override;
   void scale_displacement(double factor, VectorXd& unknowns) const override;
   /// Of the meridional stretch.
   double stretch_change(const VectorXd& from, const VectorXd& to) const override;
-  /// Tangent times a vector at given unknowns (for tests; assembles anew).
-  VectorXd apply_tangent(const Media&, const VectorXd& unknowns, const VectorXd& direction);
-
-  double factorisation_flops() const { return lu_->flops(); }
-  /// Of the factors and tables that it holds, about.
-  std::size_t memory_bytes() const;
+  std::size_t memory_bytes() const override;
 
  protected:
   /// Pressure at an open inlet that depends on the acceleration of the frame: fixed + slope * v_cell.
@@ -44,9 +31,8 @@ class CoupledSystem : public NonlinearSystem {
   /// The discretisation must outlive this object. Which unknowns a column refers to stays as it is given here; factors
   /// and constants of the columns may change.
   CoupledSystem(const Discretisation&, std::vector<ElementUnknowns>);
-  /// Reads the geometry anew after the discretisation was moved; which unknowns couple must be as before. The factors
-  /// stay those of the old geometry.
-  void follow_space(std::vector<ElementUnknowns>);
+  /// Becomes that of another discretisation in which the same unknowns couple. The factors stay those of the old one.
+  void follow_space(const Discretisation&, std::vector<ElementUnknowns>);
   /// Residual and, if wanted, tangent of one element that is not empty.
   virtual void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const = 0;
   /// Only for an open inlet.
@@ -62,30 +48,26 @@ class CoupledSystem : public NonlinearSystem {
     std::vector<int> patches = {};  ///< of the surface
     std::vector<int> inlet = {};    ///< equations with the load of an open inlet
   };
-  /// Is given the tangent of a part, with rows and columns in the order of these unknowns.
-  using UseTangent = std::function<void(int part, const std::vector<int>& order, const MatrixXd& tangent)>;
-
-  std::vector<CoupledUnknowns> couple();
+  std::vector<CoupledUnknowns> coupled_unknowns();
   void share_out_surface();
   void share_out_inlet(const VectorXd& load);
-  /// The residual; the tangent, if it is used, is given part by part, and is the sum of these.
-  VectorXd assemble(const Media&, const VectorXd& unknowns, const UseTangent&, double& min_det);
+  VectorXd loads(const Media&, const VectorXd& unknowns) override;
+  double add_part(int part, const Media&, const VectorXd& unknowns, Want, VectorXd& total) override;
   void add_element(int part, const Media&, const VectorXd& unknowns, Want, VectorXd& total);
   /// Cortex, volume of a pure shell, and barycentre.
   void add_surface(const Part&, const Cortex&, const VectorXd& unknowns, Want, VectorXd& total);
   /// Of the last liquid that was asked for: most have to integrate for it.
   double undisturbed_pressure(const Liquid&) const;
 
-  const Discretisation& space_;
+  const Discretisation* space_;
   std::vector<ElementUnknowns> elements_;
   SurfaceIntegrals surface_;
   std::vector<Part> parts_;
   std::vector<ElementPlaces> places_;  ///< of each part's element in its matrix
-  std::unique_ptr<NestedLU<double>> lu_;
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
+  VectorXd inlet_load_;  ///< of this moment
+  double inlet_slope_ = 0;
   ElementSystem element_;
-  MatrixXd matrix_;         ///< of a part
-  std::vector<int> place_;  ///< of each unknown in it
 };
 
 /// Of a system with axial symmetry.

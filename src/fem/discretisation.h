@@ -29,6 +29,10 @@ struct Slot {
 /// What fills the cell: an elastic solid, a liquid at rest of which only the pressure matters (a pure shell), or one
 /// that carries its mesh along.
 enum class Interior { elastic, liquid, flowing };
+inline Interior interior_of(const Problem& problem) {
+  if (problem.bulk.law == BulkLaw::none) return Interior::liquid;
+  return problem.bulk.shear_modulus > 0 ? Interior::elastic : Interior::flowing;
+}
 
 /// What the x and r columns of positions do.
 struct PositionShapes {
@@ -58,6 +62,8 @@ struct BoundaryEdge {
 
 class Discretisation {
  public:
+  static constexpr int dim = 2;
+
   Discretisation(const ChannelMesh&, int degree, const Liquid&, Interior = Interior::elastic, Drive = Drive::rate);
 
   const ChannelMesh& mesh() const { return *mesh_; }

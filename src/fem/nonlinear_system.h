@@ -1,11 +1,21 @@
 // What Newton's method and the continuation know of a discretised problem, in whatever dimension it is.
 #pragma once
 #include <Eigen/Core>
+#include <atomic>
+#include <cstddef>
 
 #include "fem/work_meter.h"
 #include "laws/media.h"
 
 namespace rheocyte {
+
+using Eigen::VectorXd;
+
+/// Residual of all equations.
+struct Residual {
+  VectorXd value;
+  double min_det = 0;  ///< least relative det of the mesh; <= 0: folded
+};
 
 class NonlinearSystem {
  public:
@@ -15,29 +25,38 @@ class NonlinearSystem {
   NonlinearSystem& operator=(const NonlinearSystem&) = delete;
 
   /// The unstressed sphere in a liquid at rest, moving with the mean speed of the flow.
-  virtual Eigen::VectorXd sphere() const = 0;
+  virtual VectorXd sphere() const = 0;
 
-  /// Residual of all equations; `min_det` is set to the least relative det of the mesh.
-  virtual Eigen::VectorXd residual(const Media&, const Eigen::VectorXd& unknowns, double& min_det) = 0;
-  /// The same, and the tangent factorised. False in `factorised` if the tangent is singular or not finite.
-  virtual Eigen::VectorXd linearise(const Media&, const Eigen::VectorXd& unknowns, double& min_det,
-                                    bool& factorised) = 0;
-  /// Solves with the tangent of the last `linearise`.
-  virtual Eigen::VectorXd solve(const Eigen::VectorXd& rhs) = 0;
+  virtual Residual residual(const Media&, const VectorXd& unknowns) = 0;
+  /// The same, and the tangent factorised; without factors afterwards if it is singular or not finite.
+  virtual Residual linearise(const Media&, const VectorXd& unknowns) = 0;
+  /// With its factors.
+  virtual VectorXd solve(const VectorXd& rhs) = 0;
 
   /// Radius of the cell at rest.
   virtual double cell_radius() const = 0;
   /// Largest displacement component of the cell's nodes.
-  virtual double largest_displacement(const Eigen::VectorXd& unknowns) const = 0;
+  virtual double largest_displacement(const VectorXd& unknowns) const = 0;
   /// Multiplies the displacements alone.
-  virtual void scale_displacement(double factor, Eigen::VectorXd& unknowns) const = 0;
+  virtual void scale_displacement(double factor, VectorXd& unknowns) const = 0;
   /// Greatest relative difference of the surface's stretch between two states.
-  virtual double stretch_change(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const = 0;
+  virtual double stretch_change(const VectorXd& from, const VectorXd& to) const = 0;
+
+  /// Of the factors and tables that it holds, about.
+  virtual std::size_t memory_bytes() const = 0;
+  /// Whether it can solve, with the tangent of the last `linearise`.
+  bool has_factors() const { return has_factors_; }
+  /// Frees their memory.
+  virtual void drop_factors() = 0;
+  /// From now on, until null is given: once `stop` is set `linearise` may give up, with numbers that are not finite.
+  void obey(const std::atomic<bool>* stop) { stop_ = stop; }
 
   const WorkMeter& work() const { return work_; }
 
  protected:
   WorkMeter work_;
+  bool has_factors_ = false;
+  const std::atomic<bool>* stop_ = nullptr;
 };
 
 }  // namespace rheocyte

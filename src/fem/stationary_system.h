@@ -8,8 +8,8 @@ class StationarySystem final : public CoupledSystem {
  public:
   /// The discretisation must outlive this object.
   explicit StationarySystem(const Discretisation& space) : CoupledSystem(space, space.elements()) {}
-  /// After the discretisation has changed its geometry alone.
-  void follow_space() { CoupledSystem::follow_space(space().elements()); }
+  /// Goes on with one that differs in its geometry alone.
+  void follow_space(const Discretisation& space) { CoupledSystem::follow_space(space, space.elements()); }
 
  private:
   void integrate(int element, const Media& media, const VectorXd& unknowns, Want want,

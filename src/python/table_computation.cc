@@ -11,8 +11,8 @@
 #include "python/bindings.h"
 #include "python/interruptible.h"
 #include "store/build_info.h"
+#include "sweep/table_workers.h"
 #include "table/finish_table.h"
-#include "table/table_workers.h"
 
 namespace rheocyte {
 

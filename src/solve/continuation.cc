@@ -58,8 +58,7 @@ NewtonReport enter_branch(const Path& path, const ContinuationOptions& options, 
 VectorXd parameter_slope(const Path& path, const BranchState& state) {
   const double h = 1e-5 * path.unit(state.parameter);
   const auto residual = [&](double parameter) {
-    double det = 0;
-    return path.system(parameter).residual(path.media(parameter), state.unknowns, det);
+    return path.system(parameter).residual(path.media(parameter), state.unknowns).value;
   };
   return (residual(state.parameter + h) - residual(state.parameter - h)) / (2 * h);
 }
@@ -75,13 +74,11 @@ ContinuationReport start_branch(const Path& path, const ContinuationOptions& opt
   NonlinearSystem& system = path.system(path.end);
   Media wanted = path.media(path.end);
   wanted.liquid = at_thinning(wanted.liquid, 0);
-  double det = 0;
-  bool factorised = false;
   const VectorXd sphere = system.sphere();
-  const VectorXd residual = system.linearise(wanted, sphere, det, factorised);
+  const VectorXd residual = system.linearise(wanted, sphere).value;
   report.newton_iterations = 1;
   if (is_stopped(options)) return report.status = Status::stopped, report;
-  if (!factorised) {
+  if (!system.has_factors()) {
     report.status = residual.allFinite() ? Status::singular_matrix : Status::not_finite;
     return report;
   }
@@ -140,9 +137,7 @@ ContinuationReport continue_branch(const Path& path, const ContinuationOptions& 
   report.last = std::move(from);
   BranchState& last = report.last;
   if (last.tangent.size() == 0) {
-    bool factorised = false;
-    double det = 0;
-    path.system(last.parameter).linearise(path.media(last.parameter), last.unknowns, det, factorised);
+    path.system(last.parameter).linearise(path.media(last.parameter), last.unknowns);
     if (is_stopped(options)) return report.status = Status::stopped, report;
     last.tangent = branch_tangent(path, last);
   }

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "fem/observe.h"
-#include "solve/describe.h"
 #include "solve/ladder.h"
 #include "solve/partitioned_stepper.h"
 #include "solve/time_resolution.h"
@@ -162,7 +161,7 @@ class TimeFollower {
 
   /// The walls must be where they are at that time.
   void describe_level(const TimeLevel& level, StationaryState& state) const {
-    describe_state(stepper_->problem(), {stepper_->discrete(), stepper_->media(), level.unknowns}, state);
+    stepper_->discrete().describe(with_media(stepper_->problem(), stepper_->media()), level.unknowns, state);
     // In the accelerated frame the solver's pressure contains that of the inertial force (eq:frame-pressure); the
     // splitting scheme solves in the laboratory.
     const double inertia = run_.scheme == TimeScheme::monolithic ? stepper_->media().liquid.reynolds : 0;
@@ -306,7 +305,8 @@ void estimate_error(const Problem& problem, const TimeRun& run, const Resolution
   std::vector<double> deformations_of_ladder;
   for (const StateNumbers& rung : ladder) deformations_of_ladder.push_back(rung.shape.deformation);
   const double d_fine = fine.numbers.shape.deformation, change_to_fine = std::abs(d_fine - d) / size,
-               left = rheocyte::estimate_error(deformations_of_ladder, share_of_change_before);
+               left =
+                   rheocyte::estimate_error(deformations_of_ladder, {.share_of_change_before = share_of_change_before});
   result.estimated_error = change_to_fine + left * d_fine / size;
   result.errors = distance(result, fine.numbers);
   add_errors(1, errors_of_last(ladder, left), result.errors);

@@ -1,49 +1,60 @@
-// A state at ever finer resolutions, until its estimated error is small (docs/theory.md, eq:error).
+// A state at ever finer resolutions, and what its errors are by these (docs/theory.md, eq:error; docs/theory-square.md,
+// eq:square-error).
 #pragma once
 #include <limits>
+#include <memory>
 #include <vector>
 
+#include "solve/continuation.h"
 #include "solve/number_errors.h"
-#include "solve/resolved_branch.h"
 
 namespace rheocyte {
 
+class Discrete;
+
+/// A state on the branch, how it was resolved, and how the way to it ended.
+struct ResolvedState {
+  Status status = Status::not_started;
+  std::shared_ptr<Discrete> discrete;
+  BranchState branch;  ///< its parameter is the compliance relative to the problem's
+  double residual = 0;
+  bool gave_up = false;  ///< far from the wanted cell, before the end was found exactly
+};
+
+/// How errors follow from the last rungs.
+struct ErrorRule {
+  double share_of_change_before = 0.5;  ///< of the change before the last one
+  double min_of_two = 2e-5;             ///< no first change is trusted below this: neighbours may agree by chance
+  double share_of_inertia = 0;  ///< nor below this share of the change of the inertia ratio: two seldom do at once
+  double min_share_of_two = 0;  ///< the same for other numbers, relative
+};
+
 /// Error of the last of some values of the deformation on ever finer resolutions, relative to it
 /// (docs/theory.md, eq:error).
-double estimate_error(const std::vector<double>& deformations, double share_of_change_before = 0.5);
+double estimate_error(const std::vector<double>& deformations, const ErrorRule& = {});
 
 /// Errors of smaller deformations are relative to this one. On the axis no deformation is resolved below
 /// deformation_round_off. Off the axis less is asked: there a stiff cell's deformation is of second order, and far
 /// below what a recording tells from that of a sphere (docs/theory-square.md, sec. 6).
 double deformation_floor(const Problem&);
 
-/// An error relative to a deformation as it is stated and judged: relative to the floor below that.
-double stated_error(const Problem&, double relative_error, double deformation);
-
 /// A state at the resolutions of one mesh, coarse to fine; where the gap is narrow, of several.
 struct Ladder {
-  bool keeps_systems = true;  ///< of all rungs; or of the last one alone
+  ErrorRule rule = {};
   std::vector<ResolvedState> rungs = {};
-  std::vector<double> deformations = {};                             ///< rung by rung
-  std::vector<StateNumbers> numbers = {};                            ///< likewise
-  double inertia_ratio = 1;                                          ///< of the last rung
+  std::vector<StateNumbers> numbers = {};                            ///< rung by rung
   double estimated_error = std::numeric_limits<double>::infinity();  ///< relative, of the last deformation
 
-  /// A state of the problem.
-  void add(const Problem&, ResolvedState);
+  void add(ResolvedState, const StateNumbers&);
+  double deformation() const { return numbers.back().shape.deformation; }
   /// Of all numbers of the last rung, each in its unit.
-  StateNumbers errors() const { return errors_of_last(numbers, estimated_error); }
+  StateNumbers errors() const { return errors_of_last(numbers, estimated_error, rule.min_share_of_two); }
+  /// Of the last rung, as it is stated and judged, of what the problem wants accurately: of the deformation, relative
+  /// to the floor where it is below that; or of the motion.
+  double stated_error(const Problem&) const;
+  /// The greatest relative error of the last velocity and spin, and of the drift at a given place; relative to 1e-4 of
+  /// the velocity where it is less: so a cell would shift by 0.1 um on a way of 1 mm.
+  double motion_error(CellPlace) const;
 };
-
-/// Whether the stated error is below the wanted one. Where the gap is narrow the coarsest mesh is not trusted:
-/// neighbouring degrees agree there although both are wrong.
-bool is_accurate(const Ladder&, const Problem&);
-
-/// Sees each state that is tried, and whether it became a rung.
-using RungObserver = std::function<void(const ResolvedState&, const Ladder*)>;
-
-/// Raises degree and mesh from a state, or from the ladder's last rung, until the error is small: status `converged`,
-/// or why not. The ladder is the last one that was climbed.
-Status climb(const Problem&, const NewtonOptions&, ResolvedState from, Ladder&, const RungObserver&);
 
 }  // namespace rheocyte

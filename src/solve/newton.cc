@@ -5,8 +5,6 @@
 
 namespace rheocyte {
 
-using Eigen::VectorXd;
-
 namespace {
 
 /// A full step may reduce the least det of the mesh to this share at most; else it is shortened.
@@ -16,14 +14,13 @@ constexpr int max_halvings = 5;
 constexpr double hopeless_residual = 1e6;
 
 /// Takes the longest step 1, 1/2, 1/4, ... that does not fold the mesh; returns whether there is one.
-bool step(NonlinearSystem& system, const Media& media, const VectorXd& correction, double det_before, VectorXd& x,
-          VectorXd& residual) {
+bool step(NonlinearSystem& system, const Media& media, const VectorXd& correction, VectorXd& x, Residual& residual) {
+  const double det_before = residual.min_det;
   double share = 1;
   for (int i = 0; i <= max_halvings; ++i, share /= 2) {
     const VectorXd candidate = x + share * correction;
-    double det = 0;
-    residual = system.residual(media, candidate, det);
-    if (det > min_det_share * det_before) {
+    residual = system.residual(media, candidate);
+    if (residual.min_det > min_det_share * det_before) {
       x = candidate;
       return true;
     }
@@ -38,8 +35,7 @@ constexpr double round_off_displacement = 1e-14, round_off_residual = 1e-6;
 }  // namespace
 
 double residual_scale(NonlinearSystem& system, const Media& media) {
-  double det = 0;
-  return system.residual(media, system.sphere(), det).norm();
+  return system.residual(media, system.sphere()).value.norm();
 }
 
 NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOptions& options, VectorXd& x) {
@@ -47,37 +43,35 @@ NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOpt
   const auto is_stopped = [&options] { return options.stop && *options.stop; };
   const double scale = options.residual_scale > 0 ? options.residual_scale : residual_scale(system, media);
   bool keep = options.keep_factors;  // whether the next step is a chord step
-  double det = 0;
-  VectorXd residual;
+  Residual residual;
   if (keep) {
-    residual = system.residual(media, x, det);
-    report.residual_history.push_back(residual.norm() / scale);
+    residual = system.residual(media, x);
+    report.residual_history.push_back(residual.value.norm() / scale);
   }
   for (int factorisations = 0;;) {
     if (is_stopped()) return report.status = Status::stopped, report;
     if (!keep) {
       if (factorisations++ == options.iteration_limit) return report.status = Status::iteration_limit, report;
-      bool factorised = false;
-      residual = system.linearise(media, x, det, factorised);
+      residual = system.linearise(media, x);
       if (is_stopped()) return report.status = Status::stopped, report;
-      if (!factorised) {
-        report.status = residual.allFinite() ? Status::singular_matrix : Status::not_finite;
+      if (!system.has_factors()) {
+        report.status = residual.value.allFinite() ? Status::singular_matrix : Status::not_finite;
         return report;
       }
-      if (report.residual_history.empty()) report.residual_history.push_back(residual.norm() / scale);
+      if (report.residual_history.empty()) report.residual_history.push_back(residual.value.norm() / scale);
     }
-    if (det <= 0) return report.status = Status::mesh_folded, report;
-    const VectorXd correction = system.solve(-residual);
+    if (residual.min_det <= 0) return report.status = Status::mesh_folded, report;
+    const VectorXd correction = system.solve(-residual.value);
     if (!correction.allFinite()) return report.status = Status::not_finite, report;
     const double displacement = system.largest_displacement(correction);
     if (report.iterations++ == 0) report.first_correction = displacement;
-    if (!step(system, media, correction, det, x, residual)) {
+    if (!step(system, media, correction, x, residual)) {
       if (!std::exchange(keep, false)) return report.status = Status::mesh_folded, report;
       continue;
     }
 
     const double before = report.residual_history.back();
-    report.residual = residual.norm() / scale;
+    report.residual = residual.value.norm() / scale;
     report.residual_history.push_back(report.residual);
     if (!std::isfinite(report.residual)) return report.status = Status::not_finite, report;
     if (report.residual > hopeless_residual) return report.status = Status::iteration_limit, report;

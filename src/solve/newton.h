@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fem/nonlinear_system.h"
-#include "solve/outcome.h"
+#include "state/outcome.h"
 
 namespace rheocyte {
 
@@ -32,6 +32,6 @@ double residual_scale(NonlinearSystem&, const Media&);
 
 /// Improves `unknowns` in place. If the report is not `converged`, `unknowns` are unspecified; the caller keeps the
 /// last good state. The system keeps the last factorisation.
-NewtonReport newton(NonlinearSystem&, const Media&, const NewtonOptions&, Eigen::VectorXd& unknowns);
+NewtonReport newton(NonlinearSystem&, const Media&, const NewtonOptions&, VectorXd& unknowns);
 
 }  // namespace rheocyte

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "solve/state_measures.h"
+#include "state/state_measures.h"
 
 namespace rheocyte {
 

@@ -4,16 +4,6 @@
 #include <utility>
 
 namespace rheocyte {
-Discrete::Discrete(const Problem& problem, const Resolution& resolution)
-    : mesh(geometry_of(problem), resolution.subdivision),
-      space(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive),
-      system(space) {}
-
-void Discrete::move_to(const Problem& problem, const Resolution& resolution) {
-  mesh = ChannelMesh(geometry_of(problem), resolution.subdivision);
-  space = Discretisation(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive);
-  system.follow_space();
-}
 
 double Path::unit(double parameter) const { return std::isfinite(origin) ? parameter - origin : 1; }
 

@@ -1,38 +1,87 @@
-// A branch state at one resolution, and the way to the next finer one.
+// The states of one case: along its branch on coarse resolutions, then from one resolution to the next finer one.
 #pragma once
+#include <atomic>
+#include <functional>
 #include <memory>
+#include <vector>
 
-#include "fem/observe.h"
-#include "solve/continuation.h"
-#include "solve/surface_stability.h"
+#include "solve/geometry.h"
+#include "solve/ladder.h"
+#include "solve/path.h"
 
 namespace rheocyte {
 
-/// A state on the branch, how it was resolved, and how the way to it ended.
-struct ResolvedState {
-  Status status = Status::not_started;
-  std::shared_ptr<Discrete> discrete;
-  Resolution resolution;
-  BranchState branch;
-  double residual = 0;
-  int steps = 0, newton_iterations = 0;  ///< of the way to it
-  WorkMeter work;                        ///< of the whole way, systems that were left included
-  bool gave_up = false;                  ///< far from the wanted cell, before the end was found exactly
-};
-
-/// Sees each converged state of the way.
-using BranchObserver = std::function<void(const Discretisation&, const BranchState&)>;
-
-/// How hard the end of a branch is looked for. Thorough: on all resolutions, to 0.2 % of the compliance. Hopeful: not
-/// on the fine ones, which only see a little more of the branch, if the coarse ones end far from the wanted cell.
-/// Quick: on the coarse ones alone, where the end is known anyway.
+/// How hard the end of a branch is looked for. Thorough: on all resolutions. Hopeful: not on the fine ones, which only
+/// see a little more of the branch, if the coarse ones end far from the wanted cell. Quick: on the coarse ones alone,
+/// where the end is known anyway.
 enum class Search { thorough, hopeful, quick };
 
-/// Follows the branch from the sphere to compliance 1, first on a coarse resolution; where that fails, it goes on from
-/// the last state on finer ones. States whose surface is beyond Biot's limit are not accepted.
-ResolvedState follow_branch(const Problem&, const NewtonOptions&, const BranchObserver&, Search = Search::thorough);
+/// Along the branch the cell softens to what the problem says, or as the caller says. States are reported as they are
+/// found, those of a way that begins anew once it is beyond what was reported. `stop` is polled once an iteration.
+class ResolvedBranch {
+ public:
+  ResolvedBranch(const Problem& problem, Geometry geometry, ProgressCallback report = {},
+                 const std::atomic<bool>* stop = nullptr)
+      : ResolvedBranch(problem, softening(problem), std::move(geometry), std::move(report), stop) {}
+  ResolvedBranch(const Problem&, MediaAt, Geometry, ProgressCallback, const std::atomic<bool>* stop);
 
-/// The same state at another resolution; if Newton leaves it, the branch is followed anew there.
-ResolvedState at_resolution(const Problem&, const NewtonOptions&, const ResolvedState& from, const Resolution&);
+  /// Whether a state of the way is accepted.
+  using Accept = std::function<bool(Discrete&, const BranchState&)>;
+
+  /// The problem of a state of the branch.
+  Problem problem_at(double compliance) const { return with_media(problem_, media_(compliance)); }
+  const Geometry& geometry() const { return geometry_; }
+  bool is_stopped() const { return stop_ && *stop_; }
+  /// Of all resolutions, for states to come.
+  void keep_factors() { keeps_factors_ = true; }
+  /// The work since it was asked for last; sizes are left alone.
+  SolveStatistics take_statistics() { return std::exchange(statistics_, {}); }
+
+  /// From the sphere to the wanted compliance, or as far as the branch goes.
+  ResolvedState follow(Search = Search::hopeful);
+  /// The first state of the branch at a resolution.
+  ResolvedState start(const Resolution&, const ContinuationOptions&, const Accept&);
+  /// As far as the branch goes, or to a compliance.
+  void advance(ResolvedState&, double compliance, const ContinuationOptions&, const Accept&);
+  /// Steps along the branch: which are accepted, the least of them.
+  ContinuationOptions options(double min_step) const;
+  /// A state that is not wrinkled.
+  Accept smooth();
+  /// Newton at a compliance from a guess.
+  ResolvedState solved(std::shared_ptr<Discrete>, double compliance, VectorXd guess, const NewtonOptions&);
+  /// The same state at another resolution.
+  ResolvedState at_resolution(const ResolvedState& from, const Resolution&);
+
+  /// Raises degree and mesh from a state, or from the ladder's last rung, until the error is small: `converged`, or why
+  /// not. The ladder is the last one that was climbed, the state its last rung.
+  Status climb(ResolvedState&, Ladder&);
+  bool is_accurate(const Ladder&) const;
+  /// Of a neighbouring problem, moved to this one as far as the accuracy needs it; or why not. The systems are those of
+  /// the former ladder, which is lost but for its unknowns.
+  Status carry(const Problem& from, const Ladder& former, Ladder&);
+
+ private:
+  class Metered;
+  std::shared_ptr<Discrete> discretise(const Resolution&);
+  ResolvedState carried(const ResolvedState& from, const Resolution&, const NewtonOptions&);
+  ResolvedState enter(ResolvedState& from, const Resolution&, const ContinuationOptions&, const NewtonOptions& across);
+  void take(const ContinuationReport&, ResolvedState&);
+  bool is_wrinkled(const ResolvedState&) const;
+  bool is_nearly_unstable(const ResolvedState&) const;
+  void add(const ResolvedState&, Ladder&) const;
+  void report_last(const Ladder&);
+  Status climb_on(const Rungs&, ResolvedState&, Ladder&);
+  void report(Discrete&, const BranchState&, double deformation);
+
+  Problem problem_;
+  MediaAt media_;
+  Geometry geometry_;
+  ProgressCallback report_;
+  const std::atomic<bool>* stop_;
+  SolveStatistics statistics_;
+  std::vector<std::shared_ptr<Discrete>> made_;
+  bool keeps_factors_ = false;
+  double seen_ = 0;  ///< the greatest compliance that was reported
+};
 
 }  // namespace rheocyte

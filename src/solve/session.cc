@@ -1,235 +1,161 @@
 #include "solve/session.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
+#include <utility>
 
-#include "fem/sample_fields.h"
-#include "fem/write_fields.h"
 #include "solve/branch_ends.h"
-#include "solve/describe.h"
 #include "solve/equilibrium_offset.h"
 #include "solve/near_problem.h"
+#include "solve/resolved_branch.h"
+#include "solve/surface_stability.h"
 
 namespace rheocyte {
 namespace {
 
-constexpr double session_tolerance = 1e-10;
-
-/// Of the surface's stability, where coarse resolutions lose the branch.
-constexpr double margin_at_coarse_ends = 0.3;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-void add_work(const ResolvedState& state, SolveStatistics& statistics) {
-  statistics.newton_iterations += state.newton_iterations;
-  statistics.continuation_steps += state.steps;
-  statistics += state.work;
-}
-
-/// Whether the unknowns of both problems mean the same at any resolution.
-bool is_alike(const Problem& a, const Problem& b, const Subdivision& subdivision) {
-  return has_same_laws(a, b) && layers_for(ChannelGeometry(a.radius_ratio), subdivision) ==
-                                    layers_for(ChannelGeometry(b.radius_ratio), subdivision);
-}
-
-/// Whether mesh and spaces differ.
-bool is_elsewhere(const Problem& a, const Problem& b) {
-  return a.radius_ratio != b.radius_ratio || a.liquid.exponent != b.liquid.exponent;
-}
-
-/// Carries a rung over; false if Newton fails or leads too far away.
-bool move_rung(const Problem& from, const Problem& to, NewtonOptions options, ResolvedState& rung,
-               SolveStatistics& statistics) {
-  Discrete& discrete = *rung.discrete;
-  if (is_elsewhere(from, to)) {
-    discrete.move_to(to, rung.resolution);
-    scale_displacement(discrete.space, to.radius_ratio / from.radius_ratio, rung.branch.unknowns);
-  }
-  const VectorXd before = rung.branch.unknowns;
-  const WorkMeter work = discrete.system.work();
-  options.keep_factors = true;
-  const NewtonReport report = newton(discrete.system, to, options, rung.branch.unknowns);
-  rung.residual = report.residual;
-  statistics.newton_iterations += report.iterations;
-  statistics += discrete.system.work() - work;
-  return report.status == Status::converged &&
-         stretch_change(discrete.space, before, rung.branch.unknowns) < max_stretch_change &&
-         !is_wrinkled(to, discrete.space, rung.branch.unknowns);
-}
-
-void describe(const Problem& problem, const ResolvedState& state, StationaryState& r) {
-  const Media media = media_at(problem, state.branch.parameter);
-  describe_state(problem, {state.discrete, media, state.branch.unknowns}, r);
-  // A mesh of its own: the session moves on.
-  const auto with_space = [problem, resolution = state.resolution](const auto& use) {
-    const ChannelMesh mesh(geometry_of(problem), resolution.subdivision);
-    return use(Discretisation(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive));
-  };
-  r.write_fields = [=, unknowns = state.branch.unknowns](const std::string& path, const Scales& scales) {
-    return with_space([&](const Discretisation& space) { return write_fields(space, media, unknowns, scales, path); });
-  };
-  r.sample_fields = [=, unknowns = state.branch.unknowns](const Scales& scales, int points) {
-    return with_space(
-        [&](const Discretisation& space) { return sample_fields(space, media, unknowns, scales, points); });
-  };
-  r.residual = state.residual;
-  r.outcome.reached = state.branch.parameter;
-  if (state.branch.parameter < 1) {
-    r.estimated_error = no_value;
-    r.errors = unknown_numbers();
-  }
-  r.statistics.degree = state.resolution.degree;
-}
-
 /// Settles the reason and says it in a sentence.
-void explain(const Problem& problem, const ResolvedState& state, StationaryState& r) {
+void explain(const Problem& problem, const Geometry& geometry, bool gave_up, StationaryState& r) {
   Outcome& outcome = r.outcome;
   const bool failed_on_the_way = !has_state(outcome.status) && outcome.status != Status::stopped;
-  const double margin = state.gave_up ? margin_at_coarse_ends : small_margin;
-  if (failed_on_the_way && state.discrete && r.stability_margin < margin) {
+  const double margin = outcome.reached > 0 ? r.stability_margin : margin_at_rest(problem);
+  if (failed_on_the_way && margin < (gave_up ? geometry.margin_at_coarse_ends : small_margin)) {
     outcome.status = Status::surface_unstable;
-  } else if (outcome.status == Status::iteration_limit && state.branch.parameter > 0) {
+  } else if (outcome.status == Status::iteration_limit && outcome.reached > 0) {
     outcome.status = Status::branch_ended;
   }
   outcome.status = judged(outcome.status, {r.stability_margin, r.estimated_error, problem.accuracy});
   // The branch that was not followed to its end on a fine mesh ends later than it was seen to.
-  const bool is_early = is_far_too_soft(problem) || state.gave_up;
-  const double known_end = is_early ? min_shear_modulus(problem).value_or(0) / problem.bulk.shear_modulus : 0;
+  const bool is_early = (gave_up && geometry.ends_late_on_finer) || (geometry.knows_ends && is_far_too_soft(problem));
+  const auto known_end = is_early && geometry.knows_ends ? min_shear_modulus(problem) : std::nullopt;
   outcome.message = explanation(outcome, {.deformation = r.shape.deformation,
                                           .deformation_floor = r.deformation_floor,
                                           .estimated_error = r.estimated_error,
                                           .wanted_error = problem.accuracy,
                                           .stability_margin = r.stability_margin,
                                           .surface = surface_kind(problem),
+                                          .can_bend = problem.offset == 0,
                                           .is_coarse = is_early,
-                                          .known_end = known_end});
+                                          .known_end = known_end.value_or(0) / problem.bulk.shear_modulus});
 }
 
-/// The branch from the sphere to the problem, or to the end of the branch where that is known to lie before.
-ResolvedState follow_as_far_as_it_goes(const Problem& problem, const NewtonOptions& newton,
-                                       const ProgressCallback& report) {
-  const bool ends_before = is_far_too_soft(problem);
-  const Problem target = ends_before ? at_end_of_branch(problem) : problem;
+/// To the end of the branch, which is known to lie before the problem.
+ResolvedState follow_to_known_end(const Problem& problem, const Geometry& geometry, const ProgressCallback& report,
+                                  const std::atomic<bool>* stop, SolveStatistics& work) {
+  const Problem target = at_end_of_branch(problem);
   const double share = problem.bulk.shear_modulus / target.bulk.shear_modulus;
-  const BranchObserver observe = [&](const Discretisation& space, const BranchState& b) {
-    const double compliance = ends_before ? share * b.parameter : b.parameter;
-    report(
-        {compliance, measure(contour(space, b.unknowns)).deformation, b.newton_iterations, space.reference().degree()});
-  };
-  ResolvedState state = follow_branch(target, newton, observe, ends_before ? Search::quick : Search::hopeful);
-  if (ends_before) {
-    state.branch.parameter *= share;
-    if (state.status != Status::stopped) state.status = Status::surface_unstable;
-  }
+  ResolvedBranch to_end(
+      target, geometry,
+      [&](BranchStep step) {
+        step.compliance *= share;
+        report(step);
+      },
+      stop);
+  ResolvedState state = to_end.follow(Search::quick);
+  work += to_end.take_statistics();
+  state.branch.parameter *= share;
+  if (state.status != Status::stopped) state.status = Status::surface_unstable;
   return state;
 }
 
 }  // namespace
 
-bool Session::answer_nearby(const Problem& problem, const NewtonOptions& newton, SolveStatistics& statistics,
-                            Kept& answer) {
-  const auto near = [&](const Kept& kept) {
-    return is_alike(kept.problem, problem, kept.ladder.rungs.back().resolution.subdivision) &&
-           distance(kept.problem, problem) < max_change;
+/// If a stop is wanted what was kept becomes what it was.
+Status Session::answer_nearby(const Problem& problem, ResolvedBranch& branch, Ladder& answer) {
+  const auto is_near = [&](const Kept& kept) {
+    return has_same_laws(kept.problem, problem) && distance(kept.problem, problem) < max_change &&
+           branch.geometry().make == kept.make &&
+           branch.geometry().is_alike(kept.problem, problem, kept.ladder.rungs.back().discrete->resolution());
   };
-  const auto found = std::find_if(kept_.begin(), kept_.end(), near);
-  if (found == kept_.end()) return false;
+  const auto found = std::ranges::find_if(kept_, is_near);
+  if (found == kept_.end()) return Status::not_started;
   Kept kept = std::move(*found);
   kept_.erase(found);
-  answer.problem = problem;
-  for (const ResolvedState& rung : kept.ladder.rungs) {
-    ResolvedState moved = rung;
-    if (!move_rung(kept.problem, problem, newton, moved, statistics)) {
-      if (newton.stop && *newton.stop) take_back(std::move(kept), problem);
-      return false;
-    }
-    answer.ladder.add(problem, std::move(moved));
-    if (is_accurate(answer.ladder, problem)) break;
-  }
-  return true;
-}
-
-void Session::take_back(Kept kept, const Problem& from) {
-  if (is_elsewhere(from, kept.problem))
-    for (const ResolvedState& rung : kept.ladder.rungs) rung.discrete->move_to(kept.problem, rung.resolution);
+  const Status status = branch.carry(kept.problem, kept.ladder, answer);
+  if (status == Status::converged) return ++warm_starts_, status;
+  answer = {branch.geometry().errors};
+  if (status != Status::stopped) return status;
+  if (!has_same_mesh(kept.problem, problem))
+    for (const ResolvedState& rung : kept.ladder.rungs) rung.discrete->move_to(kept.problem);
   keep(std::move(kept));
+  return status;
 }
 
 StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress,
                                const std::atomic<bool>* stop) {
-  if (is_duct(problem.section)) {
-    const SolveAtOffset solve = [&](const Problem& p) { return ducts_.solve(p, progress, stop); };
-    StationaryState state =
-        problem.place == CellPlace::equilibrium ? solve_at_equilibrium(problem, solve) : solve(problem);
-    forget_tubes();
-    return state;
-  }
-  const auto start = std::chrono::steady_clock::now();
+  const SolveAtOffset solve = [&](const Problem& p) { return solve_in(solver_geometry(p), p, progress, stop); };
+  const bool is_sought = is_duct(problem.section) && problem.place == CellPlace::equilibrium;
+  return is_sought ? solve_at_equilibrium(problem, solve) : solve(problem);
+}
+
+StationaryState Session::solve_in(const Geometry& geometry, const Problem& problem, const ProgressCallback& progress,
+                                  const std::atomic<bool>* stop) {
   StationaryState result;
   result.shape = measure(Contour{});  // not a number until there is a shape
-  const NewtonOptions newton{.tolerance = session_tolerance, .stop = stop};
-  const auto report = [&](const BranchStep& point) {
-    result.branch.push_back(point);
-    if (progress) progress(point);
-  };
-  const RungObserver on_rung = [&](const ResolvedState& state, const Ladder* ladder) {
-    add_work(state, result.statistics);
-    if (ladder)
-      report({state.branch.parameter, ladder->deformations.back(), state.newton_iterations, state.resolution.degree});
-  };
-
-  Kept answer{problem, {.keeps_systems = memory_limit_ > 0}};
-  ResolvedState state;
-  if (answer_nearby(problem, newton, result.statistics, answer)) {
-    ++warm_starts_;
-    state = answer.ladder.rungs.back();
-    report({1, answer.ladder.deformations.back(), result.statistics.newton_iterations, state.resolution.degree});
-  } else {
-    answer.ladder = {.keeps_systems = memory_limit_ > 0};
-    state = follow_as_far_as_it_goes(problem, newton, report);
-    add_work(state, result.statistics);
+  double total_s = 0;
+  {
+    const Stopwatch watch(total_s);
+    const auto report = [&](const BranchStep& step) {
+      result.branch.push_back(step);
+      if (progress) progress(step);
+    };
+    ResolvedBranch branch(problem, geometry, report, stop);
+    if (memory_limit_ > 0) branch.keep_factors();
+    Kept answer{problem, geometry.make, {geometry.errors}};
+    Ladder& ladder = answer.ladder;
+    SolveStatistics work;
+    ResolvedState state;
+    Status& status = result.outcome.status;
+    status = answer_nearby(problem, branch, ladder);
+    if (status == Status::converged) {
+      state = ladder.rungs.back();
+    } else if (status != Status::stopped) {
+      const bool ends_before = geometry.knows_ends && is_far_too_soft(problem);
+      state = ends_before ? follow_to_known_end(problem, geometry, report, stop, work) : branch.follow();
+      status = state.status;
+    }
+    if (status == Status::converged) status = branch.climb(state, ladder);
+    work += branch.take_statistics();
+    result.statistics = work;
+    if (!ladder.rungs.empty()) {
+      state = ladder.rungs.back();
+      result.deformation_floor = deformation_floor(problem);
+      result.estimated_error = ladder.stated_error(problem);
+      result.errors = ladder.errors();
+    }
+    if (state.discrete && state.branch.parameter > 0) {
+      state.discrete->describe(branch.problem_at(state.branch.parameter), state.branch.unknowns, result);
+      result.residual = state.residual;
+      result.outcome.reached = state.branch.parameter;
+    }
+    explain(problem, geometry, state.gave_up, result);
+    // Stopped on the way to a finer mesh the ladder is still good to begin from.
+    const bool is_good = status == Status::converged || status == Status::stopped;
+    if (is_good && !ladder.rungs.empty()) keep(std::move(answer));
   }
-  result.outcome.status = state.status;
-  if (state.status == Status::converged && !is_accurate(answer.ladder, problem)) {
-    const Ladder before = answer.ladder;
-    result.outcome.status = climb(problem, newton, state, answer.ladder, on_rung);
-    if (answer.ladder.rungs.empty()) answer.ladder = before;
-  }
-  if (!answer.ladder.rungs.empty()) {
-    state = answer.ladder.rungs.back();
-    result.deformation_floor = deformation_floor(problem);
-    result.estimated_error = stated_error(problem, answer.ladder.estimated_error, answer.ladder.deformations.back());
-    result.errors = answer.ladder.errors();
-  }
-  if (state.discrete && state.branch.parameter > 0) describe(problem, state, result);
-  explain(problem, state, result);
-  // Stopped on the way to a finer mesh the ladder is still good to begin from.
-  const bool is_good = result.outcome.status == Status::converged || result.outcome.status == Status::stopped;
-  if (is_good && !answer.ladder.rungs.empty()) keep(std::move(answer));
-  result.statistics.total_s = seconds_since(start);
+  result.statistics.total_s = total_s;
   return result;
 }
 
+std::size_t Session::Kept::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const ResolvedState& rung : ladder.rungs) bytes += rung.discrete->system().memory_bytes();
+  return bytes;
+}
+
 std::size_t Session::memory_bytes() const {
-  std::size_t bytes = ducts_.memory_bytes();
-  for (const Kept& kept : kept_) {
-    for (const ResolvedState& rung : kept.ladder.rungs) bytes += rung.discrete->system.memory_bytes();
-  }
+  std::size_t bytes = 0;
+  for (const Kept& kept : kept_) bytes += kept.memory_bytes();
   return bytes;
 }
 
 void Session::keep(Kept answer) {
   if (memory_limit_ == 0) return;
   kept_.push_front(std::move(answer));
-  if (memory_bytes() > memory_limit_) ducts_.forget();
-  forget_tubes();
-}
-
-void Session::forget_tubes() {
-  while (!kept_.empty() && memory_bytes() > memory_limit_) kept_.pop_back();
+  while (kept_.size() > 1 && memory_bytes() > memory_limit_) kept_.pop_back();
+  // The highest degrees are those whose factors are large: without them they are factorised anew.
+  std::vector<ResolvedState>& rungs = kept_.front().ladder.rungs;
+  for (auto rung = rungs.rbegin(); rung != rungs.rend() && memory_bytes() > memory_limit_; ++rung)
+    rung->discrete->system().drop_factors();
+  if (memory_bytes() > memory_limit_) kept_.clear();
 }
 
 }  // namespace rheocyte

@@ -12,7 +12,7 @@
 #include "fem/work_meter.h"
 #include "shape/contour.h"
 #include "solve/number_errors.h"
-#include "solve/outcome.h"
+#include "state/outcome.h"
 
 namespace rheocyte {
 

@@ -11,7 +11,7 @@ namespace rheocyte {
 Stepper::Stepper(const Problem& problem, const Resolution& resolution)
     : problem_(with_elastic_interior(problem)),
       resolution_(resolution),
-      discrete_(std::make_shared<Discrete>(problem_, resolution)),
+      discrete_(std::make_unique<TubeDiscrete>(problem_, resolution)),
       media_(problem_) {}
 
 bool Stepper::has_passed_walls(const TimeLevel& level) const {

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "fem/coupled_system.h"
-#include "solve/outcome.h"
-#include "solve/path.h"
 #include "solve/time_state.h"
+#include "solve/tube.h"
+#include "state/outcome.h"
 
 namespace rheocyte {
 
@@ -46,8 +46,8 @@ class Stepper {
   const TimeState& state() const { return state_; }
   const TimeLevel& now() const { return state_.levels.front(); }
 
-  const Discretisation& space() const { return discrete_->space; }
-  const std::shared_ptr<Discrete>& discrete() const { return discrete_; }
+  const Discretisation& space() const { return discrete_->space(); }
+  const TubeDiscrete& discrete() const { return *discrete_; }
   const Problem& problem() const { return problem_; }  ///< with an elastic interior in any case
   const Media& media() const { return media_; }
 
@@ -56,7 +56,7 @@ class Stepper {
 
   Problem problem_;
   Resolution resolution_;
-  std::shared_ptr<Discrete> discrete_;
+  std::unique_ptr<TubeDiscrete> discrete_;
   Media media_;
   TimeState state_;
 };

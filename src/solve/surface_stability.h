@@ -3,7 +3,7 @@
 #pragma once
 #include "case/problem.h"
 #include "fem/observe.h"
-#include "solve/outcome.h"
+#include "state/outcome.h"
 
 namespace rheocyte {
 

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "solve/branch_ends.h"
-#include "solve/ladder.h"
+#include "solve/resolved_branch.h"
+#include "solve/tube.h"
 
 namespace rheocyte {
 namespace {
@@ -22,19 +23,18 @@ Resolution resolution_in_time(const Problem& problem, double accuracy, const std
   straight.accuracy = share_of_reference * accuracy;
   if (problem.bulk.shear_modulus == 0 && problem.bulk.branch_modulus > 0) return usual_time_resolution;
   if (is_far_too_soft(straight)) return usual_time_resolution;
-  const NewtonOptions newton{.tolerance = 1e-10, .stop = stop};
-  const ResolvedState start = follow_branch(
-      straight, newton, [](const auto&, const auto&) {}, Search::hopeful);
-  if (start.status != Status::converged) return usual_time_resolution;
-  Ladder ladder{.keeps_systems = false};
-  climb(straight, newton, start, ladder, [](const auto&, const auto*) {});
+  ResolvedBranch branch(straight, tube_geometry(straight), {}, stop);
+  ResolvedState state = branch.follow();
+  if (state.status != Status::converged) return usual_time_resolution;
+  Ladder ladder{branch.geometry().errors};
+  branch.climb(state, ladder);
   if (ladder.rungs.empty()) return usual_time_resolution;
-  const double best = ladder.deformations.back();
+  const double best = ladder.deformation();
   for (std::size_t i = 0; i + 1 < ladder.rungs.size(); ++i) {
-    const double error = std::abs(ladder.deformations[i] / best - 1) + ladder.estimated_error;
-    if (error <= share_of_stationary * accuracy) return ladder.rungs[i].resolution;
+    const double error = std::abs(ladder.numbers[i].shape.deformation / best - 1) + ladder.estimated_error;
+    if (error <= share_of_stationary * accuracy) return ladder.rungs[i].discrete->resolution();
   }
-  return ladder.rungs.back().resolution;
+  return ladder.rungs.back().discrete->resolution();
 }
 
 Resolution to_compare_with(const Resolution& resolution) {

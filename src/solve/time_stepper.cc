@@ -74,13 +74,13 @@ double TimeStepper::combine(const VectorXd& weights, double TimeLevel::*field) c
 VectorXd TimeStepper::meet_walls(double position, const VectorXd& unknowns) {
   const auto wall = [&](double x) { return wall_->radius(position + x); };
   VectorXd outward = space().wall_motion(wall, unknowns);
-  discrete_->space.move_nodes(outward);
+  discrete_->space().move_nodes(outward);
   return outward;
 }
 
 void TimeStepper::move_walls(double time) {
   if (!wall_) return;
-  discrete_->space.move_nodes(combine(weights_at(time), &TimeLevel::outward));
+  discrete_->space().move_nodes(combine(weights_at(time), &TimeLevel::outward));
 }
 
 VectorXd TimeStepper::weights_at(double time) const {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "solve/outcome.h"
-#include "solve/state_measures.h"
+#include "state/outcome.h"
+#include "state/state_measures.h"
 
 namespace rheocyte {
 

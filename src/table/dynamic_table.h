@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solve/outcome.h"
+#include "state/outcome.h"
 #include "table/dynamic_spec.h"
 
 namespace rheocyte {
@@ -85,9 +85,6 @@ class DynamicTable {
   std::vector<double> places_;
   CourseErrors errors_;
 };
-
-/// Follows one cell; never throws for a numerical failure.
-CellCourse follow_course(const DynamicSpec&, const DynamicCell&, const std::atomic<bool>* stop = nullptr);
 
 std::string to_bytes(const CellCourse&, const std::string& spec_hash);
 /// UserError naming `name` if the bytes are damaged, of another spec or cell, or hold numbers that no cell has.

@@ -1,7 +1,7 @@
 // The part of the interface about cells: states, ways in time, cases as text, and what is exported of them.
 #pragma once
+#include "serve/router.h"
 #include "view/export_folder.h"
-#include "view/router.h"
 #include "view/solver_threads.h"
 
 namespace rheocyte {

@@ -1,6 +1,6 @@
 // What a page needs to know before anything is computed: GET /api/health, /api/keys and /api/media.
 #pragma once
-#include "view/router.h"
+#include "serve/router.h"
 
 namespace rheocyte {
 

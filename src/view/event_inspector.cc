@@ -13,11 +13,11 @@
 #include "case/user_error.h"
 #include "extract/extraction.h"
 #include "measurement/event_outlines.h"
+#include "serve/grey_png.h"
 #include "shape/outline_shape.h"
 #include "view/combined_cells.h"
 #include "view/event_json.h"
 #include "view/fitted_cell.h"
-#include "view/grey_png.h"
 #include "view/page_words.h"
 #include "view/recording_columns.h"
 
@@ -250,7 +250,7 @@ std::string picture_of_event(const Recording& recording, const std::string& feat
   recording.read_images(feature, event, 1, pixels);
   if (feature == "mask")
     for (auto& pixel : pixels) pixel = pixel ? 255 : 0;
-  return grey_png(*size, pixels);
+  return grey_png({size->width, size->height}, pixels);
 }
 
 }  // namespace rheocyte

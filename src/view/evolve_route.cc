@@ -17,8 +17,8 @@
 #include "case/scales.h"
 #include "result/judge_end.h"
 #include "result/result_in_time.h"
+#include "serve/json_member.h"
 #include "store/thread.h"
-#include "view/json_member.h"
 #include "view/state_json.h"
 #include "view/stated_case.h"
 

@@ -1,6 +1,6 @@
 // POST /api/evolve: a cell on its way in time, line by line.
 #pragma once
-#include "view/router.h"
+#include "serve/router.h"
 
 namespace rheocyte {
 

@@ -10,9 +10,9 @@
 #include <system_error>
 
 #include "case/user_error.h"
+#include "serve/json_member.h"
 #include "store/scratch.h"
 #include "store/whole_file.h"
-#include "view/json_member.h"
 
 namespace rheocyte {
 

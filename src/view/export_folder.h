@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "view/router.h"
+#include "serve/router.h"
 
 namespace rheocyte {
 

@@ -11,9 +11,9 @@
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
+#include "serve/http.h"
 #include "store/file_version.h"
 #include "store/thread.h"
-#include "view/http.h"
 #include "view/moduli_settings.h"
 #include "view/page_words.h"
 #include "view/path_text.h"

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "view/router.h"
+#include "serve/router.h"
 
 namespace rheocyte {
 

@@ -1,7 +1,7 @@
 // The part of the interface about recordings: /api/items and what is below, and their exports.
 #pragma once
+#include "serve/router.h"
 #include "view/export_folder.h"
-#include "view/router.h"
 #include "view/view_session.h"
 
 namespace rheocyte {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "serve/http.h"
 #include "solve/session.h"
 #include "store/thread.h"
-#include "view/http.h"
 
 namespace rheocyte {
 

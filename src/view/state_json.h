@@ -5,7 +5,7 @@
 #include <string>
 
 #include "result/result.h"
-#include "view/http.h"
+#include "serve/http.h"
 
 namespace rheocyte {
 

@@ -8,14 +8,15 @@
 #include <thread>
 #include <utility>
 
+#include "serve/access.h"
+#include "serve/open_browser.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
 #include "store/thread.h"
-#include "view/access.h"
 #include "view/cell_routes.h"
 #include "view/declarations.h"
-#include "view/open_browser.h"
+#include "view/page_words.h"
 #include "view/recording_routes.h"
 #include "view/view_items.h"
 
@@ -65,7 +66,7 @@ void serve_view(const ViewOptions& options) {
   ViewItems items(items_paths);  // first of all: it starts processes, and there are no threads yet
   ExportFolder folder(options.output);
   SolverThreads threads(std::max(1U, std::thread::hardware_concurrency()), session_bytes);
-  Router router;
+  Router router(in_words_of_page);
   Exports exports(folder);
   ViewSession session;
   add_declaration_routes(router);

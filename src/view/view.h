@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "view/http_server.h"
+#include "serve/http_server.h"
 
 namespace rheocyte {
 

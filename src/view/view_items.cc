@@ -8,8 +8,8 @@
 #include "case/json_guard.h"
 #include "case/user_error.h"
 #include "extract/modulus_tables.h"
+#include "serve/http.h"
 #include "store/file_version.h"
-#include "view/http.h"
 #include "view/item_work.h"
 #include "view/path_text.h"
 

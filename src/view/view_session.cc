@@ -7,8 +7,8 @@
 #include "case/given_keys.h"
 #include "case/json_guard.h"
 #include "case/user_error.h"
+#include "serve/json_member.h"
 #include "store/read_file.h"
-#include "view/json_member.h"
 
 namespace rheocyte {
 

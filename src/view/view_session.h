@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "serve/router.h"
 #include "view/export_folder.h"
-#include "view/router.h"
 
 namespace rheocyte {
 

@@ -8,19 +8,6 @@
 
 namespace rheocyte {
 
-/// The tangent times a direction, summed in double precision from the entries, which have single precision.
-inline VectorXd tangent_times(DuctSystem& system, const Media& media, const VectorXd& unknowns,
-                              const VectorXd& direction) {
-  VectorXd product = VectorXd::Zero(direction.size());
-  const auto add = [&](int, const std::vector<int>& order, const Eigen::MatrixXf& tangent) {
-    product(order) += tangent.cast<double>() * direction(order);
-    return true;
-  };
-  double det = 0;
-  system.assemble(media, unknowns, add, det);
-  return product;
-}
-
 inline VectorXd random_direction(Eigen::Index size) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -32,10 +19,9 @@ inline VectorXd random_direction(Eigen::Index size) {
 /// above that at these steps, so that the slope shows the derivative itself.
 inline double taylor_slope(DuctSystem& system, const Media& media, const VectorXd& unknowns) {
   const VectorXd d = 0.1 * random_direction(unknowns.size());
-  const VectorXd g = tangent_times(system, media, unknowns, d);
-  double det = 0;
-  const VectorXd r = system.residual(media, unknowns, det);
-  const auto remainder = [&](double h) { return (system.residual(media, unknowns + h * d, det) - r - h * g).norm(); };
+  const VectorXd g = system.apply_tangent(media, unknowns, d);
+  const VectorXd r = system.residual(media, unknowns).value;
+  const auto remainder = [&](double h) { return (system.residual(media, unknowns + h * d).value - r - h * g).norm(); };
   return std::log10(remainder(1e-2) / remainder(1e-3));
 }
 
@@ -43,7 +29,7 @@ inline double taylor_slope(DuctSystem& system, const Media& media, const VectorX
 /// corrections.
 inline std::pair<double, double> left_by_factors(DuctSystem& system, const Media& media, const VectorXd& unknowns) {
   const VectorXd g = random_direction(unknowns.size());
-  const auto rest = [&](const VectorXd& d) -> VectorXd { return g - tangent_times(system, media, unknowns, d); };
+  const auto rest = [&](const VectorXd& d) -> VectorXd { return g - system.apply_tangent(media, unknowns, d); };
   VectorXd d = system.solve(g);
   const double first = rest(d).norm() / g.norm();
   for (int i = 0; i < 2; ++i) d += system.solve(rest(d));

@@ -25,10 +25,8 @@ inline VectorXd random_vector(int size, unsigned seed = 1) {
 /// The flow round the sphere, and the cell displaced by its linear response up to `displacement` of its radius.
 inline VectorXd deformed_state(StationarySystem& system, const Media& media, double displacement = 0.1) {
   const Discretisation& space = system.space();
-  double det = 0;
-  bool factorised = false;
   const VectorXd sphere = system.sphere();
-  const VectorXd residual = system.linearise(media, sphere, det, factorised);
+  const VectorXd residual = system.linearise(media, sphere).value;
   VectorXd state = sphere + system.solve(-residual);
   const double radius = space.mesh().geometry().radius();
   scale_displacement(space, displacement * radius / largest_displacement(space, state), state);

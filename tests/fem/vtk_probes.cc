@@ -4,6 +4,7 @@
 #include <fstream>
 #include <random>
 
+#include "fem/tube_fields.h"
 #include "fem/vtu_file.h"
 #include "fem/write_fields.h"
 #include "small_channel.h"
@@ -62,7 +63,7 @@ void write_channel(const std::string& folder, int degree) {
   const Media media{{}, {BulkLaw::neo_hookean, 12}};
   const VectorXd state = deformed_state(channel.system, media);
   const std::string name = fmt::format("{}/channel-{}", folder, degree);
-  if (!write_fields(channel.space, media, state, Scales{1e-6, 1, 1}, name + ".vtu")) std::abort();
+  if (!write_fields(TubeFields(channel.space, media, state, Scales{1e-6, 1, 1}), name + ".vtu")) std::abort();
   Probes probes(name + ".csv");
   for (int e = 0; e < int(channel.space.elements().size()); ++e) {
     for (int i = 0; i < probes_per_element; ++i) {

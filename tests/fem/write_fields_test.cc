@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "fem/tube_fields.h"
 #include "small_channel.h"
 
 namespace rheocyte::write_fields_test {
@@ -15,7 +16,7 @@ using test::SmallChannel;
 
 std::string written(const SmallChannel& channel, const VectorXd& state) {
   const auto path = std::filesystem::path(testing::TempDir()) / "rheocyte_write_fields_test.vtu";
-  EXPECT_TRUE(write_fields(channel.space, {{}, {BulkLaw::neo_hookean, 12}}, state, {}, path.string()));
+  EXPECT_TRUE(write_fields(TubeFields(channel.space, {{}, {BulkLaw::neo_hookean, 12}}, state, {}), path.string()));
   std::stringstream text;
   text << std::ifstream(path).rdbuf();
   std::filesystem::remove(path);
@@ -42,7 +43,9 @@ TEST(WriteFields, AFileThatCannotBeWrittenIsReported) {
   const VectorXd state = VectorXd::Zero(channel.space.unknowns());
   for (const char* path : {"/no/such/folder/fields.vtu", "/", "/dev/full"}) {
     bool success = true;
-    EXPECT_NO_THROW(success = write_fields(channel.space, {{}, {BulkLaw::neo_hookean, 12}}, state, {}, path)) << path;
+    EXPECT_NO_THROW(success =
+                        write_fields(TubeFields(channel.space, {{}, {BulkLaw::neo_hookean, 12}}, state, {}), path))
+        << path;
     EXPECT_FALSE(success) << path;
   }
 }

@@ -43,12 +43,10 @@ class ArcTracer {
     const double scale = residual_scale(system_, path_.media(from.parameter));
     for (int i = 0; i < options_.newton.iteration_limit; ++i) {
       if (options_.newton.stop && *options_.newton.stop) return Status::stopped;
-      double det = 0;
-      bool factorised = false;
-      const VectorXd residual = system_.linearise(path_.media(state.parameter), state.unknowns, det, factorised);
+      const auto [residual, min_det] = system_.linearise(path_.media(state.parameter), state.unknowns);
       state.newton_iterations = i;
-      if (!factorised) return residual.allFinite() ? Status::singular_matrix : Status::not_finite;
-      if (det <= 0) return Status::mesh_folded;
+      if (!system_.has_factors()) return residual.allFinite() ? Status::singular_matrix : Status::not_finite;
+      if (min_det <= 0) return Status::mesh_folded;
       if (i > 0 && residual.norm() < options_.newton.tolerance * scale) return Status::converged;
       const VectorXd straight = system_.solve(-residual), rate = system_.solve(-parameter_slope(path_, state));
       const double off = product(t.unknowns, state.unknowns - from.unknowns) +
@@ -86,10 +84,9 @@ class ArcTracer {
 ArcReport trace_arc(const Path& path, const ArcOptions& options, BranchState from) {
   ArcReport report;
   ArcTracer tracer(path, options, from);
-  bool factorised = false;
-  double det = 0;
-  path.system(from.parameter).linearise(path.media(from.parameter), from.unknowns, det, factorised);
-  if (!factorised) return report.status = Status::singular_matrix, report;
+  NonlinearSystem& system = path.system(from.parameter);
+  system.linearise(path.media(from.parameter), from.unknowns);
+  if (!system.has_factors()) return report.status = Status::singular_matrix, report;
   ArcTangent t = tracer.tangent(from, {VectorXd::Zero(from.unknowns.size()), 1});
   from.tangent = t.unknowns;
   report.states.push_back(std::move(from));

@@ -7,6 +7,7 @@
 #include "cases.h"
 #include "fem/observe.h"
 #include "shape/measures.h"
+#include "solve/tube.h"
 
 namespace rheocyte::arclength_test {
 namespace {
@@ -19,8 +20,8 @@ struct Folded {
     return problem;
   }
   ArcReport trace(int steps) {
-    const ContinuationReport first = start_branch(stiffness_path(discrete.system, problem), {});
-    Path path = stiffness_path(discrete.system, problem);
+    const ContinuationReport first = start_branch(stiffness_path(discrete.system(), problem), {});
+    Path path = stiffness_path(discrete.system(), problem);
     Path to_start = path;
     to_start.end = 0.8;
     const auto start = continue_branch(to_start, {}, first.last);
@@ -30,7 +31,7 @@ struct Folded {
     return trace_arc(path, options, start.last);
   }
   Problem problem;
-  Discrete discrete;
+  TubeDiscrete discrete;
 };
 
 TEST(Arclength, ItGoesRoundTheFoldOfABranch) {
@@ -43,13 +44,12 @@ TEST(Arclength, ItGoesRoundTheFoldOfABranch) {
   EXPECT_LT(report.states.back().parameter, fold.parameter);
   double before = 0;
   for (const BranchState& state : report.states) {
-    const double d = measure(contour(folded.discrete.space, state.unknowns)).deformation;
+    const double d = measure(contour(folded.discrete.space(), state.unknowns)).deformation;
     EXPECT_GT(d, before);
     before = d;
-    double det = 0;
     const Media media = media_at(folded.problem, state.parameter);
-    const double residual = folded.discrete.system.residual(media, state.unknowns, det).norm();
-    EXPECT_LT(residual / residual_scale(folded.discrete.system, media), 1e-10);
+    const double residual = folded.discrete.system().residual(media, state.unknowns).value.norm();
+    EXPECT_LT(residual / residual_scale(folded.discrete.system(), media), 1e-10);
   }
 }
 
@@ -60,18 +60,19 @@ TEST(Arclength, AwayFromFoldsItFindsTheStatesOfTheParameter) {
   ASSERT_EQ(report.status, Status::converged);
   const BranchState& last = report.states.back();
   VectorXd x = report.states[2].unknowns;
-  ASSERT_EQ(newton(folded.discrete.system, media_at(folded.problem, last.parameter), {}, x).status, Status::converged);
+  ASSERT_EQ(newton(folded.discrete.system(), media_at(folded.problem, last.parameter), {}, x).status,
+            Status::converged);
   EXPECT_LT((x - last.unknowns).norm() / x.norm(), 1e-8);
 }
 
 TEST(Arclength, ItEndsWhereItIsTold) {
   // The observer's refusal ends the trace with success; the state that it saw is kept.
   Folded folded;
-  const ContinuationReport first = start_branch(stiffness_path(folded.discrete.system, folded.problem), {});
+  const ContinuationReport first = start_branch(stiffness_path(folded.discrete.system(), folded.problem), {});
   ArcOptions options;
   int seen = 0;
   options.go_on = [&](const Discretisation&, const BranchState&) { return ++seen < 2; };
-  const ArcReport report = trace_arc(stiffness_path(folded.discrete.system, folded.problem), options, first.last);
+  const ArcReport report = trace_arc(stiffness_path(folded.discrete.system(), folded.problem), options, first.last);
   EXPECT_EQ(report.status, Status::converged);
   EXPECT_EQ(report.states.size(), 3u);
 }

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "cases.h"
-#include "solve/duct_solver.h"
+#include "solve/duct.h"
 
 namespace rheocyte::session_test {
 namespace {
@@ -165,7 +165,7 @@ Problem cell_in_square() {
 
 TEST(DuctLadder, TwoDegreesThatAgreeByChanceDoNotPassForAccurate) {
   // Seen along the diagonal, a cell of d = 0.01 differs by 3e-5 between degrees 3 and 4, whose error is 1.3e-4.
-  DuctLadder ladder;
+  Ladder ladder{duct_geometry(cell_in_square()).errors};
   StateNumbers numbers;
   numbers.shape.deformation = 0.01;
   ladder.add({}, numbers);
@@ -223,6 +223,32 @@ TEST(DuctSession, ACancelledSolveLeavesWhatWasKept) {
   EXPECT_EQ(session.warm_starts(), 1);
   EXPECT_EQ(state.statistics.factorisations, 0);
   EXPECT_NEAR(state.shape.deformation / before, 1, 1e-7);
+}
+
+TEST(DuctSession, SeveralStatesAreKept) {
+  // Two cells far from each other, in turns: each is answered from its own, as is a cell in a tube in between.
+  Problem one = cell_in_square(), other = cell_in_square(), in_tube = test::problem({6, 4.58, 0}, 1e-3);
+  other.bulk.shear_modulus *= 2;
+  Session session;
+  for (const Problem& problem : {one, other, in_tube}) session.solve(problem);
+  EXPECT_EQ(session.warm_starts(), 0);
+  for (Problem* problem : {&one, &other, &in_tube}) {
+    problem->bulk.shear_modulus *= 0.99;
+    EXPECT_EQ(session.solve(*problem).outcome.status, Status::converged);
+  }
+  EXPECT_EQ(session.warm_starts(), 3);
+}
+
+TEST(DuctSession, ATubeByHexahedraIsNoStartForTheTubeByItsMeridian) {
+  // Their unknowns mean different things, although the problem is the same.
+  Problem tube = cell_in_square();
+  tube.section = Section::tube;
+  Session session;
+  const StationaryState by_hexahedra = session.solve_in(duct_geometry(tube), tube);
+  const StationaryState by_meridian = session.solve(tube);
+  EXPECT_EQ(session.warm_starts(), 0);
+  EXPECT_EQ(by_meridian.outcome.status, Status::converged);
+  EXPECT_NEAR(by_hexahedra.shape.deformation / by_meridian.shape.deformation, 1, 2 * tube.accuracy);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "cases.h"
 #include "fem/observe.h"
 #include "solve/continuation.h"
+#include "solve/tube.h"
 
 namespace rheocyte::stationary_test {
 namespace {
@@ -119,11 +120,11 @@ TEST(Stationary, InACarreauLiquidTheDeformationConvergesWithTheDegree) {
   // On one mesh; the law is smooth, so that every two degrees give more than a decimal.
   const Problem problem = test::in_carreau_liquid(test::problem({6, 4.58, 0}));
   const auto deformation = [&](int degree) {
-    Discrete discrete(problem, {{2, 4, 1, 2}, degree});
-    const ContinuationReport first = start_branch(stiffness_path(discrete.system, problem), {});
-    const auto report = continue_branch(stiffness_path(discrete.system, problem), {}, first.last);
+    TubeDiscrete discrete(problem, {{2, 4, 1, 2}, degree});
+    const ContinuationReport first = start_branch(stiffness_path(discrete.system(), problem), {});
+    const auto report = continue_branch(stiffness_path(discrete.system(), problem), {}, first.last);
     EXPECT_EQ(report.status, Status::converged);
-    return measure(contour(discrete.space, report.last.unknowns)).deformation;
+    return measure(contour(discrete.space(), report.last.unknowns)).deformation;
   };
   const double exact = deformation(10);
   double before = std::abs(deformation(4) / exact - 1);

@@ -1,4 +1,6 @@
 // A dynamic table gives back the ways of its cells, and those of cells between them.
+#include "table/dynamic_table.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +16,6 @@
 
 #include "../refusal.h"
 #include "invented_dynamic.h"
-#include "table/dynamic_folder.h"
 
 namespace rheocyte::dynamic_table_test {
 namespace {
@@ -110,74 +111,6 @@ TEST(DynamicTable, WhatItsSpecMustNotSayIsRefusedInASentence) {
       "[channel]\nwidth_um = 20\n" + test::dynamic_spec_text.substr(test::dynamic_spec_text.find("[flow]"));
   EXPECT_NE(refusal_of([&] { parse_dynamic_spec(straight, "spec.toml"); }).find("needs the contraction"),
             std::string::npos);
-}
-
-class DynamicFolderTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "rheocyte-dynamic-XXXXXX").string();
-    folder_ = fs::path(::mkdtemp(name.data()));
-    fs::remove(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path folder_;
-};
-
-/// 2 x 2 x 2 cells at few places: some seconds.
-DynamicSpec small_spec() {
-  return parse_dynamic_spec(
-      test::dynamic_spec_text, "spec.toml",
-      std::vector<std::string>{"dynamic.radii=2", "dynamic.moduli=2", "dynamic.times=2", "dynamic.places=4",
-                               "dynamic.last_um=60", "dynamic.checks=0", "dynamic.min_young_modulus_kPa=6",
-                               "dynamic.min_time_ms=0.5", "time.degree=2", "time.accuracy=1e-3"});
-}
-
-TEST_F(DynamicFolderTest, AnInterruptedComputationGoesOnAndEndsWithAllCells) {
-  std::atomic<bool> stop = true;
-  EXPECT_FALSE(DynamicFolder(folder_, small_spec())
-                   .compute(
-                       1, [](int) {}, stop));
-  stop = false;
-  {
-    DynamicFolder folder(folder_, small_spec());
-    const int before = folder.done();
-    EXPECT_LT(before, folder.cells());
-    EXPECT_TRUE(folder.compute(
-        2, [](int) {}, stop));
-    EXPECT_TRUE(folder.failed().empty());
-    const DynamicTable table = folder.finish();
-    // Every cell of a soft and a stiff kind grows more asymmetric on its way, the soft one more.
-    EXPECT_GT(table.value(CourseMeasure::mode_3, {8, 6, 0.5}, 60), table.value(CourseMeasure::mode_3, {8, 6, 0.5}, 10));
-    EXPECT_GT(table.value(CourseMeasure::mode_3, {8, 6, 0.5}, 60),
-              table.value(CourseMeasure::mode_3, {8, 20, 0.5}, 60));
-  }
-  EXPECT_EQ(DynamicFolder(folder_, small_spec()).done(), 8);
-  EXPECT_EQ(read_dynamic_table(folder_).spec().identifier, "invented");
-}
-
-TEST_F(DynamicFolderTest, ARecordOfAnotherCellIsRefused) {
-  const DynamicSpec spec = small_spec();
-  const auto cells = cells_of(spec);
-  { DynamicFolder begun(folder_, spec); }
-  const std::string bytes = to_bytes(test::invented_course(spec, cells[2]), spec_hash(spec));
-  std::ofstream(folder_ / "cells" / "cell-00002.cbor", std::ios::binary) << bytes;
-  EXPECT_EQ(DynamicFolder(folder_, spec).done(), 1);
-  std::ofstream(folder_ / "cells" / "cell-00005.cbor", std::ios::binary) << bytes;
-  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, spec); }).find("cell-00005.cbor: this record of a cell's way"),
-            std::string::npos);
-}
-
-TEST_F(DynamicFolderTest, AFolderOfAnotherContractionOrOfSomethingElseIsRefused) {
-  { DynamicFolder first(folder_, small_spec()); }
-  const DynamicSpec other = spec_with("channel.profile.x_um=[60, 120]");
-  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, other); }).find("holds a table of another spec"),
-            std::string::npos);
-  fs::remove_all(folder_);
-  fs::create_directories(folder_);
-  std::ofstream(folder_ / "letter.txt") << "dear";
-  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, other); }).find("holds other files"), std::string::npos);
-  EXPECT_NE(refusal_of([&] { read_dynamic_table(folder_); }).find("there is no dynamic table here"), std::string::npos);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "laboratory.h"
-#include "shape/measures.h"
 #include "solve/resolved_branch.h"
+#include "solve/tube.h"
 
 namespace rheocyte::convergence_test {
 namespace {
@@ -15,20 +15,22 @@ constexpr Subdivision coarse_mesh{2, 4, 1, 2}, fine_mesh{4, 8, 2, 2};
 /// r0 = 6 um, E = 2.29 kPa, `linear`, Stokes: d = 0.0382, a case with a narrow rear shoulder.
 class Convergence : public testing::Test {
  protected:
-  Convergence() {
-    options_.tolerance = 1e-12;
-    state_ = follow_branch(problem_, options_, {});
-  }
+  Convergence() : branch_(problem_, accurate(tube_geometry(problem_))), state_(branch_.follow()) {}
 
   double deformation(const Subdivision& subdivision, int degree) {
-    const ResolvedState resolved = at_resolution(problem_, options_, state_, {subdivision, degree});
+    const ResolvedState resolved = branch_.at_resolution(state_, {subdivision, degree});
     EXPECT_EQ(resolved.status, Status::converged);
-    return measure(contour(resolved.discrete->space, resolved.branch.unknowns)).deformation;
+    return resolved.discrete->deformation(problem_, resolved.branch.unknowns);
   }
 
  private:
+  static Geometry accurate(Geometry tube) {
+    tube.fine.tolerance = 1e-12;
+    return tube;
+  }
+
   Problem problem_ = test::in_newtonian_liquid({6, 2.29, BulkLaw::linear}, test::Inertia::none, 1e-6);
-  NewtonOptions options_;
+  ResolvedBranch branch_;
   ResolvedState state_;
 };
 

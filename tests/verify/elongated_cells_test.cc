@@ -14,7 +14,7 @@
 #include "measurement/shape_in_pixels.h"
 #include "numeric/quantile.h"
 #include "solve/session.h"
-#include "table/measured_state.h"
+#include "sweep/measured_state.h"
 
 namespace rheocyte::elongated_cells_test {
 namespace {

@@ -8,9 +8,9 @@
 #include "fem/observe.h"
 #include "laboratory.h"
 #include "solve/branch_ends.h"
-#include "solve/describe.h"
 #include "solve/resolved_branch.h"
 #include "solve/stationary.h"
+#include "solve/tube.h"
 
 namespace rheocyte::range_test {
 namespace {
@@ -60,9 +60,10 @@ class EndOfTheBranchSlow : public testing::TestWithParam<NamedCell> {};
 
 /// The end of the branch by search, without what is known of it beforehand.
 StationaryState search(const Problem& problem) {
-  const ResolvedState end = follow_branch(problem, {.tolerance = 1e-10}, {});
+  ResolvedBranch branch(problem, tube_geometry(problem));
+  const ResolvedState end = branch.follow(Search::thorough);
   StationaryState state;
-  describe_state(problem, {end.discrete, media_at(problem, end.branch.parameter), end.branch.unknowns}, state);
+  end.discrete->describe(branch.problem_at(end.branch.parameter), end.branch.unknowns, state);
   state.outcome = {end.status, "", end.branch.parameter};
   return state;
 }

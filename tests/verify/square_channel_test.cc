@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "fem/observe.h"
+#include "solve/branch_samples.h"
 #include "solve/continuation.h"
-#include "solve/describe_duct.h"
-#include "solve/duct_branch.h"
-#include "solve/stationary_duct.h"
+#include "solve/duct.h"
+#include "solve/session.h"
 
 namespace rheocyte::square_channel_test {
 namespace {
@@ -50,9 +50,9 @@ CoarseState coarse_state(const Problem& problem) {
   const auto discrete = std::make_shared<DuctDiscrete>(problem, DuctSubdivision{}, 3);
   ContinuationOptions options;
   options.newton.tolerance = 1e-7;
-  ContinuationReport report = start_branch(stiffness_path(discrete->system, problem), options);
+  ContinuationReport report = start_branch(stiffness_path(discrete->system(), problem), options);
   if (report.last.parameter < 1)
-    report = continue_branch(stiffness_path(discrete->system, problem), options, report.last);
+    report = continue_branch(stiffness_path(discrete->system(), problem), options, report.last);
   EXPECT_EQ(report.last.parameter, 1);
   return {discrete, report.last.unknowns};
 }
@@ -60,14 +60,14 @@ CoarseState coarse_state(const Problem& problem) {
 /// Carried to a degree, one after the other.
 Deformations deformations(const Problem& problem, int degree) {
   auto [discrete, state] = coarse_state(problem);
-  for (int next = discrete->space.reference().degree() + 1; next <= degree; ++next) {
+  for (int next = discrete->space().reference().degree() + 1; next <= degree; ++next) {
     const auto fine = std::make_shared<DuctDiscrete>(problem, DuctSubdivision{}, next);
-    state = transfer(discrete->space, state, fine->space);
+    state = transfer(discrete->space(), state, fine->space());
     discrete = fine;
-    EXPECT_EQ(newton(discrete->system, problem, {.tolerance = 1e-9}, state).status, Status::converged) << next;
+    EXPECT_EQ(newton(discrete->system(), problem, {.tolerance = 1e-9}, state).status, Status::converged) << next;
   }
-  return {duct_deformation(discrete->space, state, Camera::side),
-          duct_deformation(discrete->space, state, Camera::diagonal)};
+  return {duct_deformation(discrete->space(), state, Camera::side),
+          duct_deformation(discrete->space(), state, Camera::diagonal)};
 }
 
 /// Velocity of a rigid sphere over that of the undisturbed liquid on the axis.
@@ -77,10 +77,10 @@ double velocity_ratio(double radius_ratio, int degree) {
   problem.radius_ratio = radius_ratio;
   problem.bulk.shear_modulus = 1e7;
   DuctDiscrete discrete(problem, {}, degree);
-  VectorXd state = discrete.system.sphere();
-  EXPECT_EQ(newton(discrete.system, problem, {.tolerance = 1e-8}, state).status, Status::converged);
-  const CrossSection& section = discrete.space.section();
-  return state(discrete.space.cell_velocity()) / section.flow({}).velocity(section.node_at({0, 0}));
+  VectorXd state = discrete.system().sphere();
+  EXPECT_EQ(newton(discrete.system(), problem, {.tolerance = 1e-8}, state).status, Status::converged);
+  const CrossSection& section = discrete.space().section();
+  return state(discrete.space().cell_velocity()) / section.flow({}).velocity(section.node_at({0, 0}));
 }
 
 TEST(SquareChannel, ARigidSphereLagsBehindTheLiquidOnTheAxis) {
@@ -184,7 +184,8 @@ TEST(SquareChannelSlow, StatesOfABranchAreThoseOfTheCellsThemselves) {
   Problem problem = newtonian_cell(0.4, 0.15);
   problem.accuracy = 0.05;
   const std::vector heights{0.6, 1.0};
-  const DuctBranch branch = follow_in_duct(problem, softening(problem), {.max_deformation = 0.01, .heights = heights});
+  const BranchSamples branch =
+      branch_samples(problem, softening(problem), {.max_deformation = 0.01, .heights = heights});
   EXPECT_EQ(branch.end, Status::converged);
   ASSERT_EQ(branch.states.size(), heights.size());
   EXPECT_NEAR(branch.states[1].shape.deformation / 0.01, 1, 0.1);
@@ -207,7 +208,7 @@ TEST(SquareChannelSlow, AlongABranchWhatDoesNotSoftenStaysAsItIs) {
     at.bulk.shear_modulus /= compliance;
     return at;
   };
-  const DuctBranch branch = follow_in_duct(problem, media, {.max_deformation = 0.01, .heights = {0.6, 1}});
+  const BranchSamples branch = branch_samples(problem, media, {.max_deformation = 0.01, .heights = {0.6, 1}});
   ASSERT_EQ(branch.states.size(), 2);
   Problem one = with_media(problem, media(branch.states[1].outcome.reached));
   const StationaryState state = solve_stationary(one);
@@ -221,7 +222,8 @@ TEST(SquareChannelSlow, AlongABranchWhatDoesNotSoftenStaysAsItIs) {
 TEST(SquareChannel, ABranchMayEndBeforeTheFirstStepOfAWayWould) {
   Problem problem = newtonian_cell(0.6, 1);
   problem.accuracy = 0.05;
-  const DuctBranch branch = follow_in_duct(problem, softening(problem), {.max_deformation = 1e-4, .heights = {0.5, 1}});
+  const BranchSamples branch =
+      branch_samples(problem, softening(problem), {.max_deformation = 1e-4, .heights = {0.5, 1}});
   ASSERT_EQ(branch.end, Status::converged);
   ASSERT_EQ(branch.states.size(), 2);
   EXPECT_NEAR(branch.states[1].shape.deformation, 1e-4, 1e-5);
@@ -231,7 +233,7 @@ TEST(SquareChannel, ABranchEndsWhereItsSurfaceIsAsNearToTheLimitAsItMayBe) {
   Problem problem = newtonian_cell(0.6, 1);
   problem.accuracy = 0.05;
   constexpr double least_margin = 0.6;
-  const DuctBranch branch = follow_in_duct(problem, softening(problem), {0.05, least_margin, {1}});
+  const BranchSamples branch = branch_samples(problem, softening(problem), {0.05, least_margin, {1}});
   EXPECT_EQ(branch.end, Status::surface_unstable);
   ASSERT_EQ(branch.states.size(), 1);
   EXPECT_GT(branch.states[0].stability_margin, least_margin);
@@ -244,14 +246,14 @@ TEST(SquareChannelSlow, ABranchEndsWhereHigherDegreesHaveNoStableState) {
   problem.liquid = {.law = LiquidLaw::power_law, .exponent = 0.5149};
   problem.bulk.shear_modulus = 1e3 / 3 / (1.4936 * std::pow(mean_velocity / half_width_m, problem.liquid.exponent));
   problem.accuracy = 2e-3;
-  const DuctBranch bare = follow_in_duct(problem, softening(problem), {.max_deformation = 0.06, .heights = {1}});
+  const BranchSamples bare = branch_samples(problem, softening(problem), {.max_deformation = 0.06, .heights = {1}});
   EXPECT_EQ(bare.end, Status::surface_unstable);
   ASSERT_EQ(bare.states.size(), 1);
   EXPECT_LT(bare.states[0].shape.deformation, 0.058);
   EXPECT_GT(bare.states[0].stability_margin, 0);
   EXPECT_LT(bare.states[0].estimated_error, problem.accuracy);
   problem.cortex.bending = 3e-5 * 3 * problem.bulk.shear_modulus * std::pow(problem.radius_ratio, 3);
-  const DuctBranch held = follow_in_duct(problem, softening(problem), {.max_deformation = 0.06, .heights = {1}});
+  const BranchSamples held = branch_samples(problem, softening(problem), {.max_deformation = 0.06, .heights = {1}});
   EXPECT_EQ(held.end, Status::converged);
   ASSERT_EQ(held.states.size(), 1);
   EXPECT_GT(held.states[0].shape.deformation, 0.06);
@@ -263,16 +265,16 @@ TEST(SquareChannelSlow, OnTheCoarsestMeshTheSurfaceIsAsFarFromItsLimitAsOnFineOn
   Problem problem = newtonian_cell(0.29316, 0.85);
   problem.bulk.law = BulkLaw::linear;
   const auto [discrete, unknowns] = coarse_state(problem);
-  EXPECT_NEAR(biot_limit + (1 - biot_limit) * duct_stability_margin(problem, discrete->space, unknowns), 0.358, 0.02);
+  EXPECT_NEAR(biot_limit + (1 - biot_limit) * discrete->stability_margin(problem, unknowns), 0.358, 0.02);
 }
 
 /// Side and diagonal, or for a rectangle along height and width, and the cell's velocity, on a coarse mesh.
 std::array<double, 3> views_and_velocity(const Problem& problem, Symmetry symmetry, Camera second) {
   DuctDiscrete discrete(problem, {.along = 2, .layers = 1, .axial = 1}, 3, symmetry);
-  VectorXd state = discrete.system.sphere();
-  EXPECT_EQ(newton(discrete.system, problem, {.tolerance = 1e-12}, state).status, Status::converged);
-  return {duct_deformation(discrete.space, state, Camera::side), duct_deformation(discrete.space, state, second),
-          state(discrete.space.cell_velocity())};
+  VectorXd state = discrete.system().sphere();
+  EXPECT_EQ(newton(discrete.system(), problem, {.tolerance = 1e-12}, state).status, Status::converged);
+  return {duct_deformation(discrete.space(), state, Camera::side), duct_deformation(discrete.space(), state, second),
+          state(discrete.space().cell_velocity())};
 }
 
 TEST(SquareChannel, AQuarterIsTwoEighths) {

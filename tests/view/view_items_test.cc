@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "measurement/recording_writer.h"
-#include "view/http.h"
+#include "serve/http.h"
 
 namespace rheocyte::view_items_test {
 namespace {

@@ -1,0 +1,47 @@
+// A stationary problem at one resolution, in whatever dimension: its system, and what is read off its unknowns.
+#pragma once
+#include "case/problem.h"
+#include "fem/nonlinear_system.h"
+#include "shape/measures.h"
+#include "solve/resolution.h"
+#include "solve/stationary.h"
+
+namespace rheocyte {
+
+/// Mesh, spaces and system, which refer to each other and stay together. The problems that are given are those at hand:
+/// with the media of the unknowns.
+class Discrete {
+ public:
+  explicit Discrete(const Resolution& resolution) : resolution_(resolution) {}
+  virtual ~Discrete() = default;
+  Discrete(const Discrete&) = delete;
+  Discrete& operator=(const Discrete&) = delete;
+
+  const Resolution& resolution() const { return resolution_; }
+  virtual NonlinearSystem& system() = 0;
+
+  /// What the camera sees.
+  virtual Contour contour(const Problem&, const VectorXd& unknowns) const = 0;
+  double deformation(const Problem& problem, const VectorXd& unknowns) const {
+    return measure(contour(problem, unknowns)).deformation;
+  }
+  /// Distance of the surface from its limit against short wrinkles (solve/surface_stability.h).
+  virtual double stability_margin(const Problem&, const VectorXd& unknowns) const = 0;
+  /// Whether the surface is beyond that limit, or seen to be.
+  virtual bool is_wrinkled(const Problem&, const VectorXd& unknowns) const = 0;
+  virtual StateNumbers numbers(const Problem&, const VectorXd& unknowns) const = 0;
+  /// Fills in contours, surface, numbers, sizes and the writers of fields, which outlive this object; outcome, errors
+  /// and counts of work are left alone.
+  virtual void describe(const Problem&, const VectorXd& unknowns, StationaryState&) const = 0;
+
+  /// The same fields in the unknowns of this resolution, from another one of the same geometry.
+  virtual VectorXd transfer_from(const Discrete& other, const VectorXd& unknowns) const = 0;
+  /// Becomes that of another problem whose unknowns mean the same (Geometry::is_alike). The factors stay, for chord
+  /// steps there.
+  virtual void move_to(const Problem&) = 0;
+
+ private:
+  Resolution resolution_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,207 @@
+#include "sweep/branch_states.h"
+
+#include <cmath>
+#include <limits>
+
+#include "shape/measures.h"
+
+namespace rheocyte {
+namespace {
+
+/// Ever finer resolutions; a state is accurate if the one before gives the same deformation.
+const std::array<Resolution, 5> resolutions = {
+    {{{2, 4, 1, 2}, 6}, {{2, 4, 1, 2}, 8}, {{3, 6, 1, 2}, 8}, {{3, 6, 1, 2}, 10}, {{4, 8, 2, 2}, 10}}};
+/// The error of a level is taken as this share of the change from the level before.
+constexpr double share_of_change = 0.5;
+/// Of Newton's method; on the level before, whose state only tells the error, less will do.
+constexpr double tolerance = 1e-10, tolerance_before = 1e-8;
+/// Displacement of the first state, in r0; its deformation is some 1e-5.
+constexpr double first_displacement = 0.006;
+/// Step in u for slopes of the measures along the tangent.
+constexpr double slope_step = 1e-4;
+
+double factorisation_seconds_of(TubeDiscrete& discrete) { return discrete.system().work().factorisation_s; }
+
+}  // namespace
+
+BranchStates::BranchStates(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop)
+    : spec_(spec), place_(place), axial_ratio_(place.axial_ratio) {
+  static_assert(resolutions.size() == levels);
+  place_.axial_ratio = 0;
+  newton_.stop = stop;
+  newton_.tolerance = tolerance;
+}
+
+double BranchStates::log_progress(const BranchNode& node) const { return std::log(node.at(progress_of(spec_))); }
+double BranchStates::log_progress_slope(const BranchNode& node) const {
+  return node.slope(int(progress_of(spec_))) / node.at(progress_of(spec_));
+}
+
+double BranchStates::stiffness(double u) const { return first_stiffness_ * std::exp(-u); }
+Problem BranchStates::problem(double u) const { return problem_of(case_at(spec_, place_, stiffness(u))); }
+
+TubeDiscrete& BranchStates::at_level(int level) {
+  if (!discrete_[level]) discrete_[level] = std::make_unique<TubeDiscrete>(problem(0), resolutions[level]);
+  return *discrete_[level];
+}
+
+Path BranchStates::path(int level, double end) {
+  return {[this, level](double) -> NonlinearSystem& { return at_level(level).system(); },
+          [this](double u) { return media_at(problem(u), 1); }, end, -std::numeric_limits<double>::infinity()};
+}
+
+ContinuationOptions BranchStates::continuation() {
+  ContinuationOptions options;
+  options.newton = newton_;
+  options.newton.iteration_limit = 5;
+  options.accept = [this](const NonlinearSystem& system, const BranchState& state) {
+    const bool accepted = !is_wrinkled(problem(state.parameter), space_of(system), state.unknowns);
+    refused_ += !accepted;
+    return accepted;
+  };
+  return options;
+}
+
+namespace {
+
+BranchNode unmeasured(double u, int level, VectorXd unknowns) {
+  BranchNode node;
+  node.u = u;
+  node.level = level;
+  node.unknowns = std::move(unknowns);
+  return node;
+}
+
+}  // namespace
+
+BranchStates::Way BranchStates::enter() {
+  Way way = enter_round();
+  return way.status == Status::converged && axial_ratio_ != 0 ? draw_out(way.last) : way;
+}
+
+BranchStates::Way BranchStates::enter_round() {
+  TubeDiscrete& discrete = at_level(0);
+  ContinuationOptions start = continuation();
+  start.accept = {};
+  start.displacement_per_step = first_displacement;
+  for (int attempt = 0; attempt < 30; ++attempt) {
+    const ContinuationReport report = start_branch(stiffness_path(discrete.system(), problem(0)), start);
+    count(report.newton_iterations);
+    if (report.status != Status::converged) return {report.status, {}};
+    const double d = shape(0, report.last.unknowns).deformation;
+    if (report.last.parameter == 1 && d <= spec_.min_deformation)
+      return {Status::converged, unmeasured(0, 0, report.last.unknowns)};
+    // The deformation goes with the square of the compliance.
+    first_stiffness_ *=
+        report.last.parameter < 1 ? 1.01 / report.last.parameter : 1.05 * std::sqrt(d / spec_.min_deformation);
+  }
+  return {Status::iteration_limit, {}};
+}
+
+BranchStates::Way BranchStates::draw_out(const BranchNode& round) {
+  const auto problem_at = [this](double share) {
+    BranchPlace place = place_;
+    place.axial_ratio = share * axial_ratio_;
+    return problem_of(case_at(spec_, place, first_stiffness_));
+  };
+  Path drawing = stiffness_path(at_level(0).system(), [&](double share) { return media_at(problem_at(share), 1); });
+  drawing.origin = -std::numeric_limits<double>::infinity();
+  ContinuationOptions options = continuation();
+  options.accept = [&](const NonlinearSystem& system, const BranchState& state) {
+    return !is_wrinkled(problem_at(state.parameter), space_of(system), state.unknowns);
+  };
+  const ContinuationReport report = continue_branch(drawing, options, {0, round.unknowns, {}, 0});
+  count(report.newton_iterations);
+  place_.axial_ratio = axial_ratio_;
+  return {report.status, unmeasured(0, 0, report.last.unknowns)};
+}
+
+BranchStates::Way BranchStates::advance(const BranchNode& from, double u) {
+  const ContinuationReport report =
+      continue_branch(path(from.level, u), continuation(), {from.u, from.unknowns, from.tangent, 0});
+  count(report.newton_iterations);
+  return {report.status, unmeasured(report.last.parameter, from.level, report.last.unknowns)};
+}
+
+bool BranchStates::measure(BranchNode& node) {
+  const Scales scales = scales_of(case_at(spec_, place_, first_stiffness_));
+  while (true) {
+    TubeDiscrete& discrete = at_level(node.level);
+    const Problem here = problem(node.u);
+    discrete.system().linearise(media_at(here, 1), node.unknowns);
+    if (!discrete.system().has_factors()) return false;
+    node.tangent = branch_tangent(path(node.level, node.u), {node.u, node.unknowns, {}, 0});
+    node.state = measure_state(discrete.space(), here, scales, node.unknowns);
+    node.error = error_of(node);
+    if (node.error <= spec_.accuracy) break;
+    if (!refine(node)) return ++refused_, false;
+  }
+  const auto moved = [&](double step) {
+    return measure_state(at_level(node.level).space(), problem(node.u + step), scales,
+                         node.unknowns + step * node.tangent);
+  };
+  const MeasuredState plus = moved(slope_step), minus = moved(-slope_step);
+  node.slope = (plus.value - minus.value) / (2 * slope_step);
+  node.contour_slope = (plus.contour - minus.contour) / (2 * slope_step);
+  return true;
+}
+
+double BranchStates::error_of(const BranchNode& node) {
+  TubeDiscrete& before = at_level(node.level - 1);
+  VectorXd unknowns = transfer(at_level(node.level).space(), node.unknowns, before.space());
+  NewtonOptions options = newton_;
+  options.tolerance = tolerance_before;
+  const NewtonReport report = newton(before.system(), media_at(problem(node.u), 1), options, unknowns);
+  count(report.iterations);
+  if (report.status != Status::converged) return std::numeric_limits<double>::infinity();
+  return share_of_change * std::abs(progress(node.level - 1, unknowns) / node.at(progress_of(spec_)) - 1);
+}
+
+bool BranchStates::refine(BranchNode& node) {
+  if (node.level + 1 >= levels) return false;
+  TubeDiscrete& next = at_level(node.level + 1);
+  VectorXd unknowns = transfer(at_level(node.level).space(), node.unknowns, next.space());
+  const NewtonReport report = newton(next.system(), media_at(problem(node.u), 1), newton_, unknowns);
+  count(report.iterations);
+  if (report.status != Status::converged || is_wrinkled(problem(node.u), next.space(), unknowns)) return false;
+  ++node.level;
+  node.unknowns = unknowns;
+  node.tangent = {};
+  return true;
+}
+
+double BranchStates::progress_in_the_middle(const BranchNode& a, const BranchNode& b) {
+  const double h = b.u - a.u;
+  return progress(a.level, (a.unknowns + b.unknowns) / 2 + h / 8 * (a.tangent - b.tangent));
+}
+
+ShapeMeasures BranchStates::shape(int level, const VectorXd& unknowns) {
+  return rheocyte::measure(contour(at_level(level).space(), unknowns));
+}
+
+double BranchStates::progress(int level, const VectorXd& unknowns) {
+  StateNumbers numbers;
+  numbers.shape = shape(level, unknowns);
+  return table_measures[std::size_t(int(progress_of(spec_)))].value(numbers);
+}
+
+void BranchStates::count(int iterations) {
+  ++solves_;
+  newton_iterations_ += iterations;
+}
+
+void BranchStates::release_coarser_than(int level) {
+  for (int i = 0; i < level - 1; ++i) {
+    if (discrete_[i]) released_factorisation_ += factorisation_seconds_of(*discrete_[i]);
+    discrete_[i].reset();
+  }
+}
+
+double BranchStates::factorisation_seconds() const {
+  double seconds = released_factorisation_;
+  for (const auto& discrete : discrete_)
+    if (discrete) seconds += factorisation_seconds_of(*discrete);
+  return seconds;
+}
+
+}  // namespace rheocyte
