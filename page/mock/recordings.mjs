@@ -40,7 +40,7 @@ function moduliOf({ area_um, deform }) {
   return { emodulus, state, standard_error: emodulus.map((value) => 0.05 * value) };
 }
 
-const conditions = (flow) => ({ channel_width_um: 20, flow_rate_ul_per_s: flow, medium: 'CellCarrier', temperature_C: 23 });
+const conditions = (flow) => ({ channel_width_um: 20, flow_rate_ul_s: flow, medium: 'CellCarrier', temperature_C: 23 });
 
 function recording(item, name, count, seed, stiffness) {
   const columns = eventsOf(count, seed, stiffness);

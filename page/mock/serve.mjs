@@ -16,6 +16,13 @@ const media = [
   { medium: 'water', name: 'water' },
 ];
 
+const settings = [
+  { name: 'table', label: 'Table', kind: 'text', unit: '' },
+  { name: 'viscosity_mPas', label: 'Viscosity', kind: 'number', unit: 'mPa s' },
+  { name: 'temperature', label: 'Temperature', kind: 'number', unit: 'degC' },
+  { name: 'temperature_if_missing', label: 'Temperature if missing', kind: 'number', unit: 'degC' },
+].map((each) => ({ ...each, sentence: each.label, words: [], default: '', usual: true }));
+
 const streams = new Map();
 let session = null;
 
@@ -81,6 +88,7 @@ async function exported({ request, response }) {
 const routes = {
   'GET /api/health': ({ response }) => answer(response, 200, { status: 'ok', program: 'rheocyte', version: 'mock', threads: 1 }),
   'GET /api/keys': ({ response }) => answer(response, 200, readKeys()),
+  'GET /api/settings': ({ response }) => answer(response, 200, settings),
   'GET /api/media': ({ response }) => answer(response, 200, media),
   'GET /api/media/viscosity': ({ response }) => answer(response, 200, { law: 'power-law', consistency_Pa_sn: 0.179, exponent: 0.677 }),
   'POST /api/state': state,

@@ -24,6 +24,21 @@ export interface KeyDescription {
   alternative: string | null;
 }
 
+/** A setting of the moduli of recordings, as the program declares it. */
+export interface Setting {
+  name: string;
+  label: string;
+  sentence: string;
+  kind: 'number' | 'text' | 'texts' | 'choice' | 'flag';
+  unit: string;
+  /** The options of a choice; of a text some that are common. */
+  words: string[];
+  /** What holds without it. */
+  default: string;
+  /** Whether its field is in sight. */
+  usual: boolean;
+}
+
 export interface Medium {
   medium: string;
   name: string;
@@ -375,6 +390,7 @@ export const readCase = (toml: string) => json<{ case: Sections }>('/api/case/re
 export const readCaseLines = (sections: Sections, signal?: AbortSignal) =>
   json<Lines>(`/api/lines?${query({ case: JSON.stringify(sections) })}`, { signal });
 
+export const readSettings = () => json<Setting[]>('/api/settings');
 export const readItems = () => json<Item[]>('/api/items');
 export const readItem = (item: number) => json<Item>(`/api/items/${item}`);
 export const changeItem = (item: number, change: { condition?: string; replicate?: string }) =>

@@ -23,10 +23,10 @@ namespace {
 
 // The file of `rheocyte time-course` as text, and what it says in sentences; a contraction for each recording.
 py::tuple time_course(const std::vector<std::filesystem::path>& recordings, const std::filesystem::path& place,
-                      const std::vector<double>& contraction_um, const ModuliOptions& options,
+                      const std::vector<double>& contraction_um, const TimeCourseOptions& options,
                       const PythonProgress& progress) {
   const MeasuringOptions& measuring = options.measuring;
-  check_measuring_options(measuring);
+  check_options(measuring);
   const auto report = interruptible([&](const std::atomic<bool>& stop) -> CourseReport {
     const DynamicTable table = read_dynamic_table(place);
     CourseTable courses(table, options.section.value_or(Section::square));
@@ -36,7 +36,7 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
           tell_progress((double(i) + share) / double(recordings.size()));
         });
       };
-      const auto events = read_contained(recordings[i], work, progress, stop);
+      const auto events = read_contained(recordings[i], measuring, work, progress, stop);
       if (stop) return {};
       courses.add(events, recordings[i].string(), contraction_um[i]);
     }

@@ -116,13 +116,13 @@ Told written(const Events& e, const SharedColumns& memory) {
 }
 
 py::tuple extract(const std::filesystem::path& file, const ExtractOptions& options, const PythonProgress& progress) {
-  check_measuring_options(options.measuring);
+  check_options(options);
   const SharedColumns memory;
   const auto work = [&](const TellProgress& tell_progress) {
     return written(events_of(file, options, tell_progress), memory);
   };
-  const Told told =
-      interruptible([&](const std::atomic<bool>& stop) { return read_contained(file, work, progress, stop); });
+  const Told told = interruptible(
+      [&](const std::atomic<bool>& stop) { return read_contained(file, options.measuring, work, progress, stop); });
   py::dict attributes;
   attributes["shapes"] = told.shapes;
   attributes["table"] = told.table;

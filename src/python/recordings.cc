@@ -20,13 +20,13 @@ namespace {
 // The lines of `rheocyte moduli`, into a file that may be a piece of memory.
 std::vector<std::string> moduli(const std::filesystem::path& recording, const std::filesystem::path& target,
                                 const ModuliOptions& options, const PythonProgress& progress) {
-  check_measuring_options(options.measuring);
+  check_options(options.measuring);
   return interruptible([&](const std::atomic<bool>& stop) {
     const ModuliTable table(options);
     const auto work = [&](const TellProgress& tell_progress) {
       return moduli_of_recording(recording, target, options, table, tell_progress).warnings;
     };
-    return read_contained(recording, work, progress, stop);
+    return read_contained(recording, options.measuring, work, progress, stop);
   });
 }
 

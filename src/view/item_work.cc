@@ -82,13 +82,6 @@ void give_columns(const Json& request, const WorkReply& reply, const TellProgres
     }
 }
 
-ModuliOptions moduli_options(const ExtractOptions& options, const fs::path& folder) {
-  ModuliOptions wanted;
-  wanted.measuring = options.measuring;
-  wanted.table = folder;
-  return wanted;
-}
-
 /// Stays with its recording, tables and settings until nobody asks for an event any more.
 void inspect_events(const Json& request, const WorkReply& reply, const TellProgress& tell) {
   const OpenRecording open(request, tell);
@@ -167,7 +160,7 @@ void compute_moduli(const Json& request, const WorkReply& reply) {
     report.update(basins);
     reply.give(json_text(report));
   };
-  reply.run_contained(file, work);
+  reply.run_contained(file, work, {.patience_s = options.measuring.patience_s.value_or(default_patience_s)});
   files.publish();
   if (const fs::path place = path_in(request, "events_of_gate"); !place.empty()) {
     WholeFile target(place);

@@ -81,7 +81,7 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options) {
   run->settings = all_settings(options);
   run->command = extract_command(options, found.place.path);
   const fs::path combined = items_.combined();
-  if (!combined.empty()) run->command_several = moduli_command(options, found.place.path, combined);
+  if (!combined.empty()) run->command_several = moduli_command(moduli_options(options, combined), found.place.path);
   take_out(item);
   const std::scoped_lock lock(mutex_);
   const fs::path stem = items_.host().folder() / fmt::format("item-{}-{}", item, ++started_);

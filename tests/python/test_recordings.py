@@ -34,11 +34,11 @@ def test_a_frame_holds_units_settings_and_the_numbers_of_the_command(program, tm
 @needs_recordings
 def test_gates_shut_events_out():
     file = REFERENCE / "rtdc" / "example.rtdc"
-    frame = rheocyte.extract(file, least={"area_um": 50}, greatest={"area_um": 100}, pixel_size_um=0.34, **KNOWN)
+    frame = rheocyte.extract(file, min={"area_um": 50}, max={"area_um": 100}, pixel_size_um=0.34, **KNOWN)
     inside = frame["area_um2"].between(50, 100)
     assert ((frame["state"] == "gated") == ~inside).all()
     corners = [(50, -1), (100, -1), (100, 2), (50, 2)]
-    within = rheocyte.extract(file, polygons={("area_um", "deform"): corners}, pixel_size_um=0.34, **KNOWN)
+    within = rheocyte.extract(file, polygon={("area_um", "deform"): corners}, pixel_size_um=0.34, **KNOWN)
     assert within["young_modulus_kPa"].equals(frame["young_modulus_kPa"])
 
 
@@ -46,9 +46,10 @@ def test_gates_shut_events_out():
     ({"chanel_width_um": 20}, "no argument 'chanel_width_um'"),
     ({"channel_width_um": -20}, "channel"),
     ({"temperature": "warm"}, "warm"),
-    ({"least": {"area_um": "x"}}, "area_um"),
-    ({"polygons": {("area_um", "deform"): [1, 2, 3]}}, "pairs of numbers"),
-    ({"polygons": {("area_um", "deform"): [(1, 2), (3, 4)]}}, "three corners"),
+    ({"min": {"area_um": "x"}}, "area_um"),
+    ({"section": "tube", "table": "LE-2D-26"}, "table and section contradict each other"),
+    ({"polygon": {("area_um", "deform"): [1, 2, 3]}}, "pairs of numbers"),
+    ({"polygon": {("area_um", "deform"): [(1, 2), (3, 4)]}}, "three corners"),
 ])
 @needs_recordings
 def test_wrong_arguments_are_value_errors(arguments, sentence):
@@ -68,9 +69,9 @@ def test_a_file_that_is_none_or_damaged_is_named(tmp_path):
 
 
 @pytest.mark.parametrize("call", [
-    lambda file: rheocyte.extract(file, table=5), lambda file: rheocyte.extract(file, least=5),
-    lambda file: rheocyte.extract(file, least={"area_um": None}), lambda file: rheocyte.extract(file, section="round"),
-    lambda file: rheocyte.extract(file, progress=5), lambda file: rheocyte.extract(file, pixelation="no"),
+    lambda file: rheocyte.extract(file, table=5), lambda file: rheocyte.extract(file, min=5),
+    lambda file: rheocyte.extract(file, min={"area_um": None}), lambda file: rheocyte.extract(file, section="round"),
+    lambda file: rheocyte.extract(file, progress=5), lambda file: rheocyte.extract(file, no_pixelation="no"),
     lambda file: rheocyte.extract(file, medium="a\udcff"), lambda file: rheocyte.extract(file, temperature="a\udcff"),
     lambda file: rheocyte.moduli(file, file, fit_tension="no"), lambda file: rheocyte.synth("a\0b", file),
     lambda file: rheocyte.synth("a\nb", file), lambda file: rheocyte.synth({}, file, replace="no"),
@@ -241,9 +242,9 @@ def test_a_temperature_fills_what_is_missing(tmp_path):
 
 @pytest.mark.parametrize("arguments, sentence", [
     ({"viscosity_mPas": 5, "medium": "water"}, "viscosity_mPas and medium contradict"),
-    ({"temperature": 296}, "temperature 296"), ({"least": {"bright": 1}}, "for which least gives a limit"),
-    ({"polygons": {("a", "b"): [(1, 2)]}}, r"three corners at least\.$"), ({"polygons": "filters.txt"}, "no file of polygon"),
-    ({"polygons": "nowhere.poly"}, "nowhere.poly: cannot be read")])
+    ({"temperature": 296}, "temperature 296"), ({"min": {"bright": 1}}, "for which min gives a limit"),
+    ({"polygon": {("a", "b"): [(1, 2)]}}, r"three corners at least\.$"), ({"polygon": "filters.txt"}, "no file of polygon"),
+    ({"polygon": "nowhere.poly"}, "nowhere.poly: cannot be read")])
 def test_what_is_said_names_arguments_not_options(arguments, sentence, tmp_path):
     rheocyte.synth(CELLS, tmp_path / "cells.rtdc", recording__cells=20)
     with pytest.raises(UserError, match=sentence) as caught:

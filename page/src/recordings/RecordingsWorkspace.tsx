@@ -14,6 +14,7 @@ import { ModuliPanel } from './ModuliPanel';
 import { readKnownModuli } from './moduli';
 import { RecordingList } from './RecordingList';
 import { ScatterPlot } from './ScatterPlot';
+import { readDeclared } from './settings';
 import { MeasuredSelect, StatisticsTable } from './StatisticsTable';
 import './list.css';
 import './plots.css';
@@ -39,6 +40,7 @@ function useStart(): void {
     begun = true;
     keepModel();
     watchChanges();
+    readDeclared().catch(notifyFailure);
     readRecordings()
       .then(() => recordings(items.get()).filter((item) => item.state === 'ready'))
       .then((ready) => Promise.all(ready.map((item) => readKnownModuli(item.item))))
