@@ -23,6 +23,12 @@ const settings = [
   { name: 'temperature_if_missing', label: 'Temperature if missing', kind: 'number', unit: 'degC' },
 ].map((each) => ({ ...each, sentence: each.label, words: [], default: '', usual: true }));
 
+const features = [
+  { name: 'emodulus', label: "Young's modulus E", unit: 'kPa' },
+  { name: 'state', label: 'State of the modulus', unit: '' },
+  { name: 'standard_error', label: 'Standard error of E', unit: 'kPa' },
+];
+
 const streams = new Map();
 let session = null;
 
@@ -89,6 +95,7 @@ const routes = {
   'GET /api/health': ({ response }) => answer(response, 200, { status: 'ok', program: 'rheocyte', version: 'mock', threads: 1 }),
   'GET /api/keys': ({ response }) => answer(response, 200, readKeys()),
   'GET /api/settings': ({ response }) => answer(response, 200, settings),
+  'GET /api/features': ({ response }) => answer(response, 200, features),
   'GET /api/media': ({ response }) => answer(response, 200, media),
   'GET /api/media/viscosity': ({ response }) => answer(response, 200, { law: 'power-law', consistency_Pa_sn: 0.179, exponent: 0.677 }),
   'POST /api/state': state,

@@ -39,6 +39,13 @@ export interface Setting {
   usual: boolean;
 }
 
+/** A feature that the program computes. */
+export interface Feature {
+  name: string;
+  label: string;
+  unit: string;
+}
+
 export interface Medium {
   medium: string;
   name: string;
@@ -175,11 +182,11 @@ export interface CombinedCell {
   status: string;
   sentence: string;
   young_modulus_kPa: number | null;
-  standard_error_young_modulus_kPa: number | null;
+  young_modulus_error_kPa: number | null;
   cortex_modulus_mN_per_m: number | null;
-  standard_error_cortex_modulus_mN_per_m: number | null;
+  cortex_modulus_error_mN_per_m: number | null;
   stiffness_kPa: number | null;
-  standard_error_stiffness_kPa: number | null;
+  stiffness_error_kPa: number | null;
   contour: Curve | null;
   case: Sections | null;
 }
@@ -391,6 +398,7 @@ export const readCaseLines = (sections: Sections, signal?: AbortSignal) =>
   json<Lines>(`/api/lines?${query({ case: JSON.stringify(sections) })}`, { signal });
 
 export const readSettings = () => json<Setting[]>('/api/settings');
+export const readFeatures = () => json<Feature[]>('/api/features');
 export const readItems = () => json<Item[]>('/api/items');
 export const readItem = (item: number) => json<Item>(`/api/items/${item}`);
 export const changeItem = (item: number, change: { condition?: string; replicate?: string }) =>

@@ -1,6 +1,5 @@
 """Recordings of RT-DC: Young's moduli of their events, moduli of bulk and cortex, features of masks, virtual ones."""
 
-import io
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -9,20 +8,11 @@ import numpy as np
 from rheocyte.arrays import number, numbers, positive, truth
 from rheocyte.datasets import source_of
 from rheocyte.errors import UserError
-from rheocyte.memory_file import written
 from rheocyte.native_module import native
 from rheocyte.paths import path
 from rheocyte.progress import progress_bar
 from rheocyte.settings import filled, gated, with_settings
 from rheocyte.specs import read_spec
-
-_UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "young_modulus_kPa": "kPa",
-          "standard_error_kPa": "kPa", "state": "", "shape_excess": "", "shape_excess_error": "", "elongated": "",
-          "odd_share": "", "mode_3": "", "young_modulus_asymmetry_kPa": "kPa", "standard_error_asymmetry_kPa": "kPa",
-          "young_modulus_inertia_kPa": "kPa", "standard_error_inertia_kPa": "kPa", "elongation": "", "elongation_error": "",
-          "axial_tension_Pa": "Pa", "axial_tension_error_Pa": "Pa", "sine_mode_2": "", "flank_slope": "",
-          "sine_mode_3": "", "sine_mode_4": ""}
-
 
 @with_settings(native.ExtractOptions)
 def extract(recording, *, progress=None, **settings):
@@ -47,22 +37,10 @@ def extract(recording, *, progress=None, **settings):
     UserError for what is wrong with the recording, naming what it lacks. It is read in a child of this process, for HDF5 is
     known to break down on some damaged files.
     """
-    import pandas
-
     options = filled(native.ExtractOptions(), settings)
     with source_of(recording, gated(settings)) as source, progress_bar(progress) as tell:
-        columns, attributes = native.extract(source.place, options, tell)
-    for name in ("settings", "shapes", "warnings"):
-        attributes[name] = source.told(attributes[name])
-    attributes["warnings"] += source.warnings
-    if not len(columns["standard_error_kPa"]) or np.isnan(columns["standard_error_kPa"]).all():
-        del columns["standard_error_kPa"]
-    if "elongated" in columns:
-        columns["elongated"] = columns["elongated"].astype(bool)
-    columns["state"] = pandas.Categorical.from_codes(columns["state"], list(native.state_names))
-    frame = pandas.DataFrame(columns, copy=False)
-    frame.attrs.update(attributes, units={name: _UNITS[name] for name in frame})
-    return frame
+        (columns, said), attributes = native.extract(source.place, options, tell)
+    return _framed(columns, said, attributes, source)
 
 
 @with_settings(native.ModuliOptions)
@@ -81,11 +59,8 @@ def moduli(recording, table, *, progress=None, **settings):
     options = filled(native.ModuliOptions(), settings)
     options.table = path(table, "table")
     with source_of(recording, gated(settings)) as source, progress_bar(progress) as tell:
-        text, warnings = written(lambda place: native.moduli(source.place, place, options, tell))
-    frame = _frame(source.named(text.decode()))
-    del frame["event"]
-    frame.attrs.update(warnings=source.told(warnings) + source.warnings)
-    return frame
+        (columns, said), attributes = native.moduli(source.place, options, tell)
+    return _framed(columns, said, attributes, source)
 
 
 @with_settings(native.TimeCourseOptions)
@@ -104,6 +79,8 @@ def time_course(recordings, table, contraction_um, *, progress=None, **settings)
     (sentences; of at least 50 cells, also of those that were seen once). UserError says why single
     images, or pictures at one place, do not tell a viscosity.
     """
+    import pandas
+
     several = recordings if isinstance(recordings, (list, tuple)) else [recordings]
     places = np.atleast_1d(numbers(contraction_um, "contraction_um"))
     if len(places) not in (1, len(several)):
@@ -112,11 +89,12 @@ def time_course(recordings, table, contraction_um, *, progress=None, **settings)
     options = filled(native.TimeCourseOptions(), settings)
     with ExitStack() as stack, progress_bar(progress) as tell:
         sources = [stack.enter_context(source_of(recording, gated(settings))) for recording in several]
-        text, lines = native.time_course([source.place for source in sources], path(table, "table"), each, options, tell)
+        columns, told, lines = native.time_course([source.place for source in sources], path(table, "table"), each, options, tell)
     for source in sources:
-        text, lines = source.named(text), source.told(lines)
-    frame = _frame(text)
-    frame.attrs.update(population=lines)
+        columns["recording"] = [source.named(name) for name in columns["recording"]]
+        told, lines = [source.named(line) for line in told], source.told(lines)
+    frame = pandas.DataFrame(columns).astype({"cell": int, "events": int})
+    frame.attrs.update(settings=told, population=lines)
     return frame
 
 
@@ -170,10 +148,18 @@ def features(masks, pixel_size_um):
     return pandas.DataFrame(columns.T, columns=names)  # one block, nothing is copied
 
 
-def _frame(text):
-    """The rows of a table of the program; its lines of settings in attrs."""
+def _framed(columns, said, attributes, source):
+    """The columns of the events of a recording, and in attrs what is said about them."""
     import pandas
 
-    frame = pandas.read_csv(io.StringIO(text), sep="\t", comment="#")
-    frame.attrs.update(settings=[line[2:] for line in text.splitlines() if line.startswith("# ")])
+    for name in {"settings", "shapes", "warnings"} & {*attributes}:
+        attributes[name] = source.told(attributes[name])
+    attributes["warnings"] += source.warnings
+    for name, column in columns.items():
+        if name in said["words"]:
+            columns[name] = pandas.Categorical.from_codes(column, said["words"][name])
+        elif column.dtype == np.int8:
+            columns[name] = column.astype(bool)
+    frame = pandas.DataFrame(columns, copy=False)
+    frame.attrs.update(attributes, units=said["units"])
     return frame

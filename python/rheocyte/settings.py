@@ -3,6 +3,7 @@
 import functools
 import inspect
 import json
+import re
 import textwrap
 import warnings
 from collections.abc import Mapping
@@ -11,6 +12,9 @@ from rheocyte.arrays import number, numbers, truth
 from rheocyte.errors import UserError
 from rheocyte.paths import path, word
 from rheocyte.stiffness_tables import place_of_table
+
+
+_PLACE = re.compile(r"^( *)\{settings\}$", re.MULTILINE)  # in the documentation of a function
 
 
 def declared(options):
@@ -36,7 +40,8 @@ def with_settings(options):
             return function(*args, **arguments, **_named(given, known, function.__name__))
 
         called.__signature__ = signature.replace(parameters=[*own, *added, last])
-        called.__doc__ = function.__doc__.replace("    {settings}", "\n".join(map(_documented, known.values())))
+        called.__doc__ = _PLACE.sub(lambda place: "\n".join(_documented(each, place[1]) for each in known.values()),
+                                    function.__doc__)
         return called
 
     return decorate
@@ -82,13 +87,13 @@ def _named(given, known, function):
     return settings
 
 
-def _documented(setting):
+def _documented(setting, indent):
     text = _SAID.get(setting["name"], setting["sentence"])
     if setting["greatest"] is not None:
         text += f" ({setting['least']:g} .. {setting['greatest']:g} {setting['unit']})"
     if setting["default"]:
         text += f"; default: {setting['default']}"
-    return textwrap.fill(f"{setting['name']:<15} {text}", 124, initial_indent=" " * 4, subsequent_indent=" " * 20)
+    return textwrap.fill(f"{setting['name']:<15} {text}", 124, initial_indent=indent, subsequent_indent=indent + " " * 16)
 
 
 def _taken(setting, value):

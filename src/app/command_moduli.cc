@@ -8,7 +8,6 @@
 #include "app/extract_options.h"
 #include "app/recording_batch.h"
 #include "case/user_error.h"
-#include "extract/event_table.h"
 #include "extract/moduli_recording.h"
 #include "extract/recording_settings.h"
 #include "store/own_file.h"
@@ -37,7 +36,8 @@ class ModuliJob {
   }
 
   ModuliSummary work(const RecordingTask& task, const WholeFile& file, const TellProgress& tell_progress) const {
-    return moduli_of_recording(task.recording, file.scratch(), options_, table_, tell_progress);
+    ModuliText text(file.scratch());
+    return moduli_of_recording(task.recording, options_, table_, text, tell_progress);
   }
 
   bool take(const RecordingTask& task, const ModuliSummary& summary) const {

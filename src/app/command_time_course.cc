@@ -59,7 +59,7 @@ int run(const TimeCourseOptions& options) {
     courses.add(events, name, contraction_um);
   }
   const CourseReport report = courses.report();
-  write_own_file(options.file, report.text, mark_of_courses, Foreign::keep);
+  write_own_file(options.file, course_text(report), mark_of_courses, Foreign::keep);
   if (!options.batch.quiet)
     for (const std::string& line : report.lines) print(line + "\n");
   return exit_converged;

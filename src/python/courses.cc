@@ -21,7 +21,8 @@ namespace py = pybind11;
 
 namespace {
 
-// The file of `rheocyte time-course` as text, and what it says in sentences; a contraction for each recording.
+// The columns of `rheocyte time-course` by their names, settings, and what is said of the population; a contraction for
+// each recording.
 py::tuple time_course(const std::vector<std::filesystem::path>& recordings, const std::filesystem::path& place,
                       const std::vector<double>& contraction_um, const TimeCourseOptions& options,
                       const PythonProgress& progress) {
@@ -42,7 +43,13 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
     }
     return courses.report();
   });
-  return py::make_tuple(report.text, report.lines);
+  py::dict columns;
+  for (const auto& column : course_columns()) {
+    py::list values;
+    for (const CourseRow& row : report.rows) values.append(py::cast(column.value(row)));
+    columns[column.name.c_str()] = values;
+  }
+  return py::make_tuple(columns, report.remarks, report.lines);
 }
 
 // The file appears whole or not at all; the caller has looked whether one is there. The number of its events.

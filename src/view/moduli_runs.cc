@@ -87,7 +87,7 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options) {
   const fs::path stem = items_.host().folder() / fmt::format("item-{}-{}", item, ++started_);
   run->files = {found.place.path, options.table, combined};
   run->companion = stem.string() + "_rheocyte.rtdc";
-  if (!combined.empty()) run->several = stem.string() + "_moduli.tsv";
+  if (!combined.empty()) run->several = stem.string() + "_moduli.rtdc";
   const Json request{{"do", "moduli"},
                      {"file", path_text(found.place.path)},
                      {"settings", run->settings},

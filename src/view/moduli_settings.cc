@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "case/user_error.h"
@@ -43,13 +42,13 @@ ExtractOptions options_of_settings(const Json& settings) {
 }
 
 ExtractOptions extract_options(const Json& settings, const TableItem& table_item) {
+  if (!settings.is_object()) return options_of_settings(settings);
+  for (const Json& one : settings.value("polygon", Json::array()))
+    if (one.is_string() && is_polygon_file(one)) throw UserError("polygon must be features and corners, not a file.");
   Json resolved = settings;
-  if (settings.is_object() && settings.contains("table") && !settings["table"].is_null())
+  if (settings.contains("table") && !settings["table"].is_null())
     resolved["table"] = named_table(settings["table"], table_item);
-  ExtractOptions options = options_of_settings(resolved);
-  if (std::ranges::any_of(options.measuring.gates.polygons, is_polygon_file))
-    throw UserError("polygon must be features and corners, not a file.");
-  return options;
+  return options_of_settings(resolved);
 }
 
 ModuliOptions moduli_options(const ExtractOptions& options, const std::filesystem::path& table) {

@@ -289,7 +289,10 @@ def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
     assert any("the channel is its tube" in line for line in frame.attrs["warnings"])
     subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--section", "tube", "--quiet"], cwd=tmp_path, check=True)
     written = pandas.read_csv(tmp_path / "cells_moduli.tsv", sep="\t", comment="#").drop(columns="event")
-    pandas.testing.assert_frame_equal(frame, written, check_exact=True)
+    assert [*frame] == [*written] and (frame["status"] == written["status"]).all()
+    assert frame.attrs["units"]["cortex_modulus_error_mN_per_m"] == "mN/m"
+    numbers = frame.drop(columns="status")
+    pandas.testing.assert_frame_equal(numbers, written[[*numbers]], check_dtype=False, rtol=5.1e-3)  # three digits or six
     # Of 60 cells with 10 % each; the sum is what the deformation tells.
     bulk, cortex = frame["young_modulus_kPa"].median(), frame["cortex_modulus_mN_per_m"].median()
     assert bulk + cortex / 6.5 == pytest.approx(2 + 10 / 6.5, rel=0.05)
@@ -344,7 +347,9 @@ def test_the_time_course_is_that_of_the_command(program, on_their_way):
     subprocess.run([program, "time-course", "cells.rtdc", "--table", "dynamic", "--contraction-um", "0", "-o", "cells.tsv",
                     "--section", "tube", "--quiet"], cwd=on_their_way, check=True)
     written = pandas.read_csv(on_their_way / "cells.tsv", sep="\t", comment="#")
-    pandas.testing.assert_frame_equal(frame.drop(columns="recording"), written.drop(columns="recording"))
+    assert [*frame] == [*written] and (frame[["status", "event_numbers"]] == written[["status", "event_numbers"]]).all(axis=None)
+    numbers = frame.select_dtypes("number")
+    pandas.testing.assert_frame_equal(numbers, written[[*numbers]], check_dtype=False, rtol=5.1e-2)  # two digits, and more
     assert len(frame) == 60 and set(frame["events"]) == {2}
     held = (frame["viscosity_low_Pas"] <= 5) & (frame["viscosity_high_Pas"] >= 5)
     assert held.mean() > 0.7  # of 90 %; the standard deviation is 4 %

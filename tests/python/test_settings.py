@@ -48,6 +48,7 @@ def test_what_the_view_declares_are_the_options_of_extract(cells, program, tmp_p
     """The page makes its fields from it (page/tests/recordings_program.test.mjs)."""
     view = View(tmp_path, cells)
     try:
+        view.wait_until("/api/items", lambda items: items[0]["state"] != "loading")
         declared = view.json("GET", "/api/settings")
         for setting in declared:
             answer = view.json("POST", "/api/items/0/moduli", {setting["name"]: {}})
@@ -60,7 +61,7 @@ def test_what_the_view_declares_are_the_options_of_extract(cells, program, tmp_p
 
 def test_the_documentation_has_all_settings():
     for function in (rheocyte.extract, rheocyte.moduli, rheocyte.time_course):
-        told = {line.split()[0] for line in function.__doc__.splitlines() if re.match(r"    \w", line)}
+        told = {line.split()[0] for line in inspect.getdoc(function).splitlines() if re.match(r"\w", line)}
         assert {*inspect.signature(function).parameters} <= told
         assert max(map(len, function.__doc__.splitlines())) <= 128
 

@@ -7,6 +7,7 @@ import { watchChanges } from './changes';
 import { loadingColumns, stopLoading } from './columns';
 import { Distributions } from './Distributions';
 import { ExportMenu } from './ExportMenu';
+import { readComputed } from './features';
 import { GateList } from './GateList';
 import { Inspector } from './Inspector';
 import { focus, gates, items, keepModel, panel, plots, readRecordings, recordings, secondPlot, tool, type Panel, type Tool } from './model';
@@ -40,8 +41,8 @@ function useStart(): void {
     begun = true;
     keepModel();
     watchChanges();
-    readDeclared().catch(notifyFailure);
-    readRecordings()
+    Promise.all([readDeclared(), readComputed()])
+      .then(readRecordings)
       .then(() => recordings(items.get()).filter((item) => item.state === 'ready'))
       .then((ready) => Promise.all(ready.map((item) => readKnownModuli(item.item))))
       .catch(notifyFailure);
