@@ -2,7 +2,7 @@
 // costs that is reached from its neighbour, by what the cell is made of.
 //
 // Columns: a whole iteration (integrals with tangent, factorisation, substitution, one residual), then its parts.
-// `iteration/factorisation` is the ratio that docs/benchmarks.md quotes.
+// `iteration/factorisation` is how many factorisations an iteration costs.
 #include <benchmark/benchmark.h>
 
 #include "solve/resolved_branch.h"

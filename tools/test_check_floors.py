@@ -114,6 +114,20 @@ class Lengths(TreeTest):
         self.reject({"tools/a": "#!/usr/bin/env python3\n" + text}, ("tools/a", 2), "81 lines")
 
 
+class Circles(TreeTest):
+    def test_modules_that_import_downwards_pass(self):
+        self.accept({"python/p/a.py": "from p import b\n", "python/p/b.py": "import numpy\n"})
+        self.accept({"page/src/a.ts": "import { b } from './c/b';\n", "page/src/c/b.tsx": "import 'preact';\n"})
+
+    def test_python_modules_in_a_circle_fail_where_they_import_late(self):
+        tree = {"python/p/a.py": "from p import b\n", "python/p/b.py": "def f():\n    from p.a import g\n"}
+        self.reject(tree, ("python/p/a.py", 1), "python/p/a.py -> python/p/b.py -> python/p/a.py")
+
+    def test_modules_of_the_page_in_a_circle_fail_where_they_import_types(self):
+        tree = {"page/src/a.tsx": "import { B } from './b';\n", "page/src/b.ts": "import type { A } from './a';\n"}
+        self.reject(tree, ("page/src/a.tsx", 1), "in a circle")
+
+
 class Names(TreeTest):
     def test_vague_names_fail(self):
         for name in ("python/utils.py", "src/fem/mesh_utils.cc", "tests/utils/a.txt"):

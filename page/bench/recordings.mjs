@@ -1,13 +1,10 @@
-// A recording of a million events in the browser: time to its first plot, frames of moving and stretching, the next event, a
-// gate's counts and statistics. Against the mock, or the program with the recording that RECORDING names:
-//     RHEOCYTE=build/rheocyte RECORDING=million.rtdc node bench/recordings.mjs
-import { resetRecordings } from '../mock/recording_routes.mjs';
-import { openBrowser } from '../tests/browser.mjs';
+// A large recording in the browser: time to its first plot, frames of moving and stretching, the next event, a gate's
+// counts and statistics.
+//     build/rheocyte synth examples/recordings/virtual-cells.toml --set recording.cells=1000000 -o million.rtdc
+//     RECORDING=million.rtdc node page/bench/recordings.mjs
+import { openWindow } from '../tests/browser.mjs';
 import { computeModuli, drawn } from '../tests/recordings_page.mjs';
-import { program, startTarget } from '../tests/target.mjs';
-
-const events = Number(process.env.EVENTS ?? 1e6);
-const name = program ? process.env.RECORDING.split('/').pop() : 'treated_1.rtdc';
+import { startTarget } from '../tests/target.mjs';
 
 /** Moves the plot by the wheel and the arrow keys, one change a frame; seconds of each frame. */
 async function frames(count) {
@@ -76,54 +73,33 @@ const summary = (times) => {
   return `median ${at(0.5)} ms, 95 % ${at(0.95)} ms`;
 };
 
-const target = await startTarget(program ? [process.env.RECORDING] : []);
-if (!program) resetRecordings(events);
-const { context, close } = await openBrowser({ viewport: { width: 1440, height: 900 } });
-const page = context.pages()[0] ?? (await context.newPage());
+const target = await startTarget([process.env.RECORDING]);
+const page = await openWindow({ viewport: { width: 1440, height: 900 } });
 await page.goto(target.address);
 await page.getByRole('button', { name: 'Recordings', exact: true }).click();
-const title = page.getByRole('button', { name, exact: true });
-await title.waitFor();
-if (!program) {
-  await drawn(page);
-  await page.evaluate((wanted) => {
-    const canvas = document.querySelector('[data-plot="1"] canvas');
-    window.firstPlot = new Promise((done) => {
-      const start = performance.now();
-      const look = () => (Number(canvas.dataset.events) > wanted / 2 ? done(performance.now() - start) : setTimeout(look));
-      document.querySelectorAll('.recording-name')[1].click();
-      look();
-    });
-  }, events);
-  console.log(`first plot after the choice of the recording: ${(await page.evaluate(() => window.firstPlot)).toFixed(0)} ms`);
-} else {
-  await drawn(page);
-  console.log(`first plot after the page was asked for: ${(await page.evaluate(() => performance.now())).toFixed(0)} ms`);
-}
+await drawn(page);
+console.log(`first plot after the page was asked for: ${(await page.evaluate(() => performance.now())).toFixed(0)} ms`);
 await page.evaluate(frames, 5);
 const { pan, zoom, size } = await page.evaluate(frames, 60);
 console.log(`${size} pixels; pan: ${summary(pan)}; zoom: ${summary(zoom)}`);
 await page.getByRole('tab', { name: /^Gates/ }).click();
 await page.getByLabel('Limit').selectOption('area_um');
 const gates = [];
-for (let k = 0; k < 15; ++k) gates.push(await page.evaluate(gate, 40 + 2 * k));
+for (let k = 0; k < 15; ++k) gates.push(await page.evaluate(gate, 90 + k));
 console.log(`a gate's counts on the screen: ${summary(gates.map(({ time }) => time))}; last: ${gates.at(-1).says}`);
-if (program) {
-  const events_ms = [];
-  for (let k = 0; k < 15; ++k) events_ms.push(await page.evaluate(nextEvent));
-  console.log(`the next event with all that is known of it: ${summary(events_ms)}`);
-  const start = performance.now();
-  await page.getByRole('tab', { name: 'Statistics' }).click();
-  await computeModuli(page);
-  console.log(`moduli: ${(performance.now() - start).toFixed(0)} ms`);
-  const times = [];
-  for (let k = 0; k < 15; ++k) {
-    await page.getByRole('tab', { name: /^Gates/ }).click();
-    await page.getByLabel('Least Area').waitFor();
-    times.push(await page.evaluate(statistics, 45 + k));
-  }
-  console.log(`a gate's statistics of the moduli on the screen: ${summary(times)}`);
+const events_ms = [];
+for (let k = 0; k < 15; ++k) events_ms.push(await page.evaluate(nextEvent));
+console.log(`the next event with all that is known of it: ${summary(events_ms)}`);
+const start = performance.now();
+await page.getByRole('tab', { name: 'Statistics' }).click();
+await computeModuli(page);
+console.log(`moduli: ${(performance.now() - start).toFixed(0)} ms`);
+const times = [];
+for (let k = 0; k < 15; ++k) {
+  await page.getByRole('tab', { name: /^Gates/ }).click();
+  await page.getByLabel('Least Area').waitFor();
+  times.push(await page.evaluate(statistics, 90.5 + k));
 }
-await close();
+console.log(`a gate's statistics of the moduli on the screen: ${summary(times)}`);
 await target.stop();
 process.exit(0);

@@ -148,6 +148,8 @@ export interface Item {
   version?: string;
   events?: number;
   conditions?: Record<string, number | string | null>;
+  /** of events by the names of their states, once there are moduli */
+  counts?: Record<string, number>;
   condition: string;
   replicate: string;
   features?: string[];
@@ -207,11 +209,21 @@ export interface EventDetail {
   case: Sections | null;
 }
 
+/** What the number in an event's column "state" says. */
+export interface ModulusState {
+  number: number;
+  name: string;
+  has_modulus: boolean;
+  sentence: string;
+}
+
 export interface Moduli {
   state: 'none' | 'running' | 'ready' | 'failed';
   done: number;
   error?: string;
   summary?: Record<string, unknown>;
+  /** of events by the names of their states */
+  counts?: Record<string, number>;
   lines?: string[];
   command?: string;
   /** of the moduli with cortex, where a combined table is there */
@@ -429,6 +441,7 @@ export const readEvent = (item: number, event: number, signal?: AbortSignal) =>
 export const eventPicture = (kind: 'image' | 'mask', item: number, event: number, version?: string) =>
   `/api/items/${item}/events/${event}/${kind}?${query({ version })}`;
 
+export const readStates = () => json<ModulusState[]>('/api/states');
 export const startModuli = (item: number, settings: Record<string, unknown>) =>
   json<Moduli>(`/api/items/${item}/moduli`, sending('POST', settings));
 export const readModuli = (item: number) => json<Moduli>(`/api/items/${item}/moduli`);

@@ -1,14 +1,11 @@
-// The browser under the tests: Debian's chromium, headless, with an empty profile and no traffic of its own.
+// The browser under the tests: Debian's chromium, headless and without traffic of its own; one for a file of tests.
 import { existsSync } from 'node:fs';
-import { mkdtemp, rm } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
 import { chromium } from 'playwright-core';
-import { patience_ms } from './target.mjs';
+import { noProgram, patience_ms } from './target.mjs';
 
-export const program = process.env.CHROMIUM ?? '/usr/bin/chromium';
+const chromiumFile = process.env.CHROMIUM ?? '/usr/bin/chromium';
 /** Why tests in the browser are skipped, or false. */
-export const noBrowser = existsSync(program) ? false : `there is no ${program}`;
+export const skip = noProgram || (existsSync(chromiumFile) ? false : `there is no ${chromiumFile}; CHROMIUM can name another one`);
 
 const flags = [
   '--headless',
@@ -21,38 +18,30 @@ const flags = [
   '--disable-sync',
 ];
 
-/** Opens a browser; `close` removes its profile as well. */
-export async function openBrowser(options = {}, more = []) {
-  const profile = await mkdtemp(join(tmpdir(), 'rheocyte-page-'));
-  const context = await chromium.launchPersistentContext(profile, {
-    executablePath: program,
-    args: [...flags, ...more],
-    viewport: { width: 1280, height: 800 },
-    timeout: patience_ms,
-    ...options,
-  });
+let browser = null;
+const isTest = process.argv[1].endsWith('.test.mjs'); // bench/ ends by itself, and prints nothing but its numbers
+if (isTest) (await import('node:test')).after(async () => (await browser)?.close());
+
+/** A window with nothing kept from others, in the one browser of a file of tests. */
+export async function openWindow(options = {}) {
+  browser ??= chromium.launch({ executablePath: chromiumFile, args: flags, timeout: patience_ms });
+  const context = await (await browser).newContext({ viewport: { width: 1280, height: 800 }, ...options });
   context.setDefaultTimeout(patience_ms);
-  const close = async () => {
-    await context.close();
-    await rm(profile, { recursive: true, force: true, maxRetries: 20 }); // its processes may still write
-  };
-  return { context, close };
+  return context.newPage();
 }
 
-/** Opens a browser on what a test asks (of target.mjs); `end` closes both, and so does a failure of `prepare`. */
+/** Opens a window on what a test asks (of target.mjs); `end` closes both, and so does a failure of `prepare`. */
 export async function openPage(target, options, prepare) {
-  let close = async () => {};
+  let page = null;
   const end = async () => {
     try {
-      await close();
+      await page?.context().close();
     } finally {
       await target.stop();
     }
   };
   try {
-    const browser = await openBrowser(options);
-    close = browser.close;
-    const page = browser.context.pages()[0] ?? (await browser.context.newPage());
+    page = await openWindow(options);
     const failures = [];
     page.on('pageerror', (failure) => failures.push(failure.message));
     page.on('console', (message) => /Content Security Policy/.test(message.text()) && failures.push(message.text()));

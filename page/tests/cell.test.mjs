@@ -2,9 +2,8 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import test from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { noBrowser } from './browser.mjs';
+import { skip } from './browser.mjs';
 import { field, moveSlider, openCell, settled, shownDeformation, slider, typeNumber, until } from './cell_page.mjs';
-import { program as underTest } from './target.mjs';
 
 const modulus = 'cell.bulk.young_modulus_kPa';
 
@@ -18,7 +17,7 @@ async function withCell(use, options, hash, items) {
   }
 }
 
-test('A softer cell deforms more: the slider of the modulus moves the deformation', { skip: noBrowser }, () =>
+test('A softer cell deforms more: the slider of the modulus moves the deformation', { skip }, () =>
   withCell(async ({ page }) => {
     const before = await shownDeformation(page);
     await moveSlider(page, modulus, 450);
@@ -27,7 +26,7 @@ test('A softer cell deforms more: the slider of the modulus moves the deformatio
     assert.ok(Number(await field(page, modulus).inputValue()) < 3.437);
   }));
 
-test('Each number stands with the error that the program states for it', { skip: noBrowser }, () =>
+test('Each number stands with the error that the program states for it', { skip }, () =>
   withCell(async ({ page }) => {
     const answers = [];
     // Through our hands: what the page itself has read as a stream, the browser does not keep.
@@ -50,7 +49,7 @@ test('Each number stands with the error that the program states for it', { skip:
     assert.ok(errors().deformation > 0);
   }));
 
-test('A state that does not exist leaves the last one greyed, says why, and the nearest one is a click away', { skip: noBrowser }, () =>
+test('A state that does not exist leaves the last one greyed, says why, and the nearest one is a click away', { skip }, () =>
   withCell(async ({ page }) => {
     const before = await shownDeformation(page);
     await typeNumber(page, modulus, '0.3');
@@ -65,14 +64,14 @@ test('A state that does not exist leaves the last one greyed, says why, and the 
     assert.equal(await page.locator('.channel.stale').count(), 0);
   }));
 
-test('A cell that does not fit is refused at its control', { skip: noBrowser }, () =>
+test('A cell that does not fit is refused at its control', { skip }, () =>
   withCell(async ({ page }) => {
     await typeNumber(page, 'cell.radius_um', '30');
     await page.locator('[data-key="cell.radius_um"] .wrong').waitFor();
     assert.equal(await field(page, 'cell.radius_um').getAttribute('aria-invalid'), 'true');
   }));
 
-test('What is typed and is no number is marked and dropped; Escape takes back what is typed', { skip: noBrowser }, () =>
+test('What is typed and is no number is marked and dropped; Escape takes back what is typed', { skip }, () =>
   withCell(async ({ page }) => {
     const radius = field(page, 'cell.radius_um'), before = await radius.inputValue();
     await radius.fill('7 or so');
@@ -87,7 +86,7 @@ test('What is typed and is no number is marked and dropped; Escape takes back wh
     assert.equal(await page.getByRole('button', { name: 'Undo' }).isDisabled(), true, 'the case is as it was');
   }));
 
-test('Undo returns to the case before, redo to the one after; a whole movement is one step', { skip: noBrowser }, () =>
+test('Undo returns to the case before, redo to the one after; a whole movement is one step', { skip }, () =>
   withCell(async ({ page }) => {
     const first = await shownDeformation(page);
     await moveSlider(page, modulus, 480);
@@ -101,7 +100,7 @@ test('Undo returns to the case before, redo to the one after; a whole movement i
     assert.equal(await shownDeformation(page), second);
   }));
 
-test('The address holds the case: a link restores it', { skip: noBrowser }, () =>
+test('The address holds the case: a link restores it', { skip }, () =>
   withCell(async ({ page }) => {
     await typeNumber(page, 'cell.radius_um', '6.5');
     await settled(page);
@@ -115,7 +114,7 @@ test('The address holds the case: a link restores it', { skip: noBrowser }, () =
     assert.equal(await shownDeformation(page), shown);
   }));
 
-test('Keys without effect for the chosen law are not shown; what a law needs comes with it', { skip: noBrowser }, () =>
+test('Keys without effect for the chosen law are not shown; what a law needs comes with it', { skip }, () =>
   withCell(async ({ page }) => {
     assert.equal(await slider(page, 'flow.exponent').count(), 0);
     await page.locator('[data-key="flow.law"] select').selectOption('power-law');
@@ -127,7 +126,7 @@ test('Keys without effect for the chosen law are not shown; what a law needs com
     assert.equal(await field(page, 'flow.viscosity_mPas').inputValue(), '15');
   }));
 
-test('A medium of the field brings its law into the case', { skip: noBrowser }, () =>
+test('A medium of the field brings its law into the case', { skip }, () =>
   withCell(async ({ page }) => {
     await page.locator('#medium').selectOption({ index: 1 });
     await page.locator('[data-key="flow.exponent"]').waitFor();
@@ -135,7 +134,7 @@ test('A medium of the field brings its law into the case', { skip: noBrowser }, 
     assert.equal(await page.locator('[data-key="flow.law"] select').inputValue(), 'power-law');
   }));
 
-test('All works by keyboard: slider, undo, menu, values in the picture', { skip: noBrowser }, () =>
+test('All works by keyboard: slider, undo, menu, values in the picture', { skip }, () =>
   withCell(async ({ page }) => {
     const first = await shownDeformation(page);
     await slider(page, modulus).focus();
@@ -152,7 +151,7 @@ test('All works by keyboard: slider, undo, menu, values in the picture', { skip:
     assert.match(await page.locator('.readout').textContent(), /stress/i);
   }));
 
-test('Every control is reached with the tab key, and the first leads past the frame', { skip: noBrowser }, () =>
+test('Every control is reached with the tab key, and the first leads past the frame', { skip }, () =>
   withCell(async ({ page }) => {
     const reached = new Set();
     for (let k = 0; k < 70; ++k) {
@@ -164,7 +163,7 @@ test('Every control is reached with the tab key, and the first leads past the fr
     }
   }));
 
-test('A case in time is followed and played along its time line', { skip: noBrowser }, () =>
+test('A case in time is followed and played along its time line', { skip }, () =>
   withCell(async ({ page }) => {
     await page.locator('[data-key="time.scheme"] select').selectOption('monolithic');
     await typeNumber(page, 'time.end_us', '200');
@@ -173,14 +172,14 @@ test('A case in time is followed and played along its time line', { skip: noBrow
     const last = await shownDeformation(page);
     await page.locator('.channel').focus();
     await page.keyboard.press('ArrowUp');
-    if (underTest) assert.match(await page.locator('.readout').textContent(), /stress/i, 'the steps have fields');
+    assert.match(await page.locator('.readout').textContent(), /stress/i, 'the steps have fields');
     await page.locator('.time-slider').fill('0');
     assert.ok((await shownDeformation(page)) < last);
     await page.getByRole('button', { name: 'Play' }).click();
     await page.getByRole('button', { name: 'Pause' }).waitFor();
   }));
 
-test('The picture is saved as SVG with its colours, legends and numbers', { skip: noBrowser }, () =>
+test('The picture is saved as SVG with its colours, legends and numbers', { skip }, () =>
   withCell(async ({ page, target }) => {
     const sent = page.waitForRequest((request) => request.url().endsWith('/api/export'));
     await page.locator('.menu > summary').click();
@@ -191,10 +190,10 @@ test('The picture is saved as SVG with its colours, legends and numbers', { skip
     assert.match(svg, /Elastic stress/);
     const notice = await page.locator('.notice p').textContent();
     const written = /^Written: (.*)/.exec(notice)[1];
-    if (target.output) assert.equal(await readFile(written, 'utf8'), svg);
+    assert.equal(await readFile(written, 'utf8'), svg);
   }));
 
-test('A case that the program is given is the one that the page shows', { skip: noBrowser || (!underTest && 'no program') }, () => {
+test('A case that the program is given is the one that the page shows', { skip }, () => {
   const file = fileURLToPath(new URL('../../examples/small-linear-cell.toml', import.meta.url));
   return withCell(
     async ({ page }) => {
@@ -207,7 +206,7 @@ test('A case that the program is given is the one that the page shows', { skip: 
   );
 });
 
-test('Two windows of one program do not cancel each other', { skip: noBrowser }, () =>
+test('Two windows of one program do not cancel each other', { skip }, () =>
   withCell(async ({ page }) => {
     const other = await page.context().newPage();
     await other.goto(page.url());

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import test from 'node:test';
 import { promisify } from 'node:util';
-import { program, startTarget } from './target.mjs';
+import { noProgram, program, startTarget } from './target.mjs';
 
 const run = promisify(execFile);
 const newtonian = { rate_ul_per_s: 0.04, viscosity_mPas: 15 };
@@ -79,7 +79,7 @@ function withoutTimes({ wall_time_s: _, statistics, ...result }) {
   return { ...result, statistics: Object.fromEntries(counts) };
 }
 
-test(`${Object.keys(cases).length} cases have the numbers of the command line`, { skip: !program && 'no program' }, async (all) => {
+test(`${Object.keys(cases).length} cases have the numbers of the command line`, { skip: noProgram }, async (all) => {
   const target = await startTarget();
   try {
     for (const [name, sections] of Object.entries(cases))

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { readFile, readdir, stat } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import test from 'node:test';
-import { noBrowser } from './browser.mjs';
+import { skip } from './browser.mjs';
 import { openCell } from './cell_page.mjs';
 
 const dist = new URL('../dist/', import.meta.url);
@@ -35,7 +35,7 @@ async function findings(page) {
 
 for (const colorScheme of ['light', 'dark']) {
   for (const workspace of ['Cell', 'Recordings']) {
-    test(`axe-core has no serious finding: ${workspace}, ${colorScheme}`, { skip: noBrowser }, async () => {
+    test(`axe-core has no serious finding: ${workspace}, ${colorScheme}`, { skip }, async () => {
       const { page, end } = await openCell({ colorScheme });
       try {
         await page.getByRole('button', { name: workspace, exact: true }).click();
@@ -47,7 +47,7 @@ for (const colorScheme of ['light', 'dark']) {
   }
 }
 
-test('At 1024 x 700 nothing is cut off at the right, and the picture has room', { skip: noBrowser }, async () => {
+test('At 1024 x 700 nothing is cut off at the right, and the picture has room', { skip }, async () => {
   const { page, end } = await openCell({ viewport: { width: 1024, height: 700 } });
   try {
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 1024);
@@ -58,7 +58,7 @@ test('At 1024 x 700 nothing is cut off at the right, and the picture has room', 
   }
 });
 
-test('The chosen theme outlives a reload', { skip: noBrowser }, async () => {
+test('The chosen theme outlives a reload', { skip }, async () => {
   const { page, end } = await openCell({ colorScheme: 'light' });
   try {
     await page.locator('.theme select').selectOption('dark');

@@ -2,21 +2,11 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import test from 'node:test';
-import { noBrowser } from './browser.mjs';
+import { skip } from './browser.mjs';
+import { inPage } from './prepared_page.mjs';
 import * as recordings from './recordings_page.mjs';
 
-const skip = noBrowser;
 const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
-
-async function inPage(work, options) {
-  const opened = await recordings.openRecordings(options);
-  try {
-    await work(opened.page);
-    assert.deepEqual(opened.failures, []);
-  } finally {
-    await opened.end();
-  }
-}
 
 const press = async (page, keys) => {
   for (const key of keys) await page.keyboard.press(key);
@@ -64,7 +54,7 @@ test('By keys alone a gate gets its limits as numbers', { skip }, () =>
     await page.getByLabel('Limit').selectOption('area_um');
     await page.getByLabel('Greatest Area').fill('70');
     await press(page, ['Enter']);
-    await page.getByText(/^\d+ of 1\u202f000 events/).waitFor();
+    await page.getByText(/^\d+ of \d+ events/).waitFor();
   }),
 );
 

@@ -5,13 +5,11 @@ import { mkdtemp, readFile, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import test from 'node:test';
-import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
-import { program, startTarget } from './target.mjs';
+import { synthesise } from './prepared.mjs';
+import { noProgram, program, startTarget } from './target.mjs';
 
-const skip = program ? false : 'RHEOCYTE names no program';
 const run = promisify(execFile);
-const virtualCells = fileURLToPath(new URL('../../examples/recordings/virtual-cells.toml', import.meta.url));
 
 /** What the page asks for, with the token of the address. */
 function interfaceOf({ address }) {
@@ -34,7 +32,7 @@ async function inFolder(work) {
   }
 }
 
-test('3 recordings have the events and the summary of `rheocyte extract`', { skip }, () =>
+test('3 recordings have the events and the summary of `rheocyte extract`', { skip: noProgram }, () =>
   inFolder(async (folder) => {
     const files = [];
     for (const [name, settings] of [
@@ -43,7 +41,7 @@ test('3 recordings have the events and the summary of `rheocyte extract`', { ski
       ['other', ['recording.cells=200', 'recording.seed=5']],
     ]) {
       files.push(join(folder, `${name}.rtdc`));
-      await run(program, ['synth', virtualCells, '-o', files.at(-1), '--quiet', ...settings.flatMap((each) => ['--set', each])]);
+      await synthesise(files.at(-1), settings);
     }
     const target = await startTarget(files);
     try {
@@ -58,7 +56,7 @@ test('3 recordings have the events and the summary of `rheocyte extract`', { ski
         } while (moduli.state === 'running');
         assert.equal(moduli.state, 'ready', moduli.error);
         const exported = await ask('POST', '/api/export', { what: 'events', item, name: `${item}.tsv` });
-        const command = moduli.command.replace(/^rheocyte /, '"$RHEOCYTE" ');
+        const command = moduli.command.replace(/^rheocyte /, `"${program}" `);
         await run('sh', ['-c', `${command} --quiet -o ${join(folder, `${item}`)}`]);
         const written = await readFile(join(folder, `${item}`, file.split('/').pop().replace('.rtdc', '_rheocyte.tsv')), 'utf8');
         assert.equal(await readFile(exported.file, 'utf8'), written);

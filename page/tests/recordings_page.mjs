@@ -1,15 +1,11 @@
 // The workspace "Recordings" as a person uses it, for the tests.
 import assert from 'node:assert/strict';
-import { startMock } from '../mock/serve.mjs';
 import { openPage } from './browser.mjs';
 import { startTarget } from './target.mjs';
 
-/**
- * Opens the workspace and waits until the events of the recording in focus are drawn: in the program with these items, or
- * in the mock, whose events the tests know.
- */
-export async function openRecordings(options = {}, items = null) {
-  const target = items ? await startTarget(items) : await startMock();
+/** Opens the workspace with these items and waits until the events of the recording in focus are drawn. */
+export async function openRecordings(options, items) {
+  const target = await startTarget(items);
   return openPage(target, options, async (page) => {
     await page.goto(target.address);
     await page.getByRole('button', { name: 'Recordings', exact: true }).click();

@@ -2,7 +2,8 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { loadModule } from './load_module.mjs';
 
-const { isComputed, labelOf, nameOf, stateLegend, takeFeatures, unitOf } = await loadModule('recordings/features.ts');
+const { isComputed, labelOf, nameOf, takeFeatures, unitOf } = await loadModule('recordings/features.ts');
+const { countedStates, stateLegend } = await loadModule('recordings/states.ts');
 const { placeLabels } = await loadModule('draw/line_labels.ts');
 const { distinctNames } = await loadModule('recordings/names.ts');
 const { originOf, replacedTemperatures } = await loadModule('recordings/origin.ts');
@@ -25,9 +26,21 @@ test('features that the program computes have its labels', () => {
   assert.equal(isComputed('elongation_error') && !isComputed('area_um'), true);
 });
 
+const states = [
+  { number: 0, name: 'valid', has_modulus: true, sentence: '' },
+  { number: 7, name: 'unresolved', has_modulus: false, sentence: 'The standard error is too great.' },
+  { number: 8, name: 'regularised', has_modulus: true, sentence: 'Held smooth.' },
+];
+
 test('the numbers of states are told with their meaning, as far as they occur', () => {
-  assert.equal(stateLegend([0, 0, 7]), 'State: 0 valid, 7 unresolved (the standard error is greater than the modulus)');
-  assert.equal(stateLegend([]), '');
+  assert.equal(stateLegend(states, [0, 0, 7]), 'State: 0 valid; 7 unresolved: The standard error is too great');
+  assert.equal(stateLegend(states, []), '');
+});
+
+test('states that have a modulus are listed first, and none that no event has', () => {
+  const listed = (counts) => countedStates(states, counts).map(([{ name }, count]) => [name, count]);
+  assert.deepEqual(listed({ regularised: 2, unresolved: 1, valid: 3 }), [['valid', 3], ['regularised', 2], ['unresolved', 1]]);
+  assert.deepEqual(listed({ unresolved: 0 }), []);
 });
 
 test('no label of a line lies on another one, on what is taken, or beyond the frame', () => {

@@ -1,13 +1,15 @@
-// What the page is tested against: the program that RHEOCYTE names, or the mock.
+// What the page is tested against: the program that RHEOCYTE names, else the one in build/.
 import { spawn } from 'node:child_process';
+import { existsSync } from 'node:fs';
 import { mkdtemp, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { startMock } from '../mock/serve.mjs';
+import { fileURLToPath } from 'node:url';
 
-export const program = process.env.RHEOCYTE;
-const built = process.env.RHEOCYTE_PAGE;
+export const program = process.env.RHEOCYTE ?? fileURLToPath(new URL('../../build/rheocyte', import.meta.url));
+/** Why tests of the program are skipped, or false. */
+export const noProgram = existsSync(program) ? false : `there is no ${program}; RHEOCYTE can name another one`;
 /** Machines that run other tests at the same time are slow, most of all at the first start of the browser. */
 export const patience_ms = 180_000;
 
@@ -29,10 +31,10 @@ function ready(child) {
   });
 }
 
-async function startProgram(items) {
+/** Starts the view: the address to open first (with its token), the folder of exports, and a way to stop. */
+export async function startTarget(items = []) {
   const output = await mkdtemp(join(tmpdir(), 'rheocyte-view-'));
-  const environment = built ? { ...process.env, RHEOCYTE_PAGE: built } : process.env;
-  const child = spawn(program, ['view', ...items, '--no-browser', '--output', output], { env: environment });
+  const child = spawn(program, ['view', ...items, '--no-browser', '--output', output]);
   const ended = new Promise((done) => child.once('close', done));
   const stop = async () => {
     child.kill('SIGINT');
@@ -48,11 +50,4 @@ async function startProgram(items) {
     await stop();
     throw failure;
   }
-}
-
-/** The address to open first (with its token), the folder of exports (null for the mock), and a way to stop. */
-export async function startTarget(items = []) {
-  if (program) return startProgram(items);
-  const mock = await startMock();
-  return { address: mock.address, output: null, stop: mock.stop };
 }

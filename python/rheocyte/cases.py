@@ -46,7 +46,7 @@ def flat_keys(values, prefix=""):
     """Pairs of a dotted key and its value from nested dictionaries."""
     for name, value in values.items():
         if not isinstance(name, str) or not name.isprintable():
-            raise UserError(f"Case: the key {name!r} is no text; write \"cell.radius_um\".")
+            raise UserError(f"Case: the key {name!r} is not a text; write \"cell.radius_um\".")
         full = prefix + name
         if isinstance(value, Mapping) and (value or full in _SECTIONS):
             yield from flat_keys(value, full + ".")
@@ -111,7 +111,7 @@ class Case:
         elif source is None or isinstance(source, Mapping):
             stated = dict(flat_keys(source or {}))
         else:
-            raise UserError(f"Case: {type(source).__name__} is no source of a case; give a path or a dictionary.")
+            raise UserError(f"Case: {type(source).__name__} is not a source of a case; give a path or a dictionary.")
         self._take(stated, replaced)
 
     def _take(self, stated, replaced):

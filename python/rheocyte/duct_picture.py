@@ -10,6 +10,7 @@ from rheocyte import body, colours, page
 from rheocyte.duct_surface import front_view, images_of, refined, silhouettes, surface_faces, whole
 from rheocyte.files import read_result
 from rheocyte.page import WIDTH_IN
+from rheocyte.result_text import deformation_with_error, failure_note, made_of, part
 from rheocyte.vtu import read_vtu
 
 SIDE_IN, GAP_IN, HEAD_IN, FOOT_IN = 0.06, 0.16, 0.2, 0.64
@@ -58,8 +59,6 @@ def story_of(result, fields):
 
 def draw(story):
     """The figure: channel in space to the left, along the flow and the silhouettes to the right."""
-    from rheocyte.picture import failure_note
-
     note = failure_note(story.result)
     height = 2.54 + 0.1 * len(note) + 0.1 * bool(note)
     figure = page.new_figure(WIDTH_IN, height, STYLE)
@@ -184,8 +183,6 @@ def draw_silhouettes(axes, story):
 
 def tell_numbers(figure, result, total):
     """What came out, and what was asked."""
-    from rheocyte.picture import deformation_with_error, made_of, part
-
     channel = result["case"]["channel"]
     camera = f"{channel['camera_degree']:g}°" if "camera_degree" in channel else channel.get("camera", "side")
     found = [deformation_with_error(result), part("area {:.5g} µm²", result, "area_um2"), f"seen from: {camera}"]

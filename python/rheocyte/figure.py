@@ -56,7 +56,7 @@ def drawing(number):
     return importlib.import_module(f"rheocyte.figures.{name}")
 
 
-def make(number, folder, program, recordings=(), options=()):
+def make(number, folder, program, recordings=(), options=(), table=""):
     """Solves, draws and writes; returns the cells that could not be solved."""
     from rheocyte.figures.cases import Laboratory, make_folder
 
@@ -68,7 +68,7 @@ def make(number, folder, program, recordings=(), options=()):
                          "`rheocyte figure real-cells *.rtdc`.")
     make_folder(folder)
     laboratory = Laboratory(program, folder / "cases", tell=lambda line: print(line, file=sys.stderr, flush=True),
-                            recordings=list(recordings), options=list(options))
+                            recordings=list(recordings), options=list(options), table=table)
     figure, rows = drawing(number).make(laboratory)
     stem = folder / f"figure-{number}"
     save_figure(figure, stem, DPI, palette=True, svg_dpi=180)
@@ -91,6 +91,7 @@ def main():
     parser.add_argument("recordings", metavar="FILE", nargs="*")
     parser.add_argument("--viscosity-mPas", help="of the liquid, for recordings that do not tell it")
     parser.add_argument("--temperature-if-missing", help="degC, for recordings that do not tell it")
+    parser.add_argument("--table", default="", help="folder of a combined table of elongated cells")
     parser.add_argument("--program", required=True, help="the program rheocyte that solves")
     arguments = parser.parse_args()
     number = chosen(arguments.number)
@@ -100,7 +101,8 @@ def main():
         given = {"--viscosity-mPas": arguments.viscosity_mPas,
                  "--temperature-if-missing": arguments.temperature_if_missing}
         options = [part for name, text in given.items() if text for part in (name, text)]
-        failures = make(number, arguments.folder, arguments.program, arguments.recordings, options)
+        failures = make(number, arguments.folder, arguments.program, arguments.recordings, options,
+                        arguments.table)
     except Stopped as stopped:
         print(f"rheocyte: stopped; what was solved is kept in {arguments.folder}, the same command goes on "
               "from there.", file=sys.stderr)

@@ -67,7 +67,7 @@ class Evolution:
 
     @property
     def history(self):
-        """One row for each step in time so far."""
+        """A pandas.DataFrame with one row for each step in time so far; the columns are those of history.csv."""
         import pandas
 
         return pandas.DataFrame(self._native.history())

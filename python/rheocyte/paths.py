@@ -13,8 +13,8 @@ def word(value, name):
 
 
 def path(value, name):
-    """Its text; UserError for what is no path."""
+    """Its text; UserError for what is not a path."""
     text = os.fspath(value) if isinstance(value, (str, os.PathLike)) else None
     if not isinstance(text, str) or "\0" in text:
-        raise UserError(f"{name} is {value!r}, which is no path of a file or folder.")
+        raise UserError(f"{name} is {value!r}, which is not a path of a file or folder.")
     return text

@@ -16,7 +16,7 @@ def read_spec(spec, overrides, function):
     if isinstance(spec, Mapping):
         return _toml(flat_keys(spec), function), "the dictionary", settings
     if not isinstance(spec, (str, os.PathLike)):
-        raise UserError(f"{function}: {type(spec).__name__} is no spec; give a path or a dictionary.")
+        raise UserError(f"{function}: {type(spec).__name__} is not a spec; give a path or a dictionary.")
     file = path(spec, "the spec")
     try:
         return Path(file).read_text(encoding="utf-8"), os.fsencode(file), settings
@@ -31,5 +31,5 @@ def _toml(pairs, function):
         try:
             lines.append(f"{key}={json.dumps(value, allow_nan=False)}\n")
         except (TypeError, ValueError) as failure:
-            raise UserError(f"{function}: {key} = {value!r} is no finite number, text or list of them.") from failure
+            raise UserError(f"{function}: {key} = {value!r} is not a finite number, a text or a list of them.") from failure
     return "".join(lines)

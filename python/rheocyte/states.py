@@ -186,11 +186,12 @@ class Result:
 
     def plot(self):
         """The picture of `rheocyte solve`: cell, flow and stress; a matplotlib figure."""
-        from rheocyte import duct_picture, picture
+        from rheocyte import duct_picture, picture, tube_picture
 
-        if self.case["channel"].get("section") in ("square", "rectangle"):
+        if picture.is_in_duct(self.to_dict()):
             return duct_picture.draw(duct_picture.story_of(self.to_dict(), self.fields()))
-        return picture.draw(picture.story_of(self.to_dict(), self.contour, self.fields(), self._shell_tension()))
+        story = tube_picture.story_of(self.to_dict(), self.contour, self.fields(), self._shell_tension())
+        return tube_picture.draw(story)
 
     def _shell_tension(self):
         return self.surface["tension_meridional_mN_per_m"] if self.case["cell"]["bulk"]["law"] == "none" else None

@@ -152,14 +152,14 @@ class Table:
                 medium=None, temperature_C=None, viscosity_model=_MODEL, correct_area=True):
         """Young's modulus of each event.
 
-        area_um2, deform    as measured, arrays of one length or numbers; float64 arrays are not copied
-        viscosity_mPas      a number or one per event; or medium and temperature_C (a number or one per event)
+        area_um2, deform    as measured, arrays (n,) or numbers; float64 arrays are not copied
+        viscosity_mPas      a number or an array (n,); or medium and temperature_C (a number or an array (n,))
         pixel_size_um       what pixels of this size do to area and deformation is taken away; 0: nothing, for areas and
                             deformations without pixels (those of measured contours give moduli that are 20 % too low)
         correct_area        whether that holds for areas, too (own tables only)
 
-        Returns Moduli: young_modulus_kPa, standard_error_kPa, state. Area and modulus scale to the channel, flow and
-        viscosity (docs/theory-extract.md, eq:scaling). UserError for arrays that do not fit.
+        Returns Moduli: young_modulus_kPa, standard_error_kPa, state, arrays (n,). Area and modulus scale to the channel,
+        flow and viscosity (docs/theory-extract.md, eq:scaling). UserError for arrays that do not fit.
         """
         area, deformation = numbers(area_um2, "area_um2"), numbers(deform, "deform")
         shape = area.shape
@@ -174,12 +174,12 @@ class Table:
     def shapes(self, area_um2, deform, inertia_ratio, *, channel_width_um, pixel_size_um, correct_area=True):
         """The inertia ratios of events against those of the table's cells (docs/theory-extract.md, sec. "Shapes").
 
-        area_um2, deform, inertia_ratio     as measured, arrays of one length or numbers; the ratio of the convex hull
+        area_um2, deform, inertia_ratio     as measured, arrays (n,) or numbers; the ratio of the convex hull
                                             (inert_ratio_cvx)
         pixel_size_um, correct_area         as modulus
 
-        Returns Shapes: expected, excess, standard_error, odd_share. UserError for arrays that do not fit, and for
-        tables that do not know the shapes of their cells (published ones).
+        Returns Shapes: expected, excess, standard_error, odd_share, arrays (n,). UserError for arrays that do not fit,
+        and for tables that do not know the shapes of their cells (published ones).
         """
         columns = {"area_um2": area_um2, "deform": deform, "inertia_ratio": inertia_ratio}
         arrays = {name: numbers(values, name) for name, values in columns.items()}

@@ -15,7 +15,8 @@ from PIL import Image
 from rheocyte import page
 from rheocyte.contour import closed
 from rheocyte.files import InputError, number, read_result, read_table, run, save_figure, write_file
-from rheocyte.picture import STYLE, find, made_of
+from rheocyte.result_text import find, made_of
+from rheocyte.tube_picture import STYLE
 
 SHOWN = 5  # contours above the curve
 GREATEST_FRAMES = 120  # of the animation

@@ -12,7 +12,7 @@ import numpy as np
 
 from rheocyte.colours import CELL, LIQUID, to_lab
 from rheocyte.contour import bridges, closed, convex_hull
-from rheocyte.picture import deformation_with_error
+from rheocyte.result_text import deformation_with_error
 from tests.synthetic import write_result
 
 PACKAGE = Path(__file__).resolve().parents[1]

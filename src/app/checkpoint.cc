@@ -131,7 +131,7 @@ Checkpoint decode_checkpoint(const std::string& content, const Case& c, const fs
   const std::size_t head = magic.size() + version_length + hash.size();
   std::uint64_t sum = 0;
   if (!content.starts_with(magic) || content.size() < head + sizeof sum)
-    refuse_path(file, "is no checkpoint of rheocyte, or only its beginning.");
+    refuse_path(file, "is not a checkpoint of rheocyte, or only the beginning of one.");
   const std::string_view body = std::string_view(content).substr(0, content.size() - sizeof sum);
   std::memcpy(&sum, content.data() + body.size(), sizeof sum);
   if (sum != fnv1a(body)) refuse_path(file, "is damaged, its checksum does not fit; start anew without --continue.");

@@ -22,7 +22,7 @@ struct FigureOptions {
   std::string number;
   std::filesystem::path folder = "figures";
   std::vector<std::string> recordings;
-  std::string viscosity_mPas, temperature_if_missing;
+  std::string viscosity_mPas, temperature_if_missing, table;
 };
 
 // Returns only if the interpreter cannot be started.
@@ -32,6 +32,7 @@ int become_python(const FigureOptions& options) {
   if (!options.viscosity_mPas.empty()) call.insert(call.end(), {"--viscosity-mPas", options.viscosity_mPas});
   if (!options.temperature_if_missing.empty())
     call.insert(call.end(), {"--temperature-if-missing", options.temperature_if_missing});
+  if (!options.table.empty()) call.insert(call.end(), {"--table", options.table});
   call.insert(call.end(), {"--", options.number, options.folder.string()});
   call.insert(call.end(), options.recordings.begin(), options.recordings.end());
   const auto failure = become_program(call);
@@ -55,6 +56,12 @@ void add_figure_command(CLI::App& app, int& exit_code) {
       ->type_name("VALUE");
   command->add_option("--temperature-if-missing", options->temperature_if_missing, "degC, as for extract")
       ->type_name("VALUE");
+  command
+      ->add_option(
+          "--table", options->table,
+          "folder of a combined table (examples/tables/combined-elongated.toml), for real-cells: median outlines "
+          "are drawn over those of the cells that fit them")
+      ->type_name("DIR");
   command
       ->add_option("-o,--output", options->folder,
                    "folder for figure-N.png, .svg and .csv; results in its folders cases and tables are used again")

@@ -8,6 +8,7 @@
 #include "app/extract_options.h"
 #include "app/recording_batch.h"
 #include "case/user_error.h"
+#include "extract/moduli_json.h"
 #include "extract/moduli_recording.h"
 #include "extract/recording_settings.h"
 #include "store/own_file.h"
@@ -31,6 +32,7 @@ class ModuliJob {
   }
 
   WholeFile files(const RecordingTask& task) const {
+    check_replaceable(summary_for(task), mark_of_moduli_json, Foreign::keep);
     const auto file = file_for(task);
     return WholeFile(file, [file] { check_replaceable(file, mark_of_events(file), Foreign::keep); });
   }
@@ -41,11 +43,14 @@ class ModuliJob {
   }
 
   bool take(const RecordingTask& task, const ModuliSummary& summary) const {
+    write_own_file(summary_for(task), moduli_json(task.recording, options_.table, summary), mark_of_moduli_json,
+                   Foreign::keep);
     const std::string name = one_line(task.recording.string(), 200);
     if (!options_.batch.quiet) {
       print(fmt::format("{}: {}, see {}\n", name, in_one_line(summary), file_for(task).string()));
       for (const auto& lines : {tension_lines(summary.axial), slope_lines(summary.axial)})
         for (const auto& line : lines) print(fmt::format("{}: {}\n", name, line));
+      if (const auto line = median_line(summary); !line.empty()) print(fmt::format("{}: {}\n", name, line));
       for (const auto& warning : summary.warnings) tell(fmt::format("{}: {}", name, warning));
     }
     if (summary.with_stiffness() > 0) return true;
@@ -59,6 +64,7 @@ class ModuliJob {
 
  private:
   static std::filesystem::path file_for(const RecordingTask& task) { return task.result("_moduli.tsv"); }
+  static std::filesystem::path summary_for(const RecordingTask& task) { return task.result("_moduli.json"); }
 
   const ModuliOptions& options_;
   ModuliTable table_;

@@ -37,4 +37,9 @@ int direction_of_cells(EventOutlines& outlines, double sign) {
   return mean * sign > 0 ? 1 : -1;
 }
 
+std::string_view direction_text(int direction) {
+  if (direction == 0) return "unknown, taken as +x";
+  return direction > 0 ? "+x" : "-x";
+}
+
 }  // namespace rheocyte

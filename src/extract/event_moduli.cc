@@ -70,13 +70,36 @@ ModuliEstimate EventModuli::fit(const ShapeVector& seen, double viscosity_mPas) 
   return fit_pixels(moduli_, pixels_, seen, flow, square(), tension_);
 }
 
-std::optional<SeenCell> EventModuli::seen_cell(const ShapeVector& seen, double viscosity_mPas) const {
-  ChannelFlow flow = flow_;
-  flow.viscosity_mPas = viscosity_mPas;
-  MeasuredShape shape = seen_shape(pixels_, seen, flow, square(), pixels_.middle()).shape;
-  const auto cell = moduli_.nearest(shape, flow, AxialTension::unknown());
-  if (!cell) return {};
-  return SeenCell{seen_shape(pixels_, seen, flow, square(), cell->cell).shape, flow};
+std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, ErrorsOf errors_of) const {
+  constexpr int rounds = 2;
+  const auto seen = [&](const ShapeErrors& pixels, const CellCoordinates& cell) {
+    return seen_shape(pixels, measured.shape, measured.flow, square(), cell).shape;
+  };
+  MeasuredShape shape = seen(pixels_.at(pixels_.middle()), pixels_.middle());
+  for (int round = 0; round < rounds; ++round) {
+    const auto found = moduli_.nearest(shape, measured.flow, AxialTension::unknown());
+    if (!found) return {};
+    ShapeErrors pixels = pixels_.of(found->cell);
+    if (errors_of == ErrorsOf::mean) pixels.covariance /= double(measured.cells);
+    shape = seen(pixels, found->cell);
+  }
+  return SeenCell{shape, measured.flow, measured.cells};
+}
+
+CommonTension EventModuli::common_tension(std::span<const MeasuredCell> cells,
+                                          const std::function<void()>& goes_on) const {
+  std::vector<SeenCell> groups;
+  for (const MeasuredCell& group : means_by_size(cells)) {
+    goes_on();
+    if (const auto seen = seen_cell(group, ErrorsOf::mean)) groups.push_back(*seen);
+  }
+  return rheocyte::common_tension(moduli_, groups, goes_on);
+}
+
+MedianCell EventModuli::median_cell(std::span<const MeasuredCell> cells) const {
+  if (cells.empty()) return {};
+  const auto seen = seen_cell(median_of(cells), ErrorsOf::picture);
+  return seen ? rheocyte::median_cell(moduli_, *seen, tension_) : MedianCell{.cells = cells.size()};
 }
 
 }  // namespace rheocyte

@@ -3,6 +3,7 @@
 #include "extract/extract_settings.h"
 #include "extract/square_section.h"
 #include "infer/common_tension.h"
+#include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
 #include "infer/several_moduli.h"
 
@@ -35,16 +36,22 @@ class EventModuli {
   ModuliEstimate fit(const ShapeVector& seen, double viscosity_mPas) const;
   void know_tension(const AxialTension& tension) { tension_ = tension; }
 
-  /// What the tension of a recording is found from; nothing without a shape.
-  std::optional<SeenCell> seen_cell(const ShapeVector& seen, double viscosity_mPas) const;
-  CommonTension common_tension(std::span<const SeenCell> cells) const {
-    return rheocyte::common_tension(moduli_, cells);
+  /// Of some cells, in pixels. `goes_on` is called from group to group.
+  CommonTension common_tension(std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) const;
+  /// With what is known of the tension.
+  MedianCell median_cell(std::span<const MeasuredCell> cells) const;
+  /// What `fit` would be asked with.
+  MeasuredCell measured(const ShapeVector& seen, double viscosity_mPas) const {
+    return {seen, {flow_.width_um, flow_.rate_ul_s, viscosity_mPas, flow_.exponent}};
   }
 
   /// By which the cells of the tube become those of the square channel; empty: they do not.
   const std::string& square_table() const { return square_table_; }
 
  private:
+  enum class ErrorsOf { picture, mean };
+  /// Nothing without a shape.
+  std::optional<SeenCell> seen_cell(const MeasuredCell& measured, ErrorsOf errors_of) const;
   const SquareShapes* square() const { return square_ ? &*square_ : nullptr; }
 
   ChannelFlow flow_;

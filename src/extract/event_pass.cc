@@ -6,7 +6,8 @@
 namespace rheocyte {
 
 EventPass::EventPass(Recording& recording, TellProgress tell) : recording_(recording), tell_(std::move(tell)) {
-  recording_.on_piece(now_and_then([this] { tell_(done_); }));
+  goes_on_ = now_and_then([this] { tell_(done_); });
+  recording_.on_piece(goes_on_);
 }
 
 void EventPass::in_blocks(std::size_t at_a_time, const std::function<void(std::size_t, std::size_t)>& work) {

@@ -17,6 +17,9 @@ class EventPass {
   EventPass(const EventPass&) = delete;
   EventPass& operator=(const EventPass&) = delete;
 
+  /// For long work on single events: tells that it goes on. It may be called as often as one likes.
+  const std::function<void()>& goes_on() const { return goes_on_; }
+
   /// work(first, count) on events [first, first + count), with `at_a_time` events but for the last block.
   void in_blocks(std::size_t at_a_time, const std::function<void(std::size_t first, std::size_t count)>& work);
 
@@ -24,6 +27,7 @@ class EventPass {
   Recording& recording_;
   TellProgress tell_;
   double done_ = 0;
+  std::function<void()> goes_on_;
 };
 
 }  // namespace rheocyte

@@ -69,11 +69,6 @@ class OutlineReader {
   ContourMeasurer measurer_;
 };
 
-std::string direction_text(int direction) {
-  if (direction == 0) return "unknown, taken as +x";
-  return direction > 0 ? "+x" : "-x";
-}
-
 }  // namespace
 
 WholeFile features_file(const fs::path& place) {

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "extract/direction_of_cells.h"
 #include "extract/event_pass.h"
 #include "extract/modulus_tables.h"
 #include "extract/outlined_events.h"
@@ -23,15 +25,18 @@ namespace rheocyte {
 namespace {
 
 constexpr std::size_t events_between_progress = 256;
-/// So many cells tell the axial tension of a recording; events are read in blocks from all over it.
-constexpr std::size_t wanted_for_tension = 200, tension_block = 16;
+/// So many cells tell what those of a recording have in common; events are read in blocks from all over it.
+constexpr std::size_t wanted_for_survey = 200, survey_block = 16;
 constexpr std::string_view use_of_outlines = "the shape of each cell is fitted";
 
 /// One recording on its way through the blocks.
 class Fits {
  public:
-  Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table)
-      : events_(recording, options.measuring, use_of_outlines),
+  /// `goes_on` is called from event to event.
+  Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table,
+       std::function<void()> goes_on)
+      : goes_on_(std::move(goes_on)),
+        events_(recording, options.measuring, use_of_outlines),
         simulated_exponent_(table.simulated.exponent),
         section_(table.section_of(recording, options.section)),
         is_told_(options.section),
@@ -40,24 +45,31 @@ class Fits {
         elongated_solids_(solids_.elongated(conditions().flow.exponent)),
         moduli_(events_.settings(), options, table, section_),
         table_(table) {
+    direction_ = events_.turn_downstream();
     axial_.is_of_elongated_cells = table.between.is_elongated();
     axial_.is_given = options.axial_tension_Pa.has_value();
     if (axial_.is_given) axial_.common.value_Pa = *options.axial_tension_Pa;
   }
 
-  /// Before the first block, where the table has elongated cells.
-  void find_tension(const Recording& recording, const ModuliOptions& options) {
+  /// What the cells have in common, before the first block. The mean cell has a tension of its own, which is a test
+  /// of the common one.
+  void survey(const Recording& recording, const ModuliOptions& options) {
+    const std::vector<MeasuredCell> cells = cells_for_survey(recording, options);
+    median_ = moduli_.median_cell(cells);
     if (!axial_.is_of_elongated_cells) return;
-    axial_.wall_stress_Pa = wall_shear_stress_Pa(conditions().flow);
+    std::vector<double> wall_stresses;
+    for (const MeasuredCell& cell : cells) wall_stresses.push_back(wall_shear_stress_Pa(cell.flow));
+    axial_.wall_stress_Pa = median_of(wall_stresses);
     if (axial_.is_given) return;
-    axial_.common = moduli_.common_tension(cells_for_tension(recording, options));
+    axial_.common = moduli_.common_tension(cells, goes_on_);
     moduli_.know_tension(axial_.common.tension());
   }
 
   /// What holds for all events.
   std::vector<std::string> remarks(const ModuliOptions& options) const {
     std::vector<std::string> remarks{
-        fmt::format("rheocyte {} moduli", version), "recording: " + events_.recording().file().string(),
+        fmt::format("rheocyte {} moduli", version),
+        "recording: " + events_.recording().file().string(),
         "table: " + options.table.string(),
         fmt::format("by {}; {}",
                     options.only_figure            ? "area, deformation and Lambda1/Lambda2"
@@ -65,7 +77,8 @@ class Fits {
                                                    : "area and modes 2 .. 6 of the contour",
                     options.fit_tension || axial_.is_of_elongated_cells ? "the tension of the cortex is fitted"
                                                                         : "the tension is that of the table"),
-        section_text()};
+        section_text(),
+        fmt::format("direction of the cells: {}", direction_text(direction_))};
     for (const auto& line : tension_lines(axial_)) remarks.push_back(line);
     const auto settings = events_.settings().lines();
     remarks.insert(remarks.end(), settings.begin(), settings.end());
@@ -83,6 +96,7 @@ class Fits {
     estimates_.clear();
     const auto viscosity = events_.viscosity_mPas();
     for (std::size_t i = 0; i < count; ++i) {
+      goes_on_();
       const ModuliEstimate& estimate =
           estimates_.emplace_back(events_.is_inside(i) ? moduli_.fit(seen_[i], viscosity[i]) : gated());
       tally_.take(estimate);
@@ -100,6 +114,7 @@ class Fits {
   ModuliSummary summary() {
     ModuliSummary s = tally_.summary();
     s.axial = axial_;
+    s.median_cell = median_;
     const ExtractSettings& settings = events_.settings();
     s.gates = events_.gates().description();
     s.warnings = events_.recording().remarks();
@@ -133,18 +148,20 @@ class Fits {
   }
 
   /// Of blocks far from each other, until they are enough.
-  std::vector<SeenCell> cells_for_tension(const Recording& recording, const ModuliOptions& options) const {
+  std::vector<MeasuredCell> cells_for_survey(const Recording& recording, const ModuliOptions& options) const {
     OutlinedEvents events(recording, options.measuring, use_of_outlines);
-    const std::size_t blocks = (recording.events() + tension_block - 1) / tension_block;
-    std::vector<SeenCell> cells;
-    for (std::size_t k = 0; k < blocks && cells.size() < wanted_for_tension; ++k) {
-      const std::size_t first = far_apart(k, blocks) * tension_block;
-      const std::size_t count = std::min(tension_block, recording.events() - first);
+    events.turn_downstream();
+    const std::size_t blocks = (recording.events() + survey_block - 1) / survey_block;
+    std::vector<MeasuredCell> cells;
+    for (std::size_t k = 0; k < blocks && cells.size() < wanted_for_survey; ++k) {
+      const std::size_t first = far_apart(k, blocks) * survey_block;
+      const std::size_t count = std::min(survey_block, recording.events() - first);
       events.read(first, count);
       for (std::size_t i = 0; i < count; ++i) {
         if (!events.is_inside(i)) continue;
-        if (auto cell = moduli_.seen_cell(events.shape(first + i), events.viscosity_mPas()[i]))
-          cells.push_back(std::move(*cell));
+        goes_on_();
+        MeasuredCell cell = moduli_.measured(events.shape(first + i), events.viscosity_mPas()[i]);
+        if (cell.shape.allFinite() && std::isfinite(cell.flow.viscosity_mPas)) cells.push_back(std::move(cell));
       }
     }
     return cells;
@@ -204,7 +221,9 @@ class Fits {
     return estimate;
   }
 
+  std::function<void()> goes_on_;
   OutlinedEvents events_;
+  int direction_ = 0;
   double simulated_exponent_;
   Section section_;
   bool is_told_;  ///< by the user
@@ -214,6 +233,7 @@ class Fits {
   EventModuli moduli_;
   const ModuliTable& table_;
   AxialSummary axial_;
+  MedianCell median_;
   SlopeTally slopes_;
   std::vector<ShapeExcess> excess_;
   ElongationValues solids_values_;  ///< as if they were solids
@@ -231,8 +251,8 @@ ModuliSummary moduli_of_recording(const std::filesystem::path& path, const Modul
                                   const TellProgress& tell_progress) {
   Recording recording(path);
   EventPass pass(recording, tell_progress);
-  Fits fits(recording, options, table);
-  fits.find_tension(recording, options);
+  Fits fits(recording, options, table, pass.goes_on());
+  fits.survey(recording, options);
   consumer.begin(recording, fits.remarks(options));
   pass.in_blocks(events_between_progress,
                  [&](std::size_t first, std::size_t count) { consumer.take(first, fits.take(first, count)); });

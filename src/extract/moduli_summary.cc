@@ -45,4 +45,20 @@ std::string in_one_line(const ModuliSummary& s) {
   return text + others;
 }
 
+std::string median_line(const ModuliSummary& s) {
+  const MedianCell& m = s.median_cell;
+  if (m.cells < MedianCell::min_cells) return {};
+  if (m.status == ModuliStatus::outside_table || m.status == ModuliStatus::no_data)
+    return fmt::format("the median outline of {} cells: none of the table's cells has it", m.cells);
+  std::string text = fmt::format(
+      "the median outline of {} cells: E {:.3g} +- {:.2g} kPa, E2D {:.3g} +- {:.2g} mN/m, tension {:.3g} +- {:.2g} "
+      "mN/m",
+      m.cells, m.young_kPa, m.young_error_kPa, m.cortex_mN_per_m, m.cortex_error_mN_per_m, m.tension_mN_per_m,
+      m.tension_error_mN_per_m);
+  if (s.axial.is_of_elongated_cells)
+    text += fmt::format(", axial tension {:.3g} +- {:.2g} Pa, {:.3g} of the wall's shear stress", m.axial_tension_Pa,
+                        m.axial_tension_error_Pa, m.axial_tension_Pa / s.axial.wall_stress_Pa);
+  return text + fmt::format("; chi2 {:.3g} at {} degrees of freedom", m.chi_squared, m.freedom);
+}
+
 }  // namespace rheocyte

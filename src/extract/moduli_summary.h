@@ -8,6 +8,7 @@
 
 #include "extract/axial_summary.h"
 #include "extract/extract_summary.h"
+#include "infer/median_cell.h"
 #include "infer/several_moduli.h"
 
 namespace rheocyte {
@@ -19,11 +20,13 @@ struct ModuliSummary {
   std::string gates;                                      ///< limits of the events that count; empty: all
   std::vector<std::string> warnings;
   AxialSummary axial;
+  MedianCell median_cell;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.gates, s.warnings, s.axial);
+    return std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.gates, s.warnings, s.axial,
+                    s.median_cell);
   }
 
   std::size_t events() const;
@@ -46,5 +49,7 @@ class ModuliTally {
 
 /// For the terminal: how many events are resolved, their moduli, and how many have another status.
 std::string in_one_line(const ModuliSummary&);
+/// Of the median cell; empty if too few were seen.
+std::string median_line(const ModuliSummary&);
 
 }  // namespace rheocyte

@@ -1,5 +1,7 @@
 #include "extract/outlined_events.h"
 
+#include "extract/direction_of_cells.h"
+
 namespace rheocyte {
 
 namespace {
@@ -19,6 +21,19 @@ OutlinedEvents::OutlinedEvents(const Recording& recording, const MeasuringOption
       features_(recording, shapes_),
       gates_(options.gates) {
   gates_.check(features_);
+}
+
+int OutlinedEvents::turn_downstream() {
+  const int direction = direction_of_cells(outlines_, 1);
+  is_mirrored_ = direction < 0;
+  return direction;
+}
+
+ShapeVector OutlinedEvents::shape(std::size_t event) {
+  ShapeVector shape = outlines_.features(event);
+  if (!is_mirrored_) return shape;
+  for (int k = min_mode + 1; k <= max_mode; k += 2) shape(int(ShapeFeature::first_mode) + k - min_mode) *= -1;
+  return shape;
 }
 
 void OutlinedEvents::read(std::size_t first, std::size_t count) {

@@ -34,8 +34,11 @@ class OutlinedEvents {
   /// How many of all events read so far have a temperature for which the viscosity is extrapolated.
   std::size_t outside_temperature() const { return outside_temperature_; }
 
+  /// Shapes are seen as if the cells moved towards greater x, from here on; the sign of their mean asymmetry tells
+  /// whether they do. Returns what it tells (direction_of_cells.h). UserError if the data are damaged.
+  int turn_downstream();
   /// Of any event; NaN where there is no cell. UserError if the data are damaged.
-  ShapeVector shape(std::size_t event) { return outlines_.features(event); }
+  ShapeVector shape(std::size_t event);
 
  private:
   const Recording& recording_;
@@ -44,6 +47,7 @@ class OutlinedEvents {
   ShapeSource shapes_;
   EventFeatures features_;
   Gates gates_;
+  bool is_mirrored_ = false;
   std::vector<double> viscosity_mPas_;
   std::vector<char> inside_;
   std::size_t outside_temperature_ = 0;

@@ -22,7 +22,8 @@ fs::path found_table(const SynthSpec& spec, const fs::path& folder) {
   fs::path beside = folder / spec.table;  // an absolute one stays
   std::error_code error;
   if (fs::exists(beside, error)) return beside;
-  const auto shipped = shipped_tables();
+  auto shipped = shipped_tables();
+  shipped.merge(shipped_elongated_tables());
   const auto found = shipped.find(spec.table.string());
   return found == shipped.end() ? beside : found->second;
 }

@@ -1,22 +1,17 @@
 // The tension of the liquid along the flow that all cells of a recording have in common, from their shapes
 // (docs/theory-extract.md, sec. "One tension for a recording").
 #pragma once
+#include <functional>
 #include <span>
 
-#include "infer/several_moduli.h"
+#include "infer/seen_cells.h"
 
 namespace rheocyte {
 
-/// A cell as it was seen, with the errors of its features.
-struct SeenCell {
-  MeasuredShape shape;
-  ChannelFlow flow;
-};
-
 struct CommonTension {
   double value_Pa = no_value, lower_Pa = no_value, upper_Pa = no_value;  ///< with the 90 % interval
-  double misfit = no_value;  ///< chi squared per degree of freedom; where it exceeds one it widens the interval
-  std::size_t cells = 0;     ///< that the table has at this tension; fewer than `min_cells`: no value
+  double misfit = no_value;                                              ///< chi squared per degree of freedom
+  std::size_t cells = 0;  ///< that the table has at this tension; fewer than `min_cells`: no value
   static constexpr std::size_t min_cells = 10;
 
   bool is_found() const { return cells >= min_cells && value_Pa == value_Pa; }
@@ -24,8 +19,10 @@ struct CommonTension {
   AxialTension tension() const;
 };
 
-/// Where the sum of chi squared over the cells is least, each with the moduli that fit it best at this tension. The
-/// share of a cell in the sum is bounded: a few that are no cells of the model hardly move it.
-CommonTension common_tension(const SeveralModuli& moduli, std::span<const SeenCell> cells);
+/// Where the sum of chi squared over the cells, or groups of them (means_by_size), is least, each with the moduli that
+/// fit it best at this tension. The share of each in the sum is bounded: a few that are no cells of the model hardly
+/// move it. `goes_on` is called from one to the next.
+CommonTension common_tension(
+    const SeveralModuli& moduli, std::span<const SeenCell> cells, const std::function<void()>& goes_on = [] {});
 
 }  // namespace rheocyte

@@ -1,6 +1,7 @@
 #include "infer/rendered_errors.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -14,9 +15,10 @@ namespace {
 
 // Stiffer cells are round for a camera.
 constexpr double min_deformation = 1e-3;
-// Where not all elongated cells of a table go.
-constexpr double max_mode_3 = 0.1;
-constexpr int outline_points = 400;
+// Of elongated cells, not all of which go farther.
+constexpr double min_mode_3 = 0.005, max_mode_3 = 0.125;
+constexpr int outline_points = 400, draws_of_one_cell = 300;
+constexpr int progress_axis = int(CellCoordinate::log_progress);
 
 std::array<double, mode_count> modes_of(const CombinedState& state) {
   std::array<double, mode_count> modes{};
@@ -24,16 +26,22 @@ std::array<double, mode_count> modes_of(const CombinedState& state) {
   return modes;
 }
 
+ShapeErrors rendered(const CombinedState& state, double pixel_size_um, int draws, std::uint64_t number) {
+  CellRandom random(1, number, Purpose::picture);
+  const auto outline = outline_of_modes(modes_of(state), std::exp(state.value(log_area_row)), outline_points);
+  return errors_in_pixels(outline, pixel_size_um, draws, random);
+}
+
 }  // namespace
 
 RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, int draws)
-    : box_(table.box()) {
-  constexpr int x_progress = int(CellCoordinate::log_progress);
-  if (table.is_elongated()) {
-    nodes_ = {4, 3, 4, 1, 4};
-    box_.greatest(x_progress) = std::min(box_.greatest(x_progress), std::log(max_mode_3));
+    : table_(table), pixel_size_um_(pixel_size_um), box_(table.box()), is_over_mode_3_(table.is_elongated()) {
+  if (is_over_mode_3_) {
+    nodes_ = {4, 3, 5, 1, 4};
+    box_.least(progress_axis) = std::max(box_.least(progress_axis), std::log(min_mode_3));
+    box_.greatest(progress_axis) = std::min(box_.greatest(progress_axis), std::log(max_mode_3));
   } else {
-    box_.least(x_progress) = std::max(box_.least(x_progress), std::log(min_deformation));
+    box_.least(progress_axis) = std::max(box_.least(progress_axis), std::log(min_deformation));
   }
   const std::size_t count = count_of(nodes_);
   for (std::uint64_t number = 0; errors_.size() < count; ++number) {
@@ -41,17 +49,23 @@ RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_
     auto rest = std::size_t(number);
     for (int axis = coordinate_count - 1; axis >= 0; --axis) {
       const auto n = std::size_t(nodes_[std::size_t(axis)]);
-      if (n > 1) cell(axis) += double(rest % n) / double(n - 1) * (box_.greatest(axis) - box_.least(axis));
+      if (n > 1) cell(axis) = node_place(axis, double(rest % n) / double(n - 1));
       rest /= n;
     }
-    const auto state = table.at(cell);
-    CellRandom random(1, number, Purpose::picture);
-    const auto outline = outline_of_modes(modes_of(state), std::exp(state.value(log_area_row)), outline_points);
-    errors_.push_back(errors_in_pixels(outline, pixel_size_um, draws, random));
+    errors_.push_back(rendered(table.at(cell), pixel_size_um, draws, number));
   }
 }
 std::size_t RenderedErrors::count_of(const Nodes& nodes) {
   return std::accumulate(nodes.begin(), nodes.end(), std::size_t{1}, std::multiplies<>());
+}
+
+double RenderedErrors::scale(int axis, double coordinate) const {
+  return axis == progress_axis && is_over_mode_3_ ? std::exp(coordinate) : coordinate;
+}
+
+double RenderedErrors::node_place(int axis, double share) const {
+  const double scaled = std::lerp(scale(axis, box_.least(axis)), scale(axis, box_.greatest(axis)), share);
+  return axis == progress_axis && is_over_mode_3_ ? std::log(scaled) : scaled;
 }
 
 ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
@@ -59,8 +73,9 @@ ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
   std::array<double, coordinate_count> share{};
   for (std::size_t axis = 0; axis < coordinate_count; ++axis) {
     const auto a = Eigen::Index(axis);
-    const double range = box_.greatest(a) - box_.least(a), last = nodes_[axis] - 1;
-    const double place = std::clamp((cell(a) - box_.least(a)) / (range > 0 ? range : 1) * last, 0., last);
+    const double least = scale(int(axis), box_.least(a)), range = scale(int(axis), box_.greatest(a)) - least;
+    const double last = nodes_[axis] - 1;
+    const double place = std::clamp((scale(int(axis), cell(a)) - least) / (range > 0 ? range : 1) * last, 0., last);
     below[axis] = std::min(int(place), std::max(nodes_[axis] - 2, 0));
     share[axis] = place - below[axis];
   }
@@ -81,10 +96,17 @@ ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
   return sum;
 }
 
-SeenShape seen_shape(const RenderedErrors& errors, const ShapeVector& measured, const ChannelFlow& flow,
+ShapeErrors RenderedErrors::of(const CellCoordinates& cell) const {
+  const CombinedState state = table_.at(cell);
+  // Random numbers of its own: what is left of the mean over the places is not the same for all cells of a recording.
+  const auto number = std::bit_cast<std::uint64_t>(state.value(log_area_row));
+  return state.inside ? rendered(state, pixel_size_um_, draws_of_one_cell, number) : at(cell);
+}
+
+SeenShape seen_shape(const ShapeErrors& pixels, const ShapeVector& measured, const ChannelFlow& flow,
                      const SquareShapes* square, const CellCoordinates& cell) {
   constexpr int x_share = int(CellCoordinate::cortex_share);
-  SeenShape seen{{measured, errors.at(cell)}};
+  SeenShape seen{{measured, pixels}};
   ShapeErrors& added = seen.shape.errors;
   if (!square || !measured.allFinite()) return seen;
   const auto by_square = square->change(measured - added.bias, flow, cell(x_share));
@@ -96,16 +118,17 @@ SeenShape seen_shape(const RenderedErrors& errors, const ShapeVector& measured, 
 
 ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
                           const ChannelFlow& flow, const SquareShapes* square, const AxialTension& tension) {
-  constexpr int rounds = 3;  // the bias hardly depends on the cell: the third one changes nothing that matters
+  constexpr int rounds = 2;  // the bias hardly depends on the cell: a third one changes nothing that matters
   CellCoordinates cell = errors.middle();
-  ModuliEstimate estimate;
   for (int round = 0; round < rounds; ++round) {
-    const SeenShape seen = seen_shape(errors, measured, flow, square, cell);
-    estimate = moduli.fit(seen.shape, flow, tension);
-    estimate.section_factor = seen.section_factor;
-    if (estimate.status == ModuliStatus::no_data) break;
-    cell = estimate.cell;
+    const MeasuredShape shape = seen_shape(errors.at(cell), measured, flow, square, cell).shape;
+    const auto nearest = moduli.nearest(shape, flow, tension, round == 0 ? nullptr : &cell);
+    if (!nearest) return {};
+    cell = nearest->cell;
   }
+  const SeenShape seen = seen_shape(errors.of(cell), measured, flow, square, cell);
+  ModuliEstimate estimate = moduli.fit(seen.shape, flow, tension);
+  estimate.section_factor = seen.section_factor;
   return estimate;
 }
 

@@ -19,17 +19,28 @@ namespace rheocyte {
 /// Repeatable.
 class RenderedErrors {
  public:
-  /// The pixel (um) as wide as in the table's channel: pixel size x table's width / recording's width.
+  /// The table must outlive it. The pixel (um) as wide as in the table's channel: pixel size x table's width /
+  /// recording's width.
   RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, int draws = 200);
 
+  /// Between those: within a fifth of the noise of a picture.
   ShapeErrors at(const CellCoordinates& cell) const;
+  /// Of this very cell, which takes some milliseconds; of one outside the table as above.
+  ShapeErrors of(const CellCoordinates& cell) const;
   CellCoordinates middle() const { return (box_.least + box_.greatest) / 2; }
 
  private:
   using Nodes = std::array<int, coordinate_count>;
   static std::size_t count_of(const Nodes& nodes);
 
+  /// In which the errors are linear: pixels take a share of the third mode of elongated cells, not of its logarithm.
+  double scale(int axis, double coordinate) const;
+  double node_place(int axis, double share) const;
+
+  const CombinedInterpolation& table_;
+  double pixel_size_um_;
   CellBox box_;
+  bool is_over_mode_3_ = false;
   Nodes nodes_{6, 3, 6, 1, 1};  ///< along each coordinate
   std::vector<ShapeErrors> errors_;
 };
@@ -40,7 +51,7 @@ struct SeenShape {
   double section_factor = 1;  ///< see ModuliEstimate
 };
 /// As far as this is known, for such a cell of the table; `square` as below.
-SeenShape seen_shape(const RenderedErrors& errors, const ShapeVector& measured, const ChannelFlow& flow,
+SeenShape seen_shape(const ShapeErrors& pixels, const ShapeVector& measured, const ChannelFlow& flow,
                      const SquareShapes* square, const CellCoordinates& cell);
 
 /// The moduli of a cell in pixels: the errors are those at the cell that is found. `square`: what the square channel

@@ -26,6 +26,7 @@ constexpr double prior_widths = 3;
 /// Of the wall's shear stress: what is said to be known exactly is known that well. Hundred times as well as a cell
 /// tells the tension, it leaves the minimum smooth enough for Newton's method.
 constexpr double least_tension_error = 1e-3;
+constexpr std::array all_moduli{Modulus::young, Modulus::cortex, Modulus::tension};
 
 /// d(E, E2D, gamma)/d(coordinates), in the units of the table.
 struct Moduli {
@@ -123,6 +124,14 @@ ModuliMisfit SeveralModuli::misfit(const MeasuredShape& measured, const ChannelF
           {tension.value_Pa / scale.modulus, std::max(tension.error_Pa / scale.modulus, least_error)}};
 }
 
+ShapeVector SeveralModuli::shape_of(const CellCoordinates& cell, const ChannelFlow& flow) const {
+  const CombinedState state = table_.at(cell);
+  ShapeVector shape = state.value.head<feature_count>();
+  shape(int(ShapeFeature::area_um2)) = state.value(log_area_row) + std::log(scale_factors(simulated_, flow).area);
+  shape(int(ShapeFeature::deformation)) = state.value(deformation_row);
+  return shape;
+}
+
 int SeveralModuli::freedom() const { return int(options_.features.size()) - (options_.free_tension ? 4 : 3); }
 
 double SeveralModuli::axial_tension_Pa(const CellCoordinates& cell, const ChannelFlow& flow) const {
@@ -179,9 +188,7 @@ ModuliEstimate SeveralModuli::fit(const MeasuredShape& shape, const ChannelFlow&
                                   const AxialTension& tension) const {
   ModuliMisfit in_table = misfit(shape, flow, tension);
   if (!in_table.shape().features.allFinite() || !in_table.is_usable()) return {};
-  const Candidate best = nearest(in_table);
-  const auto others = profile(in_table, best);
-  ModuliEstimate estimate = estimate_of(in_table, best, others);
+  ModuliEstimate estimate = estimate_of(in_table, nearest(in_table));
   const ScaleFactors scale = scale_factors(simulated_, flow);
   const Eigen::Vector3d factor(scale.modulus, scale.cortex_modulus, scale.cortex_modulus);
   estimate.modulus = estimate.modulus.cwiseProduct(factor);
@@ -222,6 +229,16 @@ std::vector<SeveralModuli::Candidate> SeveralModuli::profile(ModuliMisfit& misfi
   return alike;
 }
 
+void SeveralModuli::forget_what_others_deny(std::span<const Candidate> others, ModuliEstimate& e) const {
+  for (const Candidate& other : others) {
+    const Eigen::Vector3d values = moduli_at(other.cell, table_.at(other.cell)).value;
+    for (const Modulus m : all_moduli) {
+      const double value = values(int(m));
+      if (!(value >= e.value(m) / 2 && value <= e.value(m) * 2)) e.is_known[std::size_t(m)] = false;
+    }
+  }
+}
+
 SeveralModuli::Covariance SeveralModuli::covariance_at(const ModuliMisfit& misfit, const CellCoordinates& cell) const {
   Covariance information = misfit.information(cell);
   information.diagonal() += (prior_widths * widths(table_.box())).cwiseInverse().cwiseAbs2();
@@ -238,8 +255,7 @@ SeveralModuli::Covariance SeveralModuli::covariance_at(const ModuliMisfit& misfi
   return covariance;
 }
 
-ModuliEstimate SeveralModuli::estimate_of(const ModuliMisfit& misfit, const Candidate& best,
-                                          std::span<const Candidate> others) const {
+ModuliEstimate SeveralModuli::estimate_of(ModuliMisfit& misfit, const Candidate& best) const {
   const CombinedState state = table_.at(best.cell.cwiseMax(table_.box().least).cwiseMin(table_.box().greatest));
   const Covariance covariance = covariance_at(misfit, best.cell);
   const auto error_of = [&](const CellCoordinates& gradient) { return std::sqrt(gradient.dot(covariance * gradient)); };
@@ -255,16 +271,11 @@ ModuliEstimate SeveralModuli::estimate_of(const ModuliMisfit& misfit, const Cand
                                             moduli.stiffness * CellCoordinates::Unit(x_axial));
   e.chi_squared = best.chi_squared;
   e.freedom = freedom();
+  for (const Modulus m : all_moduli) e.is_known[std::size_t(m)] = e.error(m) <= max_relative_error * e.value(m);
+  if (std::ranges::count(e.is_known, true) > 0) forget_what_others_deny(profile(misfit, best), e);
   bool all_known = true;
-  for (const Modulus m : {Modulus::young, Modulus::cortex, Modulus::tension}) {
-    const auto is_near = [&](const Candidate& other) {
-      const double value = moduli_at(other.cell, table_.at(other.cell)).value(int(m));
-      return value >= e.value(m) / 2 && value <= e.value(m) * 2;
-    };
-    const bool known = e.error(m) <= max_relative_error * e.value(m) && std::ranges::all_of(others, is_near);
-    e.is_known[std::size_t(m)] = known;
-    if (m != Modulus::tension || options_.free_tension) all_known = all_known && known;
-  }
+  for (const Modulus m : all_moduli)
+    if (m != Modulus::tension || options_.free_tension) all_known = all_known && e.is_known[std::size_t(m)];
   const double freedom = std::max(e.freedom, 0);
   e.status = all_known ? ModuliStatus::resolved : ModuliStatus::not_told_apart;
   if (best.chi_squared > freedom + 3 * std::sqrt(2 * freedom) + 9) e.status = ModuliStatus::poor_fit;

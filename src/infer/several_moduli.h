@@ -96,6 +96,7 @@ class SeveralModuli {
                                    const CellCoordinates* start = nullptr) const;
   /// Of a cell of the table that is seen in a flow.
   double axial_tension_Pa(const CellCoordinates& cell, const ChannelFlow& flow) const;
+  ShapeVector shape_of(const CellCoordinates& cell, const ChannelFlow& flow) const;
   const CombinedInterpolation& table() const { return table_; }
   /// Features less parameters, the axial tension being known.
   int freedom() const;
@@ -110,8 +111,9 @@ class SeveralModuli {
   Candidate minimum_from(ModuliMisfit& misfit, const CellCoordinates& start, Share share) const;
   std::vector<Candidate> profile(ModuliMisfit& misfit, const Candidate& best) const;
   Covariance covariance_at(const ModuliMisfit& misfit, const CellCoordinates& cell) const;
-  ModuliEstimate estimate_of(const ModuliMisfit& misfit, const Candidate& best,
-                             std::span<const Candidate> others) const;
+  /// Where another cell fits as well and differs by more than a factor of two, a modulus is not known.
+  void forget_what_others_deny(std::span<const Candidate> others, ModuliEstimate& estimate) const;
+  ModuliEstimate estimate_of(ModuliMisfit& misfit, const Candidate& best) const;
 
   const CombinedInterpolation& table_;
   ChannelFlow simulated_;

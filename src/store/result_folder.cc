@@ -68,7 +68,7 @@ fs::path resolved(const fs::path& folder) {
   fs::path path = fs::weakly_canonical(fs::absolute(folder), error);
   if (error) refuse_path(folder, fmt::format("cannot write a result there ({}).", error.message()));
   if (!path.has_filename()) path = path.parent_path();  // a trailing slash
-  if (!path.has_filename()) refuse_path(folder, "is no folder for a result; give another one with -o.");
+  if (!path.has_filename()) refuse_path(folder, "cannot be a folder for a result; give another one with -o.");
   return path;
 }
 

@@ -14,6 +14,7 @@ struct VirtualCell {
   double stiffness = 0;  ///< Young's modulus (kPa) of what has a bulk, modulus of the cortex (mN/m) of a shell
   double viscosity_mPas = 0;
   double cortex_modulus_mN_per_m = 0, tension_mN_per_m = 0;  ///< of a combined cell
+  double axial_tension_Pa = 0;                               ///< of the liquid, along the flow
   double own_viscosity_mPas = 0, place_um = 0;  ///< of a cell on its way: inside it, behind the contraction
 };
 
@@ -27,20 +28,32 @@ struct CellShape {
 };
 
 /// Why a model has no shape for a cell.
-enum class NoShape { too_small, too_large, too_stiff, too_soft, outside_picture, outside_sheets, outside_times };
+enum class NoShape {
+  too_small,
+  too_large,
+  too_stiff,
+  too_soft,
+  outside_picture,
+  outside_sheets,
+  outside_times,
+  outside_tensions
+};
 
-inline constexpr std::array<std::string_view, 7> names_of_missing_shapes{"too small",
+inline constexpr std::array<std::string_view, 8> names_of_missing_shapes{"too small",
                                                                          "too large",
                                                                          "too stiff",
                                                                          "too soft",
                                                                          "outside the picture",
                                                                          "of a cortex or tension outside the table",
-                                                                         "of a viscosity outside the table"};
+                                                                         "of a viscosity outside the table",
+                                                                         "under an axial tension outside the table"};
 
 class CellShapes {
  public:
   virtual ~CellShapes() = default;
   virtual std::variant<CellShape, NoShape> shape(const VirtualCell& cell) const = 0;
+  /// Whether it draws cells under an axial tension, too.
+  virtual bool are_elongated() const { return false; }
   /// In one line, with its range.
   virtual std::string description() const = 0;
 };

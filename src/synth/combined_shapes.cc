@@ -14,7 +14,8 @@ namespace rheocyte {
 namespace {
 
 constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
-              x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio);
+              x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio),
+              x_axial = int(CellCoordinate::axial_ratio);
 
 std::vector<SampledBranch> without_empty(std::vector<SampledBranch> branches) {
   std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
@@ -43,6 +44,7 @@ std::variant<CellShape, NoShape> CombinedShapes::shape(const VirtualCell& cell) 
   place(x_radius) = std::log(radius);
   place(x_share) = cortex / radius / S;
   place(x_ratio) = ratio;
+  place(x_axial) = 1e-3 * cell.axial_tension_Pa / scale.modulus / S;
   return scaled(at(place, std::log(S)), scale);
 }
 
@@ -53,6 +55,8 @@ std::variant<CellShape, NoShape> CombinedShapes::at(CellCoordinates cell, double
   if (cell(x_radius) > box.greatest(x_radius)) return NoShape::too_large;
   for (const int x : {x_share, x_ratio})
     if (!(cell(x) >= box.least(x) && cell(x) <= box.greatest(x))) return NoShape::outside_sheets;
+  if (!(cell(x_axial) >= box.least(x_axial) && cell(x_axial) <= box.greatest(x_axial)))
+    return NoShape::outside_tensions;
   const double low = box.least(x_progress), high = box.greatest(x_progress);
   const auto excess = [&](double progress) {
     cell(x_progress) = progress;
@@ -94,7 +98,9 @@ std::string CombinedShapes::description() const {
       "tensions from {:g} to {:g} E2D, {} up to {:.3g}",
       radii.size(), radii.front() * width, radii.back() * width, box.least(x_share), box.greatest(x_share),
       box.least(x_ratio), box.greatest(x_ratio),
-      between_.is_elongated() ? "without a tension of the liquid, third modes" : "deformations",
+      between_.is_elongated()
+          ? fmt::format("axial tensions from {:g} to {:g} S, third modes", box.least(x_axial), box.greatest(x_axial))
+          : "deformations",
       std::exp(box.greatest(x_progress)));
 }
 

@@ -18,6 +18,7 @@ class CombinedShapes : public CellShapes {
   CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches, const SimulatedCells& cells);
 
   std::variant<CellShape, NoShape> shape(const VirtualCell& cell) const override;
+  bool are_elongated() const override { return between_.is_elongated(); }
   std::string description() const override;
   const std::vector<double>& tension_ratios() const { return between_.tension_ratios(); }
 

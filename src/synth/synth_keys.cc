@@ -86,6 +86,10 @@ Keys flow_keys() {
       shared<&Spec::channel_width_um>("channel.width_um", "width of the square channel"),
       shared<&Spec::flow_rate_ul_s>("flow.rate_ul_per_s", "flow rate, sheath and sample together"),
       shared<&Spec::viscosity_mPas>("flow.viscosity_mPas", "viscosity of the liquid", {}, "flow.medium"),
+      spread<&Spec::axial_tension_Pa>("flow.axial_tension_Pa",
+                                      "tension of the liquid along the flow, which draws cells out, with a table of "
+                                      "elongated ones",
+                                      absent, "", by_table),
       key<&Spec::medium>({"flow.medium",
                           "",
                           "liquid of known viscosity: CellCarrier, CellCarrierB, 0.83% MC-PBS, water, ...",

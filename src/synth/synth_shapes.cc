@@ -14,6 +14,7 @@
 #include "synth/branch_shapes.h"
 #include "synth/combined_shapes.h"
 #include "synth/course_shapes.h"
+#include "synth/elongated_shapes.h"
 #include "synth/grid_shapes.h"
 #include "table/stiffness_grid.h"
 #include "table/table_folder.h"
@@ -24,6 +25,9 @@ namespace rheocyte {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view is_stationary =
+    "is a table of stationary shapes; recording.places_um needs a dynamic table (`rheocyte help dynamic`).";
 
 std::string cells_of(const Case& base) { return cells_in_words(model_text(base), base.channel.section); }
 
@@ -82,8 +86,19 @@ std::unique_ptr<CellShapes> shapes_of_dynamic_table(SynthSpec& spec) {
   return std::make_unique<CourseShapes>(std::move(table), ChannelFlow{spec.channel_width_um, spec.flow_rate_ul_s});
 }
 
+std::unique_ptr<CellShapes> shapes_of_elongated(SynthSpec& spec, const fs::path& file) {
+  ElongatedContent content =
+      elongated_from_bytes(content_of_file(file, largest_elongated), one_line(file.string(), 300));
+  if (spec.kind != CellKind::solid) refuse_path(spec.table, "its cells are solids, so cell.kind must be \"solid\".");
+  if (spec.is_on_its_way()) refuse_path(spec.table, std::string(is_stationary));
+  spec.made_of = content.origin.cells();
+  return std::make_unique<ElongatedCellShapes>(std::move(content),
+                                               ChannelFlow{spec.channel_width_um, spec.flow_rate_ul_s});
+}
+
 std::unique_ptr<CellShapes> shapes_of_grid(SynthSpec& spec) {
   const std::string name = one_line(spec.table.string(), 300);
+  if (spec.table.filename().string().starts_with("elongated_")) return shapes_of_elongated(spec, spec.table);
   GridContent grid = grid_from_bytes(content_of_file(spec.table, largest_grid), name);
   if (grid.origin.is_shell || spec.kind != CellKind::solid)
     refuse_path(spec.table,
@@ -91,10 +106,7 @@ std::unique_ptr<CellShapes> shapes_of_grid(SynthSpec& spec) {
                 "the folder of a table.");
   if (!grid.shapes)
     refuse_path(spec.table, "does not say what its cells look like; compute it anew with `rheocyte table`.");
-  if (spec.is_on_its_way())
-    refuse_path(
-        spec.table,
-        "is a table of stationary shapes; recording.places_um needs a dynamic table (`rheocyte help dynamic`).");
+  if (spec.is_on_its_way()) refuse_path(spec.table, std::string(is_stationary));
   spec.made_of = grid.origin.cells();
   return std::make_unique<GridShapes>(std::move(grid), ChannelFlow{spec.channel_width_um, spec.flow_rate_ul_s});
 }
@@ -109,13 +121,15 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
         "shapes.table names such a folder or table.");
   const fs::path file = spec.table / "spec.toml";
   if (is_dynamic_spec(read_case_text(file), file.string(), {})) return shapes_of_dynamic_table(spec);
-  if (spec.is_on_its_way())
-    refuse_path(
-        spec.table,
-        "is a table of stationary shapes; recording.places_um needs a dynamic table (`rheocyte help dynamic`).");
+  if (spec.is_on_its_way()) refuse_path(spec.table, std::string(is_stationary));
   const TableFolder folder(spec.table, read_table_spec(file));
   spec.made_of = cells_of(folder.spec().base);
   if (folder.spec().is_combined()) return shapes_of_combined_table(spec, folder);
+  if (folder.spec().is_elongated()) {
+    const fs::path file = spec.table / elongated_file_name(folder.spec().identifier);
+    if (!fs::exists(file, error)) refuse_path(spec.table, "is not finished; let `rheocyte table` go on.");
+    return shapes_of_elongated(spec, file);
+  }
   const bool is_shell = folder.spec().sweeps_cortex();
   if (spec.kind != (is_shell ? CellKind::shell : CellKind::solid))
     refuse_path(spec.table, fmt::format("its cells differ by {}, so cell.kind must be \"{}\".",
@@ -130,7 +144,15 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
 }  // namespace
 
 std::unique_ptr<CellShapes> shapes_of(SynthSpec& spec) {
-  if (!spec.analytical) return shapes_of_table(spec);
+  if (!spec.analytical) {
+    auto shapes = shapes_of_table(spec);
+    if (spec.axial_tension_Pa && !shapes->are_elongated())
+      refuse_path(
+          spec.table,
+          "its cells are not elongated; flow.axial_tension_Pa needs a table with table.axial_ratio, for example "
+          "HE-3D-el-26 of the program.");
+    return shapes;
+  }
   spec.made_of = cells_in_words(spec.kind == CellKind::shell ? "linear shell" : "linear solid", Section::tube);
   return std::make_unique<AnalyticShapes>(
       AnalyticPopulation{.flow = {spec.channel_width_um, spec.flow_rate_ul_s},

@@ -29,6 +29,7 @@ struct SynthSpec {
   std::string medium;  ///< empty: the viscosity is given
   ViscosityModel viscosity_model = ViscosityModel::buyukurganci_2022;
   Spread temperature_C;
+  std::optional<Spread> axial_tension_Pa;  ///< of cells of a table of elongated ones
   // [cell]
   CellKind kind = CellKind::solid;
   Spread radius_um;

@@ -59,6 +59,9 @@ struct Block {
   std::size_t events = 0;
 };
 
+/// dclab knows userdef0 to userdef9.
+const std::string axial_tension_feature = "userdef0";
+
 /// Cells one after the other, each from its own random numbers.
 class VirtualCamera {
  public:
@@ -103,6 +106,7 @@ class VirtualCamera {
     cell.viscosity_mPas = buffer_ ? buffer_->viscosity({spec_.channel_width_um, spec_.flow_rate_ul_s}, celsius)
                                   : spec_.viscosity_mPas.value_or(0);
     if (spec_.viscosity_of_cell_mPas) cell.own_viscosity_mPas = spec_.viscosity_of_cell_mPas->at(random.normal());
+    if (spec_.axial_tension_Pa) cell.axial_tension_Pa = spec_.axial_tension_Pa->at(random.normal());
     return {cell, celsius};
   }
 
@@ -154,6 +158,7 @@ class VirtualCamera {
     if (is_combined()) truth.insert(truth.end(), {cell.cortex_modulus_mN_per_m, cell.tension_mN_per_m});
     if (spec_.is_on_its_way()) truth.insert(truth.end(), {cell.own_viscosity_mPas, cell.place_um});
     for (std::size_t k = 0; k < truth.size(); ++k) block.columns[fmt::format("userdef{}", k + 1)].push_back(truth[k]);
+    if (spec_.axial_tension_Pa) block.columns[axial_tension_feature].push_back(cell.axial_tension_Pa);
     result_.mean_area_error += features.area_um2 / shape.area_um2 - 1;
     result_.mean_deformation_error += features.deformation - shape.deformation;
   }
@@ -245,6 +250,8 @@ void describe_truth(const SynthSpec& spec, const CellShapes& shapes, const Virtu
   if (spec.kind == CellKind::combined) meanings.insert(meanings.end(), {cortex, "tension of the cortex (mN/m)"});
   for (std::size_t k = 0; k < meanings.size(); ++k)
     file.add_metadata(fmt::format("user:rheocyte userdef{}", k + 1), fmt::format("true {}", meanings[k]));
+  if (spec.axial_tension_Pa)
+    file.add_metadata(fmt::format("user:rheocyte {}", axial_tension_feature), "true axial tension (Pa)");
   file.add_metadata("user:rheocyte shapes", shapes.description());
   if (!spec.made_of.empty()) file.add_metadata(made_of_key, spec.made_of);
   file.add_metadata("user:rheocyte seed", static_cast<std::int64_t>(spec.seed));

@@ -54,7 +54,7 @@ ExportFolder::ExportFolder(const fs::path& folder) : folder_(fs::absolute(folder
 ExportPlace ExportFolder::claim(std::string_view name, ExportKind kind) {
   if (!is_file_name(name))
     throw Refused(400, "name",
-                  fmt::format("{} is no name for a file: give one without folders that does not begin "
+                  fmt::format("{} is not a name for a file: give one without folders that does not begin "
                               "with a point.",
                               one_line(name, 60)));
   return {*this, (folder_ / name).lexically_normal(), kind};

@@ -130,7 +130,7 @@ Json ModuliRuns::kept() const {
 }
 
 void ModuliRuns::restore(const Json& kept) {
-  if (!kept.is_array()) throw UserError("The moduli of the session are no list.");
+  if (!kept.is_array()) throw UserError("The moduli of the session are not a list.");
   for (const Json& one : kept) {
     if (!one.is_object() || !one.contains("path") || !one["path"].is_string() || !one.contains("settings"))
       throw UserError("Moduli of the session have no path or no settings.");

@@ -11,6 +11,7 @@
 #include "case/user_error.h"
 #include "store/file_version.h"
 #include "view/moduli_runs.h"
+#include "view/modulus_states.h"
 #include "view/path_text.h"
 #include "view/view_items.h"
 
@@ -209,6 +210,7 @@ void add_recording_routes(Router& router, Exports& exports, ViewSession& session
   const auto add = [&](std::string_view method, std::string_view pattern, auto answer) {
     router.add(method, pattern, [answers, answer](const Request& request) { return ((*answers).*answer)(request); });
   };
+  router.add("GET", "/api/states", [](const Request&) { return json_answer(modulus_states()); });
   router.add("GET", "/api/items", [answers](const Request&) { return answers->list(); });
   add("GET", "/api/items/{item}", &RecordingAnswers::item);
   add("PATCH", "/api/items/{item}", &RecordingAnswers::label);

@@ -35,7 +35,7 @@ std::variant<Answer, std::size_t> length_of_body(const RequestHead& head, std::s
   std::size_t length = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
   if (error != std::errc() || end != text.data() + text.size() || head.all("content-length").size() > 1)
-    return refusal(400, "size", "The length of the body is no number.");
+    return refusal(400, "size", "The length of the body is not a number.");
   if (length > limit)
     return refusal(413, "size", fmt::format("The body is longer than the {} bytes that are taken here.", limit));
   return length;

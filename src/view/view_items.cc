@@ -25,7 +25,7 @@ constexpr std::array names_of_states{"loading", "ready", "failed"};
 
 std::string label_in(const Json& labels, const char* name, const std::string& before) {
   if (!labels.contains(name)) return before;
-  if (!labels[name].is_string()) throw Refused(400, "input", std::string(name) + " is no text.");
+  if (!labels[name].is_string()) throw Refused(400, "input", std::string(name) + " is not a text.");
   return one_line(labels[name].get<std::string>(), longest_label);
 }
 
@@ -145,7 +145,7 @@ ViewItems::Item ViewItems::at(std::size_t number) const {
 
 ViewItems::Item ViewItems::recording(std::size_t number) const {
   Item item = at(number);
-  if (item.place.kind != ItemKind::recording) throw Refused(409, "kind", "This item is no recording.");
+  if (item.place.kind != ItemKind::recording) throw Refused(409, "kind", "This item is not a recording.");
   if (!item.place.error.empty()) throw UserError(item.place.error);
   return item;
 }
@@ -153,7 +153,7 @@ ViewItems::Item ViewItems::recording(std::size_t number) const {
 fs::path ViewItems::table(std::size_t number) const {
   const Item item = at(number);
   if (item.place.kind != ItemKind::table || !item.place.error.empty())
-    throw UserError("The setting table names an item that is no table.");
+    throw UserError("The setting table names an item that is not a table.");
   return item.place.path;
 }
 
@@ -182,7 +182,7 @@ Json ViewItems::kept() const {
 }
 
 void ViewItems::restore(const Json& kept) {
-  if (!kept.is_array()) throw UserError("The items of the session are no list.");
+  if (!kept.is_array()) throw UserError("The items of the session are not a list.");
   for (const Json& one : kept) {
     if (!one.is_object() || !one.contains("path") || !one["path"].is_string())
       throw UserError("An item of the session has no path.");

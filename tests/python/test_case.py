@@ -66,9 +66,9 @@ def test_a_key_in_time_makes_the_case_one_in_time(paper):
     ({"cell": {"bulk": {"law": "jelly"}}}, "jelly"),
     ({"cell": 5}, "cell"),
     ({"flow": {"exponent": 0.5}}, "flow.exponent"),
-    ({5: 5}, "is no text"),
+    ({5: 5}, "is not a text"),
     ({"cell": {"radius_um": "a\udcff"}}, "cell.radius_um"),
-    ({"a\udcff": 5}, "is no text"),
+    ({"a\udcff": 5}, "is not a text"),
 ])
 def test_mistakes_are_value_errors_that_name_the_key(paper, keys, sentence):
     for section, values in keys.items():

@@ -1,8 +1,10 @@
 """The package beside others: it loads fast and late, next to h5py's HDF5, and draws without its compiled module."""
 
+import ast
 import inspect
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -95,3 +97,32 @@ def test_docstrings_of_methods_are_there():
         for name, member in vars(owner).items():
             if not name.startswith("_") and (inspect.isfunction(member) or isinstance(member, property)):
                 assert inspect.getdoc(member), f"{owner.__name__}.{name}"
+
+
+def of_stubs(wanted):
+    """(what the package has, its node in the stub) of functions and methods of the given kind."""
+    for name in rheocyte.__all__:
+        here, stub = getattr(rheocyte, name), PACKAGE / f"{rheocyte._MODULES[name]}.pyi"
+        nodes = ast.parse(stub.read_text(encoding="utf-8")).body if stub.exists() else []
+        for node in nodes:
+            if getattr(node, "name", None) != name or name == "Case":
+                continue
+            for part in node.body if isinstance(node, ast.ClassDef) else [node]:
+                if isinstance(part, ast.FunctionDef) and not part.name.startswith("_") and wanted(part):
+                    yield getattr(here, part.name) if part is not node else here, part
+
+
+def test_stubs_state_the_defaults_of_the_package():
+    for function, node in of_stubs(lambda node: not node.decorator_list):
+        parameters = inspect.signature(function).parameters
+        places = node.args.args[len(node.args.args) - len(node.args.defaults):]
+        given = [*zip(places, node.args.defaults), *zip(node.args.kwonlyargs, node.args.kw_defaults)]
+        for argument, default in given:
+            if default is not None:
+                assert parameters[argument.arg].default == ast.literal_eval(default), (function, argument.arg)
+
+
+def test_what_returns_arrays_tells_their_shape():
+    for function, node in of_stubs(lambda node: "NDArray" in ast.unparse(node.returns)):
+        text = inspect.getdoc(function)
+        assert re.search(r"\((n|N|len\(r_um\)|rows), ?[\w()]*", text), f"{node.name}: {text}"

@@ -178,5 +178,5 @@ def test_fields_are_saved_as_the_command_line_writes_them(state, tmp_path):
     with pytest.raises(UserError, match="cannot be written"):
         state.save_fields(tmp_path / "nowhere" / "fields.vtu")
     for wrong in (None, 1, "a\0b"):  # 1 would be standard output
-        with pytest.raises(UserError, match="no path"):
+        with pytest.raises(UserError, match="not a path"):
             state.save_fields(wrong)

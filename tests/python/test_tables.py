@@ -179,7 +179,7 @@ def test_texts_go_where_they_are_wanted(table, tmp_path):
     files.table.write_text("mine")
     with pytest.raises(UserError, match="lut_LE-2D-26.txt"):
         table.texts(folder)
-    with pytest.raises(UserError, match="is no path"):
+    with pytest.raises(UserError, match="is not a path"):
         table.texts(3)
     with pytest.raises(UserError, match="is a text table itself"):
         Table(table.texts().table).texts(folder)
@@ -216,7 +216,7 @@ def test_a_table_that_is_not_there_or_damaged_is_named(tmp_path):
     with pytest.raises(UserError, match="LE-2D-27.*did you mean.*LE-2D-26"):
         Table("LE-2D-27")
     for wrong in (5, None, "a\0b"):
-        with pytest.raises(UserError, match="the table is .* no path"):
+        with pytest.raises(UserError, match="the table is .* not a path"):
             Table(wrong)
     with pytest.raises(UserError, match="there is neither such a file"):
         Table("x" * 5000)
@@ -275,7 +275,7 @@ def test_a_table_is_computed_in_a_folder(tmp_path):
 
 
 @pytest.mark.parametrize("spec, words", [
-    ({**SMALL, "table": {**SMALL["table"], "radius": 3}}, "table.radius"), ("nowhere.toml", "nowhere.toml"), (5, "no spec"),
+    ({**SMALL, "table": {**SMALL["table"], "radius": 3}}, "table.radius"), ("nowhere.toml", "nowhere.toml"), (5, "not a spec"),
     ({**SMALL, "table": {**SMALL["table"], "radii": float("nan")}}, "nan"), ({"table": {"radii": object()}}, "object")])
 def test_what_is_no_spec_is_refused(spec, words, tmp_path):
     with pytest.raises(UserError, match=words):

@@ -15,6 +15,7 @@
 
 #include "case/json_guard.h"
 #include "extract/extract_recording.h"
+#include "infer/modulus_state.h"
 #include "measurement/recording_writer.h"
 #include "store/file_version.h"
 #include "view/view_items.h"
@@ -108,6 +109,19 @@ std::vector<Number> numbers_in(const std::string& bytes) {
   std::vector<Number> numbers(bytes.size() / sizeof(Number));
   std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
   return numbers;
+}
+
+TEST_F(RecordingRoutes, EachStateOfAModulusIsNamedAndAllButAValidOneAreExplained) {
+  open_virtual_cells(1);
+  const Json states = json("GET", "/api/states");
+  ASSERT_EQ(states.size(), names_of_modulus_states.size());
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const ModulusState state{int(k)};
+    EXPECT_EQ(states[k]["number"], k);
+    EXPECT_EQ(states[k]["name"], name_of(state));
+    EXPECT_EQ(states[k]["has_modulus"], has_modulus(state));
+    EXPECT_EQ(states[k]["sentence"].get<std::string>().empty(), state == ModulusState::valid);
+  }
 }
 
 TEST_F(RecordingRoutes, GiveColumnsOneAfterAnotherAsTheyAreStored) {

@@ -1,6 +1,5 @@
 // The picture of the cell in its channel: colours on a canvas, lines above it, the value under the pointer.
 import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
-import type { Outline } from '../api';
 import type { Fields } from '../draw/fields';
 import { coverPixels, paintPixels, type Cover, type Paint } from '../draw/raster';
 import { theme } from '../shell/theme';
@@ -9,20 +8,7 @@ import { halfFrame, stageOf, type Stage } from './frame';
 import { Lines } from './Lines';
 import type { Looks } from './looks';
 import { useProbe } from './probe';
-
-export interface Scene {
-  fields: Fields | null;
-  paints: (Paint | null)[];
-  contour: Outline | null;
-  hull: Outline | null;
-  undeformed_um: number;
-  radius_um: number;
-  /** place of the cell along the channel, um */
-  place_um: number;
-  revision: number;
-  /** the wall of a channel that is not straight, relative to the cell */
-  wall?: Outline;
-}
+import type { Scene } from './scene';
 
 interface ChannelProps {
   scene: Scene;

@@ -7,7 +7,7 @@ import type { Outline } from '../api';
 import { cellMap, liquidMap, shade, tensionMap } from '../draw/colormap';
 import { streamlines } from '../draw/streamlines';
 import { token } from '../shell/theme';
-import type { Scene } from './Channel';
+import type { Scene } from './scene';
 import { leftOf, pathOf, rightOf, scaleBar_um, wallPath, wholeOutline, xOf, yOf, type Stage } from './frame';
 import type { Looks } from './looks';
 

@@ -3,7 +3,7 @@ import { useState } from 'preact/hooks';
 import { scalarField } from '../draw/fields';
 import { significant } from '../draw/numbers';
 import { regionAt, valueAt, type Cover } from '../draw/raster';
-import type { Scene } from './Channel';
+import type { Scene } from './scene';
 import { leftOf, xOf, yOf, type Stage } from './frame';
 import { cellFields, liquidFields } from './looks';
 

@@ -1,14 +1,15 @@
 // The recordings: conditions, names of condition and replicate, what became of their events, or why they cannot be read.
+import { useEffect } from 'preact/hooks';
 import type { Item } from '../api';
 import { significant } from '../draw/numbers';
 import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
 import { countWithin } from './analysis';
 import { columnsVersion } from './columns';
-import { hasModulus, meaningOf, states } from './features';
 import { focus, gates, items, recordings, rename, titleOf } from './model';
 import { moduli } from './moduli';
 import { counted } from './scale';
+import { countedStates, states, wantStates } from './states';
 
 /** "20 µm · 0.04 µl/s · CellCarrier · 23 °C" */
 function conditionsOf(item: Item): string {
@@ -25,32 +26,25 @@ function conditionsOf(item: Item): string {
     .join(' · ');
 }
 
-/** Events by the state of their modulus, from the summary or the list itself. */
-function countsOf(item: Item, summary: Record<string, unknown> | undefined): [string, number][] {
-  const own = (item as { counts?: Record<string, number> }).counts ?? {};
-  return states
-    .map(([state]): [string, number] => [state, Number(summary?.[state.replace(/ /g, '_')] ?? own[state] ?? 0)])
-    .filter(([, count]) => count > 0);
-}
-
+/** How many events have a modulus, and why the others have none. */
 function StateCounts({ item }: { item: Item }) {
-  const summary = useStore(moduli)[item.item]?.summary;
+  const run = useStore(moduli)[item.item];
   const isFocused = useStore(focus) === item.item;
-  const counts = countsOf(item, summary);
+  const counts = countedStates(useStore(states), run?.counts ?? item.counts ?? {});
   if (counts.length === 0) return null;
   const total = counts.reduce((sum, [, count]) => sum + count, 0);
   return (
     <div class="states">
       <div class="state-bar" aria-hidden="true">
         {counts.map(([state, count]) => (
-          <span key={state} class={hasModulus(state) ? 'with' : 'without'} style={{ flexGrow: count / total }} />
+          <span key={state.name} class={state.has_modulus ? 'with' : 'without'} style={{ flexGrow: count / total }} />
         ))}
       </div>
       <ul>
-        {counts.map(([state, count]) => (
-          <li key={state} class={isFocused && state !== 'valid' ? 'explained' : ''} title={meaningOf(state)}>
-            {counted(count)} {state}
-            {isFocused && state !== 'valid' && <span class="meaning">{meaningOf(state)}</span>}
+        {counts.map(([{ name, sentence }, count]) => (
+          <li key={name} class={isFocused && sentence ? 'explained' : ''} title={sentence}>
+            {counted(count)} {name}
+            {isFocused && sentence && <span class="meaning">{sentence}</span>}
           </li>
         ))}
       </ul>
@@ -119,6 +113,7 @@ function Recording({ item }: { item: Item }) {
 }
 
 export function RecordingList() {
+  useEffect(wantStates, []);
   const all = useStore(items);
   const shown = recordings(all);
   const conditions = [...new Set(shown.map((item) => item.condition).filter((name) => name !== ''))];

@@ -5,7 +5,7 @@ import { pixelX, pixelY, margins, innerHeight, innerWidth, type Frame } from './
 import { useStore } from '../shell/store';
 import { counted } from './scale';
 import { column, columnsVersion } from './columns';
-import { nameOf, stateLegend } from './features';
+import { nameOf } from './features';
 import { changePlot, choice, focus, gates, itemOf, items, recordings, titleOf, tool, type Plot } from './model';
 import { moduliVersion } from './moduli';
 import { ColourScale, colourScaleBox } from './ColourScale';
@@ -15,6 +15,7 @@ import { useLines, usePlotData, type PlotData } from './plot_data';
 import { DensityContours, Draft, GateShapes, TableLines } from './PlotLines';
 import { AxisSelects, ColourSelect } from './PlotSelects';
 import { PointsCanvas } from './PointsCanvas';
+import { stateLegend, states } from './states';
 import { useDrawing, type Drawing } from './use_drawing';
 import { useSize } from './use_size';
 
@@ -87,8 +88,9 @@ function Layers({ plot, item, frame, data, lines, drawing }: LayersProps) {
 /** What lines and numbers of states mean. */
 function PlotNote({ plot, item, lines }: { plot: Plot; item: Item; lines: Lines | null }) {
   useStore(columnsVersion);
-  const states = [plot.x.feature, plot.y.feature, plot.colour].includes('state') ? column(item.item, 'state') : undefined;
-  const legend = useMemo(() => states && stateLegend(states), [states]);
+  const known = useStore(states);
+  const shown = [plot.x.feature, plot.y.feature, plot.colour].includes('state') ? column(item.item, 'state') : undefined;
+  const legend = useMemo(() => shown && stateLegend(known, shown), [known, shown]);
   const told = plot.lines ? (lines?.sentence ?? (lines?.table ? `Isoelasticity lines in kPa: ${lines.table}` : '')) : '';
   return <p class={legend ? 'plot-note whole' : 'plot-note'}>{legend || told}</p>;
 }

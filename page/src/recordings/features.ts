@@ -63,36 +63,3 @@ export const youngModulus = 'emodulus';
 export const storedModulus = 'emodulus_stored';
 /** What the program computes with the moduli; all else is in the file. */
 export const isComputed = (feature: string): boolean => feature === youngModulus || computed.has(feature);
-
-/** The names of the numbers in the feature "state". */
-const stateNames = ['valid', 'no data', 'too small', 'too large', 'too stiff', 'too soft', 'unstable', 'unresolved', 'regularised', 'gated', 'inertial'];
-
-/** The states of events in the order in which they are listed, with what they mean. */
-export const states: [string, string][] = [
-  ['valid', 'modulus from the table'],
-  ['regularised', 'modulus of a cell whose surface is held smooth by bending'],
-  ['inertial', 'modulus changed by the inertia of the liquid, which the table does not hold'],
-  ['too small', 'smaller than any cell of the table'],
-  ['too large', 'larger than any cell of the table'],
-  ['too stiff', 'deformed less than the stiffest cell of the table'],
-  ['too soft', 'deformed more than the softest cell of the table'],
-  ['unstable', 'the bare surface of such a soft cell wrinkles'],
-  ['unresolved', 'the standard error is greater than the modulus'],
-  ['gated', 'outside the limits of the settings'],
-  ['no data', 'area, deformation or viscosity is missing'],
-];
-const meanings = new Map(states);
-export const meaningOf = (state: string): string => meanings.get(state) ?? '';
-
-/** What the numbers of a column "state" say, as far as they occur: "State: 0 valid, 7 unresolved (the standard ...)". */
-export function stateLegend(values: ArrayLike<number>): string {
-  const found = new Set<number>();
-  for (let i = 0; i < values.length; ++i) found.add(values[i]);
-  const told = stateNames.flatMap((name, k) => {
-    if (!found.has(k)) return [];
-    return [k === 0 ? `${k} ${name}` : `${k} ${name} (${meaningOf(name)})`];
-  });
-  return told.length > 0 ? `State: ${told.join(', ')}` : '';
-}
-
-export const hasModulus = (state: string): boolean => ['valid', 'regularised', 'inertial'].includes(state);

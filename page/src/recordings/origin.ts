@@ -28,7 +28,7 @@ export function originOf(feature: string, shown: Item[], tables: Map<number, str
     return `Stored in the recordings, not computed here: from ${counts(offering.map(originOfStored))}. rheocyte's own are “${labelOf(youngModulus)}”.`;
   if (!isComputed(feature)) return '';
   const own = offering.flatMap((item) => tables.get(item.item) ?? []);
-  const differ = new Set(own).size > 1 ? ' Differences between tables are no differences between cells.' : '';
+  const differ = new Set(own).size > 1 ? ' Differences between tables are not differences between cells.' : '';
   return own.length > 0 ? `Computed here with the table ${counts(own)}.${differ}` : '';
 }
 

@@ -57,7 +57,8 @@ class Laboratory:
     tell: object = print
     failures: list = field(default_factory=list)  # of Solution
     recordings: list = field(default_factory=list)  # paths of .rtdc files, for the figures that draw them
-    options: list = field(default_factory=list)  # of `rheocyte extract`, for them
+    options: list = field(default_factory=list)  # of `rheocyte extract` and `moduli`, for them
+    table: str = ""  # combined, by which their median outlines are fitted
 
     def solve(self, cases):
         """Solutions of a dictionary name -> case (keys as in `rheocyte help case`), under the same names."""

@@ -1,4 +1,5 @@
-"""Figure real-cells: whether the cells of recordings have the shapes of the model, and both moduli of each recording."""
+"""Figure real-cells: whether the cells of recordings have the shapes of the model, and both moduli of each recording; with
+a combined table also their median outlines over those of the model."""
 
 import subprocess
 from pathlib import Path
@@ -6,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from rheocyte.figures import style
+from rheocyte.figures import median_outlines, style
 from rheocyte.files import InputError, read_table
 
 ELONGATED, OF_THE_MODEL, DOUBTFUL = style.LINEAR, style.SECOND, style.ANALYTICAL
@@ -26,7 +27,18 @@ def make(laboratory):
     rows = [row for row in read_rows(laboratory) if row["shapes"]]
     if not rows:
         raise InputError("no recording could be used; `rheocyte extract` says why.")
-    return draw(rows), rows
+    cells = median_outlines.median_cells(laboratory) if laboratory.table else {}
+    height = 1.1 + 0.24 * len(rows)
+    if not cells:
+        figure = style.new_figure(height, layout="constrained")
+        draw(figure, rows)
+        return figure, rows
+    outlines = 1.6 * median_outlines.rows_of(len(cells))
+    figure = style.new_figure(height + outlines, layout="constrained")
+    above, below = figure.subfigures(2, 1, height_ratios=[height, outlines])
+    draw(above, rows)
+    median_outlines.draw(below, cells)
+    return figure, rows
 
 
 def read_rows(laboratory):
@@ -54,9 +66,8 @@ def label(row):
     return name if len(name) <= 26 else name[:12] + "…" + name[-12:]
 
 
-def draw(rows):
+def draw(figure, rows):
     """Measured and expected inertia ratios, and moduli from deformation and as of elongated cells."""
-    figure = style.new_figure(1.1 + 0.24 * len(rows), layout="constrained")
     ratios, moduli = figure.subplots(1, 2, sharey=True)
     places = np.arange(len(rows))[::-1]
     for place, row in zip(places, rows):
@@ -84,4 +95,3 @@ def draw(rows):
         moduli.text(x, 1.0, text, color=COLOURS[name], fontsize=6, va="bottom", transform=moduli.transAxes)
     moduli.set_title(moduli.get_title(loc="left"), loc="left", pad=12)
     ratios.set_title(ratios.get_title(loc="left"), loc="left", pad=12)
-    return figure

@@ -1,0 +1,33 @@
+// The cell of a combined table whose shape is the median of those of a recording (docs/theory-extract.md, sec. "One
+// tension for a recording").
+#pragma once
+#include <array>
+
+#include "infer/common_tension.h"
+
+namespace rheocyte {
+
+/// Numbers alone (store/bytes.h).
+struct MedianCell {
+  /// ln(area / um2), deformation, Lambda1 / Lambda2 and the modes, without what pixels add to them.
+  using Features = std::array<double, feature_count>;
+
+  std::size_t cells = 0;  ///< that were seen; fewer than `min_cells`: nothing else has a meaning
+  Features measured{}, fitted{};
+  Features error{};  ///< standard errors of one image, which tell cells of other kinds from those of the model
+  double young_kPa = no_value, young_error_kPa = no_value;
+  double cortex_mN_per_m = no_value, cortex_error_mN_per_m = no_value;
+  double tension_mN_per_m = no_value, tension_error_mN_per_m = no_value;
+  double stiffness_kPa = no_value, stiffness_error_kPa = no_value;  ///< E + E2D / r0
+  double axial_tension_Pa = no_value, axial_tension_error_Pa = no_value;
+  double chi_squared = no_value;
+  int freedom = 0;
+  ModuliStatus status = ModuliStatus::no_data;
+  static constexpr std::size_t min_cells = 5;
+};
+
+/// The median of the cells, fitted with the errors of one picture. The axial tension is fitted, too, unless `tension`
+/// tells it.
+MedianCell median_cell(const SeveralModuli& moduli, const SeenCell& cell, const AxialTension& tension);
+
+}  // namespace rheocyte

@@ -1,0 +1,71 @@
+#include "synth/elongated_shapes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "synth/branch_shapes.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr int points_of_outline = 720;
+/// In shares of a branch: a stiffer cell is a sphere, or an ellipsoid by the tension alone.
+constexpr double min_height = 1e-3;
+
+/// The closed outline whose hull has these modes. Where a hull bridges a dent, the sum of its modes up to the seventh
+/// is not quite convex, and its own hull has slightly others: they are made up for.
+Eigen::MatrixX2d outline_with(const RadiusModes& wanted, double area) {
+  constexpr int rounds = 4;
+  std::array<double, mode_count> modes{};
+  std::ranges::copy(wanted, modes.begin());
+  for (int round = 0; round < rounds; ++round) {
+    const OutlineShape seen = outline_shape(outline_of_modes(modes, area, points_of_outline));
+    for (std::size_t k = 0; k < wanted.size(); ++k) modes[k] += wanted[k] - seen.modes[k];
+  }
+  return outline_of_modes(modes, area, points_of_outline);
+}
+
+}  // namespace
+
+std::variant<CellShape, NoShape> ElongatedCellShapes::at(double radius_um, double modulus_kPa,
+                                                         double axial_ratio) const {
+  const ElongatedCell least = table_.least(), greatest = table_.greatest();
+  ElongatedCell place{table_.coordinate_of(radius_um), axial_ratio, 1};
+  if (!(place(0) >= least(0))) return NoShape::too_small;
+  if (!(place(0) <= greatest(0))) return NoShape::too_large;
+  if (!(axial_ratio >= least(1) && axial_ratio <= greatest(1))) return NoShape::outside_tensions;
+  place(2) = std::exp(table_.at(place).log_modulus) / modulus_kPa;  // the compliance over that at the branch's end
+  if (!(place(2) >= min_height)) return NoShape::too_stiff;
+  if (!(place(2) <= greatest(2))) return NoShape::too_soft;
+  const ElongatedState state = table_.at(place);
+  CellShape shape;
+  shape.area_um2 = std::exp(state.log_area());
+  shape.deformation = state.value(number_of(ElongatedMeasure::deformation));
+  shape.volume_um3 = 4 * std::numbers::pi / 3 * std::pow(radius_um, 3);
+  RadiusModes modes;
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    modes[k] = state.value(number_of(ElongatedMeasure::mode_2) + Eigen::Index(k));
+  shape.meridian = outline_with(modes, shape.area_um2).topRows(points_of_outline / 2 + 1);
+  return shape;
+}
+
+std::variant<CellShape, NoShape> ElongatedCellShapes::shape(const VirtualCell& cell) const {
+  const ScaleFactors scale =
+      scale_factors(table_.origin().flow, {flow_.width_um, flow_.rate_ul_s, cell.viscosity_mPas});
+  if (!(cell.stiffness > 0)) return NoShape::too_soft;
+  if (!(cell.radius_um > 0)) return NoShape::too_small;
+  return scaled(
+      at(cell.radius_um / scale.length, cell.stiffness / scale.modulus, 1e-3 * cell.axial_tension_Pa / cell.stiffness),
+      scale);
+}
+
+std::string ElongatedCellShapes::description() const {
+  return fmt::format("table {}, axial tensions of {:g} to {:g} E", table_.origin().description(), table_.least()(1),
+                     table_.greatest()(1));
+}
+
+}  // namespace rheocyte
