@@ -24,6 +24,28 @@ export interface KeyDescription {
   alternative: string | null;
 }
 
+/** A setting of the moduli of recordings, as the program declares it. */
+export interface Setting {
+  name: string;
+  label: string;
+  sentence: string;
+  kind: 'number' | 'text' | 'texts' | 'choice' | 'flag';
+  unit: string;
+  /** The options of a choice; of a text some that are common. */
+  words: string[];
+  /** What holds without it. */
+  default: string;
+  /** Whether its field is in sight. */
+  usual: boolean;
+}
+
+/** A feature that the program computes. */
+export interface Feature {
+  name: string;
+  label: string;
+  unit: string;
+}
+
 export interface Medium {
   medium: string;
   name: string;
@@ -162,11 +184,11 @@ export interface CombinedCell {
   status: string;
   sentence: string;
   young_modulus_kPa: number | null;
-  standard_error_young_modulus_kPa: number | null;
+  young_modulus_error_kPa: number | null;
   cortex_modulus_mN_per_m: number | null;
-  standard_error_cortex_modulus_mN_per_m: number | null;
+  cortex_modulus_error_mN_per_m: number | null;
   stiffness_kPa: number | null;
-  standard_error_stiffness_kPa: number | null;
+  stiffness_error_kPa: number | null;
   contour: Curve | null;
   case: Sections | null;
 }
@@ -387,6 +409,8 @@ export const readCase = (toml: string) => json<{ case: Sections }>('/api/case/re
 export const readCaseLines = (sections: Sections, signal?: AbortSignal) =>
   json<Lines>(`/api/lines?${query({ case: JSON.stringify(sections) })}`, { signal });
 
+export const readSettings = () => json<Setting[]>('/api/settings');
+export const readFeatures = () => json<Feature[]>('/api/features');
 export const readItems = () => json<Item[]>('/api/items');
 export const readItem = (item: number) => json<Item>(`/api/items/${item}`);
 export const changeItem = (item: number, change: { condition?: string; replicate?: string }) =>

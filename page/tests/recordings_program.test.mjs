@@ -67,6 +67,21 @@ function assertSame(found, { summary }) {
     assert.equal(six(found[head]), Number(summary[`young_modulus_${column}_kPa`]), head);
 }
 
+test('Each setting that the program declares has a field, but for gates, which the page has itself', { skip }, () =>
+  inPage([few], async (page) => {
+    const declared = await page.evaluate(() => fetch('/api/settings').then((answer) => answer.json()));
+    const fields = await page.locator('.setting span').allTextContents();
+    const wanted = declared.filter(({ kind }) => kind !== 'texts').map(({ label }) => label);
+    assert.deepEqual(fields.map((field) => field.split(',')[0]).sort(), wanted.sort());
+    assert.deepEqual(declared.filter(({ kind }) => kind === 'texts').map(({ name }) => name), ['min', 'max', 'polygon']);
+    await page.getByText('More settings').click();
+    await page.getByLabel('Section').selectOption('tube');
+    await page.getByLabel('No pixelation').check();
+    await computeAt(page, 23);
+    assert.match(await page.locator('.command code').textContent(), / --section tube --temperature 23 --no-pixelation$/);
+  }),
+);
+
 test("Statistics of the page are those of the command line's summary", { skip }, () =>
   inPage([many], async (page) => {
     await computeAt(page, 23);

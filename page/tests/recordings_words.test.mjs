@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { loadModule } from './load_module.mjs';
 
-const { labelOf, nameOf, unitOf } = await loadModule('recordings/features.ts');
+const { isComputed, labelOf, nameOf, takeFeatures, unitOf } = await loadModule('recordings/features.ts');
 const { countedStates, stateLegend } = await loadModule('recordings/states.ts');
 const { placeLabels } = await loadModule('draw/line_labels.ts');
 const { distinctNames } = await loadModule('recordings/names.ts');
@@ -15,6 +15,15 @@ test('features may be called as what every object of the language has', () => {
     assert.equal(labelOf(feature), nameOf(feature));
   }
   assert.equal(labelOf('area_um'), 'Area (µm²)');
+});
+
+test('features that the program computes have its labels', () => {
+  assert.equal(labelOf('elongation_error'), 'Elongation error');
+  assert.equal(isComputed('elongation_error'), false);
+  takeFeatures([{ name: 'elongation_error', label: 'Standard error of the elongation', unit: '' }, { name: 'axial_tension', label: 'Axial tension', unit: 'Pa' }]);
+  assert.equal(labelOf('elongation_error'), 'Standard error of the elongation');
+  assert.equal(labelOf('axial_tension'), 'Axial tension (Pa)');
+  assert.equal(isComputed('elongation_error') && !isComputed('area_um'), true);
 });
 
 const states = [

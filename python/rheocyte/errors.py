@@ -34,15 +34,10 @@ def reason(error):
     return getattr(error, "strerror", None) or str(error)
 
 
-# Options of the command line whose arguments here have another name, or none.
-_OPTIONS = {"min": "least", "max": "greatest", "polygon": "polygons", "no-pixelation": "pixelation=False",
-            "no-area-correction": "correct_area=False", "no-asymmetry": "asymmetry=False"}
 _EXAMPLES = re.compile(r"; for example --(?:polygon .*|m(?:in|ax) \S+)\.$")
-_PATIENCE = " (--patience waits longer)"
 _OPTION = re.compile(r"(?<![\w-])--([a-zA-Z][\w-]*\w)")
 
 
 def in_words_of_python(sentence):
     """A sentence of the program with the names of arguments in place of options."""
-    sentence = _EXAMPLES.sub(".", sentence.replace(_PATIENCE, ""))
-    return _OPTION.sub(lambda found: _OPTIONS.get(found[1], found[1].replace("-", "_")), sentence)
+    return _OPTION.sub(lambda found: found[1].replace("-", "_"), _EXAMPLES.sub(".", sentence))

@@ -1,7 +1,5 @@
 """Recordings of RT-DC: Young's moduli of their events, moduli of bulk and cortex, features of masks, virtual ones."""
 
-import io
-from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -10,41 +8,20 @@ import numpy as np
 from rheocyte.arrays import number, numbers, positive, truth
 from rheocyte.datasets import source_of
 from rheocyte.errors import UserError
-from rheocyte.memory_file import written
 from rheocyte.native_module import native
-from rheocyte.paths import path, word
+from rheocyte.paths import path
 from rheocyte.progress import progress_bar
+from rheocyte.settings import filled, gated, with_settings
 from rheocyte.specs import read_spec
-from rheocyte.stiffness_tables import place_of_table
 
-_UNITS = {"area_um2": "um2", "deformation": "", "viscosity_mPas": "mPa s", "young_modulus_kPa": "kPa",
-          "standard_error_kPa": "kPa", "state": "", "shape_excess": "", "shape_excess_error": "", "elongated": "",
-          "odd_share": "", "mode_3": "", "young_modulus_asymmetry_kPa": "kPa", "standard_error_asymmetry_kPa": "kPa",
-          "young_modulus_inertia_kPa": "kPa", "standard_error_inertia_kPa": "kPa", "elongation": "", "elongation_error": "",
-          "axial_tension_Pa": "Pa", "axial_tension_error_Pa": "Pa", "sine_mode_2": "", "flank_slope": "",
-          "sine_mode_3": "", "sine_mode_4": ""}
-
-
-def extract(
-    recording, *, table="", section=None, pixelation=True, correct_area=True, asymmetry=True, progress=None, **measuring
-):
+@with_settings(native.ExtractOptions)
+def extract(recording, *, progress=None, **settings):
     """Young's modulus of each event of a recording, as `rheocyte extract` gives it.
 
     recording       path of an .rtdc file, or an open dclab dataset: its own events (those of a child are the rows) and
                     metadata are taken, also where they are not those of its file
-    table           name or path of a table, as for Table; "": the shipped one that fits the medium
-    section         of the shipped tables: "square", the channel itself (the default), or "tube", of equal pressure drop,
-                    which reaches greater deformations
-    pixelation      whether pixels are corrected for; correct_area: whether areas are, too
-    asymmetry       whether contours or masks are read for the modulus from the asymmetry of the outlines
+    {settings}
     progress        called with the share that is done; True: a bar of tqdm where it is installed
-    channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas, medium, viscosity_model,
-    temperature     replace the metadata; temperature is a number in degrees Celsius, "feature" or "metadata"
-    temperature_if_missing  degrees Celsius, only where none is recorded, also of single events
-    least, greatest dictionaries of limits of features: least={"area_ratio": 1}, greatest={"area_ratio": 1.05}
-    polygons        corners in the plane of two features: {("area_um", "deform"): [(40, 0.01), (90, 0.01), (90, 0.1)]};
-                    edges are straight over the logarithm of "log:area_um"; or the name of a file of polygon filters of
-                    DCscope or dclab (.poly), or a list of such names
 
     Returns a pandas.DataFrame with one row per event: area_um2, deformation, viscosity_mPas, young_modulus_kPa,
     standard_error_kPa (without it for published tables), state (a category). Where the recording has inertia ratios,
@@ -60,81 +37,41 @@ def extract(
     UserError for what is wrong with the recording, naming what it lacks. It is read in a child of this process, for HDF5 is
     known to break down on some damaged files.
     """
-    import pandas
-
-    options = native.ExtractOptions()
-    options.measuring = _measuring(measuring, "extract")
-    options.table = place_of_table(table)
-    if (section is not None and word(section, "section") not in ("tube", "square")) or (table and section):
-        raise UserError(f"extract: section = {section!r}: \"tube\" or \"square\", and only without a table.")
-    if section:
-        options.set_section(section == "square")
-    options.no_pixelation = not truth(pixelation, "pixelation")
-    options.no_area_correction = not truth(correct_area, "correct_area")
-    options.no_asymmetry = not truth(asymmetry, "asymmetry")
-    with source_of(recording, _gated(measuring)) as source, progress_bar(progress) as tell:
-        columns, attributes = native.extract(source.place, options, tell)
-    for name in ("settings", "shapes", "warnings"):
-        attributes[name] = source.told(attributes[name])
-    attributes["warnings"] += source.warnings
-    if not len(columns["standard_error_kPa"]) or np.isnan(columns["standard_error_kPa"]).all():
-        del columns["standard_error_kPa"]
-    if "elongated" in columns:
-        columns["elongated"] = columns["elongated"].astype(bool)
-    columns["state"] = pandas.Categorical.from_codes(columns["state"], list(native.state_names))
-    frame = pandas.DataFrame(columns, copy=False)
-    frame.attrs.update(attributes, units={name: _UNITS[name] for name in frame})
-    return frame
+    options = filled(native.ExtractOptions(), settings)
+    with source_of(recording, gated(settings)) as source, progress_bar(progress) as tell:
+        (columns, said), attributes = native.extract(source.place, options, tell)
+    return _framed(columns, said, attributes, source)
 
 
-def _set_section(options, section, function):
-    if word(section, "section") not in ("tube", "square"):
-        raise UserError(f"{function}: section = {section!r}: give \"tube\" or \"square\".")
-    options.set_section(section == "square")
-
-
-def moduli(recording, table, *, section=None, fit_tension=False, axial_tension_Pa=None, only_figure=False,
-           progress=None, **measuring):
+@with_settings(native.ModuliOptions)
+def moduli(recording, table, *, progress=None, **settings):
     """Moduli of bulk and cortex of each cell from its contour, as `rheocyte moduli` gives them.
 
+    recording       as for extract
     table           folder of a combined table (examples/tables/combined.toml), which is one of the tube
-    section         of the channel: "square", by the difference between solids there and in the tube, or "tube"; if it is not
-                    given, "tube" for virtual cells of the table, else "square"
-    fit_tension     the tension of the cortex, too, by a table with several of them; tables of elongated cells always do
-    axial_tension_Pa  tension of the liquid, which elongates the cells, 0 = none; None: the one that is found for the recording,
-                    if the table has elongated cells (examples/tables/combined-elongated.toml)
-    only_figure     by area, deformation and Lambda1/Lambda2 alone
-    others          as for extract
+    {settings}
+    progress        as for extract
 
     Returns a pandas.DataFrame: area_um2, deformation, viscosity_mPas, young_modulus_kPa, cortex_modulus_mN_per_m,
     tension_mN_per_m and stiffness_kPa with their standard errors, chi_squared, status, section_factor (c3 over that in the
     tube). attrs: settings, warnings.
     """
-    options = native.ModuliOptions()
-    options.measuring = _measuring(measuring, "moduli")
+    options = filled(native.ModuliOptions(), settings)
     options.table = path(table, "table")
-    if section is not None:
-        _set_section(options, section, "moduli")
-    options.fit_tension = truth(fit_tension, "fit_tension")
-    if axial_tension_Pa is not None:
-        options.axial_tension_Pa = number(axial_tension_Pa, "axial_tension_Pa")
-    options.only_figure = truth(only_figure, "only_figure")
-    with source_of(recording, _gated(measuring)) as source, progress_bar(progress) as tell:
-        text, warnings = written(lambda place: native.moduli(source.place, place, options, tell))
-    frame = _frame(source.named(text.decode()))
-    del frame["event"]
-    frame.attrs.update(warnings=source.told(warnings) + source.warnings)
-    return frame
+    with source_of(recording, gated(settings)) as source, progress_bar(progress) as tell:
+        (columns, said), attributes = native.moduli(source.place, options, tell)
+    return _framed(columns, said, attributes, source)
 
 
-def time_course(recordings, table, contraction_um, *, section="square", progress=None, **measuring):
+@with_settings(native.TimeCourseOptions)
+def time_course(recordings, table, contraction_um, *, progress=None, **settings):
     """Young's modulus and viscosity of cells from how c3 changes along the channel, as `rheocyte time-course` does.
 
     recordings      one, or several of one population, as for extract
     table           dynamic table: the folder of one that `rheocyte table` has made, or its dynamic_*.cbor
     contraction_um  pos_x of the end of the contraction, from which the cells come; one for all, or one each
-    section         of the channel, "square" or "tube", likewise
-    others          as for extract
+    {settings}
+    progress        as for extract
 
     Returns a pandas.DataFrame with one row per cell that was seen over at least 20 um: places, radius_um,
     young_modulus_kPa and viscosity_Pas with the ends of their 90 % intervals, chi_squared, section_factor (c3 over that in
@@ -142,21 +79,22 @@ def time_course(recordings, table, contraction_um, *, section="square", progress
     (sentences; of at least 50 cells, also of those that were seen once). UserError says why single
     images, or pictures at one place, do not tell a viscosity.
     """
+    import pandas
+
     several = recordings if isinstance(recordings, (list, tuple)) else [recordings]
     places = np.atleast_1d(numbers(contraction_um, "contraction_um"))
     if len(places) not in (1, len(several)):
         raise UserError(f"contraction_um has {len(places)} places for {len(several)} recordings; give one, or one each.")
     each = [number(place, "contraction_um") for place in np.broadcast_to(places, len(several))]
-    options = native.ModuliOptions()
-    options.measuring = _measuring(measuring, "time_course")
-    _set_section(options, section, "time_course")
+    options = filled(native.TimeCourseOptions(), settings)
     with ExitStack() as stack, progress_bar(progress) as tell:
-        sources = [stack.enter_context(source_of(recording, _gated(measuring))) for recording in several]
-        text, lines = native.time_course([source.place for source in sources], path(table, "table"), each, options, tell)
+        sources = [stack.enter_context(source_of(recording, gated(settings))) for recording in several]
+        columns, told, lines = native.time_course([source.place for source in sources], path(table, "table"), each, options, tell)
     for source in sources:
-        text, lines = source.named(text), source.told(lines)
-    frame = _frame(text)
-    frame.attrs.update(population=lines)
+        columns["recording"] = [source.named(name) for name in columns["recording"]]
+        told, lines = [source.named(line) for line in told], source.told(lines)
+    frame = pandas.DataFrame(columns).astype({"cell": int, "events": int})
+    frame.attrs.update(settings=told, population=lines)
     return frame
 
 
@@ -210,70 +148,18 @@ def features(masks, pixel_size_um):
     return pandas.DataFrame(columns.T, columns=names)  # one block, nothing is copied
 
 
-def _frame(text):
-    """The rows of a table of the program; its lines of settings in attrs."""
+def _framed(columns, said, attributes, source):
+    """The columns of the events of a recording, and in attrs what is said about them."""
     import pandas
 
-    frame = pandas.read_csv(io.StringIO(text), sep="\t", comment="#")
-    frame.attrs.update(settings=[line[2:] for line in text.splitlines() if line.startswith("# ")])
+    for name in {"settings", "shapes", "warnings"} & {*attributes}:
+        attributes[name] = source.told(attributes[name])
+    attributes["warnings"] += source.warnings
+    for name, column in columns.items():
+        if name in said["words"]:
+            columns[name] = pandas.Categorical.from_codes(column, said["words"][name])
+        elif column.dtype == np.int8:
+            columns[name] = column.astype(bool)
+    frame = pandas.DataFrame(columns, copy=False)
+    frame.attrs.update(attributes, units=said["units"])
     return frame
-
-
-_NUMBERS = ("channel_width_um", "flow_rate_ul_s", "pixel_size_um", "viscosity_mPas")
-_TEXTS = ("medium", "viscosity_model")
-
-
-def _measuring(given, function):
-    given, options = dict(given), native.MeasuringOptions()
-    least, greatest = (_limits(given.pop(name, None), name) for name in ("least", "greatest"))
-    options.set_gates(*([f"{feature}={number(limit, feature)!r}" for feature, limit in limits.items()]
-                        for limits in (least, greatest)),
-                      _polygons(given.pop("polygons", None)))
-    for name, value in given.items():
-        if value is None:
-            continue
-        if name in _NUMBERS:
-            setattr(options, name, positive(value, name))
-        elif name in _TEXTS:
-            setattr(options, name, word(value, name))
-        elif name == "temperature_if_missing":
-            options.temperature_if_missing = repr(number(value, name))
-        elif name == "temperature":
-            options.temperature = word(value, name) if isinstance(value, str) else repr(number(value, name))
-        else:
-            known = ", ".join((*_NUMBERS, *_TEXTS, "temperature", "temperature_if_missing", "least", "greatest", "polygons"))
-            raise UserError(f"{function} has no argument {name!r}; there are {known}.")
-    return options
-
-
-def _gated(measuring):
-    """Features on which limits and polygons look."""
-    limits = {*(measuring.get("least") or {}), *(measuring.get("greatest") or {})}
-    polygons = measuring.get("polygons")
-    axes = {axis for axes in polygons for axis in axes} if isinstance(polygons, Mapping) else set()
-    return limits | {axis.removeprefix("log:") for axis in axes}
-
-
-def _limits(limits, name):
-    if limits is not None and not isinstance(limits, Mapping):
-        raise UserError(f"{name} is {limits!r}; give a dictionary of features, such as {{\"area_ratio\": 1.05}}.")
-    return limits or {}
-
-
-def _polygons(polygons):
-    """As the command line has them: descriptions, or names of files."""
-    if polygons is None or isinstance(polygons, Mapping):
-        return [f"{','.join(features)}={_corners(corners)}" for features, corners in (polygons or {}).items()]
-    files = polygons if isinstance(polygons, (list, tuple)) else [polygons]
-    names = [path(file, "polygons") for file in files]
-    for name in names:
-        if not name.endswith(".poly"):
-            raise UserError(f"polygons: {name} is no file of polygon filters (.poly).")
-    return names
-
-
-def _corners(corners):
-    pairs = numbers(corners, "polygons")
-    if pairs.ndim != 2 or pairs.shape[1] != 2:
-        raise UserError(f"polygons: the corners have the shape {pairs.shape}; wanted are pairs of numbers.")
-    return ":".join(f"{x!r},{y!r}" for x, y in pairs.tolist())

@@ -41,7 +41,8 @@ class ExtractJob {
   }
 
   int run() {
-    const int exit_code = run_batch(tasks_, options_.batch, options_.measuring.patience_s, *this);
+    const int exit_code =
+        run_batch(tasks_, options_.batch, options_.measuring.patience_s.value_or(default_patience_s), *this);
     std::error_code error;
     const bool has_place =
         !options_.batch.folder.empty() || std::filesystem::is_directory(summary_file_.parent_path(), error);

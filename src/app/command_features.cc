@@ -8,22 +8,15 @@
 
 #include "app/commands.h"
 #include "app/extract_options.h"
-#include "app/key_option.h"
 #include "app/recording_batch.h"
 #include "extract/features_recording.h"
+#include "extract/recording_settings.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
-#include "synth/synth_keys.h"
 
 namespace rheocyte {
 
 namespace {
-
-struct FeaturesOptions {
-  BatchOptions batch;
-  std::optional<double> pixel_size_um;
-  double patience_s = 60;
-};
 
 /// All recordings of one call.
 class FeaturesJob {
@@ -32,7 +25,7 @@ class FeaturesJob {
 
   int run() {
     const auto tasks = tasks_of(options_.batch);
-    return run_batch(tasks, options_.batch, options_.patience_s, *this);
+    return run_batch(tasks, options_.batch, options_.patience_s.value_or(default_patience_s), *this);
   }
 
   WholeFile files(const RecordingTask& task) const { return features_file(place_for(task)); }
@@ -68,10 +61,7 @@ void add_features_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("features", "features of the shape of the cells in recordings (.rtdc) from contours or masks");
   auto options = std::make_shared<FeaturesOptions>();
   declare_batch_options(*command, options->batch);
-  add_key_option(*command, *find_key(synth_keys(), "recording.pixel_size_um"), options->pixel_size_um,
-                 "from the recording");
-  command->add_option("--patience", options->patience_s,
-                      "give a recording up when nothing was read from it for so many seconds (60)");
+  declare_settings(*command, settings_of(*options));
   command->callback([options, &exit_code] {
     watch_signals(SecondSignal::waits);
     exit_code = FeaturesJob(*options).run();

@@ -6,13 +6,11 @@
 
 #include "app/commands.h"
 #include "app/extract_options.h"
-#include "app/key_option.h"
 #include "app/recording_batch.h"
-#include "case/case_keys.h"
 #include "case/user_error.h"
-#include "extract/event_table.h"
 #include "extract/moduli_json.h"
 #include "extract/moduli_recording.h"
+#include "extract/recording_settings.h"
 #include "store/own_file.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
@@ -30,7 +28,7 @@ class ModuliJob {
 
   int run() {
     const auto tasks = tasks_of(options_.batch);
-    return run_batch(tasks, options_.batch, options_.measuring.patience_s, *this);
+    return run_batch(tasks, options_.batch, options_.measuring.patience_s.value_or(default_patience_s), *this);
   }
 
   WholeFile files(const RecordingTask& task) const {
@@ -40,7 +38,8 @@ class ModuliJob {
   }
 
   ModuliSummary work(const RecordingTask& task, const WholeFile& file, const TellProgress& tell_progress) const {
-    return moduli_of_recording(task.recording, file.scratch(), options_, table_, tell_progress);
+    ModuliText text(file.scratch());
+    return moduli_of_recording(task.recording, options_, table_, text, tell_progress);
   }
 
   bool take(const RecordingTask& task, const ModuliSummary& summary) const {
@@ -83,20 +82,9 @@ void add_moduli_command(CLI::App& app, int& exit_code) {
                    "folder of a combined table of `rheocyte table` (examples/tables/combined.toml)")
       ->required()
       ->type_name("DIR");
-  declare_channel_option(*command, options->section);
-  declare_measuring_options(*command, options->measuring);
-  command->add_flag("--fit-tension", options->fit_tension,
-                    "the tension of the cortex, too, by a table with several of them; tables of elongated cells always "
-                    "do");
-  add_key_option(
-      *command, case_key("flow.axial_tension_Pa"), "--axial-tension",
-      "tension of the liquid along the flow, which elongates the cells, 0 = none; by default it is found for "
-      "each recording, if the table has elongated cells (examples/tables/combined-elongated.toml)",
-      [options](double value) { options->axial_tension_Pa = value; });
-  command->add_flag("--only-figure", options->only_figure,
-                    "by area, deformation and Lambda1/Lambda2, the measures of the paper's figure 9");
+  declare_settings(*command, settings_of(*options));
   command->callback([options, &exit_code] {
-    check_measuring_options(options->measuring);
+    check_options(options->measuring);
     watch_signals(SecondSignal::waits);
     exit_code = ModuliJob(*options).run();
   });

@@ -64,7 +64,8 @@ class Plot {
       const auto name = fmt::format("events-{}", panels.size());
       const auto read = read_panel(recording, folder_.path() / name);
       if (read.stopped()) return exit_stopped();
-      if (!read.finished()) throw UserError(sentence_for(recording, read.end, options_.measuring.patience_s));
+      if (!read.finished())
+        throw UserError(sentence_for(recording, read.end, options_.measuring.patience_s.value_or(default_patience_s)));
       panels.push_back(described(recording, read.result));
       panels.back()["events_file"] = name;
     }
@@ -78,7 +79,7 @@ class Plot {
  private:
   Contained<PlotPanel> read_panel(const fs::path& recording, const fs::path& events) const {
     Containment limits;
-    limits.patience_s = options_.measuring.patience_s;
+    limits.patience_s = options_.measuring.patience_s.value_or(default_patience_s);
     const auto work = [&](const TellProgress& on_progress) {
       FileWriter file(events, "is the disk full? TMPDIR names another folder.");
       const auto write = [&](std::span<const float> pairs) {

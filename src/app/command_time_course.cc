@@ -12,6 +12,7 @@
 #include "app/recording_batch.h"
 #include "case/user_error.h"
 #include "extract/course_events.h"
+#include "extract/recording_settings.h"
 #include "extract/time_course_table.h"
 #include "store/contained.h"
 #include "store/own_file.h"
@@ -23,20 +24,12 @@ namespace rheocyte {
 
 namespace {
 
-struct TimeCourseOptions {
-  BatchOptions batch;
-  MeasuringOptions measuring;
-  std::filesystem::path table, file;
-  std::vector<double> contraction_um;  ///< one for all recordings, or one each
-  std::optional<Section> section;      ///< of the channel; not given: square
-};
-
 CourseEvents read(const RecordingTask& task, const TimeCourseOptions& options) {
   const auto work = [&](const TellProgress& tell_progress) {
     return read_course_events(task.recording, options.measuring, tell_progress);
   };
   Containment limits;
-  limits.patience_s = options.measuring.patience_s;
+  limits.patience_s = options.measuring.patience_s.value_or(default_patience_s);
   auto done = run_contained(work, limits, FileProgress(one_line(task.recording.string(), 200), options.batch.quiet));
   if (!done.finished()) throw UserError(sentence_for(task.recording, done.end, limits.patience_s));
   return std::move(done.result);
@@ -66,7 +59,7 @@ int run(const TimeCourseOptions& options) {
     courses.add(events, name, contraction_um);
   }
   const CourseReport report = courses.report();
-  write_own_file(options.file, report.text, mark_of_courses, Foreign::keep);
+  write_own_file(options.file, course_text(report), mark_of_courses, Foreign::keep);
   if (!options.batch.quiet)
     for (const std::string& line : report.lines) print(line + "\n");
   return exit_converged;
@@ -94,10 +87,9 @@ void add_time_course_command(CLI::App& app, int& exit_code) {
       ->required();
   command->add_flag("-r,--recursive", options->batch.recursive, "search the given folders for recordings");
   command->add_flag("--quiet", options->batch.quiet, "print neither progress nor results");
-  declare_channel_option(*command, options->section);
-  declare_measuring_options(*command, options->measuring);
+  declare_settings(*command, settings_of(*options));
   command->callback([options, &exit_code] {
-    check_measuring_options(options->measuring);
+    check_options(options->measuring);
     watch_signals(SecondSignal::waits);
     exit_code = run(*options);
   });

@@ -9,33 +9,49 @@
 
 namespace rheocyte {
 
-CLI::Option* add_key_option(CLI::App& command, const KeyDescription& key, const std::string& spelling,
-                            const std::string& sentence, const std::function<void(double)>& take) {
-  const auto checked_take = [spelling, &key, take](const double& value) {
+namespace {
+
+std::function<void(double)> within_range(const KeyDescription& key, const std::string& spelling,
+                                         const std::function<void(double)>& take) {
+  return [spelling, &key, take](double value) {
     const Range& range = std::get<Number>(key.kind).range;
     if (!range.contains(value))
       throw UserError(fmt::format("rheocyte: {} {:g} is outside its range {} ({}).", spelling, value,
                                   range_text(range, key.unit), key.sentence));
     take(value);
   };
-  return command.add_option_function<double>(spelling, checked_take, sentence)->type_name("NUMBER");
 }
 
-CLI::Option* add_key_option(CLI::App& command, const KeyDescription& key, const std::function<void(double)>& take) {
-  const std::string spelling(key.option), former(key.former_option);
-  auto* option =
-      add_key_option(command, key, spelling, fmt::format("{} ({})", key.sentence, allowed_values(key)), take);
+}  // namespace
+
+CLI::Option* add_number_option(CLI::App& command, const std::string& spelling, const std::string& former,
+                               const std::string& description, const std::function<void(double)>& take) {
+  const auto add = [&command](const std::string& name, const std::string& text, const auto& take_it) {
+    return command.add_option_function<double>(name, take_it, text)->type_name("NUMBER");
+  };
+  auto* const option = add(spelling, description, take);
   if (former.empty()) return option;
-  const auto take_and_tell = [&command, option, spelling, former, take](double value) {
+  add(former, "", [&command, option, spelling, former, take](double value) {
     if (option->count() > 0)
       throw UserError(fmt::format("rheocyte: {} is the former name of {}; give one of them.", former, spelling));
     const auto* const quiet = command.get_option_no_throw("--quiet");
     if (!quiet || quiet->count() == 0)
       tell(fmt::format("rheocyte: {} is now called {}; this version still reads the old name.", former, spelling));
     take(value);
-  };
-  add_key_option(command, key, former, "", take_and_tell)->group("");
+  })->group("");
   return option;
+}
+
+CLI::Option* add_key_option(CLI::App& command, const KeyDescription& key, const std::string& spelling,
+                            const std::string& sentence, const std::function<void(double)>& take) {
+  return add_number_option(command, spelling, {}, sentence, within_range(key, spelling, take));
+}
+
+CLI::Option* add_key_option(CLI::App& command, const KeyDescription& key, const std::function<void(double)>& take) {
+  const std::string spelling(key.option);
+  return add_number_option(command, spelling, std::string(key.former_option),
+                           fmt::format("{} ({})", key.sentence, allowed_values(key)),
+                           within_range(key, spelling, take));
 }
 
 CLI::Option* add_key_option(CLI::App& command, const KeyDescription& key, std::optional<double>& target,

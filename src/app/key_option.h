@@ -22,6 +22,10 @@ CLI::Option* add_key_option(CLI::App&, const KeyDescription&, const std::functio
 CLI::Option* add_key_option(CLI::App&, const KeyDescription&, std::optional<double>& target,
                             const std::string& otherwise);
 
+/// An option for a number; its former spelling, if there is one, is understood, with a remark on standard error.
+CLI::Option* add_number_option(CLI::App&, const std::string& spelling, const std::string& former,
+                               const std::string& description, const std::function<void(double)>& take);
+
 /// One of several options for the same quantity, with a spelling and a sentence of its own.
 CLI::Option* add_key_option(CLI::App&, const KeyDescription&, const std::string& spelling, const std::string& sentence,
                             const std::function<void(double)>& take);

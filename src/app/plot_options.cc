@@ -11,6 +11,7 @@
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/recording_list.h"
+#include "extract/recording_settings.h"
 #include "extract/shape_features.h"
 
 namespace rheocyte {
@@ -22,7 +23,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t max_number_of_panels = 24, max_number_of_levels = 50;
 
 void check(const PlotOptions& options) {
-  check_measuring_options(options.measuring);
+  check_options(options.measuring);
+  check_table(options.table, options.section);
   const auto& recordings = options.inputs;
   if (recordings.size() > max_number_of_panels)
     throw UserError(fmt::format("rheocyte: {} recordings do not fit into one picture; give at most {}.",
@@ -69,12 +71,7 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
       .add_option("-o,--output", options.output,
                   "name of the pictures; NAME.png and NAME.svg are written; default: beside the first recording")
       ->type_name("NAME");
-  command
-      .add_option("--table", options.table,
-                  "look-up table for isoelasticity lines and the shaded region, as for extract; default: the "
-                  "program's own")
-      ->type_name("TABLE");
-  declare_section_option(command, options.section);
+  declare_settings(command, table_settings(options.table, options.section));
   command.add_option("--lines", options.lines, "isoelasticity lines in dclab's format, in place of the table's own")
       ->type_name("FILE");
   command.add_option("--x", options.x, "feature on the axis to the right; default: area_um")->type_name("FEATURE");
@@ -83,7 +80,7 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
                    "measured against expected inertia ratio: whether the cells have the shapes of the model");
   command.add_flag("--no-lines", options.no_lines, "draw no lines, not even those of the program's own table");
   command.add_option("--levels", options.levels_kPa, "moduli (kPa) of the table's lines, e.g. 0.5,1,2")->delimiter(',');
-  declare_measuring_options(command, options.measuring);
+  declare_settings(command, settings_of(options.measuring));
   command.add_flag("--no-pixelation", options.no_pixelation, "draw the lines as they are without pixels");
   command.add_flag("--quiet", options.quiet, "print nothing but errors");
   command.callback([&options, run = std::move(run)] {

@@ -30,7 +30,7 @@ std::vector<std::string> tension_lines(const AxialSummary& s) {
   if (!s.common.is_found())
     return {
         fmt::format("axial tension: not found, because only {} events have the shape of a cell of the table, and "
-                    "it takes {}; each cell has the one that fits it best, or give --axial-tension",
+                    "it takes {}; each cell has the one that fits it best, or give --axial-tension-Pa",
                     cells, CommonTension::min_cells)};
   std::string text = fmt::format(
       "axial tension: {:.4g} Pa (90 % interval {:.4g} to {:.4g}) from {} cells, {:.3g} ({:.3g} to {:.3g}) of the "

@@ -11,21 +11,30 @@ std::vector<ElongationColumn> elongation_columns(ElongatedBy by) {
   const std::string word = by_modes ? "asymmetry" : "inertia";
   using B = ElongationBlock;
   return {
-      {fmt::format("young_modulus_{}_kPa", word), fmt::format("young_modulus_{}", word), "kPa",
-       by_modes ? "Young's modulus (kPa) from area, elongation (mode c2) and asymmetry (c3) of the outline, of a solid "
-                  "that the liquid draws out, see docs/real-cells.md"
-                : "Young's modulus (kPa) from area, deformation and inertia ratio, of a solid that the liquid draws "
-                  "out, see docs/real-cells.md",
+      {{fmt::format("young_modulus_{}_kPa", word), "kPa", "E as of an elongated cell",
+        by_modes
+            ? "Young's modulus (kPa) from area, elongation (mode c2) and asymmetry (c3) of the outline, of a solid "
+              "that the liquid draws out, see docs/real-cells.md"
+            : "Young's modulus (kPa) from area, deformation and inertia ratio, of a solid that the liquid draws "
+              "out, see docs/real-cells.md",
+        fmt::format("young_modulus_{}", word)},
        &B::modulus_kPa},
-      {fmt::format("standard_error_{}_kPa", word), fmt::format("standard error {}", word), "kPa",
-       fmt::format("standard error of young_modulus_{} (kPa)", word), &B::standard_error_kPa},
-      {"elongation", "elongation", "", "length over width that the liquid's tension alone would give the cell",
+      {{fmt::format("standard_error_{}_kPa", word), "kPa", "Standard error of E as of an elongated cell",
+        fmt::format("standard error of young_modulus_{} (kPa)", word), fmt::format("standard error {}", word)},
+       &B::standard_error_kPa},
+      {{"elongation", "", "Elongation by the axial tension",
+        "length over width that the liquid's tension alone would give the cell", "elongation"},
        &B::elongation},
-      {"axial_tension_Pa", "axial_tension", "Pa",
-       "tension of the liquid along the flow (Pa) that elongates the cell so", &B::axial_tension_Pa},
-      {"elongation_error", "elongation error", "", "standard error of elongation", &B::elongation_error},
-      {"axial_tension_error_Pa", "axial tension error", "Pa", "standard error of axial_tension (Pa)",
-       &B::axial_tension_error_Pa}};
+      {{"axial_tension_Pa", "Pa", "Axial tension of the liquid",
+        "tension of the liquid along the flow (Pa) that elongates the cell so", "axial_tension"},
+       &B::axial_tension_Pa},
+      {{"elongation_error", "", "Standard error of the elongation", "standard error of elongation", "elongation error"},
+       &B::elongation_error,
+       true},
+      {{"axial_tension_error_Pa", "Pa", "Standard error of the axial tension", "standard error of axial_tension (Pa)",
+        "axial tension error"},
+       &B::axial_tension_error_Pa,
+       true}};
 }
 
 std::array<std::vector<double>*, 6> ElongationValues::all() {

@@ -2,9 +2,9 @@
 #pragma once
 #include <array>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "extract/event_column.h"
 #include "infer/elongated_solids.h"
 
 namespace rheocyte {
@@ -15,15 +15,18 @@ struct ElongationBlock {
       axial_tension_error_Pa;
 };
 
-struct ElongationColumn {
-  std::string name;     ///< in text tables and Python
-  std::string role;     ///< in companions, which have the name that is free
-  std::string unit;     ///< empty for a pure number
-  std::string meaning;  ///< in one line
-  std::span<const double> ElongationBlock::*values;
+struct ElongationColumn : ColumnDescription {
+  std::span<const double> ElongationBlock::*of;
+  bool is_error_of_elongation = false;  ///< or of the tension
+
+  /// Of a block that has an ElongationBlock.
+  template <class Block>
+  auto values_in() const {
+    return [of = of](const Block& block, std::vector<double>&) { return block.elongation.*of; };
+  }
 };
 
-/// In their order, the last two being the errors of the two before; the modulus is named by what tells it.
+/// In their order; the modulus is named by what tells it.
 std::vector<ElongationColumn> elongation_columns(ElongatedBy by);
 
 /// The values of a block, to be computed.

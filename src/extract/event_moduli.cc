@@ -33,13 +33,13 @@ ModuliTable::ModuliTable(const ModuliOptions& options)
         fmt::format("rheocyte: --fit-tension needs a table with several tensions (table.tension_ratio); {} has one.",
                     content.spec.identifier));
   if (options.axial_tension_Pa && *options.axial_tension_Pa != 0 && !between.is_elongated())
-    throw UserError(
-        fmt::format("rheocyte: --axial-tension needs a table of elongated cells (table.axial_ratio); those of {} have "
-                    "none.",
-                    content.spec.identifier));
+    throw UserError(fmt::format(
+        "rheocyte: --axial-tension-Pa needs a table of elongated cells (table.axial_ratio); those of {} have "
+        "none.",
+        content.spec.identifier));
   if (options.only_figure && between.is_elongated() && !options.axial_tension_Pa)
     throw UserError(
-        "rheocyte: --only-figure leaves too few features to find the axial tension; give --axial-tension, or leave "
+        "rheocyte: --only-figure leaves too few features to find the axial tension; give --axial-tension-Pa, or leave "
         "--only-figure out.");
 }
 

@@ -1,7 +1,10 @@
 #include "extract/event_table.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "case/user_error.h"
 #include "store/read_file.h"
@@ -10,28 +13,22 @@ namespace rheocyte {
 
 namespace {
 
+constexpr std::size_t longest_cell = 32;
+
 template <class Number>
 char* put(char* at, Number number) {
-  return std::to_chars(at, at + 32, number).ptr;
+  return std::to_chars(at, at + longest_cell, number).ptr;
 }
 
-char* put_number(char* at, double number) {
-  if (std::isnan(number)) {
-    for (const char c : {'n', 'a', 'n'}) *at++ = c;
-    return at;
-  }
-  return put(at, static_cast<float>(number));
+char* put_word(char* at, std::string_view word) {
+  for (const char c : word) *at++ = c == ' ' ? '_' : c;
+  return at;
 }
 
-char* put_shape(char* at, const ShapeExcess& shape) {
-  for (const double number : {shape.excess, shape.error}) {
-    *at++ = '\t';
-    at = put_number(at, number);
-  }
-  *at++ = '\t';
-  *at++ = shape.is_elongated() ? '1' : '0';
-  *at++ = '\t';
-  return put_number(at, shape.odd_share);
+char* put_value(char* at, const ColumnDescription& column, double value) {
+  if (!column.words.empty()) return put_word(at, column.words[static_cast<std::size_t>(value)]);
+  if (column.digits > 0) return fmt::format_to(at, "{:.{}g}", value, column.digits);
+  return std::isnan(value) ? put_word(at, "nan") : put(at, static_cast<float>(value));
 }
 
 }  // namespace
@@ -48,54 +45,26 @@ std::string commented(const std::vector<std::string>& remarks) {
 }
 
 EventTable::EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks,
-                       const EventColumns& columns)
-    : file_(file), columns_(columns) {
-  text_ += first_columns_of_events;
-  if (columns_.errors) text_ += "standard_error_kPa\t";
-  text_ += "state";
-  if (columns_.shapes) text_ += "\tshape_excess\tshape_excess_error\telongated\todd_share";
-  if (columns_.asymmetry) text_ += "\tmode_3";
-  for (const ElongationColumn& column : columns_.elongation) text_ += "\t" + column.name;
-  if (columns_.asymmetry)
-    for (const TiltFeature& feature : tilt_features()) text_.append("\t").append(feature.name);
-  text_ += '\n';
-  text_ += commented(remarks);
-  write_out();
+                       std::vector<ColumnDescription> columns)
+    : file_(file), columns_(std::move(columns)) {
+  std::string head = "event";
+  for (const ColumnDescription& column : columns_) head.append("\t").append(column.name);
+  file_.append(head + "\n" + commented(remarks));
 }
 
-void EventTable::write_out() {
-  file_.append(text_);
+void EventTable::append(std::span<const std::span<const double>> values) {
+  std::vector<char> line(longest_cell * (columns_.size() + 2));
   text_.clear();
-}
-
-void EventTable::append(const EventBlock& block) {
-  char line[512];
-  for (std::size_t i = 0; i < block.state.size(); ++i) {
-    char* at = put(line, ++events_);
-    for (const double number :
-         {block.area_um2[i], block.deformation[i], block.viscosity_mPas[i], block.young_modulus_kPa[i]}) {
+  for (std::size_t i = 0; i < values.front().size(); ++i) {
+    char* at = put(line.data(), ++events_);
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
       *at++ = '\t';
-      at = put_number(at, number);
+      at = put_value(at, columns_[k], values[k][i]);
     }
-    if (columns_.errors) {
-      *at++ = '\t';
-      at = put_number(at, block.standard_error_kPa[i]);
-    }
-    *at++ = '\t';
-    for (const char c : name_of(block.state[i])) *at++ = c == ' ' ? '_' : c;
-    if (columns_.shapes) at = put_shape(at, block.shape[i]);
-    const auto add = [&](double number) {
-      *at++ = '\t';
-      at = put_number(at, number);
-    };
-    if (columns_.asymmetry) add(block.mode_3[i]);
-    for (const ElongationColumn& column : columns_.elongation) add((block.elongation.*column.values)[i]);
-    if (columns_.asymmetry)
-      for (const TiltFeature& feature : tilt_features()) add(block.tilt[i].*feature.value);
     *at++ = '\n';
-    text_.append(line, at);
+    text_.append(line.data(), at);
   }
-  write_out();
+  file_.append(text_);
 }
 
 }  // namespace rheocyte

@@ -1,4 +1,4 @@
-// The text table with one line per event.
+// Text tables with one line per event.
 #pragma once
 #include <filesystem>
 #include <span>
@@ -6,32 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "extract/elongation_columns.h"
-#include "infer/modulus_state.h"
-#include "infer/shape_excess.h"
-#include "measurement/contour_features.h"
-#include "shape/outline_tilt.h"
+#include "extract/event_column.h"
 #include "store/file_writer.h"
 
 namespace rheocyte {
-
-/// What a block of events has to say, all equally long.
-struct EventBlock {
-  std::span<const double> area_um2, deformation, viscosity_mPas, young_modulus_kPa;
-  std::span<const double> standard_error_kPa;  ///< empty if unknown
-  std::span<const ModulusState> state;
-  std::span<const ShapeExcess> shape;  ///< empty if nothing is known of the shapes
-  std::span<const double> mode_3;      ///< empty without contours and masks
-  ElongationBlock elongation;
-  std::span<const ContourFeatures> outlines;  ///< empty unless they are measured, too
-  std::span<const OutlineTilt> tilt;          ///< empty without contours and masks
-};
-
-/// Columns beside those that every table of events has.
-struct EventColumns {
-  bool errors = false, shapes = false, asymmetry = false;
-  std::vector<ElongationColumn> elongation = {};
-};
 
 /// With these words a table of events begins: its first line holds the names of all columns, so that programs of every
 /// kind find them there.
@@ -44,24 +22,27 @@ std::string_view mark_of_events(const std::filesystem::path& file);
 /// The remarks in lines of their own, each behind "# ".
 std::string commented(const std::vector<std::string>& remarks);
 
-/// Writes tab-separated lines with the shortest decimals that give back single precision (relative 6e-8).
+/// Writes tab-separated lines, the number of the event first.
 class EventTable {
  public:
-  /// `remarks` go below the columns' names, each behind "# ". UserError.
-  EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks, const EventColumns& columns);
+  /// `remarks` go below the columns' names. UserError.
+  EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks,
+             std::vector<ColumnDescription> columns);
 
-  /// Appends events; the first one ever has number 1. UserError, e.g. if the disk is full.
-  void append(const EventBlock& block);
+  /// Appends events, of which each column has a value; the first one ever has number 1. UserError, e.g. if the disk is
+  /// full.
+  void append(std::span<const std::span<const double>> values);
+
+  /// Below the events so far. UserError.
+  void remark(const std::vector<std::string>& remarks) { file_.append(commented(remarks)); }
 
   /// UserError if not everything could be written.
   void close() { file_.close(); }
 
  private:
-  void write_out();
-
   FileWriter file_;
   std::string text_;
-  EventColumns columns_;
+  std::vector<ColumnDescription> columns_;
   std::size_t events_ = 0;
 };
 

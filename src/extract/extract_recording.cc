@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "case/user_error.h"
 #include "extract/companion_origin.h"
@@ -20,44 +19,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string meaning_of_states() {
-  std::string text = "state of emodulus:";
-  for (std::size_t k = 0; k < states_by_deformation().size(); ++k)
-    text += fmt::format("{} {} {}", k == 0 ? "" : ",", k, states_by_deformation()[k]);
-  return text;
-}
-
 /// A column of the companion for which the field's programs have no name.
 struct OwnColumn {
+  std::size_t number;  ///< of the column
   std::string role, meaning;
-  std::function<std::span<const double>(const EventBlock&)> values;
+  int rank;
   std::string name = {};  ///< of the feature; empty if there are not enough
 };
 
 /// The most important first.
-std::vector<OwnColumn> own_columns(const Extraction& extraction) {
-  std::vector<OwnColumn> columns{{"state", meaning_of_states(), {}}};
-  if (extraction.table().is_own())
-    columns.push_back({"standard error", "standard error of emodulus (kPa), of pixels, table and inertia",
-                       &EventBlock::standard_error_kPa});
-  std::vector<OwnColumn> elongation;
-  if (const auto by = extraction.event_shapes().elongated_by())
-    for (const ElongationColumn& column : elongation_columns(*by))
-      elongation.push_back({column.role, column.meaning,
-                            [values = column.values](const EventBlock& block) { return block.elongation.*values; }});
-  const auto first_errors = elongation.end() - (elongation.empty() ? 0 : 2);
-  columns.insert(columns.end(), elongation.begin(), first_errors);
-  if (extraction.event_shapes().is_known()) {
-    columns.push_back({"shape_excess",
-                       "inertia ratio - that of the table's cell of this area and deformation; elongated: above 0.05",
-                       {}});
-    columns.push_back(
-        {"odd_share", "share of the deformation that is not that of an ellipse of this inertia ratio", {}});
-  }
-  if (extraction.event_shapes().has_asymmetry())
-    for (const TiltFeature& feature : tilt_features()) columns.push_back({feature.name, feature.sentence, {}});
-  columns.insert(columns.end(), first_errors, elongation.end());
-  return columns;
+std::vector<OwnColumn> own_columns(const ColumnsOf<EventBlock>& columns) {
+  std::vector<OwnColumn> own;
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    if (const ColumnDescription& c = columns[k]; c.rank > 0) own.push_back({k, c.role, c.sentence, c.rank});
+  std::ranges::stable_sort(own, {}, &OwnColumn::rank);
+  return own;
 }
 
 void give_names(const Recording& recording, std::vector<OwnColumn>& columns) {
@@ -79,7 +55,9 @@ void describe(CompanionFile& companion, const fs::path& folder, const Recording&
 class Writers {
  public:
   Writers(const ExtractFiles& files, const Recording& recording, Extraction& extraction)
-      : companion_(files.companion(), recording, program()), columns_(own_columns(extraction)) {
+      : companion_(files.companion(), recording, program()),
+        values_(extraction.columns()),
+        columns_(own_columns(values_.columns())) {
     if (files.for_ourselves())
       for (auto& column : columns_) column.name = column.role;
     else
@@ -94,11 +72,7 @@ class Writers {
     if (!files.events()) return;
     auto remarks = extraction.lines();
     remarks.insert(remarks.begin(), {program() + " extract", "recording: " + recording.file().string()});
-    const EventShapes& shapes = extraction.event_shapes();
-    table_.emplace(*files.events(), remarks,
-                   EventColumns{extraction.table().is_own(), shapes.is_known(), shapes.has_asymmetry(),
-                                shapes.elongated_by() ? elongation_columns(*shapes.elongated_by())
-                                                      : std::vector<ElongationColumn>{}});
+    table_.emplace(*files.events(), remarks, descriptions(values_.columns()));
   }
 
   void write(std::size_t first, const EventBlock& block) {
@@ -106,9 +80,10 @@ class Writers {
     companion_.write("area_um", first, block.area_um2);
     companion_.write("deform", first, block.deformation);
     if (shapes_) shapes_->write(first, block);
+    const auto values = values_.of(block);
     for (const auto& column : columns_)
-      if (!column.name.empty()) companion_.write(column.name, first, values_of(column, block));
-    if (table_) table_->append(block);
+      if (!column.name.empty()) companion_.write(column.name, first, values[column.number]);
+    if (table_) table_->append(values);
   }
 
   void close() {
@@ -137,25 +112,11 @@ class Writers {
       companion_.add_feature(feature);
   }
 
-  std::span<const double> values_of(const OwnColumn& column, const EventBlock& block) {
-    if (column.values) return column.values(block);
-    values_.resize(block.state.size());
-    const auto tilt = std::ranges::find(tilt_features(), column.role, &TiltFeature::name);
-    if (tilt != tilt_features().end())
-      std::ranges::transform(block.tilt, values_.begin(), tilt->value);
-    else if (column.role == "state")
-      std::ranges::transform(block.state, values_.begin(), [](ModulusState s) { return static_cast<double>(s); });
-    else
-      std::ranges::transform(block.shape, values_.begin(),
-                             column.role == "shape_excess" ? &ShapeExcess::excess : &ShapeExcess::odd_share);
-    return values_;
-  }
-
   CompanionFile companion_;
   std::optional<CompanionShapes> shapes_;
+  BlockValues<EventBlock> values_;
   std::vector<OwnColumn> columns_;
   std::optional<EventTable> table_;
-  std::vector<double> values_;
 };
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "extract/event_columns.h"
 #include "extract/event_shapes.h"
-#include "extract/event_table.h"
 #include "extract/extract_settings.h"
 #include "extract/extract_summary.h"
 #include "extract/gates.h"
@@ -30,6 +30,11 @@ class Extraction {
   const ExtractSettings& settings() const { return settings_; }
   const ShapeSource& shapes() const { return shapes_; }
   const EventShapes& event_shapes() const { return event_shapes_; }
+  /// What is told of each event.
+  ColumnsOf<EventBlock> columns() const {
+    return event_columns(
+        {table_.is_own(), event_shapes_.is_known(), event_shapes_.has_asymmetry(), event_shapes_.elongated_by()});
+  }
   /// From now on blocks hold the features of the outlines, too, where contours or masks are read.
   void measure_outlines() { event_shapes_.measure_outlines(settings_.pixel_size_um); }
   /// The number of events that are best computed at once.

@@ -12,14 +12,13 @@
 
 #include "extract/direction_of_cells.h"
 #include "extract/event_pass.h"
-#include "extract/event_table.h"
 #include "extract/modulus_tables.h"
 #include "extract/outlined_events.h"
 #include "extract/plausibility.h"
 #include "infer/shape_map.h"
 #include "numeric/no_value.h"
+#include "numeric/quantile.h"
 #include "store/build_info.h"
-#include "store/file_writer.h"
 
 namespace rheocyte {
 
@@ -29,27 +28,6 @@ constexpr std::size_t events_between_progress = 256;
 /// So many cells tell what those of a recording have in common; events are read in blocks from all over it.
 constexpr std::size_t wanted_for_survey = 200, survey_block = 16;
 constexpr std::string_view use_of_outlines = "the shape of each cell is fitted";
-
-constexpr std::string_view more_columns =
-    "young_modulus_error_kPa\t"
-    "cortex_modulus_mN_per_m\tcortex_modulus_error_mN_per_m\ttension_mN_per_m\ttension_error_mN_per_m\t"
-    "stiffness_kPa\tstiffness_error_kPa\tchi_squared\tstatus\t"
-    "shape_excess\t";
-
-std::string names_of_columns() {
-  std::string names(first_columns_of_events);
-  names += more_columns;
-  for (const ElongationColumn& column : elongation_columns(ElongatedBy::modes)) names += column.name + "\t";
-  return names + "section_factor\n";
-}
-
-std::string line(std::size_t event, const ShapeVector& seen, double viscosity_mPas, const ModuliEstimate& e) {
-  std::string text = fmt::format("{}\t{:.6g}\t{:.6g}\t{:.6g}", event + 1, std::exp(seen(0)), seen(1), viscosity_mPas);
-  for (const Modulus m : {Modulus::young, Modulus::cortex, Modulus::tension})
-    text += fmt::format("\t{:.6g}\t{:.3g}", e.value(m), e.error(m));
-  return text + fmt::format("\t{:.6g}\t{:.3g}\t{:.4g}\t{}", e.stiffness_kPa, e.stiffness_error_kPa, e.chi_squared,
-                            name_of(e.status));
-}
 
 /// One recording on its way through the blocks.
 class Fits {
@@ -87,8 +65,8 @@ class Fits {
     moduli_.know_tension(axial_.common.tension());
   }
 
-  /// The names of the columns, and the settings.
-  std::string header(const ModuliOptions& options) const {
+  /// What holds for all events.
+  std::vector<std::string> remarks(const ModuliOptions& options) const {
     std::vector<std::string> remarks{
         fmt::format("rheocyte {} moduli", version),
         "recording: " + events_.recording().file().string(),
@@ -105,35 +83,32 @@ class Fits {
     const auto settings = events_.settings().lines();
     remarks.insert(remarks.end(), settings.begin(), settings.end());
     if (!events_.gates().empty()) remarks.push_back("only events with " + events_.gates().description());
-    return names_of_columns() + commented(remarks);
+    return remarks;
   }
 
-  /// The lines of a block of events.
-  std::string take(std::size_t first, std::size_t count) {
+  /// A block of events, until the next one.
+  ModuliBlock take(std::size_t first, std::size_t count) {
     events_.read(first, count);
     count_inertial();
-    std::vector<ShapeVector> seen;
-    for (std::size_t i = 0; i < count; ++i) seen.push_back(events_.shape(first + i));
-    compare(seen);
-    std::string text;
+    seen_.clear();
+    for (std::size_t i = 0; i < count; ++i) seen_.push_back(events_.shape(first + i));
+    compare(seen_);
+    estimates_.clear();
     const auto viscosity = events_.viscosity_mPas();
     for (std::size_t i = 0; i < count; ++i) {
       goes_on_();
-      const ModuliEstimate estimate = events_.is_inside(i) ? moduli_.fit(seen[i], viscosity[i]) : gated();
+      const ModuliEstimate& estimate =
+          estimates_.emplace_back(events_.is_inside(i) ? moduli_.fit(seen_[i], viscosity[i]) : gated());
       tally_.take(estimate);
-      if (axial_.is_of_elongated_cells && has_cell(estimate)) slopes_.take(seen[i], estimate.cell);
-      text += line(first + i, seen[i], viscosity[i], estimate) + fmt::format("\t{:.4g}", excess_[i].excess);
-      for (const ElongationColumn& column : columns_of_solids_)
-        text += fmt::format("\t{:.6g}", (solids_values_.block().*column.values)[i]);
-      text += fmt::format("\t{:.4g}\n", estimate.section_factor);
+      if (axial_.is_of_elongated_cells && has_cell(estimate)) slopes_.take(seen_[i], estimate.cell);
     }
-    return text;
+    return {seen_, viscosity, estimates_, excess_, solids_values_.block()};
   }
 
   /// Behind all events.
-  std::string footer() {
+  std::vector<std::string> last_remarks() {
     slopes_.finish(table_.between, axial_);
-    return commented(slope_lines(axial_));
+    return slope_lines(axial_);
   }
 
   ModuliSummary summary() {
@@ -262,7 +237,8 @@ class Fits {
   SlopeTally slopes_;
   std::vector<ShapeExcess> excess_;
   ElongationValues solids_values_;  ///< as if they were solids
-  std::vector<ElongationColumn> columns_of_solids_ = elongation_columns(ElongatedBy::modes);
+  std::vector<ShapeVector> seen_;
+  std::vector<ModuliEstimate> estimates_;
   std::size_t inertial_ = 0;
   double max_reynolds_number_ = 0;
   ModuliTally tally_;
@@ -270,19 +246,17 @@ class Fits {
 
 }  // namespace
 
-ModuliSummary moduli_of_recording(const std::filesystem::path& path, const std::filesystem::path& file,
-                                  const ModuliOptions& options, const ModuliTable& table,
+ModuliSummary moduli_of_recording(const std::filesystem::path& path, const ModuliOptions& options,
+                                  const ModuliTable& table, ModuliConsumer& consumer,
                                   const TellProgress& tell_progress) {
   Recording recording(path);
   EventPass pass(recording, tell_progress);
   Fits fits(recording, options, table, pass.goes_on());
   fits.survey(recording, options);
-  FileWriter writer(file);
-  writer.append(fits.header(options));
+  consumer.begin(recording, fits.remarks(options));
   pass.in_blocks(events_between_progress,
-                 [&](std::size_t first, std::size_t count) { writer.append(fits.take(first, count)); });
-  writer.append(fits.footer());
-  writer.close();
+                 [&](std::size_t first, std::size_t count) { consumer.take(first, fits.take(first, count)); });
+  consumer.end(fits.last_remarks());
   return fits.summary();
 }
 

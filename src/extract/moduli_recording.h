@@ -1,17 +1,54 @@
 // Several moduli of each cell of one recording, from its contours or masks.
 #pragma once
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "extract/event_moduli.h"
+#include "extract/event_table.h"
+#include "extract/moduli_columns.h"
 #include "extract/moduli_summary.h"
+#include "measurement/recording.h"
 #include "store/progress.h"
 
 namespace rheocyte {
 
-/// Writes a file with one line per event: E, E2D, tension, stiffness with standard errors, chi2, status. UserError for
-/// what is wrong with the recording, which must have contours or masks, or with writing.
-ModuliSummary moduli_of_recording(const std::filesystem::path& recording, const std::filesystem::path& file,
-                                  const ModuliOptions& options, const ModuliTable& table,
+/// Takes what is told of the events of a recording.
+class ModuliConsumer {
+ public:
+  virtual ~ModuliConsumer() = default;
+  /// Before the first event, with what holds for all of them in sentences.
+  virtual void begin(const Recording& recording, const std::vector<std::string>& remarks) = 0;
+  /// Of the events from `first` on, block after block.
+  virtual void take(std::size_t first, const ModuliBlock& block) = 0;
+  /// Behind the last event.
+  virtual void end(const std::vector<std::string>& remarks) = 0;
+};
+
+/// Tells the consumer of each event: E, E2D, tension, stiffness with standard errors, chi2, status. UserError for what
+/// is wrong with the recording, which must have contours or masks, and of the consumer.
+ModuliSummary moduli_of_recording(const std::filesystem::path& recording, const ModuliOptions& options,
+                                  const ModuliTable& table, ModuliConsumer& consumer,
                                   const TellProgress& tell_progress);
+
+/// The text table.
+class ModuliText : public ModuliConsumer {
+ public:
+  /// UserError, also of the calls that follow, if it cannot be written.
+  explicit ModuliText(std::filesystem::path file) : file_(std::move(file)) {}
+  void begin(const Recording&, const std::vector<std::string>& remarks) override {
+    table_.emplace(file_, remarks, descriptions(values_.columns()));
+  }
+  void take(std::size_t, const ModuliBlock& block) override { table_->append(values_.of(block)); }
+  void end(const std::vector<std::string>& remarks) override {
+    table_->remark(remarks);
+    table_->close();
+  }
+
+ private:
+  std::filesystem::path file_;
+  BlockValues<ModuliBlock> values_{moduli_columns()};
+  std::optional<EventTable> table_;
+};
 
 }  // namespace rheocyte

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "case/user_error.h"
 #include "extract/gates.h"
 #include "extract/plausibility.h"
@@ -11,9 +9,19 @@
 
 namespace rheocyte {
 
-void check_measuring_options(const MeasuringOptions& options) {
-  if (!(options.patience_s > 0 && std::isfinite(options.patience_s)))
-    throw UserError("rheocyte: --patience must be a positive number.");
+void check_table(const std::string& table, const std::optional<Section>& section) {
+  if (!table.empty() && section)
+    throw UserError(
+        "rheocyte: --table and --section contradict each other, which chooses between the program's own tables; give "
+        "one of them.");
+}
+
+void check_options(const ExtractOptions& options) {
+  check_options(options.measuring);
+  check_table(options.table, options.section);
+}
+
+void check_options(const MeasuringOptions& options) {
   static_cast<void>(Gates(options.gates));
   check_temperatures(options);
   if (!options.viscosity_mPas) return;

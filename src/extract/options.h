@@ -24,8 +24,11 @@ struct MeasuringOptions {
   std::string temperature;             ///< degC, "feature", "metadata", or empty: the feature if there is one
   std::string temperature_if_missing;  ///< degC where none is recorded; empty: such recordings are refused
   GateOptions gates;
-  double patience_s = 60;
+  std::optional<double> patience_s;  ///< not given: default_patience_s
 };
+
+/// A recording from which nothing was read for so long is given up.
+inline constexpr double default_patience_s = 60;
 
 struct ExtractOptions {
   BatchOptions batch;
@@ -46,7 +49,24 @@ struct ModuliOptions {
   std::optional<Section> section;          ///< in which the cells were seen; not given: ModuliTable::section_of
 };
 
-/// UserError if a value is not positive or two of them contradict.
-void check_measuring_options(const MeasuringOptions& options);
+struct TimeCourseOptions {
+  BatchOptions batch;
+  MeasuringOptions measuring;
+  std::filesystem::path table, file;
+  std::vector<double> contraction_um;  ///< one for all recordings, or one each
+  std::optional<Section> section;      ///< in which the cells were seen; not given: square
+};
+
+struct FeaturesOptions {
+  BatchOptions batch;
+  std::optional<double> pixel_size_um, patience_s;
+};
+
+/// UserError if a value is not a good one or two of them contradict.
+void check_options(const MeasuringOptions& options);
+void check_options(const ExtractOptions& options);
+
+/// UserError if a table is given and a section by which one of the program's own is chosen.
+void check_table(const std::string& table, const std::optional<Section>& section);
 
 }  // namespace rheocyte

@@ -15,9 +15,6 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::string_view course_columns =
-    "last_place_um\tradius_um\tyoung_modulus_kPa\tyoung_modulus_low_kPa\tyoung_modulus_high_kPa\tviscosity_Pas\t"
-    "viscosity_low_Pas\tviscosity_high_Pas\tchi_squared\tsection_factor\tsection_error\tstatus\tevent_numbers\n";
 constexpr double flow_tolerance = 0.02;  // relative, between the recordings of one population
 
 /// From the channel of the table to that of the recording.
@@ -62,10 +59,6 @@ Credible widened(const Credible& value, double error) {
   return {value.value, end(value.low, -1), end(value.high, 1)};
 }
 
-std::string columns_of(const Credible& value) {
-  return fmt::format("\t{:.5g}\t{:.5g}\t{:.5g}", value.value, value.low, value.high);
-}
-
 std::string with_interval(const Credible& value, std::string_view unit) {
   return fmt::format("{:.3g} {} (90 %: {:.3g} to {:.3g})", value.value, unit, value.low, value.high);
 }
@@ -102,23 +95,28 @@ void CourseTable::add(const CourseEvents& events, const std::string& name, doubl
   remarks_.insert(remarks_.end(), events.settings.begin(), events.settings.end());
 }
 
-std::string CourseTable::line(const Row& row, std::size_t number) const {
+CourseRow CourseTable::told(const Row& row, std::size_t number) const {
   CourseEstimate estimate = TimeCourse(table_).cell(row.cell.images);
   const double factor = section_factor_of({&row.cell.images, 1});
   const SectionErrors errors = section_errors(factor, unsettled_);
+  const Physical in = physical(table_, row.flow);
+  CourseRow told{.recording = row.recording,
+                 .cell = double(number),
+                 .events = double(row.cell.images.size()),
+                 .first_place_um = row.cell.images.front().place_um * in.length,
+                 .last_place_um = row.cell.images.back().place_um * in.length,
+                 .radius_um = estimate.radius_um * in.length,
+                 .chi_squared = estimate.chi_squared,
+                 .section_factor = factor,
+                 .section_error = errors.modulus};
   estimate.young_modulus_kPa = widened(estimate.young_modulus_kPa, errors.modulus);
   estimate.viscosity_Pas = widened(estimate.viscosity_Pas, errors.viscosity);
-  const Physical in = physical(table_, row.flow);
-  std::string text = fmt::format("{}\t{}\t{}\t{:.4g}\t{:.4g}\t{:.4g}", row.recording, number, row.cell.images.size(),
-                                 row.cell.images.front().place_um * in.length,
-                                 row.cell.images.back().place_um * in.length, estimate.radius_um * in.length);
-  text +=
-      columns_of(times(estimate.young_modulus_kPa, in.modulus)) +
-      columns_of(times(estimate.viscosity_Pas, in.viscosity)) +
-      fmt::format("\t{:.3g}\t{:.4g}\t{:.2g}\t{}\t", estimate.chi_squared, factor, errors.modulus, status_of(estimate));
+  told.young_modulus_kPa = times(estimate.young_modulus_kPa, in.modulus);
+  told.viscosity_Pas = times(estimate.viscosity_Pas, in.viscosity);
+  told.status = status_of(estimate);
   for (std::size_t i = 0; i < row.cell.events.size(); ++i)
-    text += fmt::format("{}{}", i == 0 ? "" : " ", row.cell.events[i]);
-  return text + "\n";
+    told.event_numbers += fmt::format("{}{}", i == 0 ? "" : " ", row.cell.events[i]);
+  return told;
 }
 
 std::string CourseTable::section_text(const std::vector<CellImages>& cells) const {
@@ -142,13 +140,12 @@ CourseReport CourseTable::report() const {
   }
   check_places_seen(cells);
   CourseReport report;
-  report.text = std::string(mark_of_courses).append(course_columns);
   std::size_t seen_again = 0;
   for (const Row& row : rows_)
-    if (seen_um(row.cell.images) >= min_seen_um) report.text += line(row, ++seen_again);
-  std::vector<std::string> remarks{fmt::format("rheocyte {} time-course", version),
-                                   fmt::format("dynamic table: {}", table_.spec().identifier)};
-  remarks.insert(remarks.end(), remarks_.begin(), remarks_.end());
+    if (seen_um(row.cell.images) >= min_seen_um) report.rows.push_back(told(row, ++seen_again));
+  report.remarks = {fmt::format("rheocyte {} time-course", version),
+                    fmt::format("dynamic table: {}", table_.spec().identifier)};
+  report.remarks.insert(report.remarks.end(), remarks_.begin(), remarks_.end());
   report.lines.push_back(
       fmt::format("{} cells, {} of them seen over at least {:g} um; {} events at places and {} with "
                   "areas that the table does not have",
@@ -172,9 +169,48 @@ CourseReport CourseTable::report() const {
                     with_interval(population.young_modulus_kPa, "kPa"), with_interval(population.viscosity_Pas, "Pa s"),
                     std::exp(population.modulus_spread), std::exp(population.viscosity_spread)));
   }
-  remarks.insert(remarks.end(), report.lines.begin(), report.lines.end());
-  report.text += commented(remarks);
+  report.remarks.insert(report.remarks.end(), report.lines.begin(), report.lines.end());
   return report;
+}
+
+const RowColumns<CourseRow>& course_columns() {
+  using R = CourseRow;
+  const auto credible = [](Credible R::*of, double Credible::*end) {
+    return [=](const R& row) { return row.*of.*end; };
+  };
+  const auto modulus = [&](double Credible::*end) { return credible(&R::young_modulus_kPa, end); };
+  const auto viscosity = [&](double Credible::*end) { return credible(&R::viscosity_Pas, end); };
+  static const RowColumns<R> columns{{"recording", &R::recording},
+                                     {"cell", &R::cell, 15},
+                                     {"events", &R::events},
+                                     {"first_place_um", &R::first_place_um, 4},
+                                     {"last_place_um", &R::last_place_um, 4},
+                                     {"radius_um", &R::radius_um, 4},
+                                     {"young_modulus_kPa", modulus(&Credible::value), 5},
+                                     {"young_modulus_low_kPa", modulus(&Credible::low), 5},
+                                     {"young_modulus_high_kPa", modulus(&Credible::high), 5},
+                                     {"viscosity_Pas", viscosity(&Credible::value), 5},
+                                     {"viscosity_low_Pas", viscosity(&Credible::low), 5},
+                                     {"viscosity_high_Pas", viscosity(&Credible::high), 5},
+                                     {"chi_squared", &R::chi_squared, 3},
+                                     {"section_factor", &R::section_factor, 4},
+                                     {"section_error", &R::section_error, 2},
+                                     {"status", &R::status},
+                                     {"event_numbers", &R::event_numbers}};
+  return columns;
+}
+
+std::string course_text(const CourseReport& report) {
+  const auto& columns = course_columns();
+  const auto line = [&](const auto& cell) {
+    std::string text;
+    for (const auto& column : columns) text.append(text.empty() ? "" : "\t").append(cell(column));
+    return text + "\n";
+  };
+  std::string text = line([](const auto& column) { return column.name; });
+  for (const CourseRow& row : report.rows)
+    text += line([&](const auto& column) { return cell_text(column.value(row), column.digits); });
+  return text + commented(report.remarks);
 }
 
 }  // namespace rheocyte

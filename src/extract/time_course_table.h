@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "extract/course_events.h"
+#include "extract/row_column.h"
 #include "extract/square_section.h"
 
 namespace rheocyte {
@@ -12,11 +13,30 @@ namespace rheocyte {
 /// With these words the file begins: its first line holds the names of all columns.
 inline constexpr std::string_view mark_of_courses = "recording\tcell\tevents\tfirst_place_um\t";
 
+/// Of a cell that was seen again, in the channel of its recording.
+struct CourseRow {
+  std::string recording;
+  double cell = 0, events = 0;  ///< its number, and how many events it is
+  double first_place_um = 0, last_place_um = 0, radius_um = 0;
+  Credible young_modulus_kPa{}, viscosity_Pas{};
+  double chi_squared = 0;
+  double section_factor = 1;  ///< of c_3, over that in the tube
+  double section_error = 0;   ///< relative, of E, within its interval
+  std::string status = {}, event_numbers = {};
+};
+
+/// A new column is declared in extract/time_course_table.cc.
+const RowColumns<CourseRow>& course_columns();
+
 struct CourseReport {
-  std::string text;                ///< the file: a line for each cell that was seen again, the settings below
-  std::vector<std::string> lines;  ///< for the terminal
+  std::vector<CourseRow> rows;
+  std::vector<std::string> remarks;  ///< the settings, and the lines
+  std::vector<std::string> lines;    ///< for the terminal
   PopulationEstimate population;
 };
+
+/// The file: a line for each row, the remarks below.
+std::string course_text(const CourseReport& report);
 
 class CourseTable {
  public:
@@ -36,7 +56,7 @@ class CourseTable {
     CourseCell cell;
     ChannelFlow flow;
   };
-  std::string line(const Row& row, std::size_t number) const;
+  CourseRow told(const Row& row, std::size_t number) const;
   /// What is said of the square channel, if it is one.
   std::string section_text(const std::vector<CellImages>& cells) const;
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "case/user_error.h"
+#include "extract/options.h"
 #include "store/contained.h"
 
 namespace rheocyte {
@@ -30,13 +31,15 @@ inline void tell(const PythonProgress& progress, double share) {
 std::size_t taken_addresses();
 
 /// What work(tell_progress) returns in a child, as bytes (store/bytes.h); nothing if it was stopped. UserError for what
-/// is wrong with the file, and if HDF5 broke down on it. What `progress` throws ends the work and comes through.
+/// is wrong with the file, and if HDF5 broke down on it or was silent for too long. What `progress` throws ends the
+/// work and comes through.
 template <class Work>
-auto read_contained(const std::filesystem::path& file, const Work& work, const PythonProgress& progress,
-                    const std::atomic<bool>& stop) {
+auto read_contained(const std::filesystem::path& file, const MeasuringOptions& options, const Work& work,
+                    const PythonProgress& progress, const std::atomic<bool>& stop) {
   std::exception_ptr thrown;
   Containment limits;
   limits.memory_bytes += taken_addresses();
+  limits.patience_s = options.patience_s.value_or(default_patience_s);
   limits.is_wanted = [&] { return !stop && !thrown; };
   auto done = run_contained(work, limits, [&](double share) {
     if (thrown) return;

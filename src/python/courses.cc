@@ -21,12 +21,13 @@ namespace py = pybind11;
 
 namespace {
 
-// The file of `rheocyte time-course` as text, and what it says in sentences; a contraction for each recording.
+// The columns of `rheocyte time-course` by their names, settings, and what is said of the population; a contraction for
+// each recording.
 py::tuple time_course(const std::vector<std::filesystem::path>& recordings, const std::filesystem::path& place,
-                      const std::vector<double>& contraction_um, const ModuliOptions& options,
+                      const std::vector<double>& contraction_um, const TimeCourseOptions& options,
                       const PythonProgress& progress) {
   const MeasuringOptions& measuring = options.measuring;
-  check_measuring_options(measuring);
+  check_options(measuring);
   const auto report = interruptible([&](const std::atomic<bool>& stop) -> CourseReport {
     const DynamicTable table = read_dynamic_table(place);
     CourseTable courses(table, options.section.value_or(Section::square));
@@ -36,13 +37,19 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
           tell_progress((double(i) + share) / double(recordings.size()));
         });
       };
-      const auto events = read_contained(recordings[i], work, progress, stop);
+      const auto events = read_contained(recordings[i], measuring, work, progress, stop);
       if (stop) return {};
       courses.add(events, recordings[i].string(), contraction_um[i]);
     }
     return courses.report();
   });
-  return py::make_tuple(report.text, report.lines);
+  py::dict columns;
+  for (const auto& column : course_columns()) {
+    py::list values;
+    for (const CourseRow& row : report.rows) values.append(py::cast(column.value(row)));
+    columns[column.name.c_str()] = values;
+  }
+  return py::make_tuple(columns, report.remarks, report.lines);
 }
 
 // The file appears whole or not at all; the caller has looked whether one is there. The number of its events.

@@ -9,6 +9,7 @@
 #include "extract/moduli_recording.h"
 #include "python/bindings.h"
 #include "python/contained_reading.h"
+#include "python/gathered_columns.h"
 #include "python/interruptible.h"
 
 namespace rheocyte {
@@ -17,17 +18,31 @@ namespace py = pybind11;
 
 namespace {
 
-// The lines of `rheocyte moduli`, into a file that may be a piece of memory.
-std::vector<std::string> moduli(const std::filesystem::path& recording, const std::filesystem::path& target,
-                                const ModuliOptions& options, const PythonProgress& progress) {
-  check_measuring_options(options.measuring);
+class GatheredModuli : public ModuliConsumer {
+ public:
+  void begin(const Recording&, const std::vector<std::string>& remarks) override { settings = remarks; }
+  void take(std::size_t, const ModuliBlock& block) override { events.append(block); }
+  void end(const std::vector<std::string>& remarks) override {
+    settings.insert(settings.end(), remarks.begin(), remarks.end());
+  }
+
+  GatheredColumns<ModuliBlock> events{moduli_columns()};
+  std::vector<std::string> settings;
+};
+
+py::tuple moduli(const std::filesystem::path& recording, const ModuliOptions& options, const PythonProgress& progress) {
+  check_options(options.measuring);
+  const SharedColumns memory;
   return interruptible([&](const std::atomic<bool>& stop) {
-    const ModuliTable table(options);
-    const auto work = [&](const TellProgress& tell_progress) {
-      return moduli_of_recording(recording, target, options, table, tell_progress).warnings;
-    };
-    return read_contained(recording, work, progress, stop);
-  });
+           const ModuliTable table(options);
+           const auto work = [&](const TellProgress& tell_progress) -> GatheredEvents {
+             GatheredModuli gathered;
+             const auto summary = moduli_of_recording(recording, options, table, gathered, tell_progress);
+             return {gathered.events.events(), gathered.events.write(memory), gathered.settings, summary.warnings};
+           };
+           return read_contained(recording, options.measuring, work, progress, stop);
+         })
+      .to_python(memory);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "python/shared_columns.h"
 
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -69,14 +70,14 @@ void SharedColumns::write(std::span<const std::int8_t> column) const {
   append(nothing, aligned(column.size()) - column.size());
 }
 
-py::dict SharedColumns::arrays(const std::vector<SharedColumn>& columns, std::size_t length) const {
+py::tuple SharedColumns::arrays(const std::vector<SharedColumn>& columns, std::size_t length) const {
   const auto size_of = [&](const SharedColumn& column) {
     return aligned(length * (column.is_bytes ? 1 : sizeof(double)));
   };
   std::size_t size = 1;  // nothing cannot be mapped
   for (const auto& column : columns) size += size_of(column);
   const auto mapping = std::make_shared<Mapping>(descriptor_, size);
-  py::dict arrays;
+  py::dict arrays, units, words;
   const char* at = mapping->start;
   for (const auto& column : columns) {
     const py::capsule owner(new std::shared_ptr<Mapping>(mapping),
@@ -84,8 +85,13 @@ py::dict SharedColumns::arrays(const std::vector<SharedColumn>& columns, std::si
     const py::dtype type = column.is_bytes ? py::dtype::of<std::int8_t>() : py::dtype::of<double>();
     arrays[column.name.c_str()] = py::array(type, {static_cast<py::ssize_t>(length)}, {}, at, owner);
     at += size_of(column);
+    units[column.name.c_str()] = column.unit;
+    if (!column.words.empty()) words[column.name.c_str()] = column.words;
   }
-  return arrays;
+  py::dict said;
+  said["units"] = units;
+  said["words"] = words;
+  return py::make_tuple(arrays, said);
 }
 
 }  // namespace rheocyte

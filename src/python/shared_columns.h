@@ -12,13 +12,14 @@ namespace rheocyte {
 
 /// One that was written; whole numbers of one byte, or 64-bit ones.
 struct SharedColumn {
-  std::string name;
+  std::string name, unit;
+  std::vector<std::string> words;  ///< for which bytes stand; else they are truths
   bool is_bytes = false;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.name, s.is_bytes);
+    return std::tie(s.name, s.unit, s.words, s.is_bytes);
   }
 };
 
@@ -34,9 +35,9 @@ class SharedColumns {
   void write(std::span<const double> column) const;
   void write(std::span<const std::int8_t> column) const;
 
-  /// In the parent: the columns as numpy arrays, by their names, in the order in which they were written; all equally
-  /// long.
-  pybind11::dict arrays(const std::vector<SharedColumn>& columns, std::size_t length) const;
+  /// In the parent: a pair of the columns as numpy arrays, by their names, in the order in which they were written, all
+  /// equally long, and of what is said about them: {"units": ..., "words": of columns that have them}.
+  pybind11::tuple arrays(const std::vector<SharedColumn>& columns, std::size_t length) const;
 
  private:
   void append(const void* data, std::size_t size) const;

@@ -2,10 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <string>
-#include <utility>
 
 #include "case/write_case.h"
+#include "extract/moduli_columns.h"
 #include "view/event_json.h"
 #include "view/fitted_cell.h"
 
@@ -29,15 +28,13 @@ bool is_cell(const ModuliEstimate& estimate) {
 
 Json numbers_of(const ModuliEstimate& e) {
   Json j{{"status", name_of(e.status)}, {"sentence", sentence(e)}};
-  for (const auto& [modulus, name] :
-       {std::pair(Modulus::young, "young_modulus_kPa"), std::pair(Modulus::cortex, "cortex_modulus_mN_per_m"),
-        std::pair(Modulus::tension, "tension_mN_per_m")}) {
-    j[name] = number_or_null(e.value(modulus));
-    j[std::string("standard_error_") + name] = number_or_null(e.error(modulus));
-  }
-  j["stiffness_kPa"] = number_or_null(e.stiffness_kPa);
-  j["standard_error_stiffness_kPa"] = number_or_null(e.stiffness_error_kPa);
-  j["chi_squared"] = number_or_null(e.chi_squared);
+  BlockValues<ModuliBlock> values(estimate_columns());
+  ModuliBlock block;
+  block.estimates = {&e, 1};
+  const auto numbers = values.of(block);
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    if (const ColumnDescription& column = values.columns()[k]; column.words.empty())
+      j[column.name] = number_or_null(numbers[k][0]);
   return j;
 }
 

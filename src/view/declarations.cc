@@ -8,8 +8,11 @@
 
 #include "case/case_keys.h"
 #include "case/user_error.h"
+#include "extract/recording_settings.h"
+#include "extract/settings_text.h"
 #include "measurement/viscosity.h"
 #include "store/build_info.h"
+#include "view/recording_columns.h"
 
 namespace rheocyte {
 
@@ -120,11 +123,28 @@ Json viscosity(const Request& request) {
   return {{"law", "power-law"}, {"consistency_Pa_sn", consistency}, {"exponent", buffer.flow_exponent(celsius)}};
 }
 
+/// Of moduli of recordings.
+Json settings_of_moduli() {
+  ExtractOptions none;
+  return declared_settings(settings_of(none));
+}
+
+/// Of events, beside those that are in the file.
+Json features_of_moduli() {
+  Json list = Json::array();
+  for (const ColumnDescription& feature : computed_features())
+    list.push_back(
+        {{"name", feature.name}, {"label", feature.label}, {"unit", feature.unit}, {"sentence", feature.sentence}});
+  return list;
+}
+
 }  // namespace
 
 void add_declaration_routes(Router& router) {
   router.add("GET", "/api/health", [](const Request&) { return json_answer(health()); });
   router.add("GET", "/api/keys", [](const Request&) { return json_answer(keys_of_cases()); });
+  router.add("GET", "/api/settings", [](const Request&) { return json_answer(settings_of_moduli()); });
+  router.add("GET", "/api/features", [](const Request&) { return json_answer(features_of_moduli()); });
   router.add("GET", "/api/media", [](const Request&) { return json_answer(known_media()); });
   router.add("GET", "/api/media/viscosity", [](const Request& request) { return json_answer(viscosity(request)); });
 }

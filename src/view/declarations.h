@@ -1,4 +1,5 @@
-// What a page needs to know before anything is computed: GET /api/health, /api/keys and /api/media.
+// What a page needs to know before anything is computed: GET /api/health, /api/keys,
+// /api/settings, /api/features and /api/media.
 #pragma once
 #include "serve/router.h"
 

@@ -145,29 +145,28 @@ Json combined_json(CombinedCell cell, const Eigen::MatrixX2d& outline, int direc
 
 double first_of(std::span<const double> values) { return values.empty() ? NAN : values[0]; }
 
-void add_modulus(const EventBlock& block, Json& j) {
-  const bool has_shape = !block.shape.empty();
-  j["young_modulus_kPa"] = number_or_null(block.young_modulus_kPa[0]);
-  j["standard_error_kPa"] = number_or_null(first_of(block.standard_error_kPa));
-  j["state"] = name_of(block.state[0]);
-  j["sentence"] = sentence_of(block.state[0]);
-  j["shape_excess"] = number_or_null(has_shape ? block.shape[0].excess : NAN);
-  j["shape_excess_error"] = number_or_null(has_shape ? block.shape[0].error : NAN);
-  j["elongated"] = has_shape && block.shape[0].is_elongated();
-  j["odd_share"] = number_or_null(has_shape ? block.shape[0].odd_share : NAN);
-  j["mode_3"] = number_or_null(first_of(block.mode_3));
+Json value_json(const ColumnDescription& column, double value) {
+  if (!column.words.empty()) return column.words[std::size_t(value)];
+  return column.is_flag ? Json(value != 0) : number_or_null(value);
+}
+
+/// Of all columns, null where nothing is known.
+void add_columns(const Extraction& extraction, const EventBlock& block, Json& j) {
+  for (const auto& column : event_columns({true, true, true, ElongatedBy::modes}))
+    j[column.name] = column.is_flag ? Json(false) : Json();
+  BlockValues<EventBlock> values(extraction.columns());
+  const auto numbers = values.of(block);
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    j[values.columns()[k].name] = value_json(values.columns()[k], numbers[k][0]);
+}
+
+/// What is to be said of the modulus.
+std::string sentence_on(const EventBlock& block) {
+  std::string on_state(sentence_of(block.state[0]));
   const ElongationBlock& drawn = block.elongation;
-  j["young_modulus_elongated_kPa"] = number_or_null(first_of(drawn.modulus_kPa));
-  j["standard_error_elongated_kPa"] = number_or_null(first_of(drawn.standard_error_kPa));
-  j["elongation"] = number_or_null(first_of(drawn.elongation));
-  j["elongation_error"] = number_or_null(first_of(drawn.elongation_error));
-  j["axial_tension_Pa"] = number_or_null(first_of(drawn.axial_tension_Pa));
-  j["axial_tension_error_Pa"] = number_or_null(first_of(drawn.axial_tension_error_Pa));
-  j["viscosity_mPas"] = number_or_null(block.viscosity_mPas[0]);
   const double modulus = first_of(drawn.modulus_kPa), tension = first_of(drawn.axial_tension_Pa);
-  if (!has_shape || !block.shape[0].is_elongated() || !std::isfinite(modulus)) return;
-  const std::string on_state(sentence_of(block.state[0]));
-  j["sentence"] = fmt::format(
+  if (block.shape.empty() || !block.shape[0].is_elongated() || !std::isfinite(modulus)) return on_state;
+  return fmt::format(
       "{}{}The cell is longer along the flow than those of the table, so that its modulus from deformation is too low; "
       "a "
       "solid that a tension of {:.0f} Pa draws out has such a shape with {:.3g} kPa.",
@@ -224,15 +223,16 @@ Json EventInspector::inspect(std::size_t event) {
   for (const char* feature : {"image", "mask"})
     if (const auto size = recording_.image_size(feature))
       j["image_size"] = {{"width", size->width}, {"height", size->height}};
-  for (const char* key : {"young_modulus_kPa", "standard_error_kPa", "shape_excess", "young_modulus_elongated_kPa",
-                          "outline", "model", "combined", "case"})
+  for (const char* key :
+       {"young_modulus_kPa", "standard_error_kPa", "shape_excess", "outline", "model", "combined", "case"})
     j[key] = nullptr;
   const Eigen::MatrixX2d points = outline(event);
   if (points.rows() > 0) j["outline"] = points_json(points);
   try {
     if (!extraction_) throw UserError(missing_);
     const EventBlock block = extraction_->compute(event, 1);
-    add_modulus(block, j);
+    add_columns(*extraction_, block, j);
+    j["sentence"] = sentence_on(block);
     add_fit(*extraction_, block, tables_, points, j);
     if (combined_) j["combined"] = combined_json(combined_->at(event), points, extraction_->event_shapes().direction());
   } catch (const UserError& missing) {

@@ -33,11 +33,10 @@ class EventInspector {
   EventInspector(const InspectedRecording&, const ExtractOptions&, const ModulusTables&);
   ~EventInspector();
 
-  /// {"event", "features", "young_modulus_kPa", "standard_error_kPa", "state", "sentence", "shape_excess",
-  /// "young_modulus_elongated_kPa", "viscosity_mPas", "pixel_um", "image_size", "outline", "model", "combined", "case",
-  /// ...}, with the numbers that `rheocyte extract` with these options gives for this event; what is not known is null.
-  /// Lengths in um in the frame of the picture: x along its rows, y down, from its corner. UserError: no such event,
-  /// damaged data.
+  /// {"event", "features", "young_modulus_kPa" and the other columns of tables of events, "sentence", "pixel_um",
+  /// "image_size", "outline", "model", "combined", "case"}, with the numbers that `rheocyte extract` with these options
+  /// gives for this event; what is not known is null. Lengths in um in the frame of the picture: x along its rows, y
+  /// down, from its corner. UserError: no such event, damaged data.
   nlohmann::ordered_json inspect(std::size_t event);
 
  private:

@@ -8,11 +8,9 @@
 #include "case/json_guard.h"
 #include "case/user_error.h"
 #include "extract/extract_recording.h"
-#include "extract/moduli_recording.h"
 #include "store/file_version.h"
 #include "view/describe_item.h"
 #include "view/event_inspector.h"
-#include "view/moduli_columns.h"
 #include "view/moduli_settings.h"
 #include "view/path_text.h"
 #include "view/recording_columns.h"
@@ -35,13 +33,12 @@ struct OpenRecording {
   explicit OpenRecording(const Json& request, const TellProgress& tell) : recording(path_in(request, "file")) {
     recording.on_piece(now_and_then([tell] { tell(0); }));
     if (const fs::path file = path_in(request, "companion"); !file.empty()) companion.emplace(file);
-    if (const fs::path table = path_in(request, "several"); !table.empty()) several.emplace(table);
+    if (const fs::path file = path_in(request, "several"); !file.empty()) several.emplace(file);
   }
   ComputedFiles computed() const { return {companion ? &*companion : nullptr, several ? &*several : nullptr}; }
 
   Recording recording;
-  std::optional<Recording> companion;
-  std::optional<ModuliColumns> several;
+  std::optional<Recording> companion, several;
 };
 
 ItemKind kind_in(const Json& request) {
@@ -80,13 +77,6 @@ void give_columns(const Json& request, const WorkReply& reply, const TellProgres
       append_numbers(values, type, bytes);
       reply.give(bytes);
     }
-}
-
-ModuliOptions moduli_options(const ExtractOptions& options, const fs::path& folder) {
-  ModuliOptions wanted;
-  wanted.measuring = options.measuring;
-  wanted.table = folder;
-  return wanted;
 }
 
 /// Stays with its recording, tables and settings until nobody asks for an event any more.
@@ -129,12 +119,15 @@ void add_several_moduli(const Json& request, const ExtractOptions& options, cons
   try {
     const ModuliOptions wanted = moduli_options(options, folder);
     const ModuliTable table(wanted);
-    const ModuliSummary summary = moduli_of_recording(path_in(request, "file"), target, wanted, table, tell);
+    ModuliCompanion companion(target);
+    const ModuliSummary summary = moduli_of_recording(path_in(request, "file"), wanted, table, companion, tell);
     report["lines"].push_back(table.content.spec.identifier + ": " + in_one_line(summary));
     for (const auto& lines : {tension_lines(summary.axial), slope_lines(summary.axial), summary.warnings})
       for (const auto& line : lines) report["lines"].push_back(line);
-    for (const auto& name : ModuliColumns::names()) report["features"].push_back(name);
+    for (const ColumnDescription& feature : moduli_features()) report["features"].push_back(feature.role);
   } catch (const UserError& error) {
+    std::error_code not_there;
+    fs::remove(target, not_there);
     report["lines"].push_back(error.what());
   }
 }
@@ -167,7 +160,7 @@ void compute_moduli(const Json& request, const WorkReply& reply) {
     report.update(basins);
     reply.give(json_text(report));
   };
-  reply.run_contained(file, work);
+  reply.run_contained(file, work, {.patience_s = options.measuring.patience_s.value_or(default_patience_s)});
   files.publish();
   if (const fs::path place = path_in(request, "events_of_gate"); !place.empty()) {
     WholeFile target(place);

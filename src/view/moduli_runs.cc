@@ -81,13 +81,13 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options) {
   run->settings = all_settings(options);
   run->command = extract_command(options, found.place.path);
   const fs::path combined = items_.combined();
-  if (!combined.empty()) run->command_several = moduli_command(options, found.place.path, combined);
+  if (!combined.empty()) run->command_several = moduli_command(moduli_options(options, combined), found.place.path);
   take_out(item);
   const std::scoped_lock lock(mutex_);
   const fs::path stem = items_.host().folder() / fmt::format("item-{}-{}", item, ++started_);
   run->files = {found.place.path, options.table, combined};
   run->companion = stem.string() + "_rheocyte.rtdc";
-  if (!combined.empty()) run->several = stem.string() + "_moduli.tsv";
+  if (!combined.empty()) run->several = stem.string() + "_moduli.rtdc";
   const Json request{{"do", "moduli"},
                      {"file", path_text(found.place.path)},
                      {"settings", run->settings},

@@ -1,4 +1,4 @@
-// What a page asks of `rheocyte extract`: settings as JSON, and the command that does the same.
+// What a page asks of `rheocyte extract`: settings as JSON, and the commands that do the same.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -12,20 +12,20 @@ namespace rheocyte {
 /// The path of a table that was given to the view, by its item's number. UserError if there is none.
 using TableItem = std::function<std::filesystem::path(std::size_t number)>;
 
-/// Settings by the names of the command's options with "_" for "-", without those of files and terminal: {"medium":
-/// "CellCarrier", "temperature": 23, "max": ["area_ratio=1.05"], "no_pixelation": true}. The table is the identifier of
-/// one that comes with the program, or the number of an item: no path is ever taken. UserError naming the setting.
+/// Of settings as GET /api/settings declares them (extract/settings_text.h). The table is the identifier of one that
+/// comes with the program, or the number of an item, and polygons are features and corners: no path is ever taken.
+/// UserError naming the setting.
 ExtractOptions extract_options(const nlohmann::ordered_json& settings, const TableItem& table_item);
 
-/// The command with the same settings, for a shell.
-std::string extract_command(const ExtractOptions& options, const std::filesystem::path& recording);
+/// With those of them that `rheocyte moduli` has, too, and a combined table.
+ModuliOptions moduli_options(const ExtractOptions& options, const std::filesystem::path& table);
 
-/// `rheocyte moduli` with those of them that it has, too, and a combined table.
-std::string moduli_command(const ExtractOptions& options, const std::filesystem::path& recording,
-                           const std::filesystem::path& table);
+/// The command with the same settings, for a shell.
+std::string extract_command(ExtractOptions options, const std::filesystem::path& recording);
+std::string moduli_command(ModuliOptions options, const std::filesystem::path& recording);
 
 /// All settings as JSON, with the table as a path: what is handed to a process of our own, and back.
-nlohmann::ordered_json all_settings(const ExtractOptions& options);
+nlohmann::ordered_json all_settings(ExtractOptions options);
 ExtractOptions options_of_settings(const nlohmann::ordered_json& settings);
 
 }  // namespace rheocyte

@@ -4,8 +4,8 @@
 
 namespace rheocyte {
 
-/// The sentence with the names of the page's fields in place of options that it has ("Temperature" for
-/// "--temperature"); an option that it does not have is named with its command ("rheocyte extract --pixel-size-um").
+/// The sentence with the labels of the page's fields in place of the options of settings: "Temperature" for
+/// "--temperature".
 std::string in_words_of_page(const std::string& sentence);
 
 }  // namespace rheocyte

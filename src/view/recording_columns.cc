@@ -3,34 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
-#include <iterator>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
-#include "shape/outline_tilt.h"
+#include "extract/event_columns.h"
+#include "extract/moduli_columns.h"
 
 namespace rheocyte {
 
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "columns are handed on as they lie in memory");
-
-// Moduli of a companion that somebody opens as a recording are features like any other.
-constexpr std::array roles{"state",
-                           "standard error",
-                           "young_modulus_asymmetry",
-                           "standard error asymmetry",
-                           "young_modulus_inertia",
-                           "standard error inertia",
-                           "elongation",
-                           "elongation error",
-                           "axial_tension",
-                           "axial tension error",
-                           "shape_excess",
-                           "odd_share"};
 
 constexpr std::string_view modulus_name = "emodulus";
 
@@ -46,11 +31,6 @@ std::string name_of_stored(const std::string& feature) {
 std::string stored_feature(const std::string& name) {
   if (name == stored_modulus_name) return std::string(modulus_name);
   return name == modulus_name ? "" : name;
-}
-
-std::string as_name(std::string role) {
-  std::ranges::replace(role, ' ', '_');
-  return role;
 }
 
 template <class Number>
@@ -69,14 +49,20 @@ void append(std::span<const double> values, std::string& bytes) {
 
 std::vector<ComputedColumn> computed_columns(const Recording& companion) {
   std::vector<ComputedColumn> columns;
-  if (companion.has_scalar("emodulus")) columns.push_back({"emodulus", "emodulus"});
-  const auto add = [&](const char* role) {
-    const auto feature = companion.metadata().text(fmt::format("user:rheocyte {}", role));
-    if (feature && companion.has_scalar(*feature)) columns.push_back({as_name(role), *feature});
-  };
-  std::ranges::for_each(roles, add);
-  for (const TiltFeature& feature : tilt_features()) add(feature.name);
+  for (const ColumnDescription& column : companion_columns()) {
+    const auto named = companion.metadata().text("user:rheocyte " + column.role);
+    const std::string feature = column.rank == 0 ? column.role : named.value_or("");
+    if (companion.has_scalar(feature)) columns.push_back({feature_of_role(column.role), feature});
+  }
   return columns;
+}
+
+std::vector<ColumnDescription> computed_features() {
+  std::vector<ColumnDescription> features = companion_columns();
+  const auto of_moduli = descriptions(moduli_features());
+  features.insert(features.end(), of_moduli.begin(), of_moduli.end());
+  for (ColumnDescription& feature : features) feature.name = feature_of_role(feature.role);
+  return features;
 }
 
 RecordingColumns::RecordingColumns(const Recording& recording, const ComputedFiles& files)
@@ -97,11 +83,14 @@ std::vector<std::string> RecordingColumns::names() const {
   std::ranges::sort(names);
   std::erase_if(names, [this](const std::string& name) { return computed(name) || has_modulus(name); });
   for (const auto& column : computed_) names.push_back(column.name);
-  if (files_.moduli) std::ranges::copy(ModuliColumns::names(), std::back_inserter(names));
+  if (files_.moduli)
+    for (const ColumnDescription& feature : moduli_features()) names.push_back(feature.role);
   return names;
 }
 
-bool RecordingColumns::has_modulus(const std::string& name) const { return files_.moduli && files_.moduli->has(name); }
+bool RecordingColumns::has_modulus(const std::string& name) const {
+  return files_.moduli && std::ranges::count(moduli_features(), name, &ColumnDescription::role) > 0;
+}
 
 bool RecordingColumns::has(const std::string& name) const {
   if (computed(name) || has_modulus(name)) return true;
@@ -116,7 +105,7 @@ const std::string* RecordingColumns::computed(const std::string& name) const {
 
 void RecordingColumns::read(const std::string& name, std::size_t first, std::span<double> values) {
   if (const std::string* feature = computed(name)) return files_.companion->read_scalar(*feature, first, values);
-  if (has_modulus(name)) return files_.moduli->read(name, first, values);
+  if (has_modulus(name)) return files_.moduli->read_scalar(name, first, values);
   if (!has(name)) refuse_path(recording_.file(), fmt::format("has no feature {}.", one_line(name, 60)));
   if (features_) return features_->read(stored_feature(name), first, values);
   recording_.read_scalar(stored_feature(name), first, values);

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "extract/event_column.h"
 #include "measurement/event_features.h"
 #include "measurement/recording.h"
 #include "measurement/shape_source.h"
-#include "view/moduli_columns.h"
 
 namespace rheocyte {
 
@@ -23,16 +23,16 @@ struct ComputedColumn {
 /// recording. "emodulus" is the computed one alone.
 inline constexpr std::string_view stored_modulus_name = "emodulus_stored";
 
-/// Of a companion: emodulus, and what its metadata tells of userdef0 to userdef9: state, standard_error,
-/// young_modulus_asymmetry, standard_error_asymmetry, elongation, elongation_error, axial_tension, axial_tension_error
-/// (with inertia in place of asymmetry where there are no outlines), shape_excess, odd_share, sine_mode_2, flank_slope,
-/// sine_mode_3, sine_mode_4.
+/// Of a companion: emodulus, and what its metadata tells of userdef0 to userdef9 (extract/event_columns.h).
 std::vector<ComputedColumn> computed_columns(const Recording& companion);
+
+/// All that can be computed here, by the names of features.
+std::vector<ColumnDescription> computed_features();
 
 /// What has been computed from a recording; null: nothing.
 struct ComputedFiles {
-  const Recording* companion = nullptr;   ///< of `rheocyte extract`
-  const ModuliColumns* moduli = nullptr;  ///< of `rheocyte moduli`
+  const Recording* companion = nullptr;  ///< of `rheocyte extract`
+  const Recording* moduli = nullptr;     ///< of `rheocyte moduli`, see ModuliCompanion
 };
 
 class RecordingColumns {

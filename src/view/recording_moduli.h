@@ -5,12 +5,28 @@
 #include <string>
 
 #include "extract/extract_recording.h"
+#include "extract/moduli_recording.h"
+#include "measurement/companion_file.h"
 
 namespace rheocyte {
 
 /// {"summary": the columns of the summary table, "lines": what the command says on the terminal, "counts": events by
 /// their states}.
 nlohmann::ordered_json moduli_report(const std::filesystem::path& recording, const ExtractSummary& summary);
+
+/// Keeps the features of moduli_features() in a companion that only this program reads.
+class ModuliCompanion : public ModuliConsumer {
+ public:
+  explicit ModuliCompanion(std::filesystem::path file) : file_(std::move(file)) {}
+  void begin(const Recording& recording, const std::vector<std::string>& remarks) override;
+  void take(std::size_t first, const ModuliBlock& block) override;
+  void end(const std::vector<std::string>& remarks) override;
+
+ private:
+  std::filesystem::path file_;
+  BlockValues<ModuliBlock> values_{moduli_features()};
+  std::optional<CompanionFile> companion_;
+};
 
 /// Of a table of events the lines of some events, whose numbers count from 0, with all remarks. UserError if they
 /// cannot be written.

@@ -253,9 +253,12 @@ TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
     const double error = feature.at("error");
     EXPECT_NEAR(feature.at("measured").get<double>(), feature.at("fitted").get<double>(), 3 * error) << feature;
   }
-  const Ended given = moduli({folder.string(), "--viscosity-mPas", "12", "--axial-tension", "1000"});
+  const Ended given = moduli({folder.string(), "--viscosity-mPas", "12", "--axial-tension-Pa", "1000"});
   EXPECT_NE(given.out.find("axial tension: 1000 Pa as given"), std::string::npos) << given.out << given.err;
-  expect_refusal({table_folder().string(), "--axial-tension", "400"}, "needs a table of elongated cells");
+  expect_refusal({table_folder().string(), "--axial-tension-Pa", "400"}, "needs a table of elongated cells");
+  EXPECT_NE(moduli({folder.string(), "--viscosity-mPas", "12", "--axial-tension", "1000", "--min", "index=100000"})
+                .err.find("--axial-tension is now called --axial-tension-Pa; this version still reads the old name"),
+            std::string::npos);
   expect_refusal({folder.string(), "--only-figure"}, "too few features to find the axial tension");
 }
 

@@ -67,7 +67,7 @@ def their_moduli(area, deform, pixel, table, width, rate, mPas=None, medium=None
 def our_moduli(path, table, width, rate, mPas=None, medium=None, degC=None, model=None):
     """By rheocyte.extract, from the file."""
     return rheocyte.extract(path, table=table, channel_width_um=width, flow_rate_ul_s=rate, viscosity_mPas=mPas,
-                            medium=medium, temperature=degC, viscosity_model=model, asymmetry=False,
+                            medium=medium, temperature=degC, viscosity_model=model, no_asymmetry=True,
                             pixel_size_um=pixel_size(path))["young_modulus_kPa"].to_numpy()
 
 

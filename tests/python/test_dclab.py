@@ -234,7 +234,7 @@ def test_features_in_memory_may_be_gated(in_a_buffer):
         dclab.register_temporary_feature("my_choice")
         chosen = np.arange(len(dataset)) % 3
         dclab.set_temporary_feature(dataset, "my_choice", chosen)
-        frame = rheocyte.extract(dataset, least={"my_choice": 2})
+        frame = rheocyte.extract(dataset, min={"my_choice": 2})
     assert ((frame["state"] == "gated") == (chosen < 2)).all()
 
 
@@ -268,7 +268,7 @@ def test_polygon_filters_of_dclab_take_the_events_that_dclab_takes(program, in_a
         dataset.apply_filter()
         inside = dataset.filter.all.copy()
     dclab.PolygonFilter.clear_all_filters()
-    frame = rheocyte.extract(in_a_buffer, polygons=tmp_path / "two.poly")
+    frame = rheocyte.extract(in_a_buffer, polygon=tmp_path / "two.poly")
     assert ((frame["state"] != "gated") == inside).all() and 0 < inside.sum() < len(inside)
     subprocess.run([program, "extract", in_a_buffer, "-o", tmp_path, "--quiet", "--polygon", tmp_path / "two.poly"], check=True)
     written = pytest.importorskip("pandas").read_csv(tmp_path / "cells_rheocyte.tsv", sep="\t", comment="#")

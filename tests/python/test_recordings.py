@@ -34,11 +34,11 @@ def test_a_frame_holds_units_settings_and_the_numbers_of_the_command(program, tm
 @needs_recordings
 def test_gates_shut_events_out():
     file = REFERENCE / "rtdc" / "example.rtdc"
-    frame = rheocyte.extract(file, least={"area_um": 50}, greatest={"area_um": 100}, pixel_size_um=0.34, **KNOWN)
+    frame = rheocyte.extract(file, min={"area_um": 50}, max={"area_um": 100}, pixel_size_um=0.34, **KNOWN)
     inside = frame["area_um2"].between(50, 100)
     assert ((frame["state"] == "gated") == ~inside).all()
     corners = [(50, -1), (100, -1), (100, 2), (50, 2)]
-    within = rheocyte.extract(file, polygons={("area_um", "deform"): corners}, pixel_size_um=0.34, **KNOWN)
+    within = rheocyte.extract(file, polygon={("area_um", "deform"): corners}, pixel_size_um=0.34, **KNOWN)
     assert within["young_modulus_kPa"].equals(frame["young_modulus_kPa"])
 
 
@@ -46,9 +46,10 @@ def test_gates_shut_events_out():
     ({"chanel_width_um": 20}, "no argument 'chanel_width_um'"),
     ({"channel_width_um": -20}, "channel"),
     ({"temperature": "warm"}, "warm"),
-    ({"least": {"area_um": "x"}}, "area_um"),
-    ({"polygons": {("area_um", "deform"): [1, 2, 3]}}, "pairs of numbers"),
-    ({"polygons": {("area_um", "deform"): [(1, 2), (3, 4)]}}, "three corners"),
+    ({"min": {"area_um": "x"}}, "area_um"),
+    ({"section": "tube", "table": "LE-2D-26"}, "table and section contradict each other"),
+    ({"polygon": {("area_um", "deform"): [1, 2, 3]}}, "pairs of numbers"),
+    ({"polygon": {("area_um", "deform"): [(1, 2), (3, 4)]}}, "three corners"),
 ])
 @needs_recordings
 def test_wrong_arguments_are_value_errors(arguments, sentence):
@@ -68,9 +69,9 @@ def test_a_file_that_is_none_or_damaged_is_named(tmp_path):
 
 
 @pytest.mark.parametrize("call", [
-    lambda file: rheocyte.extract(file, table=5), lambda file: rheocyte.extract(file, least=5),
-    lambda file: rheocyte.extract(file, least={"area_um": None}), lambda file: rheocyte.extract(file, section="round"),
-    lambda file: rheocyte.extract(file, progress=5), lambda file: rheocyte.extract(file, pixelation="no"),
+    lambda file: rheocyte.extract(file, table=5), lambda file: rheocyte.extract(file, min=5),
+    lambda file: rheocyte.extract(file, min={"area_um": None}), lambda file: rheocyte.extract(file, section="round"),
+    lambda file: rheocyte.extract(file, progress=5), lambda file: rheocyte.extract(file, no_pixelation="no"),
     lambda file: rheocyte.extract(file, medium="a\udcff"), lambda file: rheocyte.extract(file, temperature="a\udcff"),
     lambda file: rheocyte.moduli(file, file, fit_tension="no"), lambda file: rheocyte.synth("a\0b", file),
     lambda file: rheocyte.synth("a\nb", file), lambda file: rheocyte.synth({}, file, replace="no"),
@@ -241,9 +242,9 @@ def test_a_temperature_fills_what_is_missing(tmp_path):
 
 @pytest.mark.parametrize("arguments, sentence", [
     ({"viscosity_mPas": 5, "medium": "water"}, "viscosity_mPas and medium contradict"),
-    ({"temperature": 296}, "temperature 296"), ({"least": {"bright": 1}}, "for which least gives a limit"),
-    ({"polygons": {("a", "b"): [(1, 2)]}}, r"three corners at least\.$"), ({"polygons": "filters.txt"}, "no file of polygon"),
-    ({"polygons": "nowhere.poly"}, "nowhere.poly: cannot be read")])
+    ({"temperature": 296}, "temperature 296"), ({"min": {"bright": 1}}, "for which min gives a limit"),
+    ({"polygon": {("a", "b"): [(1, 2)]}}, r"three corners at least\.$"), ({"polygon": "filters.txt"}, "no file of polygon"),
+    ({"polygon": "nowhere.poly"}, "nowhere.poly: cannot be read")])
 def test_what_is_said_names_arguments_not_options(arguments, sentence, tmp_path):
     rheocyte.synth(CELLS, tmp_path / "cells.rtdc", recording__cells=20)
     with pytest.raises(UserError, match=sentence) as caught:
@@ -288,7 +289,10 @@ def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
     assert any("the channel is its tube" in line for line in frame.attrs["warnings"])
     subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--section", "tube", "--quiet"], cwd=tmp_path, check=True)
     written = pandas.read_csv(tmp_path / "cells_moduli.tsv", sep="\t", comment="#").drop(columns="event")
-    pandas.testing.assert_frame_equal(frame, written, check_exact=True)
+    assert [*frame] == [*written] and (frame["status"] == written["status"]).all()
+    assert frame.attrs["units"]["cortex_modulus_error_mN_per_m"] == "mN/m"
+    numbers = frame.drop(columns="status")
+    pandas.testing.assert_frame_equal(numbers, written[[*numbers]], check_dtype=False, rtol=5.1e-3)  # three digits or six
     # Of 60 cells with 10 % each; the sum is what the deformation tells.
     bulk, cortex = frame["young_modulus_kPa"].median(), frame["cortex_modulus_mN_per_m"].median()
     assert bulk + cortex / 6.5 == pytest.approx(2 + 10 / 6.5, rel=0.05)
@@ -343,7 +347,9 @@ def test_the_time_course_is_that_of_the_command(program, on_their_way):
     subprocess.run([program, "time-course", "cells.rtdc", "--table", "dynamic", "--contraction-um", "0", "-o", "cells.tsv",
                     "--section", "tube", "--quiet"], cwd=on_their_way, check=True)
     written = pandas.read_csv(on_their_way / "cells.tsv", sep="\t", comment="#")
-    pandas.testing.assert_frame_equal(frame.drop(columns="recording"), written.drop(columns="recording"))
+    assert [*frame] == [*written] and (frame[["status", "event_numbers"]] == written[["status", "event_numbers"]]).all(axis=None)
+    numbers = frame.select_dtypes("number")
+    pandas.testing.assert_frame_equal(numbers, written[[*numbers]], check_dtype=False, rtol=5.1e-2)  # two digits, and more
     assert len(frame) == 60 and set(frame["events"]) == {2}
     held = (frame["viscosity_low_Pas"] <= 5) & (frame["viscosity_high_Pas"] >= 5)
     assert held.mean() > 0.7  # of 90 %; the standard deviation is 4 %

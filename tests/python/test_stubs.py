@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import rheocyte
-from rheocyte import case_stub
+from rheocyte import case_stub, recordings_stub
 
 PACKAGE = Path(rheocyte.__file__).parent
 
@@ -17,6 +17,11 @@ def test_the_stub_of_cases_is_made_from_the_declared_keys():
     text = (PACKAGE / "cases.pyi").read_text(encoding="utf-8")
     assert text == case_stub.stub(), "run `python -m rheocyte.case_stub > python/rheocyte/cases.pyi`"
     ast.parse(text)
+
+
+def test_the_stub_of_recordings_is_made_from_the_declared_settings():
+    text = (PACKAGE / "recordings.pyi").read_text(encoding="utf-8")
+    assert text == recordings_stub.stub(), "run `python -m rheocyte.recordings_stub > python/rheocyte/recordings.pyi`"
 
 
 def test_the_stub_of_the_package_names_all_that_is_public():
@@ -48,12 +53,15 @@ def functions(tree):
 
 @pytest.mark.parametrize("module", sorted({*rheocyte._MODULES.values()} - {"cases", "errors"}))
 def test_the_stub_of_a_module_has_its_functions_with_their_arguments(module):
-    source = ast.parse(inspect.getsource(importlib.import_module(f"rheocyte.{module}")))
+    loaded = importlib.import_module(f"rheocyte.{module}")
+    source = ast.parse(inspect.getsource(loaded))
     typed = functions(ast.parse((PACKAGE / f"{module}.pyi").read_text(encoding="utf-8")))
     for properties in ("Table.identifier", "Table.is_own"):  # one-line properties
         typed.pop(properties, None)
     overloaded = {"Result.fields"}
     for name, wanted in functions(source).items():
+        if signature := getattr(getattr(loaded, name, None), "__signature__", None):  # with settings
+            wanted = [(each.name, each.default is not each.empty) for each in signature.parameters.values()]
         if name not in overloaded:
             assert typed.pop(name) == wanted, name
     assert set(typed) <= overloaded

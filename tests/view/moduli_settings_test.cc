@@ -37,17 +37,18 @@ TEST(ModuliSettings, BecomeOptionsAndTheCommandWithTheSameNumbers) {
   EXPECT_EQ(extract_command(options, "/data/it's a.rtdc"),
             "rheocyte extract '/data/it'\\''s a.rtdc' --table LE-2D-26 --channel-width-um 30 --medium '0.59% MC-PBS' "
             "--temperature 23.5 --max area_ratio=1.05 --no-asymmetry");
-  EXPECT_EQ(moduli_command(options, "a.rtdc", "/tables/mine"),
+  EXPECT_EQ(moduli_command(moduli_options(options, "/tables/mine"), "a.rtdc"),
             "rheocyte moduli a.rtdc --table /tables/mine --channel-width-um 30 --medium '0.59% MC-PBS' --temperature "
             "23.5 --max area_ratio=1.05");
 }
 
 TEST(ModuliSettings, ComeBackFromAProcessOfOurOwn) {
-  const Json settings{{"table", "LE-2D-26"},     {"flow_rate_ul_s", 0.04},    {"pixel_size_um", 0.34},
-                      {"viscosity_mPas", 5.125}, {"min", {"area_um=40"}},     {"max", {"area_um=90"}},
-                      {"no_pixelation", true},   {"no_area_correction", true}};
+  const Json settings{{"table", "LE-2D-26"},     {"flow_rate_ul_s", 0.04}, {"pixel_size_um", 0.34},
+                      {"viscosity_mPas", 5.125}, {"min", {"area_um=40"}},  {"max", {"area_um=90"}},
+                      {"patience", 5.0},         {"no_pixelation", true},  {"no_area_correction", true}};
   EXPECT_EQ(all_settings(options_of_settings(settings)), settings);
   EXPECT_EQ(all_settings(ExtractOptions()), Json::object());
+  EXPECT_EQ(all_settings(options_of_settings({{"section", "tube"}})), Json({{"section", "tube"}}));
 }
 
 TEST(ModuliSettings, TakeTablesByIdentifierOrItemAndNeverByPath) {
@@ -67,8 +68,11 @@ TEST(ModuliSettings, PolygonsAreNeverReadFromFiles) {
 
 TEST(ModuliSettings, ThatAreWrongAreNamed) {
   expect_refusal({{"output", "/tmp"}}, "no setting output");
-  expect_refusal({{"channel_width_um", "20"}}, "channel_width_um is a number");
-  expect_refusal({{"channel_width_um", -20}}, "within 1 .. 10000 um");
+  expect_refusal({{"channel_width_um", "20"}}, "channel_width_um must be a number");
+  expect_refusal({{"channel_width_um", -20}}, "channel_width_um -20 is outside its range 1 .. 10000 um");
+  expect_refusal({{"section", "round"}}, "section must be tube or square");
+  expect_refusal({{"section", "tube"}, {"table", "LE-2D-26"}}, "--table and --section contradict each other");
+  expect_refusal({{"patience", 0}}, "patience 0 is outside its range");
   expect_refusal({{"pixel_size_um", 0}}, "pixel_size_um");
   expect_refusal({{"max", "area_um=40"}}, "list of texts");
   expect_refusal({{"min", {"area_um"}}}, "give a feature and a number");

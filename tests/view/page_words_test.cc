@@ -12,7 +12,7 @@ TEST(PageWords, FieldsStandInPlaceOfOptions) {
       "a.rtdc: holds no temperature; give Temperature in degrees Celsius, or Viscosity.");
   EXPECT_EQ(in_words_of_page("--temperature-if-missing leaves (--medium too)"),
             "Temperature if missing leaves (Medium too)");
-  EXPECT_EQ(in_words_of_page("give it with --pixel-size-um."), "give it with rheocyte extract --pixel-size-um.");
+  EXPECT_EQ(in_words_of_page("give it with --pixel-size-um."), "give it with Pixel size.");
 }
 
 TEST(PageWords, NamesOfFilesAndUnknownOptionsStay) {

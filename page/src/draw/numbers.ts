@@ -62,6 +62,7 @@ export function tickLabels(values: number[]): string[] {
 const unitSigns: [RegExp, string][] = [
   [/^um(\d?)/, 'µm$1'],
   [/^ul/, 'µl'],
+  [/^degC$/, '°C'],
   [/^us$/, 'µs'],
   [/m3/, 'm³'],
   [/m2/, 'm²'],

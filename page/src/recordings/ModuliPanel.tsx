@@ -2,45 +2,13 @@
 import { Progress } from '../shell/Progress';
 import { notify } from '../shell/notices';
 import { useStore } from '../shell/store';
-import { TypedInput } from '../shell/TypedInput';
 import { focus, gates, itemOf, items, moduliSettings, recordings, titleOf } from './model';
 import { nameOf } from './features';
 import { featuresOf, gateOptions, gatesWithoutOption } from './gates';
 import { replacedTemperatures } from './origin';
 import { endModuli, moduli, runModuli } from './moduli';
-
-const fields: { name: string; label: string; numeric: boolean }[] = [
-  { name: 'table', label: 'Table', numeric: false },
-  { name: 'medium', label: 'Medium', numeric: false },
-  { name: 'temperature', label: 'Temperature, °C', numeric: true },
-  { name: 'temperature_if_missing', label: 'Temperature if missing, °C', numeric: true },
-  { name: 'viscosity_mPas', label: 'Viscosity, mPa s', numeric: true },
-];
-
-function Setting({ name, label, numeric }: (typeof fields)[number]) {
-  const settings = useStore(moduliSettings);
-  const tables = (useStore(items) ?? []).filter((item) => item.kind === 'table');
-  return (
-    <label class="setting">
-      <span>{label}</span>
-      <TypedInput
-        type="text"
-        inputMode={numeric ? 'decimal' : 'text'}
-        value={settings[name] ?? ''}
-        placeholder="automatic"
-        list={name === 'table' ? 'own-tables' : undefined}
-        take={(text) => moduliSettings.update((all) => ({ ...all, [name]: text }))}
-      />
-      {name === 'table' && (
-        <datalist id="own-tables">
-          {tables.map((table) => (
-            <option key={table.item} value={table.name} />
-          ))}
-        </datalist>
-      )}
-    </label>
-  );
-}
+import { SettingFields } from './SettingFields';
+import { declared, fieldsOf } from './settings';
 
 /** What a typed temperature does to recordings that have one of their own. */
 function Replaced() {
@@ -103,16 +71,17 @@ export function ModuliPanel() {
   const number = useStore(focus);
   const run = useStore(moduli)[number ?? -1];
   useStore(items);
+  const fields = fieldsOf(useStore(declared));
   return (
     <section class="moduli" aria-label="Moduli">
       <h2>Young's moduli</h2>
-      <div class="settings">
-        {fields.map((field) => (
-          <Setting key={field.name} {...field} />
-        ))}
-      </div>
+      <SettingFields of={fields.filter((setting) => setting.usual)} />
       <Replaced />
       <Run />
+      <details>
+        <summary>More settings</summary>
+        <SettingFields of={fields.filter((setting) => !setting.usual)} />
+      </details>
       {run?.state === 'failed' && run.error && <p class="alarm">{run.error}</p>}
       {run?.state === 'ready' && run.lines && run.lines.length > 0 && (
         <details>

@@ -7,6 +7,7 @@ import { watchChanges } from './changes';
 import { loadingColumns, stopLoading } from './columns';
 import { Distributions } from './Distributions';
 import { ExportMenu } from './ExportMenu';
+import { readComputed } from './features';
 import { GateList } from './GateList';
 import { Inspector } from './Inspector';
 import { focus, gates, items, keepModel, panel, plots, readRecordings, recordings, secondPlot, tool, type Panel, type Tool } from './model';
@@ -14,6 +15,7 @@ import { ModuliPanel } from './ModuliPanel';
 import { readKnownModuli } from './moduli';
 import { RecordingList } from './RecordingList';
 import { ScatterPlot } from './ScatterPlot';
+import { readDeclared } from './settings';
 import { MeasuredSelect, StatisticsTable } from './StatisticsTable';
 import './list.css';
 import './plots.css';
@@ -39,7 +41,8 @@ function useStart(): void {
     begun = true;
     keepModel();
     watchChanges();
-    readRecordings()
+    Promise.all([readDeclared(), readComputed()])
+      .then(readRecordings)
       .then(() => recordings(items.get()).filter((item) => item.state === 'ready'))
       .then((ready) => Promise.all(ready.map((item) => readKnownModuli(item.item))))
       .catch(notifyFailure);

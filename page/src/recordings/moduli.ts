@@ -1,10 +1,10 @@
 // Runs of the moduli of recordings: settings, progress, what came out.
 import { readModuli, startModuli, stopModuli, type Moduli } from '../api';
-import { numberIn } from '../draw/numbers';
 import { notify, notifyFailure } from '../shell/notices';
 import { store } from '../shell/store';
 import { forgetComputed } from './columns';
-import { itemOf, items, moduliSettings, refreshItem, titleOf } from './model';
+import { itemOf, moduliSettings, refreshItem, titleOf } from './model';
+import { settingsToSend } from './settings';
 
 export const moduli = store<Record<number, Moduli>>({});
 /** Rises when moduli of some recording are new: isoelasticity lines are read again. */
@@ -47,20 +47,6 @@ export async function readKnownModuli(item: number): Promise<void> {
   take(item, found);
   if (found.state === 'running') await watch(item);
   if (found.state === 'ready') moduliVersion.update((version) => version + 1);
-}
-
-const numeric = new Set(['viscosity_mPas', 'temperature', 'temperature_if_missing']);
-
-/** Settings as the interface wants them: what is empty comes from the recording; own tables go by their number. */
-export function settingsToSend(typed: Record<string, string>): Record<string, unknown> {
-  const given = Object.entries(typed).filter(([, text]) => text.trim() !== '');
-  return Object.fromEntries(
-    given.map(([name, text]) => {
-      const table = name === 'table' && items.get()?.find((item) => item.kind === 'table' && item.name === text.trim());
-      if (table) return [name, table.item];
-      return [name, (numeric.has(name) ? numberIn(text) : null) ?? text.trim()];
-    }),
-  );
 }
 
 export async function runModuli(numbers: number[]): Promise<void> {
