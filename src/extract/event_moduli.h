@@ -29,6 +29,9 @@ struct ModuliTable {
   SquareSection section;
 };
 
+/// What the outlines are for, in OutlinedEvents.
+inline constexpr std::string_view use_of_outlines = "the shape of each cell is fitted";
+
 class EventModuli {
  public:
   /// Renders the errors of the recording's pixels, which takes about a second. The table must outlive it.

@@ -27,7 +27,6 @@ namespace {
 constexpr std::size_t events_between_progress = 256;
 /// So many cells tell what those of a recording have in common; events are read in blocks from all over it.
 constexpr std::size_t wanted_for_survey = 200, survey_block = 16;
-constexpr std::string_view use_of_outlines = "the shape of each cell is fitted";
 
 /// One recording on its way through the blocks.
 class Fits {

@@ -41,16 +41,15 @@ Json numbers_of(const ModuliEstimate& e) {
 }  // namespace
 
 CombinedCells::CombinedCells(const Recording& recording, const MeasuringOptions& measuring, const ModuliTable& table)
-    : recording_(recording),
-      table_(table),
-      settings_(extract_settings(measuring, PixelUse::fit, recording)),
-      outlines_(recording, settings_.pixel_size_um),
-      moduli_(settings_, {}, table, table.section_of(recording, {})) {}
+    : table_(table),
+      events_(recording, measuring, use_of_outlines),
+      direction_(events_.turn_downstream(table.sign_of_asymmetry())),
+      moduli_(events_.settings(), {}, table, table.section_of(recording, {})) {}
 
 CombinedCell CombinedCells::at(std::size_t event) {
   std::array<double, 1> viscosity_mPas{};
-  settings_.viscosities(recording_, event, viscosity_mPas);
-  const ModuliEstimate estimate = moduli_.fit(outlines_.features(event), viscosity_mPas[0]);
+  events_.settings().viscosities(events_.recording(), event, viscosity_mPas);
+  const ModuliEstimate estimate = moduli_.fit(events_.shape(event), viscosity_mPas[0]);
   CombinedCell cell{numbers_of(estimate), {}};
   cell.told["table"] = table_.content.spec.identifier;
   cell.told["case"] = nullptr;
@@ -62,7 +61,7 @@ CombinedCell CombinedCells::at(std::size_t event) {
 
 /// The live solver's case of this cell, in the channel of the recording.
 Json CombinedCells::case_of(const ModuliEstimate& estimate, double viscosity_mPas) const {
-  ChannelFlow flow = settings_.conditions.flow;
+  ChannelFlow flow = events_.settings().conditions.flow;
   flow.viscosity_mPas = viscosity_mPas;
   flow.exponent = table_.simulated.exponent;
   const double length = scale_factors(table_.simulated, flow).length;
@@ -79,7 +78,8 @@ Eigen::MatrixX2d CombinedCells::outline_of(const ModuliEstimate& estimate) const
   const CombinedState state = table_.between.at(estimate.cell);
   std::array<double, mode_count> modes{};
   for (int k = 0; k < mode_count; ++k) modes[std::size_t(k)] = state.value(first_mode_row + k);
-  const double area = scale_factors(table_.simulated, settings_.conditions.flow).area;
+  for (std::size_t odd = 1; odd < modes.size() && direction_ < 0; odd += 2) modes[odd] *= -1;
+  const double area = scale_factors(table_.simulated, events_.settings().conditions.flow).area;
   return outline_about_centroid(modes, area * std::exp(state.value(log_area_row)));
 }
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "extract/event_moduli.h"
-#include "measurement/event_outlines.h"
+#include "extract/outlined_events.h"
 
 namespace rheocyte {
 
@@ -30,10 +30,9 @@ class CombinedCells {
   nlohmann::ordered_json case_of(const ModuliEstimate&, double viscosity_mPas) const;
   Eigen::MatrixX2d outline_of(const ModuliEstimate&) const;
 
-  const Recording& recording_;
   const ModuliTable& table_;
-  ExtractSettings settings_;
-  EventOutlines outlines_;
+  OutlinedEvents events_;
+  int direction_;  ///< of the cells, along x
   EventModuli moduli_;
 };
 
