@@ -43,8 +43,9 @@ Json numbers_of(const ModuliEstimate& e) {
 CombinedCells::CombinedCells(const Recording& recording, const MeasuringOptions& measuring, const ModuliTable& table)
     : table_(table),
       events_(recording, measuring, use_of_outlines),
-      direction_(events_.turn_downstream(table.sign_of_asymmetry())),
-      moduli_(events_.settings(), {}, table, table.section_of(recording, {})) {}
+      moduli_(events_.settings(), {}, table, table.section_of(recording, {})) {
+  events_.turn_downstream(table.sign_of_asymmetry());
+}
 
 CombinedCell CombinedCells::at(std::size_t event) {
   std::array<double, 1> viscosity_mPas{};
@@ -78,7 +79,6 @@ Eigen::MatrixX2d CombinedCells::outline_of(const ModuliEstimate& estimate) const
   const CombinedState state = table_.between.at(estimate.cell);
   std::array<double, mode_count> modes{};
   for (int k = 0; k < mode_count; ++k) modes[std::size_t(k)] = state.value(first_mode_row + k);
-  for (std::size_t odd = 1; odd < modes.size() && direction_ < 0; odd += 2) modes[odd] *= -1;
   const double area = scale_factors(table_.simulated, events_.settings().conditions.flow).area;
   return outline_about_centroid(modes, area * std::exp(state.value(log_area_row)));
 }

@@ -14,7 +14,8 @@ struct CombinedCell {
   /// {"table", "status", "sentence", "young_modulus_kPa", "cortex_modulus_mN_per_m", "tension_mN_per_m",
   /// "stiffness_kPa", their errors, "chi_squared", "case"}; null where nothing was fitted.
   nlohmann::ordered_json told;
-  /// In um about the centroid of its hull, x along the flow; without rows where no cell of the table has such a shape.
+  /// In um about the centroid of its hull, x along the flow, downstream; without rows where no cell of the table has
+  /// such a shape.
   Eigen::MatrixX2d outline;
 };
 
@@ -32,7 +33,6 @@ class CombinedCells {
 
   const ModuliTable& table_;
   OutlinedEvents events_;
-  int direction_;  ///< of the cells, along x
   EventModuli moduli_;
 };
 

@@ -213,18 +213,18 @@ TEST(EventInspector, SaysWhatModuliSaysByACombinedTable) {
   RecordingColumns columns(recording, computed);
   EventInspector inspector({recording, computed, &combined}, options, tables);
   for (std::size_t event = 0; event < 4; ++event) {
-    const Json told = inspector.inspect(event)["combined"];
+    const Json whole = inspector.inspect(event), told = whole.at("combined");
     ASSERT_TRUE(told.is_object()) << event;
     const auto& row = rows.at(event);
     EXPECT_EQ(told["status"], row.at("status"));
     for (const char* name : {"young_modulus_kPa", "cortex_modulus_mN_per_m", "stiffness_kPa", "chi_squared"}) {
       const double wanted = std::stod(row.at(name));
-      EXPECT_NEAR(told[name].get<double>(), wanted, 1e-4 * wanted) << name << ", written with four to six digits";
+      EXPECT_NEAR(told[name].get<double>(), wanted, 5e-4 * wanted) << name << ", written with four to six digits";
     }
     std::array<double, 1> column{};
     columns.read("stiffness_kPa", event, column);
     EXPECT_EQ(column[0], told["stiffness_kPa"].get<double>());
-    EXPECT_EQ(told["features"]["stiffness_kPa"], told["stiffness_kPa"]);
+    EXPECT_EQ(whole.at("features").at("stiffness_kPa"), told["stiffness_kPa"]);
     columns.read("cortex_modulus_mN_per_m", event, column);
     if (row.at("status") == "resolved")
       EXPECT_EQ(column[0], told["cortex_modulus_mN_per_m"].get<double>());
