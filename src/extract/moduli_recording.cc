@@ -149,7 +149,7 @@ class Fits {
   /// Of blocks far from each other, until they are enough.
   std::vector<MeasuredCell> cells_for_survey(const Recording& recording, const ModuliOptions& options) const {
     OutlinedEvents events(recording, options.measuring, use_of_outlines);
-    events.turn_downstream(table_.sign_of_asymmetry());
+    events.turn(direction_);
     const std::size_t blocks = (recording.events() + survey_block - 1) / survey_block;
     std::vector<MeasuredCell> cells;
     for (std::size_t k = 0; k < blocks && cells.size() < wanted_for_survey; ++k) {

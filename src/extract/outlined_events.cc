@@ -25,7 +25,7 @@ OutlinedEvents::OutlinedEvents(const Recording& recording, const MeasuringOption
 
 int OutlinedEvents::turn_downstream(double sign) {
   const int direction = direction_of_cells(outlines_, sign);
-  is_mirrored_ = direction < 0;
+  turn(direction);
   return direction;
 }
 

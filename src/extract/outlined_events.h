@@ -38,6 +38,8 @@ class OutlinedEvents {
   /// whether they do (`sign`: of c_3 of such cells). Returns what it tells (direction_of_cells.h). UserError if the
   /// data are damaged.
   int turn_downstream(double sign);
+  /// The same where the direction is known already.
+  void turn(int direction) { is_mirrored_ = direction < 0; }
   /// Of any event; NaN where there is no cell. UserError if the data are damaged.
   ShapeVector shape(std::size_t event);
 
