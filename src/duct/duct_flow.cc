@@ -131,7 +131,10 @@ DuctFlow CrossSection::flow(const Liquid& liquid) const {
     if (improve(share == 1 ? liquid : at_thinning(liquid, share), trial)) {
       flow = trial;
       reached = share;
-    } else if ((step /= 2) * way < min_thinning_step) {
+      continue;
+    }
+    step /= 2;
+    if (step * way < min_thinning_step) {
       flow.pressure_gradient = no_value;
       return flow;
     }

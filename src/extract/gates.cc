@@ -87,7 +87,7 @@ void Gates::check(const EventFeatures& features) const {
 }
 
 void Gates::apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const {
-  std::ranges::fill(inside, char{events_ ? char{0} : char{1}});
+  std::ranges::fill(inside, events_ ? char{0} : char{1});
   if (events_)
     for (auto event = std::ranges::lower_bound(*events_, first);
          event != events_->end() && *event < first + inside.size(); ++event)

@@ -169,7 +169,7 @@ class Joining {
     both.pressures = one_of_each_part(both, a.pressures, b.pressures);
     std::vector<int> remaining;
     for (const int g : both.groups) (stays(g, both) ? remaining : both.eliminated).push_back(g);
-    both.groups = remaining;
+    both.groups = std::move(remaining);
     return both;
   }
 

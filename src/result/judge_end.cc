@@ -68,7 +68,7 @@ std::optional<Problem> straight_from_here(const Result& result, const TimeRecord
     straight.flow.axial_tension_Pa = straight.channel.profile.axial_tension_Pa.back();
   straight.channel.profile = {};
   straight.channel.radius_um = wall.radius.back();
-  const Problem problem = problem_of(straight);
+  Problem problem = problem_of(straight);
   if (problem.radius_ratio < min_radius_ratio) return {};
   return problem;
 }
@@ -101,6 +101,7 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   }
   if (failed) return;
   record.stationary_deformation = stationary.shape.deformation;
+  record.stationary_error = stationary.errors.shape.deformation;
   const double distance = result.state.shape.deformation / stationary.shape.deformation - 1;
   const bool settled = record.end == TimeEnd::settled || has_settled(record, std::abs(distance), problem.accuracy);
   const double d = stationary.shape.deformation, share = d / std::max(d, result.state.deformation_floor);

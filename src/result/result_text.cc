@@ -122,7 +122,7 @@ std::string contour_csv(const SurfaceProfile& surface, const Scales& scales) {
       text += fmt::format("{}{}", separator, text_of(field));
       separator = ",";
     }
-    text += "\n";
+    text += '\n';
   };
   add_row([](const auto& field) { return std::string(field.name); });
   for (Eigen::Index i = 0; i < surface.point.rows(); ++i) {

@@ -26,6 +26,31 @@ std::string_view name(TimeEnd end) {
   return names[std::size_t(end)];
 }
 
+using Rows = std::vector<HistoryRow>;
+
+const HistoryRow& slackest(const Rows& rows) {
+  return *std::ranges::min_element(rows, {},
+                                   [](const HistoryRow& row) { return row.measure("least_tension_mN_per_m"); });
+}
+
+double place_reached(const Rows& rows) { return rows.back().position_um; }
+double least_tension(const Rows& rows) { return slackest(rows).measure("least_tension_mN_per_m"); }
+double greatest_volume_change(const Rows& rows) {
+  double greatest = 0;
+  for (const HistoryRow& row : rows) greatest = std::max(greatest, std::abs(row.measure("relative_volume_change")));
+  return greatest;
+}
+
+Json errors_of_way(const TimeRecord& record) {
+  const auto change = [&](double number(const Rows&)) {
+    return record.compared_rows.empty() ? no_value : std::abs(number(record.rows) - number(record.compared_rows));
+  };
+  return {{"position_um", change(place_reached)},
+          {"least_tension_mN_per_m", change(least_tension)},
+          {"greatest_relative_volume_change", change(greatest_volume_change)},
+          {"stationary_deformation", record.stationary_error}};
+}
+
 }  // namespace
 
 std::span<const Field<HistoryRow>> history_fields() {
@@ -41,16 +66,13 @@ std::span<const Field<HistoryRow>> history_fields() {
   return fields;
 }
 
-const HistoryRow& min_tension(const TimeRecord& record) {
-  return *std::ranges::min_element(record.rows, {},
-                                   [](const HistoryRow& row) { return row.measure("least_tension_mN_per_m"); });
-}
+const HistoryRow& min_tension(const TimeRecord& record) { return slackest(record.rows); }
 
 std::span<const Field<TimeRecord, Json>> time_fields() {
   static constexpr Field<TimeRecord, Json> fields[] = {
       {"t_us", "time that was reached", [](const TimeRecord& r) -> Json { return r.rows.back().t_us; }},
       {"position_um", "place that was reached, from the start of the cell",
-       [](const TimeRecord& r) -> Json { return r.rows.back().position_um; }},
+       [](const TimeRecord& r) -> Json { return place_reached(r.rows); }},
       {"ended_by", "time, place: what the case asks for; settled: nothing came any more; failure: see status",
        [](const TimeRecord& r) -> Json { return name(r.end); }},
       {"comparison",
@@ -60,19 +82,21 @@ std::span<const Field<TimeRecord, Json>> time_fields() {
        }},
       {"least_tension_mN_per_m",
        "least meridional tension of the surface on the way; a shell wrinkles where it is negative",
-       [](const TimeRecord& r) -> Json { return min_tension(r).measure("least_tension_mN_per_m"); }},
+       [](const TimeRecord& r) -> Json { return least_tension(r.rows); }},
       {"steps", "steps in time", [](const TimeRecord& r) -> Json { return r.rows.size() - 1; }},
       {"frames", "contours and files of fields", [](const TimeRecord& r) -> Json { return r.frames.size(); }},
       {"greatest_relative_volume_change", "greatest magnitude on the way",
-       [](const TimeRecord& r) -> Json {
-         double greatest = 0;
-         for (const HistoryRow& row : r.rows)
-           greatest = std::max(greatest, std::abs(row.measure("relative_volume_change")));
-         return greatest;
-       }},
+       [](const TimeRecord& r) -> Json { return greatest_volume_change(r.rows); }},
       {"stationary_deformation",
        "of the same cell, with a mesh chosen for its accuracy; null if there is no such shape, or a contraction",
-       [](const TimeRecord& r) -> Json { return r.stationary_deformation; }}};
+       [](const TimeRecord& r) -> Json { return r.stationary_deformation; }},
+      {"errors",
+       "estimated errors of numbers of the way, absolute, each under the name and in the unit of its number: from the "
+       "same "
+       "run on another mesh, that of the stationary deformation from its own meshes; null where there is no such run. "
+       "t_us "
+       "has none: it is the time of the last state",
+       errors_of_way}};
   return fields;
 }
 

@@ -45,8 +45,10 @@ struct TimeRecord {
   TimeEnd end = TimeEnd::failure;
   /// How the run to compare with ended; not_started: there was none.
   Status comparison = Status::not_started;
+  std::vector<HistoryRow> compared_rows;  ///< of that run, if it tells errors
   /// Of the same cell, at the end of the run; NaN if there is none, or none to compare with.
   double stationary_deformation = no_value;
+  double stationary_error = no_value;  ///< of that deformation
 
   /// For store/bytes.h.
   template <class Self>

@@ -63,7 +63,7 @@ Answer Router::answer(Request request) const {
   } catch (const UserError& error) {
     return refusal(400, "input", words_ ? words_(error.what()) : error.what());
   } catch (const std::bad_alloc&) {
-    return refusal(500, "memory", "The memory of this machine does not suffice.");
+    return refusal(503, "limit", memory_does_not_suffice);
   } catch (const std::exception& error) {
     return refusal(500, "bug", std::string("An error of the program itself, please report it: ") + error.what());
   }

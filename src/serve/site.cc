@@ -24,7 +24,7 @@ Credentials credentials_of(const RequestHead& head) {
 }
 
 /// HEAD is answered as GET; the body is left out when it is written.
-std::string_view method_of(const RequestHead& head) { return head.method == "HEAD" ? "GET" : head.method; }
+std::string method_of(const RequestHead& head) { return head.method == "HEAD" ? "GET" : head.method; }
 
 /// What a body must be like to be read at all: its length if it is.
 std::variant<Answer, std::size_t> length_of_body(const RequestHead& head, std::size_t limit) {
@@ -72,7 +72,7 @@ std::variant<Answer, std::size_t> Site::look_at(const RequestHead& head) const {
   const std::string path = read_target(head.target).path;
   if (head.has_body()) {
     const auto limit = router_.body_limit(method_of(head), path);
-    if (!limit) return router_.answer({.method = std::string(method_of(head)), .path = path});  // 404 or 405
+    if (!limit) return router_.answer({.method = method_of(head), .path = path});  // 404 or 405
     return length_of_body(head, *limit);
   }
   if (method_of(head) != "GET" || !assets_.has(path)) return std::size_t{0};
@@ -82,7 +82,7 @@ std::variant<Answer, std::size_t> Site::look_at(const RequestHead& head) const {
 
 Answer Site::answer(const RequestHead& head, std::string body, const Client* client) const {
   Target target = read_target(head.target);
-  return router_.answer({.method = std::string(method_of(head)),
+  return router_.answer({.method = method_of(head),
                          .path = std::move(target.path),
                          .query = std::move(target.query),
                          .body = std::move(body),

@@ -225,19 +225,20 @@ constexpr double share_of_change_before = 0.1;
 
 using Deformations = std::vector<double>;  // output by output
 
-TimeObserver noting(Deformations& deformations, const TimeObserver& observer) {
-  const auto note = [&deformations, observer](const TimeFrame& frame) {
+TimeObserver noting(Deformations& deformations, TimeObserver observer) {
+  observer.frame = [&deformations, show = observer.frame](const TimeFrame& frame) {
     deformations.push_back(frame.state.shape.deformation);
-    if (observer.frame) observer.frame(frame);
+    if (show) show(frame);
   };
-  return {note, observer.step};
+  return observer;
 }
 
 /// The same run on another mesh.
 struct OtherRun {
   int degree = 0;
   Status status = Status::not_started;
-  std::string share;           ///< of the way
+  std::string share;  ///< of the way
+  std::vector<TimePoint> steps = {};
   StateNumbers numbers = {};   ///< of the last state
   double greatest_change = 0;  ///< of a deformation at an output, over the greatest one
 };
@@ -245,7 +246,9 @@ struct OtherRun {
 OtherRun run_on(const Resolution& resolution, const Problem& problem, const TimeRun& run,
                 const Deformations& deformations, const std::atomic<bool>* stop) {
   Deformations compared;
-  const TimeObserver observer = noting(compared, {});
+  std::vector<TimePoint> steps;
+  const auto note_step = [&steps](const TimePoint& point, const TimeState&) { steps.push_back(point); };
+  const TimeObserver observer = noting(compared, {.frame = {}, .step = note_step, .compared = {}});
   TimeFollower follower(problem, run, resolution, observer, stop);
   const StationaryState end = follower.follow(nullptr);
   double greatest = 0, change = 0;
@@ -253,7 +256,7 @@ OtherRun run_on(const Resolution& resolution, const Problem& problem, const Time
     greatest = std::max(greatest, deformations[i]);
     change = std::max(change, std::abs(deformations[i] - compared[i]));
   }
-  return {resolution.degree, end.outcome.status, follower.share(), end, change / greatest};
+  return {resolution.degree, end.outcome.status, follower.share(), std::move(steps), end, change / greatest};
 }
 
 std::string told(const OtherRun& other, double change) {
@@ -269,9 +272,11 @@ std::string told_of_failure(const OtherRun& other) {
 }
 
 /// From a second run, on a mesh that is a degree coarser: the change is the error of that one, and that of the first
-/// run is smaller. Where that is not enough for the wanted accuracy, from a third one, a degree finer.
-void estimate_error(const Problem& problem, const TimeRun& run, const Resolution& resolution,
-                    const Deformations& deformations, const std::atomic<bool>* stop, StationaryState& result) {
+/// run is smaller. Where that is not enough for the wanted accuracy, from a third one, a degree finer. Gives the steps
+/// of the run that tells the error; none if nothing does.
+std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run, const Resolution& resolution,
+                                      const Deformations& deformations, const std::atomic<bool>* stop,
+                                      StationaryState& result) {
   const double d = result.shape.deformation, size = std::max(d, result.deformation_floor);
   const OtherRun coarse = run_on(to_compare_with(resolution), problem, run, deformations, stop);
   result.comparison = coarse.status;
@@ -287,7 +292,7 @@ void estimate_error(const Problem& problem, const TimeRun& run, const Resolution
   const bool is_finest = finer.degree == coarse.degree || finer.degree > max_time_degree;
   if (suffices || is_finest || coarse.status == Status::stopped) {
     result.outcome.message += is_known ? told(coarse, change) : told_of_failure(coarse);
-    return;
+    return is_known ? coarse.steps : std::vector<TimePoint>();
   }
   const OtherRun fine = run_on(finer, problem, run, deformations, stop);
   const bool is_stopped = fine.status == Status::stopped;
@@ -297,8 +302,9 @@ void estimate_error(const Problem& problem, const TimeRun& run, const Resolution
     result.errors = unknown_numbers();
   }
   if (fine.status != Status::converged) {
-    result.outcome.message += is_known && !is_stopped ? told(coarse, change) : told_of_failure(fine);
-    return;
+    const bool is_told = is_known && !is_stopped;
+    result.outcome.message += is_told ? told(coarse, change) : told_of_failure(fine);
+    return is_told ? coarse.steps : std::vector<TimePoint>();
   }
   std::vector<StateNumbers> ladder{result, fine.numbers};
   if (is_known) ladder.insert(ladder.begin(), coarse.numbers);
@@ -311,6 +317,7 @@ void estimate_error(const Problem& problem, const TimeRun& run, const Resolution
   result.errors = distance(result, fine.numbers);
   add_errors(1, errors_of_last(ladder, left), result.errors);
   result.outcome.message += told(fine, change_to_fine);
+  return fine.steps;
 }
 
 }  // namespace
@@ -323,8 +330,10 @@ StationaryState follow_in_time(const Problem& problem, const TimeRun& run, const
   TimeFollower follower(problem, run, resolution, estimates ? noting(deformations, observer) : observer, stop);
   StationaryState result = follower.follow(from);
   if (!is_mesh_given(run)) result.deformation_floor = run.accuracy / run.mesh_accuracy;
-  if (estimates && result.outcome.status == Status::converged && !follower.has_settled())
-    estimate_error(problem, run, resolution, deformations, stop, result);
+  if (estimates && result.outcome.status == Status::converged && !follower.has_settled()) {
+    const auto compared = estimate_error(problem, run, resolution, deformations, stop, result);
+    if (observer.compared && !compared.empty()) observer.compared(compared);
+  }
   return result;
 }
 

@@ -41,6 +41,8 @@ struct TimeFrame {
 struct TimeObserver {
   std::function<void(const TimeFrame&)> frame;                   ///< at 0, output_every, 2 output_every, ..., the end
   std::function<void(const TimePoint&, const TimeState&)> step;  ///< at the start and after each step and its frames
+  /// All steps of the same run on another mesh, from which the errors are, if there is one that tells them.
+  std::function<void(std::span<const TimePoint>)> compared = {};
 };
 
 /// Follows the cell from the sphere, or from the state of an earlier run on the mesh of that. The result describes the

@@ -7,7 +7,10 @@
 
 namespace rheocyte {
 
-/// The system gives no more threads, processes or open files; the user can lift the limit or end other programs.
+inline constexpr const char* memory_does_not_suffice = "The memory of this machine does not suffice.";
+
+/// The system gives no more threads, processes, open files or memory; the user can lift the limit or end other
+/// programs.
 class SystemLimit final : public UserError {
  public:
   /// `what` is missing ("threads", "processes", "open files"), `reason` is the number of the error (errno).

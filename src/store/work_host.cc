@@ -146,7 +146,7 @@ int take_descriptor(int socket) {
   } catch (const UserError& error) {
     send_message(socket, Word::sentence, error.what());
   } catch (const std::bad_alloc&) {
-    send_message(socket, Word::sentence, "The memory of this machine does not suffice.");
+    send_message(socket, Word::limit, memory_does_not_suffice);
   } catch (const std::exception& error) {
     send_message(socket, Word::sentence,
                  fmt::format("An error of the program itself, please report it: {}", one_line(error.what(), 300)));

@@ -1,5 +1,7 @@
 #include "sweep/follow_course.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -57,6 +59,13 @@ Eigen::MatrixXd at_places(const std::vector<Seen>& seen, const TimeRun& run, int
   return value;
 }
 
+std::string told_of_margin(double margin, const Problem& problem) {
+  return fmt::format(
+      " Behind the contraction its surface is beyond the limit against short wrinkles (stability_margin {:.2g}), which "
+      "the model does not follow; {}",
+      margin, ways_to_stability(surface_kind(problem), true));
+}
+
 }  // namespace
 
 CellCourse follow_course(const DynamicSpec& spec, const DynamicCell& cell, const std::atomic<bool>* stop) {
@@ -66,12 +75,15 @@ CellCourse follow_course(const DynamicSpec& spec, const DynamicCell& cell, const
   const TimeRun run = run_of(spec, c, unit_length_um(c));
   const double sphere_area = std::numbers::pi * problem.radius_ratio * problem.radius_ratio;
   std::vector<Seen> seen;
-  const TimeObserver observer{[&](const TimeFrame& frame) {
-                                if (frame.position > 0) seen.push_back({frame.position, row_of(frame, sphere_area)});
-                              },
-                              {}};
-  const StationaryState end = follow_in_time(problem, run, observer, nullptr, stop);
-  CellCourse course{cell, end.outcome.status, end.outcome.message, {}};
+  double least_margin = 1;
+  const auto note = [&](const TimeFrame& frame) {
+    if (frame.position <= 0) return;
+    seen.push_back({frame.position, row_of(frame, sphere_area)});
+    least_margin = std::min(least_margin, frame.state.stability_margin);
+  };
+  const StationaryState end = follow_in_time(problem, run, {.frame = note, .step = {}}, nullptr, stop);
+  CellCourse course{cell, judged(end.outcome.status, {.stability_margin = least_margin}), end.outcome.message, {}};
+  if (course.status != end.outcome.status) course.message += told_of_margin(least_margin, problem);
   if (course.status == Status::converged) course.value = at_places(seen, run, spec.places);
   course.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return course;

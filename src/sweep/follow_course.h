@@ -6,7 +6,8 @@
 
 namespace rheocyte {
 
-/// Follows one cell; never throws for a numerical failure.
+/// Follows one cell; never throws for a numerical failure. No course has its end whose surface is beyond the limit
+/// against short wrinkles at one of the table's places.
 CellCourse follow_course(const DynamicSpec&, const DynamicCell&, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace rheocyte

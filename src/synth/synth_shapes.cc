@@ -90,7 +90,7 @@ std::unique_ptr<CellShapes> shapes_of_elongated(SynthSpec& spec, const fs::path&
   ElongatedContent content =
       elongated_from_bytes(content_of_file(file, largest_elongated), one_line(file.string(), 300));
   if (spec.kind != CellKind::solid) refuse_path(spec.table, "its cells are solids, so cell.kind must be \"solid\".");
-  if (spec.is_on_its_way()) refuse_path(spec.table, std::string(is_stationary));
+  if (spec.is_on_its_way()) refuse_path(spec.table, is_stationary);
   spec.made_of = content.origin.cells();
   return std::make_unique<ElongatedCellShapes>(std::move(content),
                                                ChannelFlow{spec.channel_width_um, spec.flow_rate_ul_s});
@@ -106,7 +106,7 @@ std::unique_ptr<CellShapes> shapes_of_grid(SynthSpec& spec) {
                 "the folder of a table.");
   if (!grid.shapes)
     refuse_path(spec.table, "does not say what its cells look like; compute it anew with `rheocyte table`.");
-  if (spec.is_on_its_way()) refuse_path(spec.table, std::string(is_stationary));
+  if (spec.is_on_its_way()) refuse_path(spec.table, is_stationary);
   spec.made_of = grid.origin.cells();
   return std::make_unique<GridShapes>(std::move(grid), ChannelFlow{spec.channel_width_um, spec.flow_rate_ul_s});
 }
@@ -121,7 +121,7 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
         "shapes.table names such a folder or table.");
   const fs::path file = spec.table / "spec.toml";
   if (is_dynamic_spec(read_case_text(file), file.string(), {})) return shapes_of_dynamic_table(spec);
-  if (spec.is_on_its_way()) refuse_path(spec.table, std::string(is_stationary));
+  if (spec.is_on_its_way()) refuse_path(spec.table, is_stationary);
   const TableFolder folder(spec.table, read_table_spec(file));
   spec.made_of = cells_of(folder.spec().base);
   if (folder.spec().is_combined()) return shapes_of_combined_table(spec, folder);

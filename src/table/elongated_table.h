@@ -18,7 +18,7 @@ namespace rheocyte {
 /// of the radius from c_2 on.
 enum class ElongatedMeasure { log_area_ratio, deformation, inertia_ratio, mode_2, mode_3 };
 inline constexpr int elongated_measures = int(ElongatedMeasure::mode_2) + int(std::tuple_size_v<RadiusModes>);
-inline constexpr int number_of(ElongatedMeasure measure) { return int(measure); }
+constexpr int number_of(ElongatedMeasure measure) { return int(measure); }
 
 /// The states that were computed. All branches have equally many.
 struct ElongatedContent {

@@ -55,6 +55,16 @@ TEST_F(InTime, TheEndIsComparedWithTheStationaryShape) {
             std::string::npos)
       << early["message"];
   EXPECT_EQ(early["time"]["comparison"], "converged");
+  // The numbers of the way have errors from the same run on the other mesh, that of the stationary shape from its own.
+  const auto& errors = early["time"]["errors"];
+  for (const auto* number : {"position_um", "least_tension_mN_per_m", "greatest_relative_volume_change"}) {
+    EXPECT_GE(errors[number], 0) << number;
+    EXPECT_TRUE(late["time"]["errors"][number].is_null()) << number;
+  }
+  EXPECT_GT(errors["position_um"], 0);
+  EXPECT_LT(errors["position_um"], 1e-3 * early["time"]["position_um"].get<double>());
+  EXPECT_GT(errors["stationary_deformation"], 0);
+  EXPECT_LT(errors["stationary_deformation"], 1e-3 * stationary);
   EXPECT_TRUE(late["time"]["comparison"].is_null());
   EXPECT_GT(early["estimated_error"], 1e-5);
   EXPECT_LT(early["estimated_error"], 0.1);

@@ -8,6 +8,7 @@ tests, or the source distribution of dclab itself (pip download --no-deps --no-b
 older format tdms are converted by dclab (pip install "dclab[tdms]"). Prints a table in Markdown; exit 1 if a
 modulus is missing on one side only, or differs by more than 1e-6.
 """
+import functools
 import sys
 import tarfile
 import tempfile
@@ -32,6 +33,7 @@ MEASURED = ({"width": 20, "rate": 0.04, "mPas": 15}, {"width": 20, "rate": 0.12,
             {"width": 20, "rate": 0.04, "medium": "water", "degC": 25})
 
 
+@functools.cache
 def tables():
     """Published ones by their names, rheocyte's own by their text files."""
     return {**{name: name for name in PUBLISHED},

@@ -17,6 +17,7 @@ Router router() {
         [](const Request& q) -> Answer { return {.body = std::to_string(q.number("item"))}; });
   r.add("GET", "/api/items/fixed/name", [](const Request&) -> Answer { return {.body = "fixed"}; });
   r.add("POST", "/api/object", [](const Request& q) -> Answer { return {.body = std::to_string(q.json().size())}; });
+  r.add("POST", "/api/memory", [](const Request&) -> Answer { throw std::bad_alloc(); });
   r.add("POST", "/api/limit", [](const Request&) -> Answer { throw SystemLimit("threads", EAGAIN); });
   r.add("POST", "/api/user", [](const Request&) -> Answer { throw UserError("a sentence"); });
   r.add(
@@ -58,6 +59,9 @@ TEST(Router, WhatTheSystemDoesNotGiveIsNoFaultOfTheRequest) {
   const Answer refused = answer("POST", "/api/limit");
   EXPECT_EQ(refused.status, 503);
   EXPECT_NE(refused.body.find("gives no more threads"), std::string::npos) << refused.body;
+  const Answer without_memory = answer("POST", "/api/memory");
+  EXPECT_EQ(without_memory.status, 503);
+  EXPECT_NE(without_memory.body.find(memory_does_not_suffice), std::string::npos) << without_memory.body;
 }
 
 TEST(Router, ObjectsWithVeryManyKeysAreRefused) {

@@ -102,13 +102,20 @@ TEST(WorkHost, TellsWhyWorkHasFailed) {
 }
 
 TEST(WorkHost, ALimitOfTheSystemThatTheWorkHasMetIsOneForWhoeverAsked) {
-  const WorkHost host([](const std::string&, const WorkReply&) { throw SystemLimit("processes", EAGAIN); });
-  try {
-    static_cast<void>(host.ask("").all());
-    FAIL() << "no limit is told";
-  } catch (const SystemLimit& limit) {
-    EXPECT_EQ(std::string(limit.what()), SystemLimit("processes", EAGAIN).what());
-  }
+  const WorkHost host([](const std::string& request, const WorkReply&) {
+    if (request == "memory") throw std::bad_alloc();
+    throw SystemLimit("processes", EAGAIN);
+  });
+  const auto limit_of = [&](const std::string& request) -> std::string {
+    try {
+      static_cast<void>(host.ask(request).all());
+    } catch (const SystemLimit& limit) {
+      return limit.what();
+    }
+    return "no limit is told";
+  };
+  EXPECT_EQ(limit_of("processes"), SystemLimit("processes", EAGAIN).what());
+  EXPECT_EQ(limit_of("memory"), memory_does_not_suffice);
 }
 
 TEST(WorkHost, StopsContainedWorkForWhichNobodyWaits) {

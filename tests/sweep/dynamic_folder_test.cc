@@ -12,6 +12,7 @@
 
 #include "../refusal.h"
 #include "../table/invented_dynamic.h"
+#include "sweep/follow_course.h"
 
 namespace rheocyte::dynamic_folder_test {
 namespace {
@@ -61,6 +62,15 @@ TEST_F(DynamicFolderTest, AnInterruptedComputationGoesOnAndEndsWithAllCells) {
   }
   EXPECT_EQ(DynamicFolder(folder_, small_spec()).done(), 8);
   EXPECT_EQ(read_dynamic_table(folder_).spec().identifier, "invented");
+}
+
+TEST(FollowCourse, ACellBeyondTheLimitAgainstWrinklesHasNoCourse) {
+  // In time it is followed to its end; its shapes depend on the mesh, and a table must not hold them.
+  const CellCourse soft = follow_course(small_spec(), {8, 2, 0.02}), stiff = follow_course(small_spec(), {8, 6, 0.02});
+  EXPECT_EQ(soft.status, Status::surface_unstable) << soft.message;
+  EXPECT_NE(soft.message.find("beyond the limit against short wrinkles"), std::string::npos) << soft.message;
+  EXPECT_EQ(soft.value.size(), 0);
+  EXPECT_EQ(stiff.status, Status::converged) << stiff.message;
 }
 
 TEST_F(DynamicFolderTest, ARecordOfAnotherCellIsRefused) {
