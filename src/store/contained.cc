@@ -33,8 +33,8 @@ using Kind = ContainedEnd::Kind;
 enum class MessageKind : char { progress = 'p', result = 'r', user_error = 'u', own_error = 'o', no_memory = 'm' };
 
 struct Header {
-  MessageKind message;
-  std::uint32_t length;
+  MessageKind message = MessageKind::progress;
+  std::uint32_t length = 0;
 };
 
 constexpr std::uint32_t longest_message = 1 << 24;

@@ -7,27 +7,15 @@
 #include <numbers>
 
 #include "synth/branch_shapes.h"
+#include "synth/outline.h"
+#include "synth/seen_outline.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr int points_of_outline = 720;
 /// In shares of a branch: a stiffer cell is a sphere, or an ellipsoid by the tension alone.
 constexpr double min_height = 1e-3;
-
-/// The closed outline whose hull has these modes. Where a hull bridges a dent, the sum of its modes up to the seventh
-/// is not quite convex, and its own hull has slightly others: they are made up for.
-Eigen::MatrixX2d outline_with(const RadiusModes& wanted, double area) {
-  constexpr int rounds = 4;
-  std::array<double, mode_count> modes{};
-  std::ranges::copy(wanted, modes.begin());
-  for (int round = 0; round < rounds; ++round) {
-    const OutlineShape seen = outline_shape(outline_of_modes(modes, area, points_of_outline));
-    for (std::size_t k = 0; k < wanted.size(); ++k) modes[k] += wanted[k] - seen.modes[k];
-  }
-  return outline_of_modes(modes, area, points_of_outline);
-}
 
 }  // namespace
 
@@ -49,7 +37,7 @@ std::variant<CellShape, NoShape> ElongatedCellShapes::at(double radius_um, doubl
   RadiusModes modes;
   for (std::size_t k = 0; k < modes.size(); ++k)
     modes[k] = state.value(number_of(ElongatedMeasure::mode_2) + Eigen::Index(k));
-  shape.meridian = outline_with(modes, shape.area_um2).topRows(points_of_outline / 2 + 1);
+  shape.meridian = outline_seen_with(modes, shape.deformation, shape.area_um2).topRows(outline_points / 2 + 1);
   return shape;
 }
 

@@ -2,18 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
 #include "case/channel_flow.h"
 #include "synth/branch_shapes.h"
+#include "synth/outline.h"
+#include "synth/seen_outline.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr int outline_points = 720;
 constexpr double agreement = 1e-7;  // relative, of the radius
 
 double sphere_of(double volume) { return std::cbrt(3 / (4 * std::numbers::pi) * volume); }
@@ -35,6 +37,13 @@ double GridShapes::log_deformation(double log_modulus, double area_um2, const St
   return 0.5 * (stiff + soft);
 }
 
+Eigen::MatrixX2d GridShapes::outline_of(const CellShape& shape) const {
+  const auto of_grid = shapes_.modes(std::log(shape.area_um2), shape.deformation);
+  RadiusModes modes;
+  std::copy_n(of_grid.begin(), modes.size(), modes.begin());
+  return outline_seen_with(modes, shape.deformation, shape.area_um2);
+}
+
 // The area of a cell hardly depends on its shape, so that it is found in a few steps.
 std::variant<CellShape, NoShape> GridShapes::at(double radius_um, double modulus_kPa) const {
   constexpr int max_steps = 20;
@@ -46,8 +55,7 @@ std::variant<CellShape, NoShape> GridShapes::at(double radius_um, double modulus
     if (!range)
       return std::log(shape.area_um2) < grid_.content().min_log_area ? NoShape::too_small : NoShape::too_large;
     shape.deformation = std::exp(log_deformation(log_modulus, shape.area_um2, *range));
-    const Eigen::MatrixX2d outline =
-        outline_of_modes(shapes_.modes(std::log(shape.area_um2), shape.deformation), shape.area_um2, outline_points);
+    const Eigen::MatrixX2d outline = outline_of(shape);
     shape.volume_um3 = volume_of_revolution(outline);
     const double ratio = radius_um / sphere_of(shape.volume_um3);
     if (std::abs(ratio - 1) < agreement) {

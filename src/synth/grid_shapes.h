@@ -6,8 +6,9 @@
 namespace rheocyte {
 
 /// A cell is scaled to the channel of the grid (eq:scaling) and found there by its radius and Young's modulus. Its
-/// outline has the area and the modes c_2 to c_7 of the grid; its radius at rest is that of the sphere which has the
-/// volume of the outline turned about the axis (of cells in a square channel, whose corners bulge, within 0.1 %).
+/// outline has the area, the deformation and the modes c_2 to c_7 of the grid; its radius at rest is that of the sphere
+/// which has the volume of the outline turned about the axis (of cells in a square channel, whose corners bulge, within
+/// 0.1 %).
 class GridShapes : public CellShapes {
  public:
   /// The grid must hold shapes (asserted), and its stiffness must be Young's modulus (asserted).
@@ -21,6 +22,8 @@ class GridShapes : public CellShapes {
   std::variant<CellShape, NoShape> at(double radius_um, double modulus_kPa) const;
   /// ln(deformation) of the smooth cell with this ln(kPa), or of the nearest one.
   double log_deformation(double log_modulus, double area_um2, const StiffnessGrid::Range& range) const;
+  /// Of a cell with this area and deformation.
+  Eigen::MatrixX2d outline_of(const CellShape&) const;
 
   StiffnessGrid grid_;
   ShapeGrid shapes_;
