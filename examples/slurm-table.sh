@@ -1,7 +1,8 @@
 #!/bin/bash
 # A look-up table on several machines with a common file system: sbatch examples/slurm-table.sh
-# Every task takes radii that no other one works on; the first one writes the files in the end. A job that reaches its
-# time limit loses nothing: submit it again.
+# Every task takes radii (cells of a dynamic table) that no other one works on, as many at once as it has processors
+# (--cpus-per-task); the first one writes the files in the end. A job that reaches its time limit loses nothing: submit it
+# again.
 #SBATCH --job-name=rheocyte-table
 #SBATCH --ntasks=64
 #SBATCH --cpus-per-task=1

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
 #include "sweep/dynamic_folder.h"
-#include "sweep/table_workers.h"
+#include "sweep/table_work.h"
 #include "table/finish_table.h"
 
 namespace rheocyte {
@@ -39,18 +40,27 @@ void draw(const TableFolder& folder) {
     tell(fmt::format("rheocyte: warning: no pictures ({}); the tables are complete.", one_line(failure, 300)));
 }
 
+/// What the process takes part with: rank 0 finishes the table.
+struct Share {
+  explicit Share(const TableOptions& options)
+      : jobs(options.jobs > 0 ? options.jobs : available_processors(rank)), quiet(options.quiet || rank.number > 0) {}
+  Rank rank = rank_from_environment();
+  int jobs;
+  bool quiet;
+};
+
 /// False if a signal has ended it.
-bool compute(const TableFolder& folder, int jobs, bool quiet) {
-  watch_signals();
-  provide_tube_table(folder);
-  folder.take_over();
-  Progress progress("branches", folder.branches(), folder.done(), quiet);
-  const TableObserver observer{[&](int done) { progress.show(done); },
-                               [&] {
-                                 if (!quiet) tell("the rest is being computed by other processes");
-                               }};
-  const bool is_complete = work_on_table(folder, jobs, observer, stop_wanted());
+bool compute(const SharedWork& work, const char* pieces, const Share& share) {
+  Progress progress(pieces, work.pieces(), work.done(), share.quiet);
+  const WorkObserver observer{[&](int done) { progress.show(done); },
+                              [&] {
+                                if (!share.quiet) tell("the rest is being computed by other processes");
+                              }};
+  const bool is_complete = work_on(work, share.jobs, observer, stop_wanted());
   progress.finish();
+  if (!is_complete)
+    tell(fmt::format("rheocyte: stopped after {} of {} {}; the same command goes on from here.", work.done(),
+                     work.pieces(), pieces));
   return is_complete;
 }
 
@@ -66,25 +76,22 @@ std::string failure_text(const std::vector<CellCourse>& failed) {
 int make_dynamic_table(const TableOptions& options, const std::string& text) {
   const DynamicSpec spec = parse_dynamic_spec(text, options.spec.string(), options.settings);
   watch_signals();
-  DynamicFolder folder(options.folder, spec);
-  Progress progress("cells", folder.cells(), folder.done(), options.quiet);
-  const int jobs = options.jobs > 0 ? options.jobs : available_processors();
-  const bool is_complete = folder.compute(
-      jobs, [&](int done) { progress.show(done); }, stop_wanted());
-  progress.finish();
-  if (!is_complete) {
-    tell(fmt::format("rheocyte: stopped after {} of {} cells; the same command goes on from here.", folder.done(),
-                     folder.cells()));
-    return exit_stopped();
-  }
-  if (const auto failed = folder.failed(); !failed.empty()) return tell(failure_text(failed)), exit_numerical;
-  const DynamicTable table = folder.finish();
+  const Share share(options);
+  const DynamicFolder folder(options.folder, spec);
+  if (!compute(folder, "cells", share)) return exit_stopped();
+  if (share.rank.number > 0) return exit_converged;
+  auto courses = folder.courses();
+  if (const auto ended_early = failed(courses); !ended_early.empty())
+    return tell(failure_text(ended_early)), exit_numerical;
+  const double seconds = std::accumulate(courses.begin(), courses.end(), 0.0,
+                                         [](double sum, const CellCourse& course) { return sum + course.seconds; });
+  const DynamicTable table = folder.finish(std::move(courses));
   const CourseErrors& errors = table.errors();
   if (!options.quiet)
     print(
         fmt::format("dynamic table {}: {} cells at {} places in {:.0f} s of computation; at {} cells between them c3 "
                     "is off by at most {:.2f} %, the deformation by {:.2f} % of its greatest value  folder {}\n",
-                    spec.identifier, nodes(spec), spec.places, folder.seconds(), errors.cells, 100 * errors.mode_3,
+                    spec.identifier, nodes(spec), spec.places, seconds, errors.cells, 100 * errors.mode_3,
                     100 * errors.deformation, options.folder.string()));
   return exit_converged;
 }
@@ -95,14 +102,12 @@ int make_table(const TableOptions& options) {
     return make_dynamic_table(options, text);
   const TableSpec spec = read_table_spec(options.spec, options.settings);
   const TableFolder folder(options.folder, spec);
-  const Rank rank = rank_from_environment();
-  const int jobs = options.jobs > 0 ? options.jobs : rank.count > 1 ? 1 : available_processors();
-  if (!compute(folder, jobs, options.quiet || rank.number > 0)) {
-    tell(fmt::format("rheocyte: stopped after {} of {} branches; the same command goes on from here.", folder.done(),
-                     folder.branches()));
-    return exit_stopped();
-  }
-  if (rank.number > 0) return exit_converged;
+  const Share share(options);
+  watch_signals();
+  provide_tube_table(folder);
+  folder.take_over();
+  if (!compute(TableWork(folder), "branches", share)) return exit_stopped();
+  if (share.rank.number > 0) return exit_converged;
   for (const auto& sentence : finish_table(folder, options.levels, version)) tell("rheocyte: warning: " + sentence);
   if (!options.no_picture && !spec.is_combined() && !spec.is_elongated()) draw(folder);
   if (!options.quiet) print(fmt::format("{}  folder {}\n", summary(folder), options.folder.string()));
@@ -126,7 +131,8 @@ void add_table_command(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   command->add_flag("--no-picture", options->no_picture, "no pictures");
-  command->add_option("-j,--jobs", options->jobs, "threads; default: all processors")->check(CLI::Range(1, 1024));
+  command->add_option("-j,--jobs", options->jobs, "threads; default: all processors, of a rank those that it is given")
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", options->quiet, "no progress, no summary");
   command->callback([options, &exit_code] { exit_code = make_table(*options); });
 }

@@ -11,7 +11,7 @@
 #include "python/bindings.h"
 #include "python/interruptible.h"
 #include "store/build_info.h"
-#include "sweep/table_workers.h"
+#include "sweep/table_work.h"
 #include "table/finish_table.h"
 
 namespace rheocyte {
@@ -34,7 +34,7 @@ std::vector<std::string> compute_table(const std::string& text, const std::strin
       const py::gil_scoped_acquire acquired;
       (*progress)(static_cast<double>(done) / folder.branches());
     };
-    if (!work_on_table(folder, jobs > 0 ? jobs : available_processors(), {tell, {}}, stop)) return {};
+    if (!work_on(TableWork(folder), jobs > 0 ? jobs : available_processors(), {tell, {}}, stop)) return {};
     return finish_table(folder, {}, version);
   });
 }

@@ -14,6 +14,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "numeric/fingerprint.h"
+#include "store/read_file.h"
+
 namespace rheocyte {
 
 namespace fs = std::filesystem;
@@ -21,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view infix = ".rheocyte-";
-constexpr std::size_t random_digits = 12;
+constexpr std::size_t machine_digits = 12, random_digits = 12;
 constexpr int max_number_of_tries = 100;
 
 // False if another process has taken it for a left-over in the moment between its making and its claim.
@@ -38,13 +41,19 @@ bool is_first_call_for(const fs::path& folder) {
   return known.insert(folder).second;
 }
 
-void remove_left_over_files(const fs::path& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (place_of(entry.path()) == entry.path() || !entry.is_regular_file(error) || entry.is_symlink(error)) continue;
-    if (const Claim mine = claim_on(entry.path())) ::unlink(entry.path().c_str());
-  }
+/// This machine since it was started, in machine_digits. A lock may hold on one machine alone (NFS with local_lock,
+/// Lustre with localflock), so that a file of another one seems to be nobody's.
+const std::string& this_machine() {
+  static const std::string digits = [] {
+    std::string name(256, '\0');
+    ::gethostname(name.data(), name.size() - 1);
+    return fingerprint(name.c_str() + first_bytes("/proc/sys/kernel/random/boot_id", 64).value_or(""))
+        .substr(0, machine_digits);
+  }();
+  return digits;
 }
+
+bool is_digits(std::string_view text) { return text.find_first_not_of("0123456789abcdef") == std::string_view::npos; }
 
 fs::path folder_of(const fs::path& wanted) { return wanted.has_parent_path() ? wanted.parent_path() : "."; }
 
@@ -64,17 +73,29 @@ Scratch new_scratch(const fs::path& wanted, const Make& make) {
 fs::path scratch_beside(const fs::path& wanted) {
   std::random_device random;  // the system's, not a series from a seed
   const auto number = std::uint64_t{random()} << 32U | random();
-  return wanted.parent_path() /
-         fmt::format(".{:.200}{}{:0{}x}", wanted.filename().string(), infix, number & 0xffff'ffff'ffffU, random_digits);
+  return wanted.parent_path() / fmt::format(".{:.200}{}{}{:0{}x}", wanted.filename().string(), infix, this_machine(),
+                                            number & 0xffff'ffff'ffffU, random_digits);
 }
 
 fs::path place_of(const fs::path& scratch) {
   const std::string name = scratch.filename().string();
   const auto end = name.rfind(infix);
-  const bool hidden = name.starts_with('.') && end != std::string::npos && end > 0 &&
-                      name.size() == end + infix.size() + random_digits &&
-                      name.find_first_not_of("0123456789abcdef", end + infix.size()) == std::string::npos;
-  return hidden ? scratch.parent_path() / name.substr(1, end - 1) : scratch;
+  if (!name.starts_with('.') || end == std::string::npos || end == 0) return scratch;
+  const std::string_view digits = std::string_view(name).substr(end + infix.size());
+  // Versions up to 0.2 wrote the random digits alone.
+  const bool is_hidden =
+      is_digits(digits) && (digits.size() == random_digits || digits.size() == machine_digits + random_digits);
+  return is_hidden ? scratch.parent_path() / name.substr(1, end - 1) : scratch;
+}
+
+void remove_left_over_files(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (place_of(entry.path()) == entry.path() || !entry.is_regular_file(error) || entry.is_symlink(error)) continue;
+    const std::string name = entry.path().filename().string();
+    if (!name.substr(name.rfind(infix) + infix.size()).starts_with(this_machine())) continue;
+    if (const Claim mine = claim_on(entry.path())) ::unlink(entry.path().c_str());
+  }
 }
 
 Scratch new_scratch_file(const fs::path& wanted) {

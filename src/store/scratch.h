@@ -7,7 +7,8 @@
 
 namespace rheocyte {
 
-/// A hidden name in the same folder that nobody can foresee: ".NAME.rheocyte-1f0c97aa52de".
+/// A hidden name in the same folder that nobody can foresee: ".NAME.rheocyte-9b3c1d70ff241f0c97aa52de", the machine
+/// first.
 std::filesystem::path scratch_beside(const std::filesystem::path& wanted);
 /// The place for which a hidden name was made; of another path the path itself.
 std::filesystem::path place_of(const std::filesystem::path& scratch);
@@ -20,9 +21,13 @@ struct Scratch {
 };
 
 /// A new empty file or folder; never through a link, and never what is there already. The first call for a folder also
-/// removes the files that killed processes have left in it.
+/// removes left over files in it.
 Scratch new_scratch_file(const std::filesystem::path& wanted);
 Scratch new_scratch_folder(const std::filesystem::path& wanted);
+
+/// The files of hidden names in a folder that killed processes of this machine have left since it was started. Those of
+/// other machines may be in use.
+void remove_left_over_files(const std::filesystem::path& folder);
 
 /// The hidden folders of a place on which nobody works any more, each with a claim.
 std::vector<Scratch> left_over_folders(const std::filesystem::path& place);

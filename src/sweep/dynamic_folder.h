@@ -1,49 +1,48 @@
-// The folder of a dynamic table: its spec, a record of each cell that has been followed, and the table once it is
-// complete. An interrupted computation goes on where it was.
+// The folder of a dynamic table: a record of each cell that has been followed, and the table once it is complete.
 #pragma once
-#include <atomic>
 #include <filesystem>
-#include <functional>
+#include <mutex>
 #include <string>
 #include <vector>
 
-#include "store/claim.h"
+#include "store/work_folder.h"
+#include "sweep/shared_work.h"
 #include "table/dynamic_table.h"
 
 namespace rheocyte {
 
-class DynamicFolder {
+/// A piece is a cell. An interrupted computation goes on where it was; several processes may share it.
+class DynamicFolder final : public SharedWork {
  public:
-  /// Makes the folder, or takes over what is there. UserError if it holds something else, another process works on it,
-  /// or a record is damaged.
+  /// Makes the folder, or goes on in one that was begun with the same spec. UserError as of WorkFolder, or naming a
+  /// record that is damaged.
   DynamicFolder(std::filesystem::path folder, DynamicSpec spec);
 
-  int cells() const { return int(courses_.size()); }
-  int done() const { return done_; }
+  int pieces() const override { return int(wanted_.size()); }
+  int done() const override { return pieces() - int(missing().size()); }
+  std::vector<int> missing() const override;
+  Claim claim(int piece) const override;
+  bool has(int piece) const override;
+  void compute(int piece, const std::atomic<bool>& stop) const override;
 
-  /// Follows what is missing in so many threads; `tell` is called several times a second by the thread that called.
-  /// False if `stop` ended it. UserError if the disk is full.
-  bool compute(int jobs, const std::function<void(int done)>& tell, const std::atomic<bool>& stop);
+  /// Of a complete folder. UserError naming the file if a record is damaged.
+  std::vector<CellCourse> courses() const;
 
-  /// Cells that could not be followed to the last place.
-  std::vector<CellCourse> failed() const;
-
-  /// Of a complete folder without failed cells: writes the table and returns it. UserError.
-  DynamicTable finish() const;
-  /// Seconds that following the cells took, in all.
-  double seconds() const;
+  /// Writes the table of a complete folder whose cells were all followed to the last place, and returns it. UserError.
+  DynamicTable finish(std::vector<CellCourse> courses) const;
 
  private:
-  std::filesystem::path record(int i) const;
-  void follow(int i, const std::atomic<bool>& stop);
+  CellCourse read(int piece) const;
 
-  std::filesystem::path folder_;
   DynamicSpec spec_;
   std::string hash_;
-  Claim claim_;
   std::vector<DynamicCell> wanted_;
-  std::vector<CellCourse> courses_;  ///< not started: missing
-  std::atomic<int> done_ = 0;
+  WorkFolder folder_;
+  mutable std::mutex known_mutex_;
+  mutable std::vector<bool> known_;  ///< cells whose record was seen
 };
+
+/// Those that could not be followed to the last place.
+std::vector<CellCourse> failed(const std::vector<CellCourse>&);
 
 }  // namespace rheocyte

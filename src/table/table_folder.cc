@@ -1,23 +1,19 @@
 #include "table/table_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
 #include <iterator>
 #include <system_error>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "numeric/fingerprint.h"
 #include "store/build_info.h"
 #include "store/read_file.h"
-#include "store/whole_file.h"
 #include "table/square_branches.h"
 
 namespace rheocyte {
@@ -25,34 +21,6 @@ namespace rheocyte {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* work = "branches";
-constexpr const char* mark = "begun-by.txt";
-constexpr const char* beginning = "begun-by.claim";  ///< whoever holds it writes spec and mark
-
-std::string reason_of(int number) { return std::generic_category().message(number); }
-
-[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
-  throw UserError(fmt::format("{}: {}", path.string(), reason));
-}
-
-std::string content_of(const fs::path& path) {
-  constexpr std::size_t enough = std::size_t{1} << 30U;
-  return first_bytes(path, enough).value_or("");
-}
-
-// Nothing if another process holds it, unless the operation waits for that one.
-Claim claim_on(const fs::path& path, int operation) {
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) refuse(path, fmt::format("cannot be made ({}).", reason_of(errno)));
-  if (::flock(descriptor, operation) == 0) return Claim(descriptor);
-  const int reason = errno;
-  ::close(descriptor);
-  if (reason != EWOULDBLOCK)
-    refuse(path, fmt::format("cannot be locked ({}); put the table on a file system that knows locks, with -o.",
-                             reason_of(reason)));
-  return {};
-}
 
 std::string mark_of_earlier_builds(const std::string& spec_hash) {
   return fmt::format("rheocyte {} table, spec {}\n", version, spec_hash);
@@ -64,25 +32,22 @@ bool is_cell_of(const BranchPlace& place, const SampledBranch& branch) {
          branch.axial_ratio == place.axial_ratio;
 }
 
-void write_whole(const fs::path& path, std::string_view content) {
-  if (const int failed = write_whole_file(path, content))
-    refuse(path, fmt::format("cannot be written ({}); what is finished is kept, start again with the same command.",
-                             reason_of(failed)));
-}
-
 }  // namespace
 
 TableFolder::TableFolder(const fs::path& folder, const TableSpec& spec)
-    : folder_(folder),
-      spec_(spec),
+    : spec_(spec),
       hash_(spec_hash(spec)),
       places_(sweep_places(spec)),
+      folder_(folder, wanted()),
       plan_(spec, [this](const BranchTask& task) -> RadiusPlan::Branch {
         if (!has(task.place, task.held)) return nullptr;
         return std::make_shared<SampledBranch>(read(task.place, task.held));
-      }) {
-  mark_ = fmt::format("rheocyte {} table, spec {}, branches {}\n", version, hash_, fingerprint(layout()));
-  begin();
+      }) {}
+
+WantedWork TableFolder::wanted() const {
+  return {to_toml(spec_),
+          fmt::format("rheocyte {} table, spec {}, branches {}\n", version, hash_, fingerprint(layout())),
+          mark_of_earlier_builds(hash_), "branches"};
 }
 
 // Two programs that agree on this want the same files with the same cells and can read each other's. Six digits: the
@@ -90,38 +55,11 @@ TableFolder::TableFolder(const fs::path& folder, const TableSpec& spec)
 std::string TableFolder::layout() const {
   std::string text = branch_record_format() + "\n";
   for (int i = 0; i < branches(); ++i) {
-    text += fmt::format("{} {:.6g} {:.6g} {:.6g}{}", record(i, false).filename().string(), place(i).radius_um,
-                        place(i).cortex_share, place(i).tension_ratio, spec_.wants_held() ? " held" : "");
+    text += fmt::format("{} {:.6g} {:.6g} {:.6g}{}", record(i, false), place(i).radius_um, place(i).cortex_share,
+                        place(i).tension_ratio, spec_.wants_held() ? " held" : "");
     text += spec_.is_elongated() ? fmt::format(" axial {:.6g}\n", place(i).axial_ratio) : "\n";
   }
   return text;
-}
-
-bool TableFolder::is_begun() const {
-  std::error_code error;
-  if (!fs::exists(folder_ / mark, error)) return false;
-  const std::string found = content_of(folder_ / mark);
-  if (found == mark_ || found == mark_of_earlier_builds(hash_)) return true;
-  refuse(folder_, fmt::format("holds a table that was begun as \"{}\", not as \"{}\"; give another folder with -o, or "
-                              "the spec and program of the first start.",
-                              found.substr(0, found.find('\n')), mark_.substr(0, mark_.size() - 1)));
-}
-
-void TableFolder::begin() const {
-  if (is_begun()) return;
-  std::error_code error, ignored;
-  fs::create_directories(folder_, error);
-  if (error && !fs::exists(folder_, ignored)) refuse(folder_, fmt::format("cannot be made ({}).", error.message()));
-  const bool has_files = !fs::is_directory(folder_, ignored) || !fs::is_empty(folder_, ignored);
-  // With the claim beside them they are ours: of a process that begins at this moment, or was lost on the way.
-  if (has_files && !fs::exists(folder_ / beginning, ignored))
-    refuse(folder_, "holds other files; give a new or empty folder with -o.");
-  const Claim alone = claim_on(folder_ / beginning, LOCK_EX);
-  if (is_begun()) return;
-  fs::create_directories(folder_ / work, error);
-  if (error) refuse(folder_, fmt::format("cannot be made ({}).", error.message()));
-  write_whole(folder_ / "spec.toml", to_toml(spec_));
-  write_whole(folder_ / mark, mark_);
 }
 
 void TableFolder::take_over() const {
@@ -137,18 +75,14 @@ void TableFolder::take_over() const {
     }
   if (unusable > 1) first += fmt::format(" There are {} of that kind in this folder.", unusable);
   if (unusable > 0) throw UserError(first);
-  if (content_of(folder_ / mark) != mark_) write_whole(folder_ / mark, mark_);
+  folder_.take_over();
 }
 
-fs::path TableFolder::record(int i, bool held) const {
-  return folder_ / work /
-         fmt::format("{}-{:04}{}.cbor", spec_.is_combined() ? "branch" : "radius", i, held ? "-held" : "");
+std::string TableFolder::record(int i, bool held) const {
+  return fmt::format("{}-{:04}{}.cbor", spec_.is_combined() ? "branch" : "radius", i, held ? "-held" : "");
 }
 
-bool TableFolder::has(int i, bool held) const {
-  std::error_code error;
-  return fs::exists(record(i, held), error);
-}
+bool TableFolder::has(int i, bool held) const { return folder_.has(record(i, held)); }
 
 bool TableFolder::update_plan() const {
   const auto is_there = [this](const BranchTask& task) { return has(task.place, task.held); };
@@ -171,18 +105,17 @@ std::vector<BranchTask> TableFolder::missing() const {
   return plan_.missing();
 }
 
-Claim TableFolder::claim(int i) const {
-  return claim_on(folder_ / work / fmt::format("branch-{:04}.claim", i), LOCK_EX | LOCK_NB);
+void TableFolder::keep(int i, const SampledBranch& branch, bool held) const {
+  folder_.keep(record(i, held), to_bytes(branch, hash_));
 }
 
-void TableFolder::keep(int i, const SampledBranch& branch, bool held) const {
-  write_whole(record(i, held), to_bytes(branch, hash_));
-}
+Claim TableFolder::claim(int i) const { return folder_.claim(fmt::format("branch-{:04}", i)); }
 
 SampledBranch TableFolder::read(int i, bool held) const {
-  SampledBranch branch = branch_from_bytes(content_of(record(i, held)), hash_, record(i, held).string());
+  const fs::path file = folder_.record(record(i, held));
+  SampledBranch branch = branch_from_bytes(folder_.content(record(i, held)), hash_, file.string());
   if (!branch.empty() && !is_cell_of(place(i), branch))
-    refuse(record(i, held), "this record holds another cell of the sweep; delete it, and it is computed again.");
+    refuse_path(file, "this record holds another cell of the sweep; delete it, and it is computed again.");
   return branch;
 }
 
@@ -208,13 +141,14 @@ std::vector<SampledBranch> TableFolder::read_all() const {
 
 bool TableFolder::lacks_tube() const {
   std::error_code error;
-  return spec_.tube_table && !fs::exists(folder_ / tube_table_file, error);
+  return spec_.tube_table && !fs::exists(path() / tube_table_file, error);
 }
 
 std::optional<GridContent> TableFolder::tube() const {
   if (!spec_.tube_table) return {};
-  const fs::path file = folder_ / tube_table_file;
-  return grid_from_bytes(content_of(file), file.string());
+  constexpr std::size_t enough = std::size_t{1} << 30U;
+  const fs::path file = path() / tube_table_file;
+  return grid_from_bytes(first_bytes(file, enough).value_or(""), file.string());
 }
 
 std::vector<SampledBranch> TableFolder::all_branches() const {
@@ -228,18 +162,6 @@ std::vector<SampledBranch> TableFolder::all_branches() const {
   if (can_lie_between({first_held, branches.end()}))
     std::ranges::move(square_branches(spec_, {first_held, branches.end()}, reference), std::back_inserter(all));
   return all;
-}
-
-void TableFolder::tidy() const {
-  std::error_code error;
-  for (const auto& place : {folder_ / work, folder_})
-    for (const auto& entry : fs::directory_iterator(place, error))
-      if (entry.path().extension() == ".claim" || place_of(entry.path()) != entry.path())
-        fs::remove(entry.path(), error);
-}
-
-void TableFolder::publish(const std::string& name, std::string_view content) const {
-  write_whole(folder_ / name, content);
 }
 
 }  // namespace rheocyte

@@ -1,5 +1,4 @@
-// The folder of a table while it is computed: its spec, one record per branch, and who works on which. Every process
-// that takes part, on this machine or another, must want the same records; the folder's mark says which ones.
+// The folder of a table while it is computed: one record per branch, and which branches are wanted.
 #pragma once
 #include <filesystem>
 #include <mutex>
@@ -7,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "store/claim.h"
+#include "store/work_folder.h"
 #include "table/radius_plan.h"
 #include "table/stiffness_grid.h"
 #include "table/table_spec.h"
@@ -24,7 +23,7 @@ class TableFolder {
   TableFolder(const std::filesystem::path& folder, const TableSpec&);
 
   const TableSpec& spec() const { return spec_; }
-  const std::filesystem::path& path() const { return folder_; }
+  const std::filesystem::path& path() const { return folder_.path(); }
 
   /// Of the table; not all of them are computed (radius_plan.h).
   int branches() const { return int(places_.size()); }
@@ -38,7 +37,7 @@ class TableFolder {
   int done() const;
   /// Branches that are to be computed and have no record, as far as that is known; none once the table is complete.
   std::vector<BranchTask> missing() const;
-  /// Nothing while another process holds it. UserError if the file system knows no locks.
+  /// As WorkFolder::claim.
   Claim claim(int i) const;
   /// Writes the record whole or not at all.
   void keep(int i, const SampledBranch&, bool held) const;
@@ -50,29 +49,27 @@ class TableFolder {
   /// All branches of a complete table, in the order of the places; held ones where they are wanted. UserError naming
   /// the file if a record is damaged or missing.
   std::vector<SampledBranch> read_all() const;
-  /// Removes what claims and interrupted writes have left.
-  void tidy() const;
+  /// As WorkFolder::tidy.
+  void tidy() const { folder_.tidy(); }
   /// Where the spec names the tube's table: its grid's file is kept in the folder, so that the table can be finished
   /// and read without it. UserError if a file that is there is damaged.
   bool lacks_tube() const;
   std::optional<GridContent> tube() const;
   /// All branches of the table itself: those of read_all, in a square channel dense ones between them.
   std::vector<SampledBranch> all_branches() const;
-  /// A finished file beside the spec, whole or not at all.
-  void publish(const std::string& name, std::string_view content) const;
+  /// As WorkFolder::publish.
+  void publish(const std::string& name, std::string_view content) const { folder_.publish(name, content); }
 
  private:
-  std::filesystem::path record(int i, bool held) const;
+  std::string record(int i, bool held) const;
   std::string layout() const;
-  bool is_begun() const;
-  void begin() const;
+  WantedWork wanted() const;
   bool update_plan() const;
 
-  std::filesystem::path folder_;
   TableSpec spec_;
   std::string hash_;
   std::vector<BranchPlace> places_;
-  std::string mark_;  ///< what the mark says of a folder that this program has begun
+  WorkFolder folder_;
   mutable std::mutex plan_mutex_;
   mutable RadiusPlan plan_;
 };

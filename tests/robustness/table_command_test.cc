@@ -57,6 +57,44 @@ TEST_F(TableCommand, TwoRanksMakeTheTableOfOneProcess) {
   EXPECT_EQ(differences(table("two"), table("one")), none);
 }
 
+TEST_F(TableCommand, TwoRanksShareADynamicTable) {
+  // The second one ended with an error, and took the whole job with it.
+  write_file(spec(), R"([channel.profile]
+x_um = [60.0, 100.0]
+R_um = [21.88, 10.94]
+[flow]
+rate_ul_per_s = 0.04
+viscosity_mPas = 15.0
+density_kg_per_m3 = 0.0
+[cell]
+density_kg_per_m3 = 0.0
+[time]
+degree = 2
+accuracy = 1e-3
+[dynamic]
+identifier = "TEST"
+min_radius_um = 6.0
+max_radius_um = 8.0
+min_young_modulus_kPa = 6.0
+max_young_modulus_kPa = 20.0
+radii = 2
+moduli = 2
+times = 2
+places = 4
+last_um = 60
+checks = 0
+)");
+  const auto rank = [](const char* number) {
+    return std::map<std::string, std::string>{{"OMPI_COMM_WORLD_RANK", number}, {"OMPI_COMM_WORLD_SIZE", "2"}};
+  };
+  const Ended first = make(table("two"), rank("1"));
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_FALSE(fs::exists(table("two") / "dynamic_TEST.cbor")) << "not the work of rank 1";
+  const Ended last = make(table("two"), rank("0"));
+  ASSERT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_TRUE(fs::exists(table("two") / "dynamic_TEST.cbor"));
+}
+
 TEST_F(TableCommand, AFolderOfAnotherSpecIsLeftAlone) {
   // Named error, and the table in it stays as it was.
   ASSERT_EQ(make(table("first")).exit_code, 0);

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "../refusal.h"
@@ -43,18 +45,15 @@ DynamicSpec small_spec() {
 
 TEST_F(DynamicFolderTest, AnInterruptedComputationGoesOnAndEndsWithAllCells) {
   std::atomic<bool> stop = true;
-  EXPECT_FALSE(DynamicFolder(folder_, small_spec())
-                   .compute(
-                       1, [](int) {}, stop));
+  EXPECT_FALSE(work_on(DynamicFolder(folder_, small_spec()), 1, {}, stop));
   stop = false;
   {
-    DynamicFolder folder(folder_, small_spec());
-    const int before = folder.done();
-    EXPECT_LT(before, folder.cells());
-    EXPECT_TRUE(folder.compute(
-        2, [](int) {}, stop));
-    EXPECT_TRUE(folder.failed().empty());
-    const DynamicTable table = folder.finish();
+    const DynamicFolder folder(folder_, small_spec());
+    EXPECT_LT(folder.done(), folder.pieces());
+    EXPECT_TRUE(work_on(folder, 2, {}, stop));
+    auto courses = folder.courses();
+    EXPECT_TRUE(failed(courses).empty());
+    const DynamicTable table = folder.finish(std::move(courses));
     // Every cell of a soft and a stiff kind grows more asymmetric on its way, the soft one more.
     EXPECT_GT(table.value(CourseMeasure::mode_3, {8, 6, 0.5}, 60), table.value(CourseMeasure::mode_3, {8, 6, 0.5}, 10));
     EXPECT_GT(table.value(CourseMeasure::mode_3, {8, 6, 0.5}, 60),
@@ -62,6 +61,43 @@ TEST_F(DynamicFolderTest, AnInterruptedComputationGoesOnAndEndsWithAllCells) {
   }
   EXPECT_EQ(DynamicFolder(folder_, small_spec()).done(), 8);
   EXPECT_EQ(read_dynamic_table(folder_).spec().identifier, "invented");
+}
+
+TEST_F(DynamicFolderTest, SeveralProcessesShareOneAndDoEachCellOnce) {
+  // Two folders of one process have locks of their own, as those of two processes have.
+  const DynamicFolder one(folder_, small_spec()), other(folder_, small_spec());
+  Claim claim = one.claim(3);
+  EXPECT_FALSE(other.claim(3));
+  EXPECT_TRUE(other.claim(4));
+  const std::atomic<bool> stop = false;
+  claim = Claim();
+  bool is_complete = false;
+  std::thread beside([&] { is_complete = work_on(other, 1, {}, stop); });
+  EXPECT_TRUE(work_on(one, 1, {}, stop));
+  beside.join();
+  EXPECT_TRUE(is_complete);
+  EXPECT_EQ(one.done(), 8);
+  EXPECT_EQ(to_bytes(one.courses()[5], ""), to_bytes(other.courses()[5], ""));
+}
+
+TEST_F(DynamicFolderTest, AFolderOfAnEarlierVersionGoesOn) {
+  // It holds the spec and records, and nothing that says which program has begun it.
+  const DynamicSpec spec = small_spec();
+  fs::create_directories(folder_ / "cells");
+  std::ofstream(folder_ / "spec.toml") << to_toml(spec);
+  std::ofstream(folder_ / "cells" / "cell-00002.cbor", std::ios::binary)
+      << to_bytes(test::invented_course(spec, cells_of(spec)[2]), spec_hash(spec));
+  EXPECT_EQ(DynamicFolder(folder_, spec).done(), 1);
+}
+
+TEST(Rank, UsesTheProcessorsThatItIsGiven) {
+  const Rank rank{1, 2};
+  EXPECT_GE(available_processors(), available_processors(rank));
+  ::setenv("SLURM_CPUS_PER_TASK", "2", 1);
+  EXPECT_EQ(available_processors(rank), std::min(2, available_processors()));
+  ::setenv("SLURM_CPUS_PER_TASK", "no number", 1);
+  EXPECT_EQ(available_processors(rank), 1);
+  ::unsetenv("SLURM_CPUS_PER_TASK");
 }
 
 TEST(FollowCourse, ACellBeyondTheLimitAgainstWrinklesHasNoCourse) {
@@ -89,7 +125,7 @@ TEST_F(DynamicFolderTest, AFolderOfAnotherContractionOrOfSomethingElseIsRefused)
   { DynamicFolder first(folder_, small_spec()); }
   const DynamicSpec other = parse_dynamic_spec(test::dynamic_spec_text, "spec.toml",
                                                std::vector<std::string>{"channel.profile.x_um=[60, 120]"});
-  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, other); }).find("holds a table of another spec"),
+  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, other); }).find("holds a table that was begun as"),
             std::string::npos);
   fs::remove_all(folder_);
   fs::create_directories(folder_);

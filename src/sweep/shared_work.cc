@@ -1,4 +1,4 @@
-#include "sweep/table_workers.h"
+#include "sweep/shared_work.h"
 
 #include <sched.h>
 
@@ -13,10 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "state/outcome.h"
 #include "store/thread.h"
-#include "sweep/sample_branch.h"
-#include "sweep/sample_square_branch.h"
 
 namespace rheocyte {
 
@@ -24,7 +21,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How often to look whether other processes have finished a branch, or were lost with one.
+/// How often to look whether other processes have finished a piece, or were lost with one.
 constexpr auto look = 100ms, look_again = 1000ms;
 
 int number_in_environment(const char* name, int otherwise) {
@@ -32,22 +29,20 @@ int number_in_environment(const char* name, int otherwise) {
   return text && *text ? std::atoi(text) : otherwise;
 }
 
-bool is_stopped(const SampledBranch& branch) { return branch.end.status == Status::stopped; }
-
 class Workers {
  public:
-  Workers(const TableFolder& folder, int jobs) : folder_(folder) {
+  Workers(const SharedWork& work, int jobs) : work_(work) {
     threads_ = start_threads(jobs, [this](int) { work_or_fail(); });
   }
   ~Workers() { stop(); }
 
-  bool wait(const TableObserver& observer, const std::atomic<bool>& wanted) {
+  bool wait(const WorkObserver& observer, const std::atomic<bool>& wanted) {
     bool has_told = false;
     for (;;) {
-      const int done = folder_.done();
+      const int done = work_.done();
       if (observer.done) observer.done(done);
       std::unique_lock lock(mutex_);
-      if (done == folder_.branches() || wanted || failure_) break;
+      if (done == work_.pieces() || wanted || failure_) break;
       if (idle_ == int(threads_.size()) && observer.waits && !std::exchange(has_told, true)) observer.waits();
       changed_.wait_for(lock, look);
     }
@@ -68,8 +63,8 @@ class Workers {
 
   void work_or_fail() {
     try {
-      while (!stop_ && folder_.done() < folder_.branches())
-        if (!take_a_branch()) idle();
+      while (!stop_ && work_.done() < work_.pieces())
+        if (!take_a_piece()) idle();
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!failure_) failure_ = std::current_exception();
@@ -78,26 +73,16 @@ class Workers {
   }
 
   /// False if all that are missing are somebody else's.
-  bool take_a_branch() {
-    for (const BranchTask& task : folder_.missing()) {
+  bool take_a_piece() {
+    for (const int piece : work_.missing()) {
       if (stop_) break;
-      const Claim claim = folder_.claim(task.place);
-      if (!claim || folder_.has(task.place, task.held)) continue;  // somebody else works on it, or has just finished it
-      sample(task);
+      const Claim claim = work_.claim(piece);
+      if (!claim || work_.has(piece)) continue;  // somebody else works on it, or has just finished it
+      work_.compute(piece, stop_);
       changed_.notify_all();
       return true;
     }
     return false;
-  }
-
-  void sample(const BranchTask& task) {
-    const TableSpec& spec = folder_.spec();
-    const BranchPlace place = folder_.place(task.place);
-    const SampledBranch branch = spec.is_square() ? (task.held ? sample_held_square_branch(spec, place, &stop_)
-                                                               : sample_square_branch(spec, place, &stop_))
-                                 : task.held      ? sample_held_branch(spec, folder_.branch(task.place, false), &stop_)
-                                                  : sample_branch(spec, place, &stop_);
-    if (!is_stopped(branch)) folder_.keep(task.place, branch, task.held);
   }
 
   void idle() {
@@ -107,7 +92,7 @@ class Workers {
     --idle_;
   }
 
-  const TableFolder& folder_;
+  const SharedWork& work_;
   int idle_ = 0;
   std::atomic<bool> stop_ = false;
   std::exception_ptr failure_;
@@ -128,16 +113,19 @@ Rank rank_from_environment() {
   return {};
 }
 
-int available_processors() {
+int available_processors(const Rank& rank) {
+  const int all = int(std::max(1u, std::thread::hardware_concurrency()));
   cpu_set_t set;
   CPU_ZERO(&set);
-  if (::sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
-  return std::max(1u, std::thread::hardware_concurrency());
+  const int allowed = ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : all;
+  if (rank.count <= 1) return allowed;
+  const int not_bound = 1, bound = allowed < all ? allowed : not_bound;
+  return std::clamp(number_in_environment("SLURM_CPUS_PER_TASK", bound), 1, allowed);
 }
 
-bool work_on_table(const TableFolder& folder, int jobs, const TableObserver& observer, const std::atomic<bool>& stop) {
-  const int left = folder.branches() - folder.done();
-  return Workers(folder, std::clamp(left, 1, jobs)).wait(observer, stop);
+bool work_on(const SharedWork& work, int jobs, const WorkObserver& observer, const std::atomic<bool>& stop) {
+  const int left = work.pieces() - work.done();
+  return Workers(work, std::clamp(left, 1, jobs)).wait(observer, stop);
 }
 
 }  // namespace rheocyte
