@@ -1,10 +1,12 @@
 """Tables of Young's moduli over area and deformation: rheocyte's own and published ones."""
 
 import atexit
+import concurrent.futures
 import functools
 import importlib.util
 import os
 import tempfile
+import time
 import warnings
 from pathlib import Path
 from typing import NamedTuple
@@ -82,12 +84,42 @@ def place_of_table(name):
     return os.fsencode(wanted)
 
 
-def table(spec, folder, *, jobs=None, progress=None, **overrides):
+def _piece(text, name, settings, piece, record):
+    """What an executor's process does: needs nothing but the package."""
+    return native.table_piece(text, name, settings, piece, record)
+
+
+def _by_executor(executor, spec, folder, tell):
+    """The table's pieces by an executor; sentences about what could not be made."""
+    pieces, running = native.TablePieces(*spec, folder), {}
+    try:
+        while not pieces.is_complete():
+            for piece, record in pieces.take():
+                running[executor.submit(_piece, *spec, piece, record)] = piece
+            if not running:
+                time.sleep(1)  # other processes work on what is left
+            for future in concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED).done:
+                pieces.keep(running.pop(future), future.result())
+            if tell:
+                tell(pieces.share_done())
+    except concurrent.futures.BrokenExecutor as error:
+        raise UserError(f"The executor has broken down ({error}) What is finished is kept: call again.") from error
+    finally:
+        for future in running:
+            future.cancel()
+        pieces.give_up()
+    return pieces.finish()
+
+
+def table(spec, folder, *, jobs=None, executor=None, progress=None, **overrides):
     """Computes a whole look-up table, as `rheocyte table` does; goes on where an earlier call was interrupted.
 
     spec            path of a TOML file, or a dictionary with its keys, nested or dotted (`rheocyte help table`)
     folder          where the table is kept, with its text table, lines and simulations; other processes may help there
     jobs            threads; None: all processors
+    executor        a concurrent.futures.Executor that does the work in place of threads, one branch a task: a
+                    ProcessPoolExecutor, dask.distributed's Client.get_executor(), mpi4py's MPIPoolExecutor. Its
+                    processes need the package, not the folder
     progress        called with the share that is done; True: a bar of tqdm where it is installed
     overrides       keys that replace those of the spec, with two underscores for each dot: table__radii=12
 
@@ -96,9 +128,15 @@ def table(spec, folder, *, jobs=None, progress=None, **overrides):
     """
     text, name, settings = read_spec(spec, overrides, "table")
     place, threads = path(folder, "folder"), 0 if jobs is None else positive(jobs, "jobs")
+    if executor is not None and jobs is not None:
+        raise UserError("An executor has its own number of processes; give executor or jobs.")
     with progress_bar(progress) as tell:
-        for sentence in native.compute_table(text, name, settings, place, int(threads), tell):
-            warnings.warn(sentence, stacklevel=2)
+        if executor is not None:
+            sentences = _by_executor(executor, (text, name, settings), place, tell)
+        else:
+            sentences = native.compute_table(text, name, settings, place, int(threads), tell)
+    for sentence in sentences:
+        warnings.warn(sentence, stacklevel=2)
     if any(Path(folder).glob("grid_*.cbor")) or any(Path(folder).glob("lut_*.txt")):
         return Table(folder)
     return Path(folder)

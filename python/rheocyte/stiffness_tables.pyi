@@ -1,4 +1,5 @@
 from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -31,6 +32,7 @@ def table(
     folder: str | PathLike[str],
     *,
     jobs: int | None = None,
+    executor: Executor | None = None,
     progress: bool | Callable[[float], object] | None = None,
     **overrides: Any,
 ) -> Table | Path: ...

@@ -9,18 +9,17 @@ namespace rheocyte {
 namespace {
 
 int piece_of(const BranchTask& task) { return 2 * task.place + int(task.held); }
-BranchTask task_of(int piece) { return {piece / 2, piece % 2 == 1}; }
-
-SampledBranch sampled(const TableFolder& folder, const BranchTask& task, const std::atomic<bool>& stop) {
-  const TableSpec& spec = folder.spec();
-  const BranchPlace place = folder.place(task.place);
-  if (spec.is_square())
-    return task.held ? sample_held_square_branch(spec, place, &stop) : sample_square_branch(spec, place, &stop);
-  return task.held ? sample_held_branch(spec, folder.branch(task.place, false), &stop)
-                   : sample_branch(spec, place, &stop);
-}
 
 }  // namespace
+
+BranchTask task_of_piece(int piece) { return {piece / 2, piece % 2 == 1}; }
+
+SampledBranch sample_task(const TableSpec& spec, const BranchPlace& place, bool held, const SampledBranch* bare,
+                          const std::atomic<bool>& stop) {
+  if (spec.is_square())
+    return held ? sample_held_square_branch(spec, place, &stop) : sample_square_branch(spec, place, &stop);
+  return held ? sample_held_branch(spec, *bare, &stop) : sample_branch(spec, place, &stop);
+}
 
 std::vector<int> TableWork::missing() const {
   std::vector<int> pieces;
@@ -28,13 +27,14 @@ std::vector<int> TableWork::missing() const {
   return pieces;
 }
 
-Claim TableWork::claim(int piece) const { return folder_.claim(task_of(piece).place); }
+Claim TableWork::claim(int piece) const { return folder_.claim(task_of_piece(piece).place); }
 
-bool TableWork::has(int piece) const { return folder_.has(task_of(piece).place, task_of(piece).held); }
+bool TableWork::has(int piece) const { return folder_.has(task_of_piece(piece).place, task_of_piece(piece).held); }
 
 void TableWork::compute(int piece, const std::atomic<bool>& stop) const {
-  const BranchTask task = task_of(piece);
-  const SampledBranch branch = sampled(folder_, task, stop);
+  const BranchTask task = task_of_piece(piece);
+  const SampledBranch bare = task.held ? folder_.branch(task.place, false) : SampledBranch();
+  const SampledBranch branch = sample_task(folder_.spec(), folder_.place(task.place), task.held, &bare, stop);
   if (branch.end.status != Status::stopped) folder_.keep(task.place, branch, task.held);
 }
 
