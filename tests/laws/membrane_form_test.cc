@@ -96,8 +96,8 @@ TEST(MembraneForm, TheSpheroidThatAShellRestsInHasNoEnergy) {
     };
     RestMetric rest;
     for (const bool along : {true, false})
-      (along ? rest.along : rest.across) = {part(sphere.s, sphere.s, along), part(sphere.s, sphere.t, along),
-                                            part(sphere.t, sphere.t, along)};
+      (along ? rest.along : rest.across) = SurfaceMetric<double>{
+          part(sphere.s, sphere.s, along), part(sphere.s, sphere.t, along), part(sphere.t, sphere.t, along)};
     EXPECT_NEAR((MembranePoint{{CortexLaw::neo_hookean, 3, 0, 0}, rest.at_rest(a)}(spheroid)), 0, 1e-10);
   }
 }
