@@ -6,15 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "laws/uniaxial.h"
 #include "synth/branch_shapes.h"
+#include "synth/outline.h"
 
 namespace rheocyte {
 
 namespace {
-
-constexpr int points_of_outline = 720;
-/// In shares of a branch: a stiffer cell is a sphere, or an ellipsoid by the tension alone.
-constexpr double min_height = 1e-3;
 
 /// The closed outline whose hull has these modes. Where a hull bridges a dent, the sum of its modes up to the seventh
 /// is not quite convex, and its own hull has slightly others: they are made up for.
@@ -23,10 +21,10 @@ Eigen::MatrixX2d outline_with(const RadiusModes& wanted, double area) {
   std::array<double, mode_count> modes{};
   std::ranges::copy(wanted, modes.begin());
   for (int round = 0; round < rounds; ++round) {
-    const OutlineShape seen = outline_shape(outline_of_modes(modes, area, points_of_outline));
+    const OutlineShape seen = outline_shape(outline_of_modes(modes, area, outline_points));
     for (std::size_t k = 0; k < wanted.size(); ++k) modes[k] += wanted[k] - seen.modes[k];
   }
-  return outline_of_modes(modes, area, points_of_outline);
+  return outline_of_modes(modes, area, outline_points);
 }
 
 }  // namespace
@@ -37,9 +35,10 @@ std::variant<CellShape, NoShape> ElongatedCellShapes::at(double radius_um, doubl
   ElongatedCell place{table_.coordinate_of(radius_um), axial_ratio, 1};
   if (!(place(0) >= least(0))) return NoShape::too_small;
   if (!(place(0) <= greatest(0))) return NoShape::too_large;
-  if (!(axial_ratio >= least(1) && axial_ratio <= greatest(1))) return NoShape::outside_tensions;
+  if (!(axial_ratio >= least(1) && axial_ratio <= greatest(1)))
+    return is_long_at_rest() ? NoShape::outside_aspects : NoShape::outside_tensions;
   place(2) = std::exp(table_.at(place).log_modulus) / modulus_kPa;  // the compliance over that at the branch's end
-  if (!(place(2) >= min_height)) return NoShape::too_stiff;
+  if (!(place(2) >= ElongatedTable::min_height)) return NoShape::too_stiff;
   if (!(place(2) <= greatest(2))) return NoShape::too_soft;
   const ElongatedState state = table_.at(place);
   CellShape shape;
@@ -49,7 +48,7 @@ std::variant<CellShape, NoShape> ElongatedCellShapes::at(double radius_um, doubl
   RadiusModes modes;
   for (std::size_t k = 0; k < modes.size(); ++k)
     modes[k] = state.value(number_of(ElongatedMeasure::mode_2) + Eigen::Index(k));
-  shape.meridian = outline_with(modes, shape.area_um2).topRows(points_of_outline / 2 + 1);
+  shape.meridian = outline_with(modes, shape.area_um2).topRows(outline_points / 2 + 1);
   return shape;
 }
 
@@ -58,14 +57,17 @@ std::variant<CellShape, NoShape> ElongatedCellShapes::shape(const VirtualCell& c
       scale_factors(table_.origin().flow, {flow_.width_um, flow_.rate_ul_s, cell.viscosity_mPas});
   if (!(cell.stiffness > 0)) return NoShape::too_soft;
   if (!(cell.radius_um > 0)) return NoShape::too_small;
-  return scaled(
-      at(cell.radius_um / scale.length, cell.stiffness / scale.modulus, 1e-3 * cell.axial_tension_Pa / cell.stiffness),
-      scale);
+  const double axial_ratio =
+      is_long_at_rest() ? tension_by_aspect(cell.rest_aspect) : 1e-3 * cell.axial_tension_Pa / cell.stiffness;
+  return scaled(at(cell.radius_um / scale.length, cell.stiffness / scale.modulus, axial_ratio), scale);
 }
 
 std::string ElongatedCellShapes::description() const {
-  return fmt::format("table {}, axial tensions of {:g} to {:g} E", table_.origin().description(), table_.least()(1),
-                     table_.greatest()(1));
+  const double least = table_.least()(1), greatest = table_.greatest()(1);
+  if (is_long_at_rest())
+    return fmt::format("table {}, length over width of {:.3g} to {:.3g} at rest", table_.origin().description(),
+                       aspect_by_tension(least), aspect_by_tension(greatest));
+  return fmt::format("table {}, axial tensions of {:g} to {:g} E", table_.origin().description(), least, greatest);
 }
 
 }  // namespace rheocyte

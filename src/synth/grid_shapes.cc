@@ -8,12 +8,12 @@
 
 #include "case/channel_flow.h"
 #include "synth/branch_shapes.h"
+#include "synth/outline.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr int outline_points = 720;
 constexpr double agreement = 1e-7;  // relative, of the radius
 
 double sphere_of(double volume) { return std::cbrt(3 / (4 * std::numbers::pi) * volume); }

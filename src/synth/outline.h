@@ -6,6 +6,9 @@
 
 namespace rheocyte {
 
+/// Of outlines that are known by their modes.
+inline constexpr int outline_points = 720;
+
 /// The closed polygon (x, y) of the silhouette of the meridian (x, r): a dent at a pole is hidden behind its rim. The
 /// first point is not repeated.
 Eigen::MatrixX2d silhouette(const Eigen::MatrixX2d& meridian);
