@@ -48,9 +48,7 @@ class ModuliJob {
     const std::string name = one_line(task.recording.string(), 200);
     if (!options_.batch.quiet) {
       print(fmt::format("{}: {}, see {}\n", name, in_one_line(summary), file_for(task).string()));
-      for (const auto& lines : {tension_lines(summary.axial), slope_lines(summary.axial)})
-        for (const auto& line : lines) print(fmt::format("{}: {}\n", name, line));
-      if (const auto line = median_line(summary); !line.empty()) print(fmt::format("{}: {}\n", name, line));
+      for (const auto& line : lines_of(summary)) print(fmt::format("{}: {}\n", name, line));
       for (const auto& warning : summary.warnings) tell(fmt::format("{}: {}", name, warning));
     }
     if (summary.with_stiffness() > 0) return true;

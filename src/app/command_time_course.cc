@@ -49,7 +49,7 @@ int run(const TimeCourseOptions& options) {
   const auto tasks = tasks_of(options.batch);
   const DynamicTable table = read_dynamic_table(options.table);
   check_replaceable(options.file, mark_of_courses, Foreign::keep);
-  CourseTable courses(table, options.section.value_or(Section::square));
+  CourseTable courses(table, options.section);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const double contraction_um = contraction_of(options, i, tasks.size());
     const std::string name = one_line(tasks[i].recording.string(), 200);

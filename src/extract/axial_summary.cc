@@ -14,6 +14,13 @@ namespace {
 /// cells differ, too.
 constexpr double errors_allowed = 3, slope_allowed = 0.1;
 
+/// Its error is that of what it is computed from.
+std::string wall_text(double stress_Pa) {
+  return fmt::format(
+      "of the wall's shear stress of {:.4g} Pa (computed; errors of flow rate, channel and viscosity are not in it)",
+      stress_Pa);
+}
+
 bool is_near(double value, double error, double predicted) {
   return std::abs(value - predicted) < errors_allowed * error + slope_allowed;
 }
@@ -25,17 +32,15 @@ std::vector<std::string> tension_lines(const AxialSummary& s) {
   const auto& [value, lower, upper, misfit, cells] = s.common;
   const double wall = s.wall_stress_Pa;
   if (s.is_given)
-    return {fmt::format("axial tension: {:.4g} Pa as given, {:.3g} of the wall's shear stress of {:.4g} Pa", value,
-                        value / wall, wall)};
+    return {fmt::format("axial tension: {:.4g} Pa as given, {:.3g} {}", value, value / wall, wall_text(wall))};
   if (!s.common.is_found())
     return {
         fmt::format("axial tension: not found, because only {} events have the shape of a cell of the table, and "
                     "it takes {}; each cell has the one that fits it best, or give --axial-tension-Pa",
                     cells, CommonTension::min_cells)};
   std::string text = fmt::format(
-      "axial tension: {:.4g} Pa (90 % interval {:.4g} to {:.4g}) from {} cells, {:.3g} ({:.3g} to {:.3g}) of the "
-      "wall's shear stress of {:.4g} Pa",
-      value, lower, upper, cells, value / wall, lower / wall, upper / wall, wall);
+      "axial tension: {:.4g} Pa (90 % interval {:.4g} to {:.4g}) from {} cells, {:.3g} ({:.3g} to {:.3g}) {}", value,
+      lower, upper, cells, value / wall, lower / wall, upper / wall, wall_text(wall));
   if (lower <= 0 && upper >= 0) text += "; none within its error";
   if (misfit > 2)
     text += fmt::format("; the shapes differ from those of the model by {:.2g} times their errors", std::sqrt(misfit));

@@ -22,7 +22,6 @@ constexpr double least_elongation = 1.05;       // inertia ratio of cells that a
 constexpr double share_that_decides = 1.0 / 3;  // of the tilt of a stored shape
 constexpr double sure = 2;                      // standard errors
 constexpr double far_from_all = 4;              // robust standard deviations from the median: no cell of the others
-constexpr double deviations_per_quartile = 0.6745;
 
 using Column = std::vector<double>;
 
@@ -41,8 +40,7 @@ Events events_of(const PlacedOutlines& o, int direction) {
   Events events;
   if (places.empty()) return events;
   const CountedSample<double> sample(places);
-  const double middle = sample.quantile(0.5),
-               widest = far_from_all * (sample.quantile(0.75) - sample.quantile(0.25)) / (2 * deviations_per_quartile);
+  const double middle = sample.quantile(0.5), widest = far_from_all * robust_deviation(sample);
   for (std::size_t i = 0; i < o.y_um.size(); ++i) {
     if (!std::isfinite(o.sine_mode_2[i]) || !(std::abs(o.y_um[i] - middle) <= widest)) continue;
     events.along.push_back(direction == 0 ? no_value : direction * o.x_um[i]);

@@ -12,6 +12,7 @@
 #include "case/user_error.h"
 #include "extract/event_pass.h"
 #include "extract/outlined_events.h"
+#include "measurement/metadata.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/quantile.h"
 
@@ -35,6 +36,7 @@ class CourseReader {
   CourseReader(const Recording& recording, const MeasuringOptions& options)
       : recording_(checked(recording)), events_(recording, options, "the third mode of each outline is computed") {
     result_.has_time = recording.has_scalar("time");
+    result_.made_of = recording.metadata().text(made_of_key).value_or("");
     result_.settings = events_.settings().lines();
     result_.warnings = events_.settings().warnings;
   }

@@ -25,12 +25,13 @@ struct CourseEvents {
   std::vector<CourseEvent> events;
   ChannelFlow flow;  ///< with the median viscosity of its events
   bool has_time = false;
+  std::string made_of;  ///< of a virtual recording: what it says of its cells; else empty
   std::vector<std::string> settings, warnings;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.events, s.flow, s.has_time, s.settings, s.warnings);
+    return std::tie(s.events, s.flow, s.has_time, s.made_of, s.settings, s.warnings);
   }
 };
 

@@ -4,7 +4,6 @@
 
 #include "case/user_error.h"
 #include "measurement/metadata.h"
-#include "table/table_metadata.h"
 
 namespace rheocyte {
 
@@ -44,11 +43,7 @@ ModuliTable::ModuliTable(const ModuliOptions& options)
 }
 
 Section ModuliTable::section_of(const Recording& recording, std::optional<Section> wanted) const {
-  if (wanted) return *wanted;
-  const Case& base = content.spec.base;
-  const auto cells = recording.metadata().text(made_of_key);
-  const bool are_of_this_table = cells && *cells == cells_in_words(model_text(base), base.channel.section);
-  return are_of_this_table ? base.channel.section : Section::square;
+  return section_seen(wanted, recording.metadata().text(made_of_key).value_or(""), content.spec.base);
 }
 
 double ModuliTable::sign_of_asymmetry() const {

@@ -16,8 +16,7 @@ struct ModuliTable {
   ModuliTable(const ModuliTable&) = delete;
   ModuliTable& operator=(const ModuliTable&) = delete;
 
-  /// In which the cells of a recording were seen: the wanted section; else the table's, the tube, where they are
-  /// virtual cells of this table; else the square.
+  /// See section_seen.
   Section section_of(const Recording&, std::optional<Section> wanted) const;
 
   /// Of c_3 of its cells.

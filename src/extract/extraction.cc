@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "case/user_error.h"
+#include "extract/common_errors.h"
 #include "extract/fitting_table.h"
 #include "extract/plausibility.h"
 #include "numeric/no_value.h"
@@ -123,8 +124,13 @@ ExtractSummary Extraction::summary() {
   s.shapes.missing = event_shapes_.missing();
   if (const ShapeMap* const map = event_shapes_.map()) s.shapes.model = map->origin().cells();
   s.shapes.made_of = made_of();
-  s.shapes.by_deformation_kPa = s.modulus_kPa.median;
   s.shapes.elongated_by = event_shapes_.elongated_by().value_or(ElongatedBy::modes);
+  ChannelFlow flow = settings_.conditions.flow;
+  flow.viscosity_mPas = s.mean_viscosity_mPas;
+  const double reynolds = reynolds_number(buffer_density_kg_per_m3, flow);
+  s.shapes.elongated_common_error = common_error_of_elongated(s.shapes.elongated_by, reynolds);
+  const double common = common_error_by_deformation(s.median_standard_error_kPa / s.modulus_kPa.median, reynolds);
+  s.shapes.by_deformation_kPa = {s.modulus_kPa.median, s.modulus_kPa.median_error, common * s.modulus_kPa.median};
   if (s.shapes.fit() != ShapeVerdict::Fit::unknown && s.shapes.fit() != ShapeVerdict::Fit::model)
     s.shapes.other = fitting_table(tables_, settings_.conditions, shape_tally_.judged());
   s.warnings = recording_.remarks();

@@ -22,7 +22,10 @@ ordered_json counts_of(const ModuliSummary& s) {
 
 ordered_json quartiles_of(const Distribution& d, std::size_t events) {
   if (events == 0) return nullptr;
-  return {{"first_quartile", d.first_quartile}, {"median", d.median}, {"third_quartile", d.third_quartile}};
+  return {{"first_quartile", d.first_quartile},
+          {"median", d.median},
+          {"median_error", d.median_error},
+          {"third_quartile", d.third_quartile}};
 }
 
 /// The 90 % interval is that of the common tension.

@@ -124,7 +124,7 @@ class Fits {
     if (is_square()) {
       s.warnings.push_back(moduli_.square_table().empty() ? std::string(no_square_text) : section_text());
     } else if (!is_told_) {
-      s.warnings.emplace_back("made by rheocyte synth from cells of the table: the channel is its tube.");
+      s.warnings.emplace_back(own_cells_text);
     }
     if (moduli_.square_table().empty() &&
         std::abs(conditions().flow.exponent - simulated_exponent_) > flow_exponent_tolerance)

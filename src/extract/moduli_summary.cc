@@ -2,14 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace rheocyte {
 
 namespace {
 
 std::string range_text(const Distribution& d, std::string_view name, std::string_view unit) {
-  return fmt::format(", {} median {:.4g} {} (quartiles {:.4g} to {:.4g})", name, d.median, unit, d.first_quartile,
+  return fmt::format(", {} median {} {} (quartiles {:.4g} to {:.4g})", name, median_text(d), unit, d.first_quartile,
                      d.third_quartile);
 }
 
@@ -45,6 +47,9 @@ std::string in_one_line(const ModuliSummary& s) {
   return text + others;
 }
 
+namespace {
+
+/// Of the median cell by a table of elongated cells; empty if too few were seen.
 std::string median_line(const ModuliSummary& s) {
   const MedianCell& m = s.median_cell;
   if (!s.axial.is_of_elongated_cells || m.cells < MedianCell::min_cells) return {};
@@ -52,11 +57,21 @@ std::string median_line(const ModuliSummary& s) {
     return fmt::format("the median outline of {} cells: none of the table's cells has it", m.cells);
   return fmt::format(
       "the median outline of {} cells: E {:.3g} +- {:.2g} kPa, E2D {:.3g} +- {:.2g} mN/m, tension {:.3g} +- {:.2g} "
-      "mN/m, axial tension {:.3g} +- {:.2g} Pa, {:.3g} of the wall's shear stress; chi2 {:.3g} at {} degrees of "
-      "freedom",
+      "mN/m, axial tension {:.3g} +- {:.2g} Pa, {:.3g} +- {:.2g} of the wall's shear stress; chi2 {:.3g}, where {} +- "
+      "{:.2g} is expected of one image of such a cell",
       m.cells, m.young_kPa, m.young_error_kPa, m.cortex_mN_per_m, m.cortex_error_mN_per_m, m.tension_mN_per_m,
       m.tension_error_mN_per_m, m.axial_tension_Pa, m.axial_tension_error_Pa,
-      m.axial_tension_Pa / s.axial.wall_stress_Pa, m.chi_squared, m.freedom);
+      m.axial_tension_Pa / s.axial.wall_stress_Pa, m.axial_tension_error_Pa / s.axial.wall_stress_Pa, m.chi_squared,
+      m.freedom, std::sqrt(2.0 * m.freedom));
+}
+
+}  // namespace
+
+std::vector<std::string> lines_of(const ModuliSummary& s) {
+  std::vector<std::string> lines = tension_lines(s.axial);
+  for (const std::string& line : slope_lines(s.axial)) lines.push_back(line);
+  if (std::string median = median_line(s); !median.empty()) lines.push_back(std::move(median));
+  return lines;
 }
 
 }  // namespace rheocyte

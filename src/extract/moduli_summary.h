@@ -49,7 +49,8 @@ class ModuliTally {
 
 /// For the terminal: how many events are resolved, their moduli, and how many have another status.
 std::string in_one_line(const ModuliSummary&);
-/// Of the median cell by a table of elongated cells; empty if too few were seen.
-std::string median_line(const ModuliSummary&);
+/// By a table of elongated cells: the axial tension, the slopes between cells, and the median cell. Empty by another
+/// one.
+std::vector<std::string> lines_of(const ModuliSummary&);
 
 }  // namespace rheocyte

@@ -136,29 +136,32 @@ ModulusTables::Elongated::Elongated(ElongatedContent content, std::unique_ptr<co
       measured(std::move(other)),
       liquid(solids, computed.get(), measured.get()) {}
 
+std::optional<ElongatedFile> elongated_file(double flow_exponent) {
+  const auto misfit = [&](double exponent) { return std::abs(exponent - flow_exponent); };
+  std::optional<ElongatedFile> best;
+  for (const auto& [identifier, file] : shipped_elongated_tables()) {
+    const auto head = grid_head(first_bytes(file, grid_head_bytes).value_or(""));
+    if (!head || (misfit(head->flow_exponent) > flow_exponent_tolerance && head->flow_exponent != 1)) continue;
+    if (!best || misfit(head->flow_exponent) < misfit(best->flow_exponent)) best = {file, head->flow_exponent};
+  }
+  return best;
+}
+
 const ElongatedLiquid* ModulusTables::elongated(double flow_exponent) const {
   if (section_ == Section::tube && own()) return nullptr;
   auto& found = elongated_[flow_exponent];
   if (found) return &found->liquid;
-  const auto misfit = [&](double exponent) { return std::abs(exponent - flow_exponent); };
-  // The nearest liquid; where none is near enough the Newtonian one.
-  std::optional<std::filesystem::path> best;
-  double best_exponent = 1;
-  for (const auto& [identifier, file] : shipped_elongated_tables()) {
-    const auto head = grid_head(first_bytes(file, grid_head_bytes).value_or(""));
-    if (!head || (misfit(head->flow_exponent) > flow_exponent_tolerance && head->flow_exponent != 1)) continue;
-    if (!best || misfit(head->flow_exponent) < misfit(best_exponent)) best = file, best_exponent = head->flow_exponent;
-  }
+  const auto best = elongated_file(flow_exponent);
   if (!best) return nullptr;
   std::unique_ptr<const ModulusMap> computed, measured;
-  if (misfit(best_exponent) > flow_exponent_tolerance) {
+  if (std::abs(best->flow_exponent - flow_exponent) > flow_exponent_tolerance) {
     const ModulusTables square({}, Section::square);
-    computed = read_modulus_map(square.file(best_exponent));
+    computed = read_modulus_map(square.file(best->flow_exponent));
     measured = read_modulus_map(square.file(flow_exponent));
   }
-  found =
-      std::make_unique<const Elongated>(elongated_from_bytes(content_of_file(*best, largest_elongated), best->string()),
-                                        std::move(computed), std::move(measured));
+  found = std::make_unique<const Elongated>(
+      elongated_from_bytes(content_of_file(best->file, largest_elongated), best->file.string()), std::move(computed),
+      std::move(measured));
   return &found->liquid;
 }
 

@@ -15,6 +15,14 @@ namespace rheocyte {
 /// A difference of flow exponents up to which a liquid and that of a table count as alike.
 inline constexpr double flow_exponent_tolerance = 0.035;
 
+/// A table of elongated cells that comes with the program.
+struct ElongatedFile {
+  std::filesystem::path file;
+  double flow_exponent;
+};
+/// That of the nearest liquid; where none is near enough the Newtonian one.
+std::optional<ElongatedFile> elongated_file(double flow_exponent);
+
 /// Tables that come with the program are chosen by their metadata, and read when they are needed.
 class ModulusTables {
  public:

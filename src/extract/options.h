@@ -46,7 +46,7 @@ struct ModuliOptions {
   bool fit_tension = false;                ///< as a third unknown
   std::optional<double> axial_tension_Pa;  ///< of the liquid; not given: found for each recording
   bool only_figure = false;                ///< by deformation and Lambda1 / Lambda2 in place of the whole contour
-  std::optional<Section> section;          ///< in which the cells were seen; not given: ModuliTable::section_of
+  std::optional<Section> section;          ///< in which the cells were seen; not given: section_seen
 };
 
 struct TimeCourseOptions {
@@ -54,7 +54,7 @@ struct TimeCourseOptions {
   MeasuringOptions measuring;
   std::filesystem::path table, file;
   std::vector<double> contraction_um;  ///< one for all recordings, or one each
-  std::optional<Section> section;      ///< in which the cells were seen; not given: square
+  std::optional<Section> section;      ///< in which the cells were seen; not given: section_seen
 };
 
 struct FeaturesOptions {

@@ -62,9 +62,13 @@ Setting section_setting(std::optional<Section>& section, std::string_view senten
   return of_type("tube|square", {"tube", "square"}, setting("section", "Section", &section, sentence, otherwise));
 }
 
-constexpr std::string_view where_cells_were_seen =
-    "of the channel: square, by the difference between solids there and in the tube of the table, or tube, as virtual "
-    "cells of such a table have it";
+/// In which the cells were seen, by a table of the tube.
+Setting seen_section(std::optional<Section>& section) {
+  return section_setting(section,
+                         "of the channel: square, by the difference between solids there and in the tube of the table, "
+                         "or tube, as virtual cells of such a table have it",
+                         "square, but tube for virtual cells of the table");
+}
 
 Settings gate_settings(GateOptions& gates) {
   constexpr std::string_view limit = "FEATURE=VALUE";
@@ -155,8 +159,7 @@ Settings settings_of(ModuliOptions& o) {
                                    "(examples/tables/combined-elongated.toml)"));
   tension.former_option = "--axial-tension";
   return joined(
-      joined({section_setting(o.section, where_cells_were_seen, "square, but tube for virtual cells of the table")},
-             settings_of(o.measuring)),
+      joined({seen_section(o.section)}, settings_of(o.measuring)),
       {setting("fit_tension", "Fit tension", &o.fit_tension,
                "the tension of the cortex, too, by a table with several of them; tables of elongated cells always do"),
        tension,
@@ -164,9 +167,7 @@ Settings settings_of(ModuliOptions& o) {
                "by area, deformation and Lambda1/Lambda2, the measures of the paper's figure 9")});
 }
 
-Settings settings_of(TimeCourseOptions& o) {
-  return joined({section_setting(o.section, where_cells_were_seen, "square")}, settings_of(o.measuring));
-}
+Settings settings_of(TimeCourseOptions& o) { return joined({seen_section(o.section)}, settings_of(o.measuring)); }
 
 Settings settings_of(FeaturesOptions& o) { return {pixel_size(o.pixel_size_um), patience(o.patience_s)}; }
 

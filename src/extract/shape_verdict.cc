@@ -13,14 +13,9 @@ namespace rheocyte {
 
 namespace {
 
-constexpr double of_the_model = 0.02, still_doubtful = 0.05;  // medians of the excess
-constexpr double normal_deviations_per_quartile = 0.6745;
+constexpr double of_the_model = 0.02, still_doubtful = 0.05;              // medians of the excess
 constexpr std::size_t fewest_for_a_verdict = 5, fewest_for_a_trend = 20;  // events
 constexpr double min_length_um = 15;                                      // of what a recording sees, for a trend
-
-double robust_deviation(const CountedSample<double>& values) {
-  return (values.quantile(0.75) - values.quantile(0.25)) / (2 * normal_deviations_per_quartile);
-}
 
 /// Least squares over the places, without what lies four robust deviations from the median.
 Trend trend_of(std::span<const double> x, std::span<const double> y, double length) {
@@ -99,12 +94,28 @@ std::string text_on_elongated(const ShapeVerdict& v, const std::string& cells, c
 
 std::string elongated_text(const ShapeVerdict& v) {
   return fmt::format(
-      "E by {} of {} event{} as of cells that the liquid draws out: median {:.4g} kPa (quartiles {:.4g} to {:.4g}); "
+      "E by {} of {} event{} as of cells that the liquid draws out: median {} kPa (quartiles {:.4g} to {:.4g}); "
       "elongation {:.3f} +- {:.3f}, axial tension {:.4g} +- {:.3g} Pa",
       v.elongated_by == ElongatedBy::modes ? "the outlines" : "deformation and inertia ratio", v.with_elongation,
-      v.with_elongation == 1 ? "" : "s", v.elongated_kPa.median, v.elongated_kPa.first_quartile,
+      v.with_elongation == 1 ? "" : "s", median_text(v.elongated_kPa), v.elongated_kPa.first_quartile,
       v.elongated_kPa.third_quartile, v.elongation.value, v.elongation.error, v.axial_tension_Pa.value,
       v.axial_tension_Pa.error);
+}
+
+/// With the errors that are known, and what they are.
+std::string report_text(const MedianModulus& modulus, std::string_view from) {
+  std::string number = fmt::format("{:.4g}", modulus.value), meaning;
+  if (std::isfinite(modulus.error)) {
+    number += fmt::format(" +- {:.2g}", modulus.error);
+    meaning = "; the error is by the scatter of the events alone";
+    if (std::isfinite(modulus.common_error)) {
+      number += fmt::format(" +- {:.2g}", modulus.common_error);
+      meaning =
+          "; errors by the scatter of the events, and by pixels, table and inertia, which they share; those of "
+          "viscosity, flow rate and pixel size come on top";
+    }
+  }
+  return fmt::format("report E = {} kPa (median, {}{})", number, from, meaning);
 }
 
 }  // namespace
@@ -117,8 +128,7 @@ Median median_with_error(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty()) return {no_value, no_value};
   const CountedSample<double> sample(values);
-  const double error = 1.25 * robust_deviation(sample) / std::sqrt(static_cast<double>(values.size()));
-  return {sample.quantile(0.5), values.size() > 1 ? error : no_value};
+  return {sample.quantile(0.5), error_of_median(sample)};
 }
 
 bool Trend::is_changing() const { return std::abs(change) > 3 * error && std::abs(change) > 0.05 * std::abs(median); }
@@ -247,29 +257,38 @@ ShapeVerdict::Modulus ShapeVerdict::recommended() const {
   return Modulus::elongated;
 }
 
+MedianModulus ShapeVerdict::recommended_kPa() const {
+  switch (recommended()) {
+    case Modulus::none: return {};
+    case Modulus::by_deformation: return by_deformation_kPa;
+    case Modulus::elongated: break;
+  }
+  return {elongated_kPa.median, elongated_kPa.median_error, elongated_common_error * elongated_kPa.median};
+}
+
 std::string ShapeVerdict::recommended_text() const {
   switch (recommended()) {
     case Modulus::none:
       if (has_cortex_shapes())
         return fmt::format(
             "no single modulus describes these cells: the outlines have the flat rear and the straight flanks of cells "
-            "with a cortex (c4 {:+.3f} +- {:.3f}, c5 {:+.3f} +- {:.3f} beyond those of solids); c3 then tells little "
-            "of "
-            "stiffness: use `rheocyte moduli`.",
+            "with a cortex (c4 {:+.4f} +- {:.4f}, c5 {:+.4f} +- {:.4f} beyond those of solids); c3 then tells little "
+            "of stiffness: use `rheocyte moduli`.",
             cortex_mode_4.value, cortex_mode_4.error, cortex_mode_5.value, cortex_mode_5.error);
       return "no modulus can be recommended: the cells are not those of the table, and too few have one as elongated "
              "cells.";
     case Modulus::by_deformation:
-      if (!std::isfinite(by_deformation_kPa)) return {};
-      return fmt::format("report E = {:.4g} kPa (median, from area and deformation){}", by_deformation_kPa,
-                         fit() == Fit::model ? ": the shapes are those of the model."
-                                             : "; whether the shapes are those of the model is unknown.");
+      if (!std::isfinite(by_deformation_kPa.value)) return {};
+      return report_text(by_deformation_kPa, "from area and deformation") +
+             (fit() == Fit::model ? ": the shapes are those of the model."
+                                  : "; whether the shapes are those of the model is unknown.");
     case Modulus::elongated: break;
   }
   return fmt::format(
-      "report E = {:.4g} kPa (median, by the table of elongated cells): the cells are longer than the flow alone would "
-      "make them, which a tension of {:.4g} Pa along the flow does.",
-      elongated_kPa.median, axial_tension_Pa.value);
+      "{}: the cells are longer than the flow alone would make them, which a tension of {:.4g} +- {:.2g} Pa along the "
+      "flow does.",
+      report_text(recommended_kPa(), "by the table of elongated cells"), axial_tension_Pa.value,
+      axial_tension_Pa.error);
 }
 
 std::string ShapeVerdict::trend_text() const {

@@ -27,6 +27,12 @@ struct Median {
   }
 };
 
+/// The median Young's modulus of a recording (kPa) and its standard errors: by the scatter of the events, and by what
+/// they have in common. NaN where there is none.
+struct MedianModulus {
+  double value = no_value, error = no_value, common_error = no_value;
+};
+
 /// How a feature changes along the channel.
 struct Trend {
   double change = 0, error = 0;  ///< over the places that the recording sees
@@ -70,12 +76,13 @@ struct ShapeVerdict {
   double seen_um = 0;  ///< along the channel, 5 % to 95 % of the events; NaN without pos_x
   Trend inertia_ratio_trend, deformation_trend, asymmetry_trend;
   Trend mode_4_trend;
-  int direction = 0;                     ///< in which the cells move: along +x or -x; 0 if that is unknown
-  double by_deformation_kPa = no_value;  ///< median Young's modulus from area and deformation
+  int direction = 0;                 ///< in which the cells move: along +x or -x; 0 if that is unknown
+  MedianModulus by_deformation_kPa;  ///< from area and deformation
   ElongatedBy elongated_by = ElongatedBy::modes;
-  Distribution elongated_kPa;       ///< Young's moduli by the table of elongated cells
-  std::size_t with_elongation = 0;  ///< events that have one
-  double modulus_ratio = 0;         ///< median of E from deformation / that; NaN if unknown
+  Distribution elongated_kPa;                ///< Young's moduli by the table of elongated cells
+  double elongated_common_error = no_value;  ///< of their median, relative (common_errors.h)
+  std::size_t with_elongation = 0;           ///< events that have one
+  double modulus_ratio = 0;                  ///< median of E from deformation / that; NaN if unknown
   Median elongation, axial_tension_Pa;
   Median cortex_mode_4, cortex_mode_5;  ///< c_4 and c_5 beyond those of the elongated solids, where outlines tell them
   BesideAxis beside_axis;
@@ -86,8 +93,8 @@ struct ShapeVerdict {
     return std::tie(s.judged, s.elongated, s.red_cells, s.missing, s.inertia_ratio_from, s.model, s.made_of, s.other,
                     s.excess, s.inertia_ratio, s.expected_inertia_ratio, s.odd_share, s.seen_um, s.inertia_ratio_trend,
                     s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction, s.by_deformation_kPa,
-                    s.elongated_by, s.elongated_kPa, s.with_elongation, s.modulus_ratio, s.elongation,
-                    s.axial_tension_Pa, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
+                    s.elongated_by, s.elongated_kPa, s.elongated_common_error, s.with_elongation, s.modulus_ratio,
+                    s.elongation, s.axial_tension_Pa, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
   }
 
   double elongated_percent() const;
@@ -101,6 +108,7 @@ struct ShapeVerdict {
   /// Which number is to be reported, and why; nothing without one.
   enum class Modulus { none, by_deformation, elongated };
   Modulus recommended() const;
+  MedianModulus recommended_kPa() const;
   std::string recommended_text() const;
   /// "settled", "still changing", or why that is unknown, with numbers; of an asymmetry that changes, whether cells
   /// that approach the axis explain it.

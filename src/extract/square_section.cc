@@ -2,7 +2,16 @@
 
 #include <cmath>
 
+#include "table/table_metadata.h"
+#include "table/table_origin.h"
+
 namespace rheocyte {
+
+Section section_seen(std::optional<Section> wanted, std::string_view made_of, const Case& table) {
+  if (wanted) return *wanted;
+  const bool are_its_own = !made_of.empty() && made_of == cells_in_words(model_text(table), table.channel.section);
+  return are_its_own ? table.channel.section : Section::square;
+}
 
 SquareSection::SquareSection(Section section, const Case& tube) {
   if (section == Section::tube) return;

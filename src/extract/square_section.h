@@ -9,6 +9,13 @@
 
 namespace rheocyte {
 
+/// In which the cells of a recording were seen: the wanted section; else the table's, the tube, where they are virtual
+/// cells of it (`made_of`: what the recording says under made_of_key, if anything); else the square.
+Section section_seen(std::optional<Section> wanted, std::string_view made_of, const Case& table);
+/// What is said where it is the table's.
+inline constexpr std::string_view own_cells_text =
+    "made by rheocyte synth from cells of the table: the channel is its tube.";
+
 class SquareSection {
  public:
   /// For a table of the tube whose cells, without their cortex, are those of `tube`. In the section tube nothing is

@@ -29,14 +29,6 @@ std::function<CellValue(const S&)> beside_axis(auto value) {
   return [value](const S& s) -> CellValue { return std::invoke(value, s.shapes.beside_axis); };
 }
 
-double recommended_kPa(const ShapeVerdict& v) {
-  switch (v.recommended()) {
-    case ShapeVerdict::Modulus::elongated: return v.elongated_kPa.median;
-    case ShapeVerdict::Modulus::by_deformation: return v.by_deformation_kPa;
-    default: return no_value;
-  }
-}
-
 std::string beside_axis_text(const BesideAxis& b) {
   const std::string turn = b.turn_text(), centring = b.centring_text();
   return turn + (turn.empty() || centring.empty() ? "" : " ") + centring;
@@ -56,6 +48,7 @@ Columns of_modulus() {
   return {{"with_modulus_percent",
            [](const S& s) { return 100 * double(s.with_modulus()) / double(std::max<std::size_t>(s.events, 1)); }},
           {"young_modulus_median_kPa", [](const S& s) { return s.modulus_kPa.median; }},
+          {"young_modulus_median_error_kPa", [](const S& s) { return s.modulus_kPa.median_error; }},
           {"young_modulus_first_quartile_kPa", [](const S& s) { return s.modulus_kPa.first_quartile; }},
           {"young_modulus_third_quartile_kPa", [](const S& s) { return s.modulus_kPa.third_quartile; }},
           {"young_modulus_mean_kPa", [](const S& s) { return s.modulus_kPa.mean; }},
@@ -66,27 +59,32 @@ Columns of_modulus() {
 Columns of_elongation() {
   using V = ShapeVerdict;
   constexpr std::array recommended{"none", "deformation", "elongated"};
-  return {{"recommended_modulus",
-           of_shapes([=](const V& v) { return recommended.at(static_cast<std::size_t>(v.recommended())); })},
-          {"recommended_young_modulus_median_kPa", of_shapes(recommended_kPa)},
-          {"recommended_text", of_shapes(&V::recommended_text)},
-          {"young_modulus_elongated_median_kPa", of_shapes([](const V& v) { return v.elongated_kPa.median; })},
-          {"young_modulus_elongated_first_quartile_kPa",
-           of_shapes([](const V& v) { return v.elongated_kPa.first_quartile; })},
-          {"young_modulus_elongated_third_quartile_kPa",
-           of_shapes([](const V& v) { return v.elongated_kPa.third_quartile; })},
-          {"with_elongation", of_shapes([](const V& v) { return double(v.with_elongation); }), digits_of_counts},
-          {"elongated_by", of_shapes([](const V& v) {
-             if (v.with_elongation == 0) return "";
-             return v.elongated_by == ElongatedBy::modes ? "outlines" : "inertia ratio";
-           })},
-          {"deformation_over_elongated_modulus", of_shapes(&V::modulus_ratio)},
-          {"elongation_median", of_shapes([](const V& v) { return v.elongation.value; })},
-          {"elongation_median_error", of_shapes([](const V& v) { return v.elongation.error; })},
-          {"axial_tension_median_Pa", of_shapes([](const V& v) { return v.axial_tension_Pa.value; })},
-          {"axial_tension_median_error_Pa", of_shapes([](const V& v) { return v.axial_tension_Pa.error; })},
-          {"mode_4_beyond_solids", of_shapes([](const V& v) { return v.cortex_mode_4.value; })},
-          {"mode_5_beyond_solids", of_shapes([](const V& v) { return v.cortex_mode_5.value; })}};
+  return {
+      {"recommended_modulus",
+       of_shapes([=](const V& v) { return recommended.at(static_cast<std::size_t>(v.recommended())); })},
+      {"recommended_young_modulus_median_kPa", of_shapes([](const V& v) { return v.recommended_kPa().value; })},
+      {"recommended_young_modulus_median_error_kPa", of_shapes([](const V& v) { return v.recommended_kPa().error; })},
+      {"recommended_young_modulus_common_error_kPa",
+       of_shapes([](const V& v) { return v.recommended_kPa().common_error; })},
+      {"recommended_text", of_shapes(&V::recommended_text)},
+      {"young_modulus_elongated_median_kPa", of_shapes([](const V& v) { return v.elongated_kPa.median; })},
+      {"young_modulus_elongated_median_error_kPa", of_shapes([](const V& v) { return v.elongated_kPa.median_error; })},
+      {"young_modulus_elongated_first_quartile_kPa",
+       of_shapes([](const V& v) { return v.elongated_kPa.first_quartile; })},
+      {"young_modulus_elongated_third_quartile_kPa",
+       of_shapes([](const V& v) { return v.elongated_kPa.third_quartile; })},
+      {"with_elongation", of_shapes([](const V& v) { return double(v.with_elongation); }), digits_of_counts},
+      {"elongated_by", of_shapes([](const V& v) {
+         if (v.with_elongation == 0) return "";
+         return v.elongated_by == ElongatedBy::modes ? "outlines" : "inertia ratio";
+       })},
+      {"deformation_over_elongated_modulus", of_shapes(&V::modulus_ratio)},
+      {"elongation_median", of_shapes([](const V& v) { return v.elongation.value; })},
+      {"elongation_median_error", of_shapes([](const V& v) { return v.elongation.error; })},
+      {"axial_tension_median_Pa", of_shapes([](const V& v) { return v.axial_tension_Pa.value; })},
+      {"axial_tension_median_error_Pa", of_shapes([](const V& v) { return v.axial_tension_Pa.error; })},
+      {"mode_4_beyond_solids", of_shapes([](const V& v) { return v.cortex_mode_4.value; })},
+      {"mode_5_beyond_solids", of_shapes([](const V& v) { return v.cortex_mode_5.value; })}};
 }
 
 Columns of_verdict() {

@@ -8,6 +8,7 @@
 
 #include "case/user_error.h"
 #include "extract/event_table.h"
+#include "extract/shape_verdict.h"
 #include "numeric/quantile.h"
 #include "store/build_info.h"
 
@@ -81,7 +82,10 @@ void CourseTable::add(const CourseEvents& events, const std::string& name, doubl
                       name, events.flow.rate_ul_s, events.flow.viscosity_mPas, first.rate_ul_s, first.viscosity_mPas));
   }
   std::optional<SquareCourse> to_tube;
-  if (const ModulusMap* const square = square_.table(events.flow.exponent)) {
+  const bool is_square = section_seen(section_, events.made_of, table_.spec().base) == Section::square;
+  are_in_square_ = are_in_square_ || is_square;
+  if (!is_square && !section_) remarks_.emplace_back(own_cells_text);
+  if (const ModulusMap* const square = is_square ? square_.table(events.flow.exponent) : nullptr) {
     to_tube.emplace(table_, *square);
     square_table_ = square->origin().identifier;
     unsettled_ = to_tube->unsettled();
@@ -108,7 +112,9 @@ CourseRow CourseTable::told(const Row& row, std::size_t number) const {
                  .radius_um = estimate.radius_um * in.length,
                  .chi_squared = estimate.chi_squared,
                  .section_factor = factor,
-                 .section_error = errors.modulus};
+                 .section_error = errors.modulus,
+                 .drawn_out = TimeCourse(table_).drawn_out(row.cell.images, estimate.young_modulus_kPa.value,
+                                                           estimate.time_ms.value)};
   estimate.young_modulus_kPa = widened(estimate.young_modulus_kPa, errors.modulus);
   estimate.viscosity_Pas = widened(estimate.viscosity_Pas, errors.viscosity);
   told.young_modulus_kPa = times(estimate.young_modulus_kPa, in.modulus);
@@ -131,6 +137,32 @@ std::string CourseTable::section_text(const std::vector<CellImages>& cells) cons
       factor, square_table_, 100 * errors.modulus, 100 * errors.viscosity);
 }
 
+std::string CourseTable::elongation_text(const CourseReport& report) const {
+  constexpr double worth_a_word = 0.02;
+  std::vector<double> excess, factor;
+  const auto take = [&](const DrawnOut& cell) {
+    excess.push_back(cell.mode_2_excess);
+    factor.push_back(cell.factor);
+  };
+  const PopulationEstimate& p = report.population;
+  const Physical in = physical(table_, rows_.front().flow);
+  for (const CourseRow& row : report.rows) take(row.drawn_out);
+  // Of cells that were seen once the population tells what they are.
+  if (report.rows.empty())
+    for (const Row& row : rows_)
+      take(TimeCourse(table_).drawn_out(
+          row.cell.images, p.young_modulus_kPa.value / in.modulus,
+          3 * p.viscosity_Pas.value / p.young_modulus_kPa.value * in.modulus / in.viscosity));
+  const Median beyond = median_with_error(excess), multiplied = median_with_error(factor);
+  if (!(beyond.value > worth_a_word)) return {};
+  return fmt::format(
+      "the cells are elongated along the flow (c2 {:.4f} +- {:.4f} beyond that of the table's cells, median): c3 was "
+      "multiplied by {:.3f} +- {:.3f} (median), as if a tension of the liquid that does not change along the channel "
+      "drew out solids; of cells with a cortex (flat rear, straight flanks) E and viscosity mean little, see "
+      "`rheocyte extract`",
+      beyond.value, beyond.error, multiplied.value, multiplied.error);
+}
+
 CourseReport CourseTable::report() const {
   std::vector<CourseCell> cells;
   std::vector<CellImages> images;
@@ -150,7 +182,7 @@ CourseReport CourseTable::report() const {
       fmt::format("{} cells, {} of them seen over at least {:g} um; {} events at places and {} with "
                   "areas that the table does not have",
                   cells.size(), seen_again, min_seen_um, outside_places_, outside_areas_));
-  if (section_ == Section::square) report.lines.push_back(section_text(images));
+  if (are_in_square_) report.lines.push_back(section_text(images));
   if (cells.size() >= min_population) {
     PopulationEstimate& population = report.population = TimeCourse(table_).population(images);
     const SectionErrors errors = section_errors(section_factor_of(images), unsettled_);
@@ -169,6 +201,7 @@ CourseReport CourseTable::report() const {
                     with_interval(population.young_modulus_kPa, "kPa"), with_interval(population.viscosity_Pas, "Pa s"),
                     std::exp(population.modulus_spread), std::exp(population.viscosity_spread)));
   }
+  if (auto text = elongation_text(report); !text.empty()) report.lines.push_back(std::move(text));
   report.remarks.insert(report.remarks.end(), report.lines.begin(), report.lines.end());
   return report;
 }
@@ -195,6 +228,8 @@ const RowColumns<CourseRow>& course_columns() {
                                      {"chi_squared", &R::chi_squared, 3},
                                      {"section_factor", &R::section_factor, 4},
                                      {"section_error", &R::section_error, 2},
+                                     {"mode_2_excess", [](const R& row) { return row.drawn_out.mode_2_excess; }, 3},
+                                     {"tension_factor", [](const R& row) { return row.drawn_out.factor; }, 4},
                                      {"status", &R::status},
                                      {"event_numbers", &R::event_numbers}};
   return columns;

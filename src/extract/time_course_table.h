@@ -22,6 +22,7 @@ struct CourseRow {
   double chi_squared = 0;
   double section_factor = 1;  ///< of c_3, over that in the tube
   double section_error = 0;   ///< relative, of E, within its interval
+  DrawnOut drawn_out{};
   std::string status = {}, event_numbers = {};
 };
 
@@ -40,9 +41,9 @@ std::string course_text(const CourseReport& report);
 
 class CourseTable {
  public:
-  /// The table, which is one of the tube, must outlive it. `section`: of the channel in which the cells were seen.
-  CourseTable(const DynamicTable& table, Section section)
-      : table_(table), section_(section), square_(section, table.spec().base) {}
+  /// The table, which is one of the tube, must outlive it. `section`: in which the cells were seen, see section_seen.
+  CourseTable(const DynamicTable& table, std::optional<Section> section)
+      : table_(table), section_(section), square_(section.value_or(Section::square), table.spec().base) {}
 
   /// UserError as course_cells, and if its flow or viscosity differs from that of the recordings before.
   void add(const CourseEvents& events, const std::string& name, double contraction_um);
@@ -59,11 +60,14 @@ class CourseTable {
   CourseRow told(const Row& row, std::size_t number) const;
   /// What is said of the square channel, if it is one.
   std::string section_text(const std::vector<CellImages>& cells) const;
+  /// What is said of elongated cells; empty if they are not.
+  std::string elongation_text(const CourseReport& report) const;
 
   const DynamicTable& table_;
-  Section section_;
+  std::optional<Section> section_;
   SquareSection square_;
-  std::string square_table_;  ///< by which the cells are brought to the tube; empty: they are not
+  bool are_in_square_ = false;  ///< those of any recording
+  std::string square_table_;    ///< by which the cells are brought to the tube; empty: they are not
   double unsettled_ = 0;
   std::vector<Row> rows_;
   std::vector<std::string> remarks_;

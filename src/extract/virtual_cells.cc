@@ -18,7 +18,10 @@ double flow_exponent(const SynthSpec& spec) {
 }
 
 fs::path found_table(const SynthSpec& spec, const fs::path& folder) {
-  if (spec.table.empty()) return ModulusTables("").file(flow_exponent(spec));
+  if (spec.table.empty()) {
+    const auto elongated = spec.axial_tension_Pa ? elongated_file(flow_exponent(spec)) : std::nullopt;
+    return elongated ? elongated->file : ModulusTables("").file(flow_exponent(spec));
+  }
   fs::path beside = folder / spec.table;  // an absolute one stays
   std::error_code error;
   if (fs::exists(beside, error)) return beside;

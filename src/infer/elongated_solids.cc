@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "infer/smooth_events.h"
+#include "laws/uniaxial.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/no_value.h"
 
@@ -18,8 +19,7 @@ constexpr int most_steps = 30;
 constexpr double settled = 1e-6;
 /// So far beyond the table a cell may be on the way, in shares of its widths.
 constexpr double beyond = 0.04;
-/// In shares of the branch: a stiffer cell's asymmetry is none that could be seen.
-constexpr double min_height = 1e-3;
+constexpr double min_height = ElongatedTable::min_height;
 
 std::array<int, 2> numbers_of(ElongatedBy by) {
   using enum ElongatedMeasure;
@@ -115,22 +115,12 @@ Estimate estimate_of(const ElongatedSolids::Found& found, const Eigen::Matrix3d&
   return estimate;
 }
 
-// mu (l^2 - 1 / l) = T with mu = E / 3 for the stretch l along the axis; l^(-1/2) across.
-double stretch_by_tension(double axial_ratio) {
-  double stretch = 1;
-  for (int step = 0; step < 8; ++step)
-    stretch -= (stretch * stretch - 1 / stretch - 3 * axial_ratio) / (2 * stretch + 1 / (stretch * stretch));
-  return stretch;
-}
-
 double aspect_slope(double axial_ratio) {
   const double stretch = stretch_by_tension(axial_ratio);
   return 1.5 * std::sqrt(stretch) * 3 / (2 * stretch + 1 / (stretch * stretch));
 }
 
 }  // namespace
-
-double aspect_by_tension(double axial_ratio) { return std::pow(stretch_by_tension(axial_ratio), 1.5); }
 
 ElongatedSolids::Found ElongatedSolids::find(const Eigen::Vector3d& seen, ElongatedBy by) const {
   const ElongatedCell least = table_.least(), greatest = table_.greatest(), width = greatest - least;

@@ -32,9 +32,6 @@ struct ElongatedEstimates {
   std::span<ElongatedCell> cell;             ///< in the table's coordinates
 };
 
-/// Length over width of a neo-Hookean sphere under a tension along an axis, which is this share of Young's modulus.
-double aspect_by_tension(double axial_ratio);
-
 class ElongatedSolids {
  public:
   explicit ElongatedSolids(ElongatedContent content) : table_(std::move(content)) {}

@@ -84,11 +84,7 @@ Eigen::Matrix<double, coordinate_count, coordinate_count> ModuliMisfit::informat
 ModuliMisfit::Feature ModuliMisfit::feature(int number, const CellCoordinates& cell, const CombinedState& state) const {
   if (number == int(ShapeFeature::area_um2) && shape_.size_is_volume)
     return {std::log(4 * std::numbers::pi / 3) + 3 * cell(x_log_radius), 3 * CellCoordinates::Unit(x_log_radius)};
-  const auto at_row = [&](int row) { return Feature{state.value(row), state.gradient.row(row).transpose()}; };
-  if (number == int(ShapeFeature::area_um2)) return at_row(log_area_row);
-  if (number == int(ShapeFeature::deformation)) return at_row(deformation_row);
-  static_assert(moment_ratio_row == int(ShapeFeature::moment_ratio) && first_mode_row == int(ShapeFeature::first_mode));
-  return at_row(number);
+  return {state.value(row_of(number)), state.gradient.row(row_of(number)).transpose()};
 }
 
 }  // namespace rheocyte

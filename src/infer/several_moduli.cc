@@ -126,9 +126,9 @@ ModuliMisfit SeveralModuli::misfit(const MeasuredShape& measured, const ChannelF
 
 ShapeVector SeveralModuli::shape_of(const CellCoordinates& cell, const ChannelFlow& flow) const {
   const CombinedState state = table_.at(cell);
-  ShapeVector shape = state.value.head<feature_count>();
-  shape(int(ShapeFeature::area_um2)) = state.value(log_area_row) + std::log(scale_factors(simulated_, flow).area);
-  shape(int(ShapeFeature::deformation)) = state.value(deformation_row);
+  ShapeVector shape;
+  for (int feature = 0; feature < feature_count; ++feature) shape(feature) = state.value(row_of(feature));
+  shape(int(ShapeFeature::area_um2)) += std::log(scale_factors(simulated_, flow).area);
   return shape;
 }
 

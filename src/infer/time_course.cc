@@ -92,6 +92,22 @@ TimeCourse::Tension TimeCourse::tension_of(const CourseImage& image, double radi
   return tension;
 }
 
+DrawnOut TimeCourse::drawn_out(const CellImages& images, double young_modulus_kPa, double time_ms) const {
+  double excess = 0, log_factor = 0, count = 0;
+  for (const CourseImage& image : images) {
+    if (std::isnan(image.mode_2) || std::isnan(young_modulus_kPa)) continue;
+    const double radius_um = std::sqrt(image.area_um2 / std::numbers::pi);
+    const auto at = coordinates_of(table_.spec(), {radius_um, young_modulus_kPa, time_ms});
+    const std::vector<double> modulus(packet_size, at[1]), time{at[2]};
+    const Tension tension = tension_of(image, radius_um, modulus, time);
+    excess += image.mode_2 - table_.values(CourseMeasure::mode_2, radius_um, image.place_um, modulus, time)(0, 0);
+    log_factor += tension.log_mode_3(0, 0);
+    ++count;
+  }
+  if (count == 0) return {};
+  return {excess / count, std::exp(log_factor / count)};
+}
+
 bool TimeCourse::has_area(double area_um2) const { return table_.has_radius(std::sqrt(area_um2 / std::numbers::pi)); }
 
 TimeCourse::Points TimeCourse::points(const CellImages& images, const Box& box, int count) const {

@@ -34,6 +34,12 @@ struct Credible {
   bool is_resolved() const { return high < 4 * low; }
 };
 
+/// How much longer than a cell of the table the images of one are, in the mean: c_2 beyond the table's, and by what
+/// c_3 was multiplied to be that without the tension that draws it out so (elongation_law.h).
+struct DrawnOut {
+  double mode_2_excess = no_value, factor = no_value;
+};
+
 inline constexpr double credible_share = 0.9;
 inline constexpr double normal_quantile_of_credible = 1.6448536270;  ///< in standard deviations
 
@@ -64,6 +70,10 @@ class TimeCourse {
   /// From at least one picture; every modulus and every time of the table is as likely beforehand. Without any value if
   /// no cell of the table can be it.
   CourseEstimate cell(const CellImages& images) const;
+
+  /// Beside the table's cell with this modulus and time and the areas of the images. Nothing if no cell of the table
+  /// can be it, or no image has a c_2.
+  DrawnOut drawn_out(const CellImages& images, double young_modulus_kPa, double time_ms) const;
 
   /// Of cells with at least one picture each, at most this many of them, evenly chosen. The intervals hold what is
   /// alike in all cells, too: what the law of the pixels leaves of c_3, at the nearer places and, independently, at the

@@ -28,6 +28,8 @@ class CountedSample {
     for (std::size_t i = 0; i < values.size(); ++i) ++counts_[class_[i] = class_of(values[i])];
   }
 
+  std::size_t count() const { return values_.size(); }
+
   /// The numbers of places `place` and `place + 1` (or the last one twice) in the order of size; the place in range.
   std::pair<double, double> neighbours(std::size_t place) const {
     if (is_constant_) return {start_, start_};
@@ -91,6 +93,20 @@ inline double central_width(std::span<const double> values) {
   if (values.empty()) return no_value;
   const CountedSample sample(values);
   return sample.quantile(0.95) - sample.quantile(0.05);
+}
+
+/// Standard deviation of the normal distribution that has these quartiles: outliers hardly move it.
+template <class Number>
+double robust_deviation(const CountedSample<Number>& sample) {
+  constexpr double per_quartile = 0.6745;
+  return (sample.quantile(0.75) - sample.quantile(0.25)) / (2 * per_quartile);
+}
+
+/// Standard error of the median, from that: sqrt(pi / 2) times the one of a mean. NaN of a single number.
+template <class Number>
+double error_of_median(const CountedSample<Number>& sample) {
+  return sample.count() > 1 ? 1.25 * robust_deviation(sample) / std::sqrt(static_cast<double>(sample.count()))
+                            : no_value;
 }
 
 /// The middle one, of an even number the upper one of the two. NaN of none.

@@ -30,7 +30,7 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
   check_options(measuring);
   const auto report = interruptible([&](const std::atomic<bool>& stop) -> CourseReport {
     const DynamicTable table = read_dynamic_table(place);
-    CourseTable courses(table, options.section.value_or(Section::square));
+    CourseTable courses(table, options.section);
     for (std::size_t i = 0; i < recordings.size(); ++i) {
       const auto work = [&](const TellProgress& tell_progress) {
         return read_course_events(recordings[i], measuring, [&](double share) {

@@ -1,5 +1,6 @@
 #include "sweep/sample_square_branch.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "case/scales.h"
@@ -44,10 +45,10 @@ SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& pla
   const double stiffness = 1e-3 * scales.stress_Pa;
   const SamplingWay way = way_of(spec);
   const auto problem_at = [&](double compliance) {
-    Case c = case_at(spec, place, stiffness / compliance);
-    // The tension comes first, the flow's part after it.
-    if (compliance < way.first_compliance) c.flow.axial_tension_Pa *= compliance / way.first_compliance;
-    return problem_of(c);
+    // The elongation comes first, the flow's part after it.
+    BranchPlace on_the_way = place;
+    on_the_way.axial_ratio *= std::min(compliance / way.first_compliance, 1.0);
+    return problem_of(case_at(spec, on_the_way, stiffness / compliance));
   };
   const auto found = branch_samples(problem_at(1), problem_at, way, stop);
 

@@ -2,9 +2,12 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
+
+#include "table/table_spec.h"
 
 namespace rheocyte {
 
@@ -15,6 +18,7 @@ struct VirtualCell {
   double viscosity_mPas = 0;
   double cortex_modulus_mN_per_m = 0, tension_mN_per_m = 0;  ///< of a combined cell
   double axial_tension_Pa = 0;                               ///< of the liquid, along the flow
+  double rest_aspect = 1;                                    ///< length over width where nothing acts
   double own_viscosity_mPas = 0, place_um = 0;  ///< of a cell on its way: inside it, behind the contraction
 };
 
@@ -36,24 +40,26 @@ enum class NoShape {
   outside_picture,
   outside_sheets,
   outside_times,
-  outside_tensions
+  outside_tensions,
+  outside_aspects
 };
 
-inline constexpr std::array<std::string_view, 8> names_of_missing_shapes{"too small",
+inline constexpr std::array<std::string_view, 9> names_of_missing_shapes{"too small",
                                                                          "too large",
                                                                          "too stiff",
                                                                          "too soft",
                                                                          "outside the picture",
                                                                          "of a cortex or tension outside the table",
                                                                          "of a viscosity outside the table",
-                                                                         "under an axial tension outside the table"};
+                                                                         "under an axial tension outside the table",
+                                                                         "of a shape at rest outside the table"};
 
 class CellShapes {
  public:
   virtual ~CellShapes() = default;
   virtual std::variant<CellShape, NoShape> shape(const VirtualCell& cell) const = 0;
-  /// Whether it draws cells under an axial tension, too.
-  virtual bool are_elongated() const { return false; }
+  /// By what it draws cells out; nothing if it does not.
+  virtual std::optional<Elongation> elongation() const { return {}; }
   /// In one line, with its range.
   virtual std::string description() const = 0;
 };

@@ -18,7 +18,9 @@ class CombinedShapes : public CellShapes {
   CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches, const SimulatedCells& cells);
 
   std::variant<CellShape, NoShape> shape(const VirtualCell& cell) const override;
-  bool are_elongated() const override { return between_.is_elongated(); }
+  std::optional<Elongation> elongation() const override {
+    return between_.is_elongated() ? std::optional(Elongation::by_tension) : std::nullopt;
+  }
   std::string description() const override;
   const std::vector<double>& tension_ratios() const { return between_.tension_ratios(); }
 

@@ -6,18 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "laws/uniaxial.h"
 #include "synth/branch_shapes.h"
 #include "synth/outline.h"
 #include "synth/seen_outline.h"
 
 namespace rheocyte {
-
-namespace {
-
-/// In shares of a branch: a stiffer cell is a sphere, or an ellipsoid by the tension alone.
-constexpr double min_height = 1e-3;
-
-}  // namespace
 
 std::variant<CellShape, NoShape> ElongatedCellShapes::at(double radius_um, double modulus_kPa,
                                                          double axial_ratio) const {
@@ -25,9 +19,10 @@ std::variant<CellShape, NoShape> ElongatedCellShapes::at(double radius_um, doubl
   ElongatedCell place{table_.coordinate_of(radius_um), axial_ratio, 1};
   if (!(place(0) >= least(0))) return NoShape::too_small;
   if (!(place(0) <= greatest(0))) return NoShape::too_large;
-  if (!(axial_ratio >= least(1) && axial_ratio <= greatest(1))) return NoShape::outside_tensions;
+  if (!(axial_ratio >= least(1) && axial_ratio <= greatest(1)))
+    return is_long_at_rest() ? NoShape::outside_aspects : NoShape::outside_tensions;
   place(2) = std::exp(table_.at(place).log_modulus) / modulus_kPa;  // the compliance over that at the branch's end
-  if (!(place(2) >= min_height)) return NoShape::too_stiff;
+  if (!(place(2) >= ElongatedTable::min_height)) return NoShape::too_stiff;
   if (!(place(2) <= greatest(2))) return NoShape::too_soft;
   const ElongatedState state = table_.at(place);
   CellShape shape;
@@ -46,14 +41,17 @@ std::variant<CellShape, NoShape> ElongatedCellShapes::shape(const VirtualCell& c
       scale_factors(table_.origin().flow, {flow_.width_um, flow_.rate_ul_s, cell.viscosity_mPas});
   if (!(cell.stiffness > 0)) return NoShape::too_soft;
   if (!(cell.radius_um > 0)) return NoShape::too_small;
-  return scaled(
-      at(cell.radius_um / scale.length, cell.stiffness / scale.modulus, 1e-3 * cell.axial_tension_Pa / cell.stiffness),
-      scale);
+  const double axial_ratio =
+      is_long_at_rest() ? tension_by_aspect(cell.rest_aspect) : 1e-3 * cell.axial_tension_Pa / cell.stiffness;
+  return scaled(at(cell.radius_um / scale.length, cell.stiffness / scale.modulus, axial_ratio), scale);
 }
 
 std::string ElongatedCellShapes::description() const {
-  return fmt::format("table {}, axial tensions of {:g} to {:g} E", table_.origin().description(), table_.least()(1),
-                     table_.greatest()(1));
+  const double least = table_.least()(1), greatest = table_.greatest()(1);
+  if (is_long_at_rest())
+    return fmt::format("table {}, length over width of {:.3g} to {:.3g} at rest", table_.origin().description(),
+                       aspect_by_tension(least), aspect_by_tension(greatest));
+  return fmt::format("table {}, axial tensions of {:g} to {:g} E", table_.origin().description(), least, greatest);
 }
 
 }  // namespace rheocyte

@@ -120,6 +120,10 @@ Keys cell_keys() {
                                       "cell.tension_mN_per_m", is_combined, ratio),
       spread<&Spec::viscosity_of_cell_mPas>("cell.viscosity_mPas",
                                             "viscosity of the cells' interior, with recording.places_um", absent, ""),
+      spread<&Spec::rest_aspect>("cell.rest_aspect",
+                                 "length over width of the spheroid in which the cell is free of stress, with a table "
+                                 "of such cells (table.elongated_by = \"rest-shape\")",
+                                 absent, "", by_table),
       key<&Spec::added_ellipse>({"cell.added_ellipse", "",
                                  "mode c_2 added to each outline after the model, e.g. 0.1: an elongation along the "
                                  "flow as many real cells have it (docs/real-cells.md); true values are those before",

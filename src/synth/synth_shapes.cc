@@ -141,16 +141,24 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   return std::make_unique<BranchShapes>(std::move(branches), simulated_cells(spec, folder.spec().base));
 }
 
+void check_elongation(const SynthSpec& spec, std::optional<Elongation> of_table) {
+  if (spec.axial_tension_Pa && of_table != Elongation::by_tension)
+    refuse_path(spec.table,
+                "its cells are not elongated by a tension; flow.axial_tension_Pa needs a table with table.axial_ratio, "
+                "for example HE-3D-el-26 of the program.");
+  if (spec.rest_aspect && of_table != Elongation::by_rest_shape)
+    refuse_path(
+        spec.table,
+        "its cells are spheres at rest; cell.rest_aspect needs a table with table.elongated_by = \"rest-shape\" "
+        "(docs/tables.md, sec. \"Elongated cells\"), none of which comes with the program.");
+}
+
 }  // namespace
 
 std::unique_ptr<CellShapes> shapes_of(SynthSpec& spec) {
   if (!spec.analytical) {
     auto shapes = shapes_of_table(spec);
-    if (spec.axial_tension_Pa && !shapes->are_elongated())
-      refuse_path(
-          spec.table,
-          "its cells are not elongated; flow.axial_tension_Pa needs a table with table.axial_ratio, for example "
-          "HE-3D-el-26 of the program.");
+    check_elongation(spec, shapes->elongation());
     return shapes;
   }
   spec.made_of = cells_in_words(spec.kind == CellKind::shell ? "linear shell" : "linear solid", Section::tube);

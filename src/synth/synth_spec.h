@@ -37,6 +37,7 @@ struct SynthSpec {
   std::optional<Spread> cortex_modulus_mN_per_m;          ///< E2D of shells and combined cells
   std::optional<Spread> tension_ratio, tension_mN_per_m;  ///< at most one; of shells the same ratio for all
   std::optional<Spread> viscosity_of_cell_mPas;           ///< of cells on their way
+  std::optional<Spread> rest_aspect;                      ///< of cells of a table of such ones
   double added_ellipse = 0;                               ///< mode c_2 that is added to each outline
   // [shapes]
   bool analytical = false;      ///< by the analytical model

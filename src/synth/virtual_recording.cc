@@ -59,8 +59,8 @@ struct Block {
   std::size_t events = 0;
 };
 
-/// dclab knows userdef0 to userdef9.
-const std::string axial_tension_feature = "userdef0";
+/// Of the tension or the shape at rest, one of which a table has; dclab knows userdef0 to userdef9.
+const std::string elongation_feature = "userdef0";
 
 /// Cells one after the other, each from its own random numbers.
 class VirtualCamera {
@@ -107,6 +107,7 @@ class VirtualCamera {
                                   : spec_.viscosity_mPas.value_or(0);
     if (spec_.viscosity_of_cell_mPas) cell.own_viscosity_mPas = spec_.viscosity_of_cell_mPas->at(random.normal());
     if (spec_.axial_tension_Pa) cell.axial_tension_Pa = spec_.axial_tension_Pa->at(random.normal());
+    if (spec_.rest_aspect) cell.rest_aspect = spec_.rest_aspect->at(random.normal());
     return {cell, celsius};
   }
 
@@ -158,7 +159,8 @@ class VirtualCamera {
     if (is_combined()) truth.insert(truth.end(), {cell.cortex_modulus_mN_per_m, cell.tension_mN_per_m});
     if (spec_.is_on_its_way()) truth.insert(truth.end(), {cell.own_viscosity_mPas, cell.place_um});
     for (std::size_t k = 0; k < truth.size(); ++k) block.columns[fmt::format("userdef{}", k + 1)].push_back(truth[k]);
-    if (spec_.axial_tension_Pa) block.columns[axial_tension_feature].push_back(cell.axial_tension_Pa);
+    if (spec_.axial_tension_Pa) block.columns[elongation_feature].push_back(cell.axial_tension_Pa);
+    if (spec_.rest_aspect) block.columns[elongation_feature].push_back(cell.rest_aspect);
     result_.mean_area_error += features.area_um2 / shape.area_um2 - 1;
     result_.mean_deformation_error += features.deformation - shape.deformation;
   }
@@ -250,8 +252,9 @@ void describe_truth(const SynthSpec& spec, const CellShapes& shapes, const Virtu
   if (spec.kind == CellKind::combined) meanings.insert(meanings.end(), {cortex, "tension of the cortex (mN/m)"});
   for (std::size_t k = 0; k < meanings.size(); ++k)
     file.add_metadata(fmt::format("user:rheocyte userdef{}", k + 1), fmt::format("true {}", meanings[k]));
-  if (spec.axial_tension_Pa)
-    file.add_metadata(fmt::format("user:rheocyte {}", axial_tension_feature), "true axial tension (Pa)");
+  if (spec.axial_tension_Pa || spec.rest_aspect)
+    file.add_metadata(fmt::format("user:rheocyte {}", elongation_feature),
+                      spec.rest_aspect ? "true length over width at rest" : "true axial tension (Pa)");
   file.add_metadata("user:rheocyte shapes", shapes.description());
   if (!spec.made_of.empty()) file.add_metadata(made_of_key, spec.made_of);
   file.add_metadata("user:rheocyte seed", static_cast<std::int64_t>(spec.seed));

@@ -18,6 +18,16 @@ using CellCoordinates = Eigen::Matrix<double, coordinate_count, 1>;
 inline constexpr int log_stiffness_row = 0, log_area_row = 1, moment_ratio_row = 2, first_mode_row = 3,
                      deformation_row = first_mode_row + mode_count, row_count = deformation_row + 1;
 
+/// Of a feature of the shape (ShapeFeature).
+constexpr int row_of(int feature) {
+  static_assert(moment_ratio_row == int(ShapeFeature::moment_ratio) && first_mode_row == int(ShapeFeature::first_mode));
+  switch (feature) {
+    case int(ShapeFeature::area_um2): return log_area_row;
+    case int(ShapeFeature::deformation): return deformation_row;
+    default: return feature;
+  }
+}
+
 struct CombinedState {
   Eigen::Matrix<double, row_count, 1> value;
   Eigen::Matrix<double, row_count, coordinate_count> gradient;

@@ -18,6 +18,7 @@ using nlohmann::json;
 
 constexpr RecordKind elongated_kind{"rheocyte elongated cells", "1", "table of elongated cells",
                                     "`rheocyte table` with the table's spec writes it anew"};
+constexpr const char* at_rest_key = "are_long_at_rest";  // only of those
 constexpr int fewest_nodes = 4, max_nodes = 100;
 constexpr double largest_ratio = 10;  // tensions over moduli are far below
 
@@ -50,6 +51,7 @@ ElongatedContent content_from(const json& record) {
   content.origin = origin_from(record);
   content.radii_um = ascending(record, "radii_um", "count_of_radii");
   content.axial_ratios = ascending(record, "axial_ratios", "count_of_axial_ratios");
+  content.elongation = record.contains(at_rest_key) ? Elongation::by_rest_shape : Elongation::by_tension;
   content.states = count_of(record, "states");
   check_record(content.radii_um.front() > 0 && content.radii_um.back() < content.origin.flow.width_um / 2,
                "a radius is out of range");
@@ -84,6 +86,7 @@ std::string to_bytes(const ElongatedContent& content) {
                  {"modulus_kPa", blob_of(content.modulus_kPa)},
                  {"values", std::move(values)},
                  {"error", content.error}};
+  if (content.elongation == Elongation::by_rest_shape) record[at_rest_key] = true;
   put_origin(content.origin, record);
   return sealed_record(elongated_kind, fingerprint(content.origin.spec), record);
 }

@@ -31,9 +31,6 @@ bool is_odd_measure(int measure) {
   return above > 0 && above % 2 == 1;
 }
 
-/// d(radius ratio)/d(radius_coordinate)
-double radius_slope(double coordinate) { return radius_ratio_at(INFINITY) - radius_ratio_at(coordinate); }
-
 /// Four nodes of equal distance around a place, those at the rims beyond it, and the cubic through them.
 struct Stencil {
   int first;
@@ -48,20 +45,6 @@ Stencil stencil(double at, int count) {
           {-(a * b + a * c + b * c) / 6, (t * b + t * c + b * c) / 2, -(t * a + t * c + a * c) / 2,
            (t * a + t * b + a * b) / 6}};
 }
-
-/// The radius in shares of the way from the least to the greatest one.
-struct RadiusScale {
-  explicit RadiusScale(const ElongatedContent& content)
-      : half_width_um(content.origin.flow.width_um / 2),
-        first(radius_coordinate(content.radii_um.front() / half_width_um)),
-        last(radius_coordinate(content.radii_um.back() / half_width_um)) {}
-  double share_of(double radius_um) const {
-    return (radius_coordinate(radius_um / half_width_um) - first) / (last - first);
-  }
-  double radius_um(double share) const { return half_width_um * radius_ratio_at(first + share * (last - first)); }
-
-  double half_width_um, first, last;
-};
 
 /// ln(1 / E) at the ends of the branches: a smooth surface over radius and axial ratio that no branch falls short of by
 /// more than polynomials can go on. It is linear in ln(radius) for small cells.
@@ -192,6 +175,7 @@ ElongatedContent elongated_content(const TableSpec& spec, std::span<const Sample
   content.origin = origin_of(spec, version);
   content.radii_um = computed_radii_um(spec);
   content.axial_ratios = spec.axial_ratios;
+  content.elongation = spec.elongation;
   content.states = spec.computed_states.value();
   for (const double radius : content.radii_um)
     for (const double axial : content.axial_ratios) {
@@ -215,10 +199,25 @@ ElongatedContent elongated_content(const TableSpec& spec, std::span<const Sample
   return content;
 }
 
-ElongatedTable::ElongatedTable(ElongatedContent content) : content_(std::move(content)) {
-  half_width_um_ = content_.origin.flow.width_um / 2;
-  first_ = radius_coordinate(content_.radii_um.front() / half_width_um_);
-  last_ = radius_coordinate(content_.radii_um.back() / half_width_um_);
+RadiusScale::RadiusScale(const ElongatedContent& content)
+    : half_width_um(content.origin.flow.width_um / 2),
+      first(radius_coordinate(content.radii_um.front() / half_width_um)),
+      last(radius_coordinate(content.radii_um.back() / half_width_um)) {}
+
+double RadiusScale::share_of(double radius_um) const {
+  return (radius_coordinate(radius_um / half_width_um) - first) / (last - first);
+}
+
+double RadiusScale::radius_um(double share) const {
+  return half_width_um * radius_ratio_at(first + share * (last - first));
+}
+
+double RadiusScale::log_radius_slope(double share) const {
+  const double ratio = radius_ratio_at(first + share * (last - first));
+  return (last - first) * (radius_ratio_at(INFINITY) - ratio) / ratio;
+}
+
+ElongatedTable::ElongatedTable(ElongatedContent content) : content_(std::move(content)), scale_(content_) {
   const ElongatedBranches branches(content_);
   const std::size_t radii = content_.radii_um.size(), axials = content_.axial_ratios.size();
   // One direction after the other: along the branches, over the axial ratio, over the radius.
@@ -252,17 +251,9 @@ ElongatedTable::ElongatedTable(ElongatedContent content) : content_(std::move(co
   }
 }
 
-double ElongatedTable::coordinate_of(double radius_um) const {
-  return (radius_coordinate(radius_um / half_width_um_) - first_) / (last_ - first_);
-}
-
 ElongatedCell ElongatedTable::without_elongation(const ElongatedCell& cell) const {
   const double height = at({cell(0), 0, 1}).log_modulus - at(cell).log_modulus;
   return {cell(0), 0, std::min(std::exp(height), 1.0)};
-}
-
-double ElongatedTable::radius_um(double coordinate) const {
-  return half_width_um_ * radius_ratio_at(first_ + coordinate * (last_ - first_));
 }
 
 ElongatedState ElongatedTable::at(const ElongatedCell& cell) const {
@@ -301,9 +292,8 @@ ElongatedState ElongatedTable::at(const ElongatedCell& cell) const {
   ElongatedState state;
   state.value = value.head<elongated_measures>();
   state.slope << by_x.head<elongated_measures>(), by_y.head<elongated_measures>(), by_z.head<elongated_measures>();
-  state.radius_um = radius_um(cell(0));
-  state.log_radius_slope =
-      (last_ - first_) * radius_slope(first_ + cell(0) * (last_ - first_)) * half_width_um_ / state.radius_um;
+  state.radius_um = scale_.radius_um(cell(0));
+  state.log_radius_slope = scale_.log_radius_slope(cell(0));
   state.log_modulus = value(elongated_measures) - std::log(height);
   state.log_modulus_slope << by_x(elongated_measures), by_y(elongated_measures), -1 / height;
   return state;

@@ -23,7 +23,8 @@ constexpr int number_of(ElongatedMeasure measure) { return int(measure); }
 /// The states that were computed. All branches have equally many.
 struct ElongatedContent {
   TableOrigin origin;
-  std::vector<double> radii_um, axial_ratios;  ///< ascending; of the sphere, and tension of the liquid over E
+  std::vector<double> radii_um, axial_ratios;  ///< ascending; of the sphere, and as in BranchPlace
+  Elongation elongation = Elongation::by_tension;
   int states = 0;
   /// By radius, within it by axial ratio, within that from stiff to soft.
   std::vector<double> modulus_kPa;
@@ -65,6 +66,16 @@ struct ElongatedState {
   Eigen::Vector3d log_area_slope() const;
 };
 
+/// The radius in shares of the way from the least to the greatest one of a table, by radius_coordinate.
+struct RadiusScale {
+  explicit RadiusScale(const ElongatedContent& content);
+  double share_of(double radius_um) const;
+  double radius_um(double share) const;
+  double log_radius_slope(double share) const;
+
+  double half_width_um, first, last;
+};
+
 /// Between the states: polynomials along the branches, over the axial ratio and over the radius, of which nodes are
 /// kept for cubic interpolation.
 class ElongatedTable {
@@ -72,7 +83,10 @@ class ElongatedTable {
   explicit ElongatedTable(ElongatedContent content);
 
   const TableOrigin& origin() const { return content_.origin; }
+  Elongation elongation() const { return content_.elongation; }
   double error() const { return content_.error; }
+  /// In shares of a branch: a stiffer cell is a sphere for a camera, or an ellipsoid by the elongation alone.
+  static constexpr double min_height = 1e-3;
   ElongatedCell least() const { return {0, content_.axial_ratios.front(), 0}; }
   ElongatedCell greatest() const { return {1, content_.axial_ratios.back(), 1}; }
 
@@ -81,16 +95,15 @@ class ElongatedTable {
   /// The same sphere with the same modulus under no tension; the softest that is stable, if it is not.
   ElongatedCell without_elongation(const ElongatedCell&) const;
   /// First coordinate of a sphere's radius.
-  double coordinate_of(double radius_um) const;
-  double radius_um(double coordinate) const;
+  double coordinate_of(double radius_um) const { return scale_.share_of(radius_um); }
 
  private:
   static constexpr int numbers = elongated_measures + 1;  ///< the last one is ln(kPa) at the end of the branch
   using Node = Eigen::Array<double, numbers, 1>;
 
   ElongatedContent content_;
-  double half_width_um_, first_, last_;  ///< radius_coordinate of both ends
-  std::vector<Node> nodes_;              ///< by radius, axial ratio, height; odd modes over the height
+  RadiusScale scale_;
+  std::vector<Node> nodes_;  ///< by radius, axial ratio, height; odd modes over the height
 };
 
 }  // namespace rheocyte

@@ -6,6 +6,7 @@
 
 #include "case/case_keys.h"
 #include "case/scales.h"
+#include "laws/uniaxial.h"
 #include "numeric/lagrange.h"
 #include "table/table_spec.h"
 
@@ -99,7 +100,10 @@ Case case_at(const TableSpec& spec, const BranchPlace& place, double stiffness) 
     set_moduli(c, place, stiffness);
   else
     case_key(spec.stiffness_key).set(c, stiffness);
-  c.flow.axial_tension_Pa = 1e3 * place.axial_ratio * stiffness;
+  if (spec.elongation == Elongation::by_rest_shape)
+    c.cell.rest_aspect = aspect_by_tension(place.axial_ratio);
+  else
+    c.flow.axial_tension_Pa = 1e3 * place.axial_ratio * stiffness;
   if (spec.bending_ratio > 0) c.cell.cortex.bending_kBT = bending_kBT(spec, place, stiffness);
   c.numerics.accuracy = spec.accuracy;
   return c;

@@ -14,7 +14,8 @@ Key<TableSpec> key(KeyDescription description) {
 using Spec = TableSpec;
 /// What can be solved for in ducts (src/case/read_case.cc), for solids and shells.
 constexpr double max_bending_ratio = 1e-3;
-constexpr Condition combined{"table.cortex_share", ""}, square{"channel.section", "square"};
+constexpr Condition combined{"table.cortex_share", ""}, square{"channel.section", "square"},
+    elongated{"table.axial_ratio", ""};
 
 const std::array table = {
     key<&Spec::identifier>({"table.identifier", "", "name of the table: letters, digits and hyphens", Word{}}),
@@ -66,6 +67,10 @@ const std::array table = {
                               "tensions of the liquid along the flow, flow.axial_tension_Pa, as shares of the swept "
                               "stiffness: cells that are elongated; 0 must be among them",
                               List{{-0.5, 1}, true}, absent}),
+    key<&Spec::elongation>({"table.elongated_by", "",
+                            "what makes the cells of table.axial_ratio long: the tension, or the shape at rest "
+                            "(cell.rest_aspect) into which that tension would draw a sphere where nothing flows",
+                            Choice{{"tension", "rest-shape"}}, 0, elongated}),
     key<&Spec::bending_ratio>({"table.bending_ratio", "",
                                "bending stiffness of combined cells over S r0^3, 0 = cell.cortex.bending_kBT",
                                Number{{0, 1}}, 0.0, combined}),

@@ -31,7 +31,7 @@ constexpr std::string_view bulk_modulus_key = "cell.bulk.young_modulus_kPa",
                            bending_key = "cell.cortex.bending_kBT", beyond_key = "table.bending_beyond_kBT",
                            beyond_ratio_key = "table.bending_beyond_ratio",
                            from_margin_key = "table.bending_from_margin", channel_section_key = "channel.section";
-constexpr std::string_view axial_key = "table.axial_ratio";
+constexpr std::string_view axial_key = "table.axial_ratio", elongated_by_key = "table.elongated_by";
 constexpr std::array<std::string_view, 3> stiffness_keys{bulk_modulus_key, cortex_modulus_key, combined_stiffness};
 // Those that programs know already; they must not appear on other numbers.
 constexpr std::array<std::string_view, 4> foreign_identifiers{"LE-2D-FEM-19", "HE-2D-FEM-22", "HE-3D-FEM-22",
@@ -195,6 +195,10 @@ void check_elongation(const TableSpec& spec, const KeyReading& keys) {
     keys.refuse(
         axial_key,
         fmt::format("{} needs at least four numbers, 0 among them, such as [-0.1, 0, 0.15, 0.3, 0.45].", axial_key));
+  if (spec.elongation == Elongation::by_rest_shape && spec.is_combined())
+    keys.refuse(elongated_by_key,
+                fmt::format("{} is for solids; cells with bulk and cortex are elongated by a tension.",
+                            keys.stated(elongated_by_key)));
   if (spec.bending_beyond_ratio > 0)
     keys.refuse(beyond_ratio_key,
                 fmt::format("{} does not go with {}; leave it out.", keys.stated(beyond_ratio_key), axial_key));
@@ -254,6 +258,7 @@ std::string to_toml(const TableSpec& spec) {
   left_out.push_back(spec.bending_ratio > 0 ? bending_key : "table.bending_ratio");
   if (spec.bending_beyond_ratio == 0) left_out.push_back(beyond_ratio_key);
   if (spec.bending_from_margin == 0) left_out.push_back(from_margin_key);
+  if (spec.elongation == Elongation::by_tension) left_out.push_back(elongated_by_key);
   if (spec.max_deformation_raw == TableSpec{}.max_deformation_raw) left_out.emplace_back("table.max_deformation_raw");
   return to_toml(values_of(spec.base, case_keys(), spec, table_keys()), left_out);
 }

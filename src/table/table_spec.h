@@ -14,12 +14,17 @@ namespace rheocyte {
 /// (docs/tables.md, sec. "combined cells").
 inline constexpr std::string_view combined_stiffness = "combined";
 
+/// By what the cells of a table are longer than the flow makes them.
+enum class Elongation { by_tension, by_rest_shape };
+
 /// The cells of one branch; share and tension of the cortex have a meaning for combined cells only.
 struct BranchPlace {
   double radius_um = 0;      ///< of the sphere at rest
   double cortex_share = 0;   ///< (E2D / r0) / S
   double tension_ratio = 0;  ///< gamma / E2D
-  double axial_ratio = 0;    ///< flow.axial_tension_Pa over the swept stiffness, E or S
+  /// flow.axial_tension_Pa over the swept stiffness, E or S; of cells that are long at rest that which would draw a
+  /// sphere out as much (aspect_by_tension).
+  double axial_ratio = 0;
 };
 
 struct TableSpec {
@@ -38,6 +43,7 @@ struct TableSpec {
   double bending_from_margin = 0;  ///< in a square channel: bare branches end where the surface is that stable
   std::vector<double> cortex_shares, tension_ratios;  ///< of combined cells, ascending; else empty
   std::vector<double> axial_ratios;                   ///< of elongated cells, ascending; else empty
+  Elongation elongation = Elongation::by_tension;     ///< of them
   double bending_ratio = 0;        ///< c_b / (S r0^3), S = E or E2D / r0; 0: the base's bending stiffness for all
   double max_deformation_raw = 1;  ///< of the contour itself, dent included: where branches of combined cells end
   /// In a square channel: branches and states on each that are computed, between which the others lie, and the tube's

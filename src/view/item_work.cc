@@ -122,7 +122,7 @@ void add_several_moduli(const Json& request, const ExtractOptions& options, cons
     ModuliCompanion companion(target);
     const ModuliSummary summary = moduli_of_recording(path_in(request, "file"), wanted, table, companion, tell);
     report["lines"].push_back(table.content.spec.identifier + ": " + in_one_line(summary));
-    for (const auto& lines : {tension_lines(summary.axial), slope_lines(summary.axial), summary.warnings})
+    for (const auto& lines : {lines_of(summary), summary.warnings})
       for (const auto& line : lines) report["lines"].push_back(line);
     for (const ColumnDescription& feature : moduli_features()) report["features"].push_back(feature.role);
   } catch (const UserError& error) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "measurement/recording.h"
 #include "measurement/recording_writer.h"
@@ -105,6 +106,41 @@ TEST_F(Synth, WithoutATableModuliComeBackByTheTableOfTheirShapes) {
   EXPECT_NE(by_another.out.find("the table LE-2D-MC049-26 fits, the moduli given here are from HE-3D-MC049-26."),
             std::string::npos)
       << by_another.out;
+}
+
+TEST_F(Synth, WithAnAxialTensionAloneTheCellsAreThoseOfTheTableOfElongatedOnesThatReadsThem) {
+  test::write_file(folder_ / "drawn.toml",
+                   "[recording]\ncells = 300\n[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\n"
+                   "viscosity_mPas = 6\naxial_tension_Pa = 300\n[cell]\nradius_um = {mean = 6.2, sd = 0.3}\n"
+                   "bulk.young_modulus_kPa = {mean = 2, sd = 0.1}\n");
+  ASSERT_EQ(run({"synth", path("drawn.toml"), "-o", path("v.rtdc")}).exit_code, 0);
+  const auto ended = run({"extract", path("v.rtdc")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto behind = [&](const std::string& words) {
+    const auto at = ended.out.find(words);
+    return std::istringstream(at == std::string::npos ? "" : ended.out.substr(at + words.size()));
+  };
+  double modulus = 0, by_scatter = 0, in_common = 0, tension = 0;
+  std::string sign;
+  behind("report E = ") >> modulus >> sign >> by_scatter >> sign >> in_common;
+  behind("a tension of ") >> tension;
+  // Within what the line says, twice.
+  EXPECT_NEAR(modulus, 2, 2 * std::hypot(by_scatter, in_common)) << ended.out;
+  EXPECT_LT(std::hypot(by_scatter, in_common), 0.05) << ended.out;
+  EXPECT_NEAR(tension, 300, 15) << ended.out;
+}
+
+TEST_F(Synth, CellsThatAreLongAtRestNeedATableOfSuchCells) {
+  const std::vector<std::string> command{"synth", path("spec.toml"), "-o", path("v.rtdc")};
+  const auto with = [&](const std::string& setting) {
+    std::vector<std::string> all = command;
+    all.insert(all.end(), {"--set", setting, "--set", "shapes.table=HE-3D-el-26"});
+    return all;
+  };
+  expect_refusal(with("cell.rest_aspect=1.3"), "cell.rest_aspect needs a table with table.elongated_by");
+  std::vector<std::string> without_table = command;
+  without_table.insert(without_table.end(), {"--set", "cell.rest_aspect=1.3"});
+  expect_refusal(without_table, "cell.rest_aspect needs a table with table.elongated_by");
 }
 
 TEST_F(Synth, LinearSolidsAreNotAccusedOfBeingLongerThanElasticCells) {

@@ -52,8 +52,7 @@ class TimeCourseCommand : public ::testing::Test {
     return call(arguments);
   }
   Ended time_course(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"time-course", "cells.rtdc", "--table",   "table",
-                                       "-o",          "cells.tsv",  "--section", "tube"};
+    std::vector<std::string> arguments{"time-course", "cells.rtdc", "--table", "table", "-o", "cells.tsv"};
     if (more.empty()) arguments.insert(arguments.end(), {"--contraction-um", "0"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return call(arguments);
@@ -77,6 +76,31 @@ TEST_F(TimeCourseCommand, VirtualCellsSeenAtFourPlacesGiveBackTheirPopulation) {
   const std::string table = content_of(folder_.path() / "cells.tsv");
   EXPECT_TRUE(table.starts_with("recording\tcell\tevents\tfirst_place_um\t"));
   EXPECT_NE(table.find("\tresolved\t1 2 3 4\n"), std::string::npos) << table;
+}
+
+TEST_F(TimeCourseCommand, VirtualCellsOfTheTableAreKnownAsItsOwnUnlessTheirSectionIsGiven) {
+  // The recording says of which cells it was made: the channel is the table's tube.
+  ASSERT_EQ(synth().exit_code, 0);
+  ASSERT_EQ(time_course().exit_code, 0);
+  const std::string known = content_of(folder_.path() / "cells.tsv");
+  EXPECT_NE(known.find("made by rheocyte synth from cells of the table"), std::string::npos) << known;
+  EXPECT_EQ(known.find("the channel is square"), std::string::npos) << known;
+  ASSERT_EQ(time_course({"--contraction-um", "0", "--section", "square"}).exit_code, 0);
+  const std::string told = content_of(folder_.path() / "cells.tsv");
+  EXPECT_EQ(told.find("made by rheocyte synth"), std::string::npos) << told;
+  EXPECT_NE(told.find("the channel is square"), std::string::npos) << told;
+}
+
+TEST_F(TimeCourseCommand, ElongatedCellsAreSaidToBeAndRoundOnesAreNot) {
+  // An ellipse added to each outline stands for the tension; c2 beyond the table's is a column.
+  ASSERT_EQ(synth().exit_code, 0);
+  EXPECT_EQ(time_course().out.find("elongated"), std::string::npos);
+  ASSERT_EQ(synth({"--set", "cell.added_ellipse=0.1"}).exit_code, 0);
+  const Ended ended = time_course();
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("the cells are elongated along the flow (c2 0."), std::string::npos) << ended.out;
+  EXPECT_NE(content_of(folder_.path() / "cells.tsv").find("\tmode_2_excess\ttension_factor\tstatus"),
+            std::string::npos);
 }
 
 TEST_F(TimeCourseCommand, WhatDoesNotTellAViscosityIsRefusedInASentence) {

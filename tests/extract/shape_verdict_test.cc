@@ -76,7 +76,8 @@ ShapeVerdict elongated_verdict(double mode_4, double mode_5, double excess = 0.2
               .mode_4_excess = fourth,
               .mode_5_excess = fifth});
   ShapeVerdict verdict = tally.verdict();
-  verdict.by_deformation_kPa = 1;
+  verdict.by_deformation_kPa = {1, 0.01, 0.03};
+  verdict.elongated_common_error = 0.02;
   return verdict;
 }
 
@@ -88,14 +89,36 @@ TEST(ShapeVerdict, TheModulusOfElongatedCellsIsToldAndRecommended) {
   EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
   const auto lines = shape_lines(v);
   ASSERT_FALSE(lines.empty());
-  EXPECT_NE(lines.back().find("report E = 2.5 kPa"), std::string::npos) << lines.back();
-  EXPECT_NE(lines.back().find("a tension of 250 Pa"), std::string::npos) << lines.back();
+  EXPECT_NE(lines.back().find("report E = 2.5 +- 0 +- 0.05 kPa (median"), std::string::npos) << lines.back();
+  EXPECT_NE(lines.back().find("a tension of 250 +- 0 Pa"), std::string::npos) << lines.back();
+}
+
+TEST(ShapeVerdict, MoreEventsMakeTheErrorByScatterSmallerAndNotWhatTheyHaveInCommon) {
+  const auto recommended = [](int events) {
+    std::vector<double> moduli;
+    for (int i = 0; i < events; ++i) moduli.push_back(2 + 0.5 * std::sin(2.4 * i));
+    ShapeVerdict v = elongated_verdict(0, 0);
+    v.elongated_kPa = distribution_of(moduli);
+    return v.recommended_kPa();
+  };
+  const MedianModulus few = recommended(100), many = recommended(10000);
+  // Quartiles of sin lie at +-0.7071.
+  EXPECT_NEAR(many.error, 1.25 * 0.5 * 0.7071 / 0.6745 / 100, 1e-4);
+  EXPECT_NEAR(few.error / many.error, 10, 0.5);
+  EXPECT_NEAR(many.common_error, 0.02 * 2, 1e-3);
+  EXPECT_NEAR(few.common_error, many.common_error, 1e-2);
 }
 
 TEST(ShapeVerdict, CellsOfTheModelAreReportedByTheirDeformation) {
   const ShapeVerdict v = elongated_verdict(0, 0, 0.005);
   EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation);
-  EXPECT_NE(v.recommended_text().find("report E = 1 kPa"), std::string::npos) << v.recommended_text();
+  EXPECT_NE(v.recommended_text().find("report E = 1 +- 0.01 +- 0.03 kPa"), std::string::npos) << v.recommended_text();
+  ShapeVerdict without = v;  // as by a published table, whose errors nobody knows
+  without.by_deformation_kPa.common_error = std::nan("");
+  EXPECT_NE(
+      without.recommended_text().find("report E = 1 +- 0.01 kPa (median, from area and deformation; the error is"),
+      std::string::npos)
+      << without.recommended_text();
 }
 
 TEST(ShapeVerdict, OutlinesOfCellsWithACortexHaveNoModulusOfASolid) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../table/invented_elongated.h"
+#include "laws/uniaxial.h"
 #include "measurement/pixel_errors.h"
 
 namespace rheocyte::elongated_solids_test {
@@ -93,6 +94,8 @@ TEST(AspectByTension, IsThatOfANeoHookeanSphere) {
   // docs/theory.md, sec. "Elongated cells": E = 2 kPa under 500 and 1000 Pa.
   EXPECT_NEAR(aspect_by_tension(0.25), 1.39087, 1e-5);
   EXPECT_NEAR(aspect_by_tension(0.5), 1.79263, 1e-5);
+  for (const double ratio : {-0.3, 0.0, 0.25, 0.9})
+    EXPECT_NEAR(tension_by_aspect(aspect_by_tension(ratio)), ratio, 1e-12);
   EXPECT_EQ(aspect_by_tension(0), 1);
   EXPECT_LT(aspect_by_tension(-0.1), 1);
 }

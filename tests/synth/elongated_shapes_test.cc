@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "infer/elongated_solids.h"
+#include "laws/uniaxial.h"
 #include "shape/outline_shape.h"
 
 namespace rheocyte::elongated_shapes_test {
@@ -53,6 +54,19 @@ TEST_F(ElongatedShapesOf, AnotherChannelScalesTheTensionAsTheModulus) {
   const auto here = shapes_.shape(cell(6, 4, 600)), there = wide.shape(cell(9, 4 * factor, 600 * factor));
   EXPECT_NEAR(std::get<CellShape>(there).deformation, std::get<CellShape>(here).deformation, 1e-12);
   EXPECT_NEAR(std::get<CellShape>(there).area_um2, 2.25 * std::get<CellShape>(here).area_um2, 1e-9);
+}
+
+TEST_F(ElongatedShapesOf, CellsThatAreLongAtRestAreFoundByTheirAspect) {
+  // The table's ratio is the tension that would draw a sphere out to this aspect where nothing flows.
+  ElongatedContent content = shipped();
+  content.elongation = Elongation::by_rest_shape;
+  const ElongatedCellShapes at_rest(content, {20, 0.04});
+  VirtualCell long_cell = cell(6, 4, 0);
+  long_cell.rest_aspect = aspect_by_tension(0.15);
+  const auto found = at_rest.shape(long_cell), by_tension = shapes_.shape(cell(6, 4, 600));
+  EXPECT_NEAR(std::get<CellShape>(found).deformation, std::get<CellShape>(by_tension).deformation, 1e-12);
+  long_cell.rest_aspect = 3;
+  EXPECT_EQ(std::get<NoShape>(at_rest.shape(long_cell)), NoShape::outside_aspects);
 }
 
 TEST_F(ElongatedShapesOf, WhatTheTableLacksHasAName) {

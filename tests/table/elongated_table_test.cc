@@ -64,6 +64,10 @@ TEST(ElongatedTable, SurvivesItsFileAndDamageIsNamed) {
   EXPECT_EQ(read.modulus_kPa, content.modulus_kPa);
   EXPECT_EQ(read.value, content.value);
   EXPECT_EQ(read.origin.section, Section::square);
+  EXPECT_EQ(read.elongation, Elongation::by_tension);
+  ElongatedContent at_rest = content;
+  at_rest.elongation = Elongation::by_rest_shape;
+  EXPECT_EQ(elongated_from_bytes(to_bytes(at_rest), "a table").elongation, Elongation::by_rest_shape);
   bytes[bytes.size() / 2] ^= 1;
   EXPECT_THROW(elongated_from_bytes(bytes, "a table"), UserError);
   EXPECT_THROW(elongated_from_bytes("", "a table"), UserError);
@@ -80,18 +84,35 @@ TEST(ElongatedTable, ABranchWithoutStatesIsNamed) {
   }
 }
 
+/// A spec of solids in the square channel, with more keys of [table].
+TableSpec spec_with(const std::string& keys, const char* section = "square") {
+  return parse_table_spec("[channel]\nsection = \"" + std::string(section) +
+                              "\"\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\nviscosity_mPas = 15\n[table]\n"
+                              "identifier = \"test\"\n" +
+                              keys,
+                          "spec.toml");
+}
+
+TEST(TableSpecOfElongatedCells, MayBeLongAtRestInPlaceOfUnderATension) {
+  const std::string ratios = "axial_ratio = [-0.1, 0, 0.1, 0.25]\n";
+  const TableSpec pulled = spec_with(ratios), rested = spec_with(ratios + "elongated_by = \"rest-shape\"");
+  const BranchPlace place{.radius_um = 6, .axial_ratio = 0.25};
+  const Case under_tension = case_at(pulled, place, 2), at_rest = case_at(rested, place, 2);
+  EXPECT_NEAR(under_tension.flow.axial_tension_Pa, 500, 1e-9);
+  EXPECT_EQ(under_tension.cell.rest_aspect, 1);
+  EXPECT_EQ(at_rest.flow.axial_tension_Pa, 0);
+  EXPECT_NEAR(at_rest.cell.rest_aspect, 1.39087, 1e-5);  // what 500 Pa make of 2 kPa without flow
+  // Folders of tables that were begun before there was the key go on.
+  EXPECT_EQ(to_toml(pulled).find("elongated_by"), std::string::npos);
+  EXPECT_EQ(parse_table_spec(to_toml(rested), "spec.toml").elongation, Elongation::by_rest_shape);
+  EXPECT_THROW(spec_with("elongated_by = \"rest-shape\""), UserError);
+}
+
 TEST(TableSpecOfElongatedCells, WantsSolidsInTheSquareAndZeroAmongTheRatios) {
-  const auto spec = [](const std::string& keys, const char* section = "square") {
-    return parse_table_spec("[channel]\nsection = \"" + std::string(section) +
-                                "\"\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\nviscosity_mPas = 15\n[table]\n"
-                                "identifier = \"test\"\n" +
-                                keys,
-                            "spec.toml");
-  };
-  EXPECT_TRUE(spec("axial_ratio = [-0.1, 0, 0.1, 0.3]").is_elongated());
-  EXPECT_THROW(spec("axial_ratio = [0.1, 0.2, 0.3, 0.4]"), UserError);
-  EXPECT_THROW(spec("axial_ratio = [0, 0.3]"), UserError);
-  EXPECT_THROW(spec("axial_ratio = [-0.1, 0, 0.1, 0.3]", "tube"), UserError);
+  EXPECT_TRUE(spec_with("axial_ratio = [-0.1, 0, 0.1, 0.3]").is_elongated());
+  EXPECT_THROW(spec_with("axial_ratio = [0.1, 0.2, 0.3, 0.4]"), UserError);
+  EXPECT_THROW(spec_with("axial_ratio = [0, 0.3]"), UserError);
+  EXPECT_THROW(spec_with("axial_ratio = [-0.1, 0, 0.1, 0.3]", "tube"), UserError);
 }
 
 }  // namespace

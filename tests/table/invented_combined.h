@@ -24,16 +24,19 @@ inline ShapeVector invented_features(const BranchPlace& place, double stiffness)
   return shape_vector(outline_shape(invented_outline(place, stiffness)));
 }
 
-inline CombinedBranch invented_combined_branch(const BranchPlace& place, int samples = 16) {
+/// States of which the stiffness falls from `stiffest` to this share of it; `features_of` a place and a stiffness.
+template <class Features>
+CombinedBranch invented_branch_of(const BranchPlace& place, int samples, double stiffest, double softest_share,
+                                  const Features& features_of) {
   CombinedBranch branch{
       place, {}, Eigen::MatrixXd(samples, feature_count), Eigen::MatrixXd(samples, feature_count), {}};
-  const double stiffest = 12 * std::pow(place.radius_um / 8, 1.5), softest = stiffest / 20, step = 1e-4;
+  const double step = 1e-4;
   for (int i = 0; i < samples; ++i) {
-    const double S = stiffest * std::pow(softest / stiffest, double(i) / (samples - 1));
+    const double S = stiffest * std::pow(softest_share, double(i) / (samples - 1));
     branch.stiffness_kPa.push_back(S);
     branch.error.push_back(1e-4);
     const auto exact = [&](double log_step) {
-      ShapeVector features = invented_features(place, S * std::exp(log_step));
+      ShapeVector features = features_of(place, S * std::exp(log_step));
       features(0) = std::exp(features(0));
       return features;
     };
@@ -41,6 +44,10 @@ inline CombinedBranch invented_combined_branch(const BranchPlace& place, int sam
     branch.slope.row(i) = (exact(step) - exact(-step)).transpose() / (2 * step);
   }
   return branch;
+}
+
+inline CombinedBranch invented_combined_branch(const BranchPlace& place, int samples = 16) {
+  return invented_branch_of(place, samples, 12 * std::pow(place.radius_um / 8, 1.5), 1.0 / 20, invented_features);
 }
 
 /// The same states as a sweep gives them: contours from pole to pole, and no modes.

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "table/combined_table.h"
+#include "invented_combined.h"
 
 namespace rheocyte::test {
 
@@ -51,23 +51,7 @@ radii = 5
 )";
 
 inline CombinedBranch invented_elongated_branch(const BranchPlace& place) {
-  constexpr int samples = 12;
-  CombinedBranch branch{
-      place, {}, Eigen::MatrixXd(samples, feature_count), Eigen::MatrixXd(samples, feature_count), {}};
-  const double stiffest = 10 * std::pow(place.radius_um / 8, 1.5), softest = 0.12 * stiffest, step = 1e-4;
-  for (int i = 0; i < samples; ++i) {
-    const double S = stiffest * std::pow(softest / stiffest, double(i) / (samples - 1));
-    branch.stiffness_kPa.push_back(S);
-    branch.error.push_back(1e-4);
-    const auto exact = [&](double log_step) {
-      ShapeVector features = invented_elongated_features(place, S * std::exp(log_step));
-      features(0) = std::exp(features(0));
-      return features;
-    };
-    branch.value.row(i) = exact(0).transpose();
-    branch.slope.row(i) = (exact(step) - exact(-step)).transpose() / (2 * step);
-  }
-  return branch;
+  return invented_branch_of(place, 12, 10 * std::pow(place.radius_um / 8, 1.5), 0.12, invented_elongated_features);
 }
 
 /// The same for all tests of a program: it takes a second.

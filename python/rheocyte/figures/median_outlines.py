@@ -14,25 +14,21 @@ PER_ROW = 4
 
 
 def median_cells(laboratory):
-    """{recording: median cell of its _moduli.json}, of those that have outlines."""
+    """{name of the result: median cell of its _moduli.json}, of the recordings that have outlines."""
     folder = Path(laboratory.folder) / "real-cells"
-    cells, said = {}, ""
-    for recording in laboratory.recordings:
-        written = folder / f"{Path(recording).stem}_moduli.json"
-        written.unlink(missing_ok=True)
-        call = [laboratory.program, "moduli", recording, "--quiet", "--table", laboratory.table, "-o", folder,
-                *laboratory.options]
-        ended = subprocess.run(list(map(str, call)), capture_output=True, text=True, check=False)
-        said = ended.stderr.strip() or said
-        if not written.exists():
-            laboratory.tell(said.splitlines()[-1] if said else f"{recording}: no moduli")
-            continue
-        cell = json.loads(written.read_text(encoding="utf-8"))["median_cell"]
-        if cell:
-            cells[Path(recording).stem] = cell
+    for former in folder.glob("*_moduli.json"):
+        former.unlink()
+    call = [laboratory.program, "moduli", "--quiet", "--table", laboratory.table, "-o", folder, *laboratory.recordings,
+            *laboratory.options]
+    ended = subprocess.run(list(map(str, call)), capture_output=True, text=True, check=False)
+    said = ended.stderr.strip().splitlines()
+    for line in said:
+        laboratory.tell(line)
+    read = {written.stem.removesuffix("_moduli"): json.loads(written.read_text(encoding="utf-8"))["median_cell"]
+            for written in sorted(folder.glob("*_moduli.json"))}
+    cells = {name: cell for name, cell in read.items() if cell}
     if not cells:
-        raise InputError(said.splitlines()[-1].removeprefix("rheocyte: ") if said else
-                         "none of the recordings has outlines.")
+        raise InputError(said[-1].removeprefix("rheocyte: ") if said else "none of the recordings has outlines.")
     return cells
 
 
@@ -63,7 +59,7 @@ def draw(figure, cells):
         if known:
             axes.plot(*outline(cell, "fitted"), color=style.LINEAR, linewidth=1)
             text = (f"E {cell['young_modulus_kPa']:.2g} kPa, E2D {cell['cortex_modulus_mN_per_m']:.2g} mN/m\n"
-                    f"T {cell['axial_tension_Pa']:.3g} ± {cell['axial_tension_error_Pa']:.2g} Pa\n"
+                    f"T {cell['axial_tension_Pa']:.0f} ± {cell['axial_tension_error_Pa']:.0f} Pa\n"
                     f"χ² {cell['chi_squared']:.2g} at {cell['degrees_of_freedom']}"
                     + (": a poor fit" if cell["status"] == "poor-fit" else ""))
         axes.set_title(f"{letter}   {name[:24]}\n{cell['cells']} cells", fontsize=6, loc="left")

@@ -1,0 +1,26 @@
+// What the moduli of all events of a recording have in common of their errors, so that more events do not make it
+// smaller (docs/theory-extract.md, sec. "Elongated cells").
+#pragma once
+#include <cmath>
+
+#include "extract/plausibility.h"
+#include "infer/elongated_solids.h"
+
+namespace rheocyte {
+
+/// Standard deviations, relative to the modulus, of its median in a recording, by pixels, table and the liquid's
+/// inertia; what is wrong with viscosity, flow rate and pixel size comes on top. `of_event` is the standard error of
+/// the median event, of which the law of the pixels leaves up to a quarter in the median (bench/pixel_coverage).
+inline double common_error_by_deformation(double of_event, double reynolds) {
+  constexpr double share_left = 0.25;
+  return std::hypot(share_left * of_event, modulus_per_reynolds * reynolds);
+}
+
+/// The same of the table of elongated cells: by how much medians of cells are off, half of which were drawn out by a
+/// tension and half by their shape at rest (bench/round_trip_elongated).
+inline double common_error_of_elongated(ElongatedBy by, double reynolds) {
+  const double left = by == ElongatedBy::modes ? 0.015 : 0.02;
+  return std::hypot(left, modulus_per_reynolds * reynolds);
+}
+
+}  // namespace rheocyte
