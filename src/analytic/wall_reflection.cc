@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "numeric/special_functions.h"
+
 namespace rheocyte {
 namespace {
 
@@ -29,8 +31,8 @@ struct WallFactor {
 };
 
 WallFactor wall_factor(double k) {
-  const double I1 = std::cyl_bessel_i(1, k), I2 = std::cyl_bessel_i(2, k);
-  const double K0 = std::cyl_bessel_k(0, k), K1 = std::cyl_bessel_k(1, k);
+  const double I1 = scaled_bessel_i(1, k), I2 = scaled_bessel_i(2, k);
+  const double K0 = scaled_bessel_k(0, k), K1 = scaled_bessel_k(1, k);
   return {I1 * K1 + I2 * K0, -k * I2 * K1 + K0 * (2 * I2 - k * I1)};
 }
 

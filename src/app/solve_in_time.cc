@@ -54,9 +54,7 @@ class Recorder {
   TimeObserver observer() {
     return {[this](const TimeFrame& frame) { add(frame); },
             [this](const TimePoint& point, const TimeState& state) { add(point, state); },
-            [this](std::span<const TimePoint> steps) {
-              for (const TimePoint& point : steps) record_.compared_rows.push_back(history_row(point, result_.scales));
-            }};
+            [this](std::span<const TimePoint> steps) { record_.compared_rows = history_rows(steps, result_.scales); }};
   }
 
   TimeRecord& record() { return record_; }

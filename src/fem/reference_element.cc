@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "numeric/dense_solve.h"
+#include "numeric/special_functions.h"
 #include "shape/curve.h"
 
 namespace rheocyte {
@@ -38,7 +39,7 @@ MatrixXd products_of(const MatrixXd& first, const MatrixXd& second) {
 /// Legendre polynomials of degree < count, orthonormal on [0, 1].
 VectorXd orthonormal_legendre(int count, double x) {
   VectorXd values(count);
-  for (int k = 0; k < count; ++k) values(k) = std::sqrt(2.0 * k + 1) * std::legendre(unsigned(k), 2 * x - 1);
+  for (int k = 0; k < count; ++k) values(k) = std::sqrt(2.0 * k + 1) * legendre(k, 2 * x - 1);
   return values;
 }
 

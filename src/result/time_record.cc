@@ -116,6 +116,12 @@ HistoryRow history_row(const TimePoint& point, const Scales& scales) {
           in_history(point.state, scales)};
 }
 
+std::vector<HistoryRow> history_rows(std::span<const TimePoint> points, const Scales& scales) {
+  std::vector<HistoryRow> rows;
+  for (const TimePoint& point : points) rows.push_back(history_row(point, scales));
+  return rows;
+}
+
 ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
   Eigen::Index rows = 1;
   for (const CurvePiece& piece : frame.state.contour.pieces) rows += piece.rows() - 1;

@@ -61,6 +61,7 @@ struct TimeRecord {
 const HistoryRow& min_tension(const TimeRecord&);
 
 HistoryRow history_row(const TimePoint&, const Scales&);
+std::vector<HistoryRow> history_rows(std::span<const TimePoint>, const Scales&);
 ContourFrame contour_frame(const TimeFrame&, const Scales&);
 
 /// Time, measures of the state, and these columns.

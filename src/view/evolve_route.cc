@@ -3,22 +3,16 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <condition_variable>
-#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "case/json_guard.h"
-#include "case/scales.h"
-#include "result/judge_end.h"
-#include "result/result_in_time.h"
+#include "result/evolution.h"
 #include "serve/json_member.h"
-#include "store/thread.h"
 #include "view/state_json.h"
 #include "view/stated_case.h"
 
@@ -42,107 +36,73 @@ long frames_between_fields(const TimeRun& run) {
   return std::isfinite(frames) ? std::max(1L, std::lround(std::ceil(frames / most_frames_with_fields))) : 1;
 }
 
-/// Computes in a thread of its own; lines wait until they are taken.
-class Evolution {
+/// Lines of JSON: one for each frame, and the result.
+class EvolutionLines {
  public:
-  Evolution(const Case& c, bool wants_fields)
-      : result_{c, scales_of(c), problem_of(c), {}}, wants_fields_(wants_fields) {
-    thread_ = Thread([this](const std::stop_token&) { follow(); });
-  }
-  ~Evolution() {
-    stop_ = true;
-    thread_.join();
-  }
-  Evolution(const Evolution&) = delete;
-  Evolution& operator=(const Evolution&) = delete;
+  EvolutionLines(const Case& c, bool wants_fields)
+      : wants_fields_(wants_fields),
+        evolution_(c, [this](const TimeFrame& frame, const Evolution<std::string>& so_far) {
+          return line_of(frame, so_far);
+        }) {}
 
-  void supersede() { is_superseded_ = stop_ = true; }
+  void supersede() {
+    is_superseded_ = true;
+    evolution_.stop();
+  }
 
   /// Gives the lines until the end, or until nobody takes them.
   void give(const TakePiece& take, const Client* client) {
-    std::unique_lock lock(mutex_);
-    for (bool is_last = false; !is_last;) {
-      changed_.wait_for(lock, Client::asked_every, [this] { return is_over_ || !lines_.empty(); });
-      is_last = is_over_;
-      const std::deque<std::string> lines = std::move(lines_);
-      lines_.clear();
-      lock.unlock();
-      for (const std::string& line : lines) is_last |= !take(line);
-      is_last |= client && client->has_left();
-      lock.lock();
+    for (;;) {
+      evolution_.wait_for(Client::asked_every);
+      const bool is_over = evolution_.is_over();
+      for (const std::string& line : evolution_.take())
+        if (!take(line)) return;
+      if (is_over) static_cast<void>(take(json_line(last()) + "\n"));
+      if (is_over || (client && client->has_left())) return;
     }
   }
 
  private:
-  void follow() {
+  Json last() const {
     try {
-      const TimeObserver observer{[this](const TimeFrame& frame) { add(frame); },
-                                  [this](const TimePoint& point, const TimeState&) { add(point); }};
-      run_ = time_run_of(result_.input, result_.scales);
-      result_.state = follow_in_time(result_.problem, run_, observer, nullptr, &stop_);
-      judge_end(result_, record_, stop_);
-      refuse_unfinite_numbers(result_);
-      add(is_superseded_
-              ? Json{{"error", "A later request of the same stream has replaced this one."}, {"reason", "superseded"}}
-              : Json{{"result", to_json(result_, record_)}});
+      evolution_.check();
     } catch (const std::exception& error) {
-      add(Json{{"error", error.what()}, {"reason", "bug"}});
+      return {{"error", error.what()}, {"reason", "bug"}};
     }
-    const std::scoped_lock lock(mutex_);
-    is_over_ = true;
-    changed_.notify_all();
+    if (is_superseded_)
+      return {{"error", "A later request of the same stream has replaced this one."}, {"reason", "superseded"}};
+    return {{"result", to_json(evolution_.result(), evolution_.record())}};
   }
 
-  void add(const TimeFrame& frame) {
-    record_.frames.push_back(contour_frame(frame, result_.scales));
-    const ContourFrame& seen = record_.frames.back();
+  std::string line_of(const TimeFrame& frame, const Evolution<std::string>& so_far) const {
+    const auto& [input, scales, problem, state] = so_far.result();
+    const TimeRun& run = so_far.run();
     std::string line =
-        json_line({{"time_s", result_.scales.time_s() * frame.time},
-                   {"x_um", seen.position_um},
+        json_line({{"time_s", scales.time_s() * frame.time},
+                   {"x_um", so_far.record().frames.back().position_um},
                    {"deformation", frame.state.shape.deformation},
-                   {"velocity_m_per_s", result_.scales.velocity_m_per_s * frame.state.cell_velocity},
-                   {"progress", std::isfinite(run_.end) ? frame.time / run_.end : frame.position / run_.end_position},
-                   {"contour", outline_json(frame.state.contour, result_.scales.length_um())}});
-    if (has_fields())
-      add_member(line, "fields",
-                 ShownState({result_.input, result_.scales, result_.problem, frame.state}).fields(points_in_frame));
-    add(std::move(line));
+                   {"velocity_m_per_s", scales.velocity_m_per_s * frame.state.cell_velocity},
+                   {"progress", std::isfinite(run.end) ? frame.time / run.end : frame.position / run.end_position},
+                   {"contour", outline_json(frame.state.contour, scales.length_um())}});
+    if (has_fields(so_far))
+      add_member(line, "fields", ShownState({input, scales, problem, frame.state}).fields(points_in_frame));
+    return line + "\n";
   }
 
-  bool has_fields() {
-    const long frame = long(record_.frames.size()) - 1;
-    if (!wants_fields_ || frame % frames_between_fields(run_) != 0) return false;
-    const std::scoped_lock lock(mutex_);
-    return lines_.size() < most_lines_waiting;
+  bool has_fields(const Evolution<std::string>& so_far) const {
+    const long frame = long(so_far.record().frames.size()) - 1;
+    return wants_fields_ && frame % frames_between_fields(so_far.run()) == 0 && so_far.waiting() < most_lines_waiting;
   }
 
-  void add(const TimePoint& point) { record_.rows.push_back(history_row(point, result_.scales)); }
-
-  void add(const Json& line) { add(json_line(line)); }
-
-  void add(std::string line) {
-    line += '\n';
-    const std::scoped_lock lock(mutex_);
-    lines_.push_back(std::move(line));
-    changed_.notify_all();
-  }
-
-  Result result_;
   bool wants_fields_;
-  TimeRecord record_;
-  TimeRun run_;
-  std::atomic<bool> stop_{false}, is_superseded_{false};
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::string> lines_;
-  bool is_over_ = false;
-  Thread thread_;
+  std::atomic<bool> is_superseded_{false};
+  Evolution<std::string> evolution_;
 };
 
 /// Those that run, by their streams.
 class Evolutions {
  public:
-  std::shared_ptr<Evolution> begin(const Case& c, const Request& request) {
+  std::shared_ptr<EvolutionLines> begin(const Case& c, const Request& request) {
     const std::string stream = request.asked("stream");
     const std::scoped_lock lock(mutex_);
     std::erase_if(running_, [](const auto& entry) { return entry.second.expired(); });
@@ -150,14 +110,14 @@ class Evolutions {
       if (const auto older = at->second.lock()) older->supersede();
     if (running_.size() >= most_at_once)
       throw Refused(503, "busy", "Several cells are followed in time already; stop one of them, or wait for its end.");
-    auto evolution = std::make_shared<Evolution>(c, request.asked("fields") == "1");
+    auto evolution = std::make_shared<EvolutionLines>(c, request.asked("fields") == "1");
     running_.emplace(stream, evolution);
     return evolution;
   }
 
  private:
   std::mutex mutex_;
-  std::multimap<std::string, std::weak_ptr<Evolution>> running_;
+  std::multimap<std::string, std::weak_ptr<EvolutionLines>> running_;
 };
 
 Answer evolve(Evolutions& evolutions, const Request& request) {

@@ -1,0 +1,125 @@
+// A case in time in a thread of its own, whose frames wait until they are taken: for the view and for Python.
+#pragma once
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "case/scales.h"
+#include "result/judge_end.h"
+#include "result/result_in_time.h"
+#include "store/thread.h"
+
+namespace rheocyte {
+
+/// Item: what is kept of a frame until it is taken. The last state is judged as the command does it.
+template <class Item>
+class Evolution {
+ public:
+  /// Called in the thread that computes, with the frames so far in the record.
+  using MakeItem = std::function<Item(const TimeFrame&, const Evolution&)>;
+
+  Evolution(const Case& c, MakeItem make_item)
+      : result_{c, scales_of(c), problem_of(c), {}},
+        run_(time_run_of(c, result_.scales)),
+        make_item_(std::move(make_item)) {
+    thread_ = Thread([this](const std::stop_token&) { follow(); });
+  }
+  ~Evolution() {
+    stop();
+    thread_.join();
+  }
+  Evolution(const Evolution&) = delete;
+  Evolution& operator=(const Evolution&) = delete;
+
+  void stop() { stop_ = true; }
+
+  /// True once there are items or all is over.
+  template <class Duration>
+  bool wait_for(Duration duration) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, duration, [this] { return is_over_ || !items_.empty(); });
+  }
+  bool is_over() const {
+    const std::scoped_lock lock(mutex_);
+    return is_over_;
+  }
+  std::size_t waiting() const {
+    const std::scoped_lock lock(mutex_);
+    return items_.size();
+  }
+  /// The first `most` of those that wait.
+  std::deque<Item> take(std::size_t most = std::size_t(-1)) {
+    const std::scoped_lock lock(mutex_);
+    std::deque<Item> taken;
+    for (; !items_.empty() && taken.size() < most; items_.pop_front()) taken.push_back(std::move(items_.front()));
+    return taken;
+  }
+
+  const TimeRun& run() const { return run_; }
+  /// Its state only once all is over.
+  const Result& result() const { return result_; }
+  /// Its frames for the thread that computes, all of it once all is over.
+  const TimeRecord& record() const { return record_; }
+  /// Of the steps so far.
+  std::vector<HistoryRow> rows() const {
+    const std::scoped_lock lock(mutex_);
+    return record_.rows;
+  }
+  /// Throws what the computation has thrown; once all is over.
+  void check() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void follow() {
+    try {
+      result_.state = follow_in_time(result_.problem, run_, observer(), nullptr, &stop_);
+      judge_end(result_, record_, stop_);
+      refuse_unfinite_numbers(result_);
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    const std::scoped_lock lock(mutex_);
+    is_over_ = true;
+    changed_.notify_all();
+  }
+
+  TimeObserver observer() {
+    const auto add_frame = [this](const TimeFrame& frame) {
+      record_.frames.push_back(contour_frame(frame, result_.scales));
+      Item item = make_item_(frame, *this);
+      const std::scoped_lock lock(mutex_);
+      items_.push_back(std::move(item));
+      changed_.notify_all();
+    };
+    const auto add_step = [this](const TimePoint& point, const TimeState&) {
+      const std::scoped_lock lock(mutex_);
+      record_.rows.push_back(history_row(point, result_.scales));
+    };
+    const auto compare = [this](std::span<const TimePoint> steps) {
+      record_.compared_rows = history_rows(steps, result_.scales);
+    };
+    return {add_frame, add_step, compare};
+  }
+
+  Result result_;
+  TimeRun run_;
+  MakeItem make_item_;
+  TimeRecord record_;
+  std::atomic<bool> stop_{false};
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Item> items_;
+  bool is_over_ = false;
+  std::exception_ptr failure_;
+  Thread thread_;
+};
+
+}  // namespace rheocyte
