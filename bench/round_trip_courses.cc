@@ -1,14 +1,18 @@
 // How well Young's modulus and viscosity of cells on their way come back from masks: round_trip_courses DIR
-// [POPULATIONS [CELLS [PIXEL_UM [ADDED_ELLIPSE [SEED]]]]]
+// [POPULATIONS [CELLS [PIXEL_UM [AXIAL_RATIO [SEED]]]]]
 //
 // The dynamic table in DIR shows virtual cells at four places; they are drawn into masks of pixels, whose contours give
 // back single cells from all over the table, and populations of random medians. Times 3 viscosity / E of 0.1 to 5 ms.
+// With an AXIAL_RATIO each cell is followed through the channel under a tension of up to this share of its modulus,
+// which does not change along the channel: about half a second a cell.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -18,6 +22,7 @@
 #include "measurement/shape_in_pixels.h"
 #include "numeric/quantile.h"
 #include "program.h"
+#include "sweep/follow_course.h"
 #include "synth/course_shapes.h"
 #include "synth/outline.h"
 
@@ -60,12 +65,12 @@ struct Found {
 
 class Laboratory {
  public:
-  Laboratory(const DynamicTable& table, double pixel_um, double added_ellipse, std::uint64_t seed)
+  Laboratory(const DynamicTable& table, double pixel_um, double axial_ratio, std::uint64_t seed)
       : table_(table),
         flow_(channel_flow_of(table.spec().base)),
         shapes_(table, flow_),
         pixel_um_(pixel_um),
-        added_ellipse_(added_ellipse),
+        axial_ratio_(axial_ratio),
         seed_(seed) {}
 
   /// Cells from all over the table.
@@ -131,6 +136,38 @@ class Laboratory {
 
   /// Empty if the table does not have the cell.
   CellImages images_of(const DynamicCell& cell, CellRandom& random) const {
+    return axial_ratio_ > 0 ? images_under_tension(cell, axial_ratio_ * random.uniform(), random)
+                            : images_by_table(cell, random);
+  }
+
+  /// Of the places of the table those that are nearest to the wanted ones.
+  CellImages images_under_tension(const DynamicCell& cell, double axial_ratio, CellRandom& random) const {
+    DynamicSpec spec = table_.spec();
+    spec.base.flow.axial_tension_Pa = 1e3 * axial_ratio * cell.young_modulus_kPa;
+    const CellCourse course = follow_course(spec, cell);
+    if (course.status != Status::converged) return {};
+    const std::vector<double> places = places_of(spec);
+    CellImages images;
+    for (const double wanted : places_um) {
+      const auto nearest =
+          std::ranges::min_element(places, {}, [&](double place) { return std::abs(place - wanted); }) - places.begin();
+      const auto at = [&](CourseMeasure measure) { return course.value(nearest, int(measure)); };
+      std::array<double, mode_count> modes{};
+      for (int k = 0; k <= int(CourseMeasure::mode_7) - int(CourseMeasure::mode_2); ++k)
+        modes[std::size_t(k)] = course.value(nearest, int(CourseMeasure::mode_2) + k);
+      const double area = at(CourseMeasure::area_ratio) * std::numbers::pi * cell.radius_um * cell.radius_um;
+      images.push_back(image_of(outline_of_modes(modes, area, outline_points), places[std::size_t(nearest)], random));
+    }
+    return images;
+  }
+
+  CourseImage image_of(const Eigen::MatrixX2d& outline, double place, CellRandom& random) const {
+    const Eigen::RowVector2d place_px(random.uniform() - 0.5, random.uniform() - 0.5);
+    const auto smooth = without_pixels(features_in_pixels(outline, pixel_um_, place_px), pixel_um_);
+    return {place, smooth.area_um2, smooth.mode_3, smooth.deviation, smooth.mode_2};
+  }
+
+  CellImages images_by_table(const DynamicCell& cell, CellRandom& random) const {
     VirtualCell there;
     there.radius_um = cell.radius_um;
     there.stiffness = cell.young_modulus_kPa;
@@ -142,10 +179,7 @@ class Laboratory {
       const auto shape = shapes_.shape(there);
       const auto* const found = std::get_if<CellShape>(&shape);
       if (!found) return {};
-      const Eigen::RowVector2d place_px(random.uniform() - 0.5, random.uniform() - 0.5);
-      const Eigen::MatrixX2d outline = with_ellipse(silhouette(found->meridian), added_ellipse_);
-      const auto smooth = without_pixels(features_in_pixels(outline, pixel_um_, place_px), pixel_um_);
-      images.push_back({place, smooth.area_um2, smooth.mode_3, smooth.deviation, smooth.mode_2});
+      images.push_back(image_of(silhouette(found->meridian), place, random));
     }
     return images;
   }
@@ -153,7 +187,7 @@ class Laboratory {
   const DynamicTable& table_;
   ChannelFlow flow_;
   CourseShapes shapes_;
-  double pixel_um_, added_ellipse_;
+  double pixel_um_, axial_ratio_;
   std::uint64_t seed_;
   Found populations_;
 };
@@ -161,8 +195,7 @@ class Laboratory {
 }  // namespace
 
 int rheocyte::measure(int argc, char** argv) {
-  if (argc < 2)
-    return fmt::print("round_trip_courses DIR [POPULATIONS [CELLS [PIXEL_UM [ADDED_ELLIPSE [SEED]]]]]\n"), 2;
+  if (argc < 2) return fmt::print("round_trip_courses DIR [POPULATIONS [CELLS [PIXEL_UM [AXIAL_RATIO [SEED]]]]]\n"), 2;
   const DynamicTable table = read_dynamic_table(argv[1]);
   const int populations = argc > 2 ? std::atoi(argv[2]) : 20, cells = argc > 3 ? std::atoi(argv[3]) : 500;
   Laboratory laboratory(table, argc > 4 ? std::atof(argv[4]) : 0.34, argc > 5 ? std::atof(argv[5]) : 0,

@@ -27,17 +27,28 @@ ElongatedSolids shipped_table() {
   return ElongatedSolids(elongated_from_bytes(std::string(std::istreambuf_iterator<char>(file), {}), "HE-3D-el-26"));
 }
 
-/// Of the silhouette of a solid in the square channel (um).
-Eigen::MatrixX2d outline_of(double modulus_kPa, const std::string& elongated_by) {
+/// A solid in the square channel.
+struct Solved {
+  StationaryState state;
+  Scales scales;
+  double mode(int k) const { return state.shape.modes[std::size_t(k - first_radius_mode)]; }
+};
+Solved solved(double modulus_kPa, const std::string& elongated_by) {
   const Case c =
       parse_case(fmt::format("channel.section = \"square\"\nchannel.width_um = 20\nflow.rate_ul_per_s = 0.04\n"
                              "flow.viscosity_mPas = {}\ncell.radius_um = 6.25\nnumerics.accuracy = 1e-3\n"
                              "cell.bulk.young_modulus_kPa = {}\n{}",
                              viscosity_mPas, modulus_kPa, elongated_by),
                  "case");
-  const StationaryState state = Session().solve(problem_of(c));
-  EXPECT_EQ(state.outcome.status, Status::converged);
-  return mirrored(measure_state(state, scales_of(c)).contour);
+  Solved found{Session().solve(problem_of(c)), scales_of(c)};
+  EXPECT_EQ(found.state.outcome.status, Status::converged);
+  return found;
+}
+
+/// Of its silhouette (um).
+Eigen::MatrixX2d outline_of(double modulus_kPa, const std::string& elongated_by) {
+  const Solved cell = solved(modulus_kPa, elongated_by);
+  return mirrored(measure_state(cell.state, cell.scales).contour);
 }
 
 /// Median over random places on the camera.
@@ -77,6 +88,22 @@ TEST(ElongatedCells, HaveTheirModulusWhetherATensionOrTheirRestShapeDrawsThemOut
     const Eigen::MatrixX2d outline = outline_of(modulus, by);
     EXPECT_NEAR(modulus_of(solids, outline, ElongatedBy::modes) / modulus, 1, 0.03) << modulus << " " << by;
     EXPECT_NEAR(modulus_of(solids, outline, ElongatedBy::inertia) / modulus, 1, 0.05) << modulus << " " << by;
+  }
+}
+
+TEST(ElongatedCells, OfOneElongationHaveOneAsymmetryWhetherATensionOrTheirRestShapeDrawsThemOut) {
+  // Equal c_2, equal c_3 within 2 %: what the flow does to a long cell does not depend on what made it long.
+  struct Pair {
+    double modulus_kPa, below_Pa, above_Pa;  // tensions on both sides of that whose c_2 is the rest shape's
+  };
+  for (const auto& [modulus, below, above] : {Pair{1.5, 450, 510}, Pair{2.5, 780, 830}}) {
+    const Solved rested = solved(modulus, "cell.rest_aspect = 1.5"),
+                 less = solved(modulus, fmt::format("flow.axial_tension_Pa = {}", below)),
+                 more = solved(modulus, fmt::format("flow.axial_tension_Pa = {}", above));
+    const double share = (rested.mode(2) - less.mode(2)) / (more.mode(2) - less.mode(2));
+    EXPECT_GT(share, 0);
+    EXPECT_LT(share, 1);
+    EXPECT_NEAR(std::lerp(less.mode(3), more.mode(3), share) / rested.mode(3), 1, 0.02) << modulus;
   }
 }
 
