@@ -14,7 +14,7 @@ constexpr double fine_radius = 0.002, usual_radius = 0.004, fine_height = 0.02, 
 constexpr double edge_zone = 0.12;
 constexpr double least_chance = 1e-9;
 /// In standard deviations: cells farther off the mean do not count.
-constexpr double farthest = 8;
+constexpr double farthest = 6;
 
 double standard_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
