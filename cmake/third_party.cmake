@@ -6,6 +6,7 @@
 #   rheocyte::hdf5       HDF5 without MPI
 #   rheocyte::zstd       Zstandard
 #   rheocyte::qhull      Delaunay triangulation
+#   rheocyte::boost_math Boost.Math's distributions: headers only
 #   rheocyte::beast      Boost.Beast and Boost.Asio: headers only
 #
 # and RHEOCYTE_PYTHON_EXECUTABLE, an interpreter that has matplotlib and numpy.
@@ -72,6 +73,7 @@ endforeach()
 target_link_libraries(rheocyte::hdf5 INTERFACE $<$<NOT:${is_program}>:rheocyte::shared_hdf5>)
 rheocyte_import(zstd LIBRARY zstd HEADER zstd.h PACKAGE libzstd-dev)
 rheocyte_import(qhull LIBRARY qhull_r HEADER libqhull_r/libqhull_r.h PACKAGE libqhull-dev)
+rheocyte_import(boost_math HEADER boost/math/distributions/students_t.hpp PACKAGE libboost-dev)
 if(RHEOCYTE_SOLVER)
   rheocyte_import(beast HEADER boost/beast/http.hpp PACKAGE libboost-dev)
   # Without what nobody uses and some compilers take for something else; Boost.System is headers only.

@@ -3,6 +3,7 @@
 Solve a cell          Case, solve, Session, Result, evolve
 Tables                Table, table, table_names, viscosity, STATES
 Recordings            extract, moduli, time_course, features, synth, dclab_plugin
+Populations           population, Population, plan
 Small deformations    analytic
 Mistakes              UserError (a ValueError), NoStateError
 Keys of a case        case_keys
@@ -24,6 +25,7 @@ _MODULES = {
     "dclab_plugin": "stiffness_tables", "table": "stiffness_tables", "viscosity": "stiffness_tables",
     "extract": "recordings", "features": "recordings", "moduli": "recordings", "synth": "recordings",
     "time_course": "recordings",
+    "Population": "populations", "plan": "populations", "population": "recordings",
     "analytic": "analytical_model",
     "NoStateError": "errors", "UserError": "errors",
 }

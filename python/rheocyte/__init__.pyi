@@ -5,9 +5,12 @@ from rheocyte.errors import NoStateError as NoStateError
 from rheocyte.errors import UserError as UserError
 from rheocyte.in_time import Evolution as Evolution
 from rheocyte.in_time import evolve as evolve
+from rheocyte.populations import Population as Population
+from rheocyte.populations import plan as plan
 from rheocyte.recordings import extract as extract
 from rheocyte.recordings import features as features
 from rheocyte.recordings import moduli as moduli
+from rheocyte.recordings import population as population
 from rheocyte.recordings import time_course as time_course
 from rheocyte.recordings import synth as synth
 from rheocyte.states import Result as Result

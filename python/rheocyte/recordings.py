@@ -1,5 +1,6 @@
 """Recordings of RT-DC: Young's moduli of their events, moduli of bulk and cortex, features of masks, virtual ones."""
 
+from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from rheocyte.datasets import source_of
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
 from rheocyte.paths import path
+from rheocyte.populations import Population
 from rheocyte.progress import progress_bar
 from rheocyte.settings import filled, gated, with_settings
 from rheocyte.specs import read_spec
@@ -81,7 +83,7 @@ def time_course(recordings, table, contraction_um, *, progress=None, **settings)
     """
     import pandas
 
-    several = recordings if isinstance(recordings, (list, tuple)) else [recordings]
+    several = _several(recordings)
     places = np.atleast_1d(numbers(contraction_um, "contraction_um"))
     if len(places) not in (1, len(several)):
         raise UserError(f"contraction_um has {len(places)} places for {len(several)} recordings; give one, or one each.")
@@ -96,6 +98,36 @@ def time_course(recordings, table, contraction_um, *, progress=None, **settings)
     frame = pandas.DataFrame(columns).astype({"cell": int, "events": int})
     frame.attrs.update(settings=told, population=lines)
     return frame
+
+
+@with_settings(native.PopulationOptions)
+def population(conditions, *, progress=None, **settings):
+    """Mechanics of the cells of recordings, and whether conditions differ, as `rheocyte population` tells.
+
+    conditions      dictionary of conditions and their recordings (lists of what extract takes); the first one is that with
+                    which others are compared
+    {settings}
+    progress        as for extract
+
+    Returns a Population with the DataFrames recordings, conditions and comparisons, the methods events(), check() and
+    plot(), and all of population.json as record (docs/populations.md). Recordings without a number say why in their column
+    failure. UserError for what is wrong with a recording or the conditions.
+    """
+    if not isinstance(conditions, Mapping):
+        raise UserError('conditions must be a dictionary of names and recordings, such as {"control": ["A.rtdc"]}.')
+    options = filled(native.PopulationOptions(), settings)
+    with ExitStack() as stack, progress_bar(progress) as tell:
+        sources = [(name, [stack.enter_context(source_of(each, gated(settings))) for each in _several(recordings)])
+                   for name, recordings in conditions.items()]
+        text, events = native.population([(name, [source.place for source in of]) for name, of in sources], options, tell)
+    for _, of in sources:
+        for source in of:
+            text = source.named(text)
+    return Population(text, events)
+
+
+def _several(recordings):
+    return recordings if isinstance(recordings, (list, tuple)) else [recordings]
 
 
 def synth(spec, file, *, replace=False, progress=None, **overrides):

@@ -6,6 +6,8 @@ from typing import Any, Literal, Protocol
 import pandas
 from numpy.typing import ArrayLike
 
+from rheocyte.populations import Population
+
 _Path = str | PathLike[str]
 _Progress = bool | Callable[[float], object] | None
 
@@ -76,6 +78,28 @@ def time_course(
     patience: float | None = None,
     progress: _Progress = None,
 ) -> pandas.DataFrame: ...
+def population(
+    conditions: Mapping[str, _Path | _Dataset | Sequence[_Path | _Dataset]],
+    *,
+    by: str | None = None,
+    paired: bool = False,
+    between_recordings: float | None = None,
+    no_bins: bool = False,
+    jobs: float | None = None,
+    channel_width_um: float | None = None,
+    flow_rate_ul_s: float | None = None,
+    pixel_size_um: float | None = None,
+    viscosity_mPas: float | None = None,
+    medium: str | None = None,
+    viscosity_model: str | None = None,
+    temperature: float | str | None = None,
+    temperature_if_missing: float | None = None,
+    min: Mapping[str, float] | None = None,
+    max: Mapping[str, float] | None = None,
+    polygon: Mapping[tuple[str, str], ArrayLike] | _Path | Sequence[_Path] | None = None,
+    patience: float | None = None,
+    progress: _Progress = None,
+) -> Population: ...
 def synth(
     spec: _Path | Mapping[str, Any],
     file: _Path,

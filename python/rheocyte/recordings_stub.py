@@ -11,6 +11,8 @@ from typing import Any, Literal, Protocol
 import pandas
 from numpy.typing import ArrayLike
 
+from rheocyte.populations import Population
+
 _Path = str | PathLike[str]
 _Progress = bool | Callable[[float], object] | None
 
@@ -38,6 +40,12 @@ def time_course(
 {time_course}
     progress: _Progress = None,
 ) -> pandas.DataFrame: ...
+def population(
+    conditions: Mapping[str, _Path | _Dataset | Sequence[_Path | _Dataset]],
+    *,
+{population}
+    progress: _Progress = None,
+) -> Population: ...
 def synth(
     spec: _Path | Mapping[str, Any],
     file: _Path,
@@ -69,7 +77,8 @@ def arguments(options):
 def stub():
     """The text of recordings.pyi."""
     return STUB.format(extract=arguments(native.ExtractOptions), moduli=arguments(native.ModuliOptions),
-                       time_course=arguments(native.TimeCourseOptions))
+                       time_course=arguments(native.TimeCourseOptions),
+                       population=arguments(native.PopulationOptions))
 
 
 if __name__ == "__main__":

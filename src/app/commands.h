@@ -13,12 +13,14 @@ using AddCommand = void(CLI::App&, int& exit_code);
 
 AddCommand add_solve_command, add_picture_command, add_analytic_command, add_extract_command, add_moduli_command,
     add_features_command, add_plot_command, add_scale_command, add_synth_command, add_figure_command, add_table_command,
-    add_time_course_command, add_dclab_plugin_command, add_view_command, add_help_command;
+    add_time_course_command, add_population_command, add_plan_command, add_dclab_plugin_command, add_view_command,
+    add_help_command;
 
 /// In the order of the help; `help` is last, because it knows the others.
 inline constexpr std::array all_commands{
-    add_solve_command,    add_picture_command,     add_analytic_command, add_extract_command,      add_moduli_command,
-    add_features_command, add_plot_command,        add_scale_command,    add_synth_command,        add_figure_command,
-    add_table_command,    add_time_course_command, add_view_command,     add_dclab_plugin_command, add_help_command};
+    add_solve_command,        add_picture_command,     add_analytic_command,   add_extract_command, add_moduli_command,
+    add_features_command,     add_plot_command,        add_scale_command,      add_synth_command,   add_figure_command,
+    add_table_command,        add_time_course_command, add_population_command, add_plan_command,    add_view_command,
+    add_dclab_plugin_command, add_help_command};
 
 }  // namespace rheocyte

@@ -63,9 +63,18 @@ Gates::Limit& Gates::limit_of(const std::string& feature) {
   return limits_.emplace_back(Limit{feature});
 }
 
-std::string Gates::description() const {
+std::string Gates::description() const { return description_without({}); }
+
+Gates::Limits Gates::limits_of(std::string_view feature) const {
+  const auto found = std::ranges::find(limits_, feature, &Limit::feature);
+  const Limit limit = found == limits_.end() ? Limit{} : *found;
+  return {limit.min, limit.max};
+}
+
+std::string Gates::description_without(std::initializer_list<std::string_view> features) const {
   std::string text;
   for (const auto& [feature, min, max] : limits_) {
+    if (std::ranges::find(features, feature) != features.end()) continue;
     if (!text.empty()) text += ", ";
     if (std::isfinite(min)) text += fmt::format("{} <= ", min);
     text += one_line(feature, 60);

@@ -1,5 +1,6 @@
 // Which events are taken: those within limits of features and within polygons.
 #pragma once
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
@@ -20,6 +21,13 @@ class Gates {
   bool empty() const { return limits_.empty() && polygons_.empty() && !events_; }
   /// "1 <= area_ratio <= 1.05", "12 chosen events"
   std::string description() const;
+  /// The same without the limits of some features.
+  std::string description_without(std::initializer_list<std::string_view> features) const;
+  /// Of one feature; infinite without a gate.
+  struct Limits {
+    double min, max;
+  };
+  Limits limits_of(std::string_view feature) const;
 
   /// UserError naming a feature that the recording does not have.
   void check(const EventFeatures& features) const;

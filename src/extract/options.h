@@ -57,6 +57,18 @@ struct TimeCourseOptions {
   std::optional<Section> section;      ///< in which the cells were seen; not given: section_seen
 };
 
+struct PopulationOptions {
+  std::vector<std::string> conditions;  ///< NAME=FILE,FILE,...
+  std::filesystem::path folder;         ///< of the results
+  bool quiet = false;
+  MeasuringOptions measuring;
+  std::string by;                            ///< asymmetry, odd-deformation, deformation; empty: asymmetry
+  bool paired = false;                       ///< the recordings of each condition are of the same sessions, in order
+  std::optional<double> between_recordings;  ///< known standard deviation of ln E
+  bool no_bins = false;
+  std::optional<double> jobs;  ///< threads
+};
+
 struct FeaturesOptions {
   BatchOptions batch;
   std::optional<double> pixel_size_um, patience_s;

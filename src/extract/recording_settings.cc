@@ -169,6 +169,27 @@ Settings settings_of(ModuliOptions& o) {
 
 Settings settings_of(TimeCourseOptions& o) { return joined({seen_section(o.section)}, settings_of(o.measuring)); }
 
+Settings settings_of(PopulationOptions& o) {
+  Setting between = setting("between_recordings", "Between recordings", &o.between_recordings,
+                            "standard deviation of ln E between recordings of one condition, known from earlier "
+                            "experiments, for a normal test beside the t test");
+  between.range = {0, 2};
+  Setting jobs = setting("jobs", "Jobs", &o.jobs, "threads; the numbers do not depend on them", "all processor cores");
+  jobs.range = {1, 1024};
+  return joined(
+      {of_type("MEASURE", {"asymmetry", "odd-deformation", "deformation"},
+               setting("by", "By", &o.by,
+                       "what tells the stiffness beside the area: asymmetry of the outline; odd-deformation, "
+                       "deformation and inertia ratio; or deformation, of cells that the flow alone elongates",
+                       "asymmetry")),
+       setting("paired", "Paired", &o.paired,
+               "the first recordings of all conditions are of one session, the second ones of another"),
+       std::move(between),
+       setting("no_bins", "No bins", &o.no_bins, "take each event by itself, also of more than 20,000"),
+       std::move(jobs)},
+      settings_of(o.measuring));
+}
+
 Settings settings_of(FeaturesOptions& o) { return {pixel_size(o.pixel_size_um), patience(o.patience_s)}; }
 
 }  // namespace rheocyte

@@ -11,6 +11,7 @@ namespace rheocyte {
 Settings settings_of(ExtractOptions&);
 Settings settings_of(ModuliOptions&);
 Settings settings_of(TimeCourseOptions&);
+Settings settings_of(PopulationOptions&);
 Settings settings_of(FeaturesOptions&);
 /// How recordings were measured, and which events count.
 Settings settings_of(MeasuringOptions&);

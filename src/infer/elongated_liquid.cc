@@ -21,6 +21,7 @@ void ElongatedLiquid::estimate(const MeasuringConditions& conditions, const Meas
 }
 
 double ElongatedLiquid::modulus_ratio(const ElongatedCell& cell) const {
+  if (!computed_ || !measured_) return 1;
   const ElongatedTable& table = solids_.table();
   // The cell without the elongation; where it would lose its stability the last one counts.
   const ElongatedState round = table.at(table.without_elongation(cell));

@@ -16,10 +16,10 @@ class ElongatedLiquid {
   const ElongatedSolids& solids() const { return solids_; }
   void estimate(const MeasuringConditions& conditions, const MeasuredEvents& events, const ElongatedShapes& shapes,
                 const ElongatedEstimates& estimates) const;
-
- private:
+  /// Modulus of a cell of the table in the recording's liquid over that in the table's.
   double modulus_ratio(const ElongatedCell& cell) const;
 
+ private:
   const ElongatedSolids& solids_;
   const ModulusMap *computed_, *measured_;
 };

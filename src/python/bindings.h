@@ -16,6 +16,7 @@ void bind_options(pybind11::module_& module);
 void bind_recordings(pybind11::module_& module);
 void bind_events(pybind11::module_& module);
 void bind_courses(pybind11::module_& module);
+void bind_populations(pybind11::module_& module);
 void bind_recording_file(pybind11::module_& module);
 void bind_masks(pybind11::module_& module);
 void bind_analysis(pybind11::module_& module);

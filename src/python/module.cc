@@ -40,6 +40,7 @@ PYBIND11_MODULE(native, module) {
   rheocyte::bind_recordings(module);
   rheocyte::bind_events(module);
   rheocyte::bind_courses(module);
+  rheocyte::bind_populations(module);
   rheocyte::bind_recording_file(module);
   rheocyte::bind_masks(module);
   rheocyte::bind_analysis(module);

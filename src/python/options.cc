@@ -38,6 +38,7 @@ void bind_options(py::module_& module) {
   bind<ExtractOptions>(module, "ExtractOptions");
   bind<ModuliOptions>(module, "ModuliOptions").def_readwrite("table", &ModuliOptions::table);
   bind<TimeCourseOptions>(module, "TimeCourseOptions");
+  bind<PopulationOptions>(module, "PopulationOptions");
 }
 
 }  // namespace rheocyte

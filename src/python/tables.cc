@@ -90,7 +90,7 @@ void estimate(const ModulusMap& map, const MeasuringConditions& conditions, cons
   }
 }
 
-MeasuringConditions conditions_of(double width_um, double rate_ul_s, double pixel_size_um, bool correct_area) {
+MeasuringConditions measuring_conditions(double width_um, double rate_ul_s, double pixel_size_um, bool correct_area) {
   return {{.width_um = width_um, .rate_ul_s = rate_ul_s}, pixel_size_um, correct_area};
 }
 
@@ -188,7 +188,7 @@ HeldTable table_for(double flow_exponent) {
 
 void bind_tables(py::module_& module) {
   py::class_<MeasuringConditions>(module, "Conditions")
-      .def(py::init(&conditions_of))
+      .def(py::init(&measuring_conditions))
       .def("set_viscosity", [](MeasuringConditions& c, double mPas) { c.flow.viscosity_mPas = mPas; });
   py::class_<HeldTable>(module, "Table")
       .def(py::init([](const std::string& name) { return HeldTable{read_modulus_map(find_table(name))}; }))

@@ -47,7 +47,7 @@ const std::string& this_machine() {
   static const std::string digits = [] {
     std::string name(256, '\0');
     ::gethostname(name.data(), name.size() - 1);
-    return fingerprint(name.c_str() + first_bytes("/proc/sys/kernel/random/boot_id", 64).value_or(""))
+    return fingerprint(name + first_bytes("/proc/sys/kernel/random/boot_id", 64).value_or(""))
         .substr(0, machine_digits);
   }();
   return digits;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -26,7 +28,9 @@ constexpr auto look = 100ms, look_again = 1000ms;
 
 int number_in_environment(const char* name, int otherwise) {
   const char* text = std::getenv(name);
-  return text && *text ? std::atoi(text) : otherwise;
+  int number = otherwise;
+  if (text) std::from_chars(text, text + std::strlen(text), number);
+  return number;
 }
 
 class Workers {

@@ -12,6 +12,7 @@
 #include "case/user_error.h"
 #include "numeric/dense_solve.h"
 #include "numeric/lagrange.h"
+#include "numeric/local_cubic.h"
 #include "table/origin_record.h"
 
 namespace rheocyte {
@@ -29,21 +30,6 @@ constexpr int radius_nodes = 33, axial_nodes = 17, height_nodes = 17;
 bool is_odd_measure(int measure) {
   const int above = measure - number_of(ElongatedMeasure::mode_2);
   return above > 0 && above % 2 == 1;
-}
-
-/// Four nodes of equal distance around a place, those at the rims beyond it, and the cubic through them.
-struct Stencil {
-  int first;
-  std::array<double, 4> value, slope;
-};
-
-Stencil stencil(double at, int count) {
-  const int first = std::clamp(int(std::floor(at)) - 1, 0, count - 4);
-  const double t = at - first, a = t - 1, b = t - 2, c = t - 3;
-  return {first,
-          {-a * b * c / 6, t * b * c / 2, -t * a * c / 2, t * a * b / 6},
-          {-(a * b + a * c + b * c) / 6, (t * b + t * c + b * c) / 2, -(t * a + t * c + a * c) / 2,
-           (t * a + t * b + a * b) / 6}};
 }
 
 /// ln(1 / E) at the ends of the branches: a smooth surface over radius and axial ratio that no branch falls short of by
@@ -261,9 +247,9 @@ ElongatedState ElongatedTable::at(const ElongatedCell& cell) const {
   assert(height > 0);
   const double first_axial = content_.axial_ratios.front(),
                axial_step = (content_.axial_ratios.back() - first_axial) / (axial_nodes - 1);
-  const Stencil x = stencil(cell(0) * (radius_nodes - 1), radius_nodes),
-                y = stencil((cell(1) - first_axial) / axial_step, axial_nodes),
-                z = stencil(height * (height_nodes - 1), height_nodes);
+  const LocalCubic x = local_cubic(cell(0) * (radius_nodes - 1), radius_nodes),
+                   y = local_cubic((cell(1) - first_axial) / axial_step, axial_nodes),
+                   z = local_cubic(height * (height_nodes - 1), height_nodes);
   Node value = Node::Zero(), by_x = Node::Zero(), by_y = Node::Zero(), by_z = Node::Zero();
   for (std::size_t i = 0; i < 4; ++i) {
     Node sum = Node::Zero(), sum_by_y = Node::Zero(), sum_by_z = Node::Zero();

@@ -96,6 +96,8 @@ class ElongatedTable {
   ElongatedCell without_elongation(const ElongatedCell&) const;
   /// First coordinate of a sphere's radius.
   double coordinate_of(double radius_um) const { return scale_.share_of(radius_um); }
+  /// Of a first coordinate.
+  double radius_um(double coordinate) const { return scale_.radius_um(coordinate); }
 
  private:
   static constexpr int numbers = elongated_measures + 1;  ///< the last one is ln(kPa) at the end of the branch

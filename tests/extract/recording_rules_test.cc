@@ -101,6 +101,11 @@ TEST_F(RecordingRules, GatesHoldTheirEndsAndNoEventWithoutANumber) {
   EXPECT_EQ(inside({{}, {}, {}, {{2, 0}}}), (std::vector{1, 0, 1})) << "chosen events";
   EXPECT_EQ(inside({{"area_um=90"}, {}, {"area_um,deform=50,0:120,0:120,1:50,1"}}), (std::vector{0, 0, 1}));
   EXPECT_EQ(Gates({{"area_um=40"}, {"area_um=90.5"}}).description(), "40 <= area_um <= 90.5");
+  const Gates both({{"area_um=40", "deform=0.01"}, {"area_um=90.5"}});
+  EXPECT_EQ(both.description_without({"area_um"}), "0.01 <= deform");
+  EXPECT_EQ(both.limits_of("area_um").min, 40);
+  EXPECT_EQ(both.limits_of("area_um").max, 90.5);
+  EXPECT_TRUE(std::isinf(both.limits_of("deform").max) && std::isinf(both.limits_of("bright_avg").min));
   EXPECT_NE(refusal([&] {
               inside({{"aera_um=90"}, {}});
             }).find("has no feature aera_um, for which --min gives"),

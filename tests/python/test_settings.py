@@ -15,7 +15,7 @@ from test_view_recordings import View
 
 STUB = ast.parse((Path(rheocyte.__file__).parent / "recordings.pyi").read_text(encoding="utf-8"))
 # What says which files are read and written, and what is told meanwhile.
-OF_FILES = {"help", "output", "recursive", "quiet", "no-tsv", "progress"}
+OF_FILES = {"help", "output", "recursive", "quiet", "no-tsv", "progress", "condition"}
 
 
 @pytest.fixture(scope="module")
@@ -36,10 +36,10 @@ def arguments(name):
     signature = inspect.signature(getattr(rheocyte, name)).parameters
     stub = next(node for node in STUB.body if isinstance(node, ast.FunctionDef) and node.name == name)
     assert [*signature] == [arg.arg for arg in (*stub.args.args, *stub.args.kwonlyargs)]
-    return {each.replace("_", "-") for each in signature if each not in ("recording", "recordings")} - OF_FILES
+    return {each.replace("_", "-") for each in signature if each not in ("recording", "recordings", "conditions")} - OF_FILES
 
 
-@pytest.mark.parametrize("function", ["extract", "moduli", "time_course"])
+@pytest.mark.parametrize("function", ["extract", "moduli", "time_course", "population"])
 def test_options_of_a_command_are_arguments_of_its_function(function, program):
     assert options(program, function.replace("_", "-")) == arguments(function)
 
@@ -60,7 +60,7 @@ def test_what_the_view_declares_are_the_options_of_extract(cells, program, tmp_p
 
 
 def test_the_documentation_has_all_settings():
-    for function in (rheocyte.extract, rheocyte.moduli, rheocyte.time_course):
+    for function in (rheocyte.extract, rheocyte.moduli, rheocyte.time_course, rheocyte.population):
         told = {line.split()[0] for line in inspect.getdoc(function).splitlines() if re.match(r"\w", line)}
         assert {*inspect.signature(function).parameters} <= told
         assert max(map(len, function.__doc__.splitlines())) <= 128

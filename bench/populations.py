@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""How well `rheocyte population` finds populations that are known: virtual recordings, through pixels.
+
+    bench/populations.py SCENARIO [--program build/rheocyte] [--recordings 40] [--cells 500] [--folder DIR]
+
+usual       cells of d about 0.02          stiff       half of them look rounder than a sphere
+gates       a gate on the area keeps half  elongated   under axial tensions that give c2 of about 0.1 and 0.2
+null        three pairs, 3 % between recordings: how often p < 0.05 (--recordings: of pairs of conditions)
+speed       seconds and memory for 1e4 and 1e6 events
+
+Prints the bias of the mean of ln E and of its spread with their Monte Carlo errors, and how many 90 % intervals cover.
+"""
+import argparse
+import json
+import math
+import os
+import random
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+SPEC = """[recording]
+cells = {cells}
+seed = {seed}
+[channel]
+width_um = 20
+[flow]
+rate_ul_per_s = 0.04
+viscosity_mPas = 15
+{tension}
+[cell]
+radius_um = {{mean = {radius}, sd = {radius_sd}}}
+[cell.bulk]
+young_modulus_kPa = {{mean = {modulus}, sd = {modulus_sd}, distribution = "lognormal"}}
+{shapes}
+"""
+ELONGATED = '[shapes]\ntable = "HE-3D-el-26"'
+SPREAD = 0.2  # of E, relative
+NORMAL_90 = 1.6449
+
+
+class Cells:
+    """A population: mean radius and Young's modulus (of the lognormal law, its mean), and the liquid's tension."""
+
+    def __init__(self, modulus, radius=6.0, tension=None, gate=()):
+        self.modulus, self.radius, self.tension, self.gate = modulus, radius, tension, list(gate)
+
+    def spec(self, cells, seed, factor=1.0):
+        modulus = self.modulus * factor
+        tension = "" if self.tension is None else f"axial_tension_Pa = {{mean = {self.tension}, sd = {0.2 * self.tension}}}"
+        return SPEC.format(cells=cells, seed=seed, tension=tension, radius=self.radius, radius_sd=0.07 * self.radius,
+                           modulus=modulus, modulus_sd=SPREAD * modulus, shapes="" if self.tension is None else ELONGATED)
+
+    def truth(self):
+        """Mean and standard deviation of ln E."""
+        variance = math.log1p(SPREAD**2)
+        return math.log(self.modulus) - variance / 2, math.sqrt(variance)
+
+
+SCENARIOS = {
+    "usual": Cells(4), "stiff": Cells(14, radius=5),
+    "gates": Cells(4, gate=["--min", "area_um=116"]),
+    "elongated": Cells(4.2, tension=500), "elongated-more": Cells(5.0, tension=1300),
+}
+
+
+class Bench:
+    def __init__(self, program, folder):
+        self.program, self.folder = program, folder
+
+    def recording(self, cells, count, seed, factor=1.0):
+        spec, file = self.folder / "cells.toml", self.folder / f"{seed}.rtdc"
+        spec.write_text(cells.spec(count, seed, factor), encoding="utf-8")
+        subprocess.run([self.program, "synth", spec, "-o", file, "--quiet", "--force"], check=True)
+        return file
+
+    def population(self, conditions, *options):
+        named = [part for name, files in conditions.items() for part in ("--condition", f"{name}={','.join(map(str, files))}")]
+        subprocess.run([self.program, "population", *named, "-o", self.folder / "result", "--quiet", *options], check=True)
+        return json.loads((self.folder / "result" / "population.json").read_text(encoding="utf-8"))
+
+
+def mean_and_error(values):
+    mean = sum(values) / len(values)
+    variance = sum((value - mean) ** 2 for value in values) / max(len(values) - 1, 1)
+    return mean, math.sqrt(variance / len(values))
+
+
+def told(name, values, unit="%"):
+    mean, error = mean_and_error(values)
+    return f"{name} {100 * mean:+.2f} +- {100 * error:.2f} {unit}"
+
+
+def covered(parameters, truth):
+    """Whether the 90 % interval holds the truth; on ln s for spreads."""
+    return abs(parameters["value"] - truth) < NORMAL_90 * parameters["standard_error"]
+
+
+def coming_back(bench, cells, arguments):
+    files = [bench.recording(cells, arguments.cells, seed) for seed in range(arguments.recordings)]
+    record = bench.population({"all": files}, *cells.gate)
+    mean, spread = cells.truth()
+    found = [each["population"]["parameters"] for each in record["recordings"] if "population" in each]
+    print(f"{arguments.scenario}: {len(found)} of {len(files)} recordings of {arguments.cells} cells have a number; events fitted "
+          f"{sum(each['events']['fitted'] for each in record['recordings']) / len(files):.0f}")
+    print(" ", told("ln E", [p[1]["value"] - mean for p in found]), "|",
+          told("spread of ln E", [math.exp(p[3]["value"]) / spread - 1 for p in found]))
+    known = [p for p in found if not p[3]["at_bound"]]
+    print(f"  90 % intervals cover {100 * sum(covered(p[1], mean) for p in found) / len(found):.0f} % (ln E), "
+          f"{100 * sum(covered(p[3], math.log(spread)) for p in known) / len(known):.0f} % (spread); standard error "
+          f"{100 * sum(p[1]['standard_error'] for p in found) / len(found):.2f} %")
+    misfits = {}
+    for each in record["recordings"]:
+        for check in each["checks"]:
+            misfits[check["measure"]] = misfits.get(check["measure"], 0) + (not check["fits"])
+    print("  recordings that do not fit, by measure:", misfits)
+
+
+def null(bench, arguments):
+    rejected, between = 0, 0.03
+    for experiment in range(arguments.recordings):
+        dice = random.Random(experiment)
+        files = [[bench.recording(SCENARIOS["usual"], arguments.cells, 1000 * experiment + 10 * session + condition,
+                                  math.exp(dice.gauss(0, between))) for session in range(3)] for condition in range(2)]
+        record = bench.population({"control": files[0], "drug": files[1]}, "--paired")
+        rejected += record["comparisons"][0]["p"] < 0.05
+        for file in (*files[0], *files[1]):
+            file.unlink()
+    share = rejected / arguments.recordings
+    print(f"null: p < 0.05 in {rejected} of {arguments.recordings} experiments, {100 * share:.1f} +- "
+          f"{100 * math.sqrt(0.05 * 0.95 / arguments.recordings):.1f} %")
+
+
+def speed(bench, arguments):
+    for events in (10_000, 1_000_000):
+        files = [bench.recording(SCENARIOS["elongated"], events // 2, seed) for seed in (1, 2)]
+        start = time.monotonic()
+        bench.population({"a": files[:1], "b": files[1:]})
+        memory = resource_of_children()
+        print(f"speed: {events} events in two conditions: {time.monotonic() - start:.1f} s with reading, at most {memory:.0f} MB")
+
+
+def resource_of_children():
+    import resource
+
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenario", choices=[*SCENARIOS, "null", "speed"])
+    parser.add_argument("--program", default="build/rheocyte")
+    parser.add_argument("--recordings", type=int, default=40)
+    parser.add_argument("--cells", type=int, default=500)
+    parser.add_argument("--folder", help="for the recordings; default: a temporary one")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory(dir=arguments.folder) as folder:
+        bench = Bench(os.path.abspath(arguments.program), Path(folder))
+        if arguments.scenario in SCENARIOS:
+            coming_back(bench, SCENARIOS[arguments.scenario], arguments)
+        else:
+            {"null": null, "speed": speed}[arguments.scenario](bench, arguments)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,159 @@
+"""Populations of cells: what rheocyte.population returns, and the planning of experiments."""
+
+import io
+import json
+
+import numpy as np
+
+from rheocyte.arrays import number, numbers
+from rheocyte.errors import UserError
+from rheocyte.native_module import native
+
+
+class Population:
+    """What recordings say about their cells.
+
+    recordings      pandas.DataFrame, one row per recording: condition, session, recording, events (that were fitted),
+                    young_modulus_kPa (median), lower_kPa, upper_kPa, ln_modulus_spread, radius_um, ln_radius_spread,
+                    correlation, kept_share (by the gates), fits (whether all checks hold), failure
+    conditions      one row per condition: recordings, events, young_modulus_kPa with lower_kPa and upper_kPa (by the
+                    scatter of the recordings), spreads, radius_um
+    comparisons     one row per condition but the first: control, treated, ratio, lower, upper, p, degrees_of_freedom,
+                    sampling_lower, sampling_upper
+    record          the dictionary of population.json
+    """
+
+    def __init__(self, text, events):
+        import pandas
+
+        self.record = json.loads(text)
+        self._events = events
+        self.recordings = pandas.DataFrame([_recording_row(each) for each in self.record["recordings"]])
+        self.conditions = pandas.DataFrame([_condition_row(each) for each in self.record["conditions"]])
+        self.comparisons = pandas.DataFrame([_comparison_row(each) for each in self.record["comparisons"]])
+
+    def events(self, recording=0):
+        """Shrunken values of the events of a recording (its row): event (counted from 1), young_modulus_kPa,
+        ln_modulus_sd, radius_um, ln_radius_sd. For pictures, never for tests; UserError of more than 20,000 events,
+        which were counted in bins."""
+        import pandas
+
+        if not self._events[recording]:
+            raise UserError("the events of this recording have no values of their own: it has none, or they were counted in "
+                            "bins; no_bins=True takes each by itself.")
+        return pandas.read_csv(io.StringIO(self._events[recording]), sep="\t", index_col="event")
+
+    def check(self):
+        """pandas.DataFrame of the checks: recording, measure, fitted, fits, distance, measured and predicted medians."""
+        import pandas
+
+        return pandas.DataFrame([{"recording": each["recording"], "condition": each["condition"],
+                                  **{name: value for name, value in check.items() if "quantiles" not in name}}
+                                 for each in self.record["recordings"] for check in each["checks"]])
+
+    def plot(self):
+        """A matplotlib Figure: Young's modulus of each recording with its interval, one dot a session, and the ratios to the
+        first condition with the interval of their mean."""
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(8, 3.4), layout="constrained")
+        of_moduli, of_ratios = figure.subplots(1, 2)
+        self._plot_moduli(of_moduli)
+        self._plot_ratios(of_ratios)
+        return figure
+
+    def _plot_moduli(self, axes):
+        names = list(self.conditions["condition"])
+        for row in self.recordings.itertuples():
+            place = names.index(row.condition) + 0.08 * (row.session - 1)
+            axes.plot([place, place], [row.lower_kPa, row.upper_kPa], color="0.5")
+            axes.plot(place, row.young_modulus_kPa, "o", color="C0")
+        axes.set_xticks(range(len(names)), names)
+        axes.set_ylabel("median Young's modulus (kPa)")
+
+    def _plot_ratios(self, axes):
+        values = self.recordings.set_index(["condition", "session"])["young_modulus_kPa"]
+        for place, row in enumerate(self.comparisons.itertuples()):
+            treated, control = values[row.treated], values[row.control]
+            sessions = treated.index.intersection(control.index)
+            axes.plot(np.full(len(sessions), place), treated[sessions] / control[sessions], "o", color="C0")
+            lower, upper = (row.lower, row.upper) if np.isfinite(row.p) else (row.sampling_lower, row.sampling_upper)
+            axes.plot([place + 0.15] * 2, [lower, upper], color="0.5")
+            axes.plot(place + 0.15, row.ratio, "s", color="0.2")
+        axes.axhline(1, color="0.8", zorder=0)
+        names = [f"{row.treated} / {row.control}" for row in self.comparisons.itertuples()]
+        axes.set_xticks(range(len(names)), names)
+        axes.set_ylabel("ratio of the medians")
+
+
+def plan(radius_um, young_modulus_kPa, *, spread=0.2, radius_spread=0.07, between_recordings=0.03, difference=0.1, power=0.8,
+         cells=500, mode_2=0.1, pixel_size_um=0.34, temperature_C=23, width_um=(15, 20, 30),
+         medium=("0.49% MC-PBS", "0.83% MC-PBS"), rate_ul_s=()):
+    """Which channel, flow rate and medium show a difference between conditions, as `rheocyte plan` says.
+
+    radius_um, young_modulus_kPa
+                    of the median cell
+    spread, radius_spread, between_recordings
+                    standard deviations of ln E and ln r0 between cells, and of ln E between recordings
+    difference, power, cells
+                    relative difference of E, the wanted probability to find it, cells of a recording
+    mode_2          how elongated the cells are: c2 of their outlines
+    pixel_size_um, temperature_C
+    width_um, medium, rate_ul_s
+                    what is compared; without rates those of mean speeds of 0.04, 0.1, 0.2 and 0.4 m/s
+
+    Returns a pandas.DataFrame with one row per channel: speed, viscosity, stress at the wall, deformation and mode_3 of the
+    median cell, share of the cells inside the table, the error of ln E by one image, sessions that are needed.
+    attrs["lines"]: what is recommended, and what limits. UserError for a number that makes no sense.
+    """
+    import pandas
+
+    options = native.PlanOptions()
+    for name, value in {"radius_um": radius_um, "young_modulus_kPa": young_modulus_kPa, "spread": spread,
+                        "radius_spread": radius_spread, "between_recordings": between_recordings, "difference": difference,
+                        "power": power, "cells": cells, "mode_2": mode_2, "pixel_size_um": pixel_size_um,
+                        "temperature_C": temperature_C}.items():
+        setattr(options, name, number(value, name))
+    options.widths_um = np.atleast_1d(numbers(width_um, "width_um")).tolist()
+    options.media = [medium] if isinstance(medium, str) else list(medium)
+    options.rates_ul_s = np.atleast_1d(numbers(rate_ul_s, "rate_ul_s")).tolist()
+    table, lines = native.plan(options)
+    frame = pandas.read_csv(io.StringIO(table), sep="\t")
+    frame["recommended"] = frame["recommended"] == "yes"
+    frame.attrs["lines"] = lines
+    return frame
+
+
+def _interval(record, name):
+    value = record.get(name) or {}
+    return [np.nan if value.get(part) is None else value[part] for part in ("value", "lower", "upper")]
+
+
+def _recording_row(record):
+    found = record.get("population") or {}
+    modulus, lower, upper = _interval(found, "median_young_modulus_kPa")
+    return {"condition": record["condition"], "session": record["session"], "recording": record["recording"],
+            "events": record["events"]["fitted"], "young_modulus_kPa": modulus, "lower_kPa": lower, "upper_kPa": upper,
+            "ln_modulus_spread": found.get("spread_of_ln_modulus", np.nan), "radius_um": found.get("median_radius_um", np.nan),
+            "ln_radius_spread": found.get("spread_of_ln_radius", np.nan), "correlation": found.get("correlation", np.nan),
+            "kept_share": found.get("kept_share", np.nan), "fits": all(check["fits"] for check in record["checks"]),
+            "failure": record["failure"] or ""}
+
+
+def _condition_row(record):
+    modulus, lower, upper = _interval(record, "median_young_modulus_kPa")
+    return {"condition": record["name"], "recordings": record["recordings"], "events": record["events"],
+            "young_modulus_kPa": modulus, "lower_kPa": lower, "upper_kPa": upper,
+            "ln_modulus_spread": record.get("spread_of_ln_modulus", np.nan),
+            "radius_um": record.get("median_radius_um", np.nan),
+            "ln_radius_spread": record.get("spread_of_ln_radius", np.nan)}
+
+
+def _comparison_row(record):
+    ratio, lower, upper = _interval(record, "ratio")
+    _, sampling_lower, sampling_upper = _interval(record, "ratio_by_sampling_alone")
+    freedom = record["degrees_of_freedom"]
+    return {"control": record["control"], "treated": record["treated"], "ratio": ratio, "lower": lower, "upper": upper,
+            "p": np.nan if record["p"] is None else record["p"],
+            "degrees_of_freedom": np.nan if freedom is None else freedom,
+            "sampling_lower": sampling_lower, "sampling_upper": sampling_upper}

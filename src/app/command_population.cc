@@ -1,0 +1,100 @@
+// `rheocyte population`: the mechanics of the cells of recordings, and whether conditions differ.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/extract_options.h"
+#include "app/recording_batch.h"
+#include "extract/population_json.h"
+#include "extract/recording_settings.h"
+#include "store/contained.h"
+#include "store/own_file.h"
+#include "store/standard_error.h"
+#include "store/standard_output.h"
+#include "store/stop_signal.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+PopulationEvents read(const fs::path& recording, const PopulationOptions& options) {
+  check_is_there(recording);
+  const StiffnessMeasure by = stiffness_measure_of(options);
+  const auto work = [&](const TellProgress& tell_progress) {
+    return read_population_events(recording, options.measuring, by, tell_progress);
+  };
+  Containment limits;
+  limits.patience_s = options.measuring.patience_s.value_or(default_patience_s);
+  auto done = run_contained(work, limits, FileProgress(one_line(recording.string(), 200), options.quiet));
+  if (!done.finished()) throw UserError(sentence_for(recording, done.end, limits.patience_s));
+  return std::move(done.result);
+}
+
+fs::path events_file(const fs::path& folder, const RecordingReport& r, const PopulationReport& report) {
+  return folder / fmt::format("events_{}_{}.tsv", report.conditions[r.condition].name, r.session + 1);
+}
+
+void write(const fs::path& folder, const PopulationReport& report) {
+  write_own_file(folder / "population.json", population_json(report), mark_of_population_json, Foreign::keep);
+  write_own_file(folder / "population.tsv", population_table(report), mark_of_population_table, Foreign::keep);
+  for (const auto& r : report.recordings)
+    if (const std::string events = population_events_table(r); !events.empty())
+      write_own_file(events_file(folder, r, report), events, mark_of_population_events, Foreign::keep);
+}
+
+void tell_recording(const RecordingReport& r) {
+  const std::string name = one_line(r.recording.string(), 200);
+  for (const auto& warning : r.warnings) tell(fmt::format("{}: {}", name, warning));
+  if (!r.failure.empty()) tell(fmt::format("{}: {}", name, r.failure));
+}
+
+int run(const PopulationOptions& options) {
+  const auto conditions = conditions_of(options);
+  check_replaceable(options.folder / "population.json", mark_of_population_json, Foreign::keep);
+  for (const auto& condition : conditions)
+    for (const auto& recording : condition.recordings) check_is_there(recording);
+  PopulationAnalysis analysis(options, conditions);
+  for (std::size_t c = 0; c < conditions.size(); ++c)
+    for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j) {
+      const PopulationEvents events = read(conditions[c].recordings[j], options);
+      if (stop_wanted()) return exit_stopped();
+      tell_recording(analysis.add(c, j, events));
+    }
+  const PopulationReport report = analysis.report();
+  write(options.folder, report);
+  for (const auto& warning : report.warnings) tell(warning);
+  if (!options.quiet) {
+    for (const std::string& line : population_lines(report)) print(line + "\n");
+    print(fmt::format("see {}\n", (options.folder / "population.json").string()));
+  }
+  return report.has_failures() ? exit_numerical : exit_converged;
+}
+
+}  // namespace
+
+void add_population_command(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand(
+      "population", "Young's modulus of the cells of recordings (.rtdc) as populations, and differences of conditions");
+  auto options = std::make_shared<PopulationOptions>();
+  options->folder = "population";
+  command
+      ->add_option("--condition", options->conditions,
+                   "a condition and its recordings; the first one is that with which others are compared")
+      ->type_name("NAME=FILE,FILE,...")
+      ->required();
+  command->add_option("-o,--output", options->folder, "folder of the results; default: population")->type_name("DIR");
+  command->add_flag("--quiet", options->quiet, "print neither progress nor results");
+  declare_settings(*command, settings_of(*options));
+  command->callback([options, &exit_code] {
+    check_options(options->measuring);
+    watch_signals(SecondSignal::waits);
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,253 @@
+#include "extract/population_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "measurement/pixel_errors.h"
+#include "numeric/quantile.h"
+#include "population/virtual_event.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr std::size_t draws_per_event = 20, fewest_draws = 10000, most_draws = 50000;
+constexpr int most_tries = 200;
+/// What counts as misfit of a distribution, at n events, of measures that were fitted and of others: these have no
+/// parameters to follow chance with, and the laws of the pixels leave them up to a fifth of their spread.
+constexpr double chance_of_fitted = 1.2, least_of_fitted = 0.04, chance_of_others = 1.63, least_of_others = 0.08;
+/// Of the medians.
+constexpr double most_errors = 5, share_of_fitted = 0.1, share_of_others = 0.2;
+/// No law tells what pixels do to c_4 and c_5: it is below this (docs/theory-extract.md, sec. "Elongated cells").
+constexpr double least_mode_difference = 0.01;
+constexpr int checked_measures = 6;
+
+enum Checked { checked_area, checked_deformation, checked_inertia, checked_mode_3, checked_mode_4, checked_mode_5 };
+using CheckedValues = std::array<double, checked_measures>;
+
+constexpr std::array<const char*, checked_measures> checked_names{"ln A", "d", "inertia ratio", "c3", "c4", "c5"};
+
+/// How radius and stiffness go with the elongation, of which the fit assumes nothing: lines through the posterior means
+/// of the cells, as steep as these were without the noise, and what of the spreads is left about them.
+class GoingWithElongation {
+ public:
+  GoingWithElongation(const PopulationSample& sample, const FittedCells& fitted) : cells_(fitted.cells) {
+    double count = 0, mean_u = 0, mean_e = 0;
+    each(sample, fitted, [&](double n, double w, const ShrunkenCell& cell) {
+      count += n, mean_ += n * w, mean_u += n * cell.log_radius, mean_e += n * cell.log_modulus;
+    });
+    mean_ /= count, mean_u /= count, mean_e /= count;
+    double ww = 0, uw = 0, ew = 0, uu = 0, ee = 0;
+    each(sample, fitted, [&](double n, double w, const ShrunkenCell& cell) {
+      const double x = w - mean_, u = cell.log_radius - mean_u, e = cell.log_modulus - mean_e;
+      ww += n * x * x, uw += n * u * x, ew += n * e * x, uu += n * u * u, ee += n * e * e;
+    });
+    if (!(ww > 0)) return;
+    const double deviation = std::sqrt(ww / count);
+    const auto line = [&](double sum, double seen, double spread) {
+      const double steepest = most_explained * spread / deviation;
+      return std::clamp(sum / ww * spread * spread / std::max(seen / count, least_seen * spread * spread), -steepest,
+                        steepest);
+    };
+    u_ = line(uw, uu, cells_.radius_spread);
+    e_ = line(ew, ee, cells_.modulus_spread);
+    variance_ = ww / count;
+  }
+
+  DrawnCell draw(double elongation, CellRandom& random) const {
+    const double su = cells_.radius_spread, se = cells_.modulus_spread, off = elongation - mean_;
+    const double uu = su * su - u_ * u_ * variance_, ee = se * se - e_ * e_ * variance_,
+                 ue = cells_.correlation * su * se - u_ * e_ * variance_;
+    const double a = std::sqrt(uu), b = ue / a, c = std::sqrt(std::max(ee - b * b, 0.0));
+    const double first = random.normal(), second = random.normal();
+    return {cells_.mean_log_radius + u_ * off + a * first, cells_.mean_log_modulus + e_ * off + b * first + c * second};
+  }
+
+ private:
+  /// Of a spread at most by the elongation, and of the variance of posterior means at least by what is seen.
+  static constexpr double most_explained = 0.95, least_seen = 0.1;
+
+  template <class Take>
+  static void each(const PopulationSample& sample, const FittedCells& fitted, const Take& take) {
+    std::size_t k = 0;
+    for (std::size_t g = 0; g < sample.sample.groups.size(); ++g)
+      for (const SampleEvent& event : sample.sample.groups[g].events)
+        take(event.count, sample.group_elongation[g], fitted.shrunken[k++]);
+  }
+
+  CellDistribution cells_;
+  double mean_ = 0, variance_ = 0, u_ = 0, e_ = 0;
+};
+
+/// A cell of the fitted population, seen with the elongation and the viscosity of an event.
+class DrawnPopulation {
+ public:
+  DrawnPopulation(const PopulationEvents& events, const PopulationSample& sample, const FittedCells& fitted,
+                  PopulationMaps& maps)
+      : events_(events), sample_(sample), cells_(sample, fitted), maps_(maps), solids_(maps.solids(events)) {}
+
+  /// False if no such cell passes the gates.
+  bool draw(std::size_t event, CellRandom& random, CheckedValues& values) {
+    const double elongation = sample_.elongation_of_event[event];
+    const auto map = maps_.map(events_, elongation);
+    const SampleGates& gates = gates_for(elongation);
+    for (int k = 0; k < most_tries; ++k) {
+      DrawnCell cell = cells_.draw(elongation, random);
+      cell.log_modulus -= std::log(events_.of(SeenMeasure::viscosity_mPas)[event]);
+      const SeenValues seen = seen_values(*map, cell, random);
+      const double height = cell.log_modulus - map->soft_end(cell.log_radius).log_modulus;
+      if (height < 0 || !gates.pass(seen.log_area, seen.measure)) continue;
+      add_features(solids_.cell(elongation, cell.log_radius, height), seen, random, values);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  /// Of the class whose map is nearest.
+  const SampleGates& gates_for(double elongation) const {
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < sample_.class_elongation.size(); ++k)
+      if (std::abs(sample_.class_elongation[k] - elongation) < std::abs(sample_.class_elongation[best] - elongation))
+        best = k;
+    return sample_.sample.kept[best].gates;
+  }
+
+  void add_features(const SolidMaps::Cell& cell, const SeenValues& seen, CellRandom& random,
+                    CheckedValues& values) const {
+    const SolidFeatures f = solids_.seen(cell);
+    const double log_area_px = f.log_area - 2 * std::log(events_.pixel_size_um);
+    const double mode_deviation = mode_errors(log_area_px, f.mode_2, f.mode_3).mode_3.deviation;
+    constexpr int mode_4 = number_of(ElongatedMeasure::mode_3) + 1;
+    values[checked_area] = seen.log_area;
+    // The cell has the measured elongation with its noise, which the inertia ratio shares.
+    values[checked_inertia] = f.inertia_ratio;
+    if (maps_.by() == StiffnessMeasure::asymmetry) {
+      // d = 3/4 c_2^2 + 2 c_3^2 + what the pixels add to all modes, which is the noise of a round cell.
+      const double of_other_modes = inertia_errors(log_area_px, 0, 1).deformation_deviation;
+      values[checked_mode_3] = seen.measure;
+      values[checked_deformation] =
+          f.deformation + 4 * f.mode_3 * (seen.measure - f.mode_3) + of_other_modes * random.normal();
+    } else {
+      values[checked_mode_3] = f.mode_3 + mode_deviation * random.normal();
+      values[checked_deformation] = seen.measure;
+    }
+    values[checked_mode_4] = cell.state.value(mode_4) + mode_deviation * random.normal();
+    values[checked_mode_5] = cell.state.value(mode_4 + 1) + mode_deviation * random.normal();
+  }
+
+  const PopulationEvents& events_;
+  const PopulationSample& sample_;
+  GoingWithElongation cells_;
+  PopulationMaps& maps_;
+  const SolidMaps& solids_;
+};
+
+double greatest_difference(std::vector<double>& a, std::vector<double>& b) {
+  std::ranges::sort(a);
+  std::ranges::sort(b);
+  double greatest = 0;
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    const double at = std::min(a[i], b[j]);
+    while (i < a.size() && a[i] <= at) ++i;
+    while (j < b.size() && b[j] <= at) ++j;
+    greatest = std::max(greatest, std::abs(double(i) / double(a.size()) - double(j) / double(b.size())));
+  }
+  return greatest;
+}
+
+MeasureCheck compared_measure(int measure, bool is_fitted, std::vector<double> measured,
+                              std::vector<double> predicted) {
+  MeasureCheck check;
+  check.is_fitted = is_fitted;
+  check.name = checked_names[std::size_t(measure)];
+  check.events = measured.size();
+  check.measured = median_with_error(measured);
+  check.predicted = quantile(predicted, 0.5);
+  constexpr double sigmas_between_quartiles = 1.349;
+  check.spread = (quantile(measured, 0.75) - quantile(measured, 0.25)) / sigmas_between_quartiles;
+  for (const double place : check_places()) {
+    check.measured_quantiles.push_back(quantile(measured, place));
+    check.predicted_quantiles.push_back(quantile(predicted, place));
+  }
+  check.distance = greatest_difference(measured, predicted);
+  const double off = std::abs(check.measured.value - check.predicted);
+  if (measure == checked_mode_4 || measure == checked_mode_5) {
+    check.fits = off < std::max(least_mode_difference, most_errors * check.measured.error);
+    return check;
+  }
+  const double by_chance = (is_fitted ? chance_of_fitted : chance_of_others) / std::sqrt(double(check.events));
+  const bool is_far = check.distance > std::max(by_chance, is_fitted ? least_of_fitted : least_of_others);
+  const bool is_off = off > std::max(most_errors * check.measured.error,
+                                     (is_fitted ? share_of_fitted : share_of_others) * check.spread);
+  check.fits = !is_far && !is_off;
+  return check;
+}
+
+CheckedValues measured_values(const PopulationEvents& events, std::size_t i) {
+  CheckedValues values{};
+  const auto at = [&](SeenMeasure m) { return events.of(m)[i]; };
+  using enum SeenMeasure;
+  values = {std::log(at(area_um2)), at(deformation), at(inertia_ratio), at(mode_3), at(mode_4), at(mode_5)};
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> check_places() {
+  std::vector<double> places;
+  for (int k = 1; k < 20; ++k) places.push_back(0.05 * k);
+  return places;
+}
+
+std::vector<MeasureCheck> check_population(const PopulationEvents& events, const PopulationSample& sample,
+                                           const FittedCells& fitted, PopulationMaps& maps) {
+  std::vector<std::size_t> inside;
+  for (std::size_t i = 0; i < events.events(); ++i)
+    if (std::isfinite(sample.elongation_of_event[i])) inside.push_back(i);
+  std::array<std::vector<double>, checked_measures> measured, predicted;
+  DrawnPopulation population(events, sample, fitted, maps);
+  for (const std::size_t i : inside) {
+    const CheckedValues values = measured_values(events, i);
+    for (std::size_t m = 0; m < values.size(); ++m) measured[m].push_back(values[m]);
+  }
+  const std::size_t draws = std::clamp(draws_per_event * inside.size(), fewest_draws, most_draws);
+  for (std::size_t k = 0; k < draws; ++k) {
+    CellRandom random(0, k, Purpose::population);
+    CheckedValues values;
+    if (!population.draw(inside[k * inside.size() / draws], random, values)) continue;
+    for (std::size_t m = 0; m < values.size(); ++m) predicted[m].push_back(values[m]);
+  }
+  std::vector<MeasureCheck> checks;
+  if (predicted[0].empty()) return checks;
+  const int last = events.has_outlines ? checked_mode_5 : checked_inertia;
+  for (int m = 0; m <= last; ++m) {
+    const int fitted_measure = maps.by() == StiffnessMeasure::asymmetry ? checked_mode_3 : checked_deformation;
+    const bool is_fitted = m == checked_area || m == fitted_measure;
+    checks.push_back(
+        compared_measure(m, is_fitted, std::move(measured[std::size_t(m)]), std::move(predicted[std::size_t(m)])));
+  }
+  return checks;
+}
+
+std::string check_text(const std::vector<MeasureCheck>& checks) {
+  std::string off;
+  double greatest = 0;
+  for (const MeasureCheck& check : checks) {
+    greatest = std::max(greatest, check.distance);
+    if (check.fits) continue;
+    off += fmt::format("{}{} is {:.3g}, predicted {:.3g}{}", off.empty() ? "" : "; ", check.name, check.measured.value,
+                       check.predicted, check.is_fitted ? "" : " (not fitted)");
+  }
+  if (checks.empty()) return "nothing could be checked";
+  if (off.empty())
+    return fmt::format("all measures fit, also those that were not fitted (greatest distance {:.2f})", greatest);
+  return "does not fit: " + off;
+}
+
+}  // namespace rheocyte

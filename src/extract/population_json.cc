@@ -1,0 +1,280 @@
+#include "extract/population_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "store/build_info.h"
+
+namespace rheocyte {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int population_schema = 1;
+constexpr std::array parameter_names{"mean_ln_radius", "mean_ln_modulus", "ln_radius_spread", "ln_modulus_spread",
+                                     "artanh_correlation"};
+
+/// NaN is no JSON: null.
+ordered_json json_number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
+
+ordered_json interval_json(double value, double lower, double upper) {
+  return {{"value", json_number(value)}, {"lower", json_number(lower)}, {"upper", json_number(upper)}};
+}
+
+ordered_json parameters_json(const FittedCells& fitted) {
+  const ParameterVector q = fitted.cells.parameters();
+  ordered_json all = ordered_json::array();
+  for (int k = 0; k < population_parameters; ++k) {
+    const auto& interval = fitted.intervals[std::size_t(k)];
+    all.push_back({{"name", parameter_names[std::size_t(k)]},
+                   {"value", q(k)},
+                   {"standard_error", json_number(fitted.standard_error(PopulationParameter(k)))},
+                   {"lower", json_number(interval.lower)},
+                   {"upper", json_number(interval.upper)},
+                   {"interval", interval.is_profile ? "profile" : "normal"},
+                   {"at_bound", fitted.at_bound[std::size_t(k)]}});
+  }
+  return all;
+}
+
+ordered_json covariance_json(const FittedCells& fitted) {
+  ordered_json rows = ordered_json::array();
+  for (int i = 0; i < population_parameters; ++i) {
+    ordered_json row = ordered_json::array();
+    for (int j = 0; j < population_parameters; ++j) row.push_back(fitted.covariance(i, j));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+ordered_json check_json(const MeasureCheck& c) {
+  return {{"measure", c.name},
+          {"fitted", c.is_fitted},
+          {"fits", c.fits},
+          {"distance", c.distance},
+          {"measured_median", json_number(c.measured.value)},
+          {"measured_median_error", json_number(c.measured.error)},
+          {"predicted_median", json_number(c.predicted)},
+          {"spread", json_number(c.spread)},
+          {"measured_quantiles", c.measured_quantiles},
+          {"predicted_quantiles", c.predicted_quantiles}};
+}
+
+ordered_json fitted_json(const FittedCells& f) {
+  const auto& e = f.intervals[std::size_t(number_of(PopulationParameter::mean_log_modulus))];
+  const double variance = f.cells.modulus_spread * f.cells.modulus_spread;
+  return {{"median_young_modulus_kPa",
+           interval_json(std::exp(f.cells.mean_log_modulus), std::exp(e.lower), std::exp(e.upper))},
+          {"mean_young_modulus_kPa", std::exp(f.cells.mean_log_modulus + variance / 2)},
+          {"spread_of_ln_modulus", f.cells.modulus_spread},
+          {"median_radius_um", std::exp(f.cells.mean_log_radius)},
+          {"spread_of_ln_radius", f.cells.radius_spread},
+          {"correlation", f.cells.correlation},
+          {"error_of_ln_modulus_by_one_image", f.event_error},
+          {"kept_share", f.kept_share},
+          {"log_likelihood", f.log_likelihood},
+          {"parameters", parameters_json(f)},
+          {"covariance", covariance_json(f)}};
+}
+
+ordered_json recording_json(const RecordingReport& r, const PopulationReport& report) {
+  ordered_json checks = ordered_json::array();
+  for (const auto& check : r.checks) checks.push_back(check_json(check));
+  ordered_json json{{"recording", r.recording.string()},
+                    {"condition", report.conditions[r.condition].name},
+                    {"session", r.session + 1},
+                    {"table", r.table},
+                    {"channel_width_um", r.flow.width_um},
+                    {"flow_rate_ul_per_s", r.flow.rate_ul_s},
+                    {"flow_exponent", r.flow.exponent},
+                    {"median_viscosity_mPas", r.median_viscosity_mPas},
+                    {"pixel_size_um", r.pixel_size_um},
+                    {"direction", r.direction},
+                    {"gates", r.gates},
+                    {"events",
+                     {{"recorded", r.recorded},
+                      {"gated", r.gated},
+                      {"without_numbers", r.without_numbers},
+                      {"beside_the_table", r.beside_table},
+                      {"fitted", r.fitted_events},
+                      {"binned", r.is_binned}}},
+                    {"median_elongation", json_number(r.median_elongation)}};
+  if (r.failure.empty()) json["population"] = fitted_json(r.fitted);
+  if (r.fitted.least_log_modulus) json["young_modulus_above_kPa"] = std::exp(*r.fitted.least_log_modulus);
+  json["failure"] = r.failure.empty() ? ordered_json(nullptr) : ordered_json(r.failure);
+  json["checks"] = std::move(checks);
+  json["settings"] = r.settings;
+  json["warnings"] = r.warnings;
+  return json;
+}
+
+ordered_json condition_json(const ConditionReport& c) {
+  ordered_json json{{"name", c.name}, {"recordings", c.recordings}, {"events", c.events}};
+  if (!c.has_numbers()) return json;
+  const auto& e = c.log_modulus;
+  json["median_young_modulus_kPa"] = interval_json(std::exp(e.value), std::exp(e.lower), std::exp(e.upper));
+  json["interval_by"] = c.is_by_recordings ? "scatter of the recordings" : "sampling of the events";
+  json["mean_young_modulus_kPa"] = std::exp(e.value + c.modulus_spread * c.modulus_spread / 2);
+  json["spread_of_ln_modulus"] = c.modulus_spread;
+  json["median_radius_um"] = std::exp(c.log_radius);
+  json["spread_of_ln_radius"] = c.radius_spread;
+  json["scatter_between_recordings"] = interval_json(c.between.deviation, c.between.lower, c.between.upper);
+  return json;
+}
+
+ordered_json comparison_json(const ConditionComparison& c, const PopulationReport& report) {
+  const ConditionDifference& d = c.difference;
+  const auto ratio = [](double lower, double value, double upper) {
+    return interval_json(std::exp(value), std::exp(lower), std::exp(upper));
+  };
+  ordered_json json{{"control", report.conditions[c.control].name},
+                    {"treated", report.conditions[c.treated].name},
+                    {"test", c.is_paired ? "paired t" : "Welch's t"},
+                    {"ratio", ratio(d.lower, d.value, d.upper)},
+                    {"p", json_number(d.p)},
+                    {"degrees_of_freedom", json_number(d.freedom)},
+                    {"ln_ratio", d.value},
+                    {"ln_ratio_standard_error", json_number(d.standard_error)},
+                    {"ratio_by_sampling_alone", ratio(d.sampling_lower, d.value, d.sampling_upper)}};
+  if (report.between_recordings) {
+    json["ratio_with_known_scatter"] = ratio(d.known_lower, d.value, d.known_upper);
+    json["p_with_known_scatter"] = json_number(d.known_p);
+  }
+  return json;
+}
+
+std::string kPa_text(const IntervalEstimate& log_modulus) {
+  return fmt::format("{:.3g} kPa ({:.3g} .. {:.3g})", std::exp(log_modulus.value), std::exp(log_modulus.lower),
+                     std::exp(log_modulus.upper));
+}
+
+std::string condition_line(const ConditionReport& c, StiffnessMeasure by) {
+  if (!c.has_numbers()) return fmt::format("{}: no number, because a recording has none.", c.name);
+  return fmt::format(
+      "{}: median E {} {}; spread of E {:.0f} %; r0 {:.2f} um, spread {:.1f} %; {} {:.3f}; recordings: {}, events: {}",
+      c.name, kPa_text(c.log_modulus), c.is_by_recordings ? "by its recordings" : "by sampling alone",
+      100 * c.modulus_spread, std::exp(c.log_radius), 100 * c.radius_spread,
+      by == StiffnessMeasure::asymmetry ? "c2" : "elongation", c.elongation, c.recordings, c.events);
+}
+
+std::string comparison_line(const ConditionComparison& c, const PopulationReport& report) {
+  const ConditionDifference& d = c.difference;
+  std::string line = fmt::format("{} / {}: ratio {:.3f}", report.conditions[c.treated].name,
+                                 report.conditions[c.control].name, std::exp(d.value));
+  if (std::isfinite(d.p))
+    line += fmt::format(" ({:.3f} .. {:.3f}), p = {:.2g} by {} with {:.3g} degrees of freedom", std::exp(d.lower),
+                        std::exp(d.upper), d.p, c.is_paired ? "the paired t test" : "Welch's test", d.freedom);
+  else
+    line += fmt::format(
+        " ({:.3f} .. {:.3f} by sampling alone); no p, because a single recording does not tell how recordings scatter",
+        std::exp(d.sampling_lower), std::exp(d.sampling_upper));
+  if (report.between_recordings)
+    line += fmt::format("; with a scatter of {:.3g} between recordings ({:.3f} .. {:.3f}), p = {:.2g}",
+                        *report.between_recordings, std::exp(d.known_lower), std::exp(d.known_upper), d.known_p);
+  return line;
+}
+
+std::string checks_line(const PopulationReport& report) {
+  std::size_t checked = 0, misfits = 0;
+  const RecordingReport* first = nullptr;
+  for (const auto& r : report.recordings) {
+    if (!r.failure.empty()) continue;
+    ++checked;
+    const bool fits = std::ranges::all_of(r.checks, &MeasureCheck::fits);
+    misfits += fits ? 0 : 1;
+    if (!fits && !first) first = &r;
+  }
+  if (checked == 0) return {};
+  if (!first)
+    return fmt::format("checks: {} of {} recordings fit in all measures, also in those not fitted", checked, checked);
+  return fmt::format("checks: {} of {} recordings do not fit; {}: {}", misfits, checked,
+                     first->recording.filename().string(), check_text(first->checks));
+}
+
+std::string systematic_line(const PopulationReport& report) {
+  double table = 0;
+  for (const auto& r : report.recordings) table = std::max(table, r.table_error);
+  return fmt::format(
+      "systematic errors, which do not enter ratios: {} law of the pixels 1 %, table {:.1g} %, viscosity model and "
+      "section "
+      "as docs/verification.md has them",
+      report.by == StiffnessMeasure::asymmetry ? "c3" : "deformation", 100 * table);
+}
+
+}  // namespace
+
+std::string population_json(const PopulationReport& report) {
+  ordered_json recordings = ordered_json::array(), conditions = ordered_json::array(),
+               comparisons = ordered_json::array();
+  for (const auto& r : report.recordings) recordings.push_back(recording_json(r, report));
+  for (const auto& c : report.conditions) conditions.push_back(condition_json(c));
+  for (const auto& c : report.comparisons) comparisons.push_back(comparison_json(c, report));
+  const ordered_json content{{"made_by", "rheocyte population"},
+                             {"version", version},
+                             {"schema", population_schema},
+                             {"model", "solid"},
+                             {"by", name_of(report.by)},
+                             {"level", report.level},
+                             {"between_recordings", report.between_recordings ? ordered_json(*report.between_recordings)
+                                                                              : ordered_json(nullptr)},
+                             {"elongation", "eliminated event by event, with a flat prior"},
+                             {"conditions", conditions},
+                             {"comparisons", comparisons},
+                             {"recordings", recordings},
+                             {"warnings", report.warnings}};
+  return content.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string population_table(const PopulationReport& report) {
+  std::string text(mark_of_population_table);
+  text +=
+      "events\tyoung_modulus_kPa\tln_modulus\tln_modulus_error\tln_modulus_spread\tradius_um\tln_radius_spread\t"
+      "correlation\telongation\tkept_share\tfits\n";
+  for (const auto& r : report.recordings) {
+    text += fmt::format("{}\t{}\t{}\t{}\t", report.conditions[r.condition].name, r.session + 1, r.recording.string(),
+                        r.fitted_events);
+    if (!r.failure.empty()) {
+      text += "nan\tnan\tnan\tnan\tnan\tnan\tnan\tnan\tnan\tno\n";
+      continue;
+    }
+    const CellDistribution& c = r.fitted.cells;
+    text += fmt::format("{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.4g}\t{:.4g}\t{}\n",
+                        std::exp(c.mean_log_modulus), c.mean_log_modulus,
+                        r.fitted.standard_error(PopulationParameter::mean_log_modulus), c.modulus_spread,
+                        std::exp(c.mean_log_radius), c.radius_spread, c.correlation, r.median_elongation,
+                        r.fitted.kept_share, std::ranges::all_of(r.checks, &MeasureCheck::fits) ? "yes" : "no");
+  }
+  return text;
+}
+
+std::string population_events_table(const RecordingReport& recording) {
+  const auto& cells = recording.fitted.shrunken;
+  if (cells.empty()) return {};
+  std::vector<std::size_t> order(cells.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::ranges::sort(order, {}, [&](std::size_t k) { return recording.shrunken_events[k]; });
+  std::string text(mark_of_population_events);
+  text += "radius_um\tln_radius_sd\n";
+  for (const std::size_t k : order)
+    text += fmt::format("{}\t{:.5g}\t{:.3g}\t{:.5g}\t{:.3g}\n", recording.shrunken_events[k],
+                        std::exp(cells[k].log_modulus), cells[k].modulus_deviation, std::exp(cells[k].log_radius),
+                        cells[k].radius_deviation);
+  return text;
+}
+
+std::vector<std::string> population_lines(const PopulationReport& report) {
+  std::vector<std::string> lines;
+  for (const auto& c : report.conditions) lines.push_back(condition_line(c, report.by));
+  for (const auto& c : report.comparisons) lines.push_back(comparison_line(c, report));
+  if (const auto checks = checks_line(report); !checks.empty()) {
+    lines.push_back(checks);
+    lines.push_back(systematic_line(report));
+  }
+  return lines;
+}
+
+}  // namespace rheocyte

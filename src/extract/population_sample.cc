@@ -1,0 +1,227 @@
+#include "extract/population_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "case/user_error.h"
+#include "numeric/no_value.h"
+#include "numeric/quantile.h"
+#include "population/event_bins.h"
+
+namespace rheocyte {
+namespace {
+
+/// Widths of the classes of elongation, less than half of its noise; of binned events, whose noise they add to little.
+constexpr double mode_class = 0.002, inertia_class = 0.004, binned_class_factor = 5;
+/// Classes of events that have nearly the same chance to pass the gates.
+constexpr std::size_t kept_classes = 4;
+/// In standard deviations of the noise: so far from the table's rim its gates are.
+constexpr double from_rim = 3;
+/// More events are counted in bins, finer ones if there are very many.
+constexpr std::size_t fewest_binned = 20000, fewest_finely_binned = 200000;
+constexpr double bin_in_noise = 0.5, fine_bin_in_noise = 0.25, area_bin = 0.01, viscosity_bin = 0.005;
+constexpr int limit_places = 64;
+
+double class_width(StiffnessMeasure by, bool is_binned) {
+  const double width = by == StiffnessMeasure::asymmetry ? mode_class : inertia_class;
+  return is_binned ? binned_class_factor * width : width;
+}
+
+/// The mean log area of the smallest or largest cell of the map, whatever its stiffness, and its noise.
+struct RimArea {
+  double least = 1e300, greatest = -1e300, deviation = 0;
+
+  RimArea(const ForwardMap& map, double u) {
+    const auto [softest, stiffest] = map.heights();
+    for (int k = 0; k <= 16; ++k) {
+      const MapPoint p = map.at(u, softest + (stiffest - softest) * k / 16);
+      least = std::min(least, p.log_area);
+      greatest = std::max(greatest, p.log_area);
+      deviation = std::max(deviation, std::sqrt(p.area_variance));
+    }
+  }
+};
+
+/// The table's own range as gates in measured values.
+SampleGates gates_of_map(const ForwardMap& map) {
+  const auto radii = map.log_radii();
+  const RimArea smallest(map, radii.lower), largest(map, radii.upper);
+  SampleGates gates;
+  gates.least_log_area = smallest.greatest + from_rim * smallest.deviation;
+  gates.greatest_log_area = largest.least - from_rim * largest.deviation;
+  gates.soft_end.first = gates.least_log_area;
+  gates.soft_end.step = (gates.greatest_log_area - gates.least_log_area) / (limit_places - 1);
+  double u = radii.lower;
+  for (int k = 0; k < limit_places; ++k) {
+    const double wanted = gates.soft_end.first + k * gates.soft_end.step;
+    MapPoint p = map.at(u, 0);
+    for (int step = 0; step < 8; ++step) {
+      u = std::clamp(u + (wanted - p.log_area) / p.log_area_by_radius, radii.lower, radii.upper);
+      p = map.at(u, 0);
+    }
+    gates.soft_end.values.push_back(p.measure - from_rim * std::sqrt(p.measure_variance));
+  }
+  return gates;
+}
+
+void add_user_gates(const PopulationEvents& events, StiffnessMeasure by, SampleGates& gates) {
+  const auto log_of = [](double area) { return area > 0 ? std::log(area) : -std::numeric_limits<double>::infinity(); };
+  gates.least_log_area = std::max(gates.least_log_area, log_of(events.least_area_um2));
+  gates.greatest_log_area = std::min(gates.greatest_log_area, log_of(events.greatest_area_um2));
+  if (by == StiffnessMeasure::asymmetry) return;
+  gates.least_measure = events.least_deformation;
+  gates.greatest_measure = events.greatest_deformation;
+}
+
+/// One recording on its way.
+class SampleMaker {
+ public:
+  SampleMaker(const PopulationEvents& events, PopulationMaps& maps, const SampleOptions& options)
+      : events_(events), maps_(maps), by_(maps.by()) {
+    made_.is_binned = !options.no_bins && events.events() > fewest_binned;
+    made_.elongation_of_event.assign(events.events(), no_value);
+    order_by_elongation();
+  }
+
+  PopulationSample make() {
+    const std::size_t classes = by_ == StiffnessMeasure::deformation ? 1 : std::min(kept_classes, order_.size());
+    for (std::size_t k = 0; k < classes; ++k)
+      take_class(order_.size() * k / classes, order_.size() * (k + 1) / classes);
+    if (made_.is_binned) bin();
+    return std::move(made_);
+  }
+
+ private:
+  double elongation(std::size_t i) const {
+    return by_ == StiffnessMeasure::deformation ? 0 : elongation_measure(events_, by_)[i];
+  }
+
+  void order_by_elongation() {
+    const auto range = maps_.solids(events_).elongations();
+    for (std::size_t i = 0; i < events_.events(); ++i) {
+      const double e = elongation(i);
+      if (by_ == StiffnessMeasure::deformation || (e > range.lower && e < range.upper))
+        order_.push_back(i);
+      else
+        ++made_.beside_table;
+    }
+    std::ranges::stable_sort(order_, {}, [&](std::size_t i) { return elongation(i); });
+  }
+
+  /// Events of nearly one elongation: gates of their own.
+  void take_class(std::size_t first, std::size_t last) {
+    double mean = 0, log_viscosity = 0, count = 0;
+    for (std::size_t k = first; k < last; ++k) mean += elongation(order_[k]) / double(last - first);
+    const auto middle = maps_.map(events_, mean);
+    SampleGates gates = gates_of_map(*middle);
+    add_user_gates(events_, by_, gates);
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t i = order_[k];
+      const SampleEvent event = sample_event(i);
+      if (!gates.pass(event.log_area, event.measure)) {
+        ++made_.beside_table;
+        continue;
+      }
+      ++count;
+      log_viscosity += event.log_viscosity;
+      group_of(elongation(i)).events.push_back(event);
+      made_.events.push_back(i);
+      made_.elongation_of_event[i] = group_elongation_;
+    }
+    if (count == 0) return;
+    made_.sample.kept.push_back({middle, gates, log_viscosity / count, count});
+    made_.class_elongation.push_back(mean);
+  }
+
+  SampleEvent sample_event(std::size_t i) const {
+    return {std::log(events_.of(SeenMeasure::area_um2)[i]), stiffness_measure(events_, by_)[i],
+            std::log(events_.of(SeenMeasure::viscosity_mPas)[i])};
+  }
+
+  /// The events come in the order of their elongations.
+  EventGroup& group_of(double elongation) {
+    const double width = class_width(by_, made_.is_binned), middle = (std::floor(elongation / width) + 0.5) * width;
+    if (made_.sample.groups.empty() || middle != group_elongation_) {
+      group_elongation_ = middle;
+      made_.sample.groups.push_back({maps_.map(events_, middle), {}});
+      made_.group_elongation.push_back(middle);
+    }
+    return made_.sample.groups.back();
+  }
+
+  void bin() {
+    std::vector<double> noises;
+    for (const EventGroup& group : made_.sample.groups) {
+      const SampleEvent& event = group.events[group.events.size() / 2];
+      noises.push_back(
+          std::sqrt(group.map->at(0.5 * (event.log_area - std::log(std::numbers::pi)), 1).measure_variance));
+    }
+    const double share = events_.events() > fewest_finely_binned ? fine_bin_in_noise : bin_in_noise;
+    const BinWidths widths{area_bin, share * median_of(noises), viscosity_bin};
+    for (EventGroup& group : made_.sample.groups) group.events = binned(group.events, widths);
+    made_.sample.added_area_variance = widths.log_area * widths.log_area / 12;
+    made_.sample.added_measure_variance = widths.measure * widths.measure / 12;
+    made_.events.clear();
+  }
+
+  const PopulationEvents& events_;
+  PopulationMaps& maps_;
+  StiffnessMeasure by_;
+  std::vector<std::size_t> order_;
+  double group_elongation_ = no_value;
+  PopulationSample made_;
+};
+
+}  // namespace
+
+const std::vector<double>& stiffness_measure(const PopulationEvents& events, StiffnessMeasure by) {
+  return events.of(by == StiffnessMeasure::asymmetry ? SeenMeasure::mode_3 : SeenMeasure::deformation);
+}
+
+const std::vector<double>& elongation_measure(const PopulationEvents& events, StiffnessMeasure by) {
+  return events.of(by == StiffnessMeasure::asymmetry ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio);
+}
+
+PopulationMaps::PopulationMaps(StiffnessMeasure by) : by_(by), tables_(std::string(), Section::square) {
+  if (!tables_.elongated(1))
+    throw UserError(
+        "rheocyte: the table of elongated cells (elongated_*.cbor) that comes with the program is missing; populations "
+        "rest on it. Install the program anew, or name the folder of the tables in RHEOCYTE_TABLES.");
+}
+
+PopulationMaps::Key PopulationMaps::key_of(const PopulationEvents& events) {
+  return {events.flow.width_um, events.flow.rate_ul_s, events.flow.exponent, events.pixel_size_um};
+}
+
+PopulationMaps::Channel& PopulationMaps::channel(const PopulationEvents& events) {
+  Channel& channel = channels_[key_of(events)];
+  if (!channel.solids)
+    channel.solids = std::make_unique<const SolidMaps>(*tables_.elongated(events.flow.exponent), events.flow,
+                                                       events.pixel_size_um, by_);
+  return channel;
+}
+
+const SolidMaps& PopulationMaps::solids(const PopulationEvents& events) { return *channel(events).solids; }
+
+std::shared_ptr<const ForwardMap> PopulationMaps::map(const PopulationEvents& events, double elongation) {
+  Channel& of_events = channel(events);
+  auto& map = of_events.maps[elongation];
+  if (!map) map = of_events.solids->at(elongation);
+  return map;
+}
+
+std::string PopulationMaps::table(const PopulationEvents& events) const {
+  return tables_.elongated(events.flow.exponent)->solids().origin().identifier;
+}
+
+double PopulationMaps::table_error(const PopulationEvents& events) const {
+  return tables_.elongated(events.flow.exponent)->solids().table().error();
+}
+
+PopulationSample population_sample(const PopulationEvents& events, PopulationMaps& maps, const SampleOptions& options) {
+  return SampleMaker(events, maps, options).make();
+}
+
+}  // namespace rheocyte

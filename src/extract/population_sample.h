@@ -1,0 +1,63 @@
+// The events of a recording, with the maps of its channel, as the estimator of populations takes them.
+#pragma once
+#include <map>
+#include <memory>
+
+#include "extract/modulus_tables.h"
+#include "extract/population_events.h"
+#include "population/sample.h"
+
+namespace rheocyte {
+
+/// Maps of cells in the channels, liquids and pixels of recordings; equal ones are made once.
+class PopulationMaps {
+ public:
+  /// Uses the tables of the square channel that come with the program; UserError if there is none of elongated cells.
+  explicit PopulationMaps(StiffnessMeasure by);
+
+  StiffnessMeasure by() const { return by_; }
+  /// In the channel of a recording.
+  const SolidMaps& solids(const PopulationEvents& events);
+  /// Of an elongation to within the width of its class.
+  std::shared_ptr<const ForwardMap> map(const PopulationEvents& events, double elongation);
+  /// Of the table: its name, and the relative error of its moduli.
+  std::string table(const PopulationEvents& events) const;
+  double table_error(const PopulationEvents& events) const;
+
+ private:
+  struct Channel {
+    std::unique_ptr<const SolidMaps> solids;
+    std::map<double, std::shared_ptr<const ForwardMap>> maps;  ///< by elongation
+  };
+  using Key = std::array<double, 4>;
+  static Key key_of(const PopulationEvents& events);
+  Channel& channel(const PopulationEvents& events);
+
+  StiffnessMeasure by_;
+  ModulusTables tables_;
+  std::map<Key, Channel> channels_;
+};
+
+struct SampleOptions {
+  bool no_bins = false;
+};
+
+struct PopulationSample {
+  Sample sample;
+  /// Of each event of the sample: its place in PopulationEvents; empty if they are binned.
+  std::vector<std::size_t> events;
+  /// That of the map of each event, in the order of PopulationEvents; NaN: left out.
+  std::vector<double> elongation_of_event;
+  std::vector<double> class_elongation;  ///< of the classes in sample.kept
+  std::vector<double> group_elongation;  ///< of the groups in sample.groups
+  std::size_t beside_table = 0;          ///< events whose measured values the table does not have, or too nearly so
+  bool is_binned = false;
+};
+
+PopulationSample population_sample(const PopulationEvents& events, PopulationMaps& maps, const SampleOptions& options);
+
+/// The measure that tells the stiffness, and the one that tells the elongation.
+const std::vector<double>& stiffness_measure(const PopulationEvents& events, StiffnessMeasure by);
+const std::vector<double>& elongation_measure(const PopulationEvents& events, StiffnessMeasure by);
+
+}  // namespace rheocyte

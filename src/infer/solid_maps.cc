@@ -1,0 +1,277 @@
+#include "infer/solid_maps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "infer/plane_map.h"
+#include "measurement/pixel_errors.h"
+#include "numeric/local_cubic.h"
+
+namespace rheocyte {
+namespace {
+
+/// Nodes in u, in the height of the branch and over the axial ratio; cubics between them.
+constexpr int radius_nodes = 29, height_nodes = 33, axial_nodes = 13;
+/// In place of a height of 0, where ln E would be infinite.
+constexpr double stiffest_node = 1e-6;
+/// The stiffest cell of the maps, in ln E above the softest.
+constexpr double stiffest = 7;
+constexpr int inversion_steps = 8, cell_steps = 6;
+
+/// The numbers of one node of the sheets.
+struct SheetNumber {
+  enum Place {
+    log_modulus,
+    log_area,
+    elongation,
+    measure,
+    area_variance,
+    area_covariance,
+    elongation_variance,
+    elongation_covariance,
+    measure_variance,
+    count
+  };
+};
+using NodeNumbers = Eigen::Array<double, SheetNumber::count, 1>;
+
+SolidFeatures features_of(const ElongatedState& s, double length_factor) {
+  const auto value = [&](ElongatedMeasure m) { return s.value(number_of(m)); };
+  using enum ElongatedMeasure;
+  return {s.log_area() + 2 * std::log(length_factor), value(deformation), value(inertia_ratio), value(mode_2),
+          value(mode_3)};
+}
+
+/// Noise of (ln A, elongation, measure) at measured values; symmetric.
+Eigen::Matrix3d noise_of(const SolidFeatures& seen, StiffnessMeasure by, double pixel_size_um) {
+  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
+  const double log_area_px = seen.log_area - 2 * std::log(pixel_size_um);
+  const PixelErrors pixels = pixel_errors(log_area_px, seen.deformation);
+  noise(0, 0) = std::pow(pixels.area_deviation, 2);
+  const auto set = [&](double second, double third, double correlation) {
+    noise(1, 1) = second * second;
+    noise(2, 2) = third * third;
+    noise(1, 2) = noise(2, 1) = correlation * second * third;
+  };
+  switch (by) {
+    case StiffnessMeasure::asymmetry: {
+      const ModeErrors modes = mode_errors(log_area_px, seen.mode_2, seen.mode_3);
+      set(modes.mode_2.deviation, modes.mode_3.deviation, modes.correlation);
+      break;
+    }
+    case StiffnessMeasure::odd_deformation: {
+      const InertiaErrors e = inertia_errors(log_area_px, seen.deformation, seen.inertia_ratio);
+      set(e.inertia_deviation, e.deformation_deviation, e.correlation);
+      break;
+    }
+    case StiffnessMeasure::deformation:
+      noise(2, 2) = std::pow(pixels.deformation_deviation, 2);
+      noise(0, 2) = noise(2, 0) = pixels.correlation * pixels.area_deviation * pixels.deformation_deviation;
+  }
+  return noise;
+}
+
+double elongation_of(const SolidFeatures& f, StiffnessMeasure by) {
+  return by == StiffnessMeasure::odd_deformation ? f.inertia_ratio : f.mode_2;
+}
+double measure_of(const SolidFeatures& f, StiffnessMeasure by) {
+  return by == StiffnessMeasure::asymmetry ? f.mode_3 : f.deformation;
+}
+
+}  // namespace
+
+SolidFeatures through_pixels(const SolidFeatures& smooth, StiffnessMeasure by, double pixel_size_um) {
+  SolidFeatures seen = smooth;
+  const double log_pixel_area = 2 * std::log(pixel_size_um);
+  // The errors are small and change little: each step gains two digits.
+  for (int step = 0; step < inversion_steps; ++step) {
+    const double log_area_px = seen.log_area - log_pixel_area;
+    const PixelErrors pixels = pixel_errors(log_area_px, seen.deformation);
+    const ModeErrors modes = mode_errors(log_area_px, seen.mode_2, seen.mode_3);
+    const InertiaErrors inertia = inertia_errors(log_area_px, seen.deformation, seen.inertia_ratio);
+    const double deformation_excess =
+        by == StiffnessMeasure::deformation ? pixels.deformation_excess : inertia.deformation_excess;
+    seen = {smooth.log_area - std::log(pixels.area_factor), smooth.deformation + deformation_excess,
+            smooth.inertia_ratio + inertia.inertia_excess, smooth.mode_2 + modes.mode_2.excess,
+            smooth.mode_3 + modes.mode_3.excess};
+  }
+  return seen;
+}
+
+/// The table through pixels on a grid of (u, height, axial ratio), in the recording's channel.
+class SolidMaps::Sheets {
+ public:
+  Sheets(const ElongatedLiquid& liquid, const ChannelFlow& flow, double pixel_size_um, StiffnessMeasure by)
+      : liquid_(liquid), table_(liquid.solids().table()), pixel_size_um_(pixel_size_um), by_(by) {
+    const ChannelFlow& computed = table_.origin().flow;
+    const ScaleFactors factors = scale_factors(computed, {flow.width_um, flow.rate_ul_s, 1, flow.exponent});
+    length_ = factors.length;
+    log_modulus_factor_ = std::log(factors.modulus);
+    first_u_ = std::log(table_.radius_um(0) * length_);
+    step_u_ = (std::log(table_.radius_um(1) * length_) - first_u_) / (radius_nodes - 1);
+    first_axial_ = table_.least()(1);
+    step_axial_ = (table_.greatest()(1) - first_axial_) / (axial_nodes - 1);
+    nodes_.reserve(std::size_t(radius_nodes * height_nodes * axial_nodes));
+    for (int i = 0; i < radius_nodes; ++i)
+      for (int k = 0; k < height_nodes; ++k)
+        for (int j = 0; j < axial_nodes; ++j) nodes_.push_back(numbers_of({coordinate(i), axial_at(j), height_at(k)}));
+  }
+
+  /// Two cells of equal modulus and measured elongation, of different radius, lie on one line of this map.
+  std::shared_ptr<const ForwardMap> map(double elongation) const {
+    PlaneGrid grid{{first_u_, first_u_ + step_u_ * (radius_nodes - 1)}, stiffest, radius_nodes, height_nodes, {}, {}};
+    for (int i = 0; i < radius_nodes; ++i) {
+      const Place soft = place_on(i, elongation, {1, first_axial_for(elongation)});
+      const double end = log_modulus_at(i, soft);
+      grid.soft_end.push_back(end);
+      Place place = soft;
+      for (int k = height_nodes - 1; k >= 0; --k) {  // from soft to stiff
+        place = place_of(i, elongation, end - std::log(height_at(k)), place);
+        grid.nodes.push_back(node_at(i, place));
+      }
+    }
+    return make_plane_map(std::move(grid));
+  }
+
+  Cell cell(double elongation, double u, double x) const {
+    const double at = std::clamp((u - first_u_) / step_u_, 0.0, double(radius_nodes - 1));
+    const int node = std::clamp(int(std::lround(at)), 0, radius_nodes - 1);
+    // The place at the nearest radius, and from there the cell of this radius itself.
+    Place place = place_on(node, elongation, {1, first_axial_for(elongation)});
+    place = place_of(node, elongation, log_modulus_at(node, place) + x, place);
+    const double coordinate = table_.coordinate_of(std::exp(u) / length_);
+    return {table_.at({coordinate, place.axial, place.height}), place.axial};
+  }
+
+  SolidFeatures seen(const ElongatedState& state) const {
+    return through_pixels(features_of(state, length_), by_, pixel_size_um_);
+  }
+
+  ForwardMap::Interval elongations() const {
+    double least = -1e300, greatest = 1e300;
+    for (int i = 0; i < radius_nodes; ++i) {
+      least = std::max(least, node(i, 0, 0)(SheetNumber::elongation));
+      for (int k = 0; k < height_nodes; ++k)
+        greatest = std::min(greatest, node(i, k, axial_nodes - 1)(SheetNumber::elongation));
+    }
+    return {least, greatest};
+  }
+
+ private:
+  struct Place {
+    double height, axial;
+  };
+  struct Sum {
+    NodeNumbers value, by_height, by_axial;
+  };
+
+  double coordinate(int i) const { return table_.coordinate_of(std::exp(first_u_ + i * step_u_) / length_); }
+  double axial_at(int j) const { return first_axial_ + j * step_axial_; }
+  static double height_at(int k) { return k == 0 ? stiffest_node : double(k) / (height_nodes - 1); }
+  const NodeNumbers& node(int i, int k, int j) const {
+    return nodes_[std::size_t((i * height_nodes + k) * axial_nodes + j)];
+  }
+
+  /// ln E + ln(height), ln A - 2 u, elongation and measure, and the noise of these.
+  NodeNumbers numbers_of(const ElongatedCell& cell) const {
+    const ElongatedState state = table_.at(cell);
+    const SolidFeatures features = seen(state);
+    const Eigen::Matrix3d noise = noise_of(features, by_, pixel_size_um_);
+    NodeNumbers all;
+    all << state.log_modulus + std::log(cell(2)) + log_modulus_factor_ + std::log(liquid_.modulus_ratio(cell)),
+        features.log_area - 2 * std::log(state.radius_um * length_), elongation_of(features, by_),
+        measure_of(features, by_), noise(0, 0), noise(0, 2), noise(1, 1), noise(1, 2), noise(2, 2);
+    return all;
+  }
+
+  /// At the radius of a node.
+  Sum sum_at(int i, const Place& place) const {
+    const LocalCubic h = local_cubic(place.height * (height_nodes - 1), height_nodes),
+                     a = local_cubic((place.axial - first_axial_) / step_axial_, axial_nodes);
+    Sum sum{NodeNumbers::Zero(), NodeNumbers::Zero(), NodeNumbers::Zero()};
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t j = 0; j < 4; ++j) {
+        const NodeNumbers& n = node(i, h.first + int(k), a.first + int(j));
+        sum.value += h.value[k] * a.value[j] * n;
+        sum.by_height += h.slope[k] * a.value[j] * (height_nodes - 1) * n;
+        sum.by_axial += h.value[k] * a.slope[j] / step_axial_ * n;
+      }
+    return sum;
+  }
+
+  double log_modulus_at(int i, const Place& place) const {
+    return sum_at(i, place).value(SheetNumber::log_modulus) - std::log(place.height);
+  }
+
+  double first_axial_for(double wanted) const {
+    if (by_ == StiffnessMeasure::deformation) return 0;
+    const double mode_2 = by_ == StiffnessMeasure::asymmetry ? wanted : (wanted - 1) / (wanted + 1);
+    return std::clamp(mode_2 / 0.75, table_.least()(1), table_.greatest()(1));
+  }
+
+  /// At a height the place with a measured elongation; at the rim of the table where there is none.
+  Place place_on(int i, double elongation, Place start) const {
+    if (by_ == StiffnessMeasure::deformation) return {start.height, 0};
+    for (int step = 0; step < cell_steps; ++step) {
+      const Sum sum = sum_at(i, start);
+      const double move = (elongation - sum.value(SheetNumber::elongation)) / sum.by_axial(SheetNumber::elongation);
+      start.axial = std::clamp(start.axial + move, table_.least()(1), table_.greatest()(1));
+      if (std::abs(move) < 1e-9) break;
+    }
+    return start;
+  }
+
+  /// With a measured elongation and a modulus.
+  Place place_of(int i, double elongation, double log_modulus, Place start) const {
+    for (int step = 0; step < cell_steps; ++step) {
+      start = place_on(i, elongation, start);
+      const double height = std::exp(sum_at(i, start).value(SheetNumber::log_modulus) - log_modulus);
+      const double change = height / start.height - 1;
+      start.height = std::clamp(height, stiffest_node, 1.0);
+      if (std::abs(change) < 1e-9) break;
+    }
+    return place_on(i, elongation, start);
+  }
+
+  /// The elongation, of which nothing is assumed, is eliminated with its noise (eq:eliminated-elongation).
+  PlaneNode node_at(int i, const Place& place) const {
+    const Sum sum = sum_at(i, place);
+    const auto value = [&](SheetNumber::Place n) { return sum.value(n); };
+    PlaneNode result{value(SheetNumber::log_area), value(SheetNumber::measure), value(SheetNumber::area_variance),
+                     value(SheetNumber::area_covariance), value(SheetNumber::measure_variance)};
+    if (by_ == StiffnessMeasure::deformation) return result;
+    // Slopes at constant modulus: the height changes with the axial ratio.
+    const double height_by_axial =
+        sum.by_axial(SheetNumber::log_modulus) / (1 / place.height - sum.by_height(SheetNumber::log_modulus));
+    const auto slope = [&](SheetNumber::Place n) { return sum.by_axial(n) + height_by_axial * sum.by_height(n); };
+    const double of_area = slope(SheetNumber::log_area) / slope(SheetNumber::elongation),
+                 of_measure = slope(SheetNumber::measure) / slope(SheetNumber::elongation);
+    const double variance = value(SheetNumber::elongation_variance),
+                 covariance = value(SheetNumber::elongation_covariance);
+    result.area_variance += of_area * of_area * variance;
+    result.covariance += of_area * of_measure * variance - of_area * covariance;
+    result.measure_variance += of_measure * of_measure * variance - 2 * of_measure * covariance;
+    return result;
+  }
+
+  const ElongatedLiquid& liquid_;
+  const ElongatedTable& table_;
+  double pixel_size_um_;
+  StiffnessMeasure by_;
+  double length_, log_modulus_factor_, first_u_, step_u_, first_axial_, step_axial_;
+  std::vector<NodeNumbers> nodes_;
+};
+
+SolidMaps::SolidMaps(const ElongatedLiquid& liquid, const ChannelFlow& flow, double pixel_size_um, StiffnessMeasure by)
+    : by_(by), sheets_(std::make_unique<const Sheets>(liquid, flow, pixel_size_um, by)) {}
+SolidMaps::~SolidMaps() = default;
+
+ForwardMap::Interval SolidMaps::elongations() const { return sheets_->elongations(); }
+std::shared_ptr<const ForwardMap> SolidMaps::at(double elongation) const { return sheets_->map(elongation); }
+SolidMaps::Cell SolidMaps::cell(double elongation, double u, double x) const { return sheets_->cell(elongation, u, x); }
+
+SolidFeatures SolidMaps::seen(const Cell& cell) const { return sheets_->seen(cell.state); }
+
+}  // namespace rheocyte

@@ -1,0 +1,56 @@
+// What is measured of solids that are drawn out along the flow, as the estimator of populations wants it
+// (docs/theory-populations.md, sec. "Forward map"): one map for each elongation that is measured.
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "infer/elongated_liquid.h"
+#include "population/forward_map.h"
+
+namespace rheocyte {
+
+/// What tells the stiffness beside the area, and what tells the elongation, which is eliminated: c_3 with c_2;
+/// deformation with the inertia ratio; the deformation of cells that nothing but the flow elongates.
+enum class StiffnessMeasure { asymmetry, odd_deformation, deformation };
+
+/// Features of an outline without pixels, and through pixels on average.
+struct SolidFeatures {
+  double log_area = 0, deformation = 0, inertia_ratio = 0, mode_2 = 0, mode_3 = 0;
+};
+
+/// On average; area and deformation as the measure's law has them.
+SolidFeatures through_pixels(const SolidFeatures& smooth, StiffnessMeasure by, double pixel_size_um);
+
+class SolidMaps {
+ public:
+  /// Of cells in this channel and flow, whose viscosity does not count; moduli are those at 1 mPa s. The table must
+  /// outlive it.
+  SolidMaps(const ElongatedLiquid& liquid, const ChannelFlow& flow, double pixel_size_um, StiffnessMeasure by);
+  ~SolidMaps();
+  SolidMaps(const SolidMaps&) = delete;
+  SolidMaps& operator=(const SolidMaps&) = delete;
+
+  StiffnessMeasure by() const { return by_; }
+  /// Measured values of c_2 or the inertia ratio up to which the table goes: the least of stiff cells, the greatest of
+  /// all. Of softer cells, which the flow itself elongates, the least is the one at the table's rim.
+  ForwardMap::Interval elongations() const;
+  /// The cells that are seen with this c_2 or inertia ratio; for StiffnessMeasure::deformation it does not count.
+  std::shared_ptr<const ForwardMap> at(double elongation) const;
+
+  /// The cell of such a map at (u, x), without pixels.
+  struct Cell {
+    ElongatedState state;
+    double axial_ratio;
+  };
+  Cell cell(double elongation, double u, double x) const;
+  /// Its features through pixels on average, in the recording's channel.
+  SolidFeatures seen(const Cell& cell) const;
+
+ private:
+  class Sheets;
+  StiffnessMeasure by_;
+  std::unique_ptr<const Sheets> sheets_;
+};
+
+}  // namespace rheocyte

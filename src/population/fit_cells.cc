@@ -1,0 +1,239 @@
+#include "population/fit_cells.h"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "numeric/dense_solve.h"
+#include "numeric/no_value.h"
+#include "population/likelihood_maximum.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr double least_radius_spread = 0.003, greatest_radius_spread = 1, least_modulus_spread = 0.01,
+                 greatest_modulus_spread = 1.5, greatest_artanh = 2.5;
+/// Nodes are placed anew until no parameter moves more than this share of its standard error.
+constexpr double settled_share = 0.1;
+constexpr int most_placings = 6;
+/// Gates that keep less tell of a tail alone; where they keep less than the second the likelihood has no parabola.
+constexpr double least_kept = 0.05, parabolic_kept = 0.3;
+/// A spread below this share of what a single image tells is not known by the parabola.
+constexpr double least_share_of_error = 0.5;
+constexpr int profile_steps = 6;
+constexpr double profile_tolerance = 0.01;  ///< in standard errors
+
+struct Weighted {
+  double value, count;
+};
+
+double weighted_median(std::vector<Weighted> values) {
+  std::ranges::sort(values, {}, &Weighted::value);
+  double total = 0, sum = 0;
+  for (const auto& v : values) total += v.count;
+  for (const auto& v : values)
+    if ((sum += v.count) >= total / 2) return v.value;
+  return no_value;
+}
+
+/// Where the search begins: the median cell, seen through the map of the median event.
+struct Start {
+  explicit Start(const Sample& sample) {
+    std::vector<Weighted> areas, measures, viscosities;
+    double sum = 0, square = 0, seen = 0;
+    const double all = sample.events();
+    for (const EventGroup& group : sample.groups) {
+      for (const SampleEvent& e : group.events) {
+        areas.push_back({e.log_area, e.count});
+        measures.push_back({e.measure, e.count});
+        viscosities.push_back({e.log_viscosity, e.count});
+        sum += e.count * e.log_area, square += e.count * e.log_area * e.log_area;
+        seen += e.count;
+      }
+      if (!map && seen >= all / 2) map = group.map.get();
+    }
+    log_viscosity = weighted_median(std::move(viscosities));
+    measure = weighted_median(std::move(measures));
+    const auto radii = map->log_radii();
+    u = std::clamp(0.5 * (weighted_median(std::move(areas)) - std::log(std::numbers::pi)), radii.lower, radii.upper);
+    const double variance = std::max(square / all - sum * sum / all / all, 0.0);
+    spread = std::clamp(std::sqrt(variance) / 2, 2 * least_radius_spread, greatest_radius_spread / 2);
+    x = height_of(measure);
+    noise = std::sqrt(map->at(u, x).measure_variance);
+  }
+
+  double height_of(double wanted) const {
+    auto [low, high] = map->heights();
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (map->at(u, middle).measure > wanted ? low : high) = middle;
+    }
+    return low;
+  }
+  double log_modulus(double height) const { return map->soft_end(u).log_modulus + height + log_viscosity; }
+  CellDistribution cells() const { return {u, log_modulus(std::max(x, 0.02)), spread, 0.2, 0}; }
+
+  ParameterBounds bounds() const {
+    const auto radii = map->log_radii();
+    const auto heights = map->heights();
+    ParameterBounds bounds;
+    bounds.least << radii.lower, log_modulus(heights.lower - 1), std::log(least_radius_spread),
+        std::log(least_modulus_spread), -greatest_artanh;
+    bounds.greatest << radii.upper, log_modulus(heights.upper), std::log(greatest_radius_spread),
+        std::log(greatest_modulus_spread), greatest_artanh;
+    return bounds;
+  }
+
+  const ForwardMap* map = nullptr;
+  double u, x, log_viscosity, measure, noise, spread;
+};
+
+class CellFit {
+ public:
+  CellFit(const Sample& sample, const FitSettings& settings)
+      : settings_(settings),
+        start_(sample),
+        bounds_(start_.bounds()),
+        likelihood_(sample, settings.threads, settings.nodes) {}
+
+  FittedCells fit() {
+    FittedCells fitted;
+    if (!climb(start_.cells().parameters())) return fitted;
+    fitted.cells = CellDistribution::of(best_.q);
+    fitted.log_likelihood = best_.log_likelihood;
+    fitted.at_bound = best_.at_bound;
+    fitted.kept_share = likelihood_.kept_share(fitted.cells);
+    fitted.event_error = error_of_image();
+    fitted.state = state(fitted);
+    if (settings_.with_shrunken && fitted.state == FitState::fitted)
+      fitted.shrunken = likelihood_.shrunken(fitted.cells);
+    if (fitted.state == FitState::fitted) tell_intervals(fitted);
+    if (fitted.state == FitState::too_stiff) fitted.least_log_modulus = least_log_modulus();
+    return fitted;
+  }
+
+ private:
+  /// To the maximum, with nodes that are placed for it.
+  bool climb(ParameterVector q, const HeldParameters& held = {}) {
+    for (int round = 0; round < most_placings; ++round) {
+      likelihood_.place(CellDistribution::of(q));
+      const LikelihoodMaximum found = maximise(likelihood_, q, bounds_, held);
+      if (!found.is_found) return false;
+      const ParameterVector steps = difference_steps(likelihood_.at(found.q).products);
+      const double moved = ((found.q - q).cwiseAbs().array() / (10 * steps.array())).maxCoeff();
+      q = found.q;
+      best_ = found;
+      if (round > 0 && moved < settled_share) break;
+    }
+    return true;
+  }
+
+  double error_of_image() const {
+    const auto radii = start_.map->log_radii();
+    const auto heights = start_.map->heights();
+    const double u = std::clamp(best_.q(0), radii.lower, radii.upper), end = start_.map->soft_end(u).log_modulus;
+    const double x = std::clamp(best_.q(1) - start_.log_viscosity - end, heights.lower, heights.upper);
+    return event_error(*start_.map, u, end + x);
+  }
+
+  FitState state(FittedCells& fitted) const {
+    if (start_.measure < start_.noise) return FitState::too_stiff;
+    if (fitted.kept_share < least_kept) return FitState::tail;
+    const ParameterMatrix information =
+        likelihood_.information(best_.q, difference_steps(likelihood_.at(best_.q).products));
+    return invert(information, fitted) ? FitState::fitted : FitState::singular;
+  }
+
+  /// Of the parameters that are at no bound.
+  static bool invert(const ParameterMatrix& information, FittedCells& fitted) {
+    std::vector<int> free;
+    for (int k = 0; k < population_parameters; ++k)
+      if (!fitted.at_bound[std::size_t(k)]) free.push_back(k);
+    const Eigen::Index n = Eigen::Index(free.size());
+    if (n == 0) return false;
+    Eigen::MatrixXd part(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j) part(i, j) = information(free[std::size_t(i)], free[std::size_t(j)]);
+    const Eigen::MatrixXd white = whitening(part);
+    if (white.size() == 0 || !white.allFinite()) return false;
+    const Eigen::MatrixXd covariance = white.transpose() * white;
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        fitted.covariance(free[std::size_t(i)], free[std::size_t(j)]) = covariance(i, j);
+    return true;
+  }
+
+  void tell_intervals(FittedCells& fitted) {
+    const double z = boost::math::quantile(boost::math::normal(), (1 + settings_.level) / 2);
+    const LikelihoodMaximum maximum = best_;
+    for (int k = 0; k < population_parameters; ++k) {
+      auto& interval = fitted.intervals[std::size_t(k)];
+      interval = {no_value, no_value};
+      if (fitted.at_bound[std::size_t(k)]) continue;
+      const double error = std::sqrt(fitted.covariance(k, k));
+      interval = {maximum.q(k) - z * error, maximum.q(k) + z * error};
+      if (!wants_profile(k, fitted)) continue;
+      interval = {profile_end(maximum, k, -error, z), profile_end(maximum, k, error, z), true};
+    }
+    best_ = maximum;
+  }
+
+  static bool wants_profile(int k, const FittedCells& fitted) {
+    if (fitted.kept_share < parabolic_kept) return true;
+    return k == number_of(PopulationParameter::log_modulus_spread) &&
+           fitted.cells.modulus_spread < least_share_of_error * fitted.event_error;
+  }
+
+  /// Where ln L, at its greatest over the other parameters, is lower by z^2 / 2. NaN if there is no such place.
+  double profile_end(const LikelihoodMaximum& maximum, int k, double error, double z) {
+    HeldParameters held{};
+    held[std::size_t(k)] = true;
+    ParameterVector q = maximum.q;
+    double offset = z * error;
+    for (int step = 0; step < profile_steps; ++step) {
+      q(k) = maximum.q(k) + offset;
+      if (q(k) < bounds_.least(k) || q(k) > bounds_.greatest(k)) return no_value;
+      if (!climb(q, held)) return no_value;
+      q = best_.q;
+      // The root of the likelihood ratio is nearly linear in the parameter.
+      const double root = std::sqrt(2 * std::max(maximum.log_likelihood - best_.log_likelihood, 0.0));
+      const double next = offset * std::clamp(z / root, 0.5, 2.0);
+      if (std::abs(next - offset) < profile_tolerance * std::abs(error)) return maximum.q(k) + next;
+      offset = next;
+    }
+    return maximum.q(k) + offset;
+  }
+
+  std::optional<double> least_log_modulus() {
+    const double z = boost::math::quantile(boost::math::normal(), settings_.level);
+    const LikelihoodMaximum maximum = best_;
+    const auto products = likelihood_.at(maximum.q).products;
+    const int k = number_of(PopulationParameter::mean_log_modulus);
+    const double error = 10 * difference_steps(products)(k);
+    const double end = profile_end(maximum, k, -std::min(error, 0.5), z);
+    best_ = maximum;
+    return std::isfinite(end) ? std::optional(end) : std::nullopt;
+  }
+
+  FitSettings settings_;
+  Start start_;
+  ParameterBounds bounds_;
+  PopulationLikelihood likelihood_;
+  LikelihoodMaximum best_;
+};
+
+}  // namespace
+
+double FittedCells::standard_error(PopulationParameter parameter) const {
+  const int k = number_of(parameter);
+  return at_bound[std::size_t(k)] ? no_value : std::sqrt(covariance(k, k));
+}
+
+FittedCells fit_cells(const Sample& sample, const FitSettings& settings) {
+  assert(sample.events() > 0);
+  return CellFit(sample, settings).fit();
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,34 @@
+// The share of a population's cells whose measured values pass the gates, and its slopes (docs/theory-populations.md,
+// eq:kept).
+#pragma once
+#include <vector>
+
+#include "population/cell_distribution.h"
+#include "population/sample.h"
+
+namespace rheocyte {
+
+class KeptShare {
+ public:
+  /// Tabulates the chance of each cell to pass on a grid that resolves the gates' edges.
+  explicit KeptShare(const KeptClass& kept);
+
+  struct Answer {
+    double share;
+    ParameterVector score;  ///< of ln(share)
+  };
+  Answer answer(const CellDistribution& cells, bool with_score) const;
+
+ private:
+  struct Row {
+    double log_radius, width;  ///< of the cells of this row
+    double soft_end;           ///< ln E at height 0
+    std::size_t first, count;  ///< of the chances, where they are not 0
+    std::size_t first_height;
+  };
+  std::vector<double> heights_, widths_;
+  std::vector<Row> rows_;
+  std::vector<float> chances_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,129 @@
+#include "population/likelihood.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+
+#include "store/thread.h"
+
+namespace rheocyte {
+namespace {
+
+/// Sums are made within blocks of events and then over the blocks in their order, whoever has computed them.
+constexpr std::size_t events_per_block = 128;
+
+/// work(0) .. work(count - 1), each once.
+void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  const auto take = [&](int) {
+    for (std::size_t k = next++; k < count; k = next++) work(k);
+  };
+  const int wanted = int(std::min(std::size_t(std::max(threads, 1)), count));
+  if (wanted < 2) return take(0);
+  const auto others = start_threads(wanted - 1, take);
+  take(0);
+}
+
+}  // namespace
+
+PopulationLikelihood::PopulationLikelihood(const Sample& sample, int threads, int nodes)
+    : sample_(sample), threads_(threads), node_count_(nodes), events_(sample.events()) {
+  for (const EventGroup& group : sample.groups)
+    for (const SampleEvent& event : group.events) places_.push_back({&group, &event});
+  std::vector<std::unique_ptr<const KeptShare>> kept(sample.kept.size());
+  in_threads(kept.size(), threads, [&](std::size_t k) { kept[k] = std::make_unique<const KeptShare>(sample.kept[k]); });
+  for (const auto& one : kept) kept_.push_back(*one);
+}
+
+std::size_t PopulationLikelihood::blocks() const { return (places_.size() + events_per_block - 1) / events_per_block; }
+
+void PopulationLikelihood::place(const CellDistribution& cells) {
+  const std::array added{sample_.added_area_variance, sample_.added_measure_variance};
+  std::vector<std::vector<EventNodes>> of_blocks(blocks());
+  in_threads(of_blocks.size(), threads_, [&](std::size_t block) {
+    const std::size_t first = block * events_per_block, last = std::min(first + events_per_block, places_.size());
+    of_blocks[block].reserve(last - first);
+    for (std::size_t i = first; i < last; ++i)
+      of_blocks[block].emplace_back(*places_[i].group->map, *places_[i].event, cells, added, node_count_);
+  });
+  nodes_.clear();
+  nodes_.reserve(places_.size());
+  for (auto& block : of_blocks) std::ranges::move(block, std::back_inserter(nodes_));
+}
+
+PopulationLikelihood::Value PopulationLikelihood::value_of_block(std::size_t block, const CellDistribution& cells,
+                                                                 bool with_score) const {
+  Value sum;
+  const std::size_t first = block * events_per_block, last = std::min(first + events_per_block, places_.size());
+  for (std::size_t i = first; i < last; ++i) {
+    const double count = places_[i].event->count;
+    const EventAnswer answer = nodes_[i].answer(cells, with_score);
+    sum.log_likelihood += count * answer.log_likelihood;
+    if (!with_score) continue;
+    sum.score += count * answer.score;
+    sum.products.noalias() += count * answer.score * answer.score.transpose();
+  }
+  return sum;
+}
+
+PopulationLikelihood::Value PopulationLikelihood::value(const ParameterVector& q, bool with_score) const {
+  const CellDistribution cells = CellDistribution::of(q);
+  const std::size_t of_events = blocks();
+  std::vector<Value> values(of_events);
+  std::vector<KeptShare::Answer> shares(kept_.size());
+  in_threads(of_events + kept_.size(), threads_, [&](std::size_t k) {
+    if (k < kept_.size())
+      shares[k] = kept_[k].answer(cells, with_score);
+    else
+      values[k - kept_.size()] = value_of_block(k - kept_.size(), cells, with_score);
+  });
+  Value all;
+  for (const Value& v : values) {
+    all.log_likelihood += v.log_likelihood;
+    all.score += v.score;
+    all.products += v.products;
+  }
+  ParameterVector by_gates = ParameterVector::Zero();
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    all.log_likelihood -= sample_.kept[k].count * std::log(shares[k].share);
+    by_gates += sample_.kept[k].count * shares[k].score;
+  }
+  const ParameterVector each = by_gates / events_;
+  all.products += -all.score * each.transpose() - each * all.score.transpose() + events_ * each * each.transpose();
+  all.score -= by_gates;
+  return all;
+}
+
+PopulationLikelihood::Value PopulationLikelihood::at(const ParameterVector& q) const { return value(q, true); }
+
+ParameterMatrix PopulationLikelihood::information(const ParameterVector& q, const ParameterVector& steps) const {
+  ParameterMatrix information;
+  for (int k = 0; k < population_parameters; ++k) {
+    ParameterVector ahead = q, behind = q;
+    ahead(k) += steps(k);
+    behind(k) -= steps(k);
+    information.col(k) = (at(behind).score - at(ahead).score) / (2 * steps(k));
+  }
+  return (information + information.transpose()) / 2;
+}
+
+double PopulationLikelihood::kept_share(const CellDistribution& cells) const {
+  double sum = 0, count = 0;
+  for (std::size_t k = 0; k < kept_.size(); ++k) {
+    sum += sample_.kept[k].count * std::log(kept_[k].answer(cells, false).share);
+    count += sample_.kept[k].count;
+  }
+  return count > 0 ? std::exp(sum / count) : 1;
+}
+
+std::vector<ShrunkenCell> PopulationLikelihood::shrunken(const CellDistribution& cells) const {
+  std::vector<ShrunkenCell> all(nodes_.size());
+  in_threads(blocks(), threads_, [&](std::size_t block) {
+    const std::size_t first = block * events_per_block, last = std::min(first + events_per_block, nodes_.size());
+    for (std::size_t i = first; i < last; ++i) all[i] = nodes_[i].shrunken(cells);
+  });
+  return all;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,179 @@
+// `rheocyte population` and `rheocyte plan` from virtual recordings to the answers.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "../robustness/run_program.h"
+
+namespace rheocyte::test::population_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Cells with a mean of Young's modulus, whose standard deviation is 15 % of it, under a tension.
+std::string cells(double modulus_kPa, double tension_Pa = 500) {
+  return fmt::format(R"([recording]
+cells = 250
+[channel]
+width_um = 20
+[flow]
+rate_ul_per_s = 0.04
+viscosity_mPas = 15
+axial_tension_Pa = {{mean = {}, sd = {}}}
+[cell]
+radius_um = {{mean = 6.3, sd = 0.4}}
+[cell.bulk]
+young_modulus_kPa = {{mean = {}, sd = {}, distribution = "lognormal"}}
+[shapes]
+table = "HE-3D-el-26"
+)",
+                     tension_Pa, 0.2 * tension_Pa, modulus_kPa, 0.15 * modulus_kPa);
+}
+
+/// Standard deviation of ln E of these cells, and ln of their median.
+const double spread = std::sqrt(std::log1p(0.15 * 0.15));
+double log_median(double modulus_kPa) { return std::log(modulus_kPa) - 0.5 * spread * spread; }
+
+class PopulationCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_file(folder_.path() / "cells.toml", cells(4));
+    write_file(folder_.path() / "drug.toml", cells(5.2));
+  }
+
+  Ended call(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), RHEOCYTE);
+    return run({.arguments = arguments, .folder = folder_.path()});
+  }
+  void synth(const std::string& file, const std::vector<std::string>& settings,
+             const std::string& spec = "cells.toml") const {
+    std::vector<std::string> arguments{"synth", spec, "-o", file, "--quiet", "--force"};
+    for (const auto& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    const Ended ended = call(arguments);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  }
+  nlohmann::json record(const fs::path& folder = "population") const {
+    return nlohmann::json::parse(content_of(folder_.path() / folder / "population.json"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(PopulationCommand, ElongatedVirtualCellsGiveBackTheirPopulationAndTheDifference) {
+  for (const std::string seed : {"1", "2"}) {
+    synth("control" + seed + ".rtdc", {"recording.seed=" + seed});
+    synth("drug" + seed + ".rtdc", {"recording.seed=1" + seed}, "drug.toml");
+  }
+  const Ended ended = call({"population", "--condition", "control=control1.rtdc,control2.rtdc", "--condition",
+                            "drug=drug1.rtdc,drug2.rtdc", "--paired"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_LE(std::ranges::count(ended.out, '\n'), 8) << ended.out;
+  const std::string told = "drug / control: ratio ";
+  const auto at = ended.out.find(told);
+  ASSERT_NE(at, std::string::npos) << ended.out;
+  EXPECT_NEAR(std::stod(ended.out.substr(at + told.size())), 1.3, 0.04) << "two standard errors";
+  EXPECT_NE(ended.out.find("by the paired t test with 1 degrees of freedom"), std::string::npos) << ended.out;
+  const auto all = record();
+  for (const auto& recording : all["recordings"]) {
+    const bool is_drug = recording["condition"] == "drug";
+    const double truth = log_median(is_drug ? 5.2 : 4);
+    const auto& population = recording["population"];
+    const auto& parameters = population["parameters"];
+    // Four standard errors, and 1 % that the law of the pixels leaves.
+    EXPECT_NEAR(parameters[1]["value"], truth, 4 * double(parameters[1]["standard_error"]) + 0.01)
+        << recording["recording"];
+    EXPECT_LT(parameters[1]["standard_error"], 0.02);
+    EXPECT_NEAR(population["spread_of_ln_modulus"], spread, 0.04);
+    EXPECT_NEAR(population["median_radius_um"], 6.3, 0.1);
+    EXPECT_GT(recording["median_elongation"], 0.05);
+    for (const auto& check : recording["checks"]) EXPECT_TRUE(check["fits"]) << check.dump();
+  }
+  EXPECT_NE(content_of(folder_.path() / "population" / "events_drug_2.tsv").find("\n250\t"), std::string::npos);
+  EXPECT_TRUE(
+      content_of(folder_.path() / "population" / "population.tsv").starts_with("condition\tsession\trecording\t"));
+}
+
+TEST_F(PopulationCommand, TheSameInputGivesTheSameBytesForAnyNumberOfThreads) {
+  synth("a.rtdc", {"recording.cells=80"});
+  for (const std::string jobs : {"1", "3"})
+    ASSERT_EQ(call({"population", "--condition", "a=a.rtdc", "-o", "jobs" + jobs, "--jobs", jobs, "--quiet"}).exit_code,
+              0);
+  EXPECT_EQ(content_of(folder_.path() / "jobs1" / "population.json"),
+            content_of(folder_.path() / "jobs3" / "population.json"));
+}
+
+TEST_F(PopulationCommand, OneRecordingEachHasARatioButNoP) {
+  synth("a.rtdc", {"recording.cells=80"});
+  synth("b.rtdc", {"recording.cells=80", "recording.seed=5"});
+  const Ended ended =
+      call({"population", "--condition", "a=a.rtdc", "--condition", "b=b.rtdc", "--between-recordings", "0.03"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("no p, because a single recording does not tell how recordings scatter"), std::string::npos);
+  EXPECT_NE(ended.out.find("with a scatter of 0.03 between recordings"), std::string::npos);
+  EXPECT_TRUE(record()["comparisons"][0]["p"].is_null());
+  EXPECT_FALSE(record()["comparisons"][0]["p_with_known_scatter"].is_null());
+}
+
+TEST_F(PopulationCommand, GatesOnTheAreaAreCorrectedForAndOthersAreNamed) {
+  synth("a.rtdc", {"recording.cells=500"});
+  // The median cell has an area of about 130 um2: the gate takes the smaller half.
+  const Ended ended = call({"population", "--condition", "a=a.rtdc", "--min", "area_um=130", "--max", "pos_x=1e9"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.err.find("the gates on pos_x <= 1000000000 are not part of the model"), std::string::npos)
+      << ended.err;
+  const auto recording = record()["recordings"][0];
+  const auto& parameters = recording["population"]["parameters"];
+  EXPECT_LT(recording["population"]["kept_share"], 0.8);
+  EXPECT_NEAR(parameters[1]["value"], log_median(4), 4 * double(parameters[1]["standard_error"]) + 0.01);
+  EXPECT_NEAR(parameters[0]["value"], std::log(6.3), 4 * double(parameters[0]["standard_error"]) + 0.005);
+}
+
+TEST_F(PopulationCommand, CellsThatAreTooStiffHaveALimitAndExitCode3) {
+  write_file(folder_.path() / "stiff.toml", cells(150, 2000));
+  synth("a.rtdc", {"recording.cells=100"}, "stiff.toml");
+  const Ended ended = call({"population", "--condition", "a=a.rtdc"});
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_NE(ended.err.find("too stiff to be seen"), std::string::npos) << ended.err;
+  EXPECT_TRUE(record()["recordings"][0]["population"].is_null());
+}
+
+TEST_F(PopulationCommand, WhatDoesNotWorkIsSaidInOneSentence) {
+  synth("a.rtdc", {"recording.cells=60"});
+  synth("few.rtdc", {"recording.cells=12", "recording.seed=3"});
+  fs::copy_file(folder_.path() / "a.rtdc", folder_.path() / "again.rtdc");
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& words) {
+    arguments.insert(arguments.begin(), "population");
+    expect_sentence(call(arguments), words);
+  };
+  refused({"--condition", "a"}, "give a name and its recordings");
+  refused({"--condition", "a=a.rtdc,a.rtdc"}, "is named twice");
+  refused({"--condition", "a=a.rtdc", "--condition", "b=again.rtdc"}, "holds the same events as a.rtdc");
+  refused({"--condition", "a=a.rtdc", "--condition", "a=few.rtdc"}, "the condition a is given twice");
+  refused({"--condition", "a=a.rtdc", "--condition", "b=few.rtdc,again.rtdc", "--paired"},
+          "--paired wants equally many");
+  refused({"--condition", "a=few.rtdc"}, "a population needs at least 20");
+  refused({"--condition", "a=missing.rtdc"}, "there is no such file");
+  refused({"--condition", "a=a.rtdc", "--min", "area_um=900"}, "has no event inside the gates");
+  refused({"--condition", "a=a.rtdc", "--by", "colour"}, "must be asymmetry, odd-deformation or deformation");
+  EXPECT_FALSE(fs::exists(folder_.path() / "population"));
+}
+
+TEST_F(PopulationCommand, APlanNamesAChannelTheSessionsAndWhatLimits) {
+  const Ended ended = call({"plan", "--radius-um", "6.5", "--young-modulus-kPa", "2", "--width-um", "20,30", "--medium",
+                            "0.49% MC-PBS", "--rate-ul-s", "0.04,0.12"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(ended.out.starts_with("width_um\tmedium\trate_ul_per_s\t")) << ended.out;
+  EXPECT_NE(ended.out.find("paired t test"), std::string::npos);
+  EXPECT_NE(ended.out.find("what limits is the scatter between recordings"), std::string::npos) << ended.out;
+  expect_sentence(call({"plan", "--radius-um", "6.5", "--young-modulus-kPa", "2", "--medium", "honey"}),
+                  "--medium honey is not known");
+  expect_sentence(call({"plan", "--radius-um", "60", "--young-modulus-kPa", "2"}), "no channel of these has cells");
+  expect_sentence(call({"plan", "--radius-um", "6", "--young-modulus-kPa", "2", "--difference", "0"}),
+                  "cannot be found");
+}
+
+}  // namespace
+}  // namespace rheocyte::test::population_test

@@ -1,0 +1,114 @@
+// What is measured of elongated solids, as populations are fitted with it.
+#include "infer/solid_maps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../table/invented_elongated.h"
+
+namespace rheocyte::solid_maps_test {
+namespace {
+
+using test::InventedElongated;
+
+constexpr double pixel_um = 0.34;
+
+SolidFeatures features_of(const InventedElongated& c, double length = 1) {
+  return {std::log(c.area_um2() * length * length), c.deformation(), c.inertia_ratio(), c.mode_2(), c.mode_3()};
+}
+
+class Maps : public testing::Test {
+ protected:
+  ElongatedSolids solids_{test::invented_elongated_content()};
+  ElongatedLiquid liquid_{solids_, nullptr, nullptr};
+};
+
+/// The cells of the table, through pixels.
+TEST_F(Maps, HaveTheAreaAndTheMeasureOfTheCellWithThisElongation) {
+  for (const StiffnessMeasure by : {StiffnessMeasure::asymmetry, StiffnessMeasure::odd_deformation}) {
+    const SolidMaps maps(liquid_, {20, 0.04, 1}, pixel_um, by);
+    for (const double axial : {-0.03, 0.1, 0.3})
+      for (const double modulus : {2.0, 6.0, 40.0}) {
+        const InventedElongated cell{6.3, axial, modulus};
+        const SolidFeatures seen = through_pixels(features_of(cell), by, pixel_um);
+        const auto map = maps.at(by == StiffnessMeasure::asymmetry ? seen.mode_2 : seen.inertia_ratio);
+        const double u = std::log(6.3), x = std::log(modulus / 15) - map->soft_end(u).log_modulus;
+        const MapPoint p = map->at(u, x);
+        EXPECT_NEAR(p.log_area, seen.log_area, 3e-4) << axial << " " << modulus;  // a tenth of the noise
+        EXPECT_NEAR(p.measure, by == StiffnessMeasure::asymmetry ? seen.mode_3 : seen.deformation, 1e-4)
+            << axial << " " << modulus;
+      }
+  }
+}
+
+TEST_F(Maps, InAnotherChannelTheCellsScaleAsTheEquations) {
+  const SolidMaps maps(liquid_, {30, 0.16, 1}, pixel_um, StiffnessMeasure::asymmetry);
+  const InventedElongated cell{6.3, 0.15, 2};
+  const SolidFeatures seen = through_pixels(features_of(cell, 1.5), StiffnessMeasure::asymmetry, pixel_um);
+  const auto map = maps.at(seen.mode_2);
+  const double u = std::log(6.3 * 1.5), factor = (0.16 / 0.04) / 15 * std::pow(20. / 30, 3);
+  const MapPoint p = map->at(u, std::log(2 * factor) - map->soft_end(u).log_modulus);
+  EXPECT_NEAR(p.log_area, seen.log_area, 3e-4);
+  EXPECT_NEAR(p.measure, seen.mode_3, 1e-4);
+}
+
+TEST_F(Maps, TheSlopesAreThoseOfTheValues) {
+  const SolidMaps maps(liquid_, {20, 0.04, 1}, pixel_um, StiffnessMeasure::asymmetry);
+  const auto map = maps.at(0.1);
+  const double u = 1.83, step = 1e-5;
+  for (const double x : {0.03, 0.6, 2.5}) {
+    const MapPoint p = map->at(u, x), right = map->at(u + step, x), up = map->at(u, x + step);
+    EXPECT_NEAR((right.log_area - p.log_area) / step, p.log_area_by_radius, 1e-3);
+    EXPECT_NEAR((right.measure - p.measure) / step, p.measure_by_radius, 1e-4);
+    EXPECT_NEAR((up.log_area - p.log_area) / step, p.log_area_by_height, 1e-3);
+    EXPECT_NEAR((up.measure - p.measure) / step, p.measure_by_height, 1e-4);
+  }
+  const auto end = map->soft_end(u);
+  EXPECT_NEAR((map->soft_end(u + step).log_modulus - end.log_modulus) / step, end.slope, 1e-3);
+}
+
+TEST_F(Maps, TheErrorOfOneImageIsThatOfTheSingleEvent) {
+  const SolidMaps maps(liquid_, {20, 0.04, 1}, pixel_um, StiffnessMeasure::asymmetry);
+  const InventedElongated cell{6.3, 0.15, 3};
+  const SolidFeatures seen = through_pixels(features_of(cell), StiffnessMeasure::asymmetry, pixel_um);
+  const double area = std::exp(seen.log_area), viscosity = 15;
+  double modulus, error, elongation, elongation_error, tension, tension_error;
+  ModulusState state;
+  ElongatedCell found;
+  solids_.estimate({{20, 0.04}, pixel_um}, {{&area, 1}, {&seen.deformation, 1}, {&viscosity, 1}},
+                   {ElongatedBy::modes, {&seen.mode_2, 1}, {&seen.mode_3, 1}},
+                   {{{&modulus, 1}, {&error, 1}, {&state, 1}},
+                    {&elongation, 1},
+                    {&elongation_error, 1},
+                    {&tension, 1},
+                    {&tension_error, 1},
+                    {&found, 1}});
+  ASSERT_EQ(state, ModulusState::valid);
+  const double of_pixels = std::sqrt(std::pow(error / modulus, 2) - std::pow(solids_.table().error(), 2));
+  // Events are freed of what pixels do on average; the map takes its slopes, s^2 f_3 of eq:mode-errors, along: 4 %.
+  EXPECT_NEAR(event_error(*maps.at(seen.mode_2), std::log(6.3), std::log(3.0 / 15)), of_pixels, 0.05 * of_pixels);
+}
+
+TEST_F(Maps, TheCellBehindAMeasuredElongationHasIt) {
+  const SolidMaps maps(liquid_, {20, 0.04, 1}, pixel_um, StiffnessMeasure::asymmetry);
+  const auto cell = maps.cell(0.12, std::log(6.1), 0.7);
+  EXPECT_NEAR(maps.seen(cell).mode_2, 0.12, 2e-3);  // of the nearest node's radius
+  EXPECT_NEAR(cell.state.radius_um, 6.1, 1e-9);
+  const auto range = maps.elongations();
+  EXPECT_LT(range.lower, -0.03);
+  EXPECT_GT(range.upper, 0.25);
+}
+
+TEST_F(Maps, ByDeformationTheCellsHaveNoElongationOfTheirOwn) {
+  const SolidMaps maps(liquid_, {20, 0.04, 1}, pixel_um, StiffnessMeasure::deformation);
+  const InventedElongated cell{6.3, 0, 2};
+  const SolidFeatures seen = through_pixels(features_of(cell), StiffnessMeasure::deformation, pixel_um);
+  const auto map = maps.at(0);
+  const MapPoint p = map->at(std::log(6.3), std::log(2.0 / 15) - map->soft_end(std::log(6.3)).log_modulus);
+  EXPECT_NEAR(p.log_area, seen.log_area, 3e-4);
+  EXPECT_NEAR(p.measure, seen.deformation, 1e-4);
+}
+
+}  // namespace
+}  // namespace rheocyte::solid_maps_test
