@@ -16,7 +16,7 @@ enum class PopulationParameter {
   log_modulus_spread,
   correlation
 };
-inline constexpr int number_of(PopulationParameter parameter) { return int(parameter); }
+constexpr int number_of(PopulationParameter parameter) { return int(parameter); }
 
 struct CellDistribution {
   double mean_log_radius = 0, mean_log_modulus = 0;

@@ -33,8 +33,10 @@ double weighted_median(std::vector<Weighted> values) {
   std::ranges::sort(values, {}, &Weighted::value);
   double total = 0, sum = 0;
   for (const auto& v : values) total += v.count;
-  for (const auto& v : values)
-    if ((sum += v.count) >= total / 2) return v.value;
+  for (const auto& v : values) {
+    sum += v.count;
+    if (sum >= total / 2) return v.value;
+  }
   return no_value;
 }
 
