@@ -82,9 +82,7 @@ void WorkFolder::begin() const {
   const bool has_files = !fs::is_directory(folder_, ignored) || !fs::is_empty(folder_, ignored);
   // With the claim beside them they are ours: of a process that begins at this moment, or was lost on the way.
   if (has_files && !fs::exists(folder_ / beginning, ignored) && !holds_the_spec())
-    refuse_path(folder_, fs::exists(folder_ / spec_file, ignored)
-                             ? "holds a table of another spec; give a new folder with -o."
-                             : "holds other files; give a new or empty folder with -o.");
+    refuse_path(folder_, "holds other files; give a new or empty folder with -o.");
   const Claim alone = locked(folder_ / beginning, LOCK_EX);
   if (is_begun()) return;
   fs::create_directories(folder_ / wanted_.pieces, error);

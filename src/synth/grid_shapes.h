@@ -1,5 +1,7 @@
 // Virtual cells by a grid of a table: those whose moduli `rheocyte extract` reads back from the same grid.
 #pragma once
+#include <optional>
+
 #include "synth/cell_shapes.h"
 #include "table/stiffness_grid.h"
 
@@ -22,8 +24,10 @@ class GridShapes : public CellShapes {
   std::variant<CellShape, NoShape> at(double radius_um, double modulus_kPa) const;
   /// ln(deformation) of the smooth cell with this ln(kPa), or of the nearest one.
   double log_deformation(double log_modulus, double area_um2, const StiffnessGrid::Range& range) const;
-  /// Of a cell with this area and deformation.
-  Eigen::MatrixX2d outline_of(const CellShape&) const;
+  /// Of a cell with this area and deformation: the sum of the grid's modes, or one whose hull has what the grid says.
+  Eigen::MatrixX2d outline_of(const CellShape&, bool as_seen) const;
+  /// Finds area and deformation of the cell with this radius, from those of the shape on.
+  std::optional<NoShape> settle(double radius_um, double log_modulus, bool as_seen, CellShape& shape) const;
 
   StiffnessGrid grid_;
   ShapeGrid shapes_;

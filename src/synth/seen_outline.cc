@@ -11,6 +11,9 @@ namespace rheocyte {
 
 namespace {
 
+/// Enough for the modes; the polygon's area is then a ten thousandth too small.
+constexpr int coarse_points = 240;
+
 /// The sum of modes whose hull is looked for. Where a hull bridges a dent, the modes of the hull are others than those
 /// of the outline, and most of those that tables do not hold come from there: they are taken over from the hull.
 class SeenOutline {
@@ -24,7 +27,7 @@ class SeenOutline {
 
   /// Brings the modes nearer, and by those beyond, as far as they go, the deformation.
   void improve() {
-    const OutlineShape seen = look();
+    const OutlineShape seen = look(coarse_points);
     for (std::size_t k = 0; k < wanted_.size(); ++k) modes_[k] += wanted_[k] - seen.modes[k];
     double slope = 0;  // of the deformation over the common factor of the modes beyond: it is sum (k^2 - 1) c_k^2 / 4
     for (std::size_t k = wanted_.size(); k < modes_.size(); ++k)
@@ -36,15 +39,15 @@ class SeenOutline {
 
   /// Brings the deformation nearer by all modes alike.
   void scale() {
-    const double factor = std::sqrt(deformation_ / look().deformation);
+    const double factor = std::sqrt(deformation_ / look(outline_points).deformation);
     for (double& mode : modes_) mode *= factor;
   }
 
   Eigen::MatrixX2d outline() const { return outline_of_modes(modes_, area_, outline_points); }
 
  private:
-  OutlineShape look() {
-    const OutlineShape seen = outline_shape(outline());
+  OutlineShape look(int points) {
+    const OutlineShape seen = outline_shape(outline_of_modes(modes_, area_, points));
     area_ *= wanted_area_ / seen.area;
     return seen;
   }
