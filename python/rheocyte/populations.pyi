@@ -29,6 +29,6 @@ def plan(
     pixel_size_um: float = 0.34,
     temperature_C: float = 23,
     width_um: ArrayLike = (15, 20, 30),
-    medium: str | Sequence[str] = ...,
+    medium: str | Sequence[str] = ("0.49% MC-PBS", "0.83% MC-PBS"),
     rate_ul_s: ArrayLike = (),
 ) -> pandas.DataFrame: ...
