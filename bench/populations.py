@@ -153,8 +153,10 @@ def main():
     parser.add_argument("--program", default="build/rheocyte")
     parser.add_argument("--recordings", type=int, default=40)
     parser.add_argument("--cells", type=int, default=500)
-    parser.add_argument("--folder", help="for the recordings; default: a temporary one")
+    parser.add_argument("--folder", help="for the recordings, which are removed in the end; default: that of temporary files")
     arguments = parser.parse_args()
+    if arguments.folder:
+        os.makedirs(arguments.folder, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=arguments.folder) as folder:
         bench = Bench(os.path.abspath(arguments.program), Path(folder))
         if arguments.scenario in SCENARIOS:
