@@ -25,14 +25,9 @@ namespace fs = std::filesystem;
 PopulationEvents read(const fs::path& recording, const PopulationOptions& options) {
   check_is_there(recording);
   const StiffnessMeasure by = stiffness_measure_of(options);
-  const auto work = [&](const TellProgress& tell_progress) {
+  return read_contained(recording, options.measuring, options.quiet, [&](const TellProgress& tell_progress) {
     return read_population_events(recording, options.measuring, by, tell_progress);
-  };
-  Containment limits;
-  limits.patience_s = options.measuring.patience_s.value_or(default_patience_s);
-  auto done = run_contained(work, limits, FileProgress(one_line(recording.string(), 200), options.quiet));
-  if (!done.finished()) throw UserError(sentence_for(recording, done.end, limits.patience_s));
-  return std::move(done.result);
+  });
 }
 
 fs::path events_file(const fs::path& folder, const RecordingReport& r, const PopulationReport& report) {

@@ -25,14 +25,9 @@ namespace rheocyte {
 namespace {
 
 CourseEvents read(const RecordingTask& task, const TimeCourseOptions& options) {
-  const auto work = [&](const TellProgress& tell_progress) {
+  return read_contained(task.recording, options.measuring, options.batch.quiet, [&](const TellProgress& tell_progress) {
     return read_course_events(task.recording, options.measuring, tell_progress);
-  };
-  Containment limits;
-  limits.patience_s = options.measuring.patience_s.value_or(default_patience_s);
-  auto done = run_contained(work, limits, FileProgress(one_line(task.recording.string(), 200), options.batch.quiet));
-  if (!done.finished()) throw UserError(sentence_for(task.recording, done.end, limits.patience_s));
-  return std::move(done.result);
+  });
 }
 
 double contraction_of(const TimeCourseOptions& options, std::size_t recording, std::size_t recordings) {

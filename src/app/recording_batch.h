@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/exit_codes.h"
 #include "case/user_error.h"
+#include "extract/options.h"
 #include "extract/recording_list.h"
 #include "store/contained.h"
 #include "store/standard_error.h"
@@ -33,6 +35,18 @@ std::vector<RecordingTask> tasks_of(const BatchOptions& options);
 
 /// UserError if there is no such file: before anything is made for its results.
 void check_is_there(const std::filesystem::path& recording);
+
+/// What `read(tell_progress)` gives of a recording, in a process of its own. UserError with the reason if it gives
+/// nothing.
+template <class Read>
+auto read_contained(const std::filesystem::path& recording, const MeasuringOptions& measuring, bool quiet,
+                    const Read& read) {
+  Containment limits;
+  limits.patience_s = measuring.patience_s.value_or(default_patience_s);
+  auto done = run_contained(read, limits, FileProgress(one_line(recording.string(), 200), quiet));
+  if (!done.finished()) throw UserError(sentence_for(recording, done.end, limits.patience_s));
+  return std::move(done.result);
+}
 
 /// Runs a job on the recordings in turn and returns the exit code: of a failure, if there was any, else of a recording
 /// without any result. The job says by

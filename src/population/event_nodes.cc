@@ -7,6 +7,8 @@
 #include <mutex>
 #include <numbers>
 
+#include "shape/curve.h"
+
 namespace rheocyte {
 namespace {
 
@@ -18,37 +20,12 @@ constexpr double negligible = 16;
 /// ln of the ratio of a sphere's area and that of a deformed cell, halved: a start.
 constexpr double start_offset = 0.017;
 
-struct GaussRule {
-  std::vector<double> places, weights;  ///< on -1 .. 1
-};
-
-/// Gauss and Legendre's rule, by Newton's method on the polynomial.
-GaussRule gauss_rule(int count) {
-  GaussRule rule;
-  for (int i = 0; i < count; ++i) {
-    double x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5)), slope = 1;
-    for (int step = 0; step < 20; ++step) {
-      double before = 1, here = x;
-      for (int k = 2; k <= count; ++k) {
-        const double next = ((2 * k - 1) * x * here - (k - 1) * before) / k;
-        before = here;
-        here = next;
-      }
-      slope = count * (x * here - before) / (x * x - 1);
-      x -= here / slope;
-    }
-    rule.places.push_back(x);
-    rule.weights.push_back(2 / ((1 - x * x) * slope * slope));
-  }
-  return rule;
-}
-
-const GaussRule& shared_rule(int count) {
+const Quadrature& shared_rule(int count) {
   static std::mutex mutex;
-  static std::map<int, GaussRule> rules;
+  static std::map<int, Quadrature> rules;
   const std::lock_guard lock(mutex);
   auto found = rules.find(count);
-  if (found == rules.end()) found = rules.emplace(count, gauss_rule(count)).first;
+  if (found == rules.end()) found = rules.emplace(count, gauss_legendre(count)).first;
   return found->second;
 }
 
@@ -147,11 +124,11 @@ EventNodes::EventNodes(const ForwardMap& map, const SampleEvent& event, const Ce
   Window window{std::clamp(mean - reach, heights.lower, heights.upper - narrowest), 0};
   window.high = std::clamp(mean + reach, window.low + narrowest, heights.upper);
   for (int scan = 0; scan < 2; ++scan) window = narrowed(curve, cells, window);
-  const GaussRule& rule = shared_rule(nodes);
-  const double half = 0.5 * (window.high - window.low), middle = 0.5 * (window.high + window.low);
-  for (std::size_t k = 0; k < rule.places.size(); ++k) {
-    EventNode& node = nodes_.emplace_back(curve.at(middle + half * rule.places[k]));
-    node.log_weight += std::log(half * rule.weights[k]);
+  const Quadrature& rule = shared_rule(nodes);
+  const double width = window.high - window.low;
+  for (Eigen::Index k = 0; k < rule.points.size(); ++k) {
+    EventNode& node = nodes_.emplace_back(curve.at(window.low + width * rule.points(k)));
+    node.log_weight += std::log(width * rule.weights(k));
   }
 }
 
