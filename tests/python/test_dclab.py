@@ -103,32 +103,45 @@ def recorded(tmp_path_factory):
     return file
 
 
-# dclab takes half a second for each modulus from a text of ours: they are asked with the virtual cells alone.
-COMPARED = [*(pytest.param(*recording.values, table, id=f"{recording.id}-{table}")
-              for recording in WITH_EVENTS for table in dclab_parity.PUBLISHED),
-            *(pytest.param(None, table, id=f"virtual cells-{table}") for table in dclab_parity.tables())]
+@pytest.fixture(scope="module")
+def pooled(recorded):
+    """Recordings by the size of their pixels: dclab triangulates a table anew in each call, but asks each event on its own."""
+    by_pixel = {}
+    for path in [recorded, *(value for parameter in WITH_EVENTS for value in parameter.values)]:
+        if dclab_parity.has_events(path):
+            by_pixel.setdefault(dclab_parity.pixel_size(path), []).append(path)
+    return by_pixel
 
 
-def ways_to_measure(number):
-    """All ten with --all. Otherwise as many in turns that every recording, and the virtual cells with every three tables,
-    are measured in all ten ways: dclab triangulates a table anew for each."""
+def ways_to_measure(number, at_once):
+    """`at_once` of the ten in turns, all with --all."""
     ways = dclab_parity.MEASURED
-    return ways if "RHEOCYTE_ALL" in os.environ else [ways[(4 * number + i) % len(ways)] for i in range(4)]
+    return ways if "RHEOCYTE_ALL" in os.environ else [ways[(at_once * number + i) % len(ways)] for i in range(at_once)]
+
+
+def same_moduli(table, paths, pixel, ways):
+    area, deform = (np.concatenate(columns) for columns in zip(*map(dclab_parity.events, paths)))
+    for measured in ways:
+        ours = [dclab_parity.our_moduli(path, table, **measured) for path in paths]
+        same(np.concatenate(ours), dclab_parity.their_moduli(area, deform, pixel, table, **measured))
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("path, table, number", [pytest.param(*pair.values, number, id=pair.id)
-                                                 for number, pair in enumerate(COMPARED)])
-def test_moduli_of_recordings_are_those_of_dclab(path, table, number, recorded):
-    """In ten ways to measure, by published tables and by the texts of our own: the same events without a modulus, the
-    others equal to 1e-6. dclab_parity.py does the same with any recordings."""
-    path = path or recorded
-    if not dclab_parity.has_events(path):
-        pytest.skip(f"{path.name} holds no area or deformation")
-    seen = *dclab_parity.events(path), dclab_parity.pixel_size(path)
-    place = dclab_parity.tables()[table]
-    for measured in ways_to_measure(number):
-        same(dclab_parity.our_moduli(path, place, **measured), dclab_parity.their_moduli(*seen, place, **measured))
+@pytest.mark.parametrize("table", dclab_parity.PUBLISHED)
+def test_moduli_of_recordings_are_those_of_dclab(table, pooled):
+    """By published tables the same events without a modulus, the others equal to 1e-6. Every recording is measured in all
+    ten ways by some table. dclab_parity.py does the same with any recordings."""
+    for number, (pixel, paths) in enumerate(pooled.items()):
+        turn = len(dclab_parity.PUBLISHED) * number + dclab_parity.PUBLISHED.index(table)
+        same_moduli(table, paths, pixel, ways_to_measure(turn, 4))
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("number, table", enumerate(rheocyte.table_names()))
+def test_moduli_by_texts_of_our_tables_are_those_of_dclab(number, table, recorded):
+    """The same for virtual cells by the texts of our own; every five tables are asked in all ten ways."""
+    pixel = dclab_parity.pixel_size(recorded)
+    same_moduli(dclab_parity.tables()[table], [recorded], pixel, ways_to_measure(number, 2))
 
 
 @pytest.mark.parametrize("name", rheocyte.table_names())
