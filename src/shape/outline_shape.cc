@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "numeric/no_value.h"
@@ -190,10 +191,12 @@ Eigen::MatrixX2d outline_of_modes(const std::array<double, mode_count>& modes, d
   const double mean = std::sqrt(area / (std::numbers::pi * (1 + squares / 2)));
   Eigen::MatrixX2d outline(points, 2);
   for (int i = 0; i < points; ++i) {
-    const double theta = 2 * std::numbers::pi * i / points;
-    double r = 1;
-    for (int k = min_mode; k <= max_mode; ++k) r += modes[std::size_t(k - min_mode)] * std::cos(k * theta);
-    outline.row(i) << mean * r * std::cos(theta), mean * r * std::sin(theta);
+    const double theta = 2 * std::numbers::pi * i / points, cosine = std::cos(theta);
+    double sum = 0, before = 0;  // Clenshaw: cos(k theta) are the Chebyshev polynomials of cos(theta)
+    for (int k = max_mode; k > 0; --k)
+      before = std::exchange(sum, (k < min_mode ? 0 : modes[std::size_t(k - min_mode)]) + 2 * cosine * sum - before);
+    const double r = mean * (1 + cosine * sum - before);
+    outline.row(i) << r * cosine, r * std::sin(theta);
   }
   return outline;
 }
