@@ -127,12 +127,14 @@ void own_moduli_of_a_population(benchmark::State& state) {
 // As of elongated cells, half of them drawn out.
 void own_moduli_of_elongated_cells(benchmark::State& state) {
   static const Events all = population();
-  std::vector<double> mode_2, mode_3;
+  std::vector<double> mode_2, mode_3, mode_4, mode_5;
   const ShapeGrid& shapes = grid->shapes()->shapes();
   for (std::size_t i = 0; i < events; ++i) {
     const double log_area = std::log(all.area[i]);
     mode_2.push_back(shapes.mode(2, log_area, all.deformation[i]) + (i % 2 ? 0.1 : 0));
     mode_3.push_back(0.7 * shapes.mode(3, log_area, all.deformation[i]));
+    mode_4.push_back(shapes.mode(4, log_area, all.deformation[i]));
+    mode_5.push_back(shapes.mode(5, log_area, all.deformation[i]));
   }
   const std::vector<double> viscosity(events, 5.0);
   std::vector<double> modulus(events), error(events), other(events);
@@ -140,7 +142,7 @@ void own_moduli_of_elongated_cells(benchmark::State& state) {
   std::vector<ElongatedCell> cells(events);
   for (auto _ : state) {
     elongated->estimate({{20, 0.06}, 0.34}, {all.area, all.deformation, viscosity},
-                        {ElongatedBy::modes, mode_2, mode_3},
+                        {ElongatedBy::modes, mode_2, mode_3, mode_4, mode_5},
                         {{modulus, error, states}, other, other, other, other, cells});
     benchmark::DoNotOptimize(modulus.data());
   }

@@ -22,8 +22,9 @@ namespace {
 
 using namespace rheocyte;
 
-constexpr int second_mode = int(ShapeFeature::first_mode), third_mode = second_mode + 1,
-              deformation = int(ShapeFeature::deformation), moments = int(ShapeFeature::moment_ratio);
+constexpr int deformation = int(ShapeFeature::deformation), moments = int(ShapeFeature::moment_ratio);
+
+constexpr int place_of(int mode) { return int(ShapeFeature::first_mode) + mode - min_mode; }
 
 /// One shape in one size of pixels, as measured on average, and what pixels have added.
 struct Seen {
@@ -31,6 +32,7 @@ struct Seen {
   ShapeVector features;
   ShapeErrors errors;
 
+  double mode(int k) const { return features(place_of(k)); }
   double inertia_ratio() const { return 1 / std::sqrt(features(moments)); }
   double inertia_excess() const { return inertia_ratio() - 1 / std::sqrt(features(moments) - errors.bias(moments)); }
   /// d(inertia ratio) / d(moment ratio)
@@ -60,33 +62,58 @@ double correlation(const Seen& seen, int one, int other) {
   return seen.errors.covariance(one, other) / (seen.deviation(one) * seen.deviation(other));
 }
 
-/// A number of a shape, and the terms of its law; all in units of s^2, so that large and small cells count alike.
+/// A number of a shape, and the terms of its law; in units of s^2, so that large and small cells count alike, and by
+/// its weight.
 struct Law {
   const char* name;
   std::function<double(const Seen&)> number;
   std::function<std::vector<double>(const Seen&)> terms;
+  std::function<double(const Seen&)> weight = [](const Seen&) { return 1.0; };
 };
 
-/// Powers of two numbers from (0, 0) to (2, 2), those of s running fastest.
-std::vector<double> products(double x, double y, double s) {
+/// Powers of two numbers up to these, those of s, 0 and 1, running fastest.
+std::vector<double> products(double x, int most_x, double y, int most_y, double s) {
   std::vector<double> terms;
-  for (const double a : {1.0, x, x * x})
-    for (const double b : {1.0, y, y * y})
-      for (const double c : {1.0, s}) terms.push_back(a * b * c);
+  for (int i = 0; i <= most_x; ++i)
+    for (int j = 0; j <= most_y; ++j)
+      for (const double c : {1.0, s}) terms.push_back(std::pow(x, i) * std::pow(y, j) * c);
   return terms;
+}
+
+/// A number that stays as it is when the cell is turned about, and one that changes its sign.
+std::vector<double> even_terms(const Seen& seen) {
+  auto terms = products(seen.mode(2), 2, std::abs(seen.mode(3)), 2, seen.s);
+  for (const double term : products(seen.mode(2), 1, std::abs(seen.mode(3)), 1, seen.s))
+    terms.push_back(seen.mode(4) * term);
+  return terms;
+}
+std::vector<double> odd_terms(const Seen& seen) {
+  auto terms = products(seen.mode(2), 2, std::abs(seen.mode(3)), 3, seen.s);
+  for (double& term : terms) term *= seen.mode(3);
+  for (const double term : products(seen.mode(2), 1, std::abs(seen.mode(3)), 1, seen.s))
+    terms.push_back(seen.mode(5) * term);
+  return terms;
+}
+std::vector<double> terms_by_inertia(const Seen& seen) {
+  return products(seen.features(deformation), 2, seen.inertia_ratio() - 1, 2, seen.s);
+}
+std::vector<double> deviation_terms(const Seen& seen) {
+  const double second = seen.mode(2), third = std::abs(seen.mode(3));
+  return {1, third, second, third * third, second * second, third * second, seen.s};
 }
 
 void fit(const Law& law, const std::vector<Seen>& all) {
   const auto terms = Eigen::Index(law.terms(all.front()).size());
   Eigen::MatrixXd matrix(std::ssize(all), terms);
-  Eigen::VectorXd wanted(std::ssize(all));
+  Eigen::VectorXd wanted(std::ssize(all)), weights(std::ssize(all));
   for (Eigen::Index k = 0; k < std::ssize(all); ++k) {
     const Seen& seen = all[std::size_t(k)];
     const auto row = law.terms(seen);
     matrix.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), terms);
     wanted(k) = law.number(seen) / (seen.s * seen.s);
+    weights(k) = law.weight(seen);
   }
-  const Eigen::VectorXd found = least_squares(matrix, wanted);
+  const Eigen::VectorXd found = least_squares(weights.asDiagonal() * matrix, weights.asDiagonal() * wanted);
   std::vector<double> left, before;
   const Eigen::VectorXd rest = wanted - matrix * found;
   for (Eigen::Index k = 0; k < rest.size(); ++k)
@@ -94,8 +121,40 @@ void fit(const Law& law, const std::vector<Seen>& all) {
   fmt::print("{}{{", law.name);
   for (Eigen::Index i = 0; i < terms; ++i) fmt::print("{}{:.5g}", i ? ", " : "", found(i));
   fmt::print("}};\n");
-  fmt::print(stderr, "{}: {:.3g} ({:.3g}) s^2, with the law {:.3g} ({:.3g}); median (95 %)\n", law.name,
-             quantile(before, 0.5), quantile(before, 0.95), quantile(left, 0.5), quantile(left, 0.95));
+  fmt::print(stderr, "{}: {:.3g} ({:.3g}) s^2, with the law {:.3g} ({:.3g}, root mean square {:.3g}); median (95 %)\n",
+             law.name, quantile(before, 0.5), quantile(before, 0.95), quantile(left, 0.5), quantile(left, 0.95),
+             std::sqrt(rest.squaredNorm() / double(rest.size())));
+}
+
+std::vector<Law> laws() {
+  const auto bias = [](int mode) { return [mode](const Seen& seen) { return seen.errors.bias(place_of(mode)); }; };
+  const auto scatter = [](int mode) { return [mode](const Seen& seen) { return seen.deviation(place_of(mode)); }; };
+  // Of moduli the relative error counts: they are as the inverse of the third mode.
+  const auto by_asymmetry = [](const Seen& seen) { return 1 / (std::abs(seen.mode(3)) + 0.01); };
+  const auto by_deformation = [](const Seen& seen) { return 1 / (seen.features(deformation) + 0.01); };
+  const auto bias_of_deformation = [](const Seen& seen) { return seen.errors.bias(deformation); };
+  const auto scatter_of_deformation = [](const Seen& seen) { return seen.deviation(deformation); };
+  return {
+      {"mode_2_law", bias(2), even_terms},
+      {"mode_3_law", bias(3), odd_terms, by_asymmetry},
+      {"mode_4_law", bias(4), even_terms},
+      {"mode_5_law", bias(5), odd_terms, by_asymmetry},
+      {"deformation_by_modes", bias_of_deformation, even_terms, by_deformation},
+      {"inertia_by_modes", &Seen::inertia_excess, even_terms},
+      {"mode_2_deviation", scatter(2), deviation_terms},
+      {"mode_3_deviation", scatter(3), deviation_terms},
+      {"mode_4_deviation", scatter(4), deviation_terms},
+      {"mode_5_deviation", scatter(5), deviation_terms},
+      {"mode_correlation",
+       [](const Seen& seen) { return correlation(seen, place_of(2), place_of(3)) * seen.s * seen.s; }, even_terms},
+      {"long_deformation_law", bias_of_deformation, terms_by_inertia},
+      {"inertia_law", &Seen::inertia_excess, terms_by_inertia},
+      {"long_deformation_deviation", scatter_of_deformation, deviation_terms},
+      {"inertia_deviation", [](const Seen& seen) { return std::abs(seen.inertia_slope()) * seen.deviation(moments); },
+       deviation_terms},
+      {"inertia_correlation",
+       [](const Seen& seen) { return -correlation(seen, deformation, moments) * seen.s * seen.s; }, terms_by_inertia},
+  };
 }
 
 }  // namespace
@@ -103,37 +162,8 @@ void fit(const Law& law, const std::vector<Seen>& all) {
 int rheocyte::measure(int argc, char** argv) {
   if (argc < 2) return fmt::print("mode_errors DIR [SHAPES [PLACES]]\n"), 2;
   const TableSpec spec = read_table_spec(std::string(argv[1]) + "/spec.toml");
-  const auto all = look_at_shapes(bare_branches(TableFolder(argv[1], spec)), argc > 2 ? std::atoi(argv[2]) : 2000,
-                                  argc > 3 ? std::atoi(argv[3]) : 100);
-  const auto by_modes = [](const Seen& seen) {
-    return products(seen.features(second_mode), std::abs(seen.features(third_mode)), seen.s);
-  };
-  const auto by_mode_3 = [&](const Seen& seen) {
-    auto terms = by_modes(seen);
-    for (double& term : terms) term *= seen.features(third_mode);
-    return terms;
-  };
-  const auto by_inertia = [](const Seen& seen) {
-    return products(seen.features(deformation), seen.inertia_ratio() - 1, seen.s);
-  };
-  const auto linear = [](const Seen& seen) {
-    return std::vector{1.0, std::abs(seen.features(third_mode)), seen.features(second_mode)};
-  };
-  for (const Law& law : {
-           Law{"mode_2_law", [](const Seen& seen) { return seen.errors.bias(second_mode); }, by_modes},
-           Law{"mode_3_law", [](const Seen& seen) { return seen.errors.bias(third_mode); }, by_mode_3},
-           Law{"mode_2_deviation", [](const Seen& seen) { return seen.deviation(second_mode); }, linear},
-           Law{"mode_3_deviation", [](const Seen& seen) { return seen.deviation(third_mode); }, linear},
-           Law{"long_deformation_law", [](const Seen& seen) { return seen.errors.bias(deformation); }, by_inertia},
-           Law{"inertia_law", &Seen::inertia_excess, by_inertia},
-           Law{"long_deformation_deviation", [](const Seen& seen) { return seen.deviation(deformation); }, linear},
-           Law{"inertia_deviation",
-               [](const Seen& seen) { return std::abs(seen.inertia_slope()) * seen.deviation(moments); }, linear},
-           Law{"mode_correlation",
-               [](const Seen& seen) { return correlation(seen, second_mode, third_mode) * seen.s * seen.s; }, by_modes},
-           Law{"inertia_correlation",
-               [](const Seen& seen) { return -correlation(seen, deformation, moments) * seen.s * seen.s; }, by_inertia},
-       })
-    fit(law, all);
+  const auto all = look_at_shapes(bare_branches(TableFolder(argv[1], spec)), argc > 2 ? std::atoi(argv[2]) : 5000,
+                                  argc > 3 ? std::atoi(argv[3]) : 300);
+  for (const Law& law : laws()) fit(law, all);
   return 0;
 }

@@ -30,7 +30,7 @@ rate_ul_per_s = 0.04
 viscosity_mPas = 15
 {tension}
 [cell]
-radius_um = {{mean = {radius}, sd = {radius_sd}}}
+radius_um = {{mean = {radius}, sd = {radius_sd}, distribution = "lognormal"}}
 [cell.bulk]
 young_modulus_kPa = {{mean = {modulus}, sd = {modulus_sd}, distribution = "lognormal"}}
 {shapes}

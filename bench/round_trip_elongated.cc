@@ -68,8 +68,8 @@ struct Score {
 void take(const ElongatedLiquid& solids, double exponent, ElongatedBy by, const std::vector<ShapeVector>& seen,
           double truth, Score& score) {
   const std::size_t n = seen.size();
-  std::vector<double> area, deformation, first, second, viscosity(n, viscosity_mPas), modulus(n), error(n),
-      elongation(n), elongation_error(n), tension(n), tension_error(n), told;
+  std::vector<double> area, deformation, first, second, fourth, fifth, viscosity(n, viscosity_mPas), modulus(n),
+      error(n), elongation(n), elongation_error(n), tension(n), tension_error(n), told;
   std::vector<ModulusState> states(n);
   std::vector<ElongatedCell> cells(n);
   for (const ShapeVector& v : seen) {
@@ -78,8 +78,11 @@ void take(const ElongatedLiquid& solids, double exponent, ElongatedBy by, const 
     const int mode_2 = int(ShapeFeature::first_mode);
     first.push_back(by == ElongatedBy::modes ? v(mode_2) : 1 / std::sqrt(v(2)));
     second.push_back(by == ElongatedBy::modes ? v(mode_2 + 1) : v(1));
+    fourth.push_back(v(mode_2 + 2));
+    fifth.push_back(v(mode_2 + 3));
   }
-  solids.estimate({{20, 0.04, 0, exponent}, pixel_um}, {area, deformation, viscosity}, {by, first, second},
+  solids.estimate({{20, 0.04, 0, exponent}, pixel_um}, {area, deformation, viscosity},
+                  {by, first, second, fourth, fifth},
                   {{modulus, error, states}, elongation, elongation_error, tension, tension_error, cells});
   for (std::size_t i = 0; i < n; ++i) {
     ++score.seen;

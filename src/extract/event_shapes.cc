@@ -113,8 +113,9 @@ void EventShapes::compute(std::size_t first, const MeasuredEvents& events, Shape
   }
   if (const auto by = elongated_by()) {
     c.elongation.assign(count);
-    const ElongatedShapes shapes = by == ElongatedBy::modes ? ElongatedShapes{*by, c.mode_2, c.mode_3}
-                                                            : ElongatedShapes{*by, c.inertia_ratio, events.deformation};
+    const ElongatedShapes shapes = by == ElongatedBy::modes
+                                       ? ElongatedShapes{*by, c.mode_2, c.mode_3, c.mode_4, c.mode_5}
+                                       : ElongatedShapes{*by, c.inertia_ratio, events.deformation};
     tables_.elongated->estimate(conditions_, events, shapes, c.elongation.estimates());
     if (by == ElongatedBy::modes) compare_with_solids(c);
   }

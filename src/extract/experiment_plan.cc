@@ -53,7 +53,7 @@ class PlannedCells {
     if (u_ < radii.lower || u_ > radii.upper || x < 0 || x > map_->heights().upper) return;
     const SolidFeatures seen = maps_.seen(maps_.cell(options_.mode_2, u_, x));
     channel_.deformation = seen.deformation;
-    channel_.mode_3 = seen.mode_3;
+    channel_.mode_3 = seen.modes.mode_3;
     channel_.error_by_asymmetry = event_error(*map_, u_, log_modulus_);
     const SolidMaps round(liquid_, channel_.flow, options_.pixel_size_um, StiffnessMeasure::deformation);
     const auto by_deformation = round.at(0);

@@ -186,20 +186,20 @@ class Fits {
   /// With the solids of the table that comes with the program.
   void compare(std::span<const ShapeVector> seen) {
     constexpr int mode_2 = int(ShapeFeature::first_mode);
-    std::vector<double> area, deformation, ratio, second, third;
+    std::vector<double> area, deformation, ratio;
+    std::array<std::vector<double>, 4> modes;  // from c_2 on
     for (std::size_t i = 0; i < seen.size(); ++i) {
       area.push_back(std::exp(seen[i](0)));
       deformation.push_back(seen[i](1));
       ratio.push_back(events_.is_inside(i) ? 1 / std::sqrt(seen[i](2)) : no_value);
-      second.push_back(seen[i](mode_2));
-      third.push_back(seen[i](mode_2 + 1));
+      for (std::size_t k = 0; k < modes.size(); ++k) modes[k].push_back(seen[i](mode_2 + int(k)));
     }
     excess_.assign(seen.size(), {no_value, no_value, no_value, no_value});
     solids_values_.assign(seen.size());
     const MeasuredEvents events{area, deformation, events_.viscosity_mPas()};
     if (shapes_of_solids_) shapes_of_solids_->compare(conditions(), events, ratio, excess_);
     if (elongated_solids_)
-      elongated_solids_->estimate(conditions(), events, {ElongatedBy::modes, second, third},
+      elongated_solids_->estimate(conditions(), events, {ElongatedBy::modes, modes[0], modes[1], modes[2], modes[3]},
                                   solids_values_.estimates());
   }
 

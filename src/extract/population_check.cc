@@ -31,77 +31,32 @@ using CheckedValues = std::array<double, checked_measures>;
 
 constexpr std::array<const char*, checked_measures> checked_names{"ln A", "d", "inertia ratio", "c3", "c4", "c5"};
 
-/// How radius and stiffness go with the elongation, of which the fit assumes nothing: lines through the posterior means
-/// of the cells, as steep as these were without the noise, and what of the spreads is left about them.
-class GoingWithElongation {
- public:
-  GoingWithElongation(const PopulationSample& sample, const FittedCells& fitted) : cells_(fitted.cells) {
-    double count = 0, mean_u = 0, mean_e = 0;
-    each(sample, fitted, [&](double n, double w, const ShrunkenCell& cell) {
-      count += n, mean_ += n * w, mean_u += n * cell.log_radius, mean_e += n * cell.log_modulus;
-    });
-    mean_ /= count, mean_u /= count, mean_e /= count;
-    double ww = 0, uw = 0, ew = 0, uu = 0, ee = 0;
-    each(sample, fitted, [&](double n, double w, const ShrunkenCell& cell) {
-      const double x = w - mean_, u = cell.log_radius - mean_u, e = cell.log_modulus - mean_e;
-      ww += n * x * x, uw += n * u * x, ew += n * e * x, uu += n * u * u, ee += n * e * e;
-    });
-    if (!(ww > 0)) return;
-    const double deviation = std::sqrt(ww / count);
-    const auto line = [&](double sum, double seen, double spread) {
-      const double steepest = most_explained * spread / deviation;
-      return std::clamp(sum / ww * spread * spread / std::max(seen / count, least_seen * spread * spread), -steepest,
-                        steepest);
-    };
-    u_ = line(uw, uu, cells_.radius_spread);
-    e_ = line(ew, ee, cells_.modulus_spread);
-    variance_ = ww / count;
-  }
-
-  DrawnCell draw(double elongation, CellRandom& random) const {
-    const double su = cells_.radius_spread, se = cells_.modulus_spread, off = elongation - mean_;
-    const double uu = su * su - u_ * u_ * variance_, ee = se * se - e_ * e_ * variance_,
-                 ue = cells_.correlation * su * se - u_ * e_ * variance_;
-    const double a = std::sqrt(uu), b = ue / a, c = std::sqrt(std::max(ee - b * b, 0.0));
-    const double first = random.normal(), second = random.normal();
-    return {cells_.mean_log_radius + u_ * off + a * first, cells_.mean_log_modulus + e_ * off + b * first + c * second};
-  }
-
- private:
-  /// Of a spread at most by the elongation, and of the variance of posterior means at least by what is seen.
-  static constexpr double most_explained = 0.95, least_seen = 0.1;
-
-  template <class Take>
-  static void each(const PopulationSample& sample, const FittedCells& fitted, const Take& take) {
-    std::size_t k = 0;
-    for (std::size_t g = 0; g < sample.sample.groups.size(); ++g)
-      for (const SampleEvent& event : sample.sample.groups[g].events)
-        take(event.count, sample.group_elongation[g], fitted.shrunken[k++]);
-  }
-
-  CellDistribution cells_;
-  double mean_ = 0, variance_ = 0, u_ = 0, e_ = 0;
-};
-
 /// A cell of the fitted population, seen with the elongation and the viscosity of an event.
 class DrawnPopulation {
  public:
   DrawnPopulation(const PopulationEvents& events, const PopulationSample& sample, const FittedCells& fitted,
                   PopulationMaps& maps)
-      : events_(events), sample_(sample), cells_(sample, fitted), maps_(maps), solids_(maps.solids(events)) {}
+      : events_(events), sample_(sample), law_(fitted.law), maps_(maps), solids_(maps.solids(events)) {}
 
   /// False if no such cell passes the gates.
   bool draw(std::size_t event, CellRandom& random, CheckedValues& values) {
     const double elongation = sample_.elongation_of_event[event];
     const auto map = maps_.map(events_, elongation);
     const SampleGates& gates = gates_for(elongation);
+    const auto [mean, unit] = sample_.elongation;
+    const CellDistribution cells = law_.at(unit * (elongation - mean));
     for (int k = 0; k < most_tries; ++k) {
-      DrawnCell cell = cells_.draw(elongation, random);
+      DrawnCell cell = drawn_cell(cells, random);
       cell.log_modulus -= std::log(events_.of(SeenMeasure::viscosity_mPas)[event]);
       const SeenValues seen = seen_values(*map, cell, random);
       const double height = cell.log_modulus - map->soft_end(cell.log_radius).log_modulus;
       if (height < 0 || !gates.pass(seen.log_area, seen.measure)) continue;
       add_features(solids_.cell(elongation, cell.log_radius, height), seen, random, values);
+      // The map is that of a class of elongations, the event has its own: i = (1 + c_2) / (1 - c_2).
+      const bool by_modes = maps_.by() == StiffnessMeasure::asymmetry;
+      const double off =
+          maps_.by() == StiffnessMeasure::deformation ? 0 : elongation_measure(events_, maps_.by())[event] - elongation;
+      values[checked_inertia] += by_modes ? 2 * off / std::pow(1 - elongation, 2) : off;
       return true;
     }
     return false;
@@ -120,9 +75,8 @@ class DrawnPopulation {
   void add_features(const SolidMaps::Cell& cell, const SeenValues& seen, CellRandom& random,
                     CheckedValues& values) const {
     const SolidFeatures f = solids_.seen(cell);
-    const double log_area_px = f.log_area - 2 * std::log(events_.pixel_size_um);
-    const double mode_deviation = mode_errors(log_area_px, f.mode_2, f.mode_3).mode_3.deviation;
-    constexpr int mode_4 = number_of(ElongatedMeasure::mode_3) + 1;
+    const double log_area_px = f.log_area - 2 * std::log(events_.pixel_size_um), mode_3 = f.modes.mode_3;
+    const ModeErrors errors = mode_errors(log_area_px, f.modes);
     values[checked_area] = seen.log_area;
     // The cell has the measured elongation with its noise, which the inertia ratio shares.
     values[checked_inertia] = f.inertia_ratio;
@@ -131,18 +85,18 @@ class DrawnPopulation {
       const double of_other_modes = inertia_errors(log_area_px, 0, 1).deformation_deviation;
       values[checked_mode_3] = seen.measure;
       values[checked_deformation] =
-          f.deformation + 4 * f.mode_3 * (seen.measure - f.mode_3) + of_other_modes * random.normal();
+          f.deformation + 4 * mode_3 * (seen.measure - mode_3) + of_other_modes * random.normal();
     } else {
-      values[checked_mode_3] = f.mode_3 + mode_deviation * random.normal();
+      values[checked_mode_3] = mode_3 + errors.mode_3.deviation * random.normal();
       values[checked_deformation] = seen.measure;
     }
-    values[checked_mode_4] = cell.state.value(mode_4) + mode_deviation * random.normal();
-    values[checked_mode_5] = cell.state.value(mode_4 + 1) + mode_deviation * random.normal();
+    values[checked_mode_4] = f.modes.mode_4 + errors.mode_4.deviation * random.normal();
+    values[checked_mode_5] = f.modes.mode_5 + errors.mode_5.deviation * random.normal();
   }
 
   const PopulationEvents& events_;
   const PopulationSample& sample_;
-  GoingWithElongation cells_;
+  const CellLaw& law_;
   PopulationMaps& maps_;
   const SolidMaps& solids_;
 };

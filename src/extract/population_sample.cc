@@ -16,7 +16,7 @@ namespace {
 /// Widths of the classes of elongation, less than half of its noise; of binned events, whose noise they add to little.
 constexpr double mode_class = 0.002, inertia_class = 0.004, binned_class_factor = 5;
 /// Classes of events that have nearly the same chance to pass the gates.
-constexpr std::size_t kept_classes = 4;
+constexpr std::size_t kept_classes = 8;
 /// In standard deviations of the noise: so far from the table's rim its gates are.
 constexpr double from_rim = 3;
 /// More events are counted in bins, finer ones if there are very many.
@@ -90,6 +90,7 @@ class SampleMaker {
     for (std::size_t k = 0; k < classes; ++k)
       take_class(order_.size() * k / classes, order_.size() * (k + 1) / classes);
     if (made_.is_binned) bin();
+    count_elongations_from_their_mean();
     return std::move(made_);
   }
 
@@ -112,7 +113,7 @@ class SampleMaker {
 
   /// Events of nearly one elongation: gates of their own.
   void take_class(std::size_t first, std::size_t last) {
-    double mean = 0, log_viscosity = 0, count = 0;
+    double mean = 0, log_viscosity = 0, count = 0, kept_mean = 0, kept_square = 0;
     for (std::size_t k = first; k < last; ++k) mean += elongation(order_[k]) / double(last - first);
     const auto middle = maps_.map(events_, mean);
     SampleGates gates = gates_of_map(*middle);
@@ -125,13 +126,17 @@ class SampleMaker {
         continue;
       }
       ++count;
+      kept_mean += elongation(i);
+      kept_square += elongation(i) * elongation(i);
       log_viscosity += event.log_viscosity;
       group_of(elongation(i)).events.push_back(event);
       made_.events.push_back(i);
       made_.elongation_of_event[i] = group_elongation_;
     }
     if (count == 0) return;
-    made_.sample.kept.push_back({middle, gates, log_viscosity / count, count});
+    kept_mean /= count;
+    made_.sample.kept.push_back({middle, gates, log_viscosity / count, count, kept_mean,
+                                 std::max(kept_square / count - kept_mean * kept_mean, 0.0)});
     made_.class_elongation.push_back(mean);
   }
 
@@ -149,6 +154,23 @@ class SampleMaker {
       made_.group_elongation.push_back(middle);
     }
     return made_.sample.groups.back();
+  }
+
+  /// In standard deviations of all events that are left; as measured, 0 if they are all alike.
+  void count_elongations_from_their_mean() {
+    double count = 0, mean = 0, variance = 0;
+    for (const KeptClass& kept : made_.sample.kept) count += kept.count, mean += kept.count * kept.elongation;
+    mean /= count;
+    for (const KeptClass& kept : made_.sample.kept)
+      variance += kept.count / count * (std::pow(kept.elongation - mean, 2) + kept.elongation_variance);
+    const double unit = variance > 0 ? 1 / std::sqrt(variance) : 0;
+    for (KeptClass& kept : made_.sample.kept) {
+      kept.elongation = unit * (kept.elongation - mean);
+      kept.elongation_variance *= unit * unit;
+    }
+    for (std::size_t g = 0; g < made_.sample.groups.size(); ++g)
+      made_.sample.groups[g].elongation = unit * (made_.group_elongation[g] - mean);
+    made_.elongation = {mean, unit};
   }
 
   void bin() {

@@ -50,7 +50,11 @@ struct PopulationSample {
   std::vector<double> elongation_of_event;
   std::vector<double> class_elongation;  ///< of the classes in sample.kept
   std::vector<double> group_elongation;  ///< of the groups in sample.groups
-  std::size_t beside_table = 0;          ///< events whose measured values the table does not have, or too nearly so
+  /// Those of the sample are unit * (measured - mean).
+  struct {
+    double mean = 0, unit = 0;
+  } elongation;
+  std::size_t beside_table = 0;  ///< events whose measured values the table does not have, or too nearly so
   bool is_binned = false;
 };
 

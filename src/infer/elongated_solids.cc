@@ -58,11 +58,11 @@ struct Smooth {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-Smooth smooth_modes(const SmoothEvents& events, Eigen::Index k, double pixel_size_um, double mode_2, double mode_3) {
-  Smooth smooth{{events.log_area[k], mode_2, mode_3}};
+Smooth smooth_modes(const SmoothEvents& events, Eigen::Index k, double pixel_size_um, const OutlineModes& modes) {
+  Smooth smooth{{events.log_area[k], modes.mode_2, modes.mode_3}};
   smooth.covariance(0, 0) = std::pow(events.area_deviation[k], 2);
   if (!(pixel_size_um > 0)) return smooth;
-  const ModeErrors pixels = mode_errors(events.log_measured_area[k] - 2 * std::log(pixel_size_um), mode_2, mode_3);
+  const ModeErrors pixels = mode_errors(events.log_measured_area[k] - 2 * std::log(pixel_size_um), modes);
   smooth.seen(1) -= pixels.mode_2.excess;
   smooth.seen(2) -= pixels.mode_3.excess;
   smooth.covariance(1, 1) = std::pow(pixels.mode_2.deviation, 2);
@@ -154,6 +154,9 @@ void ElongatedSolids::estimate(const MeasuringConditions& conditions, const Meas
                                const ElongatedShapes& shapes, const ElongatedEstimates& estimates) const {
   const std::size_t all = estimates.moduli.modulus_kPa.size();
   assert(events.size.size() == all && shapes.first.size() == all && shapes.second.size() == all);
+  const bool by_modes = shapes.by == ElongatedBy::modes;
+  assert(!by_modes || !(conditions.pixel_size_um > 0) || (shapes.mode_4.size() == all && shapes.mode_5.size() == all));
+  const auto next_mode = [](std::span<const double> modes, std::size_t i) { return modes.empty() ? 0 : modes[i]; };
   const double per_mPas =
       scale_factors(origin().flow, {conditions.flow.width_um, conditions.flow.rate_ul_s, 1}).modulus;
   SmoothEvents smooth;
@@ -165,9 +168,11 @@ void ElongatedSolids::estimate(const MeasuringConditions& conditions, const Meas
                   smooth);
     for (std::size_t i = first; i < first + count; ++i) {
       const auto k = Eigen::Index(i - first);
-      const Smooth seen = shapes.by == ElongatedBy::modes
-                              ? smooth_modes(smooth, k, conditions.pixel_size_um, shapes.first[i], shapes.second[i])
-                              : smooth_inertia(smooth, k, conditions.pixel_size_um, shapes.first[i], shapes.second[i]);
+      const Smooth seen =
+          by_modes ? smooth_modes(
+                         smooth, k, conditions.pixel_size_um,
+                         {shapes.first[i], shapes.second[i], next_mode(shapes.mode_4, i), next_mode(shapes.mode_5, i)})
+                   : smooth_inertia(smooth, k, conditions.pixel_size_um, shapes.first[i], shapes.second[i]);
       const double viscosity = events.viscosity_mPas[i];
       const Found found = find(std::isfinite(viscosity) ? seen.seen : Eigen::Vector3d::Constant(no_value), shapes.by);
       const Estimate e = estimate_of(found, seen.covariance, per_mPas * viscosity, table_.error());

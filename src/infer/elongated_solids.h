@@ -16,10 +16,11 @@ namespace rheocyte {
 enum class ElongatedBy { modes, inertia };
 
 /// One value per event, spans of one length, as measured: c_2 and c_3 of a cell that moves towards +x, or the inertia
-/// ratio and the deformation.
+/// ratio and the deformation. Of the next modes, c_4 and c_5, depends what pixels do to the first ones.
 struct ElongatedShapes {
   ElongatedBy by;
   std::span<const double> first, second;
+  std::span<const double> mode_4 = {}, mode_5 = {};  ///< by modes and through pixels
 };
 
 /// One value per event, spans of one length; NaN without a modulus.

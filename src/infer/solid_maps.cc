@@ -40,8 +40,11 @@ using NodeNumbers = Eigen::Array<double, SheetNumber::count, 1>;
 SolidFeatures features_of(const ElongatedState& s, double length_factor) {
   const auto value = [&](ElongatedMeasure m) { return s.value(number_of(m)); };
   using enum ElongatedMeasure;
-  return {s.log_area() + 2 * std::log(length_factor), value(deformation), value(inertia_ratio), value(mode_2),
-          value(mode_3)};
+  constexpr int second = number_of(mode_2);
+  return {s.log_area() + 2 * std::log(length_factor),
+          value(deformation),
+          value(inertia_ratio),
+          {s.value(second), s.value(second + 1), s.value(second + 2), s.value(second + 3)}};
 }
 
 /// Noise of (ln A, elongation, measure) at measured values; symmetric.
@@ -57,7 +60,7 @@ Eigen::Matrix3d noise_of(const SolidFeatures& seen, StiffnessMeasure by, double 
   };
   switch (by) {
     case StiffnessMeasure::asymmetry: {
-      const ModeErrors modes = mode_errors(log_area_px, seen.mode_2, seen.mode_3);
+      const ModeErrors modes = mode_errors(log_area_px, seen.modes);
       set(modes.mode_2.deviation, modes.mode_3.deviation, modes.correlation);
       break;
     }
@@ -74,10 +77,10 @@ Eigen::Matrix3d noise_of(const SolidFeatures& seen, StiffnessMeasure by, double 
 }
 
 double elongation_of(const SolidFeatures& f, StiffnessMeasure by) {
-  return by == StiffnessMeasure::odd_deformation ? f.inertia_ratio : f.mode_2;
+  return by == StiffnessMeasure::odd_deformation ? f.inertia_ratio : f.modes.mode_2;
 }
 double measure_of(const SolidFeatures& f, StiffnessMeasure by) {
-  return by == StiffnessMeasure::asymmetry ? f.mode_3 : f.deformation;
+  return by == StiffnessMeasure::asymmetry ? f.modes.mode_3 : f.deformation;
 }
 
 }  // namespace
@@ -89,13 +92,15 @@ SolidFeatures through_pixels(const SolidFeatures& smooth, StiffnessMeasure by, d
   for (int step = 0; step < inversion_steps; ++step) {
     const double log_area_px = seen.log_area - log_pixel_area;
     const PixelErrors pixels = pixel_errors(log_area_px, seen.deformation);
-    const ModeErrors modes = mode_errors(log_area_px, seen.mode_2, seen.mode_3);
-    const InertiaErrors inertia = inertia_errors(log_area_px, seen.deformation, seen.inertia_ratio);
+    const ModeErrors errors = mode_errors(log_area_px, seen.modes);
     const double deformation_excess =
-        by == StiffnessMeasure::deformation ? pixels.deformation_excess : inertia.deformation_excess;
-    seen = {smooth.log_area - std::log(pixels.area_factor), smooth.deformation + deformation_excess,
-            smooth.inertia_ratio + inertia.inertia_excess, smooth.mode_2 + modes.mode_2.excess,
-            smooth.mode_3 + modes.mode_3.excess};
+        by == StiffnessMeasure::deformation ? pixels.deformation_excess : errors.deformation_excess;
+    const OutlineModes& modes = smooth.modes;
+    seen = {smooth.log_area - std::log(pixels.area_factor),
+            smooth.deformation + deformation_excess,
+            smooth.inertia_ratio + errors.inertia_excess,
+            {modes.mode_2 + errors.mode_2.excess, modes.mode_3 + errors.mode_3.excess,
+             modes.mode_4 + errors.mode_4.excess, modes.mode_5 + errors.mode_5.excess}};
   }
   return seen;
 }

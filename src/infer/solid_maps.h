@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "infer/elongated_liquid.h"
+#include "measurement/pixel_errors.h"
 #include "population/forward_map.h"
 
 namespace rheocyte {
@@ -16,7 +17,8 @@ enum class StiffnessMeasure { asymmetry, odd_deformation, deformation };
 
 /// Features of an outline without pixels, and through pixels on average.
 struct SolidFeatures {
-  double log_area = 0, deformation = 0, inertia_ratio = 0, mode_2 = 0, mode_3 = 0;
+  double log_area = 0, deformation = 0, inertia_ratio = 0;
+  OutlineModes modes;
 };
 
 /// On average; area and deformation as the measure's law has them.

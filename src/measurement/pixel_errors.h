@@ -40,19 +40,26 @@ struct PixelErrorLaws {
 };
 PixelErrorLaws pixel_error_laws();
 
-/// For the second and third mode of the outline's radius (docs/theory-extract.md, eq:mode-errors).
+/// The first modes c_k of an outline's radius.
+struct OutlineModes {
+  double mode_2 = 0, mode_3 = 0, mode_4 = 0, mode_5 = 0;
+};
+
+/// For these modes and what goes with them (docs/theory-extract.md, eq:mode-errors).
 struct ModeErrors {
   struct OfMode {
     double excess;     ///< measured - that of the smooth contour
     double deviation;  ///< standard deviation of the measured one
   };
-  OfMode mode_2, mode_3;
-  double correlation;  ///< of the scatter of both
+  OfMode mode_2, mode_3, mode_4, mode_5;
+  double correlation;                         ///< of the scatter of c_2 and c_3
+  double deformation_excess, inertia_excess;  ///< measured - those of the smooth contour
 };
 
-/// By the natural logarithm of the measured area in pixels and the measured c_2 and c_3. Pixels make the ends of an
-/// elongated cell more alike: they take away the more of c_3 the greater c_2 is.
-ModeErrors mode_errors(double log_area_px, double mode_2, double mode_3);
+/// By the natural logarithm of the measured area in pixels and the measured modes. Pixels make the ends of an elongated
+/// cell more alike: they take away the more of c_3 the greater c_2 is. They lie in four directions, so that c_4 counts
+/// with c_2 and with the deformation, c_5 with c_3.
+ModeErrors mode_errors(double log_area_px, const OutlineModes& modes);
 
 /// For the deformation and the inertia ratio of an elongated cell, whose deformation pixels change in another way than
 /// a round one's (docs/theory-extract.md, eq:inertia-errors).

@@ -33,9 +33,39 @@ struct CellDistribution {
   }
 };
 
+/// The mean goes with the elongation of a cell: the longer ones of a recording are the softer ones, if one tension
+/// draws them all out. What is searched for: the parameters of the cells of elongation 0, and both slopes of the mean.
+inline constexpr int law_parameters = population_parameters + 2;
+using LawVector = Eigen::Matrix<double, law_parameters, 1>;
+using LawMatrix = Eigen::Matrix<double, law_parameters, law_parameters>;
+
+struct CellLaw {
+  CellDistribution usual;                      ///< at elongation 0
+  double radius_slope = 0, modulus_slope = 0;  ///< of the means of ln r0 and ln E by the elongation of a sample
+
+  static CellLaw of(const LawVector& q) {
+    return {CellDistribution::of(q.head<population_parameters>()), q(population_parameters),
+            q(population_parameters + 1)};
+  }
+  LawVector parameters() const { return (LawVector() << usual.parameters(), radius_slope, modulus_slope).finished(); }
+
+  CellDistribution at(double elongation) const {
+    CellDistribution cells = usual;
+    cells.mean_log_radius += radius_slope * elongation;
+    cells.mean_log_modulus += modulus_slope * elongation;
+    return cells;
+  }
+  /// Slopes by the parameters of the law from those by the parameters of its cells at an elongation.
+  static LawVector score(const ParameterVector& of_cells, double elongation) {
+    return (LawVector() << of_cells, elongation * of_cells(0), elongation * of_cells(1)).finished();
+  }
+  /// Cells of all elongations together, with this mean and variance of the elongation.
+  CellDistribution population(double mean, double variance) const;
+};
+
 /// Between which the parameters are searched; the means within what the sample's maps can have.
 struct ParameterBounds {
-  ParameterVector least, greatest;
+  LawVector least, greatest;
 };
 
 }  // namespace rheocyte

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double least_radius_spread = 0.003, greatest_radius_spread = 1, least_modulus_spread = 0.01,
                  greatest_modulus_spread = 1.5, greatest_artanh = 2.5;
+/// Of the mean of ln r0 and ln E, by a standard deviation of the elongation.
+constexpr double steepest = 1;
 /// Nodes are placed anew until no parameter moves more than this share of its standard error.
 constexpr double settled_share = 0.1;
 constexpr int most_placings = 6;
@@ -75,16 +77,17 @@ struct Start {
     return low;
   }
   double log_modulus(double height) const { return map->soft_end(u).log_modulus + height + log_viscosity; }
-  CellDistribution cells() const { return {u, log_modulus(std::max(x, 0.02)), spread, 0.2, 0}; }
+  CellLaw law() const { return {{u, log_modulus(std::max(x, 0.02)), spread, 0.2, 0}}; }
 
-  ParameterBounds bounds() const {
+  ParameterBounds bounds(bool is_of_one_elongation) const {
     const auto radii = map->log_radii();
     const auto heights = map->heights();
+    const double slope = is_of_one_elongation ? 0 : steepest;
     ParameterBounds bounds;
     bounds.least << radii.lower, log_modulus(heights.lower - 1), std::log(least_radius_spread),
-        std::log(least_modulus_spread), -greatest_artanh;
+        std::log(least_modulus_spread), -greatest_artanh, -slope, -slope;
     bounds.greatest << radii.upper, log_modulus(heights.upper), std::log(greatest_radius_spread),
-        std::log(greatest_modulus_spread), greatest_artanh;
+        std::log(greatest_modulus_spread), greatest_artanh, slope, slope;
     return bounds;
   }
 
@@ -97,20 +100,21 @@ class CellFit {
   CellFit(const Sample& sample, const FitSettings& settings)
       : settings_(settings),
         start_(sample),
-        bounds_(start_.bounds()),
+        bounds_(start_.bounds(sample.is_of_one_elongation())),
+        events_(sample.events()),
         likelihood_(sample, settings.threads, settings.nodes) {}
 
   FittedCells fit() {
     FittedCells fitted;
-    if (!climb(start_.cells().parameters())) return fitted;
-    fitted.cells = CellDistribution::of(best_.q);
+    if (!climb(start_.law().parameters())) return fitted;
+    fitted.law = CellLaw::of(best_.q);
+    fitted.cells = CellDistribution::of(population(best_.q));
     fitted.log_likelihood = best_.log_likelihood;
-    fitted.at_bound = best_.at_bound;
-    fitted.kept_share = likelihood_.kept_share(fitted.cells);
+    std::copy_n(best_.at_bound.begin(), population_parameters, fitted.at_bound.begin());
+    fitted.kept_share = likelihood_.kept_share(fitted.law);
     fitted.event_error = error_of_image();
     fitted.state = state(fitted);
-    if (settings_.with_shrunken && fitted.state == FitState::fitted)
-      fitted.shrunken = likelihood_.shrunken(fitted.cells);
+    if (settings_.with_shrunken && fitted.state == FitState::fitted) fitted.shrunken = likelihood_.shrunken(fitted.law);
     if (fitted.state == FitState::fitted) tell_intervals(fitted);
     if (fitted.state == FitState::too_stiff) fitted.least_log_modulus = least_log_modulus();
     return fitted;
@@ -118,12 +122,12 @@ class CellFit {
 
  private:
   /// To the maximum, with nodes that are placed for it.
-  bool climb(ParameterVector q, const HeldParameters& held = {}) {
+  bool climb(LawVector q, const HeldParameters& held = {}) {
     for (int round = 0; round < most_placings; ++round) {
-      likelihood_.place(CellDistribution::of(q));
+      likelihood_.place(CellLaw::of(q));
       const LikelihoodMaximum found = maximise(likelihood_, q, bounds_, held);
       if (!found.is_found) return false;
-      const ParameterVector steps = difference_steps(likelihood_.at(found.q).products);
+      const LawVector steps = difference_steps(likelihood_.at(found.q).products);
       const double moved = ((found.q - q).cwiseAbs().array() / (10 * steps.array())).maxCoeff();
       q = found.q;
       best_ = found;
@@ -135,36 +139,66 @@ class CellFit {
   double error_of_image() const {
     const auto radii = start_.map->log_radii();
     const auto heights = start_.map->heights();
-    const double u = std::clamp(best_.q(0), radii.lower, radii.upper), end = start_.map->soft_end(u).log_modulus;
-    const double x = std::clamp(best_.q(1) - start_.log_viscosity - end, heights.lower, heights.upper);
+    const ParameterVector cells = population(best_.q);
+    const double u = std::clamp(cells(0), radii.lower, radii.upper), end = start_.map->soft_end(u).log_modulus;
+    const double x = std::clamp(cells(1) - start_.log_viscosity - end, heights.lower, heights.upper);
     return event_error(*start_.map, u, end + x);
   }
 
   FitState state(FittedCells& fitted) const {
     if (start_.measure < start_.noise) return FitState::too_stiff;
     if (fitted.kept_share < least_kept) return FitState::tail;
-    const ParameterMatrix information =
-        likelihood_.information(best_.q, difference_steps(likelihood_.at(best_.q).products));
-    return invert(information, fitted) ? FitState::fitted : FitState::singular;
+    const LawVector steps = difference_steps(likelihood_.at(best_.q).products);
+    const auto covariance = inverse(likelihood_.information(best_.q, steps), best_.at_bound);
+    if (!covariance) return FitState::singular;
+    fitted.covariance = covariance_of_population(*covariance, steps);
+    for (int k = 0; k < population_parameters; ++k)
+      if (fitted.at_bound[std::size_t(k)]) fitted.covariance.row(k).setZero(), fitted.covariance.col(k).setZero();
+    return FitState::fitted;
   }
 
-  /// Of the parameters that are at no bound.
-  static bool invert(const ParameterMatrix& information, FittedCells& fitted) {
+  /// Of cells of all elongations together.
+  ParameterVector population(const LawVector& q) const {
+    const CellLaw law = CellLaw::of(q);
+    const auto [mean, variance] = likelihood_.elongations(law);
+    return law.population(mean, variance).parameters();
+  }
+
+  /// From that of the law's parameters, by differences; of the elongations of n events the mean is known to
+  /// variance / n, the variance to 2 variance^2 / n.
+  ParameterMatrix covariance_of_population(const LawMatrix& of_law, const LawVector& steps) const {
+    Eigen::Matrix<double, population_parameters, law_parameters> slopes;
+    for (int k = 0; k < law_parameters; ++k) {
+      const LawVector step = steps(k) * LawVector::Unit(k);
+      slopes.col(k) = (population(best_.q + step) - population(best_.q - step)) / (2 * steps(k));
+    }
+    const CellLaw law = CellLaw::of(best_.q);
+    const auto [mean, variance] = likelihood_.elongations(law);
+    const double off_mean = std::sqrt(variance / events_), off_variance = variance * std::sqrt(2 / events_);
+    const ParameterVector usual = law.population(mean, variance).parameters(),
+                          by_mean = law.population(mean + off_mean, variance).parameters() - usual,
+                          by_variance = law.population(mean, variance + off_variance).parameters() - usual;
+    return slopes * of_law * slopes.transpose() + by_mean * by_mean.transpose() + by_variance * by_variance.transpose();
+  }
+
+  /// Of the parameters that are at no bound; 0 of the others. Nothing if the information is singular.
+  static std::optional<LawMatrix> inverse(const LawMatrix& information,
+                                          const std::array<bool, law_parameters>& at_bound) {
     std::vector<int> free;
-    for (int k = 0; k < population_parameters; ++k)
-      if (!fitted.at_bound[std::size_t(k)]) free.push_back(k);
+    for (int k = 0; k < law_parameters; ++k)
+      if (!at_bound[std::size_t(k)]) free.push_back(k);
     const Eigen::Index n = Eigen::Index(free.size());
-    if (n == 0) return false;
+    if (n == 0) return {};
     Eigen::MatrixXd part(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j) part(i, j) = information(free[std::size_t(i)], free[std::size_t(j)]);
     const Eigen::MatrixXd white = whitening(part);
-    if (white.size() == 0 || !white.allFinite()) return false;
+    if (white.size() == 0 || !white.allFinite()) return {};
     const Eigen::MatrixXd covariance = white.transpose() * white;
+    LawMatrix all = LawMatrix::Zero();
     for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j < n; ++j)
-        fitted.covariance(free[std::size_t(i)], free[std::size_t(j)]) = covariance(i, j);
-    return true;
+      for (Eigen::Index j = 0; j < n; ++j) all(free[std::size_t(i)], free[std::size_t(j)]) = covariance(i, j);
+    return all;
   }
 
   void tell_intervals(FittedCells& fitted) {
@@ -174,8 +208,8 @@ class CellFit {
       auto& interval = fitted.intervals[std::size_t(k)];
       interval = {no_value, no_value};
       if (fitted.at_bound[std::size_t(k)]) continue;
-      const double error = std::sqrt(fitted.covariance(k, k));
-      interval = {maximum.q(k) - z * error, maximum.q(k) + z * error};
+      const double error = std::sqrt(fitted.covariance(k, k)), middle = fitted.cells.parameters()(k);
+      interval = {middle - z * error, middle + z * error};
       if (!wants_profile(k, fitted)) continue;
       interval = {profile_end(maximum, k, -error, z), profile_end(maximum, k, error, z), true};
     }
@@ -188,11 +222,12 @@ class CellFit {
            fitted.cells.modulus_spread < least_share_of_error * fitted.event_error;
   }
 
-  /// Where ln L, at its greatest over the other parameters, is lower by z^2 / 2. NaN if there is no such place.
+  /// Where ln L, at its greatest over the other parameters, is lower by z^2 / 2, the parameter of the population. NaN
+  /// if there is no such place.
   double profile_end(const LikelihoodMaximum& maximum, int k, double error, double z) {
     HeldParameters held{};
     held[std::size_t(k)] = true;
-    ParameterVector q = maximum.q;
+    LawVector q = maximum.q;
     double offset = z * error;
     for (int step = 0; step < profile_steps; ++step) {
       q(k) = maximum.q(k) + offset;
@@ -202,10 +237,11 @@ class CellFit {
       // The root of the likelihood ratio is nearly linear in the parameter.
       const double root = std::sqrt(2 * std::max(maximum.log_likelihood - best_.log_likelihood, 0.0));
       const double next = offset * std::clamp(z / root, 0.5, 2.0);
-      if (std::abs(next - offset) < profile_tolerance * std::abs(error)) return maximum.q(k) + next;
+      const bool is_settled = std::abs(next - offset) < profile_tolerance * std::abs(error);
+      if (is_settled) break;
       offset = next;
     }
-    return maximum.q(k) + offset;
+    return population(best_.q)(k);
   }
 
   std::optional<double> least_log_modulus() {
@@ -222,6 +258,7 @@ class CellFit {
   FitSettings settings_;
   Start start_;
   ParameterBounds bounds_;
+  double events_;
   PopulationLikelihood likelihood_;
   LikelihoodMaximum best_;
 };

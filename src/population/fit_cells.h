@@ -30,8 +30,9 @@ struct ParameterInterval {
 
 struct FittedCells {
   FitState state = FitState::not_found;
-  CellDistribution cells;
-  ParameterMatrix covariance = ParameterMatrix::Zero();  ///< of the parameters
+  CellLaw law;                                           ///< as the mean goes with the elongation
+  CellDistribution cells;                                ///< of all elongations together
+  ParameterMatrix covariance = ParameterMatrix::Zero();  ///< of their parameters
   std::array<ParameterInterval, population_parameters> intervals{};
   std::array<bool, population_parameters> at_bound{};  ///< such a parameter has no interval
   double log_likelihood = 0, kept_share = 1;

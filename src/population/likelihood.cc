@@ -38,45 +38,51 @@ PopulationLikelihood::PopulationLikelihood(const Sample& sample, int threads, in
 
 std::size_t PopulationLikelihood::blocks() const { return (places_.size() + events_per_block - 1) / events_per_block; }
 
-void PopulationLikelihood::place(const CellDistribution& cells) {
+void PopulationLikelihood::place(const CellLaw& law) {
   const std::array added{sample_.added_area_variance, sample_.added_measure_variance};
   std::vector<std::vector<EventNodes>> of_blocks(blocks());
   in_threads(of_blocks.size(), threads_, [&](std::size_t block) {
     const std::size_t first = block * events_per_block, last = std::min(first + events_per_block, places_.size());
     of_blocks[block].reserve(last - first);
     for (std::size_t i = first; i < last; ++i)
-      of_blocks[block].emplace_back(*places_[i].group->map, *places_[i].event, cells, added, node_count_);
+      of_blocks[block].emplace_back(*places_[i].group->map, *places_[i].event, law.at(places_[i].group->elongation),
+                                    added, node_count_);
   });
   nodes_.clear();
   nodes_.reserve(places_.size());
   for (auto& block : of_blocks) std::ranges::move(block, std::back_inserter(nodes_));
 }
 
-PopulationLikelihood::Value PopulationLikelihood::value_of_block(std::size_t block, const CellDistribution& cells,
+PopulationLikelihood::Value PopulationLikelihood::value_of_block(std::size_t block, const CellLaw& law,
                                                                  bool with_score) const {
   Value sum;
   const std::size_t first = block * events_per_block, last = std::min(first + events_per_block, places_.size());
   for (std::size_t i = first; i < last; ++i) {
-    const double count = places_[i].event->count;
-    const EventAnswer answer = nodes_[i].answer(cells, with_score);
+    const double count = places_[i].event->count, elongation = places_[i].group->elongation;
+    const EventAnswer answer = nodes_[i].answer(law.at(elongation), with_score);
     sum.log_likelihood += count * answer.log_likelihood;
     if (!with_score) continue;
-    sum.score += count * answer.score;
-    sum.products.noalias() += count * answer.score * answer.score.transpose();
+    const LawVector score = CellLaw::score(answer.score, elongation);
+    sum.score += count * score;
+    sum.products.noalias() += count * score * score.transpose();
   }
   return sum;
 }
 
-PopulationLikelihood::Value PopulationLikelihood::value(const ParameterVector& q, bool with_score) const {
-  const CellDistribution cells = CellDistribution::of(q);
+CellDistribution PopulationLikelihood::cells_of(std::size_t kept_class, const CellLaw& law) const {
+  return law.at(sample_.kept[kept_class].elongation);
+}
+
+PopulationLikelihood::Value PopulationLikelihood::value(const LawVector& q, bool with_score) const {
+  const CellLaw law = CellLaw::of(q);
   const std::size_t of_events = blocks();
   std::vector<Value> values(of_events);
   std::vector<KeptShare::Answer> shares(kept_.size());
   in_threads(of_events + kept_.size(), threads_, [&](std::size_t k) {
     if (k < kept_.size())
-      shares[k] = kept_[k].answer(cells, with_score);
+      shares[k] = kept_[k].answer(cells_of(k, law), with_score);
     else
-      values[k - kept_.size()] = value_of_block(k - kept_.size(), cells, with_score);
+      values[k - kept_.size()] = value_of_block(k - kept_.size(), law, with_score);
   });
   Value all;
   for (const Value& v : values) {
@@ -84,23 +90,23 @@ PopulationLikelihood::Value PopulationLikelihood::value(const ParameterVector& q
     all.score += v.score;
     all.products += v.products;
   }
-  ParameterVector by_gates = ParameterVector::Zero();
+  LawVector by_gates = LawVector::Zero();
   for (std::size_t k = 0; k < shares.size(); ++k) {
     all.log_likelihood -= sample_.kept[k].count * std::log(shares[k].share);
-    by_gates += sample_.kept[k].count * shares[k].score;
+    by_gates += sample_.kept[k].count * CellLaw::score(shares[k].score, sample_.kept[k].elongation);
   }
-  const ParameterVector each = by_gates / events_;
+  const LawVector each = by_gates / events_;
   all.products += -all.score * each.transpose() - each * all.score.transpose() + events_ * each * each.transpose();
   all.score -= by_gates;
   return all;
 }
 
-PopulationLikelihood::Value PopulationLikelihood::at(const ParameterVector& q) const { return value(q, true); }
+PopulationLikelihood::Value PopulationLikelihood::at(const LawVector& q) const { return value(q, true); }
 
-ParameterMatrix PopulationLikelihood::information(const ParameterVector& q, const ParameterVector& steps) const {
-  ParameterMatrix information;
-  for (int k = 0; k < population_parameters; ++k) {
-    ParameterVector ahead = q, behind = q;
+LawMatrix PopulationLikelihood::information(const LawVector& q, const LawVector& steps) const {
+  LawMatrix information;
+  for (int k = 0; k < law_parameters; ++k) {
+    LawVector ahead = q, behind = q;
     ahead(k) += steps(k);
     behind(k) -= steps(k);
     information.col(k) = (at(behind).score - at(ahead).score) / (2 * steps(k));
@@ -108,20 +114,34 @@ ParameterMatrix PopulationLikelihood::information(const ParameterVector& q, cons
   return (information + information.transpose()) / 2;
 }
 
-double PopulationLikelihood::kept_share(const CellDistribution& cells) const {
+double PopulationLikelihood::kept_share(const CellLaw& law) const {
   double sum = 0, count = 0;
   for (std::size_t k = 0; k < kept_.size(); ++k) {
-    sum += sample_.kept[k].count * std::log(kept_[k].answer(cells, false).share);
+    sum += sample_.kept[k].count * std::log(kept_[k].answer(cells_of(k, law), false).share);
     count += sample_.kept[k].count;
   }
   return count > 0 ? std::exp(sum / count) : 1;
 }
 
-std::vector<ShrunkenCell> PopulationLikelihood::shrunken(const CellDistribution& cells) const {
+PopulationLikelihood::Elongations PopulationLikelihood::elongations(const CellLaw& law) const {
+  double count = 0, sum = 0, squares = 0;
+  for (std::size_t k = 0; k < kept_.size(); ++k) {
+    const KeptClass& kept = sample_.kept[k];
+    const double before = kept.count / kept_[k].answer(cells_of(k, law), false).share;
+    count += before;
+    sum += before * kept.elongation;
+    squares += before * (kept.elongation * kept.elongation + kept.elongation_variance);
+  }
+  if (!(count > 0)) return {};
+  const double mean = sum / count;
+  return {mean, squares / count - mean * mean};
+}
+
+std::vector<ShrunkenCell> PopulationLikelihood::shrunken(const CellLaw& law) const {
   std::vector<ShrunkenCell> all(nodes_.size());
   in_threads(blocks(), threads_, [&](std::size_t block) {
     const std::size_t first = block * events_per_block, last = std::min(first + events_per_block, nodes_.size());
-    for (std::size_t i = first; i < last; ++i) all[i] = nodes_[i].shrunken(cells);
+    for (std::size_t i = first; i < last; ++i) all[i] = nodes_[i].shrunken(law.at(places_[i].group->elongation));
   });
   return all;
 }

@@ -14,30 +14,37 @@ class PopulationLikelihood {
   PopulationLikelihood(const Sample& sample, int threads, int nodes = usual_nodes);
 
   /// Places the nodes of all events, where they stay for all values until the next call; to be called first.
-  void place(const CellDistribution& cells);
+  void place(const CellLaw& law);
 
   struct Value {
     double log_likelihood = 0;
-    ParameterVector score = ParameterVector::Zero();
-    ParameterMatrix products = ParameterMatrix::Zero();  ///< sum of the outer products of the events' scores
+    LawVector score = LawVector::Zero();
+    LawMatrix products = LawMatrix::Zero();  ///< sum of the outer products of the events' scores
   };
-  Value at(const ParameterVector& q) const;
-  double log_likelihood(const ParameterVector& q) const { return value(q, false).log_likelihood; }
+  Value at(const LawVector& q) const;
+  double log_likelihood(const LawVector& q) const { return value(q, false).log_likelihood; }
   /// The observed information: central differences of the score, over these steps.
-  ParameterMatrix information(const ParameterVector& q, const ParameterVector& steps) const;
+  LawMatrix information(const LawVector& q, const LawVector& steps) const;
 
   /// Of all events together.
-  double kept_share(const CellDistribution& cells) const;
+  double kept_share(const CellLaw& law) const;
+  /// Mean and variance of the elongation before the gates, which may keep more of the short cells than of the long
+  /// ones.
+  struct Elongations {
+    double mean = 0, variance = 0;
+  };
+  Elongations elongations(const CellLaw& law) const;
   /// In the order of the sample's groups and their events.
-  std::vector<ShrunkenCell> shrunken(const CellDistribution& cells) const;
+  std::vector<ShrunkenCell> shrunken(const CellLaw& law) const;
 
  private:
   struct Place {
     const EventGroup* group;
     const SampleEvent* event;
   };
-  Value value(const ParameterVector& q, bool with_score) const;
-  Value value_of_block(std::size_t block, const CellDistribution& cells, bool with_score) const;
+  CellDistribution cells_of(std::size_t kept_class, const CellLaw& law) const;
+  Value value(const LawVector& q, bool with_score) const;
+  Value value_of_block(std::size_t block, const CellLaw& law, bool with_score) const;
   std::size_t blocks() const;
 
   const Sample& sample_;

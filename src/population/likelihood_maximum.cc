@@ -21,14 +21,13 @@ constexpr double least_curvature = 1e-6;
 /// The parameters that move.
 std::vector<int> free_ones(const LikelihoodMaximum& at, const HeldParameters& held) {
   std::vector<int> free;
-  for (int k = 0; k < population_parameters; ++k)
+  for (int k = 0; k < law_parameters; ++k)
     if (!held[std::size_t(k)] && !at.at_bound[std::size_t(k)]) free.push_back(k);
   return free;
 }
 
 /// Empty if the curvature is not positive.
-Eigen::VectorXd newton_step(const ParameterMatrix& curvature, const ParameterVector& score,
-                            const std::vector<int>& free) {
+Eigen::VectorXd newton_step(const LawMatrix& curvature, const LawVector& score, const std::vector<int>& free) {
   const Eigen::Index n = Eigen::Index(free.size());
   Eigen::MatrixXd part(n, n);
   Eigen::VectorXd slope(n);
@@ -42,19 +41,20 @@ Eigen::VectorXd newton_step(const ParameterMatrix& curvature, const ParameterVec
   return white.transpose() * (white * slope);
 }
 
-void mark_bounds(LikelihoodMaximum& at, const ParameterVector& score, const ParameterBounds& bounds) {
-  for (int k = 0; k < population_parameters; ++k)
-    at.at_bound[std::size_t(k)] =
-        (at.q(k) >= bounds.greatest(k) && score(k) > 0) || (at.q(k) <= bounds.least(k) && score(k) < 0);
+void mark_bounds(LikelihoodMaximum& at, const LawVector& score, const ParameterBounds& bounds) {
+  for (int k = 0; k < law_parameters; ++k)
+    at.at_bound[std::size_t(k)] = bounds.least(k) >= bounds.greatest(k) ||  // it has no choice
+                                  (at.q(k) >= bounds.greatest(k) && score(k) > 0) ||
+                                  (at.q(k) <= bounds.least(k) && score(k) < 0);
 }
 
 }  // namespace
 
-ParameterVector difference_steps(const ParameterMatrix& products) {
+LawVector difference_steps(const LawMatrix& products) {
   return 0.1 * products.diagonal().cwiseMax(1).cwiseSqrt().cwiseInverse();
 }
 
-LikelihoodMaximum maximise(const PopulationLikelihood& likelihood, const ParameterVector& start,
+LikelihoodMaximum maximise(const PopulationLikelihood& likelihood, const LawVector& start,
                            const ParameterBounds& bounds, const HeldParameters& held) {
   LikelihoodMaximum at;
   at.q = start.cwiseMax(bounds.least).cwiseMin(bounds.greatest);
@@ -76,7 +76,7 @@ LikelihoodMaximum maximise(const PopulationLikelihood& likelihood, const Paramet
     step *= std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
     bool is_better = false;
     for (int halving = 0; halving < most_halvings && !is_better; ++halving, step /= 2) {
-      ParameterVector next = at.q;
+      LawVector next = at.q;
       for (std::size_t i = 0; i < free.size(); ++i) next(free[i]) += step(Eigen::Index(i));
       next = next.cwiseMax(bounds.least).cwiseMin(bounds.greatest);
       is_better = likelihood.log_likelihood(next) > at.log_likelihood;

@@ -20,6 +20,10 @@ double Sample::events() const {
   return sum;
 }
 
+bool Sample::is_of_one_elongation() const {
+  return std::ranges::all_of(groups, [&](const EventGroup& g) { return g.elongation == groups.front().elongation; });
+}
+
 std::size_t Sample::bins() const {
   std::size_t sum = 0;
   for (const auto& group : groups) sum += group.events.size();

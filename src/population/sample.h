@@ -43,6 +43,7 @@ struct SampleEvent {
 struct EventGroup {
   std::shared_ptr<const ForwardMap> map;
   std::vector<SampleEvent> events;
+  double elongation = 0;  ///< from the mean of the sample, in its standard deviations
 };
 
 /// Events that have nearly the same chance to pass the gates, for cells of equal radius and modulus.
@@ -51,6 +52,7 @@ struct KeptClass {
   SampleGates gates;
   double log_viscosity = 0;
   double count = 0;
+  double elongation = 0, elongation_variance = 0;  ///< mean and variance of its events', as those of groups
 };
 
 struct Sample {
@@ -61,6 +63,8 @@ struct Sample {
 
   double events() const;
   std::size_t bins() const;
+  /// Whether all events have one elongation.
+  bool is_of_one_elongation() const;
 };
 
 }  // namespace rheocyte

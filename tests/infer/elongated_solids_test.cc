@@ -25,8 +25,9 @@ class Elongated : public testing::Test {
   Told told(ElongatedBy by, double area, double first, double second,
             const MeasuringConditions& conditions = {{20, 0.04}, 0}, double viscosity = 15) const {
     Told t;
-    const double deformation = by == ElongatedBy::modes ? 0.02 : second;
-    solids_.estimate(conditions, {{&area, 1}, {&deformation, 1}, {&viscosity, 1}}, {by, {&first, 1}, {&second, 1}},
+    const double deformation = by == ElongatedBy::modes ? 0.02 : second, none = 0;  // of the next modes
+    solids_.estimate(conditions, {{&area, 1}, {&deformation, 1}, {&viscosity, 1}},
+                     {by, {&first, 1}, {&second, 1}, {&none, 1}, {&none, 1}},
                      {{{&t.modulus, 1}, {&t.error, 1}, {&t.state, 1}},
                       {&t.elongation, 1},
                       {&t.elongation_error, 1},
@@ -83,7 +84,7 @@ TEST_F(Elongated, OutsideTheTableTheReasonIsNamed) {
 TEST_F(Elongated, TheErrorIsThatOfThePixelsThroughTheTable) {
   const InventedElongated cell{6.3, 0.15, 2};
   const double log_area_px = std::log(cell.area_um2() / (0.34 * 0.34));
-  const ModeErrors pixels = mode_errors(log_area_px, cell.mode_2(), cell.mode_3());
+  const ModeErrors pixels = mode_errors(log_area_px, {cell.mode_2(), cell.mode_3()});
   const Told t = told(ElongatedBy::modes, cell.area_um2(), cell.mode_2(), cell.mode_3(), {{20, 0.04}, 0.34});
   // E goes about as 1 / c_3, and as c_2 by the 0.9 / 0.75 with which a long cell leaves the flow less to do.
   const double expected = std::hypot(pixels.mode_3.deviation / cell.mode_3(), 1.4 * pixels.mode_2.deviation);

@@ -26,10 +26,14 @@ struct Trials {
   int count = 0;
   ParameterVector sum = ParameterVector::Zero(), squares = ParameterVector::Zero(), covered = ParameterVector::Zero();
 
-  Trials(const CellDistribution& cells, int events, int trials, const SampleGates& gates) {
+  Trials(const CellDistribution& cells, int events, int trials, const SampleGates& gates)
+      : Trials(cells, trials, [&](std::uint64_t seed) { return drawn_sample(cells, events, seed, gates); }) {}
+
+  template <class Draw>
+  Trials(const CellDistribution& cells, int trials, const Draw& draw) {
     const ParameterVector truth = cells.parameters();
     for (int k = 0; k < trials; ++k) {
-      const FittedCells fitted = fit_cells(drawn_sample(cells, events, std::uint64_t(100 + k), gates), two_threads());
+      const FittedCells fitted = fit_cells(draw(std::uint64_t(100 + k)), two_threads());
       EXPECT_EQ(fitted.state, FitState::fitted);
       ++count;
       for (int i = 0; i < population_parameters; ++i) {
@@ -64,6 +68,20 @@ TEST(FitCells, GatesThatKeepHalfTheCellsLeaveNoBias) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(t.bias(i), 0, 4 * t.error(i) + (i > 1 ? 0.006 : 0)) << i;
   const FittedCells fitted = fit_cells(drawn_sample(usual_cells(), 400, 1, gates), two_threads());
   EXPECT_NEAR(fitted.kept_share, 0.5, 0.15);
+}
+
+/// Long cells are softer and larger, and many of the soft ones do not pass: what is left of these is no sample of all.
+TEST(FitCells, CellsWhoseMeanGoesWithTheirElongationAreFoundAlsoThroughGates) {
+  const CellLaw law{usual_cells(), 0.03, -0.15};
+  constexpr double variance = 0.8198;  // of the elongations that drawn_long_sample has
+  const CellDistribution all = law.population(0, variance);
+  SampleGates gates = whole_map();
+  gates.greatest_measure = 0.042;  // a third of the cells is beyond it
+  const Trials t(all, 30, [&](std::uint64_t seed) { return test::drawn_long_sample(law, 500, seed, gates); });
+  for (int i = 0; i < population_parameters; ++i) {
+    EXPECT_NEAR(t.bias(i), 0, 4 * t.error(i) + (i > 1 ? 0.006 : 0)) << i;
+    EXPECT_NEAR(t.cover(i), 0.9, 0.19) << i;
+  }
 }
 
 TEST(FitCells, StiffCellsThatLookRounderThanASphereAreNotLost) {

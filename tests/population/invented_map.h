@@ -70,4 +70,34 @@ inline Sample drawn_sample(const CellDistribution& cells, int events, std::uint6
   return sample;
 }
 
+/// The same of cells of 17 elongations, normally distributed about 0 with a standard deviation of 1 and no further than
+/// 2, with which the cells' mean goes; the longer ones have a map of their own.
+inline Sample drawn_long_sample(const CellLaw& law, int events, std::uint64_t seed, const SampleGates& gates) {
+  constexpr int farthest = 8;
+  constexpr double step = 0.25;
+  const double log_viscosity = std::log(2.0);
+  Sample sample;
+  for (int g = -farthest; g <= farthest; ++g) {
+    sample.groups.push_back({std::make_shared<InventedMap>(0.02 * step * g), {}, step * g});
+    sample.kept.push_back({sample.groups.back().map, gates, log_viscosity, 0, step * g});
+  }
+  int drawn = 0;
+  for (std::uint64_t k = 0; drawn < events; ++k) {
+    CellRandom random(seed, k, Purpose::population);
+    const int g = int(std::lround(random.normal() / step));
+    if (std::abs(g) > farthest) continue;
+    const auto place = std::size_t(g + farthest);
+    DrawnCell cell = drawn_cell(law.at(step * g), random);
+    cell.log_modulus -= log_viscosity;
+    const SeenValues seen = seen_values(*sample.groups[place].map, cell, random);
+    if (!gates.pass(seen.log_area, seen.measure)) continue;
+    sample.groups[place].events.push_back({seen.log_area, seen.measure, log_viscosity});
+    sample.kept[place].count += 1;
+    ++drawn;
+  }
+  std::erase_if(sample.groups, [](const EventGroup& group) { return group.events.empty(); });
+  std::erase_if(sample.kept, [](const KeptClass& kept) { return kept.count == 0; });
+  return sample;
+}
+
 }  // namespace rheocyte::test

@@ -14,6 +14,7 @@
 namespace rheocyte::likelihood_test {
 namespace {
 
+using test::drawn_long_sample;
 using test::drawn_sample;
 using test::InventedMap;
 using test::usual_cells;
@@ -77,13 +78,13 @@ TEST(PopulationLikelihood, TheScoreIsItsSlopeAlsoWithGates) {
   for (const bool is_cut : {false, true}) {
     SampleGates gates = whole_map();
     if (is_cut) gates.greatest_measure = 0.037, gates.least_log_area = 4.7;
-    const Sample sample = drawn_sample(usual_cells(), 60, 3, gates);
+    const Sample sample = drawn_long_sample({usual_cells(), 0.02, -0.1}, 60, 3, gates);
     PopulationLikelihood likelihood(sample, 1);
-    const ParameterVector q = CellDistribution{1.8, 0.75, 0.09, 0.23, 0.2}.parameters();
-    likelihood.place(CellDistribution::of(q));
-    const ParameterVector score = likelihood.at(q).score;
-    for (int k = 0; k < population_parameters; ++k) {
-      ParameterVector step = ParameterVector::Zero();
+    const LawVector q = CellLaw{{1.8, 0.75, 0.09, 0.23, 0.2}, 0.03, -0.1}.parameters();
+    likelihood.place(CellLaw::of(q));
+    const LawVector score = likelihood.at(q).score;
+    for (int k = 0; k < law_parameters; ++k) {
+      LawVector step = LawVector::Zero();
       step(k) = 1e-4;
       // Taylor: without the slope the difference is of first order, with it of the third.
       const double slope = (likelihood.log_likelihood(q + step) - likelihood.log_likelihood(q - step)) / 2e-4;
@@ -117,9 +118,10 @@ TEST(KeptShare, IsTheShareOfDrawnEventsThatPass) {
 TEST(PopulationLikelihood, AllOfItIsTheSameForAnyNumberOfThreads) {
   const Sample sample = drawn_sample(usual_cells(), 700, 5, whole_map());
   PopulationLikelihood one(sample, 1), three(sample, 3);
-  one.place(usual_cells());
-  three.place(usual_cells());
-  const auto a = one.at(usual_cells().parameters()), b = three.at(usual_cells().parameters());
+  one.place({usual_cells()});
+  three.place({usual_cells()});
+  const LawVector q = CellLaw{usual_cells()}.parameters();
+  const auto a = one.at(q), b = three.at(q);
   EXPECT_EQ(a.log_likelihood, b.log_likelihood);
   EXPECT_EQ(a.score, b.score);
   EXPECT_EQ(a.products, b.products);

@@ -54,18 +54,20 @@ Eigen::MatrixX2d outline_of(double modulus_kPa, const std::string& elongated_by)
 /// Median over random places on the camera.
 double modulus_of(const ElongatedSolids& solids, const Eigen::MatrixX2d& outline, ElongatedBy by) {
   CellRandom random(5, 0, Purpose::place);
-  std::vector<double> area, deformation, first, second, viscosity(places, viscosity_mPas), told;
+  std::vector<double> area, deformation, first, second, fourth, fifth, viscosity(places, viscosity_mPas), told;
   for (int i = 0; i < places; ++i) {
     const ShapeVector seen = features_in_pixels(outline, pixel_um, {random.uniform() - 0.5, random.uniform() - 0.5});
     area.push_back(std::exp(seen(0)));
     deformation.push_back(seen(1));
     first.push_back(by == ElongatedBy::modes ? seen(mode_2) : 1 / std::sqrt(seen(2)));
     second.push_back(by == ElongatedBy::modes ? seen(mode_2 + 1) : seen(1));
+    fourth.push_back(seen(mode_2 + 2));
+    fifth.push_back(seen(mode_2 + 3));
   }
   std::vector<double> modulus(places), other(places);
   std::vector<ModulusState> states(places);
   std::vector<ElongatedCell> cells(places);
-  solids.estimate({{20, 0.04}, pixel_um}, {area, deformation, viscosity}, {by, first, second},
+  solids.estimate({{20, 0.04}, pixel_um}, {area, deformation, viscosity}, {by, first, second, fourth, fifth},
                   {{modulus, other, states}, other, other, other, other, cells});
   for (const double value : modulus)
     if (std::isfinite(value)) told.push_back(value);
