@@ -60,7 +60,7 @@ class Cells:
 
 SCENARIOS = {
     "usual": Cells(4), "stiff": Cells(14, radius=5),
-    "gates": Cells(4, gate=["--min", "area_um=116"]),
+    "gates": Cells(6, gate=["--min", "area_um=109"]),
     "elongated": Cells(4.2, tension=500), "elongated-more": Cells(5.0, tension=1300),
 }
 

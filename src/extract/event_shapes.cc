@@ -5,6 +5,7 @@
 
 #include "extract/direction_of_cells.h"
 #include "measurement/contour_tilt.h"
+#include "measurement/pixel_errors.h"
 #include "measurement/shape_source.h"
 #include "numeric/no_value.h"
 
@@ -79,8 +80,8 @@ void EventShapes::read_outlines(std::size_t first, ShapeColumns& columns) {
   if (has_y) recording_.read_scalar("pos_y", first, columns.y_um);
 }
 
-/// What is left of the next modes is that of cells with a cortex.
-void EventShapes::compare_with_solids(ShapeColumns& c) const {
+/// What is left of the next modes, without what pixels do to them, is that of cells with a cortex.
+void EventShapes::compare_with_solids(const MeasuredEvents& events, ShapeColumns& c) const {
   constexpr int fourth = number_of(ElongatedMeasure::mode_3) + 1;
   const ElongatedTable& table = tables_.elongated->solids().table();
   for (auto* column : {&c.mode_4_excess, &c.mode_5_excess}) column->assign(c.mode_4.size(), no_value);
@@ -89,6 +90,11 @@ void EventShapes::compare_with_solids(ShapeColumns& c) const {
     const ElongatedState solid = table.at(c.elongation.cells[i]);
     c.mode_4_excess[i] = c.mode_4[i] - solid.value(fourth);
     c.mode_5_excess[i] = c.mode_5[i] - solid.value(fourth + 1);
+    if (!(conditions_.pixel_size_um > 0)) continue;
+    const ModeErrors pixels = mode_errors(std::log(events.size[i]) - 2 * std::log(conditions_.pixel_size_um),
+                                          {c.mode_2[i], c.mode_3[i], c.mode_4[i], c.mode_5[i]});
+    c.mode_4_excess[i] -= pixels.mode_4.excess;
+    c.mode_5_excess[i] -= pixels.mode_5.excess;
   }
 }
 
@@ -117,7 +123,7 @@ void EventShapes::compute(std::size_t first, const MeasuredEvents& events, Shape
                                        ? ElongatedShapes{*by, c.mode_2, c.mode_3, c.mode_4, c.mode_5}
                                        : ElongatedShapes{*by, c.inertia_ratio, events.deformation};
     tables_.elongated->estimate(conditions_, events, shapes, c.elongation.estimates());
-    if (by == ElongatedBy::modes) compare_with_solids(c);
+    if (by == ElongatedBy::modes) compare_with_solids(events, c);
   }
   tables_.round->compare(conditions_, events, c.inertia_ratio, c.excess);
 }

@@ -60,7 +60,7 @@ class EventShapes {
 
  private:
   void read_outlines(std::size_t first, ShapeColumns& columns);
-  void compare_with_solids(ShapeColumns& columns) const;
+  void compare_with_solids(const MeasuredEvents& events, ShapeColumns& columns) const;
   /// NaN where there is no cell. The features are told, too, if `measured` is given. The hull is that of the measurer.
   HullAsymmetry asymmetry(const PixelContour& contour, ContourFeatures* measured);
 

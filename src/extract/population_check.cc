@@ -22,7 +22,7 @@ constexpr int most_tries = 200;
 constexpr double chance_of_fitted = 1.2, least_of_fitted = 0.04, chance_of_others = 1.63, least_of_others = 0.08;
 /// Of the medians.
 constexpr double most_errors = 5, share_of_fitted = 0.1, share_of_others = 0.2;
-/// No law tells what pixels do to c_4 and c_5: it is below this (docs/theory-extract.md, sec. "Elongated cells").
+/// Of c_4 and c_5, in which all real cells differ a little from solids.
 constexpr double least_mode_difference = 0.01;
 constexpr int checked_measures = 6;
 
@@ -82,7 +82,7 @@ class DrawnPopulation {
     values[checked_inertia] = f.inertia_ratio;
     if (maps_.by() == StiffnessMeasure::asymmetry) {
       // d = 3/4 c_2^2 + 2 c_3^2 + what the pixels add to all modes, which is the noise of a round cell.
-      const double of_other_modes = inertia_errors(log_area_px, 0, 1).deformation_deviation;
+      const double of_other_modes = mode_errors(log_area_px, {}).deformation_deviation;
       values[checked_mode_3] = seen.measure;
       values[checked_deformation] =
           f.deformation + 4 * mode_3 * (seen.measure - mode_3) + of_other_modes * random.normal();

@@ -83,7 +83,7 @@ constexpr DeviationLaw mode_2_deviation{0.38106, -1.2955, 0.55307, 9.9791, 0.395
     inertia_deviation{0.71394, -2.0369, 2.0487, 13.57, 2.5207, -12.299, 0.30572};
 // What the laws leave of single shapes (in s^2); alike in all pictures of one.
 constexpr double left_of_mode_2 = 0.04, left_of_mode_3 = 0.05, left_of_mode_4 = 0.055, left_of_mode_5 = 0.06,
-                 left_of_deformation = 0.05, left_of_inertia = 0.15;
+                 left_of_deformation_by_modes = 0.015, left_of_deformation = 0.05, left_of_inertia = 0.15;
 constexpr double max_correlation = 0.95;
 constexpr double min_fitted_mode_2 = -0.1, max_fitted_mode_2 = 0.4, max_fitted_mode_3 = 0.15, max_fitted_mode_4 = 0.15,
                  max_fitted_mode_5 = 0.15, min_fitted_inertia = -0.2, max_fitted_inertia = 1.2;
@@ -164,17 +164,19 @@ PixelErrorsOf<Number> pixel_errors(const Number& log_area_px, const Number& defo
 ModeErrors mode_errors(double log_area_px, const OutlineModes& modes) {
   const double s = inverse_root(log_area_px), s2 = s * s;
   const ModePlace place(modes, s);
-  const auto deviation = [&](const DeviationLaw& law, double left) {
-    return s2 * std::hypot(std::max(value(law, place.second, std::abs(place.third), s), min_asymmetry_deviation), left);
+  const auto deviation = [&](const DeviationLaw& law, double least, double left) {
+    return s2 * std::hypot(std::max(value(law, place.second, std::abs(place.third), s), least), left);
   };
+  constexpr double least = min_asymmetry_deviation;
   const double correlation = clamped(place.even(mode_correlation), -max_correlation, max_correlation);
-  return {{s2 * place.even(mode_2_law), deviation(mode_2_deviation, left_of_mode_2)},
-          {s2 * place.odd(mode_3_law), deviation(mode_3_deviation, left_of_mode_3)},
-          {s2 * place.even(mode_4_law), deviation(mode_4_deviation, left_of_mode_4)},
-          {s2 * place.odd(mode_5_law), deviation(mode_5_deviation, left_of_mode_5)},
+  return {{s2 * place.even(mode_2_law), deviation(mode_2_deviation, least, left_of_mode_2)},
+          {s2 * place.odd(mode_3_law), deviation(mode_3_deviation, least, left_of_mode_3)},
+          {s2 * place.even(mode_4_law), deviation(mode_4_deviation, least, left_of_mode_4)},
+          {s2 * place.odd(mode_5_law), deviation(mode_5_deviation, least, left_of_mode_5)},
           place.third < 0 ? -correlation : correlation,
           s2 * place.even(deformation_by_modes),
-          s2 * place.even(inertia_by_modes)};
+          s2 * place.even(inertia_by_modes),
+          deviation(long_deformation_deviation, min_deformation_deviation, left_of_deformation_by_modes)};
 }
 
 InertiaErrors inertia_errors(double log_area_px, double deformation, double inertia_ratio) {

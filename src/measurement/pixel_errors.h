@@ -54,6 +54,7 @@ struct ModeErrors {
   OfMode mode_2, mode_3, mode_4, mode_5;
   double correlation;                         ///< of the scatter of c_2 and c_3
   double deformation_excess, inertia_excess;  ///< measured - those of the smooth contour
+  double deformation_deviation;               ///< standard deviation of the measured one
 };
 
 /// By the natural logarithm of the measured area in pixels and the measured modes. Pixels make the ends of an elongated
