@@ -1,16 +1,18 @@
 // The built site finds what it holds, and shows it without asking anybody: SITE is its folder, RHEOCYTE the program.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, readFileSync, readdirSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { pathToFileURL } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import vm from 'node:vm';
 
-const top = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), '../..');
+const top = fileURLToPath(new URL('../..', import.meta.url));
 const site = process.env.SITE ?? path.join(top, 'build/site');
 const program = process.env.RHEOCYTE ?? path.join(top, 'build/rheocyte');
 const help = (...words) => execFileSync(program, words, { encoding: 'utf8' });
+
+const index = () => JSON.parse(/^Search\.setIndex\((.*)\)$/s.exec(readFileSync(path.join(site, 'searchindex.js'), 'utf8').trim())[1]);
 
 /** The site's own search, as its page runs it: names of the pages that it finds for a text, the best first. */
 function makeSearch() {
@@ -20,7 +22,8 @@ function makeSearch() {
   for (const file of ['language_data.js', 'searchtools.js']) {
     vm.runInContext(readFileSync(path.join(site, '_static', file), 'utf8'), context, { filename: file });
   }
-  vm.runInContext(readFileSync(path.join(site, 'searchindex.js'), 'utf8').replace(/^Search\.setIndex/, 'Search._index = '), context);
+  context.index = index();
+  vm.runInContext('Search._index = index', context);
   return (text) => {
     context.text = text;
     return vm.runInContext('Search._performSearch(...Search._parseQuery(text))', context).map(([page]) => page).reverse();
@@ -73,8 +76,8 @@ test('pages opened from the folder load nothing from elsewhere, show their equat
     page.on('requestfailed', (request) => request.resourceType() !== 'fetch' && failures.push(request.url()));
     page.on('pageerror', (error) => failures.push(error.message));
     const wide = [];
-    for (const name of readdirSync(site, { recursive: true }).filter((file) => file.endsWith('.html'))) {
-      await page.goto(pathToFileURL(path.join(site, name)).href, { waitUntil: 'domcontentloaded' });
+    for (const name of [...index().docnames, 'search', 'genindex']) {
+      await page.goto(pathToFileURL(path.join(site, `${name}.html`)).href, { waitUntil: 'domcontentloaded' });
       const [width, room] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
       if (width > room) wide.push(`${name}: ${width} of ${room}`);
     }
