@@ -68,7 +68,9 @@ export function useProbe(stage: Stage | null, scene: Scene, cover: (() => Cover)
   };
   const sentences = spot && cover && scene.fields ? valuesAt(scene, cover(), spot) : [];
   return {
-    handlers: { onPointerMove: pointed, onPointerLeave: () => setSpot(null), onKeyDown: pressed, onBlur: () => setSpot(null) },
+    point: pointed,
+    press: pressed,
+    leave: () => setSpot(null),
     mark: spot?.byKey ? spot : null,
     readout: spot && stage && sentences.length > 0 ? <Readout stage={stage} spot={spot} sentences={sentences} /> : null,
   };
