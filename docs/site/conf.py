@@ -16,10 +16,11 @@ myst_fence_as_directive = ["math"]
 myst_heading_anchors = 4
 myst_dmath_double_inline = False
 
+smartquotes = False  # much of what is quoted is to be typed
 nitpicky = True
 # Types of other packages in the signatures of functions, whose documentation is not part of this site.
 nitpick_ignore_regex = [("py:class", r"(np|pandas|os)\..*|.*(PathLike|Mapping|Sequence|Callable|Iterator|KeysView|Executor"
-                         r"|Path|ArrayLike|NDArray|Figure|Fields|Dataset|Case.*|Any|Literal)")]
+                         r"|Path|ArrayLike|NDArray|Figure|Fields|Dataset|Any|Literal)")]
 python_maximum_signature_line_length = 80
 add_module_names = False
 highlight_language = "text"

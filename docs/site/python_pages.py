@@ -3,7 +3,7 @@ import ast
 import re
 
 from help_texts import entries, help_of, sections
-from restructured_text import contents, entry, indented, sentence, table_of_links, title
+from restructured_text import code, contents, entry, indented, sentence, table_of_links, title
 from stubs import Module, decorators, docstring, groups, modules, named, names_of
 
 # A line of a docstring on an argument: its name, two blanks or more, its meaning.
@@ -33,17 +33,22 @@ def documentation(text, settings=()):
 
 
 def block(lines, settings):
-    if not ARGUMENT.fullmatch(lines[0]):
-        return sentence(" ".join(lines)) + "\n\n"
-    found = []
-    for line in lines:
+    """A call as code, or what stands before a list of arguments, and the list."""
+    if lines[0].startswith(">>> "):
+        return code("\n".join(lines), "pycon")
+    starts = [bool(ARGUMENT.fullmatch(line)) or below.startswith(8 * " ") for line, below in zip(lines, [*lines[1:], ""])]
+    begin = starts.index(True) if True in starts else len(lines)
+    said, found = sentence(" ".join(lines[:begin])), []
+    for line in lines[begin:]:
         if line.strip() == SETTINGS:
             found += [list(each) for each in settings]
         elif matched := ARGUMENT.fullmatch(line):
             found.append([matched[1], matched[2]])
+        elif not line.startswith(" "):  # its meaning stands below
+            found.append([line, ""])
         else:
             found[-1][1] += " " + line.strip()
-    return "".join(entry(name, sentence(text)) for name, text in found)
+    return (said + "\n\n" if said else "") + "".join(entry(name, sentence(text)) for name, text in found)
 
 
 def directive(kind, signatures, body, type_text=""):
@@ -97,11 +102,12 @@ def name_text(module, name, settings):
 
 
 def returned(module, names, listed):
-    """Classes of the module that these functions give, as far as they are not listed themselves."""
+    """Classes of the module that these functions and classes give, and those that these give, but none that is listed."""
     texts = "".join(module.signature(node) for name in names for declared in module.declared(name)
                     for node in ast.walk(declared) if isinstance(node, ast.FunctionDef))
     classes = [node.name for node in module.stub.body if isinstance(node, ast.ClassDef)]
-    return [name for name in classes if name not in listed and re.search(rf"-> {name}\b", texts)]
+    found = [name for name in classes if name not in listed and re.search(rf"-> {name}\b", texts)]
+    return found + returned(module, found, listed | {*found}) if found else []
 
 
 def pages(package, program):

@@ -32,17 +32,17 @@ def title(text, line="="):
     return f"{text}\n{line * len(text)}\n\n"
 
 
-def indented(text, by=3):
-    return "".join(" " * by + line if line.strip() else line for line in text.splitlines(keepends=True))
+def indented(text):
+    return "".join("   " + line if line.strip() else line for line in text.splitlines(keepends=True))
 
 
 def code(text, language):
     return f".. code-block:: {language}\n\n{indented(text.rstrip())}\n\n"
 
 
-def entry(name, text, by=0):
+def entry(name, text):
     """An entry of a list of definitions."""
-    return indented(f"``{name}``\n   {text}\n\n", by)
+    return f"``{name}``\n   {text}\n\n"
 
 
 def table_of_links(rows):
