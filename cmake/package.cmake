@@ -4,7 +4,8 @@ set(generated_share ${CMAKE_BINARY_DIR}/share)
 add_custom_command(OUTPUT ${generated_share}/man/man1/rheocyte.1.gz
                    COMMAND ${RHEOCYTE_PYTHON_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/man_pages $<TARGET_FILE:rheocyte>
                            ${generated_share}
-                   DEPENDS rheocyte ${CMAKE_SOURCE_DIR}/tools/man_pages VERBATIM)
+                   DEPENDS rheocyte ${CMAKE_SOURCE_DIR}/tools/man_pages ${CMAKE_SOURCE_DIR}/tools/help_texts.py
+                   VERBATIM)
 add_custom_target(manual ALL DEPENDS ${generated_share}/man/man1/rheocyte.1.gz)
 install(DIRECTORY ${generated_share}/man ${generated_share}/bash-completion DESTINATION share COMPONENT rheocyte)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION share/doc/rheocyte COMPONENT rheocyte)

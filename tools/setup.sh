@@ -128,6 +128,21 @@ install_node() {
   fi
 }
 
+site_environment=build/site-environment
+
+# site_environment: Sphinx and what typesets equations, for tools/site. Asks the network for nothing when they are there.
+site_environment() {
+  local wanted made=$site_environment/made-from
+  install_node
+  wanted=$(cat docs/site/requirements.txt docs/site/package-lock.json)
+  [[ $(cat "$made" 2>/dev/null) != "$wanted" ]] || return 0
+  python3 -m venv --clear "$site_environment" &&
+    "$site_environment/bin/pip" install --quiet --disable-pip-version-check -r docs/site/requirements.txt &&
+    cp docs/site/package.json docs/site/package-lock.json "$site_environment" &&
+    npm ci --prefix "$site_environment" --no-progress --no-audit --no-fund --loglevel=error &&
+    ln -s node_modules/katex "$site_environment/katex" && echo "$wanted" >"$made"
+}
+
 # build_page [<option of npm ci>...]: the page of the view, in page/dist. Without it the program works, without its view.
 build_page() {
   local packages=page/node_modules/.package-lock.json

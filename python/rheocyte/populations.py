@@ -99,6 +99,7 @@ def plan(radius_um, young_modulus_kPa, *, spread=0.2, radius_spread=0.07, betwee
                     relative difference of E, the wanted probability to find it, cells of a recording
     mode_2          how elongated the cells are: c2 of their outlines
     pixel_size_um, temperature_C
+                    of the camera, and of the medium
     width_um, medium, rate_ul_s
                     what is compared; without rates those of mean speeds of 0.04, 0.1, 0.2 and 0.4 m/s
 

@@ -90,10 +90,11 @@ def _named(given, known, function):
 def _documented(setting, indent):
     text = _SAID.get(setting["name"], setting["sentence"])
     if setting["greatest"] is not None:
-        text += f" ({setting['least']:g} .. {setting['greatest']:g} {setting['unit']})"
+        text += " (" + f"{setting['least']:g} .. {setting['greatest']:g} {setting['unit']}".strip() + ")"
     if setting["default"]:
         text += f"; default: {setting['default']}"
-    return textwrap.fill(f"{setting['name']:<15} {text}", 124, initial_indent=indent, subsequent_indent=indent + " " * 16)
+    return textwrap.fill(f"{setting['name']:<15} {text}", 124, initial_indent=indent, subsequent_indent=indent + " " * 16,
+                         break_on_hyphens=False)
 
 
 def _taken(setting, value):

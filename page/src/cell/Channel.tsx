@@ -4,11 +4,12 @@ import type { Fields } from '../draw/fields';
 import { coverPixels, paintPixels, type Cover, type Paint } from '../draw/raster';
 import { theme } from '../shell/theme';
 import { useStore } from '../shell/store';
-import { halfFrame, stageOf, type Stage } from './frame';
+import { halfFrame, stageOf, type Lens, type Stage } from './frame';
 import { Lines } from './Lines';
 import type { Looks } from './looks';
 import { useProbe } from './probe';
 import type { Scene } from './scene';
+import { useGestures, useLens } from './use_lens';
 
 interface ChannelProps {
   scene: Scene;
@@ -41,14 +42,15 @@ function paint(canvas: HTMLCanvasElement, stage: Stage, fields: Fields, paints: 
   canvas.width = frame.width;
   canvas.height = Math.round(stage.height * density());
   const context = canvas.getContext('2d')!;
-  const image = context.createImageData(frame.width, 2 * frame.height);
+  const image = context.createImageData(frame.width, frame.height);
   const pixels = new Uint32Array(image.data.buffer);
   paintPixels(fields, frame, paints, pixels);
-  for (let row = 0; row < frame.height; ++row) {
-    const from = (frame.height - 1 - row) * frame.width;
-    pixels.copyWithin((frame.height + row) * frame.width, from, from + frame.width);
-  }
-  context.putImageData(image, 0, Math.round(stage.axis * density()) - frame.height);
+  const axis = Math.round(stage.axis * density());
+  const low = Math.round(frame.low_um * frame.pixels_per_um);
+  context.putImageData(image, 0, axis - low - frame.height);
+  pixels.reverse();
+  for (let row = 0; row < frame.height; ++row) pixels.subarray(row * frame.width, (row + 1) * frame.width).reverse();
+  context.putImageData(image, 0, axis + low);
 }
 
 /** Which triangle covers which pixel: found out when a value is asked for, and then kept. */
@@ -58,10 +60,10 @@ function coverOnDemand(stage: Stage, fields: Fields): () => Cover {
 }
 
 /** The same stage as long as its numbers are the same: what depends on it alone need not be drawn again. */
-function useStage(size: { width: number; height: number }, { radius_um, fields }: Scene): Stage | null {
+function useStage(size: { width: number; height: number }, { radius_um, fields }: Scene, lens: Lens): Stage | null {
   const found = useMemo(
-    () => (size.width ? stageOf(size.width, size.height, radius_um, fields) : null),
-    [size, radius_um, fields],
+    () => (size.width ? stageOf(size.width, size.height, radius_um, fields, lens) : null),
+    [size, radius_um, fields, lens],
   );
   const kept = useRef(found);
   if (JSON.stringify(found) !== JSON.stringify(kept.current)) kept.current = found;
@@ -72,7 +74,9 @@ export function Channel({ scene, looks, stale }: ChannelProps) {
   const [box, size] = useSize();
   const canvas = useRef<HTMLCanvasElement | null>(null);
   const shownTheme = useStore(theme);
-  const stage = useStage(size, scene);
+  const lens = useLens();
+  const stage = useStage(size, scene, lens[0]);
+  const gestures = useGestures(box, stage, lens);
   const { fields, paints } = scene;
   useLayoutEffect(() => {
     if (!stage || !canvas.current) return;
@@ -91,12 +95,25 @@ export function Channel({ scene, looks, stale }: ChannelProps) {
       tabIndex={0}
       role="group"
       aria-roledescription="picture"
-      aria-label="The cell in its channel. Arrow keys move a point whose values are read out."
-      {...probe.handlers}
+      data-zoom={lens[0].zoom.toFixed(3)}
+      aria-label="The cell in its channel. Arrow keys move a point whose values are read out; plus and minus stretch, 0 shows all."
+      onPointerDown={(event) => (gestures.down(event) ? probe.leave() : probe.point(event))}
+      onPointerMove={(event) => (gestures.move(event) ? probe.leave() : probe.point(event))}
+      onPointerUp={gestures.up}
+      onPointerCancel={gestures.up}
+      onPointerLeave={(event) => event.pointerType !== 'touch' && probe.leave()}
+      onDblClick={gestures.showAll}
+      onKeyDown={(event) => (gestures.key(event), probe.press(event))}
+      onBlur={probe.leave}
     >
       <canvas ref={canvas} aria-hidden="true" />
       {stage && <Lines stage={stage} scene={scene} looks={looks} theme={shownTheme} mark={probe.mark} />}
       {stage && probe.readout}
+      {lens[0].zoom > 1 && (
+        <button class="show-all" onPointerDown={(event) => event.stopPropagation()} onClick={gestures.showAll}>
+          Show all
+        </button>
+      )}
     </div>
   );
 }

@@ -8,7 +8,7 @@ import { cellMap, liquidMap, shade, tensionMap } from '../draw/colormap';
 import { streamlines } from '../draw/streamlines';
 import { token } from '../shell/theme';
 import type { Scene } from './scene';
-import { leftOf, pathOf, rightOf, scaleBar_um, wallPath, wholeOutline, xOf, yOf, type Stage } from './frame';
+import { pathOf, scaleBar_um, wallPath, wholeOutline, xOf, yOf, type Stage } from './frame';
 import type { Looks } from './looks';
 
 interface LinesProps {
@@ -36,7 +36,7 @@ function Walls({ stage, scene }: { stage: Stage; scene: Scene }) {
 const mirrored = (stage: Stage) => `matrix(1 0 0 -1 0 ${2 * stage.axis})`;
 
 function Stream({ stage, fields, radius_um }: { stage: Stage; fields: Fields; radius_um: number }) {
-  const found = streamlines(fields, leftOf(stage), rightOf(stage), radius_um);
+  const found = useMemo(() => streamlines(fields, ...stage.whole_um, radius_um), [fields, ...stage.whole_um, radius_um]);
   const paths = found.map(({ points }) => pathOf(stage, { x_um: points.map(([x]) => x), r_um: points.map(([, r]) => r) }, false)).join('');
   const half = (
     <>

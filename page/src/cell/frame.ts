@@ -1,6 +1,7 @@
 // Where things stand in the picture of the channel: um to pixels, walls, scale bar, what is seen.
 import type { Outline } from '../api';
 import type { Fields } from '../draw/fields';
+import type { Grip } from '../draw/fingers';
 import type { Frame } from '../draw/raster';
 import { roundStep } from '../draw/numbers';
 
@@ -15,19 +16,54 @@ export interface Stage {
   radius_um: number;
   /** y of the axis */
   axis: number;
+  /** ends of the picture before it is stretched, um along the channel */
+  whole_um: [number, number];
 }
 
+/** What is seen of the picture: how much it is stretched, and what is in the middle (along the channel: as it comes). */
+export interface Lens {
+  zoom: number;
+  x_um: number | null;
+  r_um: number;
+}
+
+export const wholePicture: Lens = { zoom: 1, x_um: null, r_um: 0 };
+const greatestZoom = 12;
+
+const between = (low: number, high: number, value: number) => Math.max(low, Math.min(high, value));
+
 /** Walls take a fixed share of the height; long channels are cut at both sides. */
-export function stageOf(width: number, height: number, radius_um: number, fields: Fields | null): Stage {
+export function stageOf(width: number, height: number, radius_um: number, fields: Fields | null, lens = wholePicture): Stage {
   const wall = 22;
-  const scale = (height - 2 * wall) / (2 * radius_um);
-  let middle_um = 0;
-  if (fields) {
-    const [low, high] = extentOf(fields);
+  const plain = (height - 2 * wall) / (2 * radius_um);
+  const extent = fields && extentOf(fields);
+  const middle = (scale: number, wanted: number) => {
+    if (!extent) return wanted;
     const half = width / scale / 2;
-    middle_um = high - low > 2 * half ? Math.max(low + half, Math.min(high - half, 0)) : (low + high) / 2;
-  }
-  return { width, height, scale, middle_um, radius_um, axis: height / 2 };
+    return extent[1] - extent[0] > 2 * half ? between(extent[0] + half, extent[1] - half, wanted) : (extent[0] + extent[1]) / 2;
+  };
+  const scale = plain * lens.zoom;
+  const whole = middle(plain, 0);
+  const farthest = height / 2 / plain - height / 2 / scale;
+  return {
+    width,
+    height,
+    scale,
+    middle_um: middle(scale, lens.x_um ?? 0),
+    radius_um,
+    axis: height / 2 + between(-farthest, farthest, lens.r_um) * scale,
+    whole_um: [whole - width / 2 / plain, whole + width / 2 / plain],
+  };
+}
+
+/** The lens through which what was held stays under the fingers. */
+export function held(stage: Stage, lens: Lens, from: Grip, to: Grip): Lens {
+  const zoom = Math.min(greatestZoom, (lens.zoom * to.distance) / from.distance);
+  if (zoom <= 1) return wholePicture;
+  const scale = (stage.scale * zoom) / lens.zoom;
+  const x_um = leftOf(stage) + from.middle[0] / stage.scale;
+  const r_um = (stage.axis - from.middle[1]) / stage.scale;
+  return { zoom, x_um: x_um - (to.middle[0] - stage.width / 2) / scale, r_um: r_um + (to.middle[1] - stage.height / 2) / scale };
 }
 
 function extentOf(fields: Fields): [number, number] {
@@ -45,12 +81,16 @@ export const yOf = (stage: Stage, r_um: number) => stage.axis - r_um * stage.sca
 export const leftOf = (stage: Stage) => stage.middle_um - stage.width / 2 / stage.scale;
 export const rightOf = (stage: Stage) => stage.middle_um + stage.width / 2 / stage.scale;
 
-/** Pixels of the upper half, at the screen's density. */
+/** Pixels of the upper half, at the screen's density: as far as they, or their mirror images, are in sight. */
 export function halfFrame(stage: Stage, density: number): Frame {
+  const [above, below] = [stage.axis / stage.scale, (stage.axis - stage.height) / stage.scale];
+  const low_um = Math.max(0, below, -above);
+  const high_um = Math.min(stage.radius_um, Math.max(above, -below));
   return {
     width: Math.round(stage.width * density),
-    height: Math.ceil(stage.radius_um * stage.scale * density),
+    height: Math.max(1, Math.ceil((high_um - low_um) * stage.scale * density)),
     left_um: leftOf(stage),
+    low_um,
     pixels_per_um: stage.scale * density,
   };
 }

@@ -38,7 +38,7 @@ export function pictureSvg(legends: (Legend | null)[], solved: Solved): { svg: s
   const svg = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height + foot}" viewBox="0 0 ${width} ${height + foot}" font-family="system-ui, sans-serif" font-size="12" fill="${token('--ink')}">
 <rect width="100%" height="100%" fill="${token('--ground')}"/>
 <image href="${canvas.toDataURL('image/png')}" width="${width}" height="${height}"/>
-<g fill="none">${lines.innerHTML}</g>
+<svg width="${width}" height="${height}" fill="none">${lines.innerHTML}</svg>
 ${bars.join('\n')}
 <text x="20" y="${height + foot - 10}" xml:space="preserve">${escaped(numbersText(solved))}</text>
 </svg>

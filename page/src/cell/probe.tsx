@@ -34,7 +34,7 @@ function valuesAt(scene: Scene, cover: Cover, { x_um, r_um }: Spot): string[] {
 
 function Readout({ stage, spot, sentences }: { stage: Stage; spot: Spot; sentences: string[] }) {
   const right = xOf(stage, spot.x_um) > stage.width - 260;
-  const left = xOf(stage, spot.x_um) + (right ? -252 : 16);
+  const left = Math.max(4, xOf(stage, spot.x_um) + (right ? -252 : 16));
   const top = Math.min(stage.height - 96, Math.max(4, yOf(stage, spot.r_um) + 12));
   return (
     <div class="readout" style={{ left: `${left}px`, top: `${top}px` }} aria-live={spot.byKey ? 'polite' : 'off'}>
@@ -68,7 +68,9 @@ export function useProbe(stage: Stage | null, scene: Scene, cover: (() => Cover)
   };
   const sentences = spot && cover && scene.fields ? valuesAt(scene, cover(), spot) : [];
   return {
-    handlers: { onPointerMove: pointed, onPointerLeave: () => setSpot(null), onKeyDown: pressed, onBlur: () => setSpot(null) },
+    point: pointed,
+    press: pressed,
+    leave: () => setSpot(null),
     mark: spot?.byKey ? spot : null,
     readout: spot && stage && sentences.length > 0 ? <Readout stage={stage} spot={spot} sentences={sentences} /> : null,
   };

@@ -3,11 +3,13 @@
 import type { ColorMap } from './colormap';
 import type { Fields } from './fields';
 
-/** How places in um become pixels: x to the right from the left edge, r upwards from the axis (the lower edge). */
+/** How places in um become pixels: x to the right from the left edge, r upwards from the lower edge, which is the axis unless
+ * the picture is stretched. */
 export interface Frame {
   width: number;
   height: number;
   left_um: number;
+  low_um: number;
   pixels_per_um: number;
 }
 
@@ -25,13 +27,15 @@ interface Placed {
   y: Float64Array;
 }
 
+const rowOf = (frame: Frame, r_um: number) => frame.height - (r_um - frame.low_um) * frame.pixels_per_um;
+
 function placePoints(fields: Fields, frame: Frame): Placed {
   const points = fields.region.length;
   const x = new Float64Array(points);
   const y = new Float64Array(points);
   for (let k = 0; k < points; ++k) {
     x[k] = (fields.places[2 * k] - frame.left_um) * frame.pixels_per_um;
-    y[k] = frame.height - fields.places[2 * k + 1] * frame.pixels_per_um;
+    y[k] = rowOf(frame, fields.places[2 * k + 1]);
   }
   return { x, y };
 }
@@ -162,8 +166,8 @@ export function sampleRegion(fields: Fields, cover: Cover, values: Float32Array,
 /** The triangle at a place, r mirrored at the axis; -1 outside. */
 function triangleAt({ frame, triangle }: Cover, x_um: number, r_um: number): number {
   const column = Math.floor((x_um - frame.left_um) * frame.pixels_per_um);
-  const row = Math.min(frame.height - 1, Math.floor(frame.height - Math.abs(r_um) * frame.pixels_per_um));
-  const inside = column >= 0 && column < frame.width && row >= 0;
+  const row = Math.floor(rowOf(frame, Math.max(Math.abs(r_um), 1e-9)));
+  const inside = column >= 0 && column < frame.width && row >= 0 && row < frame.height;
   return inside ? triangle[row * frame.width + column] : -1;
 }
 
@@ -175,7 +179,7 @@ export function valueAt(fields: Fields, cover: Cover, values: Float32Array, x_um
   putPlane(plane, fields, cover, values, id);
   const { frame } = cover;
   const x = (x_um - frame.left_um) * frame.pixels_per_um;
-  return plane.at + plane.x * x + plane.y * (frame.height - Math.abs(r_um) * frame.pixels_per_um);
+  return plane.at + plane.x * x + plane.y * rowOf(frame, Math.abs(r_um));
 }
 
 /** 0 in the liquid, 1 in the cell, null outside. */

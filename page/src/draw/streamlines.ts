@@ -104,7 +104,7 @@ function withArrow(points: [number, number][], way: 1 | -1): Streamline {
 export function streamlines(fields: Fields, from_um: number, to_um: number, radius_um: number): Streamline[] {
   const pixels_per_um = 1 / spacing_um(radius_um);
   const size = (length: number) => Math.max(2, Math.round(length * pixels_per_um));
-  const frame = { width: size(to_um - from_um), height: size(radius_um), left_um: from_um, pixels_per_um };
+  const frame = { width: size(to_um - from_um), height: size(radius_um), left_um: from_um, low_um: 0, pixels_per_um };
   const grid = velocityGrid(fields, frame);
   if (!grid) return [];
   const middle = 0.5 * (from_um + to_um);

@@ -24,7 +24,7 @@ import './event.css';
 import './recordings.css';
 
 const tools: [Tool, string, string][] = [
-  ['look', 'Move', 'Drag moves, the wheel zooms, a click chooses an event'],
+  ['look', 'Move', 'Drag moves, the wheel or two fingers zoom, a click or a tap chooses an event'],
   ['box', 'Box', 'Gate: drag a box, limits of both features'],
   ['polygon', 'Polygon', 'Gate: click corners; the first corner closes it'],
 ];

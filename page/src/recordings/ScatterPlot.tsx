@@ -1,6 +1,7 @@
 // One plot: any two features of a recording, its events by density or by a third feature, lines and gates over them.
-import { useEffect, useMemo, useRef } from 'preact/hooks';
+import { useMemo } from 'preact/hooks';
 import type { Item, Lines } from '../api';
+import { useWheel } from '../draw/use_wheel';
 import { pixelX, pixelY, margins, innerHeight, innerWidth, type Frame } from './plot_frame';
 import { useStore } from '../shell/store';
 import { counted } from './scale';
@@ -18,22 +19,6 @@ import { PointsCanvas } from './PointsCanvas';
 import { stateLegend, states } from './states';
 import { useDrawing, type Drawing } from './use_drawing';
 import { useSize } from './use_size';
-
-/** The wheel zooms; it must not scroll the page, so the listener may not be passive. */
-function useWheel(target: { current: HTMLElement | null }, actions: PlotActions | null): void {
-  const latest = useRef(actions);
-  latest.current = actions;
-  useEffect(() => {
-    const frame = target.current!;
-    const turn = (event: WheelEvent) => {
-      event.preventDefault();
-      const own = frame.getBoundingClientRect();
-      latest.current?.zoom(Math.exp(-0.0015 * event.deltaY), [event.clientX - own.left, event.clientY - own.top]);
-    };
-    frame.addEventListener('wheel', turn, { passive: false });
-    return () => frame.removeEventListener('wheel', turn);
-  }, [target]);
-}
 
 function ChosenEvent({ frame, data, item }: { frame: Frame; data: PlotData; item: Item }) {
   const chosen = useStore(choice);
@@ -106,7 +91,7 @@ function Drawn({ plot, item }: { plot: Plot; item: Item }) {
     [plot, item, data, width, height],
   );
   const drawing = useDrawing(actions);
-  useWheel(element, actions);
+  useWheel(element, (factor, at) => actions?.zoom(factor, at));
   return (
     <>
       <div
@@ -119,6 +104,7 @@ function Drawn({ plot, item }: { plot: Plot; item: Item }) {
         onPointerDown={drawing.onPointerDown}
         onPointerMove={drawing.onPointerMove}
         onPointerUp={drawing.onPointerUp}
+        onPointerCancel={drawing.onPointerCancel}
         onKeyDown={drawing.onKeyDown}
         onDblClick={() => mode === 'look' && actions?.fit()}
       >

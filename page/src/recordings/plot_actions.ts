@@ -1,15 +1,15 @@
-// What mouse and keyboard do to a plot: move, stretch, choose an event, draw gates.
+// What mouse, fingers and keyboard do to a plot: move, stretch, choose an event, draw gates.
 import type { Item } from '../api';
+import type { Grip, Pixel } from '../draw/fingers';
 import { addGate, changePlot, choice, limitFeature, tool, type Plot } from './model';
 import type { PlotData } from './plot_data';
 import { innerHeight, innerWidth, margins, pixelX, pixelY, placeAtX, placeAtY, type Frame } from './plot_frame';
 import { nearestEvent } from './points';
 import { backward, moved, zoomed } from './scale';
 
-export type Pixel = [number, number];
-
-/** How near to an event or a corner counts as on it, in pixels of the page. */
-const reach = 14;
+/** How near to an event or a corner counts as on it, in pixels of the page: for a mouse, and for a finger. */
+export const reach = 14;
+export const fingerReach = 28;
 
 export class PlotActions {
   constructor(
@@ -38,6 +38,19 @@ export class PlotActions {
     });
   }
 
+  /** What two fingers held at first is now where they are. */
+  pinch(from: Grip, to: Grip): void {
+    const factor = to.distance / from.distance;
+    const { x, y } = this.plot;
+    const [right, down] = [to.middle[0] - from.middle[0], to.middle[1] - from.middle[1]];
+    const stretchedX = zoomed(this.frame.x, factor, placeAtX(this.frame, from.middle[0]));
+    const stretchedY = zoomed(this.frame.y, factor, placeAtY(this.frame, from.middle[1]));
+    changePlot(this.plot.id, {
+      x: { ...x, span: moved(stretchedX, -right / innerWidth(this.frame)) },
+      y: { ...y, span: moved(stretchedY, down / innerHeight(this.frame)) },
+    });
+  }
+
   fit(): void {
     changePlot(this.plot.id, { x: { ...this.plot.x, span: null }, y: { ...this.plot.y, span: null } });
   }
@@ -47,9 +60,9 @@ export class PlotActions {
   }
 
   /** Chooses the event nearest to a pixel. */
-  choose([px, py]: Pixel): void {
+  choose([px, py]: Pixel, within = reach): void {
     const view = { x: this.frame.x, y: this.frame.y, width: innerWidth(this.frame), height: innerHeight(this.frame) };
-    const event = nearestEvent(this.data.places, this.data.mask, view, px - margins.left, py - margins.top, reach);
+    const event = nearestEvent(this.data.places, this.data.mask, view, px - margins.left, py - margins.top, within);
     if (event >= 0) choice.set({ item: this.item.item, event });
   }
 
@@ -69,8 +82,8 @@ export class PlotActions {
   }
 
   /** Whether a pixel lies on a place. */
-  isOn(pixel: Pixel, place: [number, number]): boolean {
-    return Math.hypot(pixelX(this.frame, place[0]) - pixel[0], pixelY(this.frame, place[1]) - pixel[1]) < reach;
+  isOn(pixel: Pixel, place: [number, number], within: number): boolean {
+    return Math.hypot(pixelX(this.frame, place[0]) - pixel[0], pixelY(this.frame, place[1]) - pixel[1]) < within;
   }
 
   /** Limits of both features: what --min and --max of the command line do. */

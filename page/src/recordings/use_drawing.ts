@@ -1,9 +1,10 @@
-// Mouse and keyboard in a plot, with what is half drawn.
+// Mouse, fingers and keyboard in a plot, with what is half drawn.
 import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { useStore } from '../shell/store';
 import { tool } from './model';
+import { Fingers, pixelOf, type Grip, type Pixel } from '../draw/fingers';
 import { margins } from './plot_frame';
-import type { Pixel, PlotActions } from './plot_actions';
+import { fingerReach, reach, type PlotActions } from './plot_actions';
 
 export interface Drawing {
   points: [number, number][];
@@ -13,16 +14,14 @@ export interface Drawing {
   onPointerDown(event: PointerEvent): void;
   onPointerMove(event: PointerEvent): void;
   onPointerUp(event: PointerEvent): void;
+  onPointerCancel(event: PointerEvent): void;
   onKeyDown(event: KeyboardEvent): void;
 }
 
 type Corners = [number, number][];
 const box = ([ax, ay]: [number, number], [bx, by]: [number, number]): Corners => [[ax, ay], [bx, ay], [bx, by], [ax, by]];
 
-const pixelOf = (event: MouseEvent): Pixel => {
-  const own = (event.currentTarget as Element).getBoundingClientRect();
-  return [event.clientX - own.left, event.clientY - own.top];
-};
+const reachOf = (event: PointerEvent) => (event.pointerType === 'touch' ? fingerReach : reach);
 
 const steps: Record<string, Pixel> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
@@ -39,17 +38,46 @@ function useMoving(...spans: number[]): boolean {
   return moving;
 }
 
+/** Two fingers move and stretch a plot, with any tool: from the plot as it was when the second one came. */
+function usePinch(actions: PlotActions | null) {
+  const fingers = useRef(new Fingers()).current;
+  const held = useRef<{ actions: PlotActions; grip: Grip } | null>(null);
+  return {
+    /** Whether a pinch begins. */
+    down(event: PointerEvent): boolean {
+      fingers.put(event.pointerId, pixelOf(event));
+      const begins = fingers.count > 1 && actions !== null;
+      if (begins) held.current = { actions, grip: fingers.grip()! };
+      return begins;
+    },
+    /** Whether the fingers pinch. */
+    move(event: PointerEvent): boolean {
+      fingers.move(event.pointerId, pixelOf(event));
+      if (held.current && fingers.count > 1) held.current.actions.pinch(held.current.grip, fingers.grip()!);
+      return held.current !== null;
+    },
+    /** Whether a pinch ends, or goes on until the last finger is lifted. */
+    up(event: PointerEvent): boolean {
+      fingers.lift(event.pointerId);
+      const pinched = held.current !== null;
+      if (fingers.count === 0) held.current = null;
+      return pinched;
+    },
+  };
+}
+
 export function useDrawing(actions: PlotActions | null): Drawing {
   const [points, setPoints] = useState<Corners>([]);
   const [crosshair, setCrosshair] = useState<Pixel | null>(null);
   const from = useRef<{ start: Pixel; last: Pixel; dragged: boolean } | null>(null);
   const mode = useStore(tool);
+  const pinch = usePinch(actions);
   const ends = actions ? [actions.frame.x.low, actions.frame.x.high, actions.frame.y.low, actions.frame.y.high] : [];
   const moving = useMoving(...[0, 1, 2, 3].map((k) => ends[k] ?? 0));
   useLayoutEffect(() => setPoints([]), [mode]);
 
   /** A corner of the polygon, or of the box; on the first corner the polygon is closed. */
-  const corner = (at: Pixel) => {
+  const corner = (at: Pixel, within = reach) => {
     if (!actions) return;
     const place = actions.place(at);
     if (mode === 'box') {
@@ -57,7 +85,7 @@ export function useDrawing(actions: PlotActions | null): Drawing {
       actions.addBox(points[0], place);
       return setPoints([]);
     }
-    if (points.length >= 3 && actions.isOn(at, points[0])) return close();
+    if (points.length >= 3 && actions.isOn(at, points[0], within)) return close();
     setPoints([...points, place]);
   };
   const close = () => {
@@ -76,9 +104,12 @@ export function useDrawing(actions: PlotActions | null): Drawing {
       (event.currentTarget as HTMLElement).focus({ preventScroll: true });
       const at = pixelOf(event);
       setCrosshair(null);
-      from.current = { start: at, last: at, dragged: false };
+      from.current = null;
+      if (!pinch.down(event)) from.current = { start: at, last: at, dragged: false };
+      else if (mode === 'box') setPoints([]);
     },
     onPointerMove(event) {
+      if (pinch.move(event)) return;
       const drag = from.current;
       if (!actions || !drag) return;
       const at = pixelOf(event);
@@ -93,14 +124,18 @@ export function useDrawing(actions: PlotActions | null): Drawing {
     onPointerUp(event) {
       const drag = from.current;
       from.current = null;
-      if (!actions || !drag) return;
+      if (pinch.up(event) || !actions || !drag) return;
       const at = pixelOf(event);
-      if (mode === 'look' && !drag.dragged) actions.choose(at);
-      else if (mode === 'polygon') corner(at);
+      if (mode === 'look' && !drag.dragged) actions.choose(at, reachOf(event));
+      else if (mode === 'polygon') corner(at, reachOf(event));
       else if (mode === 'box' && drag.dragged) {
         actions.addBox(actions.place(drag.start), actions.place(at));
         setPoints([]);
       } else if (mode === 'box') corner(at);
+    },
+    onPointerCancel(event) {
+      from.current = null;
+      pinch.up(event);
     },
     onKeyDown(event) {
       if (!actions || event.ctrlKey || event.metaKey || event.altKey) return;
