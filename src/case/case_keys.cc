@@ -50,9 +50,8 @@ const std::array table = {
         "radii of the wall at these places, smooth and monotonic in between, constant beyond the ends",
         List{{0.5, 5000}}, absent, monolithic, "channel.profile.width_um"),
     KEY(channel.profile.width_um, "um",
-        "widths at these places of a channel of constant height, linear in between, in place of radii; a tube stands "
-        "for "
-        "a height of the least of them, with the same mean speed everywhere",
+        "widths at these places of a channel of constant height, linear in between, in place of radii; a tube "
+        "stands for a height of the least of them, with the same mean speed everywhere",
         List{{1, 10000}}, absent, monolithic, "channel.profile.R_um"),
     KEY(channel.profile.rounding_um, "um",
         "how far from the places the corners of the walls are rounded where the channel is computed in three "

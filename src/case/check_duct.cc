@@ -11,8 +11,6 @@ namespace rheocyte {
 
 namespace {
 
-using Reason = std::string_view;
-
 /// Of a key whose value may be its fallback.
 std::string told(const KeyReading& keys, std::string_view key, double value) {
   return keys.has(key) ? keys.stated(key) : fmt::format("{} = {:g}", key, value);
@@ -53,7 +51,7 @@ void check_inertia(const Case& c, const KeyReading& keys) {
 }
 
 void check_duct_in_time(const Case& c, const KeyReading& keys) {
-  const auto refuse = [&](std::string_view key, Reason reason) {
+  const auto refuse = [&](std::string_view key, std::string_view reason) {
     keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
   };
   if (c.time.scheme == TimeScheme::stationary) return;

@@ -117,8 +117,9 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   const bool settled = record.end == TimeEnd::settled || has_settled(record, std::abs(distance), problem.accuracy);
   const double d = stationary.shape.deformation, share = d / std::max(d, result.state.deformation_floor);
   if (settled) result.state.estimated_error = share * (std::abs(distance) + stationary.estimated_error);
-  if (settled)
-    result.state.errors = errors_by(stationary, problem.radius_ratio != result.problem.radius_ratio, result.state);
+  const bool is_other_channel =
+      problem.radius_ratio != result.problem.radius_ratio || problem.extent.width != result.problem.extent.width;
+  if (settled) result.state.errors = errors_by(stationary, is_other_channel, result.state);
   outcome.message += told(stationary.shape.deformation, distance, settled);
 }
 
