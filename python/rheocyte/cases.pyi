@@ -8,7 +8,8 @@ def case_keys() -> list[dict[str, Any]]: ...
 class _ChannelProfile:
     x_um: list[float] | None  # places along a channel that is not straight, in place of its width or radius; the cell starts at 0
     R_um: list[float] | None  # radii of the wall at these places, smooth and monotonic in between, constant beyond the ends
-    width_um: list[float] | None  # widths at these places of a channel whose height is the least of them, linear in between, in place of radii; mapped to the tube that has the same mean speed everywhere
+    width_um: list[float] | None  # widths at these places of a channel of constant height, linear in between, in place of radii; a tube stands for a height of the least of them, with the same mean speed everywhere
+    rounding_um: float | None  # how far from the places the corners of the walls are rounded where the channel is computed in three dimensions; if it is not given, 0.15 of the lesser of height and least width
     axial_tension_Pa: list[float] | None  # even axial tension of the surroundings where the cell is at these places, linear in between, constant beyond the ends; in place of flow.axial_tension_Pa
 
 class _Channel:
@@ -72,7 +73,7 @@ class _Time:
     grid_um: float | None  # size of the elements along the cell's surface, 0.2 in Mokbel et al. 2017; 0: the mesh of the implicit steps
     start_stretch: float | None  # stretch along the flow with which the cell starts, all of it alike; its unstressed state is the sphere
     mesh_accuracy: float | None  # wanted accuracy of the deformation as far as it depends on the mesh, relative; mesh and degree are chosen for it
-    degree: float | None  # polynomial degree of the spaces on a mesh of 48 or more elements, in place of the accuracy
+    degree: float | None  # polynomial degree of the spaces on a mesh of 48 or more elements, in place of the accuracy; in three dimensions at most 6
 
 class _Numerics:
     accuracy: float | None  # wanted relative accuracy of the deformation, mesh and degree are chosen for it

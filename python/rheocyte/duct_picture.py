@@ -53,7 +53,8 @@ def story_of(result, fields):
     middle = (faces[..., 0].min() + faces[..., 0].max()) / 2
     faces = faces - [middle, 0, 0]
     channel = result["case"]["channel"]
-    halves = (channel["width_um"] / 2, channel.get("height_um", channel["width_um"]) / 2)
+    width = channel["width_um"] if "width_um" in channel else min(channel["profile"]["width_um"])  # behind a funnel
+    halves = (width / 2, channel.get("height_um", width) / 2)
     return DuctStory(result, halves, faces, silhouettes(faces, images_of(result["case"]), channel.get("camera_degree")))
 
 

@@ -83,6 +83,18 @@ def read_wall(folder):
     return tables
 
 
+def seen_walls(result, folder):
+    """The wall that the camera sees, and the half width of the channel there, the least one if it varies (um)."""
+    channel = find(result, "case", "channel") or {}
+    wall, radius = read_wall(folder), find(result, "tube_radius_um")
+    if wall is not None and find(channel, "camera_degree") == 90:  # the height does not vary
+        wall = None
+        radius = (find(channel, "height_um") or min(find(channel, "profile", "width_um"))) / 2
+    if wall is not None:
+        radius = min(wall[0][1])
+    return wall, radius or find(channel, "width_um") and channel["width_um"] / 2
+
+
 def wall_round_cell(wall, radius, time):
     """Places from the cell's centre and the wall's radii there."""
     reach = 2.5 * radius
@@ -94,11 +106,11 @@ def wall_round_cell(wall, radius, time):
     return places, np.interp(places + here, x, radii)
 
 
-def animation(result, history, contours, wall):
+def animation(history, contours, wall, radius):
     """The cell between the walls, as a film: the content of a GIF file."""
     times, shapes = contours
     steps = np.unique(np.linspace(0, len(times) - 1, min(len(times), GREATEST_FRAMES)).round().astype(int))
-    radius = find(result, "tube_radius_um") or 1.2 * max(shape[:, 1].max() for shape in shapes)
+    radius = radius or 1.2 * max(shape[:, 1].max() for shape in shapes)
     widest = radius if wall is None else max(wall_round_cell(wall, radius, t)[1].max() for t in times)
     height = 1.18 * widest
     figure = page.new_figure(4.4, 4.4 * height / (2 * radius), STYLE, dpi=110)
@@ -133,7 +145,7 @@ def draw_folder(folder):
     result = read_result(folder / "result.json")
     history, contours = read_history(folder / "history.csv"), read_contours(folder / "contours.csv")
     save_figure(draw(result, history, contours), folder / "time")
-    write_file(folder / "time.gif", animation(result, history, contours, read_wall(folder)))
+    write_file(folder / "time.gif", animation(history, contours, *seen_walls(result, folder)))
 
 
 def main():

@@ -24,7 +24,8 @@ template <>
 struct FieldsOf<TimeLevel> {
   template <class Self>
   static auto fields(Self& l) {
-    return std::tie(l.time, l.frame_acceleration, l.position, l.outward, l.branch, l.unknowns, l.velocities);
+    return std::tie(l.time, l.frame_acceleration, l.position, l.barycentre, l.outward, l.branch, l.unknowns,
+                    l.velocities);
   }
 };
 
@@ -38,10 +39,27 @@ struct FieldsOf<Resolution> {
 };
 
 template <>
+struct FieldsOf<Motion> {
+  template <class Self>
+  static auto fields(Self& m) {
+    return std::tie(m.rate, m.unknowns, m.velocities, m.outward, m.branch);
+  }
+};
+
+template <>
+struct FieldsOf<KeptTangent> {
+  template <class Self>
+  static auto fields(Self& t) {
+    return std::tie(t.motion, t.axial_tension, t.outward, t.unknowns);
+  }
+};
+
+template <>
 struct FieldsOf<TimeState> {
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.order, s.steps_at_order, s.next_step, s.traction, s.inlet_pressure, s.resolution, s.levels);
+    return std::tie(s.order, s.steps_at_order, s.next_step, s.traction, s.inlet_pressure, s.resolution, s.tangent,
+                    s.levels);
   }
 };
 
@@ -167,6 +185,8 @@ TimeStart read_start(const fs::path& folder, const Case& c) {
   if (other.time.scheme == TimeScheme::stationary)
     refuse_path(folder,
                 "is a stationary result, which has no checkpoint; --start takes the folder of a result in time.");
+  if (is_duct(c.channel.section) || is_duct(other.channel.section))
+    refuse_path(folder, "cannot be a start: that is for channel.section = \"tube\", here and there.");
   const bool implicit = c.time.scheme == TimeScheme::monolithic && other.time.scheme == TimeScheme::monolithic;
   const bool straight = c.channel.profile.x_um.empty() && other.channel.profile.x_um.empty();
   if (!implicit || !straight)

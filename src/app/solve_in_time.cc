@@ -66,7 +66,7 @@ class Recorder {
     folder_.write("contours.csv", contours_csv(record_));
     folder_.write("fields.pvd", field_collection(record_, fields_folder));
     if (const WallTable& wall = result_.problem.wall; !wall.is_straight())
-      folder_.write("channel.csv", channel_csv(wall, result_.scales));
+      folder_.write("channel.csv", channel_csv(result_.problem, result_.scales));
   }
 
  private:

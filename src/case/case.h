@@ -8,10 +8,11 @@
 
 namespace rheocyte {
 
-/// A channel that is not straight, by its radii or by the widths of a chip of constant height; empty for a straight
-/// one.
+/// A channel that is not straight, by its radii or by the widths of a chip of constant height, of which a tube stands
+/// for the chip or the funnel is computed itself, in three dimensions; empty for a straight one.
 struct ChannelProfile {
   std::vector<double> x_um, R_um, width_um;
+  std::optional<double> rounding_um = {};     ///< only of a funnel in three dimensions
   std::vector<double> axial_tension_Pa = {};  ///< in place of that of the flow; empty: the same everywhere
 };
 

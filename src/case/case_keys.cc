@@ -50,9 +50,13 @@ const std::array table = {
         "radii of the wall at these places, smooth and monotonic in between, constant beyond the ends",
         List{{0.5, 5000}}, absent, monolithic, "channel.profile.width_um"),
     KEY(channel.profile.width_um, "um",
-        "widths at these places of a channel whose height is the least of them, linear in between, in place of radii; "
-        "mapped to the tube that has the same mean speed everywhere",
+        "widths at these places of a channel of constant height, linear in between, in place of radii; a tube "
+        "stands for a height of the least of them, with the same mean speed everywhere",
         List{{1, 10000}}, absent, monolithic, "channel.profile.R_um"),
+    KEY(channel.profile.rounding_um, "um",
+        "how far from the places the corners of the walls are rounded where the channel is computed in three "
+        "dimensions; if it is not given, 0.15 of the lesser of height and least width",
+        Number{{1e-3, 1e4}}, absent, in_duct),
     KEY(channel.profile.axial_tension_Pa, "Pa",
         "even axial tension of the surroundings where the cell is at these places, linear in between, constant beyond "
         "the ends; in place of flow.axial_tension_Pa",
@@ -166,7 +170,9 @@ const std::array table = {
         "wanted accuracy of the deformation as far as it depends on the mesh, relative; mesh and degree are chosen for "
         "it",
         Number{{1e-6, 1e-1}}, 1e-3, monolithic, "time.degree"),
-    KEY(time.degree, "", "polynomial degree of the spaces on a mesh of 48 or more elements, in place of the accuracy",
+    KEY(time.degree, "",
+        "polynomial degree of the spaces on a mesh of 48 or more elements, in place of the accuracy; in three "
+        "dimensions at most 6",
         Number{{2, 10}, true}, absent, in_time, "time.mesh_accuracy"),
 
     KEY(numerics.accuracy, "", "wanted relative accuracy of the deformation, mesh and degree are chosen for it",

@@ -29,14 +29,14 @@ struct Extent {
 inline bool is_duct(Section section) { return section != Section::tube; }
 
 /// From where the camera looks at a cell in a duct: so far round the flow from the direction of the height. `side`
-/// looks at right angles onto a wall, `diagonal` along the diagonal of a square.
+/// looks at right angles onto a wall, `diagonal` along the diagonal of a square, `along_width` along the width.
 struct Camera {
   double degrees = 0;
 
-  static const Camera side, diagonal;
+  static const Camera side, diagonal, along_width;
   bool operator==(const Camera&) const = default;
 };
-inline constexpr Camera Camera::side{0}, Camera::diagonal{45};
+inline constexpr Camera Camera::side{0}, Camera::diagonal{45}, Camera::along_width{90};
 
 /// Where a cell off the axis of a duct is: at the given place, or where it does not drift, sought from there.
 enum class CellPlace { given, equilibrium };

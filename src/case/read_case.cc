@@ -9,6 +9,7 @@
 
 #include "case/case_keys.h"
 #include "case/case_text.h"
+#include "case/check_duct.h"
 #include "case/key_reading.h"
 #include "case/scales.h"
 #include "laws/wall_profile.h"
@@ -25,21 +26,33 @@ bool has_profile(const KeyReading& keys) {
 }
 
 /// Of the walls' radii: as given, or as they follow from widths.
-std::string radii_text(const KeyReading& keys) {
+std::string radii_text(const Case& c, const KeyReading& keys) {
+  if (is_duct(c.channel.section)) return "half of channel.profile.width_um";
   return keys.has(profile_width) ? "the radius of the tube for channel.profile.width_um" : std::string(profile_R);
 }
 
 /// That of the wall.
-std::string_view wall_key(const KeyReading& keys) { return keys.has(profile_width) ? profile_width : profile_R; }
+std::string_view wall_key(const Case& c, const KeyReading& keys) {
+  return keys.has(profile_width) || is_duct(c.channel.section) ? profile_width : profile_R;
+}
+
+/// Radii of the tube, or half widths of the duct.
+WallTable wall_radii_um(const Case& c) {
+  if (!is_duct(c.channel.section)) return wall_um(c.channel.profile);
+  WallTable wall{c.channel.profile.x_um, c.channel.profile.width_um};
+  for (double& radius : wall.radius) radius /= 2;
+  return wall;
+}
 
 // Past steeper ones no mesh follows large cells (docs/theory-time.md, eq:wall). The rounding admits lengths as they are
 // advised, with four digits.
 constexpr double steepest_wall = 1, rounding_of_advice = 1e-3, max_widening = 5;
 constexpr std::size_t most_places = 1000;
 
-void check_places(const ChannelProfile& wall, const KeyReading& keys) {
+void check_places(const Case& c, const KeyReading& keys) {
+  const ChannelProfile& wall = c.channel.profile;
   const std::size_t n = wall.x_um.size(), given = wall.width_um.empty() ? wall.R_um.size() : wall.width_um.size();
-  const std::string_view key = wall_key(keys);
+  const std::string_view key = wall_key(c, keys);
   if (given != n)
     keys.refuse(key, fmt::format("{} has {} numbers and {} has {}; give one {} for each place.", key, given, profile_x,
                                  n, key == profile_R ? "radius" : "width"));
@@ -53,82 +66,44 @@ void check_places(const ChannelProfile& wall, const KeyReading& keys) {
                               profile_x, wall.x_um[i - 1], wall.x_um[i]));
 }
 
-void check_slopes(const WallTable& wall, const KeyReading& keys) {
+void check_slopes(const Case& c, const KeyReading& keys) {
+  const WallTable wall = wall_radii_um(c);
   for (std::size_t i = 1; i < wall.x.size(); ++i) {
     const double length = wall.x[i] - wall.x[i - 1], change = std::abs(wall.radius[i] - wall.radius[i - 1]);
     if (change <= (1 + rounding_of_advice) * steepest_wall * length) continue;
     keys.refuse(
-        wall_key(keys),
+        wall_key(c, keys),
         fmt::format("{} changes by {:.4g} um between x = {:.4g} and {:.4g} um: no mesh follows large cells past "
                     "walls steeper than {:g} : 1; give this change a length of at least {:.4g} um.",
-                    radii_text(keys), change, wall.x[i - 1], wall.x[i], steepest_wall, change / steepest_wall));
+                    radii_text(c, keys), change, wall.x[i - 1], wall.x[i], steepest_wall, change / steepest_wall));
   }
 }
 
 void check_profile(const Case& c, const KeyReading& keys) {
   if (!has_profile(keys)) return;
-  const std::string_view wall = wall_key(keys);
+  const std::string_view wall = wall_key(c, keys);
   for (const auto& [one, other] : {std::pair{profile_x, wall}, std::pair{wall, profile_x}})
     if (!keys.has(one))
-      keys.refuse(other, fmt::format("{} is given without {}; give both, or channel.radius_um for a straight channel.",
-                                     other, one));
+      keys.refuse(other, fmt::format("{} is given without {}; give both, or {} for a straight channel.", other, one,
+                                     is_duct(c.channel.section) ? "channel.width_um" : "channel.radius_um"));
   for (const auto* straight : {"channel.width_um", "channel.radius_um"})
     if (keys.has(straight))
       keys.refuse(straight, fmt::format("{} and the section [channel.profile] exclude each other; give exactly one of "
                                         "them.",
                                         keys.stated(straight)));
-  check_places(c.channel.profile, keys);
-  const WallTable wall_radii = wall_um(c.channel.profile);
-  check_slopes(wall_radii, keys);
-  const double least = tube_radius_um(c), widest = *std::ranges::max_element(wall_radii.radius);
+  check_places(c, keys);
+  check_slopes(c, keys);
+  const WallTable walls = wall_radii_um(c);
+  const auto [narrow, wide] = std::ranges::minmax_element(walls.radius);
+  const double least = *narrow, widest = *wide;
   if (widest > max_widening * least)
     keys.refuse(wall, fmt::format("{} goes from {:g} to {:g} um; the widest part may be {:g} times as "
                                   "wide as the narrowest one.",
-                                  radii_text(keys), least, widest, max_widening));
+                                  radii_text(c, keys), least, widest, max_widening));
   if (c.flow.drive == Drive::rate) return;
   const std::string_view drive = keys.has("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa";
   keys.refuse(drive, fmt::format("{} is for straight channels; give flow.rate_ul_per_s with [channel.profile].",
                                  keys.stated(drive)));
-}
-
-constexpr double most_unequal_sides = 4;
-
-void check_rectangle(const Case& c, const KeyReading& keys) {
-  if (c.channel.section != Section::rectangle) return;
-  const double width = *c.channel.width_um, height = *c.channel.height_um;
-  if (std::max(width, height) > most_unequal_sides * std::min(width, height))
-    keys.refuse("channel.height_um",
-                fmt::format("{} is outside its range {:.4g} .. {:.4g} um, a quarter to four times channel.width_um.",
-                            keys.stated("channel.height_um"), width / most_unequal_sides, width * most_unequal_sides));
-  if (c.channel.camera == View::diagonal)
-    keys.refuse("channel.camera",
-                fmt::format("{} is for squares; give the angle channel.camera_degree.", keys.stated("channel.camera")));
-}
-
-// So much of the energy that deforms the cell: factors of single precision do not correct stiffer surfaces.
-double max_bending_in_ducts_kBT(const Case& c) {
-  constexpr double share = 4e-3;
-  const double r0 = 1e-6 * c.cell.radius_um, mu = 1e3 * c.cell.bulk.young_modulus_kPa.value_or(0) / 3,
-               shell = 1e-3 * c.cell.cortex.modulus_mN_per_m.value_or(0);
-  return share * (mu * r0 + shell) * r0 * r0 / thermal_energy_J;
-}
-
-// What is computed in tubes alone.
-void check_duct(const Case& c, const KeyReading& keys) {
-  if (!is_duct(c.channel.section)) return;
-  const auto refuse = [&](std::string_view key, std::string_view reason) {
-    keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
-  };
-  if (!c.channel.width_um || has_profile(keys))
-    refuse("channel.section", "needs channel.width_um, not a radius or a profile");
-  if (c.time.scheme != TimeScheme::stationary)
-    refuse("channel.section", "is for stationary shapes; leave [time] out, or take the tube");
-  const double most = max_bending_in_ducts_kBT(c);
-  if (c.cell.cortex.bending_kBT > most)
-    keys.refuse("cell.cortex.bending_kBT",
-                fmt::format("{} is more than can be solved for in ducts, {:.2g} kBT for this cell, and far more than "
-                            "cells have; lower it, or take the tube.",
-                            keys.stated("cell.cortex.bending_kBT"), most));
 }
 
 // One mirror plane is left to a cell off the axis; seen along its offset its outline is symmetric.
@@ -166,10 +141,12 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
 
 void check_cell_in_tube(const Case& c, const KeyReading& keys) {
   const double R = unit_length_um(c), r0 = c.cell.radius_um;
-  if (has_profile(keys) && r0 > max_radius_ratio * R)
-    keys.refuse(wall_key(keys), fmt::format("{} falls to {:g} um, which is narrower than the cell of cell.radius_um = "
-                                            "{:g} can pass; at least {:.4g} um are needed.",
-                                            radii_text(keys), R, r0, r0 / max_radius_ratio));
+  const bool is_by_wall = has_profile(keys) && std::ranges::min(wall_radii_um(c).radius) == R;
+  if (is_by_wall && r0 > max_radius_ratio * R)
+    keys.refuse(wall_key(c, keys),
+                fmt::format("{} falls to {:g} um, which is narrower than the cell of cell.radius_um = "
+                            "{:g} can pass; at least {:.4g} um are needed.",
+                            radii_text(c, keys), R, r0, r0 / max_radius_ratio));
   if (r0 >= min_radius_ratio * R && r0 <= max_radius_ratio * R) return;
   constexpr std::string_view key = "cell.radius_um";
   const auto what = c.channel.section == Section::square      ? "half width of the square"
@@ -258,7 +235,8 @@ void check_elongation(const Case& c, const KeyReading& keys, bool has_radius) {
 void check_start(const Case& c, const KeyReading& keys) {
   const double stretch = first_stretch(c);
   const WallTable wall = wall_um(c.channel.profile);
-  const double R = wall.is_straight() ? unit_length_um(c) : WallProfile(wall).radius(0);
+  const bool is_as_narrow = wall.is_straight() || is_duct(c.channel.section);
+  const double R = is_as_narrow ? unit_length_um(c) : WallProfile(wall).radius(0);
   const double widest = c.cell.radius_um / std::sqrt(stretch);
   if (widest <= max_radius_ratio * R || stretch >= 1) return;
   const double least = std::pow(c.cell.radius_um / (max_radius_ratio * R), 2);
@@ -318,8 +296,8 @@ Case complete_case(KeyReading& keys, std::vector<std::string_view> left_open) {
   Case c;
   keys.fill(c, case_keys());
   check_duct(c, keys);
-  check_rectangle(c, keys);
   check_profile(c, keys);
+  check_rectangle(c, keys);
   if (has_radius) {
     check_cell_in_tube(c, keys);
     check_length(c, keys);

@@ -57,16 +57,35 @@ WallTable wall_um(const ChannelProfile& profile) {
   return wall;
 }
 
+double least_width_um(const Channel& channel) {
+  const std::vector<double>& widths = channel.profile.width_um;
+  return widths.empty() ? channel.width_um.value() : *std::ranges::min_element(widths);
+}
+
+WallTable wall_of(const Case& c) {
+  const double h = unit_length_um(c);
+  WallTable wall = wall_um(c.channel.profile);
+  double least = h;
+  if (is_duct(c.channel.section) && !wall.is_straight()) {
+    wall = {c.channel.profile.x_um, c.channel.profile.width_um,
+            c.channel.profile.rounding_um.value_or(least_rounding * h) / h};
+    least = least_width_um(c.channel);
+  }
+  for (double& x : wall.x) x /= h;
+  for (double& radius : wall.radius) radius /= least;
+  return wall;
+}
+
 double unit_length_um(const Case& c) {
   if (!is_duct(c.channel.section)) return tube_radius_um(c);
-  const double width = c.channel.width_um.value();
+  const double width = least_width_um(c.channel);
   return std::min(width, c.channel.height_um.value_or(width)) / 2;
 }
 
 Extent extent_of(const Case& c) {
   if (c.channel.section != Section::rectangle) return {};
   const double h = unit_length_um(c);
-  return {c.channel.width_um.value() / (2 * h), c.channel.height_um.value() / (2 * h)};
+  return {least_width_um(c.channel) / (2 * h), c.channel.height_um.value() / (2 * h)};
 }
 
 int surface_elements(const Case& c) {
@@ -130,13 +149,11 @@ Problem problem_of(const Case& c) {
   problem.start_stretch = c.time.start_stretch.value_or(1);
   if (const auto& tension_Pa = c.channel.profile.axial_tension_Pa; !tension_Pa.empty()) {
     for (std::size_t i = 0; i < tension_Pa.size(); ++i) {
-      problem.tension_profile.x.push_back(c.channel.profile.x_um[i] / tube_radius_um(c));
+      problem.tension_profile.x.push_back(c.channel.profile.x_um[i] / unit_length_um(c));
       problem.tension_profile.tension.push_back(tension_Pa[i] / S);
     }
   }
-  problem.wall = wall_um(c.channel.profile);
-  for (auto* column : {&problem.wall.x, &problem.wall.radius})
-    for (double& value : *column) value /= tube_radius_um(c);
+  problem.wall = wall_of(c);
   problem.accuracy = c.numerics.accuracy;
   problem.accuracy_of = c.numerics.accuracy_of.value_or(AccuracyOf::deformation);
   return problem;

@@ -28,6 +28,15 @@ double tube_radius_um(const Case&);
 /// The wall that the cell passes, in um: as given, or the tube of the widths' speeds (docs/theory-time.md, eq:funnel).
 WallTable wall_um(const ChannelProfile&);
 
+/// Of a duct, where it varies the least one.
+double least_width_um(const Channel&);
+
+/// Of corners of walls in ducts, in units of length: less is a kink within an element.
+inline constexpr double least_rounding = 0.3;
+
+/// The wall that the cell passes, in the units of WallTable.
+WallTable wall_of(const Case&);
+
 /// The unit of lengths: the tube's radius, or half the lesser of width and height where the duct itself is computed.
 double unit_length_um(const Case&);
 

@@ -63,6 +63,12 @@ DuctPoint DuctGeometry::map(Part part, const DuctPoint& cube, double outward) co
   return DuctPoint::Zero();
 }
 
+Eigen::Vector2d DuctGeometry::wall_share(Part part, const DuctPoint& cube, double outward) const {
+  if (part == Part::core || part == Part::ring) return {0, 0};
+  const DuctPoint side = box_side(cube);
+  return (part == Part::layers ? outward : 1) * Eigen::Vector2d(side(1), section() == Section::tube ? side(2) : 0);
+}
+
 bool DuctGeometry::is_wall(const DuctPoint& x) const {
   if (shape_.section == Section::tube) return x.tail<2>().norm() > 1 - same_place;
   return std::abs(x(1)) > shape_.extent.width - same_place || std::abs(x(2)) > shape_.extent.height - same_place;

@@ -34,6 +34,10 @@ class DuctGeometry {
   /// point of the cube's surface that it belongs to, in the core the point in the cube.
   DuctPoint map(Part, const DuctPoint& cube, double outward) const;
 
+  /// How far (y, z) of that point move when the wall does by its own half width, of a duct that is not straight
+  /// (docs/theory-time.md, eq:planar-wall): in a tube both ways across the flow, else along the width alone.
+  Eigen::Vector2d wall_share(Part, const DuctPoint& cube, double outward) const;
+
   bool is_wall(const DuctPoint&) const;
   const DuctShape& shape() const { return shape_; }
   Section section() const { return shape_.section; }

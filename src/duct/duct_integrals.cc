@@ -1,13 +1,13 @@
 #include "duct/duct_integrals.h"
 
 #include "fem/element_quadrature.h"
-#include "laws/weak_form.h"
+#include "laws/moving_form.h"
 
 namespace rheocyte {
 namespace {
 
 using Cell = CellFields<double, 3>;
-using Moving = LiquidFields<double, 3>;
+using Liquids = LiquidFields<double, 3>;
 
 /// Which number of the fields is a part of a component of a source; -1: none.
 template <class Fields>
@@ -64,9 +64,11 @@ MatrixXd points_of_nodes(const DuctSpace& space, int e, const VectorXd& unknowns
   return x;
 }
 
+namespace {
+
 template <class Fields>
-MatrixXd numbers_at_points(const DuctSpace& space, const TensorElement& element, int e, const VectorXd& unknowns) {
-  const HexahedronUnknowns& self = space.elements()[e];
+MatrixXd numbers_at_points(const Hexahedron& at, const VectorXd& unknowns) {
+  const auto& [space, element, e, self] = at;
   const int n = space.reference().nodes();
   MatrixXd numbers = MatrixXd::Zero(space.reference().points(), Fields::count);
   const auto add = [&](Source source, const MatrixXd& nodal) {
@@ -84,27 +86,48 @@ MatrixXd numbers_at_points(const DuctSpace& space, const TensorElement& element,
   return numbers;
 }
 
+}  // namespace
+
+template <class Fields>
+MatrixXd numbers_at_points(const DuctSpace& space, const TensorElement& element, int e, const VectorXd& unknowns) {
+  return numbers_at_points<Fields>({space, element, e, space.elements()[e]}, unknowns);
+}
+
 template MatrixXd numbers_at_points<MapFields<double, 3>>(const DuctSpace&, const TensorElement&, int, const VectorXd&);
 template MatrixXd numbers_at_points<Cell>(const DuctSpace&, const TensorElement&, int, const VectorXd&);
-template MatrixXd numbers_at_points<Moving>(const DuctSpace&, const TensorElement&, int, const VectorXd&);
+template MatrixXd numbers_at_points<Liquids>(const DuctSpace&, const TensorElement&, int, const VectorXd&);
 
-VectorXd integrate_hexahedron(const DuctSpace& space, const TensorElement& element, int e, const Media& media,
-                              const VectorXd& unknowns, Want want, HexahedronPoints& points) {
-  const HexahedronUnknowns& self = space.elements()[e];
+namespace {
+
+/// Fluxes at the points of an element of the cell, at rest or on its way.
+void evaluate_cell(const Bulk& bulk, const Hexahedron& at, Want want, HexahedronPoints& points) {
+  const HexahedronUnknowns& self = at.self;
+  const VectorXd& weights = at.space.reference().weights;
+  if (self.history.empty()) {
+    const auto form_at = [&](int q) { return CellPoint<3>{bulk, self.undeformed[q]}; };
+    return evaluate_points<CellPoint<3>>(points.numbers, weights, form_at, want, points.fluxes);
+  }
+  const auto form_at = [&](int q) {
+    return MovingCellPoint<3>{
+        .law = bulk, .undeformed = self.undeformed[q], .rate = self.rate, .history = self.history[q]};
+  };
+  evaluate_points<MovingCellPoint<3>>(points.numbers, weights, form_at, want, points.fluxes);
+}
+
+}  // namespace
+
+VectorXd integrate_hexahedron(const Hexahedron& at, const Media& media, const VectorXd& unknowns, Want want,
+                              HexahedronPoints& points) {
+  const auto& [space, element, e, self] = at;
   const ReferenceElement<3>& reference = space.reference();
   ElementSystem& system = points.fluxes;
   if (self.liquid) {
-    points.numbers = numbers_at_points<Moving>(space, element, e, unknowns);
+    points.numbers = numbers_at_points<Liquids>(at, unknowns);
     evaluate_points<LiquidPoint<3>>(
         points.numbers, reference.weights, [&](int) { return LiquidPoint<3>{media.liquid}; }, want, system);
   } else {
-    points.numbers = numbers_at_points<Cell>(space, element, e, unknowns);
-    evaluate_points<CellPoint<3>>(
-        points.numbers, reference.weights,
-        [&](int q) {
-          return CellPoint<3>{media.bulk, self.undeformed[q]};
-        },
-        want, system);
+    points.numbers = numbers_at_points<Cell>(at, unknowns);
+    evaluate_cell(media.bulk, at, want, points);
   }
   system.min_det = min_relative_det(self.undeformed, points.numbers);
   const int n = reference.nodes(), m = reference.pressures();
@@ -186,7 +209,7 @@ void HexahedronTangent::add_fields(const HexahedronUnknowns& self, bool has_iner
 void HexahedronTangent::add(const HexahedronUnknowns& self, bool has_inertia, const HexahedronPoints& points,
                             const std::vector<int>& place, Eigen::MatrixXf& matrix) {
   if (self.liquid) {
-    add_fields<Moving>(self, has_inertia, points, place, matrix);
+    add_fields<Liquids>(self, has_inertia, points, place, matrix);
   } else {
     add_fields<Cell>(self, false, points, place, matrix);
   }

@@ -26,10 +26,18 @@ MatrixXd points_of_nodes(const DuctSpace&, int element, const VectorXd& unknowns
 template <class Fields>
 MatrixXd numbers_at_points(const DuctSpace&, const TensorElement&, int element, const VectorXd& unknowns);
 
+/// An element to be integrated: as the space knows it, or as it is within a step in time.
+struct Hexahedron {
+  const DuctSpace& space;
+  const TensorElement& element;
+  int number;
+  const HexahedronUnknowns& self;
+};
+
 /// Residual of one element in the order of its rows; `points` keeps fluxes and, if wanted, their derivatives, and the
 /// least relative det of the map.
-VectorXd integrate_hexahedron(const DuctSpace&, const TensorElement&, int element, const Media&,
-                              const VectorXd& unknowns, Want, HexahedronPoints& points);
+VectorXd integrate_hexahedron(const Hexahedron&, const Media&, const VectorXd& unknowns, Want,
+                              HexahedronPoints& points);
 
 /// Adds the tangent that `points` hold to a matrix whose rows and columns are numbered by `place`, unknown by unknown.
 class HexahedronTangent {

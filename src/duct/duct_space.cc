@@ -1,6 +1,10 @@
 #include "duct/duct_space.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
+
+#include "shape/curve.h"
 
 namespace rheocyte {
 
@@ -10,18 +14,28 @@ DuctSpace::DuctSpace(const DuctMesh& mesh, Interior interior, int degree)
       reference_(degree),
       section_(mesh.geometry(), degree, mesh.symmetry(), mesh.subdivision().across),
       nodes_(mesh.number_nodes(degree)),
-      points_(nodes_.count) {
+      points_(nodes_.count),
+      wall_shares_(nodes_.count, Eigen::Vector2d::Zero()) {
   const VectorXd& s = reference_.nodes_1d;
   const int n = degree + 1;
   for (int e = 0; e < int(mesh.elements().size()); ++e) {
-    for (int k = 0; k < reference_.nodes(); ++k)
-      points_[nodes_.of_element[e][k]] = mesh.point(e, {s(k % n), s(k / n % n), s(k / (n * n))});
+    const DuctElement& self = mesh.elements()[e];
+    for (int k = 0; k < reference_.nodes(); ++k) {
+      const Eigen::Vector3d xi(s(k % n), s(k / n % n), s(k / (n * n)));
+      const int node = nodes_.of_element[e][k];
+      points_[node] = mesh.point(e, xi);
+      if (!self.in_cell())
+        wall_shares_[node] =
+            mesh.geometry().wall_share(self.part, self.on_cube(xi(0), xi(1), xi(2)), self.outward_at(xi(2)));
+    }
   }
+  straight_points_ = points_;
   find_held_nodes();
 }
 
 DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid, Drive drive, Interior interior)
     : DuctSpace(mesh, interior, degree) {
+  liquid_ = liquid;
   open_inlet_ = drive != Drive::rate;
   const DuctFlow inflow = open_inlet_ ? DuctFlow{} : section_.flow(liquid);
   number_unknowns([&](const Eigen::Vector2d& at) {
@@ -33,6 +47,73 @@ DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const GivenFlow& flow)
     : DuctSpace(mesh, Interior::elastic, degree) {
   given_flow_ = true;
   number_unknowns(flow.velocity);
+}
+
+VectorXd DuctSpace::wall_motion(const std::function<double(double)>& wall, const VectorXd& unknowns) const {
+  VectorXd outward = VectorXd::Zero(nodes_.count);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const HexahedronUnknowns& self = elements_[e];
+    for (int k = 0; k < reference_.nodes() && self.liquid; ++k) {
+      const int node = nodes_.of_element[e][k];
+      const double slide = self.moves ? self.displacement[k].value(unknowns) : 0;
+      outward(node) = wall(straight_points_[node](0) + slide) - 1;
+    }
+  }
+  return outward;
+}
+
+void DuctSpace::move_nodes(const VectorXd& outward) {
+  for (int i = 0; i < nodes_.count; ++i)
+    points_[i].tail<2>() = straight_points_[i].tail<2>() + outward(i) * wall_shares_[i];
+  if (!open_inlet_ && !given_flow_) set_inflow(outward);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    HexahedronUnknowns& self = elements_[e];
+    if (!self.liquid) continue;
+    self.undeformed = undeformed_maps(int(e));
+    for (int i = 0; i < 3 * reference_.nodes(); ++i)
+      self.velocity[i] = velocity(nodes_.of_element[e][i % reference_.nodes()], i / reference_.nodes());
+  }
+}
+
+VectorXd DuctSpace::inflow_at(double stretch) const {
+  const DuctGeometry& geometry = mesh_.geometry();
+  if (geometry.section() == Section::tube) {
+    const double area = stretch * stretch;
+    return section_.flow(in_units_of_rate(liquid_, 1 / (area * stretch))).velocity / area;
+  }
+  DuctShape wider = geometry.shape();
+  wider.section = Section::rectangle;
+  wider.extent.width *= stretch;
+  // Its nodes have the numbers of those of the straight section.
+  const CrossSection inlet(DuctGeometry(wider), reference_.degree(), mesh_.symmetry(), mesh_.subdivision().across);
+  return inlet.flow(in_units_of_rate(liquid_, 1 / stretch)).velocity / stretch;
+}
+
+void DuctSpace::set_inflow(const VectorXd& outward) {
+  const double end = mesh_.geometry().half_length(), slope = inlet_slope(outward);
+  VectorXd inflow;
+  for (int i = 0; i < nodes_.count; ++i) {
+    if (straight_points_[i](0) > -end + same_place || mesh_.geometry().is_wall(straight_points_[i])) continue;
+    if (inflow.size() == 0) inflow = inflow_at(1 + outward(i));
+    const double velocity = inflow(section_.node_at(straight_points_[i].tail<2>()));
+    velocity_[3 * i].constant = velocity;
+    for (int c = 1; c < 3; ++c) velocity_[3 * i + c].constant = slope * velocity * wall_shares_[i](c - 1);
+  }
+}
+
+double DuctSpace::inlet_slope(const VectorXd& outward) const {
+  const int p = reference_.degree(), on_face = (p + 1) * (p + 1);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const DuctElement& element = mesh_.elements()[e];
+    if (element.part != Part::end || element.face != Face::rear || element.outward[1] != 1) continue;
+    const auto& nodes = nodes_.of_element[e];
+    VectorXd along(p + 1);
+    for (int k = 0; k <= p; ++k) along(k) = outward(nodes[k * on_face]);
+    const double length = straight_points_[nodes[p * on_face]](0) - straight_points_[nodes[0]](0);
+    return (lagrange_slopes(p, VectorXd::Ones(1)) * along)(0) / length;
+  }
+  assert(false);
+  return 0;
 }
 
 /// The node on the cell's axis, or on its surface, that is nearest to its middle, and the one at its front pole.

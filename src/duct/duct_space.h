@@ -12,6 +12,7 @@
 #include "duct/duct_flow.h"
 #include "fem/discretisation.h"
 #include "laws/cartesian.h"
+#include "laws/moving_form.h"
 
 namespace rheocyte {
 
@@ -24,6 +25,10 @@ struct HexahedronUnknowns {
   std::vector<Slot> displacement, velocity, pressure;
   std::vector<int> rows;  ///< unknown whose equation the row belongs to, or -1
   bool is_empty = false;  ///< of a liquid interior: nothing to integrate, its mesh follows the surface
+  /// Of a cell on its way: how velocities follow from displacements (docs/theory-time.md, eq:bdf), at the quadrature
+  /// points; else empty.
+  double rate = 0;
+  std::vector<CellHistory<3>> history = {};
 };
 
 /// A velocity along x, of (y, z).
@@ -49,6 +54,13 @@ class DuctSpace {
   const CrossSection& section() const { return section_; }
   bool has_open_inlet() const { return open_inlet_; }
   bool has_given_flow() const { return given_flow_; }
+
+  /// Where the wall is not straight: its half width over that of the straight one, less 1, where the nodes are with
+  /// these unknowns. By nodes.
+  VectorXd wall_motion(const std::function<double(double)>& wall, const VectorXd& unknowns) const;
+  /// Moves the liquid's nodes from their places in the straight duct so far that the wall is there, and adapts the flow
+  /// through the inlet.
+  void move_nodes(const VectorXd& outward);
 
   int unknowns() const { return unknowns_; }
   int cell_velocity() const { return cell_velocity_; }
@@ -82,17 +94,24 @@ class DuctSpace {
   DuctSpace(const DuctMesh&, Interior, int degree);
   void number_unknowns(const std::function<double(const Eigen::Vector2d&)>& inflow);
   void find_held_nodes();
+  /// The undisturbed flow through the inlet's section where the wall is so much wider, at the nodes of the section.
+  VectorXd inflow_at(double stretch) const;
+  void set_inflow(const VectorXd& outward);
+  /// Slope of the wall, over the straight half width, at the inlet.
+  double inlet_slope(const VectorXd& outward) const;
   HexahedronUnknowns unknowns_of(int element) const;
   void add_displacements(int element, HexahedronUnknowns&) const;
   std::vector<PointMap<double, 3>> undeformed_maps(int element) const;
 
   DuctMesh mesh_;
   Interior interior_;
+  Liquid liquid_;  ///< that flows in
   bool open_inlet_ = false, given_flow_ = false;
   ReferenceElement<3> reference_;
   CrossSection section_;
   NodeNumbers nodes_;
-  std::vector<DuctPoint> points_;
+  std::vector<DuctPoint> points_, straight_points_;
+  std::vector<Eigen::Vector2d> wall_shares_;  ///< of the motion of the wall, that the nodes take over
   std::vector<int> displacement_, pressure_;
   std::vector<Slot> velocity_;
   int unknowns_ = 0, cell_velocity_ = -1, inner_pressure_ = -1, drift_ = -1, spin_ = -1, held_node_ = -1,

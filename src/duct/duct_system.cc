@@ -56,10 +56,14 @@ DuctSystem::DuctSystem(const DuctSpace& space, double drop, bool bends)
       tangent_(element_, space.reference()),
       cortex_(space, bends),
       filled_(filled_elements(space)),
-      outlet_load_(duct_end_load(space, Face::front)),
-      inlet_load_(duct_end_load(space, Face::rear)),
       turning_(space) {
+  renew_end_loads();
   couple(coupled_unknowns(space, cortex_, filled_));
+}
+
+void DuctSystem::renew_end_loads() {
+  outlet_load_ = duct_end_load(space_, Face::front);
+  inlet_load_ = duct_end_load(space_, Face::rear);
 }
 
 double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
@@ -78,8 +82,8 @@ VectorXd DuctSystem::loads(const Media& media, const VectorXd&) {
 
 double DuctSystem::add_part(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
   const int e = filled_[part];
-  const HexahedronUnknowns& self = space_.elements()[e];
-  const VectorXd residual = integrate_hexahedron(space_, element_, e, media, unknowns, want, points_);
+  const HexahedronUnknowns& self = unknowns_of(e);
+  const VectorXd residual = integrate_hexahedron({space_, element_, e, self}, media, unknowns, want, points_);
   for (int i = 0; i < residual.size(); ++i) {
     if (self.rows[i] >= 0) total(self.rows[i]) += residual(i);
   }

@@ -9,7 +9,7 @@
 
 namespace rheocyte {
 
-class DuctSystem final : public AssembledSystem<float> {
+class DuctSystem : public AssembledSystem<float> {
  public:
   /// The space must outlive this object. Where the pressure drop is given, it is `drop` times that of the undisturbed
   /// flow at mean speed 1. A cortex with bending stiffness is for systems that bend.
@@ -29,6 +29,12 @@ class DuctSystem final : public AssembledSystem<float> {
   std::size_t memory_bytes() const override { return factor_bytes(); }
   /// Gives the factors to a system whose unknowns mean the same, for chord steps there, and takes the other's.
   using AssembledSystem::exchange_factors;
+
+ protected:
+  /// What an element knows, with the pressures of the same unknowns.
+  virtual const HexahedronUnknowns& unknowns_of(int element) const { return space_.elements()[element]; }
+  /// Those of the ends, after the space has moved its nodes.
+  void renew_end_loads();
 
  private:
   VectorXd loads(const Media&, const VectorXd& unknowns) override;

@@ -115,7 +115,7 @@ void MovingSystem::set_cell_history(int e) {
     for (int q = 0, points = reference.points(); q < points; ++q) {
       // The form knows the place, not the displacement.
       const PointMap<double, 2>& X = elements()[e].undeformed[q];
-      CellHistory& history = cell_history_[e][q];
+      CellHistory<2>& history = cell_history_[e][q];
       history.velocity(c) = stack(q) - (c == 1 ? motion_.rate * X.r : 0);
       for (int k = 0; k < 2; ++k) history.velocity_slope(c, k) = stack((1 + k) * points + q) - motion_.rate * X.G(c, k);
       history.acceleration(c) = velocity(q);
@@ -126,7 +126,7 @@ void MovingSystem::set_cell_history(int e) {
 void MovingSystem::set_branch_history() {
   Eigen::Index i = 0;
   for (auto& of_element : cell_history_) {
-    for (CellHistory& history : of_element) {
+    for (CellHistory<2>& history : of_element) {
       history.branch = from_components(motion_.branch.segment<4>(i));
       i += 4;
     }
@@ -169,14 +169,14 @@ void MovingSystem::integrate(int e, const Media& media, const VectorXd& unknowns
     integrate_form<MovingLiquidPoint>(quadrature, numbers, form_at, want, system);
   } else {
     quadrature.groups.push_back({&ones_, int(element.columns.size()) - 1, 1, Source::frame});
-    const MatrixXd numbers = gather_fields<MovingCellFields<double>>(quadrature, local);
+    const MatrixXd numbers = gather_fields<MovingCellFields<double, 2>>(quadrature, local);
     const double excess = media.bulk.reynolds - media.liquid.reynolds;
     const double frame_history = motion_.unknowns(space().cell_velocity());
     const auto form_at = [&](int q) {
-      return MovingCellPoint{media.bulk,   element.undeformed[q], excess,
-                             motion_.rate, cell_history_[e][q],   frame_history};
+      return MovingCellPoint<2>{media.bulk,   element.undeformed[q], excess,
+                                motion_.rate, cell_history_[e][q],   frame_history};
     };
-    integrate_form<MovingCellPoint>(quadrature, numbers, form_at, want, system);
+    integrate_form<MovingCellPoint<2>>(quadrature, numbers, form_at, want, system);
   }
 }
 

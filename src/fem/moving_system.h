@@ -1,20 +1,10 @@
 // The system of one time step (docs/theory-time.md, eq:momentum-time).
 #pragma once
 #include "fem/coupled_system.h"
+#include "fem/motion.h"
 #include "laws/moving_form.h"
 
 namespace rheocyte {
-
-/// How derivatives follow from new values within a time step: d(value)/dt = rate * value + history. All zero: at rest.
-struct Motion {
-  double rate = 0;
-  VectorXd unknowns;    ///< histories of the unknowns
-  VectorXd velocities;  ///< histories of the nodes' velocities, (x, r) node by node
-  /// Rates at which a wall that is not straight moves the nodes outward; empty: straight. The space has its nodes
-  /// there.
-  VectorXd outward = {};
-  VectorXd branch = {};  ///< histories of the branch's metric (eq:branch); empty: there is none
-};
 
 /// Cell and liquid on their way. The cell's velocities are the derivatives of its displacements, in a frame that moves
 /// with v_cell; on the surface they are the liquid's, too. The interior has to be `Interior::elastic` or, with
@@ -46,7 +36,7 @@ class MovingSystem final : public CoupledSystem {
   Motion motion_;
   ShapeTable<2> ones_;                                      ///< of a column that is constant in space
   std::vector<std::vector<LiquidHistory>> liquid_history_;  ///< by elements and points; empty in the cell
-  std::vector<std::vector<CellHistory>> cell_history_;      ///< likewise; empty in the liquid
+  std::vector<std::vector<CellHistory<2>>> cell_history_;   ///< likewise; empty in the liquid
 };
 
 }  // namespace rheocyte

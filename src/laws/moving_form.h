@@ -4,6 +4,7 @@
 // Within a time step the derivative of a field is affine in its new value: d(field)/dt = rate * field + history
 // (docs/theory-time.md, eq:bdf). So the time terms are functions of the same unknowns, and dual numbers see them.
 #pragma once
+#include "laws/cartesian.h"
 #include "laws/weak_form.h"
 
 namespace rheocyte {
@@ -20,8 +21,12 @@ struct MovingLiquidFields : LiquidFields<T, 2> {
   }
 };
 
+/// Without inertia, as in three dimensions, the slopes of the map are enough.
+template <class T, int dim>
+struct MovingCellFields : CellFields<T, dim> {};
+
 template <class T>
-struct MovingCellFields : CellFields<T, 2> {
+struct MovingCellFields<T, 2> : CellFields<T, 2> {
   T u_x;     ///< axial displacement
   T v_cell;  ///< of the frame
 
@@ -63,48 +68,63 @@ struct MovingLiquidPoint {
 };
 
 /// Parts of the cell's velocity, its slope and its acceleration that earlier time steps decide.
+template <int dim>
 struct CellHistory {
-  Components<double, 2> velocity = Components<double, 2>::Zero();  ///< from (u_x, r)
-  Slopes<double, 2> velocity_slope = Slopes<double, 2>::Zero();    ///< from G
-  Components<double, 2> acceleration = Components<double, 2>::Zero();
+  Components<double, dim> velocity = Components<double, dim>::Zero();  ///< from (u_x, r); in axial symmetry alone
+  Slopes<double, dim> velocity_slope = Slopes<double, dim>::Zero();    ///< from G
+  Components<double, dim> acceleration = Components<double, dim>::Zero();
   Tensor<double> branch = Tensor<double>::Zero();  ///< of the branch's metric
 };
 
+template <int dim>
 struct MovingCellPoint {
   template <class T>
-  using Fields = MovingCellFields<T>;
+  using Fields = MovingCellFields<T, dim>;
 
   Bulk law;
-  PointMap<double, 2> undeformed;
+  PointMap<double, dim> undeformed;
   double excess_reynolds = 0;  ///< of the cell's density over the liquid's: feels the acceleration of the frame
   double rate = 0;
-  CellHistory history = {};
+  CellHistory<dim> history = {};
   double frame_history = 0;  ///< of the acceleration of the frame, from v_cell
 
   /// Adds the viscous stress, 2 eta1 D or that of the branch, and the inertia of the cell; its mass stays with its
   /// points.
   template <class T>
-  Flux<T, 2> operator()(const MovingCellFields<T>& f) const {
-    Flux<T, 2> flux = CellPoint<2>{law, undeformed}(f);
-    const PointMap<T, 2> map(f.map);
-    Slopes<T, 2> v_xi;
-    for (int i = 0; i < 4; ++i)
-      v_xi(i / 2, i % 2) = T(rate) * map.G(i / 2, i % 2) + T(history.velocity_slope(i / 2, i % 2));
-    const Components<T, 2> v(T(rate) * f.u_x + T(history.velocity(0)), T(rate) * map.r + T(history.velocity(1)));
-    const Flux<T, 2> viscous = pull_back(map, viscous_stress(map, v, v_xi));
-    const double mass = undeformed.volume();
-    flux.value(0) += (T(rate) * f.v_cell + T(frame_history)) * T(excess_reynolds * mass);
-    for (int c = 0; c < 2; ++c) {
-      const T acceleration = T(rate) * v(c) + T(history.acceleration(c));
-      flux.value(c) += viscous.value(c) + acceleration * T(law.reynolds * mass);
-      for (int k = 0; k < 2; ++k) flux.slope(c, k) += viscous.slope(c, k);
+  Flux<T, dim> operator()(const MovingCellFields<T, dim>& f) const {
+    Flux<T, dim> flux = CellPoint<dim>{law, undeformed}(f);
+    const PointMap<T, dim> map(f.map);
+    Slopes<T, dim> v_xi;
+    for (int i = 0; i < dim * dim; ++i)
+      v_xi(i / dim, i % dim) = T(rate) * map.G(i / dim, i % dim) + T(history.velocity_slope(i / dim, i % dim));
+    const Components<T, dim> v = velocity(f, map);
+    const Flux<T, dim> viscous = pull_back(map, viscous_stress(map, v, v_xi));
+    if constexpr (dim == 2) {
+      const double mass = undeformed.volume();
+      flux.value(0) += (T(rate) * f.v_cell + T(frame_history)) * T(excess_reynolds * mass);
+      for (int c = 0; c < 2; ++c) {
+        const T acceleration = T(rate) * v(c) + T(history.acceleration(c));
+        flux.value(c) += viscous.value(c) + acceleration * T(law.reynolds * mass);
+      }
+    }
+    for (int c = 0; c < dim; ++c) {
+      for (int k = 0; k < dim; ++k) flux.slope(c, k) += viscous.slope(c, k);
     }
     return flux;
   }
 
  private:
+  /// In three dimensions nothing depends on the velocity itself.
   template <class T>
-  Tensor<T> viscous_stress(const PointMap<T, 2>& map, const Components<T, 2>& v, const Slopes<T, 2>& v_xi) const {
+  Components<T, dim> velocity(const MovingCellFields<T, dim>& f, const PointMap<T, dim>& map) const {
+    if constexpr (dim == 2)
+      return {T(rate) * f.u_x + T(history.velocity(0)), T(rate) * map.r + T(history.velocity(1))};
+    else
+      return Components<T, dim>::Zero();
+  }
+
+  template <class T>
+  Tensor<T> viscous_stress(const PointMap<T, dim>& map, const Components<T, dim>& v, const Slopes<T, dim>& v_xi) const {
     if (law.branch_modulus > 0) {
       const T J = map.volume() / T(undeformed.volume());
       return branch_stress(law, deformation_gradient(map, undeformed), rate, history.branch) / J;

@@ -1,4 +1,5 @@
-// The wall of a channel that is not straight: its radius as a function of the place (docs/theory-time.md, eq:wall).
+// The wall of a channel that is not straight: its radius, or half width, as a function of the place
+// (docs/theory-time.md, eq:wall, eq:planar-wall).
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -8,11 +9,21 @@
 namespace rheocyte {
 
 /// Radii of a channel that is not straight, at places from the start of the cell; constant beyond the ends. Empty:
-/// straight. In R, which is the least of the radii.
+/// straight. In R, which is the least of the radii. In a duct places are in h, and in place of radii stand half widths
+/// over the least one.
 struct WallTable {
   std::vector<double> x, radius;
+  /// Of a wall that is linear between the places: about so far from each of them its corner is rounded. 0: the wall is
+  /// smooth through the places.
+  double rounding = 0;
   bool is_straight() const { return x.empty(); }
 };
+
+/// From where on the wall no longer changes: a rounded corner has a tail, which falls to 1e-4 there.
+inline double last_change(const WallTable& wall) {
+  constexpr double tail = 8;  // roundings
+  return wall.x.back() + tail * wall.rounding;
+}
 
 /// How far the computed channel goes on beyond the one that is told of: where the wall has slopes, the flow that enters
 /// and leaves has the shape of that in a straight tube, which it forgets within about the local radius
@@ -39,7 +50,8 @@ struct AxialTensionTable {
 };
 
 /// Cubic pieces through the places of the table, once continuously differentiable, monotonic where the table is
-/// (Fritsch and Butland 1984), level at both ends and constant beyond them. Lengths in R.
+/// (Fritsch and Butland 1984), level at both ends and constant beyond them; or, with a rounding, lines between them
+/// that go over into each other (eq:rounded-corner). Lengths in R.
 class WallProfile {
  public:
   /// The table must have at least two places, which increase.
@@ -52,6 +64,7 @@ class WallProfile {
   }
 
   double radius(double x) const {
+    if (table_.rounding > 0) return rounded(x);
     const auto& at = table_.x;
     if (x <= at.front()) return table_.radius.front();
     if (x >= at.back()) return table_.radius.back();
@@ -62,6 +75,22 @@ class WallProfile {
   }
 
  private:
+  /// The lines averaged over a neighbourhood, so between the least and the greatest of them.
+  double rounded(double x) const {
+    double result = table_.radius.front(), slope_before = 0;
+    for (std::size_t i = 0; i < table_.x.size(); ++i) {
+      const double slope_behind = i + 1 < table_.x.size() ? secant(i + 1) : 0;
+      result += (slope_behind - slope_before) * ramp(x - table_.x[i]);
+      slope_before = slope_behind;
+    }
+    return result;
+  }
+  /// 0 far before a corner, t far behind it.
+  double ramp(double t) const {
+    constexpr double far = 40;
+    const double e = table_.rounding;
+    return t > far * e ? t : e * std::log1p(std::exp(t / e));
+  }
   /// From the place before i to place i.
   double secant(std::size_t i) const {
     return (table_.radius[i] - table_.radius[i - 1]) / (table_.x[i] - table_.x[i - 1]);

@@ -74,7 +74,7 @@ class PythonEvolution {
       columns[py::str(name)] = array_of(std::move(values));
     };
     add("t_us", [](const HistoryRow& row) { return row.t_us; });
-    for (std::size_t k = 0; k < history_measures.size(); ++k)
+    for (const std::size_t k : known_measures(rows))
       add(history_measures[k].name, [k](const HistoryRow& row) { return row.measures[k]; });
     for (const auto& field : history_fields()) add(field.name, field.value);
     return columns;

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "case/scales.h"
+#include "result/result_in_time.h"
 #include "solve/time_resolution.h"
 
 namespace rheocyte {
@@ -21,7 +23,9 @@ TimeEnd end_of(const TimeRecord& record, const Result& result) {
   if (result.state.outcome.status != Status::converged) return TimeEnd::failure;
   const TimeCase& asked = result.input.time;
   const HistoryRow& last = record.rows.back();
-  if (asked.end_um && last.position_um >= (1 - 1e-8) * *asked.end_um) return TimeEnd::place;
+  const double tolerance_um =
+      result.scales.length_um() * place_tolerance(result.problem, time_run_of(result.input, result.scales));
+  if (asked.end_um && last.position_um >= (1 - 1e-8) * *asked.end_um - tolerance_um) return TimeEnd::place;
   if (asked.end_us && last.t_us >= (1 - 1e-9) * *asked.end_us) return TimeEnd::time;
   return TimeEnd::settled;
 }
@@ -61,13 +65,20 @@ std::optional<Problem> straight_from_here(const Result& result, const TimeRecord
   if (result.input.cell.viscoelasticity == Viscoelasticity::maxwell) return {};
   if (result.problem.wall.is_straight()) return result.problem;
   const double half_um = result.scales.length_um() * result.state.channel_length / 2;
-  const WallTable wall = wall_um(result.input.channel.profile);
-  if (record.rows.back().position_um - half_um < wall.x.back()) return {};
+  const double changes_um = result.scales.length_um() * last_change(result.problem.wall);
+  if (record.rows.back().position_um - half_um < changes_um) return {};
   Case straight = result.input;
   if (!straight.channel.profile.axial_tension_Pa.empty())
     straight.flow.axial_tension_Pa = straight.channel.profile.axial_tension_Pa.back();
-  straight.channel.profile = {};
-  straight.channel.radius_um = wall.radius.back();
+  const ChannelProfile profile = std::exchange(straight.channel.profile, {});
+  if (is_duct(straight.channel.section)) {
+    straight.channel.section = Section::rectangle;
+    straight.channel.height_um = straight.channel.height_um.value_or(least_width_um(result.input.channel));
+    straight.channel.width_um = profile.width_um.back();
+    if (straight.channel.width_um == straight.channel.height_um) straight.channel.section = Section::square;
+  } else {
+    straight.channel.radius_um = wall_um(profile).radius.back();
+  }
   Problem problem = problem_of(straight);
   if (problem.radius_ratio < min_radius_ratio) return {};
   return problem;
@@ -106,8 +117,9 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   const bool settled = record.end == TimeEnd::settled || has_settled(record, std::abs(distance), problem.accuracy);
   const double d = stationary.shape.deformation, share = d / std::max(d, result.state.deformation_floor);
   if (settled) result.state.estimated_error = share * (std::abs(distance) + stationary.estimated_error);
-  if (settled)
-    result.state.errors = errors_by(stationary, problem.radius_ratio != result.problem.radius_ratio, result.state);
+  const bool is_other_channel =
+      problem.radius_ratio != result.problem.radius_ratio || problem.extent.width != result.problem.extent.width;
+  if (settled) result.state.errors = errors_by(stationary, is_other_channel, result.state);
   outcome.message += told(stationary.shape.deformation, distance, settled);
 }
 
@@ -119,9 +131,9 @@ bool is_error_unknown(const StationaryState& state) {
 }
 
 /// A finer mesh as far as there is one; else to ask for less. With a greater accuracy the floor falls.
-std::string ways_to_mesh_accuracy(const StationaryState& state) {
+std::string ways_to_mesh_accuracy(const Problem& problem, const StationaryState& state) {
   const int finer = state.statistics.degree + 2;
-  if (finer <= max_time_degree)
+  if (finer <= max_time_degree_of(problem))
     return fmt::format("take a finer mesh, time.degree = {} in place of time.mesh_accuracy.", finer);
   const double d = state.shape.deformation;
   return ways_to_accuracy("time.mesh_accuracy", state.estimated_error * std::max(d, state.deformation_floor) / d);
@@ -143,7 +155,7 @@ void judge(Result& result) {
         fmt::format(" Whether it is within the wanted {:.1e} (time.mesh_accuracy) cannot be said.", wanted);
   else
     outcome.message += fmt::format(" Its error is estimated at {:.1e}, and {:.1e} is wanted; {}", error, wanted,
-                                   ways_to_mesh_accuracy(state));
+                                   ways_to_mesh_accuracy(result.problem, state));
 }
 
 }  // namespace

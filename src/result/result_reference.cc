@@ -38,16 +38,23 @@ std::vector<Row> rows_of_measures() {
   return rows;
 }
 
+void add_measures(std::vector<Row>& rows) {
+  for (const StateMeasure& measure : history_measures) {
+    Row& row = rows.emplace_back(Row{std::string(measure.name), "as in result.json"});
+    if (!measure.null_where.empty()) row.sentence += "; no column where it is null";
+  }
+}
+
 std::vector<Row> rows_of_history() {
   std::vector<Row> rows{{"t_us", "time since the start"}};
-  for (const auto& row : rows_of(history_measures)) rows.push_back({row.name, "as in result.json"});
+  add_measures(rows);
   for (const auto& row : rows_of(history_fields())) rows.push_back(row);
   return rows;
 }
 
 std::vector<Row> rows_of_outputs() {
   std::vector<Row> rows{{"t_us", "time since the start"}, {"position_um", "as in history.csv"}};
-  for (const auto& row : rows_of(history_measures)) rows.push_back({row.name, "as in result.json"});
+  add_measures(rows);
   return rows;
 }
 
@@ -75,7 +82,7 @@ std::vector<Chapter> chapters() {
        {{"t_us", "time"}, {"x_um", "as in contour.csv"}, {"r_um", "likewise"}}},
       {"channel.csv",
        "The wall of a channel that is not straight:",
-       {{"x_um", "along the channel, from the start of the cell"}, {"R_um", "radius"}}}};
+       {{"x_um", "along the channel, from the start of the cell"}, {"R_um", "radius; in a duct half its width"}}}};
 }
 
 constexpr std::string_view rules =

@@ -31,6 +31,8 @@ std::string seen_from(const Channel& channel) {
 /// Which channel was computed: a width means a square one, for which a tube may stand.
 std::string channel_line(const Case& input) {
   const Channel& channel = input.channel;
+  if (!channel.profile.width_um.empty() && is_duct(channel.section))
+    return line("channel", fmt::format("funnel to {:.5g} um", least_width_um(channel)), seen_from(channel));
   if (!channel.width_um) return "";
   if (channel.section == Section::rectangle)
     return line("channel", fmt::format("{:.5g} x {:.5g} um", *channel.width_um, *channel.height_um),
@@ -59,7 +61,7 @@ std::string measures_text(const Result& result) {
     text += line("by view", deformation(state.deformation_side, errors.deformation_side) + " side",
                  std::isfinite(state.deformation_diagonal)
                      ? deformation(state.deformation_diagonal, errors.deformation_diagonal) + " diagonal"
-                     : "");  // not of a rectangle
+                     : deformation(state.deformation_across, errors.deformation_across) + " along the width");
   text += line("cell velocity",
                with_error(fmt::format("{:.5g}", state.cell_velocity * U), errors.cell_velocity * U) + " m/s",
                fmt::format("mean velocity of the liquid {:.5g}", U));

@@ -135,24 +135,43 @@ ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
   return result;
 }
 
+namespace {
+
+template <class Row>
+std::vector<std::size_t> known_in(const std::vector<Row>& rows) {
+  std::vector<std::size_t> known;
+  for (std::size_t k = 0; k < history_measures.size(); ++k) {
+    const auto is_known = [&](const Row& row) { return std::isfinite(row.measures[k]); };
+    if (rows.empty() || history_measures[k].null_where.empty() || std::ranges::any_of(rows, is_known))
+      known.push_back(k);
+  }
+  return known;
+}
+
+}  // namespace
+
+std::vector<std::size_t> known_measures(const std::vector<HistoryRow>& rows) { return known_in(rows); }
+
 std::string history_csv(const TimeRecord& record) {
+  const std::vector<std::size_t> known = known_measures(record.rows);
   std::string text = "t_us";
-  for (const auto& measure : history_measures) text += fmt::format(",{}", measure.name);
+  for (const std::size_t k : known) text += fmt::format(",{}", history_measures[k].name);
   for (const auto& field : history_fields()) text += fmt::format(",{}", field.name);
   for (const HistoryRow& row : record.rows) {
     text += fmt::format("\n{:.12g}", row.t_us);
-    for (const double value : row.measures) text += fmt::format(",{:.12g}", value);
+    for (const std::size_t k : known) text += fmt::format(",{:.12g}", row.measures[k]);
     for (const auto& field : history_fields()) text += fmt::format(",{:.10g}", field.value(row));
   }
   return text + "\n";
 }
 
 std::string outputs_csv(const TimeRecord& record) {
+  const std::vector<std::size_t> known = known_in(record.frames);
   std::string text = "t_us,position_um";
-  for (const auto& measure : history_measures) text += fmt::format(",{}", measure.name);
+  for (const std::size_t k : known) text += fmt::format(",{}", history_measures[k].name);
   for (const ContourFrame& frame : record.frames) {
     text += fmt::format("\n{:.12g},{:.12g}", frame.t_us, frame.position_um);
-    for (const double value : frame.measures) text += fmt::format(",{:.12g}", value);
+    for (const std::size_t k : known) text += fmt::format(",{:.12g}", frame.measures[k]);
   }
   return text + "\n";
 }
@@ -166,15 +185,16 @@ std::string contours_csv(const TimeRecord& record) {
   return text;
 }
 
-std::string channel_csv(const WallTable& table, const Scales& scales) {
+std::string channel_csv(const Problem& problem, const Scales& scales) {
   constexpr int samples = 500;
   constexpr double beyond = 4;  // tube radii
+  const WallTable& table = problem.wall;
   const WallProfile wall(table);
   const double um = scales.length_um(), start = table.x.front() - beyond, end = table.x.back() + beyond;
   std::string text = "x_um,R_um\n";
   for (int i = 0; i <= samples; ++i) {
     const double x = start + (end - start) * i / samples;
-    text += fmt::format("{:.8g},{:.8g}\n", um * x, um * wall.radius(x));
+    text += fmt::format("{:.8g},{:.8g}\n", um * x, um * problem.extent.width * wall.radius(x));
   }
   return text;
 }

@@ -57,6 +57,9 @@ struct TimeRecord {
   }
 };
 
+/// Places in history_measures of those that are columns: some are told of ducts alone.
+std::vector<std::size_t> known_measures(const std::vector<HistoryRow>&);
+
 /// The row of the least meridional tension of the surface; there must be a row.
 const HistoryRow& min_tension(const TimeRecord&);
 
@@ -77,8 +80,9 @@ std::span<const Field<TimeRecord, nlohmann::ordered_json>> time_fields();
 /// contours.csv: t_us, x_um, r_um; the frames one after another.
 std::string contours_csv(const TimeRecord&);
 
-/// channel.csv: x_um, R_um; the wall of a channel that is not straight, finely, from the start of the cell.
-std::string channel_csv(const WallTable&, const Scales&);
+/// channel.csv: x_um, R_um; the wall of a channel that is not straight, finely, from the start of the cell. In a duct
+/// half its width.
+std::string channel_csv(const Problem&, const Scales&);
 
 /// "fields-0003.vtu"
 std::string field_file(std::size_t frame);

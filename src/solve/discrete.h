@@ -19,6 +19,8 @@ class Discrete {
 
   const Resolution& resolution() const { return resolution_; }
   virtual NonlinearSystem& system() = 0;
+  /// Of the mesh along the flow.
+  virtual double half_length() const = 0;
 
   /// What the camera sees.
   virtual Contour contour(const Problem&, const VectorXd& unknowns) const = 0;

@@ -21,11 +21,17 @@ namespace {
 
 Camera camera_in_mesh(const Problem& problem) { return problem.offset == 0 ? problem.camera : Camera{90}; }
 
+/// Whether the walls along the height are straight and the others are not.
+bool is_planar_funnel(const Problem& problem) { return !problem.wall.is_straight() && is_duct(problem.section); }
+
+/// Whether the channel looks alike along width and height.
+bool is_square(const Problem& problem) { return problem.section != Section::rectangle && !is_planar_funnel(problem); }
+
 /// Cameras whose silhouettes are told of every state with a centred cell.
 std::vector<std::pair<std::string_view, Camera>> views_of(const Problem& problem) {
   if (problem.offset != 0) return {};
   std::vector<std::pair<std::string_view, Camera>> views{{"side", Camera::side}};
-  if (problem.section != Section::rectangle) views.emplace_back("diagonal", Camera::diagonal);
+  if (is_square(problem)) views.emplace_back("diagonal", Camera::diagonal);
   return views;
 }
 
@@ -70,7 +76,8 @@ SurfaceExtremes surface_extremes(const Cortex& cortex, const Eigen::MatrixX2d& s
   return {(stretch.col(0).array().square() * stretch.col(1).array()).minCoeff(), min_tension};
 }
 
-void read_flow(const Media& media, const DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
+void read_flow(const Problem& problem, const DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
+  const Media& media = problem;
   const DuctGeometry& geometry = discrete.space().mesh().geometry();
   const double half = geometry.half_length(),
                outlet = -discrete.system().drop() * half * discrete.system().undisturbed_gradient(media.liquid);
@@ -83,7 +90,7 @@ void read_flow(const Media& media, const DuctDiscrete& discrete, const VectorXd&
   const double undisturbed = discrete.space().has_open_inlet()
                                  ? discrete.space().section().gradient_at(media.liquid, r.flow_rate)
                                  : discrete.system().undisturbed_gradient(media.liquid);
-  r.additional_pressure_drop = r.pressure_drop - 2 * half * undisturbed;
+  if (problem.wall.is_straight()) r.additional_pressure_drop = r.pressure_drop - 2 * half * undisturbed;
   r.tube_radius = no_value;
   r.shear_rate_max = max_shear_rate(discrete.space(), discrete.system().element(), unknowns);
 }
@@ -104,7 +111,10 @@ void read_turning(const DuctDiscrete& discrete, const VectorXd& unknowns, StateN
 }  // namespace
 
 DuctShape shape_of(const Problem& problem) {
+  // So far the wide part feels the cell, and the cell the places where the wall begins to narrow.
+  constexpr double funnel_length = 14;
   DuctShape shape{problem.section, problem.radius_ratio, problem.extent, problem.channel_length};
+  if (!problem.wall.is_straight()) shape.length = std::max(shape.length, funnel_length);
   if (problem.offset == 0) return shape;
   shape.offset = problem.offset;
   if (problem.camera == Camera::side) std::swap(shape.extent.width, shape.extent.height);
@@ -112,11 +122,13 @@ DuctShape shape_of(const Problem& problem) {
 }
 
 Symmetry symmetry_of(const Problem& problem) {
-  return problem.offset == 0 ? symmetry_of(problem.section) : Symmetry::half;
+  if (problem.offset != 0) return Symmetry::half;
+  return is_planar_funnel(problem) ? Symmetry::quarter : symmetry_of(problem.section);
 }
 
 DuctSubdivision subdivision_of(const Problem& problem) {
   constexpr double narrow_gap = 0.88;
+  if (!problem.wall.is_straight()) return {.along = 4, .axial = 4};
   if (problem.offset == 0) return {.along = problem.radius_ratio > narrow_gap ? 4 : 3};
   return {.along = 2, .across = 2};
 }
@@ -128,9 +140,9 @@ DuctDiscrete::DuctDiscrete(const Problem& problem, const DuctSubdivision& subdiv
       space_(make_space(problem)),
       system_(make_system(problem)) {}
 
-std::shared_ptr<const DuctSpace> DuctDiscrete::make_space(const Problem& problem) const {
-  return std::make_shared<const DuctSpace>(DuctMesh(DuctGeometry(shape_of(problem)), subdivision_, symmetry_),
-                                           resolution().degree, problem.liquid, problem.drive, interior_of(problem));
+std::shared_ptr<DuctSpace> DuctDiscrete::make_space(const Problem& problem) const {
+  return std::make_shared<DuctSpace>(DuctMesh(DuctGeometry(shape_of(problem)), subdivision_, symmetry_),
+                                     resolution().degree, problem.liquid, problem.drive, interior_of(problem));
 }
 
 std::unique_ptr<DuctSystem> DuctDiscrete::make_system(const Problem& problem) const {
@@ -175,7 +187,10 @@ StateNumbers DuctDiscrete::numbers(const Problem& problem, const VectorXd& unkno
   const CellVolume volume = cell_volume(space, system_->element(), unknowns);
   r.shape.volume = volume.volume;
   if (problem.offset == 0) r.deformation_side = duct_deformation(space, unknowns, Camera::side);
-  if (problem.offset == 0 && problem.section != Section::rectangle)
+  if (problem.offset == 0)
+    r.deformation_across =
+        is_square(problem) ? r.deformation_side : duct_deformation(space, unknowns, Camera::along_width);
+  if (problem.offset == 0 && is_square(problem))
     r.deformation_diagonal = duct_deformation(space, unknowns, Camera::diagonal);
   const double a = space.mesh().geometry().radius();
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;

@@ -21,9 +21,11 @@ class DuctDiscrete final : public Discrete {
       : DuctDiscrete(problem, subdivision, degree, symmetry_of(problem)) {}
   DuctDiscrete(const Problem&, const DuctSubdivision&, int degree, Symmetry);
 
+  DuctSpace& space() { return *space_; }
   const DuctSpace& space() const { return *space_; }
   DuctSystem& system() override { return *system_; }
   const DuctSystem& system() const { return *system_; }
+  double half_length() const override { return space().mesh().geometry().half_length(); }
 
   Contour contour(const Problem&, const VectorXd& unknowns) const override;
   /// By the least principal stretch and tension anywhere (docs/theory-square.md, eq:square-biot).
@@ -35,12 +37,12 @@ class DuctDiscrete final : public Discrete {
   void move_to(const Problem&) override;
 
  private:
-  std::shared_ptr<const DuctSpace> make_space(const Problem&) const;
+  std::shared_ptr<DuctSpace> make_space(const Problem&) const;
   std::unique_ptr<DuctSystem> make_system(const Problem&) const;
 
   DuctSubdivision subdivision_;
   Symmetry symmetry_;
-  std::shared_ptr<const DuctSpace> space_;  ///< with those who write its fields later
+  std::shared_ptr<DuctSpace> space_;  ///< with those who write its fields later
   std::unique_ptr<DuctSystem> system_;
 };
 

@@ -22,9 +22,12 @@ Subdivision fine_subdivision(int surface_elements) {
   return {front, 2 * front, std::max(1, front / 8), 4};
 }
 
-TimeStepOptions step_options(const TimeRun& run, const std::atomic<bool>* stop) {
+TimeStepOptions step_options(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
   TimeStepOptions options;
   options.accuracy = run.accuracy;
+  // A factorisation costs as much as tens of chord steps there, also from one step to the next; a deformation changes
+  // by about as much as the residual.
+  if (is_duct(problem.section)) options.newton = {.tolerance = 1e-7, .chord_reduction = 0.3, .keep_factors = true};
   options.newton.stop = stop;
   return options;
 }
@@ -33,7 +36,7 @@ TimeStepOptions step_options(const TimeRun& run, const std::atomic<bool>* stop) 
 bool is_mesh_given(const TimeRun& run) { return run.degree > 0 || run.scheme == TimeScheme::partitioned; }
 
 Resolution resolution_of(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
-  Resolution resolution = usual_time_resolution;
+  Resolution resolution = usual_time_resolution_of(problem);
   if (run.degree > 0) resolution.degree = run.degree;
   if (run.scheme == TimeScheme::partitioned && run.surface_elements > 0)
     resolution.subdivision = fine_subdivision(run.surface_elements);
@@ -44,7 +47,7 @@ std::unique_ptr<Stepper> make_stepper(const Problem& problem, const TimeRun& run
                                       const std::atomic<bool>* stop) {
   if (run.scheme == TimeScheme::partitioned)
     return std::make_unique<PartitionedStepper>(problem, resolution, PartitionedOptions{run.step});
-  return std::make_unique<TimeStepper>(problem, resolution, step_options(run, stop));
+  return std::make_unique<TimeStepper>(problem, resolution, step_options(problem, run, stop));
 }
 
 /// Whether a shape no longer changes: its rate falls as r(t) = r0 exp(-t / tau), or so, and what is left of its way,
@@ -54,15 +57,14 @@ bool has_settled(const Stepper& stepper) {
   // Steps that become as short as this, in the time gone, end a run that finds no more states: they show no rate.
   constexpr double share_left = 1e-4, share_of_noise = 1e-6, share_of_time = 1e-4;
   constexpr int intervals = 4;
-  const Discretisation& space = stepper.space();
   const std::vector<TimeLevel>& levels = stepper.state().levels;
   if (levels.size() <= intervals || !stepper.has_passed_walls(levels[intervals])) return false;
-  const double gone = largest_displacement(space, levels[0].unknowns);
+  const double gone = stepper.system().largest_displacement(levels[0].unknowns);
   double rate_after = 0, middle_after = 0;
   for (int i = 0; i < intervals; ++i) {
     const double step = levels[i].time - levels[i + 1].time, middle = (levels[i].time + levels[i + 1].time) / 2;
     if (step < share_of_time * levels[0].time) return false;
-    const double moved = largest_displacement(space, levels[i].unknowns - levels[i + 1].unknowns);
+    const double moved = stepper.system().largest_displacement(levels[i].unknowns - levels[i + 1].unknowns);
     const double rate = moved / step;
     const bool falls = i > 0 && rate > rate_after && rate_after > 0;
     const double left = falls ? rate * (middle_after - middle) / std::log(rate / rate_after) : HUGE_VAL;
@@ -89,7 +91,7 @@ class TimeFollower {
     const bool by_place = std::isfinite(run_.end_position);
     double share = 0;
     if (!stepper_->state().levels.empty())
-      share = by_place ? stepper_->now().position / run_.end_position : stepper_->now().time / run_.end;
+      share = by_place ? stepper_->now().place() / run_.end_position : stepper_->now().time / run_.end;
     return fmt::format("{:.4g} % of the {}", 100 * share, by_place ? "way" : "time");
   }
 
@@ -126,7 +128,8 @@ class TimeFollower {
 
   bool is_arrived() const {
     const TimeLevel& now = stepper_->now();
-    return now.time >= run_.end * (1 - 1e-12) || now.position >= run_.end_position * (1 - 1e-9);
+    const double place = run_.end_position * (1 - 1e-9) - place_tolerance(stepper_->problem(), run_);
+    return now.time >= run_.end * (1 - 1e-12) || now.place() >= place;
   }
   bool at_end() const { return settled_ || is_arrived(); }
 
@@ -153,39 +156,46 @@ class TimeFollower {
   }
 
   TimePoint describe(const TimeStepReport& report) const {
-    StationaryState state;
     const TimeLevel& now = stepper_->now();
-    describe_level(now, state);
-    return {now.time, report.step, report.order, report.newton_iterations, report.refused, now.position, state};
+    StateNumbers numbers = stepper_->discrete().numbers(problem_now(), now.unknowns);
+    add_inertia(now, numbers);
+    return {now.time, report.step, report.order, report.newton_iterations, report.refused, now.place(), numbers};
   }
+
+  Problem problem_now() const { return with_media(stepper_->problem(), stepper_->media()); }
 
   /// The walls must be where they are at that time.
   void describe_level(const TimeLevel& level, StationaryState& state) const {
-    stepper_->discrete().describe(with_media(stepper_->problem(), stepper_->media()), level.unknowns, state);
+    stepper_->discrete().describe(problem_now(), level.unknowns, state);
+    add_inertia(level, state);
+  }
+
+  void add_inertia(const TimeLevel& level, StateNumbers& numbers) const {
     // In the accelerated frame the solver's pressure contains that of the inertial force (eq:frame-pressure); the
     // splitting scheme solves in the laboratory.
     const double inertia = run_.scheme == TimeScheme::monolithic ? stepper_->media().liquid.reynolds : 0;
-    state.pressure_drop += inertia * level.frame_acceleration * state.channel_length;
+    numbers.pressure_drop += inertia * level.frame_acceleration * numbers.channel_length;
   }
 
   void show_frame(const TimeLevel& level) const {
     if (!observer_.frame) return;
     StationaryState state;
     describe_level(level, state);
-    observer_.frame({level.time, level.position, std::move(state)});
+    observer_.frame({level.time, level.place(), std::move(state)});
   }
 
   /// Time or place of a level, whichever the outputs follow.
-  double progress(const TimeLevel& level) const { return run_.outputs_by_place ? level.position : level.time; }
+  double progress(const TimeLevel& level) const { return run_.outputs_by_place ? level.place() : level.time; }
 
   /// Those between the last step and the one before.
   void show_frames(double before) const {
     const double now = progress(stepper_->now());
     const double gone = (before - run_.first_output) / run_.output_every;
+    const double tolerance = run_.outputs_by_place ? place_tolerance(stepper_->problem(), run_) : 0;
     const long next = run_.first_output > 0 && gone < 0 ? 0 : std::lround(std::floor(gone * (1 + 1e-12))) + 1;
     for (long i = next;; ++i) {
       const double output = run_.first_output + double(i) * run_.output_every;
-      if (output > now * (1 + 1e-12) || (at_end() && output > now * (1 - 1e-9))) break;
+      if (output > now * (1 + 1e-12) || (at_end() && output > now * (1 - 1e-9) - tolerance)) break;
       const double time = run_.outputs_by_place ? stepper_->time_at(std::min(output, now)) : output;
       stepper_->move_walls(time);
       show_frame(stepper_->level_at(time));
@@ -205,7 +215,7 @@ class TimeFollower {
                           ? "the step is too large for elasticity that is explicit, lower time.step_us, or the cell is "
                             "drawn out or wrinkles"
                           : "the cell is drawn out or wrinkles, raise its moduli or lower flow rate or viscosity";
-    const bool can_be_finer = !stepper_->has_passed_walls(now) && degree_ < max_time_degree;
+    const bool can_be_finer = !stepper_->has_passed_walls(now) && degree_ < max_time_degree_of(stepper_->problem());
     const std::string coarse =
         can_be_finer ? fmt::format(", or the wall is too steep for the mesh, try time.degree = {}", degree_ + 1) : "";
     return fmt::format("No step in time succeeds beyond {} ({}): {}{}; the last good state is kept.", share(),
@@ -278,7 +288,7 @@ std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run
                                       const Deformations& deformations, const std::atomic<bool>* stop,
                                       StationaryState& result) {
   const double d = result.shape.deformation, size = std::max(d, result.deformation_floor);
-  const OtherRun coarse = run_on(to_compare_with(resolution), problem, run, deformations, stop);
+  const OtherRun coarse = run_on(to_compare_with(problem, resolution), problem, run, deformations, stop);
   result.comparison = coarse.status;
   const bool is_known = coarse.status == Status::converged;
   const double change = std::abs(coarse.numbers.shape.deformation - d) / size;
@@ -289,7 +299,7 @@ std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run
   const Resolution finer{resolution.subdivision, resolution.degree + 1};
   const bool suffices =
       is_mesh_given(run) || (is_known && (change <= run.mesh_accuracy || result.stability_margin < 0));
-  const bool is_finest = finer.degree == coarse.degree || finer.degree > max_time_degree;
+  const bool is_finest = finer.degree == coarse.degree || finer.degree > max_time_degree_of(problem);
   if (suffices || is_finest || coarse.status == Status::stopped) {
     result.outcome.message += is_known ? told(coarse, change) : told_of_failure(coarse);
     return is_known ? coarse.steps : std::vector<TimePoint>();

@@ -23,6 +23,12 @@ struct TimeRun {
   double first_output = 0;       ///< time, or way, of the first output behind the start; 0: output_every
 };
 
+/// How far before its wanted end a run by place may end: in a duct the place is the barycentre's, which is known as
+/// accurately as a step is.
+inline double place_tolerance(const Problem& problem, const TimeRun& run) {
+  return is_duct(problem.section) ? run.accuracy * problem.radius_ratio : 0;
+}
+
 /// What is recorded of each step; dimensionless.
 struct TimePoint {
   double time = 0, step = 0;

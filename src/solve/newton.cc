@@ -53,6 +53,7 @@ NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOpt
     if (!keep) {
       if (factorisations++ == options.iteration_limit) return report.status = Status::iteration_limit, report;
       residual = system.linearise(media, x);
+      report.factored_at = x;
       if (is_stopped()) return report.status = Status::stopped, report;
       if (!system.has_factors()) {
         report.status = residual.value.allFinite() ? Status::singular_matrix : Status::not_finite;

@@ -25,6 +25,7 @@ struct NewtonReport {
   double residual = 0;                   ///< relative, of the last state
   std::vector<double> residual_history;  ///< relative, before each step and at the end
   double first_correction = 0;           ///< largest displacement of the first step, in R
+  VectorXd factored_at = {};             ///< unknowns of the last factorisation; empty: there was none
 };
 
 /// Norm of the residual of the undeformed sphere in a liquid at rest: the scale of the driving forces.

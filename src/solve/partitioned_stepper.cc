@@ -30,7 +30,7 @@ bool is_sound(const Discretisation& space, const VectorXd& unknowns) {
 
 PartitionedStepper::PartitionedStepper(const Problem& problem, const Resolution& resolution,
                                        const PartitionedOptions& options)
-    : Stepper(problem, resolution), options_(options), system_(space()) {}
+    : Stepper(problem, resolution), options_(options), discrete_(problem_, resolution), system_(space()) {}
 
 Status PartitionedStepper::start() {
   MovingSystem rigid(space());

@@ -21,12 +21,15 @@ class PartitionedStepper final : public Stepper {
   TimeLevel level_at(double time) const override;
   double next_position(double time) const override;
   WorkMeter work() const override;
+  const Discrete& discrete() const override { return discrete_; }
+  const NonlinearSystem& system() const override { return discrete_.system(); }
 
  private:
   /// eq:controller
   double controlled_pressure(const VectorXd& unknowns) const;
 
   PartitionedOptions options_;
+  TubeDiscrete discrete_;
   SplitSystem system_;
 };
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/observe.h"
-
 namespace rheocyte {
 namespace {
 
@@ -22,15 +20,8 @@ Problem with_elastic_interior(Problem problem) {
   return problem;
 }
 
-void stretch_sphere(const Discretisation& space, double stretch, VectorXd& unknowns) {
-  const double factors[] = {stretch, 1 / std::sqrt(stretch)};
-  for (int i = 0; i < 2 * space.nodes().count; ++i) {
-    const int u = space.displacement(i / 2, i % 2);
-    if (u >= 0) unknowns(u) = (factors[i % 2] - 1) * space.node_points()[i / 2](i % 2);
-  }
-}
-
-Status flow_round_sphere(MovingSystem& system, const Media& media, const NewtonOptions& options, VectorXd& unknowns) {
+Status flow_round_sphere(NonlinearSystem& system, const Media& media, const NewtonOptions& options,
+                         VectorXd& unknowns) {
   unknowns = system.sphere();
   Media rigid = media;
   rigid.bulk = {.shear_modulus = rigid_modulus};
@@ -42,7 +33,7 @@ Status flow_round_sphere(MovingSystem& system, const Media& media, const NewtonO
     const NewtonReport report = newton(system, rigid, options, unknowns);
     if (report.status != Status::converged) return report.status;
   }
-  scale_displacement(system.space(), 0, unknowns);
+  system.scale_displacement(0, unknowns);
   return Status::converged;
 }
 

@@ -1,6 +1,5 @@
 // The start of every computation in time: the sphere in the steady flow round it as if it were rigid.
 #pragma once
-#include "fem/moving_system.h"
 #include "solve/newton.h"
 #include "solve/path.h"
 
@@ -9,10 +8,7 @@ namespace rheocyte {
 /// The same cell with an elastic interior, of modulus zero if it is a shell.
 Problem with_elastic_interior(Problem);
 
-/// Displaces the cell's nodes as an even stretch along the flow does that keeps the volume.
-void stretch_sphere(const Discretisation&, double stretch, VectorXd& unknowns);
-
 /// The undeformed cell with the flow round it; `system` must be at rest.
-Status flow_round_sphere(MovingSystem& system, const Media&, const NewtonOptions&, VectorXd& unknowns);
+Status flow_round_sphere(NonlinearSystem& system, const Media&, const NewtonOptions&, VectorXd& unknowns);
 
 }  // namespace rheocyte

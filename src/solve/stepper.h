@@ -1,7 +1,5 @@
 // What every scheme in time offers.
 #pragma once
-#include <memory>
-
 #include "fem/coupled_system.h"
 #include "solve/time_state.h"
 #include "solve/tube.h"
@@ -46,8 +44,10 @@ class Stepper {
   const TimeState& state() const { return state_; }
   const TimeLevel& now() const { return state_.levels.front(); }
 
-  const Discretisation& space() const { return discrete_->space(); }
-  const TubeDiscrete& discrete() const { return *discrete_; }
+  virtual const Discrete& discrete() const = 0;
+  virtual const NonlinearSystem& system() const = 0;
+  /// Of a tube.
+  const Discretisation& space() const { return static_cast<const TubeDiscrete&>(discrete()).space(); }
   const Problem& problem() const { return problem_; }  ///< with an elastic interior in any case
   const Media& media() const { return media_; }
 
@@ -56,7 +56,6 @@ class Stepper {
 
   Problem problem_;
   Resolution resolution_;
-  std::unique_ptr<TubeDiscrete> discrete_;
   Media media_;
   TimeState state_;
 };

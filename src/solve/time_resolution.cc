@@ -1,10 +1,10 @@
 #include "solve/time_resolution.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solve/branch_ends.h"
 #include "solve/resolved_branch.h"
-#include "solve/tube.h"
 
 namespace rheocyte {
 namespace {
@@ -13,6 +13,13 @@ namespace {
 constexpr double share_of_reference = 0.1;
 /// Of the wanted accuracy that the stationary shape may use up: the way to it is not as smooth.
 constexpr double share_of_stationary = 0.5;
+/// The quarter of a duct that a funnel leaves has four to five times the unknowns of a square's stationary state.
+constexpr int greatest_chosen_in_ducts = 5;
+
+Resolution chosen(const Problem& problem, Resolution resolution) {
+  if (is_duct(problem.section)) resolution.degree = std::min(resolution.degree, greatest_chosen_in_ducts);
+  return resolution;
+}
 
 }  // namespace
 
@@ -21,24 +28,25 @@ Resolution resolution_in_time(const Problem& problem, double accuracy, const std
   straight.wall = {};
   if (!problem.tension_profile.is_even()) axial_tension(straight) = problem.tension_profile.tension.back();
   straight.accuracy = share_of_reference * accuracy;
-  if (problem.bulk.shear_modulus == 0 && problem.bulk.branch_modulus > 0) return usual_time_resolution;
-  if (is_far_too_soft(straight)) return usual_time_resolution;
-  ResolvedBranch branch(straight, tube_geometry(straight), {}, stop);
+  if (problem.bulk.shear_modulus == 0 && problem.bulk.branch_modulus > 0) return usual_time_resolution_of(problem);
+  const Geometry geometry = solver_geometry(straight);
+  if (geometry.knows_ends && is_far_too_soft(straight)) return usual_time_resolution_of(problem);
+  ResolvedBranch branch(straight, geometry, {}, stop);
   ResolvedState state = branch.follow();
-  if (state.status != Status::converged) return usual_time_resolution;
+  if (state.status != Status::converged) return usual_time_resolution_of(problem);
   Ladder ladder{branch.geometry().errors};
   branch.climb(state, ladder);
-  if (ladder.rungs.empty()) return usual_time_resolution;
+  if (ladder.rungs.empty()) return usual_time_resolution_of(problem);
   const double best = ladder.deformation();
   for (std::size_t i = 0; i + 1 < ladder.rungs.size(); ++i) {
     const double error = std::abs(ladder.numbers[i].shape.deformation / best - 1) + ladder.estimated_error;
-    if (error <= share_of_stationary * accuracy) return ladder.rungs[i].discrete->resolution();
+    if (error <= share_of_stationary * accuracy) return chosen(problem, ladder.rungs[i].discrete->resolution());
   }
-  return ladder.rungs.back().discrete->resolution();
+  return chosen(problem, ladder.rungs.back().discrete->resolution());
 }
 
-Resolution to_compare_with(const Resolution& resolution) {
-  constexpr int min_degree = 2;
+Resolution to_compare_with(const Problem& problem, const Resolution& resolution) {
+  const int min_degree = is_duct(problem.section) ? 3 : 2;
   return {resolution.subdivision, resolution.degree > min_degree ? resolution.degree - 1 : resolution.degree + 1};
 }
 

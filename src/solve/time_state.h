@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "fem/motion.h"
 #include "solve/resolution.h"
 
 namespace rheocyte {
@@ -13,9 +14,21 @@ struct TimeLevel {
   double time = 0;
   Eigen::VectorXd unknowns, velocities;
   double frame_acceleration = 0;  ///< d(v_cell)/dt, in U^2/R
-  double position = 0;            ///< of the cell's barycentre along the channel, from its start, in R
+  double position = 0;            ///< of the frame along the channel, from the start of the cell, in R
+  double barycentre = 0;          ///< of the cell in the frame; where it is held, 0
   Eigen::VectorXd outward = {};   ///< where a wall that is not straight moves the mesh's nodes; empty: straight
-  Eigen::VectorXd branch = {};    ///< metric of the Maxwell branch (fem/moving_system.h); empty: there is none
+  Eigen::VectorXd branch = {};    ///< metric of the Maxwell branch (eq:branch); empty: there is none
+
+  /// Of the cell along the channel.
+  double place() const { return position + barycentre; }
+};
+
+/// Where the factors come from that the next step begins with, where steps keep them: that of a step which may have
+/// been refused. Unknowns empty: there are none.
+struct KeptTangent {
+  Motion motion;
+  double axial_tension = 0;
+  Eigen::VectorXd outward, unknowns;
 };
 
 /// All that the next step depends on.
@@ -27,6 +40,7 @@ struct TimeState {
   Eigen::VectorXd traction;   ///< on the cell, of the splitting scheme only (fem/split_system.h)
   double inlet_pressure = 0;  ///< beyond that of the undisturbed flow; only where it is controlled
   Resolution resolution = {};
+  KeptTangent tangent = {};
 };
 
 }  // namespace rheocyte

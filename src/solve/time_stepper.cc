@@ -25,8 +25,14 @@ struct TimeStepper::Trial {
 };
 
 TimeStepper::TimeStepper(const Problem& problem, const Resolution& resolution, const TimeStepOptions& options)
-    : Stepper(problem, resolution), options_(options), system_(space()) {
-  options_.newton.residual_scale = residual_scale(system_, media_);
+    : TimeStepper(problem, moving_discrete(with_elastic_interior(problem), resolution), options) {}
+
+TimeStepper::TimeStepper(const Problem& problem, std::unique_ptr<MovingDiscrete> moving, const TimeStepOptions& options)
+    : Stepper(problem, moving->discrete().resolution()),
+      options_(options),
+      moving_(std::move(moving)),
+      surface_(moving_->surface_unknowns()) {
+  options_.newton.residual_scale = residual_scale(moving_->system(), media_);
   // A viscosity in series with a spring does not damp short waves, least of all those of a cell that is let go.
   if (media_.bulk.branch_modulus > 0)
     options_.max_order =
@@ -37,16 +43,21 @@ TimeStepper::TimeStepper(const Problem& problem, const Resolution& resolution, c
 Status TimeStepper::start() {
   TimeLevel level;
   if (wall_) {
-    level.outward = meet_walls(0, VectorXd::Zero(space().unknowns()));
-    const VectorXd at_rest = VectorXd::Zero(level.outward.size());
-    system_.set_motion({0, VectorXd::Zero(space().unknowns()), VectorXd::Zero(2 * space().nodes().count), at_rest});
+    const VectorXd sphere = 0 * moving_->system().sphere();
+    level.outward = meet_walls(0, sphere);
+    moving_->set_motion({0, sphere, 0 * moving_->node_velocities(sphere), 0 * level.outward});
   }
-  const Status status = flow_round_sphere(system_, media_, options_.newton, level.unknowns);
+  NewtonOptions options = options_.newton;
+  options.keep_factors = false;
+  const Status status = flow_round_sphere(moving_->system(), media_, options, level.unknowns);
   if (status != Status::converged) return status;
+  moving_->system().drop_factors();  // those of a rigid cell
   const double stretch = problem_.start_stretch * problem_.bulk.rest_stretch;
-  if (stretch != 1) stretch_sphere(space(), stretch, level.unknowns);
-  level.velocities = system_.node_velocities(level.unknowns);
-  if (media_.bulk.branch_modulus > 0) level.branch = system_.unstressed_branch();
+  if (stretch != 1) moving_->stretch_sphere(stretch, level.unknowns);
+  level.barycentre = moving_->barycentre(level.unknowns);
+  level.position -= level.barycentre;
+  level.velocities = moving_->node_velocities(level.unknowns);
+  if (media_.bulk.branch_modulus > 0) level.branch = moving_->unstressed_branch();
   state_ = {};
   state_.resolution = resolution_;
   state_.levels = {level};
@@ -73,14 +84,14 @@ double TimeStepper::combine(const VectorXd& weights, double TimeLevel::*field) c
 
 VectorXd TimeStepper::meet_walls(double position, const VectorXd& unknowns) {
   const auto wall = [&](double x) { return wall_->radius(position + x); };
-  VectorXd outward = space().wall_motion(wall, unknowns);
-  discrete_->space().move_nodes(outward);
+  VectorXd outward = moving_->wall_motion(wall, unknowns);
+  moving_->move_nodes(outward);
   return outward;
 }
 
 void TimeStepper::move_walls(double time) {
   if (!wall_) return;
-  discrete_->space().move_nodes(combine(weights_at(time), &TimeLevel::outward));
+  moving_->move_nodes(combine(weights_at(time), &TimeLevel::outward));
 }
 
 VectorXd TimeStepper::weights_at(double time) const {
@@ -95,6 +106,7 @@ TimeLevel TimeStepper::level_at(double time) const {
   level.time = time;
   level.unknowns = combine(weights, &TimeLevel::unknowns);
   level.position = combine(weights, &TimeLevel::position);
+  level.barycentre = combine(weights, &TimeLevel::barycentre);
   level.frame_acceleration = combine(weights, &TimeLevel::frame_acceleration);
   return level;
 }
@@ -104,32 +116,50 @@ double TimeStepper::position_after(const BdfFormula& formula, double velocity) c
 }
 
 double TimeStepper::next_position(double time) const {
-  if (!(time > now().time)) return now().position;
+  if (!(time > now().time)) return now().place();
   const VectorXd weights = weights_at(time);
   double velocity = 0;
-  for (int i = 0; i < weights.size(); ++i) velocity += weights(i) * state_.levels[i].unknowns(space().cell_velocity());
-  return position_after(bdf_formula(times(state_), state_.order, time), velocity);
+  for (int i = 0; i < weights.size(); ++i) velocity += weights(i) * state_.levels[i].unknowns(moving_->cell_velocity());
+  return position_after(bdf_formula(times(state_), state_.order, time), velocity) +
+         combine(weights, &TimeLevel::barycentre);
 }
 
 double TimeStepper::surface_change(const VectorXd& difference) const {
   double greatest = 0;
-  for (const BoundaryEdge& edge : space().surface()) {
-    for (const int node : edge.nodes) {
-      for (int c = 0; c < 2; ++c) {
-        const int unknown = space().displacement(node, c);
-        if (unknown >= 0) greatest = std::max(greatest, std::abs(difference(unknown)));
-      }
-    }
-  }
+  for (const int unknown : surface_) greatest = std::max(greatest, std::abs(difference(unknown)));
   return greatest / problem_.radius_ratio / options_.accuracy;
 }
 
+void TimeStepper::renew_factors() {
+  const KeptTangent& tangent = state_.tangent;
+  if (system().has_factors() || tangent.unknowns.size() == 0) return;
+  if (wall_) moving_->move_nodes(tangent.outward);
+  moving_->set_motion(tangent.motion);
+  axial_tension(media_) = tangent.axial_tension;
+  moving_->system().linearise(media_, tangent.unknowns);
+}
+
+NewtonReport TimeStepper::solve(const Motion& motion, TimeLevel& level) {
+  moving_->set_motion(motion);
+  NewtonOptions options = options_.newton;
+  options.keep_factors = options.keep_factors && system().has_factors();
+  NewtonReport report = newton(moving_->system(), media_, options, level.unknowns);
+  if (!options_.newton.keep_factors) return report;
+  if (!system().has_factors()) {
+    state_.tangent = {};
+  } else if (report.factored_at.size() > 0) {
+    state_.tangent = {motion, axial_tension(media_), level.outward, report.factored_at};
+  }
+  return report;
+}
+
 TimeStepper::Trial TimeStepper::attempt(double step, int order) {
+  renew_factors();
   Trial trial;
   const std::vector<double> past = times(state_);
   trial.level.time = past[0] + step;
   trial.formula = bdf_formula(past, order, trial.level.time);
-  const int v = space().cell_velocity(), levels = std::min<int>(order + 1, int(past.size()));
+  const int v = moving_->cell_velocity(), levels = std::min<int>(order + 1, int(past.size()));
   const VectorXd guess = extrapolate(levels, trial.level.time), weights = trial.formula.weights.head(order);
   Motion motion{trial.formula.rate, combine(weights, &TimeLevel::unknowns), combine(weights, &TimeLevel::velocities)};
   trial.level.position = position_after(trial.formula, guess(v));
@@ -138,14 +168,14 @@ TimeStepper::Trial TimeStepper::attempt(double step, int order) {
     motion.outward = motion.rate * trial.level.outward + combine(weights, &TimeLevel::outward);
   }
   if (const AxialTensionTable& profile = problem_.tension_profile; !profile.is_even())
-    axial_tension(media_) = profile.at(trial.level.position);
+    axial_tension(media_) = profile.at(trial.level.position + now().barycentre);
   motion.branch = combine(weights, &TimeLevel::branch);
-  system_.set_motion(motion);
   trial.level.unknowns = guess;
-  trial.newton = newton(system_, media_, options_.newton, trial.level.unknowns);
+  trial.newton = solve(motion, trial.level);
   if (trial.newton.status != Status::converged) return trial;
-  trial.level.velocities = system_.node_velocities(trial.level.unknowns);
-  if (media_.bulk.branch_modulus > 0) trial.level.branch = system_.branch_metric(media_.bulk, trial.level.unknowns);
+  trial.level.barycentre = moving_->barycentre(trial.level.unknowns);
+  trial.level.velocities = moving_->node_velocities(trial.level.unknowns);
+  if (media_.bulk.branch_modulus > 0) trial.level.branch = moving_->branch_metric(media_.bulk, trial.level.unknowns);
   trial.level.frame_acceleration = motion.rate * trial.level.unknowns(v) + motion.unknowns(v);
   const double share = levels > order ? trial.formula.error_share : 0.5;  // the first step has nothing to compare with
   trial.error = share * surface_change(trial.level.unknowns - guess);

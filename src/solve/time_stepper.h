@@ -1,10 +1,13 @@
 // The cell on its way, step by step (docs/theory-time.md, sec. 2): implicit steps of controlled size and order.
 #pragma once
+#include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
-#include "fem/moving_system.h"
 #include "laws/wall_profile.h"
 #include "solve/bdf.h"
+#include "solve/moving_discrete.h"
 #include "solve/newton.h"
 #include "solve/stepper.h"
 
@@ -23,6 +26,8 @@ struct TimeStepOptions {
 class TimeStepper final : public Stepper {
  public:
   TimeStepper(const Problem&, const Resolution&, const TimeStepOptions&);
+  /// By a discretisation that is not that of the problem's section.
+  TimeStepper(const Problem&, std::unique_ptr<MovingDiscrete>, const TimeStepOptions&);
 
   Status start() override;
   TimeStepReport step(double limit) override;
@@ -30,11 +35,16 @@ class TimeStepper final : public Stepper {
   TimeLevel level_at(double time) const override;
   double next_position(double time) const override;
   void move_walls(double time) override;
-  WorkMeter work() const override { return system_.work(); }
+  WorkMeter work() const override { return system().work(); }
+  const Discrete& discrete() const override { return moving_->discrete(); }
+  const NonlinearSystem& system() const override { return std::as_const(*moving_).system(); }
 
  private:
   struct Trial;
   Trial attempt(double step, int order);
+  /// With the factors that steps keep from one to the next, in a run that goes on from a state, too.
+  NewtonReport solve(const Motion&, TimeLevel&);
+  void renew_factors();
   double surface_change(const VectorXd& difference) const;
   StepErrors errors(const Trial&, int order) const;
   void accept(const Trial&, int order);
@@ -50,7 +60,8 @@ class TimeStepper final : public Stepper {
 
   TimeStepOptions options_;
   std::optional<WallProfile> wall_;  ///< of a channel that is not straight
-  MovingSystem system_;
+  std::unique_ptr<MovingDiscrete> moving_;
+  std::vector<int> surface_;  ///< displacements of the surface
 };
 
 }  // namespace rheocyte

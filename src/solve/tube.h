@@ -21,6 +21,8 @@ class TubeDiscrete final : public Discrete {
   Discretisation& space() { return space_->of_mesh; }
   const Discretisation& space() const { return space_->of_mesh; }
   StationarySystem& system() override { return system_; }
+  const StationarySystem& system() const { return system_; }
+  double half_length() const override { return space().mesh().geometry().end(); }
 
   Contour contour(const Problem&, const VectorXd& unknowns) const override;
   double stability_margin(const Problem&, const VectorXd& unknowns) const override;

@@ -18,7 +18,7 @@ namespace rheocyte {
 /// The numbers of a state; dimensionless, in the units of case/problem.h.
 struct StateNumbers {
   ShapeMeasures shape;  ///< of the contour; lengths in R
-  double deformation_side = no_value, deformation_diagonal = no_value;
+  double deformation_side = no_value, deformation_across = no_value, deformation_diagonal = no_value;
   double volume_of_revolution = no_value;  ///< of the contour; in a tube that of the cell
   double relative_volume_change = no_value;
   double cell_velocity = no_value;             ///< in U
@@ -83,9 +83,12 @@ inline constexpr StateMeasure state_measures[] = {
      &ShapeMeasures::deformation, AlsoIn::both},
     {"deformation_raw", "the same of the contour itself", &ShapeMeasures::deformation_raw, AlsoIn::both},
     {"deformation_side", "the same of the silhouette seen at right angles to a wall, in a rectangle along its height",
-     &StateNumbers::deformation_side, AlsoIn::none, "in a tube, or for a cell off the axis"},
+     &StateNumbers::deformation_side, AlsoIn::history, "in a tube, or for a cell off the axis"},
+    {"deformation_across", "the same of the silhouette seen along the width of the channel",
+     &StateNumbers::deformation_across, AlsoIn::history, "in a tube, or for a cell off the axis"},
     {"deformation_diagonal", "the same of the silhouette seen along the diagonal of the channel",
-     &StateNumbers::deformation_diagonal, AlsoIn::none, "in a tube or a rectangle, or for a cell off the axis"},
+     &StateNumbers::deformation_diagonal, AlsoIn::none,
+     "in a tube, a rectangle or a funnel, or for a cell off the axis"},
     {"area_um2", "area of the contour's convex hull", &ShapeMeasures::area, AlsoIn::both},
     {"area_raw_um2", "area within the contour", &ShapeMeasures::area_raw, AlsoIn::tables},
     {"perimeter_um", "perimeter of the convex hull", &ShapeMeasures::perimeter, AlsoIn::tables},

@@ -68,6 +68,10 @@ const std::array all_dynamic_keys = {
 };
 
 void refuse_keys_of_table(const KeyReading& keys) {
+  constexpr std::string_view section = "channel.section";
+  if (keys.chosen(section) != "tube")
+    keys.refuse(section, fmt::format("{} is for single cells; dynamic tables are computed in tubes, leave it out.",
+                                     keys.stated(section)));
   const auto refuse = [&](std::string_view key) {
     if (keys.has(key))
       keys.refuse(key, fmt::format("{} must not be given, because a dynamic table chooses it; see the section "

@@ -126,6 +126,9 @@ Answer evolve(Evolutions& evolutions, const Request& request) {
     throw Refused(
         400, "time",
         "The case has neither time.end_us nor time.end_um; give one, and cell.viscosity_mPas, or ask /api/state.");
+  if (is_duct(c.channel.section))
+    throw Refused(400, "time",
+                  "The view follows cells in tubes alone; leave channel.section out, or take `rheocyte solve`.");
   Answer answer;
   answer.type = "application/x-ndjson";
   answer.give_pieces = [evolution = evolutions.begin(c, request), client = request.client](const TakePiece& take) {

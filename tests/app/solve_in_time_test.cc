@@ -200,6 +200,30 @@ TEST_F(InTime, AChannelEntryWritesTheWallAndKeepsWhatItHasWhenItFails) {
   EXPECT_TRUE(fs::exists(at("soft") / "checkpoint-1.bin"));
 }
 
+TEST_F(InTime, AFunnelIntoASquareWritesBothViewsAndGoesOnWhenKilled) {
+  // The wall goes from half of one width to half of the other; a killed run goes on with the factors that it kept, so
+  // byte by byte as an undisturbed one.
+  Command command{{RHEOCYTE, "solve", std::string(EXAMPLES) + "/transit-square.toml", "-o", at("whole"), "--no-picture",
+                   "--set", "time.degree=2", "--set", "time.output_every_um=1", "--set", "time.end_um=4", "--set",
+                   "channel.profile.x_um=[3, 8]", "--set", "channel.profile.width_um=[30, 20]"}};
+  const auto whole = run(command);
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const std::string outputs = text("whole/outputs.csv"), wall = text("whole/channel.csv");
+  EXPECT_EQ(std::count(outputs.begin(), outputs.end(), '\n'), 6);  // the head, 0 to 4 um
+  EXPECT_NE(outputs.find(",deformation_side,deformation_across,"), std::string::npos) << outputs;
+  EXPECT_NE(wall.find(",14.99999"), std::string::npos);
+  EXPECT_TRUE(wall.ends_with(",10.000004\n")) << wall;
+  EXPECT_EQ(nlohmann::json::parse(text("whole/result.json"))["time"]["ended_by"], "place");
+  command.arguments[3] = at("killed");
+  command.signal = SIGKILL;
+  EXPECT_EQ(run(command).exit_code, 128 + SIGKILL);
+  command.signal = 0;
+  command.arguments.insert(command.arguments.end(), {"--continue", at("killed")});
+  ASSERT_EQ(run(command).exit_code, 0);
+  EXPECT_EQ(text("killed/history.csv"), text("whole/history.csv"));
+  EXPECT_EQ(text("killed/contours.csv"), text("whole/contours.csv"));
+}
+
 TEST_F(InTime, ARunThatStopsTellsThatTheCellHasNoStationaryShape) {
   // The paper's cell with less than a third of its modulus is drawn out in the straight channel.
   const auto ended = run(solve("soft", {"--set", "cell.bulk.young_modulus_kPa=1", "--set", "time.end_us=2000"}));

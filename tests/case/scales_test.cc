@@ -140,5 +140,25 @@ TEST(Scales, AFunnelBecomesTheTubeWithItsMeanSpeeds) {
   EXPECT_TRUE(wall_um({}).is_straight());
 }
 
+TEST(Scales, AFunnelInThreeDimensionsHasItsHalfWidthsOverTheLeast) {
+  // In a square the height is the least width; in a rectangle lengths are in half the lesser of both.
+  Case c = paper_cell();
+  c.channel = {.section = Section::square, .profile = {{30, 70}, {}, {100, 20}}};
+  const Problem square = problem_of(c);
+  EXPECT_EQ(unit_length_um(c), 10);
+  EXPECT_EQ(square.wall.x, (std::vector<double>{3, 7}));
+  EXPECT_EQ(square.wall.radius, (std::vector<double>{5, 1}));
+  EXPECT_EQ(square.wall.rounding, 0.3);
+  c.channel.section = Section::rectangle;
+  c.channel.height_um = 10;
+  c.channel.profile.rounding_um = 4;
+  const Problem flat = problem_of(c);
+  EXPECT_EQ(flat.wall.x, (std::vector<double>{6, 14}));
+  EXPECT_EQ(flat.wall.radius, (std::vector<double>{5, 1}));
+  EXPECT_EQ(flat.wall.rounding, 0.8);
+  EXPECT_EQ(flat.extent.width, 2);
+  EXPECT_EQ(flat.extent.height, 1);
+}
+
 }  // namespace
 }  // namespace rheocyte::scales_test

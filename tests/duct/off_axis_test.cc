@@ -186,7 +186,8 @@ TEST(OffAxis, TheLiquidsForceAndTorqueOnTheCellVanish) {
   DuctPoint force = DuctPoint::Zero();
   for (int e = 0; e < int(space.elements().size()); ++e) {
     if (!touches_cell(space.mesh().elements()[e])) continue;
-    const VectorXd r = integrate_hexahedron(space, duct.system.element(), e, media, x, Want::residual, points);
+    const VectorXd r =
+        integrate_hexahedron({space, duct.system.element(), e, space.elements()[e]}, media, x, Want::residual, points);
     const int on_surface = (space.reference().degree() + 1) * (space.reference().degree() + 1);
     for (int k = 0; k < on_surface; ++k) {
       const DuctPoint at = duct_point(space, x, space.nodes().of_element[e][k]), f(r(k), r(n + k), r(2 * n + k));

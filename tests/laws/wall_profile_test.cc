@@ -35,5 +35,22 @@ TEST(WallProfile, TwoPlacesMakeTheSmoothStep) {
   for (double s = 0; s <= 1; s += 0.1) EXPECT_NEAR(wall.radius(2 * s), 2 - s * s * (3 - 2 * s), 1e-15);
 }
 
+TEST(WallProfile, RoundedCornersLieBetweenTheLinesAndAreNearWhereTheyMeet) {
+  // In a contraction of slope s a corner is off the lines by s e ln 2, and by less than 1e-4 of s e after 10 e.
+  const double e = 0.3;
+  const WallTable lines{{-4, 0}, {5, 1}, e};
+  const WallProfile wall(lines);
+  EXPECT_NEAR(wall.radius(0), 1 + e * std::log(2), 1e-5);
+  EXPECT_NEAR(wall.radius(-4), 5 - e * std::log(2), 1e-5);
+  EXPECT_NEAR(wall.radius(-2), 3, 1e-12);  // half way, by symmetry
+  for (double x = -20; x < 20; x += 0.1) {
+    EXPECT_LE(wall.radius(x + 0.1), wall.radius(x) + 1e-14);
+    EXPECT_GE(wall.radius(x), 1 - 1e-14);
+    EXPECT_LE(wall.radius(x), 5);
+  }
+  EXPECT_NEAR(wall.radius(last_change(lines)), 1, 1.1e-4);
+  EXPECT_NEAR(wall.radius(1e3), 1, 1e-12);
+}
+
 }  // namespace
 }  // namespace rheocyte::wall_profile_test

@@ -64,7 +64,9 @@ TEST(ResultReference, ExplainsEveryKeyOfResultJson) {
 TEST(ResultReference, ExplainsEveryColumn) {
   EXPECT_EQ(columns(history_csv({})), explained({"history.csv"}));
   EXPECT_EQ(columns(contours_csv({})), explained({"contours.csv"}));
-  EXPECT_EQ(columns(channel_csv({{0, 1}, {1, 1}}, {})), explained({"channel.csv"}));
+  Problem channel;
+  channel.wall = {{0, 1}, {1, 1}};
+  EXPECT_EQ(columns(channel_csv(channel, {})), explained({"channel.csv"}));
   const Case c = read_case(std::filesystem::path(EXAMPLES) / "paper-cell.toml", {});
   EXPECT_EQ(columns(contour_csv({}, scales_of(c))), explained({"contour.csv"}));
   EXPECT_EQ(columns(offset_outline_csv({}, scales_of(c))), explained({"contour_offset.csv"}));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cases.h"
+#include "fem/moving_system.h"
 #include "fem/observe.h"
 #include "laws/developed_flow.h"
 #include "shape/measures.h"

@@ -1,0 +1,112 @@
+#include "case/check_duct.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/scales.h"
+
+namespace rheocyte {
+
+namespace {
+
+/// Of a key whose value may be its fallback.
+std::string told(const KeyReading& keys, std::string_view key, double value) {
+  return keys.has(key) ? keys.stated(key) : fmt::format("{} = {:g}", key, value);
+}
+
+// So much of the energy that deforms the cell: factors of single precision do not correct stiffer surfaces.
+double max_bending_in_ducts_kBT(const Case& c) {
+  constexpr double share = 4e-3;
+  const double r0 = 1e-6 * c.cell.radius_um, mu = 1e3 * c.cell.bulk.young_modulus_kPa.value_or(0) / 3,
+               shell = 1e-3 * c.cell.cortex.modulus_mN_per_m.value_or(0);
+  return share * (mu * r0 + shell) * r0 * r0 / thermal_energy_J;
+}
+
+void check_duct_profile(const Case& c, const KeyReading& keys) {
+  constexpr std::string_view radii = "channel.profile.R_um", rounding = "channel.profile.rounding_um",
+                             section = "channel.section";
+  if (keys.has(radii))
+    keys.refuse(radii, fmt::format("{} is for tubes, and {} is a duct; give channel.profile.width_um.",
+                                   keys.stated(radii), keys.stated(section)));
+  const bool has_profile = keys.has("channel.profile.x_um") || keys.has("channel.profile.width_um");
+  if (!c.channel.width_um && !has_profile)
+    keys.refuse(section, fmt::format("{} needs channel.width_um, not a radius.", keys.stated(section)));
+  if (!keys.has(rounding)) return;
+  if (!has_profile)
+    keys.refuse(rounding,
+                fmt::format("{} is for the walls of [channel.profile]; leave it out.", keys.stated(rounding)));
+}
+
+/// Reynolds numbers in RT-DC are about 0.1.
+void check_inertia(const Case& c, const KeyReading& keys) {
+  constexpr std::string_view liquid = "flow.density_kg_per_m3", cell = "cell.density_kg_per_m3";
+  const bool is_of_liquid = c.flow.density_kg_per_m3 != 0;
+  const double density = is_of_liquid ? c.flow.density_kg_per_m3 : c.cell.density_kg_per_m3.value_or(0);
+  if (density == 0) return;
+  const std::string_view key = is_of_liquid ? liquid : cell;
+  keys.refuse(key, fmt::format("{} makes inertia, which is not computed in time in a duct; give {} = 0 and {} = 0.",
+                               told(keys, key, density), liquid, cell));
+}
+
+void check_duct_in_time(const Case& c, const KeyReading& keys) {
+  const auto refuse = [&](std::string_view key, std::string_view reason) {
+    keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
+  };
+  if (c.time.scheme == TimeScheme::stationary) return;
+  if (c.time.scheme == TimeScheme::partitioned)
+    refuse("time.scheme", "is for tubes; choose \"monolithic\", or leave channel.section out");
+  if (c.flow.drive != Drive::rate)
+    refuse(keys.has("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa",
+           "is for tubes, or for stationary shapes, where the channel is a duct; give flow.rate_ul_per_s");
+  if (!is_centred(c.cell))
+    refuse("cell.offset_um",
+           "is off the axis, where cells in ducts are followed by their stationary shapes alone; "
+           "leave [time] out, or the offset");
+  if (c.cell.bulk.law == BulkLaw::none)
+    refuse("cell.bulk.law",
+           "makes a shell, which is followed in time in tubes alone; choose a law for the bulk, or "
+           "leave channel.section out");
+  constexpr double greatest_degree = 6;
+  if (c.time.degree.value_or(0) > greatest_degree)
+    refuse("time.degree",
+           fmt::format("is more than ducts have memory for; at most {:g} are possible", greatest_degree));
+  check_inertia(c, keys);
+}
+
+constexpr double most_unequal_sides = 4;
+
+}  // namespace
+
+void check_rectangle(const Case& c, const KeyReading& keys) {
+  constexpr std::string_view height_key = "channel.height_um", camera = "channel.camera",
+                             rounding = "channel.profile.rounding_um";
+  if (!is_duct(c.channel.section)) return;
+  if (const double least = least_rounding * unit_length_um(c); c.channel.profile.rounding_um.value_or(least) < least)
+    keys.refuse(rounding, fmt::format("{} is less than the mesh resolves; at least {:.4g} um are needed.",
+                                      keys.stated(rounding), least));
+  if (c.channel.section != Section::rectangle) return;
+  const double width = least_width_um(c.channel), height = *c.channel.height_um;
+  if (std::max(width, height) > most_unequal_sides * std::min(width, height))
+    keys.refuse(height_key,
+                fmt::format("{} is outside its range {:.4g} .. {:.4g} um, a quarter to four times {}.",
+                            keys.stated(height_key), width / most_unequal_sides, width * most_unequal_sides,
+                            c.channel.width_um ? "channel.width_um" : "the least of channel.profile.width_um"));
+  if (c.channel.camera == View::diagonal)
+    keys.refuse(camera, fmt::format("{} is for squares; give the angle channel.camera_degree.", keys.stated(camera)));
+}
+
+void check_duct(const Case& c, const KeyReading& keys) {
+  if (!is_duct(c.channel.section)) return;
+  check_duct_profile(c, keys);
+  check_duct_in_time(c, keys);
+  const double most = max_bending_in_ducts_kBT(c);
+  if (c.cell.cortex.bending_kBT > most)
+    keys.refuse("cell.cortex.bending_kBT",
+                fmt::format("{} is more than can be solved for in ducts, {:.2g} kBT for this cell, and far more than "
+                            "cells have; lower it, or take the tube.",
+                            keys.stated("cell.cortex.bending_kBT"), most));
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,108 @@
+#include "duct/moving_duct_system.h"
+
+#include <cassert>
+
+#include "fem/element_quadrature.h"
+
+namespace rheocyte {
+namespace {
+
+using Components6 = Eigen::Matrix<double, 6, 1>;
+
+/// The numbers of a symmetric tensor.
+Components6 components(const Tensor<double>& A) {
+  Components6 a;
+  a << A(0, 0), A(0, 1), A(0, 2), A(1, 1), A(1, 2), A(2, 2);
+  return a;
+}
+
+Tensor<double> from_components(const Components6& a) { return {a(0), a(1), a(2), a(1), a(3), a(4), a(2), a(4), a(5)}; }
+
+}  // namespace
+
+MovingDuctSystem::MovingDuctSystem(const DuctSpace& space, double drop, bool bends)
+    : DuctSystem(space, drop, bends), elements_(space.elements()) {
+  assert(!space.turns() && space.inner_pressure() < 0);
+  set_motion({0, VectorXd::Zero(space.unknowns()), {}});
+}
+
+void MovingDuctSystem::set_motion(const Motion& motion) {
+  motion_ = motion;
+  if (motion.outward.size() > 0) renew_end_loads();
+  for (int e = 0; e < int(elements_.size()); ++e) {
+    if (elements_[e].liquid) {
+      if (motion.outward.size() > 0) elements_[e].undeformed = space().elements()[e].undeformed;
+      move_surface(e);
+    } else {
+      set_history(e);
+    }
+  }
+  if (motion_.branch.size() > 0) set_branch_history();
+}
+
+/// The liquid's velocity on the surface is the rate of the displacement; elsewhere it is as the space has it.
+void MovingDuctSystem::move_surface(int e) {
+  HexahedronUnknowns& self = elements_[e];
+  self.velocity = space().elements()[e].velocity;
+  const auto& nodes = space().nodes().of_element[e];
+  const int n = space().reference().nodes();
+  for (int i = 0; i < 3 * n; ++i) {
+    const int unknown = space().displacement(nodes[i % n], i / n);
+    if (unknown >= 0) self.velocity[i] = {unknown, motion_.rate, motion_.unknowns(unknown)};
+  }
+}
+
+void MovingDuctSystem::set_history(int e) {
+  HexahedronUnknowns& self = elements_[e];
+  const int n = space().reference().nodes();
+  MatrixXd displacement(n, 3);
+  for (int i = 0; i < 3 * n; ++i) {
+    const int unknown = self.displacement[i].unknown;
+    displacement(i % n, i / n) = unknown < 0 ? 0 : motion_.unknowns(unknown);
+  }
+  self.rate = motion_.rate;
+  self.history.assign(space().reference().points(), {});
+  for (int k = 0; k < 3; ++k) {
+    const MatrixXd slopes = element().at_points(k + 1, displacement);
+    // The form knows the place, not the displacement.
+    for (int q = 0; q < slopes.rows(); ++q)
+      for (int c = 0; c < 3; ++c)
+        self.history[q].velocity_slope(c, k) = slopes(q, c) - motion_.rate * self.undeformed[q].G(c, k);
+  }
+}
+
+void MovingDuctSystem::set_branch_history() {
+  Eigen::Index i = 0;
+  for (HexahedronUnknowns& self : elements_) {
+    for (CellHistory<3>& history : self.history) {
+      history.branch = from_components(motion_.branch.segment<6>(i));
+      i += 6;
+    }
+  }
+}
+
+VectorXd MovingDuctSystem::branch_metric(const Bulk& bulk, const VectorXd& unknowns) const {
+  VectorXd metric(unstressed_branch().size());
+  Eigen::Index i = 0;
+  for (int e = 0; e < int(elements_.size()); ++e) {
+    const HexahedronUnknowns& self = elements_[e];
+    if (self.liquid) continue;
+    const MatrixXd numbers = numbers_at_points<MapFields<double, 3>>(space(), element(), e, unknowns);
+    for (int q = 0; q < numbers.rows(); ++q) {
+      const PointMap<double, 3> map(fields_at<MapFields<double, 3>>(numbers, q));
+      const Tensor<double> F = deformation_gradient(map, self.undeformed[q]);
+      const Tensor<double> inverse_C = inverse(Tensor<double>(F.transpose() * F));
+      metric.segment<6>(i) = components(rheocyte::branch_metric(bulk, inverse_C, motion_.rate, self.history[q].branch));
+      i += 6;
+    }
+  }
+  return metric;
+}
+
+VectorXd MovingDuctSystem::unstressed_branch() const {
+  Eigen::Index points = 0;
+  for (const HexahedronUnknowns& self : elements_) points += Eigen::Index(self.history.size());
+  return components(Tensor<double>::Identity()).replicate(points, 1);
+}
+
+}  // namespace rheocyte
