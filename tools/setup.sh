@@ -156,10 +156,11 @@ build_page() {
 }
 
 # configure <preset> [<option>...]; the current folder is the top of the checkout. With ccache, what was compiled before
-# is taken from there; headers that are compiled beforehand need its leave.
+# is taken from there, also if it was in another folder; headers that are compiled beforehand need its leave.
 configure() {
   if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache} CCACHE_SLOPPINESS=pch_defines,time_macros
+    export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
   fi
   cmake --preset "$@" || fail "CMake could not configure the preset \"$1\"; its message is above. A build folder that is
 old or was copied from elsewhere is mended by removing it."

@@ -143,7 +143,9 @@ TEST(Scales, AFunnelBecomesTheTubeWithItsMeanSpeeds) {
 TEST(Scales, AFunnelInThreeDimensionsHasItsHalfWidthsOverTheLeast) {
   // In a square the height is the least width; in a rectangle lengths are in half the lesser of both.
   Case c = paper_cell();
-  c.channel = {.section = Section::square, .profile = {{30, 70}, {}, {100, 20}}};
+  c.channel = {};
+  c.channel.section = Section::square;
+  c.channel.profile = {{30, 70}, {}, {100, 20}};
   const Problem square = problem_of(c);
   EXPECT_EQ(unit_length_um(c), 10);
   EXPECT_EQ(square.wall.x, (std::vector<double>{3, 7}));

@@ -79,7 +79,8 @@ TEST(Fields, EachNumberIsListedOnce) {
   EXPECT_EQ(listed(inputs_of<Liquid2<double>>()), Liquid2<double>::count);
   EXPECT_EQ(listed(inputs_of<Cell2<double>>()), Cell2<double>::count);
   EXPECT_EQ(listed(inputs_of<MovingLiquidFields<double>>()), MovingLiquidFields<double>::count);
-  EXPECT_EQ(listed(inputs_of<MovingCellFields<double>>()), MovingCellFields<double>::count);
+  EXPECT_EQ(listed(inputs_of<MovingCellFields<double, 2>>()), (MovingCellFields<double, 2>::count));
+  EXPECT_EQ(listed(inputs_of<MovingCellFields<double, 3>>()), (MovingCellFields<double, 3>::count));
   EXPECT_EQ(listed(inputs_of<SplitCellFields<double>>()), SplitCellFields<double>::count);
   EXPECT_EQ(listed(inputs_of<SurfaceFields<double>>()), SurfaceFields<double>::count);
   EXPECT_EQ(listed(inputs_of<SurfaceFlux<double>>()), SurfaceFlux<double>::count);
