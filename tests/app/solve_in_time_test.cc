@@ -214,7 +214,7 @@ TEST_F(InTime, AFunnelIntoASquareWritesBothViewsAndGoesOnWhenKilled) {
   EXPECT_NE(wall.find(",14.99999"), std::string::npos);
   EXPECT_TRUE(wall.ends_with(",10.000004\n")) << wall;
   EXPECT_EQ(nlohmann::json::parse(text("whole/result.json"))["time"]["ended_by"], "place");
-  command.arguments[3] = at("killed");
+  command.arguments[4] = at("killed");
   command.signal = SIGKILL;
   EXPECT_EQ(run(command).exit_code, 128 + SIGKILL);
   command.signal = 0;
