@@ -85,12 +85,15 @@ std::optional<Problem> straight_from_here(const Result& result, const TimeRecord
 }
 
 /// Errors of a settled state's numbers by those of the stationary one; where its channel is another, only of those
-/// without a unit.
+/// without a unit, and where the simulated piece has another length, not of the drop along it.
 StateNumbers errors_by(const StationaryState& stationary, bool is_other_channel, const StateNumbers& settled) {
   StateNumbers errors = distance(settled, stationary);
   add_errors(1, stationary.errors, errors);
   for (const StateMeasure& measure : state_measures)
     if (is_other_channel && unit_of(measure.name).dimension != no_unit.dimension) measure.of(errors) = no_value;
+  constexpr double of_rounding = 1e-9;
+  if (std::abs(settled.channel_length - stationary.channel_length) > of_rounding * stationary.channel_length)
+    errors.channel_length = errors.pressure_drop = no_value;
   return errors;
 }
 
