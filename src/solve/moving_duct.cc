@@ -2,48 +2,25 @@
 
 #include "duct/moving_duct_system.h"
 #include "solve/duct.h"
-#include "solve/moving_discrete.h"
+#include "solve/moving_of.h"
 
 namespace rheocyte {
 namespace {
 
 /// A node near the cell's middle is held at its place.
-class MovingDuct final : public MovingDiscrete {
+class MovingDuct final : public MovingOf<DuctDiscrete, MovingDuctSystem> {
  public:
   MovingDuct(const Problem& problem, const Resolution& resolution)
-      : discrete_(problem, subdivision_of(problem), resolution.degree),
-        system_(space(), discrete_.system().drop(), problem.cortex.bending > 0) {}
+      : MovingOf([&] { return DuctDiscrete(problem, subdivision_of(problem), resolution.degree); },
+                 [&](const DuctDiscrete& discrete) {
+                   return MovingDuctSystem(discrete.space(), discrete.system().drop(), problem.cortex.bending > 0);
+                 }) {}
 
-  const Discrete& discrete() const override { return discrete_; }
-  NonlinearSystem& system() override { return system_; }
-  const NonlinearSystem& system() const override { return system_; }
-  int cell_velocity() const override { return space().cell_velocity(); }
-  std::vector<int> surface_unknowns() const override {
-    std::vector<int> unknowns;
-    for (const SurfaceFace& face : surface_faces(space())) {
-      for (const int node : face.nodes) {
-        for (int c = 0; c < 3; ++c) {
-          if (const int unknown = space().displacement(node, c); unknown >= 0) unknowns.push_back(unknown);
-        }
-      }
-    }
-    return unknowns;
-  }
-
-  void set_motion(const Motion& motion) override { system_.set_motion(motion); }
+  std::vector<int> surface_unknowns() const override { return displacements_of(surface_faces(space()), 3); }
   VectorXd node_velocities(const VectorXd&) const override { return {}; }
-  VectorXd branch_metric(const Bulk& bulk, const VectorXd& unknowns) const override {
-    return system_.branch_metric(bulk, unknowns);
-  }
-  VectorXd unstressed_branch() const override { return system_.unstressed_branch(); }
-
-  VectorXd wall_motion(const std::function<double(double)>& wall, const VectorXd& unknowns) const override {
-    return space().wall_motion(wall, unknowns);
-  }
-  void move_nodes(const VectorXd& outward) override { discrete_.space().move_nodes(outward); }
 
   double barycentre(const VectorXd& unknowns) const override {
-    return cell_volume(space(), system_.element(), unknowns).barycentre;
+    return cell_volume(space(), moving_system().element(), unknowns).barycentre;
   }
   void stretch_sphere(double stretch, VectorXd& unknowns) const override {
     const double across = 1 / std::sqrt(stretch), factors[] = {stretch, across, across};
@@ -53,12 +30,6 @@ class MovingDuct final : public MovingDiscrete {
       if (u >= 0) unknowns(u) = (factors[c] - 1) * (space().node_points()[i / 3](c) - (c == 0 ? held : 0));
     }
   }
-
- private:
-  const DuctSpace& space() const { return discrete_.space(); }
-
-  DuctDiscrete discrete_;
-  MovingDuctSystem system_;
 };
 
 }  // namespace
