@@ -25,7 +25,6 @@ struct ModuliTable {
   CombinedTable content;
   CombinedInterpolation between;
   ChannelFlow simulated;
-  SquareSection section;
 };
 
 /// What the outlines are for, in OutlinedEvents.
@@ -50,18 +49,15 @@ class EventModuli {
     return {seen, {flow_.width_um, flow_.rate_ul_s, viscosity_mPas, flow_.exponent}};
   }
 
-  /// By which the cells of the tube become those of the square channel; empty: they do not.
-  const std::string& square_table() const { return square_table_; }
-
  private:
-  enum class ErrorsOf { picture, mean };
-  /// Nothing without a shape.
-  std::optional<SeenCell> seen_cell(const MeasuredCell& measured, ErrorsOf errors_of) const;
-  const SquareShapes* square() const { return square_ ? &*square_ : nullptr; }
+  /// With the noise of the mean of so many pictures. Nothing without a shape.
+  std::optional<SeenCell> seen_cell(const MeasuredCell& measured, double pictures) const;
+
+  Sight sight(const ChannelFlow& flow) const { return {flow, section_, section_error_factor_}; }
 
   ChannelFlow flow_;
-  std::string square_table_;
-  std::optional<SquareShapes> square_;
+  Section section_;
+  double section_error_factor_;
   RenderedErrors pixels_;
   SeveralModuli moduli_;
   AxialTension tension_;
