@@ -175,8 +175,7 @@ class Fits {
   std::string section_text() const {
     if (!is_square()) return "channel: the tube of equal pressure drop, as in the table";
     return "the channel is square, and the table one of the tube of equal pressure drop: its shapes are changed by a "
-           "law "
-           "for stationary cells, and what that leaves is counted as an error.";
+           "law for stationary cells, and what that leaves is counted as an error.";
   }
 
   /// With the solids of the table that comes with the program.
