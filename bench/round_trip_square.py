@@ -22,6 +22,7 @@ import rheocyte
 WIDTH_UM, RATE_UL_S, TEMPERATURE_C, MEDIUM, PIXEL_UM = 20.0, 0.04, 23.0, "CellCarrier", 0.34
 EXPONENT = 0.00223 * (273.15 + TEMPERATURE_C) - 0.0056  # of this medium (docs/theory-extract.md, eq:buyukurganci)
 PICTURE = (60, 90)  # pixels
+MODULI = ("young_modulus_kPa", "cortex_modulus_mN_per_m", "stiffness_kPa")
 
 
 def liquid():
@@ -80,22 +81,23 @@ def write(file, masks):
 
 def round_trip(number, options):
     random = np.random.default_rng([3, number])
-    medians, masks, stiffness = Medians(random), [], []
+    medians, masks, moduli = Medians(random), [], []
     for _ in range(5 * options.cells):
         cell = medians.cell(random)
         outline = solved(cell, medians.axial)
         if outline is None:
             continue
-        stiffness.append(cell["bulk"]["young_modulus_kPa"] + cell["cortex"]["modulus_mN_per_m"] / cell["radius_um"])
+        young, cortex = cell["bulk"]["young_modulus_kPa"], cell["cortex"]["modulus_mN_per_m"]
+        moduli.append((young, cortex, young + cortex / cell["radius_um"]))
         masks += [mask(outline, random) for _ in range(options.places)]
-        if len(stiffness) == options.cells:
+        if len(moduli) == options.cells:
             break
     file = options.folder / f"square-{number}.rtdc"
     write(file, np.array(masks))
     subprocess.run([options.program, "moduli", file, "--table", options.table, "-o", options.folder], check=True,
                    capture_output=True)
     found = json.loads((options.folder / f"square-{number}_moduli.json").read_text())
-    return medians, float(np.median(stiffness)), found
+    return {"axial_tension": medians.axial} | dict(zip(MODULI, np.median(moduli, axis=0))), found
 
 
 def main():
@@ -110,9 +112,14 @@ def main():
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     for number in range(options.first, options.first + options.recordings):
-        medians, stiffness, found = round_trip(number, options)
-        print(json.dumps({"T": medians.axial, "E": medians.young, "E2D": medians.cortex, "S": stiffness, "found": found}),
-              flush=True)
+        truth, found = round_trip(number, options)
+        tension = found["axial_tension"]
+        print(f"{number}: {found['events']['resolved']} of {sum(found['events'].values())} events, axial tension "
+              f"{truth['axial_tension']:.0f} Pa: {tension['value_Pa']:.1f} ({tension['lower_Pa']:.1f} to "
+              f"{tension['upper_Pa']:.1f})", end="")
+        for name in MODULI:
+            print(f", {name} {truth[name]:.4g}: {found[name]['median']:.4g} +- {found[name]['median_error']:.2g}", end="")
+        print(flush=True)
 
 
 if __name__ == "__main__":

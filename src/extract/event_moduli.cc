@@ -86,6 +86,15 @@ CommonTension EventModuli::common_tension(std::span<const MeasuredCell> cells,
   return rheocyte::common_tension(moduli_, groups, goes_on);
 }
 
+CommonErrors EventModuli::common_errors(std::span<const MeasuredCell> cells) const {
+  if (cells.size() < MedianCell::min_cells) return {};
+  const auto seen = seen_cell(median_of(cells), double(cells.size()));
+  if (!seen) return {};
+  const ModuliEstimate e = moduli_.fit(seen->shape, seen->flow, tension_);
+  const auto relative = [&](Modulus m) { return e.error(m) / e.value(m); };
+  return {relative(Modulus::young), relative(Modulus::cortex), e.stiffness_error_kPa / e.stiffness_kPa};
+}
+
 MedianCell EventModuli::median_cell(std::span<const MeasuredCell> cells) const {
   if (cells.empty()) return {};
   const auto seen = seen_cell(median_of(cells), 1);

@@ -1,6 +1,7 @@
 // Moduli of bulk and cortex of single events of one recording, by a combined table.
 #pragma once
 #include "extract/extract_settings.h"
+#include "extract/moduli_summary.h"
 #include "extract/square_section.h"
 #include "infer/common_tension.h"
 #include "infer/median_cell.h"
@@ -44,6 +45,9 @@ class EventModuli {
   CommonTension common_tension(std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) const;
   /// With what is known of the tension.
   MedianCell median_cell(std::span<const MeasuredCell> cells) const;
+  /// What all cells of a recording have in common, in parts of each: of the median cell's moduli what is left of their
+  /// errors without the noise of single pictures, those of the tension and of the section. NaN without such a cell.
+  CommonErrors common_errors(std::span<const MeasuredCell> cells) const;
   /// What `fit` would be asked with.
   MeasuredCell measured(const ShapeVector& seen, double viscosity_mPas) const {
     return {seen, {flow_.width_um, flow_.rate_ul_s, viscosity_mPas, flow_.exponent}};

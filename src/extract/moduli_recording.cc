@@ -55,6 +55,11 @@ class Fits {
   void survey(const Recording& recording, const ModuliOptions& options) {
     const std::vector<MeasuredCell> cells = cells_for_survey(recording, options);
     median_ = moduli_.median_cell(cells);
+    survey_tension(cells);
+    common_errors_ = moduli_.common_errors(cells);
+  }
+
+  void survey_tension(const std::vector<MeasuredCell>& cells) {
     if (!axial_.is_of_elongated_cells) return;
     std::vector<double> wall_stresses;
     for (const MeasuredCell& cell : cells) wall_stresses.push_back(wall_shear_stress_Pa(cell.flow));
@@ -111,7 +116,7 @@ class Fits {
   }
 
   ModuliSummary summary() {
-    ModuliSummary s = tally_.summary();
+    ModuliSummary s = tally_.summary(common_errors_);
     s.axial = axial_;
     s.median_cell = median_;
     const ExtractSettings& settings = events_.settings();
@@ -228,6 +233,7 @@ class Fits {
   const ModuliTable& table_;
   AxialSummary axial_;
   MedianCell median_;
+  CommonErrors common_errors_;
   SlopeTally slopes_;
   std::vector<ShapeExcess> excess_;
   ElongationValues solids_values_;  ///< as if they were solids
