@@ -20,13 +20,15 @@ bool has_free_tension(const ModuliOptions& options, const ModuliTable& table) {
   return options.fit_tension || table.between.is_elongated();
 }
 
+bool is_neo_hookean(const Cell& cell) {
+  return cell.bulk.law == BulkLaw::neo_hookean &&
+         (cell.cortex.law == CortexLaw::neo_hookean || cell.cortex.law == CortexLaw::neo_hookean_reference);
+}
+
 }  // namespace
 
 ModuliTable::ModuliTable(const ModuliOptions& options)
-    : content(read_combined_table(options.table)),
-      between(content),
-      simulated(channel_flow_of(content.spec.base)),
-      section(options.section.value_or(Section::square), content.spec.base) {
+    : content(read_combined_table(options.table)), between(content), simulated(channel_flow_of(content.spec.base)) {
   if (options.fit_tension && between.tension_ratios().size() < 2)
     throw UserError(
         fmt::format("rheocyte: --fit-tension needs a table with several tensions (table.tension_ratio); {} has one.",
@@ -54,36 +56,24 @@ double ModuliTable::sign_of_asymmetry() const {
 EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table,
                          Section seen_in)
     : flow_(settings.conditions.flow),
+      section_(seen_in),
+      section_error_factor_(is_neo_hookean(table.content.spec.base.cell) ? 1 : error_factor_of_other_laws),
       pixels_(table.between, settings.pixel_size_um * table.simulated.width_um / flow_.width_um),
       moduli_(table.between, table.simulated,
               {features_of(options, table), has_free_tension(options, table), table.between.tension_ratios().front()}),
-      tension_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()) {
-  const ModulusMap* const square = seen_in == Section::square ? table.section.table(flow_.exponent) : nullptr;
-  if (!square || table.content.spec.cortex_shares.front() > 0) return;
-  square_.emplace(table.between, table.simulated, *square);
-  square_table_ = square->origin().identifier;
-}
+      tension_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()) {}
 
 ModuliEstimate EventModuli::fit(const ShapeVector& seen, double viscosity_mPas) const {
   ChannelFlow flow = flow_;
   flow.viscosity_mPas = viscosity_mPas;
-  return fit_pixels(moduli_, pixels_, seen, flow, square(), tension_);
+  return fit_pixels(moduli_, pixels_, seen, sight(flow), tension_);
 }
 
-std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, ErrorsOf errors_of) const {
-  constexpr int rounds = 2;
-  const auto seen = [&](const ShapeErrors& pixels, const CellCoordinates& cell) {
-    return seen_shape(pixels, measured.shape, measured.flow, square(), cell).shape;
-  };
-  MeasuredShape shape = seen(pixels_.at(pixels_.middle()), pixels_.middle());
-  for (int round = 0; round < rounds; ++round) {
-    const auto found = moduli_.nearest(shape, measured.flow, AxialTension::unknown());
-    if (!found) return {};
-    ShapeErrors pixels = pixels_.of(found->cell);
-    if (errors_of == ErrorsOf::mean) pixels.covariance /= double(measured.cells);
-    shape = seen(pixels, found->cell);
-  }
-  return SeenCell{shape, measured.flow, measured.cells};
+std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, double pictures) const {
+  const auto seen =
+      seen_shape(moduli_, pixels_, measured.shape, sight(measured.flow), AxialTension::unknown(), pictures);
+  if (!seen) return {};
+  return SeenCell{seen->shape, measured.flow, measured.cells};
 }
 
 CommonTension EventModuli::common_tension(std::span<const MeasuredCell> cells,
@@ -91,14 +81,23 @@ CommonTension EventModuli::common_tension(std::span<const MeasuredCell> cells,
   std::vector<SeenCell> groups;
   for (const MeasuredCell& group : means_by_size(cells)) {
     goes_on();
-    if (const auto seen = seen_cell(group, ErrorsOf::mean)) groups.push_back(*seen);
+    if (const auto seen = seen_cell(group, double(group.cells))) groups.push_back(*seen);
   }
   return rheocyte::common_tension(moduli_, groups, goes_on);
 }
 
+CommonErrors EventModuli::common_errors(std::span<const MeasuredCell> cells) const {
+  if (cells.size() < MedianCell::min_cells) return {};
+  const auto seen = seen_cell(median_of(cells), double(cells.size()));
+  if (!seen) return {};
+  const ModuliEstimate e = moduli_.fit(seen->shape, seen->flow, tension_);
+  const auto relative = [&](Modulus m) { return e.error(m) / e.value(m); };
+  return {relative(Modulus::young), relative(Modulus::cortex), e.stiffness_error_kPa / e.stiffness_kPa};
+}
+
 MedianCell EventModuli::median_cell(std::span<const MeasuredCell> cells) const {
   if (cells.empty()) return {};
-  const auto seen = seen_cell(median_of(cells), ErrorsOf::picture);
+  const auto seen = seen_cell(median_of(cells), 1);
   return seen ? rheocyte::median_cell(moduli_, *seen, tension_) : MedianCell{.cells = cells.size()};
 }
 

@@ -1,6 +1,7 @@
 // Moduli of bulk and cortex of single events of one recording, by a combined table.
 #pragma once
 #include "extract/extract_settings.h"
+#include "extract/moduli_summary.h"
 #include "extract/square_section.h"
 #include "infer/common_tension.h"
 #include "infer/median_cell.h"
@@ -25,7 +26,6 @@ struct ModuliTable {
   CombinedTable content;
   CombinedInterpolation between;
   ChannelFlow simulated;
-  SquareSection section;
 };
 
 /// What the outlines are for, in OutlinedEvents.
@@ -45,23 +45,23 @@ class EventModuli {
   CommonTension common_tension(std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) const;
   /// With what is known of the tension.
   MedianCell median_cell(std::span<const MeasuredCell> cells) const;
+  /// What all cells of a recording have in common, in parts of each: of the median cell's moduli what is left of their
+  /// errors without the noise of single pictures, those of the tension and of the section. NaN without such a cell.
+  CommonErrors common_errors(std::span<const MeasuredCell> cells) const;
   /// What `fit` would be asked with.
   MeasuredCell measured(const ShapeVector& seen, double viscosity_mPas) const {
     return {seen, {flow_.width_um, flow_.rate_ul_s, viscosity_mPas, flow_.exponent}};
   }
 
-  /// By which the cells of the tube become those of the square channel; empty: they do not.
-  const std::string& square_table() const { return square_table_; }
-
  private:
-  enum class ErrorsOf { picture, mean };
-  /// Nothing without a shape.
-  std::optional<SeenCell> seen_cell(const MeasuredCell& measured, ErrorsOf errors_of) const;
-  const SquareShapes* square() const { return square_ ? &*square_ : nullptr; }
+  /// With the noise of the mean of so many pictures. Nothing without a shape.
+  std::optional<SeenCell> seen_cell(const MeasuredCell& measured, double pictures) const;
+
+  Sight sight(const ChannelFlow& flow) const { return {flow, section_, section_error_factor_}; }
 
   ChannelFlow flow_;
-  std::string square_table_;
-  std::optional<SquareShapes> square_;
+  Section section_;
+  double section_error_factor_;
   RenderedErrors pixels_;
   SeveralModuli moduli_;
   AxialTension tension_;

@@ -85,7 +85,7 @@ ColumnsOf<ModuliBlock> moduli_columns() {
     columns.push_back({column, column.values_in<B>()});
   }
   columns.push_back({{.name = "section_factor",
-                      .sentence = "c3 of a solid like it over that in the tube, where the channel is square",
+                      .sentence = "c3 over that of such a cell in the tube, where the channel is square",
                       .digits = digits_of_ratios},
                      of_estimates(&ModuliEstimate::section_factor)});
   return columns;

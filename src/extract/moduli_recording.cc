@@ -55,6 +55,11 @@ class Fits {
   void survey(const Recording& recording, const ModuliOptions& options) {
     const std::vector<MeasuredCell> cells = cells_for_survey(recording, options);
     median_ = moduli_.median_cell(cells);
+    survey_tension(cells);
+    common_errors_ = moduli_.common_errors(cells);
+  }
+
+  void survey_tension(const std::vector<MeasuredCell>& cells) {
     if (!axial_.is_of_elongated_cells) return;
     std::vector<double> wall_stresses;
     for (const MeasuredCell& cell : cells) wall_stresses.push_back(wall_shear_stress_Pa(cell.flow));
@@ -111,7 +116,7 @@ class Fits {
   }
 
   ModuliSummary summary() {
-    ModuliSummary s = tally_.summary();
+    ModuliSummary s = tally_.summary(common_errors_);
     s.axial = axial_;
     s.median_cell = median_;
     const ExtractSettings& settings = events_.settings();
@@ -122,16 +127,15 @@ class Fits {
       s.warnings.push_back(settings.outside_temperature_text(outside));
     if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
     if (is_square()) {
-      s.warnings.push_back(moduli_.square_table().empty() ? std::string(no_square_text) : section_text());
-    } else if (!is_told_) {
-      s.warnings.emplace_back(own_cells_text);
+      s.warnings.push_back(section_text());
+    } else {
+      if (!is_told_) s.warnings.emplace_back(own_cells_text);
+      if (std::abs(conditions().flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
+        s.warnings.push_back(fmt::format(
+            "the medium is shear-thinning with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at "
+            "the wall stands for both, and moduli are off by up to 5 %, those of large cells most.",
+            conditions().flow.exponent, simulated_exponent_));
     }
-    if (moduli_.square_table().empty() &&
-        std::abs(conditions().flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
-      s.warnings.push_back(fmt::format(
-          "the medium is shear-thinning with the exponent {:.3g}, the table's liquid has {:.3g}: the viscosity at the "
-          "wall stands for both, and moduli are off by up to 5 %, those of large cells most.",
-          conditions().flow.exponent, simulated_exponent_));
     if (s.resolved() == 0 && s.with_stiffness() > 0)
       s.warnings.emplace_back(
           "no event tells bulk and cortex apart; what is known is E + E2D/r0, of some events perhaps single moduli.");
@@ -175,12 +179,8 @@ class Fits {
 
   std::string section_text() const {
     if (!is_square()) return "channel: the tube of equal pressure drop, as in the table";
-    if (moduli_.square_table().empty()) return "channel: square, but the cells are compared with those of the tube";
-    return fmt::format(
-        "the channel is square, and the table one of the tube of equal pressure drop: its shapes are changed as {} "
-        "says "
-        "of solids without a cortex, and a third of each change is counted as an error.",
-        moduli_.square_table());
+    return "the channel is square, and the table one of the tube of equal pressure drop: its shapes are changed by a "
+           "law for stationary cells, and what that leaves is counted as an error.";
   }
 
   /// With the solids of the table that comes with the program.
@@ -233,6 +233,7 @@ class Fits {
   const ModuliTable& table_;
   AxialSummary axial_;
   MedianCell median_;
+  CommonErrors common_errors_;
   SlopeTally slopes_;
   std::vector<ShapeExcess> excess_;
   ElongationValues solids_values_;  ///< as if they were solids

@@ -29,10 +29,15 @@ void ModuliTally::take(const ModuliEstimate& e) {
     stiffness_.push_back(e.stiffness_kPa);
 }
 
-ModuliSummary ModuliTally::summary() {
-  summary_.young_kPa = distribution_of(young_);
-  summary_.cortex_mN_per_m = distribution_of(cortex_);
-  summary_.stiffness_kPa = distribution_of(stiffness_);
+ModuliSummary ModuliTally::summary(const CommonErrors& common) {
+  const auto with_common = [](const std::vector<double>& values, double relative) {
+    Distribution d = distribution_of(values);
+    if (std::isfinite(relative)) d.median_error = std::hypot(d.median_error, relative * d.median);
+    return d;
+  };
+  summary_.young_kPa = with_common(young_, common.young);
+  summary_.cortex_mN_per_m = with_common(cortex_, common.cortex);
+  summary_.stiffness_kPa = with_common(stiffness_, common.stiffness);
   return summary_;
 }
 

@@ -13,6 +13,12 @@
 
 namespace rheocyte {
 
+/// Relative standard errors that the moduli of all events of a recording share.
+struct CommonErrors {
+  double young = no_value, cortex = no_value, stiffness = no_value;
+};
+
+/// Errors of medians are those of the scatter between events and of what all have in common.
 struct ModuliSummary {
   std::array<std::size_t, moduli_status_count> counts{};  ///< by ModuliStatus
   Distribution young_kPa, cortex_mN_per_m;                ///< of the resolved events
@@ -40,7 +46,7 @@ class ModuliTally {
  public:
   void take(const ModuliEstimate& estimate);
   /// Counts and distributions; nothing of gates and warnings.
-  ModuliSummary summary();
+  ModuliSummary summary(const CommonErrors& common);
 
  private:
   ModuliSummary summary_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <numeric>
 
 #include "measurement/shape_in_pixels.h"
@@ -103,32 +104,56 @@ ShapeErrors RenderedErrors::of(const CellCoordinates& cell) const {
   return state.inside ? rendered(state, pixel_size_um_, draws_of_one_cell, number) : at(cell);
 }
 
-SeenShape seen_shape(const ShapeErrors& pixels, const ShapeVector& measured, const ChannelFlow& flow,
-                     const SquareShapes* square, const CellCoordinates& cell) {
-  constexpr int x_share = int(CellCoordinate::cortex_share);
+namespace {
+
+/// A shape with the errors of its pixels, as such a cell of the table, whose channel is the tube, would have them.
+SeenShape with_section(const ShapeErrors& pixels, const ShapeVector& measured, const Sight& sight,
+                       const CellCoordinates& cell, double table_exponent) {
   SeenShape seen{{measured, pixels}};
   ShapeErrors& added = seen.shape.errors;
-  if (!square || !measured.allFinite()) return seen;
-  const auto by_square = square->change(measured - added.bias, flow, cell(x_share));
-  added.bias += by_square.errors.bias;
-  added.covariance += by_square.errors.covariance;
-  seen.section_factor = by_square.factor_of_mode_3;
+  if (sight.section == Section::tube || !measured.allFinite()) return seen;
+  constexpr int mode_2 = int(ShapeFeature::first_mode), mode_3 = mode_2 + 1;
+  const ShapeVector smooth = measured - added.bias;
+  const double share = cell(int(CellCoordinate::cortex_share));
+  const ShapeErrors by_square = change_by_square(
+      {.radius = std::exp(smooth(int(ShapeFeature::area_um2)) / 2) * 2 * std::numbers::inv_sqrtpi / sight.flow.width_um,
+       .mode_2 = smooth(mode_2),
+       .mode_3 = smooth(mode_3),
+       .cortex_share = share,
+       .cortex_tension = share * cell(int(CellCoordinate::tension_ratio)),
+       .thinning = table_exponent - sight.flow.exponent});
+  added.bias += by_square.bias;
+  added.covariance += by_square.covariance * sight.error_factor * sight.error_factor;
+  seen.section_factor = smooth(mode_3) / (smooth(mode_3) - by_square.bias(mode_3));
   return seen;
 }
 
-ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
-                          const ChannelFlow& flow, const SquareShapes* square, const AxialTension& tension) {
+}  // namespace
+
+std::optional<SeenShape> seen_shape(const SeveralModuli& moduli, const RenderedErrors& errors,
+                                    const ShapeVector& measured, const Sight& sight, const AxialTension& tension,
+                                    double pictures) {
   constexpr int rounds = 2;  // the bias hardly depends on the cell: a third one changes nothing that matters
+  const auto seen_at = [&](ShapeErrors pixels, const CellCoordinates& cell) {
+    pixels.covariance /= pictures;
+    return with_section(pixels, measured, sight, cell, moduli.simulated().exponent);
+  };
   CellCoordinates cell = errors.middle();
   for (int round = 0; round < rounds; ++round) {
-    const MeasuredShape shape = seen_shape(errors.at(cell), measured, flow, square, cell).shape;
-    const auto nearest = moduli.nearest(shape, flow, tension, round == 0 ? nullptr : &cell);
+    const auto nearest =
+        moduli.nearest(seen_at(errors.at(cell), cell).shape, sight.flow, tension, round == 0 ? nullptr : &cell);
     if (!nearest) return {};
     cell = nearest->cell;
   }
-  const SeenShape seen = seen_shape(errors.of(cell), measured, flow, square, cell);
-  ModuliEstimate estimate = moduli.fit(seen.shape, flow, tension);
-  estimate.section_factor = seen.section_factor;
+  return seen_at(errors.of(cell), cell);
+}
+
+ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
+                          const Sight& sight, const AxialTension& tension) {
+  const auto seen = seen_shape(moduli, errors, measured, sight, tension);
+  if (!seen) return {};
+  ModuliEstimate estimate = moduli.fit(seen->shape, sight.flow, tension);
+  estimate.section_factor = seen->section_factor;
   return estimate;
 }
 

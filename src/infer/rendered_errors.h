@@ -6,10 +6,11 @@
 // fit of milliseconds for each event. For solids both agree (tests/infer/rendered_errors_test.cc).
 #pragma once
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "infer/several_moduli.h"
-#include "infer/square_shapes.h"
+#include "infer/square_law.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte {
@@ -50,14 +51,20 @@ struct SeenShape {
   MeasuredShape shape;
   double section_factor = 1;  ///< see ModuliEstimate
 };
-/// As far as this is known, for such a cell of the table; `square` as below.
-SeenShape seen_shape(const ShapeErrors& pixels, const ShapeVector& measured, const ChannelFlow& flow,
-                     const SquareShapes* square, const CellCoordinates& cell);
+/// How a cell is seen: in which channel, of which section.
+struct Sight {
+  ChannelFlow flow;
+  Section section = Section::tube;
+  double error_factor = 1;  ///< by how much more the law of the square channel leaves of cells of these laws
+};
+/// What is added is that at the nearest cell of the table, the axial tension being known so well; the noise of pixels
+/// is that of the mean of so many pictures. Nothing where a feature is not a number.
+std::optional<SeenShape> seen_shape(const SeveralModuli& moduli, const RenderedErrors& errors,
+                                    const ShapeVector& measured, const Sight& sight, const AxialTension& tension,
+                                    double pictures = 1);
 
-/// The moduli of a cell in pixels: the errors are those at the cell that is found. `square`: what the square channel
-/// adds to the shapes of the table; null: the channel is the tube.
+/// The moduli of a cell in pixels.
 ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
-                          const ChannelFlow& flow, const SquareShapes* square = nullptr,
-                          const AxialTension& tension = {});
+                          const Sight& sight, const AxialTension& tension = {});
 
 }  // namespace rheocyte

@@ -50,7 +50,7 @@ struct ModuliEstimate {
   CellCoordinates cell = CellCoordinates::Zero();                         ///< in the table's channel
   double chi_squared = no_value;
   int freedom = 0;
-  double section_factor = 1;  ///< c_3 of a solid like it over that in the tube, where the channel is square
+  double section_factor = 1;  ///< c_3 over that of such a cell in the tube, where the channel is square
 
   double value(Modulus m) const { return modulus(int(m)); }
   double error(Modulus m) const;
@@ -98,6 +98,7 @@ class SeveralModuli {
   double axial_tension_Pa(const CellCoordinates& cell, const ChannelFlow& flow) const;
   ShapeVector shape_of(const CellCoordinates& cell, const ChannelFlow& flow) const;
   const CombinedInterpolation& table() const { return table_; }
+  const ChannelFlow& simulated() const { return simulated_; }  ///< the table's channel
   /// Features less parameters, the axial tension being known.
   int freedom() const;
 

@@ -117,7 +117,7 @@ TEST_F(SeveralModuliOf, FromPixelsTheTruthLiesInNineOfTenIntervals) {
     const Cell cell = random_cell(0.15);
     const auto features =
         features_in_pixels(invented_outline(cell.place, cell.stiffness), pixel_um, {place(engine_), place(engine_)});
-    const auto found = fit_pixels(all, pixels, features, simulated_);
+    const auto found = fit_pixels(all, pixels, features, {simulated_});
     young += std::abs(found.value(Modulus::young) - cell.young()) < 1.645 * found.error(Modulus::young);
     cortex += std::abs(found.value(Modulus::cortex) - cell.cortex()) < 1.645 * found.error(Modulus::cortex);
   }

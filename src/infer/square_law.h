@@ -1,0 +1,31 @@
+// What the square channel does to the shape of a stationary cell of the tube of equal pressure drop
+// (docs/theory-extract.md, sec. "The square channel").
+#pragma once
+#include <array>
+
+#include "shape/outline_shape.h"
+
+namespace rheocyte {
+
+/// A cell with bulk and cortex as it is seen in the square channel, without pixels.
+struct CellInSquare {
+  double radius = 0.6;  ///< of the circle of its area, over half the channel's width
+  double mode_2 = 0, mode_3 = 0;
+  double cortex_share = 0;    ///< of E + E2D / r0
+  double cortex_tension = 0;  ///< over r0, as a share of E + E2D / r0
+  double thinning = 0;        ///< exponent of the liquid in the tube less that of the liquid in the square
+};
+
+/// Products of up to two of these numbers, the order of a law's coefficients.
+inline constexpr int square_term_count = 28;
+std::array<double, square_term_count> square_terms(const CellInSquare& cell);
+
+/// Of cells with other laws than neo-Hookean ones the law leaves this many times as much (docs/theory-extract.md).
+inline constexpr double error_factor_of_other_laws = 4;
+
+/// What is added to the features of the neo-Hookean cell with the same radius at rest, moduli and tensions in the tube,
+/// and how well that is known. Beyond the cells to which the law was fitted the nearest counts; modes beyond the
+/// seventh do not change.
+ShapeErrors change_by_square(const CellInSquare& cell);
+
+}  // namespace rheocyte
