@@ -206,11 +206,21 @@ const std::vector<double>& elongation_measure(const PopulationEvents& events, St
   return events.of(by == StiffnessMeasure::asymmetry ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio);
 }
 
-PopulationMaps::PopulationMaps(StiffnessMeasure by) : by_(by), tables_(std::string(), Section::square) {
-  if (!tables_.elongated(1))
+PopulationMaps::PopulationMaps(StiffnessMeasure by, const std::string& table) : by_(by) {
+  if (!table.empty()) {
+    given_ = std::make_unique<const ElongatedSolids>(given_elongated_table(table));
+    given_liquid_ = std::make_unique<const ElongatedLiquid>(*given_, nullptr, nullptr);
+    return;
+  }
+  tables_.emplace(std::string(), Section::square);
+  if (!tables_->elongated(1))
     throw UserError(
         "rheocyte: the table of elongated cells (elongated_*.cbor) that comes with the program is missing; populations "
         "rest on it. Install the program anew, or name the folder of the tables in RHEOCYTE_TABLES.");
+}
+
+const ElongatedLiquid& PopulationMaps::liquid(const PopulationEvents& events) const {
+  return given_liquid_ ? *given_liquid_ : *tables_->elongated(events.flow.exponent);
 }
 
 PopulationMaps::Key PopulationMaps::key_of(const PopulationEvents& events) {
@@ -220,8 +230,7 @@ PopulationMaps::Key PopulationMaps::key_of(const PopulationEvents& events) {
 PopulationMaps::Channel& PopulationMaps::channel(const PopulationEvents& events) {
   Channel& channel = channels_[key_of(events)];
   if (!channel.solids)
-    channel.solids = std::make_unique<const SolidMaps>(*tables_.elongated(events.flow.exponent), events.flow,
-                                                       events.pixel_size_um, by_);
+    channel.solids = std::make_unique<const SolidMaps>(liquid(events), events.flow, events.pixel_size_um, by_);
   return channel;
 }
 
@@ -235,11 +244,11 @@ std::shared_ptr<const ForwardMap> PopulationMaps::map(const PopulationEvents& ev
 }
 
 std::string PopulationMaps::table(const PopulationEvents& events) const {
-  return tables_.elongated(events.flow.exponent)->solids().origin().identifier;
+  return liquid(events).solids().origin().identifier;
 }
 
 double PopulationMaps::table_error(const PopulationEvents& events) const {
-  return tables_.elongated(events.flow.exponent)->solids().table().error();
+  return liquid(events).solids().table().error();
 }
 
 PopulationSample population_sample(const PopulationEvents& events, PopulationMaps& maps, const SampleOptions& options) {
