@@ -53,7 +53,7 @@ struct PopulationSample {
   /// That of the map of each event, in the order of PopulationEvents; NaN: left out.
   std::vector<double> elongation_of_event;
   std::vector<double> class_elongation;  ///< of the classes in sample.kept
-  std::vector<double> group_elongation;  ///< of the groups in sample.groups
+  std::vector<double> group_elongation;  ///< mean of the events of each of sample.groups
   /// Those of the sample are unit * (measured - mean).
   struct {
     double mean = 0, unit = 0;

@@ -16,13 +16,14 @@ constexpr double settled_image = 1e-6;
 
 }  // namespace
 
-double log_modulus_of_image(const ForwardMap& map, const SampleEvent& event) {
+ImagedCell cell_of_image(const ForwardMap& map, const SampleEvent& event) {
   const auto radii = map.log_radii(), heights = map.heights();
-  if (!(event.measure > 0)) return no_value;
   double u = std::clamp(0.5 * (event.log_area - std::log(std::numbers::pi)), radii.lower, radii.upper), x = 0;
+  const auto beside = [&](double height) { return ImagedCell{u, height, false}; };
+  if (!(event.measure > 0)) return beside(heights.upper);
   for (int step = 0; step < image_newton_steps; ++step) {
     const MapPoint p = map.at(u, x);
-    if (!(p.measure > 0)) return no_value;
+    if (!(p.measure > 0)) break;
     // ln of the measure is nearly linear in x.
     const double area = event.log_area - p.log_area, measure = std::log(event.measure / p.measure),
                  by_radius = p.measure_by_radius / p.measure, by_height = p.measure_by_height / p.measure;
@@ -31,12 +32,19 @@ double log_modulus_of_image(const ForwardMap& map, const SampleEvent& event) {
                  dx = (p.log_area_by_radius * measure - area * by_radius) / det;
     u = std::clamp(u + du, radii.lower, radii.upper);
     x += dx;
-    if (x < heights.lower - 1 || x > heights.upper) return no_value;
-    if (std::abs(du) < settled_image && std::abs(dx) < settled_image)
-      return x < heights.lower ? no_value : map.soft_end(u).log_modulus + x + event.log_viscosity;
+    if (x < heights.lower - 1) return beside(heights.lower);
+    if (x > heights.upper) break;
+    const bool is_settled = std::abs(du) < settled_image && std::abs(dx) < settled_image;
+    if (is_settled && x < heights.lower) return beside(heights.lower);
+    if (is_settled) return {u, x, true};
     x = std::max(x, heights.lower);
   }
-  return no_value;
+  return beside(heights.upper);
+}
+
+double log_modulus_of_image(const ForwardMap& map, const SampleEvent& event) {
+  const auto [u, x, is_in_map] = cell_of_image(map, event);
+  return is_in_map ? map.soft_end(u).log_modulus + x + event.log_viscosity : no_value;
 }
 
 SingleImages single_images(const Sample& sample, const CellDistribution& cells, double image_error) {

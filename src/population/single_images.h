@@ -7,7 +7,14 @@
 
 namespace rheocyte {
 
-/// ln E of the cell that has both measured values; NaN if no cell of the map has, as of those that look rounder than a
+/// The cell of a map that has both measured values.
+struct ImagedCell {
+  double log_radius, height;
+  bool is_in_map;  ///< else the one at the rim beside which it lies: the stiffest one, or one of the softest
+};
+ImagedCell cell_of_image(const ForwardMap& map, const SampleEvent& event);
+
+/// ln E of that cell; NaN if no cell of the map has, as of those that look rounder than a
 /// sphere.
 double log_modulus_of_image(const ForwardMap& map, const SampleEvent& event);
 
