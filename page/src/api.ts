@@ -230,6 +230,42 @@ export interface Moduli {
   command_several?: string;
 }
 
+/** An end is null where there is none. */
+export interface Estimate {
+  value: number;
+  lower: number | null;
+  upper: number | null;
+}
+
+export interface PopulationRecording {
+  recording: string;
+  condition: string;
+  /** from 1 on */
+  session: number;
+  population?: { median_young_modulus_kPa: Estimate };
+  failure: string | null;
+  checks: { measure: string; fits: boolean }[];
+}
+
+/** What the page reads of population.json; there is more. */
+export interface Population {
+  conditions: { name: string; median_young_modulus_kPa?: Estimate }[];
+  comparisons: { control: string; treated: string; ratio: Estimate; ratio_by_sampling_alone: Estimate; p: number | null }[];
+  recordings: PopulationRecording[];
+}
+
+export interface PopulationAnswer {
+  record: Population;
+  lines: string[];
+  command: string;
+}
+
+export interface PopulationCondition {
+  name: string;
+  /** in the order of the sessions */
+  items: number[];
+}
+
 export interface ExportRequest {
   what: 'events' | 'companion' | 'session' | 'case' | 'result' | 'svg' | 'png';
   item?: number;
@@ -448,6 +484,9 @@ export const readModuli = (item: number) => json<Moduli>(`/api/items/${item}/mod
 export const stopModuli = (item: number) => request(`/api/items/${item}/moduli`, { method: 'DELETE' });
 export const readItemLines = (item: number, x: string, y: string) =>
   json<Lines>(`/api/items/${item}/lines?${query({ x, y })}`);
+
+export const fitPopulation = (asked: { conditions: PopulationCondition[]; settings: Record<string, unknown> }, signal?: AbortSignal) =>
+  json<PopulationAnswer>('/api/population', sending('POST', asked, signal));
 
 export const exportFile = (what: ExportRequest, signal?: AbortSignal) =>
   json<{ file: string }>('/api/export', sending('POST', what, signal));

@@ -231,3 +231,22 @@ test('Names of condition and replicate give the distribution its means', { skip 
     assert.match(await page.locator('.conditions tbody').textContent(), /^one2\d\.\d+ kPa\S* to /);
   }),
 );
+
+test('Populations of the conditions of the list are fitted: a dot for each recording, intervals, and the ratio', { skip }, () =>
+  inPage(async (page) => {
+    for (const [item, condition] of ['control', 'drug'].entries()) {
+      const row = page.locator('.recording').nth(item);
+      await row.locator('.recording-name').click();
+      await row.getByLabel('Condition', { exact: true }).fill(condition);
+      await page.keyboard.press('Enter');
+    }
+    await page.getByRole('tab', { name: 'Populations' }).click();
+    await page.getByRole('button', { name: 'Fit populations' }).click();
+    await page.locator('.populations-plot .session').first().waitFor();
+    assert.equal(await page.locator('.populations-plot .session').count(), 2);
+    const table = await page.locator('.populations table').textContent();
+    assert.match(table, /drug \/ control/);
+    assert.match(table, /none/, 'single recordings have no p');
+    assert.match(await page.locator('.populations code').textContent(), /^rheocyte population --condition/);
+  }),
+);

@@ -4,8 +4,9 @@ import { loadModule } from './load_module.mjs';
 
 const { describe, medianInterval, meanInterval, quantiles, studentPoint } = await loadModule('recordings/statistics.ts');
 const { ticksOf, counted, zoomed, spanOf } = await loadModule('recordings/scale.ts');
-const { applyGates, gateOptions, gatesWithoutOption, SlabbedPolygon } = await loadModule('recordings/gates.ts');
+const { applyGates, gateOptions, gateSettings, gatesWithoutOption, SlabbedPolygon } = await loadModule('recordings/gates.ts');
 const { Density, densityCells, levelsEnclosing } = await loadModule('recordings/density.ts');
+const { sessionsOf, dotsOf } = await loadModule('recordings/condition_dots.ts');
 const { isolines } = await loadModule('recordings/isolines.ts');
 const { placesOf } = await loadModule('recordings/places.ts');
 const { PixelCounts, nearestEvent, paint, colourByMean } = await loadModule('recordings/points.ts');
@@ -222,4 +223,41 @@ test('residuals go around the outline by their angle, upwards in the image being
   const { angle_deg, distance_um } = alongAngles(outline, [1, 2, 3, 4]);
   assert.deepEqual(angle_deg, [-90, 0, 90, 180]);
   assert.deepEqual(distance_um, [4, 1, 2, 3]);
+});
+
+test('gates are the same as settings and as options', () => {
+  const gates = [
+    { kind: 'range', id: 1, on: true, feature: 'area_um', low: 40, high: null },
+    { kind: 'range', id: 2, on: true, feature: 'area_ratio', low: null, high: 1.05 },
+    { kind: 'range', id: 3, on: false, feature: 'deform', low: 0, high: 1 },
+    { kind: 'polygon', id: 5, on: true, x: 'area_um', y: 'deform', xScale: 'log', yScale: 'linear', points: [[40, 0], [90, 0], [90, 0.1]] },
+  ];
+  const settings = gateSettings(gates);
+  assert.deepEqual(settings, { min: ['area_um=40'], max: ['area_ratio=1.05'], polygon: ['log:area_um,deform=40,0:90,0:90,0.1'] });
+  const options = Object.entries(settings).flatMap(([name, texts]) => texts.map((text) => `--${name} ${text}`));
+  assert.equal(gateOptions(gates), options.join(' '));
+});
+
+test('conditions are those of the list, their recordings in the order of the replicates', () => {
+  const item = (number, condition, replicate, state = 'ready') => ({ item: number, condition, replicate, state });
+  const list = [item(0, 'drug', '10'), item(1, 'control', '2'), item(2, 'drug', '9'), item(3, 'control', '1'), item(4, '', '1'), item(5, 'drug', '8', 'failed')];
+  assert.deepEqual(sessionsOf(list), [
+    { name: 'drug', items: [2, 0] },
+    { name: 'control', items: [3, 1] },
+  ]);
+});
+
+test('the dots of the sessions stand beside each other in the slot of their condition, and the axis holds all intervals', () => {
+  const recording = (condition, session, value) => ({
+    recording: `${condition}${session}`, condition, session, checks: [],
+    population: { median_young_modulus_kPa: { value, lower: 0.9 * value, upper: 1.1 * value } },
+  });
+  const lost = { recording: 'b2', condition: 'b', session: 2, checks: [], failure: 'too stiff to be seen' };
+  const condition = (name, value) => ({ name, median_young_modulus_kPa: { value, lower: null, upper: null } });
+  const found = { conditions: [condition('a', 2), condition('b', 4)], comparisons: [], recordings: [recording('a', 1, 2), recording('a', 2, 2.2), recording('b', 1, 4), lost] };
+  const { dots, span, slots } = dotsOf(found);
+  assert.equal(slots, 2);
+  assert.equal(dots.length, 3);
+  assert.ok(0 < dots[0].place && dots[0].place < dots[1].place && dots[1].place < 1 && 1 < dots[2].place && dots[2].place < 2);
+  assert.ok(span.low < 1.8 && span.high > 4.4);
 });

@@ -1,5 +1,7 @@
 """Populations of cells: what rheocyte.population returns, and the planning of experiments."""
 
+import functools
+import html
 import io
 import json
 
@@ -17,7 +19,8 @@ class Population:
                     young_modulus_kPa (median), lower_kPa, upper_kPa, ln_modulus_spread, radius_um, ln_radius_spread,
                     correlation, kept_share (by the gates), fits (whether all checks hold), failure
     conditions      one row per condition: recordings, events, young_modulus_kPa with lower_kPa and upper_kPa (by the
-                    scatter of the recordings), spreads, radius_um
+                    scatter of the recordings), spreads, radius_um; stiffening with its ends (the exponent of E over the
+                    stress, of recordings at several flow rates)
     comparisons     one row per condition but the first: control, treated, ratio, lower, upper, p, degrees_of_freedom,
                     sampling_lower, sampling_upper
     record          the dictionary of population.json
@@ -44,7 +47,8 @@ class Population:
         return pandas.read_csv(io.StringIO(self._events[recording]), sep="\t", index_col="event")
 
     def check(self):
-        """pandas.DataFrame of the checks: recording, measure, fitted, fits, distance, measured and predicted medians."""
+        """pandas.DataFrame of the checks: recording, measure, fitted, fits, distance, measured and predicted medians with their
+        standard errors."""
         import pandas
 
         return pandas.DataFrame([{"recording": each["recording"], "condition": each["condition"],
@@ -52,38 +56,32 @@ class Population:
                                  for each in self.record["recordings"] for check in each["checks"]])
 
     def plot(self):
-        """A matplotlib Figure: Young's modulus of each recording with its interval, one dot a session, and the ratios to the
-        first condition with the interval of their mean."""
-        from matplotlib.figure import Figure
+        """A matplotlib Figure, that of population.png: Young's modulus of each recording with its interval, one dot a session,
+        the ratios to the first condition with the interval of their mean, and the cells against moduli of single images."""
+        from rheocyte import population_picture
 
-        figure = Figure(figsize=(8, 3.4), layout="constrained")
-        of_moduli, of_ratios = figure.subplots(1, 2)
-        self._plot_moduli(of_moduli)
-        self._plot_ratios(of_ratios)
-        return figure
+        return population_picture.draw(self.record)
 
-    def _plot_moduli(self, axes):
-        names = list(self.conditions["condition"])
-        for row in self.recordings.itertuples():
-            place = names.index(row.condition) + 0.08 * (row.session - 1)
-            axes.plot([place, place], [row.lower_kPa, row.upper_kPa], color="0.5")
-            axes.plot(place, row.young_modulus_kPa, "o", color="C0")
-        axes.set_xticks(range(len(names)), names)
-        axes.set_ylabel("median Young's modulus (kPa)")
+    def plot_checks(self):
+        """A matplotlib Figure, that of population-checks.png: quantiles of the fitted cells less those that were measured. None
+        if nothing was checked."""
+        from rheocyte import population_picture
 
-    def _plot_ratios(self, axes):
-        values = self.recordings.set_index(["condition", "session"])["young_modulus_kPa"]
-        for place, row in enumerate(self.comparisons.itertuples()):
-            treated, control = values[row.treated], values[row.control]
-            sessions = treated.index.intersection(control.index)
-            axes.plot(np.full(len(sessions), place), treated[sessions] / control[sessions], "o", color="C0")
-            lower, upper = (row.lower, row.upper) if np.isfinite(row.p) else (row.sampling_lower, row.sampling_upper)
-            axes.plot([place + 0.15] * 2, [lower, upper], color="0.5")
-            axes.plot(place + 0.15, row.ratio, "s", color="0.2")
-        axes.axhline(1, color="0.8", zorder=0)
-        names = [f"{row.treated} / {row.control}" for row in self.comparisons.itertuples()]
-        axes.set_xticks(range(len(names)), names)
-        axes.set_ylabel("ratio of the medians")
+        return population_picture.draw_checks(self.record)
+
+    def __repr__(self):
+        lines = [f"Population of {len(self.recordings)} recordings"]
+        for row in self.conditions.itertuples():
+            lines.append(f"{row.condition}: {_told(row.young_modulus_kPa, row.lower_kPa, row.upper_kPa, ' kPa')}, recordings: "
+                         f"{row.recordings}, events: {row.events}")
+        for row in self.comparisons.itertuples():
+            if np.isfinite(row.p):
+                lines.append(f"{row.treated} / {row.control}: {_told(row.ratio, row.lower, row.upper)}, p = {row.p:.2g}")
+            else:
+                lines.append(f"{row.treated} / {row.control}: {_told(row.ratio, row.sampling_lower, row.sampling_upper)} by "
+                             "sampling alone, no p")
+        lines.append(f"checks hold in {int(self.recordings['fits'].sum())} of {len(self.recordings)} recordings")
+        return "\n".join(lines)
 
 
 def plan(radius_um, young_modulus_kPa, *, spread=0.2, radius_spread=0.07, between_recordings=0.03, difference=0.1, power=0.8,
@@ -119,10 +117,37 @@ def plan(radius_um, young_modulus_kPa, *, spread=0.2, radius_spread=0.07, betwee
     options.media = [medium] if isinstance(medium, str) else list(medium)
     options.rates_ul_s = np.atleast_1d(numbers(rate_ul_s, "rate_ul_s")).tolist()
     table, lines = native.plan(options)
-    frame = pandas.read_csv(io.StringIO(table), sep="\t")
+    frame = _plan_frame()(pandas.read_csv(io.StringIO(table), sep="\t"))
     frame["recommended"] = frame["recommended"] == "yes"
     frame.attrs["lines"] = lines
     return frame
+
+
+@functools.cache
+def _plan_frame():
+    """pandas is loaded with the first plan."""
+    import pandas
+
+    class Plan(pandas.DataFrame):
+        """The channels of a plan; what follows from them stands below them where it is shown."""
+
+        @property
+        def _constructor(self):
+            return Plan
+
+        def __repr__(self):
+            return "\n".join([super().__repr__(), *self.attrs.get("lines", [])])
+
+        def _repr_html_(self):
+            told = "".join(f"<p>{html.escape(line)}</p>" for line in self.attrs.get("lines", []))
+            return (super()._repr_html_() or "") + told
+
+    return Plan
+
+
+def _told(value, lower, upper, unit=""):
+    """A number with its interval."""
+    return f"{value:.3g}{unit} ({lower:.3g} .. {upper:.3g})" if np.isfinite(value) else "no number"
 
 
 def _interval(record, name):
@@ -143,11 +168,13 @@ def _recording_row(record):
 
 def _condition_row(record):
     modulus, lower, upper = _interval(record, "median_young_modulus_kPa")
+    exponent, least, greatest = _interval(record.get("stiffening") or {}, "exponent_of_modulus_over_stress")
     return {"condition": record["name"], "recordings": record["recordings"], "events": record["events"],
             "young_modulus_kPa": modulus, "lower_kPa": lower, "upper_kPa": upper,
             "ln_modulus_spread": record.get("spread_of_ln_modulus", np.nan),
             "radius_um": record.get("median_radius_um", np.nan),
-            "ln_radius_spread": record.get("spread_of_ln_radius", np.nan)}
+            "ln_radius_spread": record.get("spread_of_ln_radius", np.nan),
+            "stiffening": exponent, "stiffening_lower": least, "stiffening_upper": greatest}
 
 
 def _comparison_row(record):

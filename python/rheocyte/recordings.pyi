@@ -84,6 +84,7 @@ def population(
     by: str | None = None,
     paired: bool = False,
     between_recordings: float | None = None,
+    table: _Path | None = None,
     no_bins: bool = False,
     jobs: float | None = None,
     channel_width_um: float | None = None,

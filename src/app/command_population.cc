@@ -1,17 +1,22 @@
-// `rheocyte population`: the mechanics of the cells of recordings, and whether conditions differ.
+// `rheocyte population [SPEC.toml]`: the mechanics of the cells of recordings, and whether conditions differ.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/extract_options.h"
 #include "app/recording_batch.h"
+#include "case/user_error.h"
 #include "extract/population_json.h"
+#include "extract/population_spec.h"
 #include "extract/recording_settings.h"
+#include "extract/settings_text.h"
 #include "store/contained.h"
 #include "store/own_file.h"
+#include "store/python_package.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
@@ -48,11 +53,41 @@ void tell_recording(const RecordingReport& r) {
   if (!r.failure.empty()) tell(fmt::format("{}: {}", name, r.failure));
 }
 
-int run(const PopulationOptions& options) {
-  const auto conditions = conditions_of(options);
+/// What the command is asked beside its settings.
+struct PopulationCall {
+  PopulationOptions options;
+  fs::path spec;
+  bool no_picture = false;
+};
+
+/// Of the specification, if there is one, with what else is said on the command line.
+PopulationSpec asked_for(const PopulationCall& call) {
+  if (call.spec.empty()) return {call.options, conditions_of(call.options)};
+  if (!call.options.conditions.empty())
+    throw UserError("rheocyte: --condition and SPEC.toml contradict each other; give the conditions in one place.");
+  PopulationSpec spec = read_population_spec(call.spec);
+  PopulationOptions given = call.options;
+  take_settings(settings_of(spec.options), given_settings(settings_of(given)));
+  spec.options.folder = given.folder;
+  spec.options.quiet = given.quiet;
+  check_conditions(spec.conditions, spec.options.paired);
+  return spec;
+}
+
+void draw(std::optional<Drawing>& drawing, const fs::path& folder) {
+  if (!drawing) return;
+  if (const auto failure = drawing->finish(folder); !failure.empty())
+    tell(fmt::format("rheocyte: warning: no pictures ({}); the numbers are complete.", one_line(failure, 300)));
+}
+
+int run(const PopulationCall& call) {
+  const auto [options, conditions] = asked_for(call);
+  check_options(options.measuring);
   check_replaceable(options.folder / "population.json", mark_of_population_json, Foreign::keep);
   for (const auto& condition : conditions)
     for (const auto& recording : condition.recordings) check_is_there(recording);
+  std::optional<Drawing> drawing;  // loads while the recordings are read
+  if (!call.no_picture) drawing.emplace("population_picture");
   PopulationAnalysis analysis(options, conditions);
   for (std::size_t c = 0; c < conditions.size(); ++c)
     for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j) {
@@ -62,6 +97,7 @@ int run(const PopulationOptions& options) {
     }
   const PopulationReport report = analysis.report();
   write(options.folder, report);
+  draw(drawing, options.folder);
   for (const auto& warning : report.warnings) tell(warning);
   if (!options.quiet) {
     for (const std::string& line : population_lines(report)) print(line + "\n");
@@ -75,20 +111,25 @@ int run(const PopulationOptions& options) {
 void add_population_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "population", "Young's modulus of the cells of recordings (.rtdc) as populations, and differences of conditions");
-  auto options = std::make_shared<PopulationOptions>();
+  auto call = std::make_shared<PopulationCall>();
+  PopulationOptions* const options = &call->options;
   options->folder = "population";
+  command
+      ->add_option("SPEC", call->spec,
+                   "the conditions and any of these options in a file: a section [conditions] with NAME = [FILE, ...], "
+                   "recordings seen from there, and options by their names without -- and with _ for -")
+      ->type_name("SPEC.toml");
   command
       ->add_option("--condition", options->conditions,
                    "a condition and its recordings; the first one is that with which others are compared")
-      ->type_name("NAME=FILE,FILE,...")
-      ->required();
+      ->type_name("NAME=FILE,FILE,...");
   command->add_option("-o,--output", options->folder, "folder of the results; default: population")->type_name("DIR");
   command->add_flag("--quiet", options->quiet, "print neither progress nor results");
+  command->add_flag("--no-picture", call->no_picture, "no pictures");
   declare_settings(*command, settings_of(*options));
-  command->callback([options, &exit_code] {
-    check_options(options->measuring);
+  command->callback([call, &exit_code] {
     watch_signals(SecondSignal::waits);
-    exit_code = run(*options);
+    exit_code = run(*call);
   });
 }
 

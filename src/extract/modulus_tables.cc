@@ -147,6 +147,27 @@ std::optional<ElongatedFile> elongated_file(double flow_exponent) {
   return best;
 }
 
+ElongatedContent given_elongated_table(const std::string& name) {
+  namespace fs = std::filesystem;
+  fs::path file = name;
+  std::error_code error;
+  const auto shipped = shipped_elongated_tables();
+  if (const auto found = shipped.find(name); found != shipped.end()) file = found->second;
+  if (fs::is_directory(file, error)) {
+    std::vector<fs::path> tables;
+    for (const auto& entry : fs::directory_iterator(file, error))
+      if (const auto one = entry.path().filename().string(); one.starts_with("elongated_") && one.ends_with(".cbor"))
+        tables.push_back(entry.path());
+    if (tables.size() == 1) file = tables.front();
+  }
+  if (!fs::is_regular_file(file, error))
+    throw UserError(fmt::format(
+        "rheocyte: --table {}: there is no such table of elongated cells; give a file elongated_*.cbor, the folder of "
+        "`rheocyte table` with one, or {}.",
+        one_line(name, 200), shipped.empty() ? "install those of the program" : shipped.begin()->first));
+  return elongated_from_bytes(content_of_file(file, largest_elongated), file.string());
+}
+
 const ElongatedLiquid* ModulusTables::elongated(double flow_exponent) const {
   if (section_ == Section::tube && own()) return nullptr;
   auto& found = elongated_[flow_exponent];

@@ -23,6 +23,10 @@ struct ElongatedFile {
 /// That of the nearest liquid; where none is near enough the Newtonian one.
 std::optional<ElongatedFile> elongated_file(double flow_exponent);
 
+/// The table of elongated cells that the user names: a file elongated_*.cbor, a folder of `rheocyte table` with one, or
+/// the identifier of one that comes with the program. UserError.
+ElongatedContent given_elongated_table(const std::string& name);
+
 /// Tables that come with the program are chosen by their metadata, and read when they are needed.
 class ModulusTables {
  public:

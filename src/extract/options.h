@@ -62,6 +62,7 @@ struct PopulationOptions {
   std::filesystem::path folder;         ///< of the results
   bool quiet = false;
   MeasuringOptions measuring;
+  std::string table;                         ///< of elongated cells; empty: that which comes with the program
   std::string by;                            ///< asymmetry, odd-deformation, deformation; empty: asymmetry
   bool paired = false;                       ///< the recordings of each condition are of the same sessions, in order
   std::optional<double> between_recordings;  ///< known standard deviation of ln E

@@ -121,24 +121,24 @@ MeasureCheck compared_measure(int measure, bool is_fitted, std::vector<double> m
   check.is_fitted = is_fitted;
   check.name = checked_names[std::size_t(measure)];
   check.events = measured.size();
-  check.measured = median_with_error(measured);
-  check.predicted = quantile(predicted, 0.5);
-  constexpr double sigmas_between_quartiles = 1.349;
-  check.spread = (quantile(measured, 0.75) - quantile(measured, 0.25)) / sigmas_between_quartiles;
+  const CountedSample<double> of_measured(measured), of_predicted(predicted);
+  check.measured = {of_measured.quantile(0.5), error_of_median(of_measured)};
+  check.predicted = {of_predicted.quantile(0.5), error_of_median(of_predicted)};
+  check.spread = robust_deviation(of_measured);
   for (const double place : check_places()) {
-    check.measured_quantiles.push_back(quantile(measured, place));
-    check.predicted_quantiles.push_back(quantile(predicted, place));
+    check.measured_quantiles.push_back(of_measured.quantile(place));
+    check.predicted_quantiles.push_back(of_predicted.quantile(place));
   }
   check.distance = greatest_difference(measured, predicted);
-  const double off = std::abs(check.measured.value - check.predicted);
+  const double off = std::abs(check.measured.value - check.predicted.value),
+               chance = most_errors * std::hypot(check.measured.error, check.predicted.error);
   if (measure == checked_mode_4 || measure == checked_mode_5) {
-    check.fits = off < std::max(least_mode_difference, most_errors * check.measured.error);
+    check.fits = off < std::max(least_mode_difference, chance);
     return check;
   }
   const double by_chance = (is_fitted ? chance_of_fitted : chance_of_others) / std::sqrt(double(check.events));
   const bool is_far = check.distance > std::max(by_chance, is_fitted ? least_of_fitted : least_of_others);
-  const bool is_off = off > std::max(most_errors * check.measured.error,
-                                     (is_fitted ? share_of_fitted : share_of_others) * check.spread);
+  const bool is_off = off > std::max(chance, (is_fitted ? share_of_fitted : share_of_others) * check.spread);
   check.fits = !is_far && !is_off;
   return check;
 }
@@ -196,7 +196,7 @@ std::string check_text(const std::vector<MeasureCheck>& checks) {
     greatest = std::max(greatest, check.distance);
     if (check.fits) continue;
     off += fmt::format("{}{} is {:.3g}, predicted {:.3g}{}", off.empty() ? "" : "; ", check.name, check.measured.value,
-                       check.predicted, check.is_fitted ? "" : " (not fitted)");
+                       check.predicted.value, check.is_fitted ? "" : " (not fitted)");
   }
   if (checks.empty()) return "nothing could be checked";
   if (off.empty())

@@ -17,7 +17,7 @@ struct MeasureCheck {
   std::size_t events = 0;
   double distance = 0;  ///< of Kolmogorov and Smirnov: the greatest difference of the distributions
   Median measured;
-  double predicted = 0;                                         ///< median
+  Median predicted;
   double spread = 0;                                            ///< robust standard deviation of the measured ones
   std::vector<double> measured_quantiles, predicted_quantiles;  ///< at check_places
   bool fits = true;

@@ -58,10 +58,16 @@ ordered_json check_json(const MeasureCheck& c) {
           {"distance", c.distance},
           {"measured_median", json_number(c.measured.value)},
           {"measured_median_error", json_number(c.measured.error)},
-          {"predicted_median", json_number(c.predicted)},
+          {"predicted_median", json_number(c.predicted.value)},
+          {"predicted_median_error", json_number(c.predicted.error)},
           {"spread", json_number(c.spread)},
           {"measured_quantiles", c.measured_quantiles},
           {"predicted_quantiles", c.predicted_quantiles}};
+}
+
+ordered_json images_json(const SingleImages& images) {
+  return {
+      {"ln_modulus_from", images.first}, {"step", images.step}, {"counts", images.counts}, {"without", images.without}};
 }
 
 ordered_json fitted_json(const FittedCells& f) {
@@ -92,6 +98,7 @@ ordered_json recording_json(const RecordingReport& r, const PopulationReport& re
                     {"flow_rate_ul_per_s", r.flow.rate_ul_s},
                     {"flow_exponent", r.flow.exponent},
                     {"median_viscosity_mPas", r.median_viscosity_mPas},
+                    {"wall_stress_Pa", r.wall_stress_Pa()},
                     {"pixel_size_um", r.pixel_size_um},
                     {"direction", r.direction},
                     {"gates", r.gates},
@@ -103,13 +110,23 @@ ordered_json recording_json(const RecordingReport& r, const PopulationReport& re
                       {"fitted", r.fitted_events},
                       {"binned", r.is_binned}}},
                     {"median_elongation", json_number(r.median_elongation)}};
-  if (r.failure.empty()) json["population"] = fitted_json(r.fitted);
+  if (r.failure.empty()) {
+    json["population"] = fitted_json(r.fitted);
+    json["population"]["moduli_of_single_images"] = images_json(r.images);
+  }
   if (r.fitted.least_log_modulus) json["young_modulus_above_kPa"] = std::exp(*r.fitted.least_log_modulus);
   json["failure"] = r.failure.empty() ? ordered_json(nullptr) : ordered_json(r.failure);
   json["checks"] = std::move(checks);
   json["settings"] = r.settings;
   json["warnings"] = r.warnings;
   return json;
+}
+
+ordered_json stiffening_json(const Stiffening& s, double wall_stress_Pa) {
+  return {{"exponent_of_modulus_over_stress", interval_json(s.exponent, s.lower, s.upper)},
+          {"exponent_by_sampling_alone", interval_json(s.exponent, s.sampling_lower, s.sampling_upper)},
+          {"degrees_of_freedom", json_number(s.freedom)},
+          {"wall_stress_of_the_condition_Pa", wall_stress_Pa}};
 }
 
 ordered_json condition_json(const ConditionReport& c) {
@@ -123,6 +140,7 @@ ordered_json condition_json(const ConditionReport& c) {
   json["median_radius_um"] = std::exp(c.log_radius);
   json["spread_of_ln_radius"] = c.radius_spread;
   json["scatter_between_recordings"] = interval_json(c.between.deviation, c.between.lower, c.between.upper);
+  if (c.stiffening) json["stiffening"] = stiffening_json(*c.stiffening, c.wall_stress_Pa);
   return json;
 }
 
@@ -159,6 +177,16 @@ std::string condition_line(const ConditionReport& c, StiffnessMeasure by) {
       c.name, kPa_text(c.log_modulus), c.is_by_recordings ? "by its recordings" : "by sampling alone",
       100 * c.modulus_spread, std::exp(c.log_radius), 100 * c.radius_spread,
       by == StiffnessMeasure::asymmetry ? "c2" : "elongation", c.elongation, c.recordings, c.events);
+}
+
+std::string stiffening_line(const ConditionReport& c) {
+  const Stiffening& s = *c.stiffening;
+  const std::string told = fmt::format("{}: E grows as the power {:.2f} of the stress, ", c.name, s.exponent);
+  if (!s.has_scatter())
+    return told + fmt::format("{:.2f} .. {:.2f} by sampling alone; three recordings tell how they scatter",
+                              s.sampling_lower, s.sampling_upper);
+  return told + fmt::format("{:.2f} .. {:.2f} by its recordings; its E is that at {:.3g} Pa at the wall", s.lower,
+                            s.upper, c.wall_stress_Pa);
 }
 
 std::string comparison_line(const ConditionComparison& c, const PopulationReport& report) {
@@ -232,21 +260,25 @@ std::string population_json(const PopulationReport& report) {
 std::string population_table(const PopulationReport& report) {
   std::string text(mark_of_population_table);
   text +=
-      "events\tyoung_modulus_kPa\tln_modulus\tln_modulus_error\tln_modulus_spread\tradius_um\tln_radius_spread\t"
-      "correlation\telongation\tkept_share\tfits\n";
+      "events\tyoung_modulus_kPa\tlower_kPa\tupper_kPa\tln_modulus\tln_modulus_error\tln_modulus_spread\tradius_um\t"
+      "ln_radius_spread\tcorrelation\telongation\twall_stress_Pa\tkept_share\tfits\n";
   for (const auto& r : report.recordings) {
     text += fmt::format("{}\t{}\t{}\t{}\t", report.conditions[r.condition].name, r.session + 1, r.recording.string(),
                         r.fitted_events);
     if (!r.failure.empty()) {
-      text += "nan\tnan\tnan\tnan\tnan\tnan\tnan\tnan\tnan\tno\n";
+      constexpr int numbers = 12;
+      for (int k = 0; k < numbers; ++k) text += "nan\t";
+      text += "no\n";
       continue;
     }
     const CellDistribution& c = r.fitted.cells;
-    text += fmt::format("{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.4g}\t{:.4g}\t{}\n",
-                        std::exp(c.mean_log_modulus), c.mean_log_modulus,
-                        r.fitted.standard_error(PopulationParameter::mean_log_modulus), c.modulus_spread,
-                        std::exp(c.mean_log_radius), c.radius_spread, c.correlation, r.median_elongation,
-                        r.fitted.kept_share, std::ranges::all_of(r.checks, &MeasureCheck::fits) ? "yes" : "no");
+    const auto& e = r.fitted.intervals[std::size_t(number_of(PopulationParameter::mean_log_modulus))];
+    text += fmt::format(
+        "{:.6g}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.4g}\t{:.4g}\t{:.4g}\t{}\n",
+        std::exp(c.mean_log_modulus), std::exp(e.lower), std::exp(e.upper), c.mean_log_modulus,
+        r.fitted.standard_error(PopulationParameter::mean_log_modulus), c.modulus_spread, std::exp(c.mean_log_radius),
+        c.radius_spread, c.correlation, r.median_elongation, r.wall_stress_Pa(), r.fitted.kept_share,
+        std::ranges::all_of(r.checks, &MeasureCheck::fits) ? "yes" : "no");
   }
   return text;
 }
@@ -269,6 +301,8 @@ std::string population_events_table(const RecordingReport& recording) {
 std::vector<std::string> population_lines(const PopulationReport& report) {
   std::vector<std::string> lines;
   for (const auto& c : report.conditions) lines.push_back(condition_line(c, report.by));
+  for (const auto& c : report.conditions)
+    if (c.stiffening) lines.push_back(stiffening_line(c));
   for (const auto& c : report.comparisons) lines.push_back(comparison_line(c, report));
   if (const auto checks = checks_line(report); !checks.empty()) {
     lines.push_back(checks);

@@ -114,11 +114,28 @@ std::vector<RecordingMean> means_of(const std::vector<RecordingReport>& recordin
 }
 
 /// A comparison of the condition with zero has the interval of its mean.
-IntervalEstimate mean_of_condition(const std::vector<RecordingMean>& means, double level) {
+IntervalEstimate mean_of_condition(const std::vector<RecordingMean>& means, double level, bool by_recordings) {
   const std::vector<RecordingMean> zero(means.size(), {0, 0});
   const ConditionDifference d = paired_difference(zero, means, {level, {}});
-  if (means.size() > 1) return {d.value, d.lower, d.upper};
+  if (by_recordings) return {d.value, d.lower, d.upper};
   return {d.value, d.sampling_lower, d.sampling_upper};
+}
+
+/// Recordings of one condition at several flow rates tell how E grows with the stress; they scatter about a line then.
+void tell_stiffening(const std::vector<RecordingReport>& recordings, std::size_t condition, double level,
+                     ConditionReport& report) {
+  std::vector<MeanAtStress> means;
+  for (const auto& r : recordings)
+    if (r.condition == condition) means.push_back({r.mean(), std::log(r.wall_stress_Pa())});
+  double log_stress = 0;
+  for (const auto& m : means) log_stress += m.log_stress / double(means.size());
+  report.wall_stress_Pa = std::exp(log_stress);
+  if (!differ_in_stress(means)) return;
+  const Stiffening& found = report.stiffening.emplace(stiffening_of(means, level));
+  report.between = {};  // they scatter about the line, not about their mean
+  report.is_by_recordings = found.has_scatter();
+  report.log_modulus = found.has_scatter() ? IntervalEstimate{found.value, found.value_lower, found.value_upper}
+                                           : mean_of_condition(means_of(recordings, condition), level, false);
 }
 
 ConditionReport condition_report(const std::vector<RecordingReport>& recordings, std::size_t condition,
@@ -143,12 +160,13 @@ ConditionReport condition_report(const std::vector<RecordingReport>& recordings,
     for (const double v : values) sum += v;
     return sum / double(values.size());
   };
-  report.log_modulus = mean_of_condition(means, level);
   report.is_by_recordings = means.size() > 1;
+  report.log_modulus = mean_of_condition(means, level, report.is_by_recordings);
   report.modulus_spread = std::exp(average(log_spreads));
   report.log_radius = average(radii);
   report.radius_spread = std::exp(average(log_radius_spreads));
   report.between = scatter_between(means, level);
+  tell_stiffening(recordings, condition, level, report);
   return report;
 }
 
@@ -165,7 +183,7 @@ void check_conditions(const std::vector<PopulationCondition>& conditions, bool p
   if (conditions.empty())
     throw UserError(
         "rheocyte: no condition is given; for example --condition control=A.rtdc,B.rtdc --condition "
-        "drug=C.rtdc,D.rtdc.");
+        "drug=C.rtdc,D.rtdc, or a SPEC.toml with a section [conditions].");
   for (const auto& [name, recordings] : conditions) {
     if (recordings.empty())
       throw UserError(fmt::format("rheocyte: the condition {} has no recordings.", one_line(name, 60)));
@@ -194,12 +212,21 @@ RecordingMean RecordingReport::mean() const {
   return {fitted.cells.mean_log_modulus, fitted.covariance(e, e)};
 }
 
+double RecordingReport::wall_stress_Pa() const {
+  ChannelFlow at_median = flow;
+  at_median.viscosity_mPas = median_viscosity_mPas;
+  return wall_shear_stress_Pa(at_median);
+}
+
 bool PopulationReport::has_failures() const {
   return std::ranges::any_of(recordings, [](const auto& r) { return !r.failure.empty(); });
 }
 
 PopulationAnalysis::PopulationAnalysis(const PopulationOptions& options, std::vector<PopulationCondition> conditions)
-    : options_(options), conditions_(std::move(conditions)), by_(stiffness_measure_of(options)), maps_(by_) {}
+    : options_(options),
+      conditions_(std::move(conditions)),
+      by_(stiffness_measure_of(options)),
+      maps_(by_, options.table) {}
 
 void PopulationAnalysis::check_new(const RecordingReport& recording, const PopulationEvents& events) {
   const auto& areas = events.of(SeenMeasure::area_um2);
@@ -258,6 +285,7 @@ const RecordingReport& PopulationAnalysis::add(std::size_t condition, std::size_
                                          "said of the rest. Widen the gates.",
                                          r.fitted.kept_share));
   r.failure = failure_of(r);
+  if (r.failure.empty()) r.images = single_images(made.sample, r.fitted.cells, r.fitted.event_error);
   tell_bounds(r);
   for (const std::size_t i : made.events) r.shrunken_events.push_back(std::size_t(events.number[i]));
   if (r.failure.empty()) r.checks = check_population(events, made, r.fitted, maps_);

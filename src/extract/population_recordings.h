@@ -10,6 +10,8 @@
 #include "extract/population_sample.h"
 #include "population/comparison.h"
 #include "population/fit_cells.h"
+#include "population/single_images.h"
+#include "population/stiffening.h"
 
 namespace rheocyte {
 
@@ -38,12 +40,15 @@ struct RecordingReport {
   std::size_t recorded = 0, gated = 0, without_numbers = 0, beside_table = 0, fitted_events = 0;
   bool is_binned = false;
   FittedCells fitted;
+  SingleImages images;
   std::vector<MeasureCheck> checks;
   std::vector<std::size_t> shrunken_events;  ///< number of the event, from 1 on, of each of fitted.shrunken
   std::vector<std::string> settings, warnings;
   std::string failure;  ///< why there is no number, in a sentence; else empty
 
   RecordingMean mean() const;
+  /// At the wall without a cell, at the median viscosity.
+  double wall_stress_Pa() const;
 };
 
 /// A mean and its interval at the level of the report; NaN where there is none.
@@ -59,6 +64,8 @@ struct ConditionReport {
   double modulus_spread = no_value, log_radius = no_value, radius_spread = no_value;  ///< means over the recordings
   double elongation = no_value;  ///< median of the recordings' medians
   ScatterBetween between;
+  std::optional<Stiffening> stiffening;  ///< if its recordings have different stresses
+  double wall_stress_Pa = no_value;      ///< geometric mean of them, at which log_modulus holds
   bool has_numbers() const { return std::isfinite(log_modulus.value); }
 };
 

@@ -9,11 +9,12 @@
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
 #include "population/event_bins.h"
+#include "population/single_images.h"
 
 namespace rheocyte {
 namespace {
 
-/// Widths of the classes of elongation, less than half of its noise; of binned events, whose noise they add to little.
+/// Widths of the classes of elongation, less than half of its noise; of binned events, which are seen as their class.
 constexpr double mode_class = 0.002, inertia_class = 0.004, binned_class_factor = 5;
 /// Classes of events that have nearly the same chance to pass the gates.
 constexpr std::size_t kept_classes = 8;
@@ -113,7 +114,9 @@ class SampleMaker {
 
   /// Events of nearly one elongation: gates of their own.
   void take_class(std::size_t first, std::size_t last) {
-    double mean = 0, log_viscosity = 0, count = 0, kept_mean = 0, kept_square = 0;
+    group_elongation_ = no_value;  // groups lie within a class
+    const std::size_t first_group = group_counts_.size();
+    double mean = 0, log_viscosity = 0, count = 0;
     for (std::size_t k = first; k < last; ++k) mean += elongation(order_[k]) / double(last - first);
     const auto middle = maps_.map(events_, mean);
     SampleGates gates = gates_of_map(*middle);
@@ -126,17 +129,21 @@ class SampleMaker {
         continue;
       }
       ++count;
-      kept_mean += elongation(i);
-      kept_square += elongation(i) * elongation(i);
       log_viscosity += event.log_viscosity;
-      group_of(elongation(i)).events.push_back(event);
+      EventGroup& group = group_of(elongation(i));
+      group.events.push_back(made_.is_binned ? as_in_group(event, *group.map, elongation(i)) : event);
+      double& of_group = made_.group_elongation.back();
+      of_group += (elongation(i) - of_group) / ++group_counts_.back();
       made_.events.push_back(i);
       made_.elongation_of_event[i] = group_elongation_;
     }
     if (count == 0) return;
-    kept_mean /= count;
-    made_.sample.kept.push_back({middle, gates, log_viscosity / count, count, kept_mean,
-                                 std::max(kept_square / count - kept_mean * kept_mean, 0.0)});
+    double kept_mean = 0, kept_variance = 0;
+    for (std::size_t g = first_group; g < group_counts_.size(); ++g)
+      kept_mean += group_counts_[g] / count * made_.group_elongation[g];
+    for (std::size_t g = first_group; g < group_counts_.size(); ++g)
+      kept_variance += group_counts_[g] / count * std::pow(made_.group_elongation[g] - kept_mean, 2);
+    made_.sample.kept.push_back({middle, gates, log_viscosity / count, count, kept_mean, kept_variance});
     made_.class_elongation.push_back(mean);
   }
 
@@ -145,18 +152,34 @@ class SampleMaker {
             std::log(events_.of(SeenMeasure::viscosity_mPas)[i])};
   }
 
+  /// What would be measured of the event's cell if it had the elongation of its group, whose width is more than the
+  /// noise: along the slope between this group's map and the next one's at constant radius and modulus.
+  SampleEvent as_in_group(SampleEvent event, const ForwardMap& map, double elongation) {
+    if (by_ == StiffnessMeasure::deformation) return event;
+    const double width = class_width(by_, true), off = (elongation - group_elongation_) / width;
+    const auto [u, x, is_in_map] = cell_of_image(map, event);
+    const auto next = maps_.map(events_, group_elongation_ + width);
+    const double log_modulus = map.soft_end(u).log_modulus + x;
+    const MapPoint here = map.at(u, x), there = next->at(u, log_modulus - next->soft_end(u).log_modulus);
+    event.log_area -= off * (there.log_area - here.log_area);
+    event.measure -= off * (there.measure - here.measure);
+    return event;
+  }
+
   /// The events come in the order of their elongations.
   EventGroup& group_of(double elongation) {
     const double width = class_width(by_, made_.is_binned), middle = (std::floor(elongation / width) + 0.5) * width;
     if (made_.sample.groups.empty() || middle != group_elongation_) {
       group_elongation_ = middle;
       made_.sample.groups.push_back({maps_.map(events_, middle), {}});
-      made_.group_elongation.push_back(middle);
+      made_.group_elongation.push_back(0);
+      group_counts_.push_back(0);
     }
     return made_.sample.groups.back();
   }
 
-  /// In standard deviations of all events that are left; as measured, 0 if they are all alike.
+  /// In standard deviations of all events that are left, 0 if they are all alike. Each event has the mean elongation of
+  /// its group: by the middle of the group the slopes of the cells' mean would come out too small.
   void count_elongations_from_their_mean() {
     double count = 0, mean = 0, variance = 0;
     for (const KeptClass& kept : made_.sample.kept) count += kept.count, mean += kept.count * kept.elongation;
@@ -192,7 +215,8 @@ class SampleMaker {
   PopulationMaps& maps_;
   StiffnessMeasure by_;
   std::vector<std::size_t> order_;
-  double group_elongation_ = no_value;
+  double group_elongation_ = no_value;  ///< that of the map
+  std::vector<double> group_counts_;
   PopulationSample made_;
 };
 
@@ -206,11 +230,21 @@ const std::vector<double>& elongation_measure(const PopulationEvents& events, St
   return events.of(by == StiffnessMeasure::asymmetry ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio);
 }
 
-PopulationMaps::PopulationMaps(StiffnessMeasure by) : by_(by), tables_(std::string(), Section::square) {
-  if (!tables_.elongated(1))
+PopulationMaps::PopulationMaps(StiffnessMeasure by, const std::string& table) : by_(by) {
+  if (!table.empty()) {
+    given_ = std::make_unique<const ElongatedSolids>(given_elongated_table(table));
+    given_liquid_ = std::make_unique<const ElongatedLiquid>(*given_, nullptr, nullptr);
+    return;
+  }
+  tables_.emplace(std::string(), Section::square);
+  if (!tables_->elongated(1))
     throw UserError(
         "rheocyte: the table of elongated cells (elongated_*.cbor) that comes with the program is missing; populations "
         "rest on it. Install the program anew, or name the folder of the tables in RHEOCYTE_TABLES.");
+}
+
+const ElongatedLiquid& PopulationMaps::liquid(const PopulationEvents& events) const {
+  return given_liquid_ ? *given_liquid_ : *tables_->elongated(events.flow.exponent);
 }
 
 PopulationMaps::Key PopulationMaps::key_of(const PopulationEvents& events) {
@@ -220,8 +254,7 @@ PopulationMaps::Key PopulationMaps::key_of(const PopulationEvents& events) {
 PopulationMaps::Channel& PopulationMaps::channel(const PopulationEvents& events) {
   Channel& channel = channels_[key_of(events)];
   if (!channel.solids)
-    channel.solids = std::make_unique<const SolidMaps>(*tables_.elongated(events.flow.exponent), events.flow,
-                                                       events.pixel_size_um, by_);
+    channel.solids = std::make_unique<const SolidMaps>(liquid(events), events.flow, events.pixel_size_um, by_);
   return channel;
 }
 
@@ -235,11 +268,11 @@ std::shared_ptr<const ForwardMap> PopulationMaps::map(const PopulationEvents& ev
 }
 
 std::string PopulationMaps::table(const PopulationEvents& events) const {
-  return tables_.elongated(events.flow.exponent)->solids().origin().identifier;
+  return liquid(events).solids().origin().identifier;
 }
 
 double PopulationMaps::table_error(const PopulationEvents& events) const {
-  return tables_.elongated(events.flow.exponent)->solids().table().error();
+  return liquid(events).solids().table().error();
 }
 
 PopulationSample population_sample(const PopulationEvents& events, PopulationMaps& maps, const SampleOptions& options) {

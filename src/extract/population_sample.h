@@ -12,8 +12,9 @@ namespace rheocyte {
 /// Maps of cells in the channels, liquids and pixels of recordings; equal ones are made once.
 class PopulationMaps {
  public:
-  /// Uses the tables of the square channel that come with the program; UserError if there is none of elongated cells.
-  explicit PopulationMaps(StiffnessMeasure by);
+  /// `table`: one of elongated cells (given_elongated_table), which is used for all liquids; empty: those of the square
+  /// channel that come with the program. UserError if there is none.
+  explicit PopulationMaps(StiffnessMeasure by, const std::string& table = {});
 
   StiffnessMeasure by() const { return by_; }
   /// In the channel of a recording.
@@ -32,9 +33,12 @@ class PopulationMaps {
   using Key = std::array<double, 4>;
   static Key key_of(const PopulationEvents& events);
   Channel& channel(const PopulationEvents& events);
+  const ElongatedLiquid& liquid(const PopulationEvents& events) const;
 
   StiffnessMeasure by_;
-  ModulusTables tables_;
+  std::optional<ModulusTables> tables_;  ///< nothing if the user names one
+  std::unique_ptr<const ElongatedSolids> given_;
+  std::unique_ptr<const ElongatedLiquid> given_liquid_;
   std::map<Key, Channel> channels_;
 };
 
@@ -49,7 +53,7 @@ struct PopulationSample {
   /// That of the map of each event, in the order of PopulationEvents; NaN: left out.
   std::vector<double> elongation_of_event;
   std::vector<double> class_elongation;  ///< of the classes in sample.kept
-  std::vector<double> group_elongation;  ///< of the groups in sample.groups
+  std::vector<double> group_elongation;  ///< mean of the events of each of sample.groups
   /// Those of the sample are unit * (measured - mean).
   struct {
     double mean = 0, unit = 0;

@@ -185,6 +185,11 @@ Settings settings_of(PopulationOptions& o) {
        setting("paired", "Paired", &o.paired,
                "the first recordings of all conditions are of one session, the second ones of another"),
        std::move(between),
+       of_type("TABLE", {},
+               setting("table", "Table", &o.table,
+                       "table of elongated cells: a file elongated_*.cbor, the folder of `rheocyte table` with one, or "
+                       "an identifier of the program's tables",
+                       "the program's own")),
        setting("no_bins", "No bins", &o.no_bins, "take each event by itself, also of more than 20,000"),
        std::move(jobs)},
       settings_of(o.measuring));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "infer/plane_map.h"
 #include "measurement/pixel_errors.h"
@@ -18,21 +19,24 @@ constexpr int radius_nodes = 29, height_nodes = 33, axial_nodes = 13;
 constexpr double stiffest_node = 1e-6;
 /// The stiffest cell of the maps, in ln E above the softest.
 constexpr double stiffest = 7;
-constexpr int inversion_steps = 8, cell_steps = 6;
+constexpr int inversion_steps = 8, cell_steps = 6, newton_steps = 8;
+constexpr double settled_step = 1e-9;
 
-/// The numbers of one node of the sheets.
+/// The numbers of one node of the sheets; by the first ones a cell is found.
 struct SheetNumber {
   enum Place {
     log_modulus,
-    log_area,
     elongation,
+    log_area,
     measure,
     area_variance,
     area_covariance,
     elongation_variance,
     elongation_covariance,
     measure_variance,
-    count
+    none,  ///< an even count is faster
+    count,
+    that_find = log_area
   };
 };
 using NodeNumbers = Eigen::Array<double, SheetNumber::count, 1>;
@@ -145,7 +149,8 @@ class SolidMaps::Sheets {
     const int node = std::clamp(int(std::lround(at)), 0, radius_nodes - 1);
     // The place at the nearest radius, and from there the cell of this radius itself.
     Place place = place_on(node, elongation, {1, first_axial_for(elongation)});
-    place = place_of(node, elongation, log_modulus_at(node, place) + x, place);
+    place = place_of(node, elongation, log_modulus_at(node, place) + x,
+                     {std::max(place.height * std::exp(-x), stiffest_node), place.axial});
     const double coordinate = table_.coordinate_of(std::exp(u) / length_);
     return {table_.at({coordinate, place.axial, place.height}), place.axial};
   }
@@ -168,9 +173,13 @@ class SolidMaps::Sheets {
   struct Place {
     double height, axial;
   };
-  struct Sum {
-    NodeNumbers value, by_height, by_axial;
+  /// The first numbers of a place, with their slopes.
+  template <int numbers>
+  struct FirstNumbers {
+    using Values = Eigen::Array<double, numbers, 1>;
+    Values value = Values::Zero(), by_height = Values::Zero(), by_axial = Values::Zero();
   };
+  using Sum = FirstNumbers<SheetNumber::count>;
 
   double coordinate(int i) const { return table_.coordinate_of(std::exp(first_u_ + i * step_u_) / length_); }
   double axial_at(int j) const { return first_axial_ + j * step_axial_; }
@@ -186,28 +195,32 @@ class SolidMaps::Sheets {
     const Eigen::Matrix3d noise = noise_of(features, by_, pixel_size_um_);
     NodeNumbers all;
     all << state.log_modulus + std::log(cell(2)) + log_modulus_factor_ + std::log(liquid_.modulus_ratio(cell)),
-        features.log_area - 2 * std::log(state.radius_um * length_), elongation_of(features, by_),
-        measure_of(features, by_), noise(0, 0), noise(0, 2), noise(1, 1), noise(1, 2), noise(2, 2);
+        elongation_of(features, by_), features.log_area - 2 * std::log(state.radius_um * length_),
+        measure_of(features, by_), noise(0, 0), noise(0, 2), noise(1, 1), noise(1, 2), noise(2, 2), 0;
     return all;
   }
 
   /// At the radius of a node.
-  Sum sum_at(int i, const Place& place) const {
+  template <int numbers = SheetNumber::count>
+  FirstNumbers<numbers> sum_at(int i, const Place& place) const {
     const LocalCubic h = local_cubic(place.height * (height_nodes - 1), height_nodes),
                      a = local_cubic((place.axial - first_axial_) / step_axial_, axial_nodes);
-    Sum sum{NodeNumbers::Zero(), NodeNumbers::Zero(), NodeNumbers::Zero()};
+    FirstNumbers<numbers> sum;
     for (std::size_t k = 0; k < 4; ++k)
       for (std::size_t j = 0; j < 4; ++j) {
-        const NodeNumbers& n = node(i, h.first + int(k), a.first + int(j));
+        const auto n = node(i, h.first + int(k), a.first + int(j)).template head<numbers>();
         sum.value += h.value[k] * a.value[j] * n;
         sum.by_height += h.slope[k] * a.value[j] * (height_nodes - 1) * n;
         sum.by_axial += h.value[k] * a.slope[j] / step_axial_ * n;
       }
     return sum;
   }
+  FirstNumbers<SheetNumber::that_find> found_by(int i, const Place& place) const {
+    return sum_at<SheetNumber::that_find>(i, place);
+  }
 
   double log_modulus_at(int i, const Place& place) const {
-    return sum_at(i, place).value(SheetNumber::log_modulus) - std::log(place.height);
+    return found_by(i, place).value(SheetNumber::log_modulus) - std::log(place.height);
   }
 
   double first_axial_for(double wanted) const {
@@ -220,24 +233,51 @@ class SolidMaps::Sheets {
   Place place_on(int i, double elongation, Place start) const {
     if (by_ == StiffnessMeasure::deformation) return {start.height, 0};
     for (int step = 0; step < cell_steps; ++step) {
-      const Sum sum = sum_at(i, start);
+      const auto sum = found_by(i, start);
       const double move = (elongation - sum.value(SheetNumber::elongation)) / sum.by_axial(SheetNumber::elongation);
       start.axial = std::clamp(start.axial + move, table_.least()(1), table_.greatest()(1));
-      if (std::abs(move) < 1e-9) break;
+      if (std::abs(move) < settled_step) break;
     }
     return start;
   }
 
   /// With a measured elongation and a modulus.
   Place place_of(int i, double elongation, double log_modulus, Place start) const {
+    if (const auto place = place_by_newton(i, elongation, log_modulus, start)) return *place;
     for (int step = 0; step < cell_steps; ++step) {
       start = place_on(i, elongation, start);
-      const double height = std::exp(sum_at(i, start).value(SheetNumber::log_modulus) - log_modulus);
+      const double height = std::exp(found_by(i, start).value(SheetNumber::log_modulus) - log_modulus);
       const double change = height / start.height - 1;
       start.height = std::clamp(height, stiffest_node, 1.0);
-      if (std::abs(change) < 1e-9) break;
+      if (std::abs(change) < settled_step) break;
     }
     return place_on(i, elongation, start);
+  }
+
+  /// The same where it lies within the table, without its rim.
+  std::optional<Place> place_by_newton(int i, double elongation, double log_modulus, Place at) const {
+    if (by_ == StiffnessMeasure::deformation) return {};
+    double log_height = std::log(at.height);
+    for (int step = 0; step < newton_steps; ++step) {
+      const auto sum = found_by(i, at);
+      const double off_modulus = log_modulus - (sum.value(SheetNumber::log_modulus) - log_height),
+                   off_elongation = elongation - sum.value(SheetNumber::elongation);
+      // Slopes by ln(height) and the axial ratio.
+      const double mh = at.height * sum.by_height(SheetNumber::log_modulus) - 1,
+                   ma = sum.by_axial(SheetNumber::log_modulus), eh = at.height * sum.by_height(SheetNumber::elongation),
+                   ea = sum.by_axial(SheetNumber::elongation);
+      const double det = mh * ea - ma * eh;
+      const double up = (off_modulus * ea - ma * off_elongation) / det,
+                   along = (mh * off_elongation - eh * off_modulus) / det;
+      log_height += up;
+      at.axial += along;
+      at.height = std::exp(log_height);
+      const bool is_inside = at.height > stiffest_node && at.height <= 1 && at.axial >= table_.least()(1) &&
+                             at.axial <= table_.greatest()(1);
+      if (!is_inside) return {};
+      if (std::abs(up) < settled_step && std::abs(along) < settled_step) return at;
+    }
+    return {};
   }
 
   /// The elongation, of which nothing is assumed, is eliminated with its noise (eq:eliminated-elongation).

@@ -17,8 +17,8 @@ constexpr double least_radius_spread = 0.003, greatest_radius_spread = 1, least_
                  greatest_modulus_spread = 1.5, greatest_artanh = 2.5;
 /// Of the mean of ln r0 and ln E, by a standard deviation of the elongation.
 constexpr double steepest = 1;
-/// Nodes are placed anew until no parameter moves more than this share of its standard error.
-constexpr double settled_share = 0.1;
+/// Nodes are placed anew until the cells move less than this share of their spreads: far less than the nodes reach.
+constexpr double settled_share = 0.05;
 constexpr int most_placings = 6;
 /// Gates that keep less tell of a tail alone; where they keep less than the second the likelihood has no parabola.
 constexpr double least_kept = 0.05, parabolic_kept = 0.3;
@@ -125,15 +125,23 @@ class CellFit {
   bool climb(LawVector q, const HeldParameters& held = {}) {
     for (int round = 0; round < most_placings; ++round) {
       likelihood_.place(CellLaw::of(q));
-      const LikelihoodMaximum found = maximise(likelihood_, q, bounds_, held);
+      const LikelihoodMaximum found = maximise(likelihood_, q, bounds_, held, information_);
       if (!found.is_found) return false;
-      const LawVector steps = difference_steps(likelihood_.at(found.q).products);
-      const double moved = ((found.q - q).cwiseAbs().array() / (10 * steps.array())).maxCoeff();
+      const double moved = moved_share(q, found.q);
       q = found.q;
       best_ = found;
-      if (round > 0 && moved < settled_share) break;
+      if (moved < settled_share) break;
     }
     return true;
+  }
+
+  /// In spreads of the cells.
+  static double moved_share(const LawVector& from, const LawVector& to) {
+    const CellDistribution cells = CellLaw::of(to).usual;
+    const double su = cells.radius_spread, se = cells.modulus_spread;
+    LawVector units;
+    units << su, se, 1, 1, 1, su, se;
+    return ((to - from).cwiseAbs().array() / units.array()).maxCoeff();
   }
 
   double error_of_image() const {
@@ -148,7 +156,7 @@ class CellFit {
   FitState state(FittedCells& fitted) const {
     if (start_.measure < start_.noise) return FitState::too_stiff;
     if (fitted.kept_share < least_kept) return FitState::tail;
-    const LawVector steps = difference_steps(likelihood_.at(best_.q).products);
+    const LawVector steps = difference_steps(best_.products);
     const auto covariance = inverse(likelihood_.information(best_.q, steps), best_.at_bound);
     if (!covariance) return FitState::singular;
     fitted.covariance = covariance_of_population(*covariance, steps);
@@ -247,9 +255,8 @@ class CellFit {
   std::optional<double> least_log_modulus() {
     const double z = boost::math::quantile(boost::math::normal(), settings_.level);
     const LikelihoodMaximum maximum = best_;
-    const auto products = likelihood_.at(maximum.q).products;
     const int k = number_of(PopulationParameter::mean_log_modulus);
-    const double error = 10 * difference_steps(products)(k);
+    const double error = 10 * difference_steps(maximum.products)(k);
     const double end = profile_end(maximum, k, -std::min(error, 0.5), z);
     best_ = maximum;
     return std::isfinite(end) ? std::optional(end) : std::nullopt;
@@ -261,6 +268,7 @@ class CellFit {
   double events_;
   PopulationLikelihood likelihood_;
   LikelihoodMaximum best_;
+  std::optional<LawMatrix> information_;  ///< near the maximum, once the search has come there
 };
 
 }  // namespace

@@ -26,7 +26,21 @@ class KeptShare {
     std::size_t first, count;  ///< of the chances, where they are not 0
     std::size_t first_height;
   };
-  std::vector<double> heights_, widths_;
+  /// Heights of equal distance.
+  struct Stretch {
+    std::size_t begin, end;
+    double step;
+  };
+  /// Of the chances of a row times the density of t, times 1, t and t^2: t is (e - its mean at this u) over its
+  /// standard deviation there.
+  struct RowSums {
+    double all = 0, first = 0, second = 0;
+  };
+  std::vector<float> chances_at(const KeptClass& kept, double log_radius) const;
+  RowSums sums_of(const Row& row, const CellDistribution& cells, double zu) const;
+
+  std::vector<double> heights_;
+  std::vector<Stretch> stretches_;
   std::vector<Row> rows_;
   std::vector<float> chances_;
 };

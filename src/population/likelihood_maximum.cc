@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "numeric/dense_solve.h"
@@ -10,9 +11,9 @@ namespace rheocyte {
 namespace {
 
 constexpr int most_newton_steps = 100, most_halvings = 12;
-constexpr double settled_gain = 1e-5;
-/// Gains below this, in ln L: the observed information holds.
-constexpr double near_gain = 2;
+constexpr double settled_gain = 1e-7;
+/// Gains below this, in ln L: the observed information holds. With the right one the next gain is far smaller.
+constexpr double near_gain = 2, slow_share = 0.2;
 /// Of each parameter at once.
 constexpr double longest_step = 0.7;
 /// A parameter with no curvature of its own has this one.
@@ -54,38 +55,102 @@ LawVector difference_steps(const LawMatrix& products) {
   return 0.1 * products.diagonal().cwiseMax(1).cwiseSqrt().cwiseInverse();
 }
 
-LikelihoodMaximum maximise(const PopulationLikelihood& likelihood, const LawVector& start,
-                           const ParameterBounds& bounds, const HeldParameters& held) {
-  LikelihoodMaximum at;
-  at.q = start.cwiseMax(bounds.least).cwiseMin(bounds.greatest);
-  bool is_near = false;
-  for (int count = 0; count < most_newton_steps; ++count) {
-    const auto value = likelihood.at(at.q);
-    at.log_likelihood = value.log_likelihood;
-    mark_bounds(at, value.score, bounds);
-    const std::vector<int> free = free_ones(at, held);
-    if (free.empty()) return at.is_found = true, at;
-    Eigen::VectorXd step;
-    if (is_near) step = newton_step(likelihood.information(at.q, difference_steps(value.products)), value.score, free);
-    if (step.size() == 0) step = newton_step(value.products, value.score, free);
-    if (step.size() == 0 || !step.allFinite()) return at;
-    double gain = 0;
-    for (std::size_t i = 0; i < free.size(); ++i) gain += step(Eigen::Index(i)) * value.score(free[i]) / 2;
-    if (gain < settled_gain) return at.is_found = true, at;
-    is_near = gain < near_gain;
-    step *= std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
-    bool is_better = false;
-    for (int halving = 0; halving < most_halvings && !is_better; ++halving, step /= 2) {
-      LawVector next = at.q;
-      for (std::size_t i = 0; i < free.size(); ++i) next(free[i]) += step(Eigen::Index(i));
-      next = next.cwiseMax(bounds.least).cwiseMin(bounds.greatest);
-      is_better = likelihood.log_likelihood(next) > at.log_likelihood;
-      if (is_better) at.q = next;
+namespace {
+
+/// The way of one search.
+class Climb {
+ public:
+  Climb(const PopulationLikelihood& likelihood, const ParameterBounds& bounds, const HeldParameters& held,
+        std::optional<LawMatrix>& information)
+      : likelihood_(likelihood), bounds_(bounds), held_(held), information_(information) {}
+
+  LikelihoodMaximum from(const LawVector& start) {
+    at_.q = start.cwiseMax(bounds_.least).cwiseMin(bounds_.greatest);
+    take(likelihood_.at(at_.q));
+    for (int count = 0; count < most_newton_steps; ++count) {
+      free_ = free_ones(at_, held_);
+      if (free_.empty()) return ended(true);
+      if (!find_step()) return ended(false);
+      if (gain_ < settled_gain) return ended(true);
+      // What no step betters any more is the maximum to rounding.
+      if (!go()) return ended(gain_ < near_gain);
     }
-    // What no step betters any more is the maximum to rounding.
-    if (!is_better) return at.is_found = gain < near_gain, at;
+    return ended(false);
   }
-  return at;
+
+ private:
+  LikelihoodMaximum& ended(bool is_found) {
+    at_.is_found = is_found;
+    return at_;
+  }
+
+  void take(const PopulationLikelihood::Value& value) {
+    value_ = value;
+    at_.log_likelihood = value.log_likelihood;
+    at_.products = value.products;
+    mark_bounds(at_, value.score, bounds_);
+  }
+
+  void step_by(const LawMatrix& curvature) {
+    step_ = newton_step(curvature, value_.score, free_);
+    gain_ = 0;
+    for (Eigen::Index i = 0; i < step_.size(); ++i) gain_ += step_(i) * value_.score(free_[std::size_t(i)]) / 2;
+  }
+
+  /// False if there is none.
+  bool find_step() {
+    const double last_gain = gain_;
+    if (information_) step_by(*information_);
+    if (information_ && (step_.size() == 0 || gain_ >= near_gain || gain_ > slow_share * last_gain))
+      information_.reset();
+    if (!information_) {
+      step_by(value_.products);
+      if (step_.size() > 0 && gain_ < near_gain && gain_ >= settled_gain) step_by_information();
+    }
+    return step_.size() > 0 && step_.allFinite();
+  }
+
+  void step_by_information() {
+    information_ = likelihood_.information(at_.q, difference_steps(value_.products));
+    step_by(*information_);
+    if (step_.size() > 0) return;
+    information_.reset();
+    step_by(value_.products);
+  }
+
+  /// False if no step along this way is better.
+  bool go() {
+    step_ *= std::min(1.0, longest_step / step_.cwiseAbs().maxCoeff());
+    for (int halving = 0; halving < most_halvings; ++halving, step_ /= 2) {
+      LawVector next = at_.q;
+      for (std::size_t i = 0; i < free_.size(); ++i) next(free_[i]) += step_(Eigen::Index(i));
+      next = next.cwiseMax(bounds_.least).cwiseMin(bounds_.greatest);
+      const auto value = likelihood_.at(next);
+      if (!(value.log_likelihood > at_.log_likelihood)) continue;
+      at_.q = next;
+      take(value);
+      return true;
+    }
+    return false;
+  }
+
+  const PopulationLikelihood& likelihood_;
+  const ParameterBounds& bounds_;
+  const HeldParameters& held_;
+  std::optional<LawMatrix>& information_;
+  LikelihoodMaximum at_;
+  PopulationLikelihood::Value value_;
+  std::vector<int> free_;
+  Eigen::VectorXd step_;
+  double gain_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+LikelihoodMaximum maximise(const PopulationLikelihood& likelihood, const LawVector& start,
+                           const ParameterBounds& bounds, const HeldParameters& held,
+                           std::optional<LawMatrix>& information) {
+  return Climb(likelihood, bounds, held, information).from(start);
 }
 
 }  // namespace rheocyte

@@ -13,6 +13,7 @@
 #include "view/event_inspector.h"
 #include "view/moduli_settings.h"
 #include "view/path_text.h"
+#include "view/population_route.h"
 #include "view/recording_columns.h"
 #include "view/recording_lines.h"
 #include "view/recording_moduli.h"
@@ -177,9 +178,15 @@ struct Named {
 };
 /// Who waits for the next question is silent: the one who asks loses patience with an answer.
 const Containment stays{.patience_s = 1e9};
-const Named contained_work[]{{"describe", describe},    {"names", list_columns},
-                             {"columns", give_columns}, {"inspect", inspect_events, stays},
-                             {"picture", give_picture}, {"lines", give_lines}};
+/// Between two signs of life there is the fit of a whole recording.
+const Containment fits{.patience_s = 600};
+const Named contained_work[]{{"describe", describe},
+                             {"names", list_columns},
+                             {"columns", give_columns},
+                             {"inspect", inspect_events, stays},
+                             {"picture", give_picture},
+                             {"lines", give_lines},
+                             {"population", compute_population, fits}};
 
 }  // namespace
 

@@ -17,6 +17,7 @@
 #include "view/cell_routes.h"
 #include "view/declarations.h"
 #include "view/page_words.h"
+#include "view/population_route.h"
 #include "view/recording_routes.h"
 #include "view/view_items.h"
 
@@ -72,6 +73,7 @@ void serve_view(const ViewOptions& options) {
   add_declaration_routes(router);
   add_cell_routes(router, exports, threads);
   add_recording_routes(router, exports, session, items);
+  add_population_route(router, items);
   session.add_routes(router, exports);
   exports.add_route(router);
   for (const auto& file : sessions) session.read(file);

@@ -91,6 +91,10 @@ TEST_F(PopulationCommand, ElongatedVirtualCellsGiveBackTheirPopulationAndTheDiff
     EXPECT_GT(recording["median_elongation"], 0.05);
     for (const auto& check : recording["checks"]) EXPECT_TRUE(check["fits"]) << check.dump();
   }
+  for (const char* const picture : {"population", "population-checks"}) {
+    EXPECT_TRUE(fs::exists(folder_.path() / "population" / (std::string(picture) + ".png"))) << ended.err;
+    EXPECT_TRUE(fs::exists(folder_.path() / "population" / (std::string(picture) + ".svg")));
+  }
   EXPECT_NE(content_of(folder_.path() / "population" / "events_drug_2.tsv").find("\n250\t"), std::string::npos);
   EXPECT_TRUE(
       content_of(folder_.path() / "population" / "population.tsv").starts_with("condition\tsession\trecording\t"));
@@ -103,6 +107,98 @@ TEST_F(PopulationCommand, TheSameInputGivesTheSameBytesForAnyNumberOfThreads) {
               0);
   EXPECT_EQ(content_of(folder_.path() / "jobs1" / "population.json"),
             content_of(folder_.path() / "jobs3" / "population.json"));
+}
+
+/// Single images have the modulus of the cell and the noise of the image.
+TEST_F(PopulationCommand, ModuliOfSingleImagesScatterByCellsAndNoiseTogether) {
+  synth("a.rtdc", {"recording.cells=400"});
+  ASSERT_EQ(call({"population", "--condition", "a=a.rtdc", "--quiet", "--no-picture"}).exit_code, 0);
+  const auto recording = record()["recordings"][0];
+  const auto& population = recording["population"];
+  const auto& images = population["moduli_of_single_images"];
+  double count = images["without"], sum = 0, squares = 0, at = images["ln_modulus_from"];
+  for (const double each : images["counts"]) {
+    const double middle = at + 0.5 * double(images["step"]);
+    count += each, sum += each * middle, squares += each * middle * middle;
+    at += double(images["step"]);
+  }
+  EXPECT_EQ(count, recording["events"]["fitted"]);
+  const double inside = count - double(images["without"]), mean = sum / inside;
+  const double expected =
+      std::hypot(double(population["spread_of_ln_modulus"]), double(population["error_of_ln_modulus_by_one_image"]));
+  EXPECT_NEAR(std::sqrt(squares / inside - mean * mean), expected, 0.15 * expected) << "four standard errors";
+  EXPECT_FALSE(fs::exists(folder_.path() / "population" / "population.png"));
+}
+
+TEST_F(PopulationCommand, ASpecificationGivesWhatItsOptionsGive) {
+  synth("a.rtdc", {"recording.cells=80"});
+  synth("b.rtdc", {"recording.cells=80", "recording.seed=5"});
+  fs::create_directory(folder_.path() / "specs");
+  // "z" comes first, as in the file: conditions are compared with it.
+  write_file(folder_.path() / "specs" / "spec.toml",
+             "between_recordings = 0.03\npaired = true\nmax = {area_um = 500}\n[conditions]\nz = [\"../a.rtdc\"]\n"
+             "a = [\"../b.rtdc\"]\n");
+  ASSERT_EQ(call({"population", "specs/spec.toml", "-o", "spec", "--quiet", "--no-picture"}).exit_code, 0);
+  ASSERT_EQ(call({"population", "--condition", "z=a.rtdc", "--condition", "a=b.rtdc", "--between-recordings", "0.03",
+                  "--paired", "--max", "area_um=500", "-o", "options", "--quiet", "--no-picture"})
+                .exit_code,
+            0);
+  auto spec = record("spec"), options = record("options");
+  for (auto& recording : spec["recordings"]) {
+    const std::string file = recording["recording"];
+    EXPECT_TRUE(file.starts_with("specs/../")) << file;
+    recording["recording"] = file.substr(std::string("specs/../").size());
+  }
+  EXPECT_EQ(spec, options);
+  // The command line has the last word.
+  ASSERT_EQ(
+      call({"population", "specs/spec.toml", "-o", "other", "--between-recordings", "0.06", "--quiet", "--no-picture"})
+          .exit_code,
+      0);
+  EXPECT_EQ(record("other")["between_recordings"], 0.06);
+  const auto refused = [&](const std::string& text, const std::string& words) {
+    write_file(folder_.path() / "wrong.toml", text);
+    expect_sentence(call({"population", "wrong.toml"}), words);
+  };
+  refused("colour = 3\n[conditions]\na = [\"a.rtdc\"]\n", "There is no setting colour");
+  refused("paired = 3\n[conditions]\na = [\"a.rtdc\"]\n", "paired must be true or false");
+  refused("conditions = 3\n", "conditions must be a section");
+  refused("[conditions]\na = [3]\n", "the condition a must be a list of recordings");
+  refused("by = \"asymmetry\"\n", "no condition is given");
+  refused("a = \n", "not valid TOML");
+  expect_sentence(call({"population", "specs/spec.toml", "--condition", "a=a.rtdc"}), "contradict each other");
+}
+
+/// Cells under twice the load that are as much stiffer as 2^0.5: their modulus goes as the power 1/2 of the stress.
+TEST_F(PopulationCommand, RecordingsAtSeveralFlowRatesTellHowTheModulusGrowsWithTheStress) {
+  for (const std::string seed : {"1", "2"}) {
+    synth("slow" + seed + ".rtdc", {"recording.seed=" + seed});
+    synth("fast" + seed + ".rtdc", {"recording.seed=1" + seed, "flow.rate_ul_per_s=0.08",
+                                    fmt::format("cell.bulk.young_modulus_kPa.mean={}", 4 * std::sqrt(2.0))});
+  }
+  const Ended ended =
+      call({"population", "--condition", "a=slow1.rtdc,fast1.rtdc,slow2.rtdc,fast2.rtdc", "--no-picture"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("a: E grows as the power 0."), std::string::npos) << ended.out;
+  const auto found = record()["conditions"][0]["stiffening"]["exponent_of_modulus_over_stress"];
+  EXPECT_NEAR(found["value"], 0.5, 0.1)
+      << "four standard errors, and 1 % of each modulus that the laws of pixels leave";
+  EXPECT_LT(found["lower"], found["value"]);
+  EXPECT_GT(found["upper"], found["value"]);
+}
+
+TEST_F(PopulationCommand, ATableOfElongatedCellsCanBeGiven) {
+  synth("a.rtdc", {"recording.cells=80"});
+  const auto of = [&](const std::string& folder, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"population", "--condition", "a=a.rtdc",    "-o",
+                                       folder,       "--quiet",     "--no-picture"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(call(arguments).exit_code, 0);
+    return record(folder)["recordings"][0]["population"];
+  };
+  EXPECT_EQ(of("own", {}), of("named", {"--table", "HE-3D-el-26"}));
+  expect_sentence(call({"population", "--condition", "a=a.rtdc", "--table", "LE-2D-26"}),
+                  "there is no such table of elongated cells");
 }
 
 TEST_F(PopulationCommand, OneRecordingEachHasARatioButNoP) {

@@ -12,6 +12,7 @@ import { GateList } from './GateList';
 import { Inspector } from './Inspector';
 import { focus, gates, items, keepModel, panel, plots, readRecordings, recordings, secondPlot, tool, type Panel, type Tool } from './model';
 import { ModuliPanel } from './ModuliPanel';
+import { Populations } from './Populations';
 import { readKnownModuli } from './moduli';
 import { RecordingList } from './RecordingList';
 import { ScatterPlot } from './ScatterPlot';
@@ -32,6 +33,7 @@ const panels: [Panel, string][] = [
   ['statistics', 'Statistics'],
   ['gates', 'Gates'],
   ['distributions', 'Distributions'],
+  ['populations', 'Populations'],
 ];
 
 let begun = false;
@@ -125,12 +127,13 @@ function Results() {
             </button>
           ))}
         </div>
-        {shown !== 'gates' && <MeasuredSelect />}
+        {shown !== 'gates' && shown !== 'populations' && <MeasuredSelect />}
       </div>
       <div id="results-panel" role="tabpanel" aria-labelledby={`tab-${shown}`} tabIndex={0}>
         {shown === 'statistics' && <StatisticsTable />}
         {shown === 'gates' && <GateList />}
         {shown === 'distributions' && <Distributions />}
+        {shown === 'populations' && <Populations />}
       </div>
     </section>
   );

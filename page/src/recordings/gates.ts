@@ -124,24 +124,37 @@ export function numbersWithin(inside: Uint8Array): number[] {
 /** The command line gates by what is in the file, under the file's own names. */
 const nameInFile = (feature: string) => (feature === storedModulus ? 'emodulus' : feature);
 
-const rangeOptions = ({ feature, low, high }: RangeGate): string[] => [
-  ...(low === null ? [] : [`--min ${nameInFile(feature)}=${low}`]),
-  ...(high === null ? [] : [`--max ${nameInFile(feature)}=${high}`]),
+type GateOption = ['min' | 'max' | 'polygon', string];
+
+const rangeOptions = ({ feature, low, high }: RangeGate): GateOption[] => [
+  ...(low === null ? [] : [['min', `${nameInFile(feature)}=${low}`] as GateOption]),
+  ...(high === null ? [] : [['max', `${nameInFile(feature)}=${high}`] as GateOption]),
 ];
 
-function polygonOption({ x, y, xScale, yScale, points }: PolygonGate): string {
+function polygonOption({ x, y, xScale, yScale, points }: PolygonGate): GateOption {
   const axis = (feature: string, scale: ScaleKind) => `${scale === 'log' ? 'log:' : ''}${nameInFile(feature)}`;
-  return `--polygon ${axis(x, xScale)},${axis(y, yScale)}=${points.map((point) => point.join(',')).join(':')}`;
+  return ['polygon', `${axis(x, xScale)},${axis(y, yScale)}=${points.map((point) => point.join(',')).join(':')}`];
 }
 
 const isOfResults = (gate: Gate) => featuresOf(gate).some(isComputed);
 
-/** The gates that are on, as options of the command line, which has none for what it computes itself. */
-export function gateOptions(gates: Gate[]): string {
-  return gates
+/** The gates that are on as the program has them, which has none for what it computes itself. */
+const optionsOf = (gates: Gate[]): GateOption[] =>
+  gates
     .filter((gate) => gate.on && !isOfResults(gate))
-    .flatMap((gate) => (gate.kind === 'range' ? rangeOptions(gate) : [polygonOption(gate)]))
+    .flatMap((gate) => (gate.kind === 'range' ? rangeOptions(gate) : [polygonOption(gate)]));
+
+/** As options of the command line. */
+export const gateOptions = (gates: Gate[]): string =>
+  optionsOf(gates)
+    .map(([name, text]) => `--${name} ${text}`)
     .join(' ');
+
+/** As settings of the interface. */
+export function gateSettings(gates: Gate[]): Record<string, string[]> {
+  const settings: Record<string, string[]> = {};
+  for (const [name, text] of optionsOf(gates)) (settings[name] ??= []).push(text);
+  return settings;
 }
 
 /** The gates that are on and that the command line has no options for. */

@@ -33,7 +33,7 @@ export interface Choice {
 }
 
 export type Tool = 'look' | 'box' | 'polygon';
-export type Panel = 'statistics' | 'gates' | 'distributions';
+export type Panel = 'statistics' | 'gates' | 'distributions' | 'populations';
 
 export const byDensity = 'density';
 const axis = (feature: string): Axis => ({ feature, scale: 'linear', span: null });

@@ -1,0 +1,105 @@
+#include "view/population_route.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "case/json_guard.h"
+#include "case/user_error.h"
+#include "extract/polygon_file.h"
+#include "extract/population_json.h"
+#include "extract/recording_settings.h"
+#include "extract/settings_text.h"
+#include "view/path_text.h"
+#include "view/view_items.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+PopulationOptions population_options(const Json& settings) {
+  PopulationOptions options;
+  take_settings(settings_of(options), settings);
+  check_options(options.measuring);
+  return options;
+}
+
+/// No path is ever taken from a page, nor how busy it may make the machine.
+Json population_settings(const Json& given) {
+  PopulationOptions none;
+  Json settings = Json::object();
+  for (const Setting& setting : settings_of(none)) {
+    const std::string name(setting.name);
+    if (name != "table" && name != "jobs" && given.contains(name)) settings[name] = given[name];
+  }
+  for (const Json& one : settings.value("polygon", Json::array()))
+    if (one.is_string() && is_polygon_file(one)) throw UserError("polygon must be features and corners, not a file.");
+  static_cast<void>(population_options(settings));
+  return settings;
+}
+
+/// As the host reads them, and in "command" as a shell does.
+Json population_work(const Json& asked, const ViewItems& items) {
+  Json work{{"do", "population"}, {"settings", population_settings(asked.value("settings", Json::object()))}};
+  std::string command = "rheocyte population";
+  for (const Json& condition : asked.value("conditions", Json::array())) {
+    const std::string name = condition.value("name", std::string());
+    Json recordings = Json::array();
+    std::string files;
+    for (const Json& item : condition.value("items", Json::array())) {
+      if (!item.is_number_unsigned()) throw UserError("items are the numbers of recordings.");
+      const auto path = items.recording(item).place.path;
+      recordings.push_back(path_text(path));
+      files += (files.empty() ? "" : ",") + path.string();
+    }
+    command += " --condition " + quoted_for_shell(name + "=" + files);
+    work["conditions"].push_back({{"name", name}, {"recordings", recordings}});
+  }
+  if (!work.contains("conditions") || work["conditions"][0]["recordings"].empty())
+    throw UserError("Name the condition of at least one recording in the list.");
+  work["file"] = work["conditions"][0]["recordings"][0];
+  PopulationOptions options = population_options(work["settings"]);
+  work["command"] = command + options_text(settings_of(options));
+  return work;
+}
+
+}  // namespace
+
+void compute_population(const Json& request, const WorkReply& reply, const TellProgress& tell) {
+  PopulationOptions options = population_options(request.at("settings"));
+  options.jobs = 1;
+  std::vector<PopulationCondition> conditions;
+  double all = 0, done = 0;
+  for (const Json& one : request.at("conditions")) {
+    auto& condition = conditions.emplace_back(PopulationCondition{one.at("name").get<std::string>(), {}});
+    for (const Json& path : one.at("recordings")) condition.recordings.push_back(path_of_text(path.get<std::string>()));
+    all += double(condition.recordings.size());
+  }
+  check_conditions(conditions, options.paired);
+  PopulationAnalysis analysis(options, conditions);
+  for (std::size_t c = 0; c < conditions.size(); ++c)
+    for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j, ++done) {
+      const auto events =
+          read_population_events(conditions[c].recordings[j], options.measuring, stiffness_measure_of(options),
+                                 [&](double share) { tell((done + 0.5 * share) / all); });
+      analysis.add(c, j, events);
+      tell((done + 1) / all);
+    }
+  const PopulationReport report = analysis.report();
+  reply.give(json_text({{"record", parse_sound_json(population_json(report))},
+                        {"lines", population_lines(report)},
+                        {"command", request.at("command")}}));
+}
+
+void add_population_route(Router& router, ViewItems& items) {
+  router.add("POST", "/api/population", [&items](const Request& request) -> Answer {
+    HostedWork work = items.host().ask(json_text(population_work(request.json(), items)));
+    work.only_while([client = request.client] { return !client || !client->has_left(); });
+    return {.body = work.all()};
+  });
+}
+
+}  // namespace rheocyte

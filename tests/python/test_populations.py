@@ -1,0 +1,95 @@
+"""What rheocyte.population returns shows itself, in words and in pictures, also where numbers are missing."""
+
+import copy
+import json
+import warnings
+
+import numpy as np
+import pytest
+
+import rheocyte
+from rheocyte import population_picture
+from rheocyte.files import save_figure
+from rheocyte.populations import Population
+
+CHECK = {"measure": "c3", "fitted": True, "fits": True, "distance": 0.02, "measured_median": 0.03, "spread": 0.01,
+         "measured_quantiles": list(np.linspace(0.02, 0.04, 19)), "predicted_quantiles": list(np.linspace(0.021, 0.04, 19))}
+IMAGES = {"ln_modulus_from": 1.0, "step": 0.05, "counts": [1, 5, 20, 40, 20, 5, 1], "without": 3}
+
+
+def interval(value):
+    return {"value": value, "lower": 0.95 * value, "upper": 1.05 * value}
+
+
+def recording(condition, session, modulus):
+    found = {"median_young_modulus_kPa": interval(modulus), "spread_of_ln_modulus": 0.2, "median_radius_um": 6.3,
+             "spread_of_ln_radius": 0.07, "correlation": 0.1, "kept_share": 0.9, "moduli_of_single_images": IMAGES}
+    return {"recording": f"{condition}{session}.rtdc", "condition": condition, "session": session, "population": found,
+            "events": {"fitted": 95}, "failure": None, "checks": [copy.deepcopy(CHECK)]}
+
+
+def condition(name, modulus):
+    return {"name": name, "recordings": 2, "events": 190, "median_young_modulus_kPa": interval(modulus),
+            "spread_of_ln_modulus": 0.2, "median_radius_um": 6.3, "spread_of_ln_radius": 0.07}
+
+
+@pytest.fixture
+def record():
+    comparison = {"control": "control", "treated": "drug", "test": "paired t", "ratio": interval(1.3), "p": 0.02,
+                  "degrees_of_freedom": 1, "ratio_by_sampling_alone": interval(1.3)}
+    return {"made_by": "rheocyte population", "level": 0.95, "conditions": [condition("control", 4), condition("drug", 5.2)],
+            "comparisons": [comparison],
+            "recordings": [recording("control", 1, 4.0), recording("control", 2, 4.1), recording("drug", 1, 5.1),
+                           recording("drug", 2, 5.3)]}
+
+
+def shown(record):
+    return Population(json.dumps(record), [""] * len(record["recordings"]))
+
+
+def test_a_population_tells_its_estimates_and_its_checks(record):
+    text = repr(shown(record))
+    assert "control: 4 kPa (3.8 .. 4.2), recordings: 2, events: 190" in text
+    assert "drug / control: 1.3 (1.23 .. 1.37), p = 0.02" in text
+    assert text.endswith("checks hold in 4 of 4 recordings")
+    record["comparisons"][0]["p"] = None
+    assert "by sampling alone, no p" in repr(shown(record))
+
+
+def test_the_exponent_over_the_stress_is_a_column_of_the_conditions(record):
+    record["conditions"][1]["stiffening"] = {"exponent_of_modulus_over_stress": interval(0.4)}
+    conditions = shown(record).conditions
+    assert np.isnan(conditions["stiffening"][0]) and conditions["stiffening"][1] == 0.4
+
+
+def test_pictures_are_drawn_without_a_warning_also_where_numbers_are_missing(record, tmp_path):
+    stiff = record["recordings"][3]
+    del stiff["population"]
+    stiff.update(failure="too stiff to be seen", young_modulus_above_kPa=30.0, checks=[])
+    record["recordings"][1]["checks"][0]["fits"] = False
+    alone = {**copy.deepcopy(record), "conditions": record["conditions"][:1], "comparisons": [],
+             "recordings": record["recordings"][:1]}
+    nothing = {**copy.deepcopy(alone), "recordings": [{**copy.deepcopy(stiff), "condition": "control"}]}
+    nothing["conditions"][0].pop("median_young_modulus_kPa")
+    record["comparisons"] = []  # the program makes none of conditions without a number
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for k, each in enumerate((record, alone, nothing)):
+            save_figure(shown(each).plot(), tmp_path / f"population-{k}", 50, svg_dpi=50)
+        save_figure(shown(record).plot_checks(), tmp_path / "checks", 50, svg_dpi=50)
+        assert shown(nothing).plot_checks() is None
+    assert (tmp_path / "population-2.png").stat().st_size > 0
+
+
+def test_a_damaged_record_is_named(tmp_path):
+    with pytest.raises(rheocyte.UserError, match="population.json cannot be read"):
+        population_picture.read_record(tmp_path)
+    (tmp_path / "population.json").write_text("{}")
+    with pytest.raises(rheocyte.UserError, match="no file of rheocyte population"):
+        population_picture.read_record(tmp_path)
+
+
+def test_a_plan_shows_what_follows_from_it():
+    plan = rheocyte.plan(6.5, 2, width_um=20, medium="0.49% MC-PBS", rate_ul_s=0.04)
+    assert all(line in repr(plan) for line in plan.attrs["lines"]) and plan.attrs["lines"]
+    assert type(plan[["width_um"]]) is type(plan)
