@@ -74,7 +74,7 @@ target_link_libraries(rheocyte::hdf5 INTERFACE $<$<NOT:${is_program}>:rheocyte::
 rheocyte_import(zstd LIBRARY zstd HEADER zstd.h PACKAGE libzstd-dev)
 rheocyte_import(qhull LIBRARY qhull_r HEADER libqhull_r/libqhull_r.h PACKAGE libqhull-dev)
 rheocyte_import(boost_math HEADER boost/math/distributions/students_t.hpp PACKAGE libboost-dev)
-if(RHEOCYTE_SOLVER)
+if(RHEOCYTE_SOLVER AND RHEOCYTE_PROCESSES)
   rheocyte_import(beast HEADER boost/beast/http.hpp PACKAGE libboost-dev)
   # Without what nobody uses and some compilers take for something else; Boost.System is headers only.
   target_compile_definitions(rheocyte::beast INTERFACE BOOST_ASIO_DISABLE_CO_AWAIT BOOST_ERROR_CODE_HEADER_ONLY)

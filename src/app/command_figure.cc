@@ -13,6 +13,7 @@
 #include "store/child_process.h"
 #include "store/python_package.h"
 #include "store/standard_error.h"
+#include "store/supplied_folder.h"
 
 namespace rheocyte {
 

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "case/case_text.h"
 #include "case/toml_parser.h"
 #include "case/user_error.h"
+#include "numeric/number_from_chars.h"
 
 namespace rheocyte {
 
@@ -77,7 +77,7 @@ std::string_view without_quotes(std::string_view text) {
 std::optional<double> as_number(std::string_view text) {
   double number = 0;
   const auto* start = text.data() + (text.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(start, text.data() + text.size(), number);
+  const auto [end, error] = number_from_chars(start, text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size()) return {};
   return one_zero(number);
 }

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/polygon_file.h"
+#include "numeric/number_from_chars.h"
 
 namespace rheocyte {
 
@@ -20,7 +20,7 @@ std::pair<std::string, double> parsed(const std::string& text, const char* optio
   double value = NAN;
   if (sign != std::string::npos && sign > 0) {
     const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data() + sign + 1, end, value);
+    const auto [stop, error] = number_from_chars(text.data() + sign + 1, end, value);
     if (error != std::errc{} || stop != end) value = NAN;
   }
   if (!std::isfinite(value))

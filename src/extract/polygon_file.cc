@@ -13,6 +13,7 @@
 
 #include "case/refuse_path.h"
 #include "numeric/no_value.h"
+#include "numeric/number_from_chars.h"
 #include "store/read_file.h"
 
 namespace rheocyte {
@@ -84,9 +85,9 @@ class PolygonReader {
     PolygonGate::Corner corner{no_value, no_value};
     const char* const end = value.data() + value.size();
     const auto index = std::from_chars(number.data(), number.data() + number.size(), place);
-    const auto x = std::from_chars(value.data(), end, corner.x);
+    const auto x = number_from_chars(value.data(), end, corner.x);
     const std::string_view rest = stripped({x.ptr, static_cast<std::size_t>(end - x.ptr)});
-    const auto y = std::from_chars(rest.data(), rest.data() + rest.size(), corner.y);
+    const auto y = number_from_chars(rest.data(), rest.data() + rest.size(), corner.y);
     if (index.ec != std::errc{} || y.ptr != rest.data() + rest.size() || !std::isfinite(corner.x + corner.y)) refuse();
     points_[place] = corner;
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "numeric/no_value.h"
+#include "numeric/number_from_chars.h"
 
 namespace rheocyte {
 
@@ -22,7 +22,7 @@ constexpr std::size_t fewest_corners = 3;
 double corner_number(std::string_view text) {
   double value = no_value;
   const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const auto [stop, error] = number_from_chars(text.data(), end, value);
   return error == std::errc{} && stop == end ? value : no_value;
 }
 

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "numeric/no_value.h"
+#include "numeric/number_from_chars.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
@@ -26,7 +26,7 @@ std::string range_text() { return fmt::format("{:g} to {:g} degC", lowest_temper
 
 double given(const std::string& text, const char* option) {
   double value = no_value;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
     throw UserError(fmt::format("rheocyte: {} {}: give degrees Celsius{}.", option, one_line(text, 60),
                                 option == std::string_view("--temperature") ? ", feature or metadata" : ""));

@@ -3,7 +3,7 @@
 #include <system_error>
 
 #include "store/build_info.h"
-#include "store/child_process.h"
+#include "store/supplied_folder.h"
 
 namespace rheocyte {
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "case/nearest_name.h"
+#include "numeric/number_from_chars.h"
 
 namespace rheocyte {
 
@@ -54,7 +55,7 @@ bool is_in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 
 /// The number at this place if "%" follows, and then what is behind it.
 std::optional<std::pair<double, std::string_view>> percentage_at(std::string_view text) {
   double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);
+  const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);
   if (error != std::errc{}) return std::nullopt;
   const auto sign = std::string_view(end, text.data() + text.size()).find_first_not_of(" _\t");
   const auto rest = text.substr(static_cast<std::size_t>(end - text.data()));

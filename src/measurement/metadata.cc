@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <string_view>
+
+#include "numeric/number_from_chars.h"
 
 namespace rheocyte {
 
@@ -24,7 +25,7 @@ std::optional<double> Metadata::number(const std::string& key) const {
   if (const auto* value = std::get_if<double>(&found->second)) return *value;
   const auto text = trimmed(std::get<std::string>(found->second));
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
 }

@@ -29,7 +29,7 @@ class Evolution {
       : result_{c, scales_of(c), problem_of(c), {}},
         run_(time_run_of(c, result_.scales)),
         make_item_(std::move(make_item)) {
-    thread_ = Thread([this](const std::stop_token&) { follow(); });
+    if (has_threads) thread_ = Thread([this](const std::stop_token&) { follow(); });
   }
   ~Evolution() {
     stop();
@@ -39,6 +39,14 @@ class Evolution {
   Evolution& operator=(const Evolution&) = delete;
 
   void stop() { stop_ = true; }
+
+  /// Where there are no threads everything is computed here, and `at_item` is called after each item. Elsewhere
+  /// nothing.
+  void follow_here(std::function<void()> at_item) {
+    if (has_threads) return;
+    at_item_ = std::move(at_item);
+    follow();
+  }
 
   /// True once there are items or all is over.
   template <class Duration>
@@ -94,10 +102,8 @@ class Evolution {
   TimeObserver observer() {
     const auto add_frame = [this](const TimeFrame& frame) {
       record_.frames.push_back(contour_frame(frame, result_.scales));
-      Item item = make_item_(frame, *this);
-      const std::scoped_lock lock(mutex_);
-      items_.push_back(std::move(item));
-      changed_.notify_all();
+      add(make_item_(frame, *this));
+      if (at_item_) at_item_();
     };
     const auto add_step = [this](const TimePoint& point, const TimeState&) {
       const std::scoped_lock lock(mutex_);
@@ -109,9 +115,16 @@ class Evolution {
     return {add_frame, add_step, compare};
   }
 
+  void add(Item item) {
+    const std::scoped_lock lock(mutex_);
+    items_.push_back(std::move(item));
+    changed_.notify_all();
+  }
+
   Result result_;
   TimeRun run_;
   MakeItem make_item_;
+  std::function<void()> at_item_ = {};
   TimeRecord record_;
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;

@@ -8,7 +8,7 @@
 
 #include "numeric/fingerprint.h"
 #include "store/build_info.h"
-#include "store/child_process.h"
+#include "store/supplied_folder.h"
 
 namespace rheocyte {
 

@@ -1,8 +1,6 @@
 #include "store/child_process.h"
 
-#include <dlfcn.h>
 #include <fcntl.h>
-#include <link.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -12,9 +10,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <system_error>
 #include <utility>
 
 #include "store/stop_signal.h"
@@ -94,35 +90,6 @@ int wait_for(pid_t child) {
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return status;
-}
-
-std::filesystem::path program_folder() {
-  std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-}
-
-namespace {
-
-// Of the shared library that this code is part of, as in Python, where the program is the interpreter; else that of the
-// program. Only libraries have a name in the list of what is loaded.
-std::filesystem::path own_folder() {
-  Dl_info place{};
-  link_map* entry = nullptr;
-  const bool found = ::dladdr1(reinterpret_cast<void*>(&program_folder), &place, reinterpret_cast<void**>(&entry),
-                               RTLD_DL_LINKMAP) != 0;
-  if (!found || entry == nullptr || *entry->l_name == '\0') return program_folder();
-  std::error_code error;
-  return std::filesystem::weakly_canonical(entry->l_name, error).parent_path();
-}
-
-}  // namespace
-
-std::filesystem::path supplied_folder(const char* variable, const std::filesystem::path& installed,
-                                      const std::filesystem::path& source) {
-  if (const char* given = std::getenv(variable)) return given;
-  const std::filesystem::path place = own_folder() / installed;
-  std::error_code error;
-  return std::filesystem::exists(place, error) ? place : source;
 }
 
 ChildProcess::ChildProcess(std::vector<std::string> arguments) {

@@ -1,22 +1,12 @@
-// Where the program stands, and helpers that it starts.
+// Helpers that the program starts.
 #pragma once
 #include <sys/types.h>
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace rheocyte {
-
-/// The folder of the running program, links resolved.
-std::filesystem::path program_folder();
-
-/// Where files that come with the program lie: the folder that an environment variable names, or the installed one
-/// (`installed` is seen from the folder of the program, or of the library that this code is part of), or that of the
-/// sources.
-std::filesystem::path supplied_folder(const char* variable, const std::filesystem::path& installed,
-                                      const std::filesystem::path& source);
 
 struct ChildResult {
   int exit_code = -1;     ///< -1: could not be started or was killed

@@ -1,7 +1,6 @@
 #include "store/contained.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -235,30 +234,6 @@ ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgr
   ContainedEnd end = watch(child, ends[0], limits, on_progress);
   ::close(ends[0]);
   return end;
-}
-
-std::string sentence_for(const std::filesystem::path& recording, const ContainedEnd& end, double patience_s) {
-  const std::string name = one_line(recording.string(), 300);
-  switch (end.kind) {
-    case Kind::user_error: return end.text;
-    case Kind::no_memory:
-      return fmt::format("{}: reading it needs more memory than any sound recording does; it is damaged.", name);
-    case Kind::hung:
-      return fmt::format(
-          "{}: nothing could be read for {} s; it is damaged, or its drive does not answer (--patience "
-          "waits longer).",
-          name, patience_s);
-    case Kind::killed:
-      return fmt::format("{}: reading it was ended from outside ({}), perhaps for want of memory; try again.", name,
-                         one_line(end.text, 100));
-    case Kind::broke_down:
-      return fmt::format(
-          "{}: the HDF5 library broke down while reading it ({}); it is damaged, copy it once more from "
-          "where it was recorded.",
-          name, one_line(end.text, 100));
-    default:
-      return fmt::format("{}: an error of the program itself, please report it: {}", name, one_line(end.text, 300));
-  }
 }
 
 }  // namespace rheocyte

@@ -1,6 +1,7 @@
 #include "store/python_package.h"
 
 #include "store/build_info.h"
+#include "store/supplied_folder.h"
 
 namespace rheocyte {
 

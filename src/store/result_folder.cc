@@ -1,6 +1,5 @@
 #include "store/result_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -14,6 +13,7 @@
 #include "case/refuse_path.h"
 #include "store/foreign_files.h"
 #include "store/read_file.h"
+#include "store/renames.h"
 #include "store/whole_file.h"
 
 namespace rheocyte {
@@ -91,10 +91,9 @@ void keep_on_disk(const fs::path& path) {
 
 // Afterwards `folder` is the new result and `scratch` holds the old one, if there was one.
 void swap_in(const fs::path& scratch, const fs::path& folder) {
-  const unsigned how = fs::exists(folder) ? RENAME_EXCHANGE : RENAME_NOREPLACE;
-  if (::renameat2(AT_FDCWD, scratch.c_str(), AT_FDCWD, folder.c_str(), how) == 0) return;
-  if (errno == EINVAL && !fs::exists(folder) && ::rename(scratch.c_str(), folder.c_str()) == 0) return;
-  refuse_path(folder, fmt::format("cannot put the result in its place ({}).", reason_of(errno)));
+  const int failed = fs::exists(folder) ? exchange_names(scratch, folder) : rename_to_new(scratch, folder);
+  if (!failed || (failed == EINVAL && !fs::exists(folder) && ::rename(scratch.c_str(), folder.c_str()) == 0)) return;
+  refuse_path(folder, fmt::format("cannot put the result in its place ({}).", reason_of(failed)));
 }
 
 bool has_checkpoints(const fs::path& folder) {

@@ -7,6 +7,8 @@
 
 namespace rheocyte {
 
+const bool has_threads = true;
+
 namespace {
 
 struct Begin {

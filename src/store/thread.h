@@ -11,6 +11,10 @@
 
 namespace rheocyte {
 
+/// Whether this build has threads and processes (RHEOCYTE_PROCESSES). Without them work is done at once, in its place:
+/// a thread has done its work when it has been made.
+extern const bool has_threads;
+
 /// Of a thread, in bytes: for solving, and for what only waits, reads and writes text.
 inline constexpr std::size_t usual_stack = std::size_t{8} << 20U, small_stack = std::size_t{2} << 20U;
 

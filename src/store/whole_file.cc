@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "case/refuse_path.h"
+#include "store/renames.h"
 
 namespace rheocyte {
 
@@ -31,10 +32,9 @@ int write_all(int descriptor, std::string_view content) {
 }
 
 int move(const fs::path& from, const fs::path& to, Older older) {
-  if (older == Older::replace) return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
-  if (errno != EINVAL) return errno;
-  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;  // the file system knows no such wish
+  if (older == Older::keep)  // which some file systems do not know
+    if (const int failed = rename_to_new(from, to); failed != EINVAL) return failed;
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
 [[noreturn]] void refuse(const fs::path& path, const char* what, int reason) {

@@ -18,9 +18,9 @@
 #include <system_error>
 #include <utility>
 
-#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "store/child_process.h"
+#include "store/private_folder.h"
 #include "store/system_limit.h"
 
 namespace rheocyte {
@@ -182,22 +182,6 @@ int take_descriptor(int socket) {
   ::_exit(0);
 }
 
-/// Within one that this program claims: whoever puts files in their places claims their folder and would wait. Also
-/// removes those that killed programs have left.
-Scratch new_private_folder() {
-  std::error_code error, ignored;
-  const fs::path place = fs::temp_directory_path(error) / "rheocyte-view";
-  for (const Scratch& left : left_over_folders(place)) fs::remove_all(left.path, ignored);
-  Scratch made = new_scratch_folder(place);
-  made.path /= "files";
-  if (!made.failed) fs::create_directory(made.path, error);
-  if (error || made.failed)
-    refuse_path(place.parent_path(),
-                "no folder for temporary files can be made there; is the disk full? TMPDIR names "
-                "another place.");
-  return made;
-}
-
 }  // namespace
 
 void WorkReply::give(std::string_view piece) const {
@@ -222,18 +206,6 @@ std::optional<std::string> WorkReply::next_request() const {
   while (::poll(&awaited, 1, -1) < 0 && errno == EINTR) {
   }
   return receive_request(socket_);
-}
-
-void WorkReply::run_contained(const fs::path& file, const std::function<void(const TellProgress&)>& work,
-                              Containment limits) const {
-  limits.is_wanted = [this] { return is_wanted(); };
-  const auto contained = [&](const TellProgress& tell) {
-    work(tell);
-    return std::string();
-  };
-  const ContainedEnd end = run_contained_bytes(contained, limits, [this](double done) { tell_progress(done); });
-  if (end.kind == ContainedEnd::Kind::stopped) ::_exit(1);
-  if (end.kind != ContainedEnd::Kind::finished) throw UserError(sentence_for(file, end, limits.patience_s));
 }
 
 HostedWork::HostedWork(HostedWork&& other) noexcept
@@ -280,17 +252,6 @@ bool HostedWork::waits_in_vain() const {
     if (::poll(&awaited, 1, look_ms) > 0) return false;
   }
   return false;
-}
-
-std::string HostedWork::all(const TellProgress& on_progress) {
-  std::string text;
-  read(
-      [&](std::string_view piece) {
-        text += piece;
-        return true;
-      },
-      on_progress);
-  return text;
 }
 
 WorkHost::WorkHost(const Work& work, const std::function<void()>& prepare) : folder_(new_private_folder()) {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <span>
 
 #include "case/joined.h"
 #include "case/user_error.h"
+#include "numeric/number_from_chars.h"
 #include "store/read_file.h"
 
 namespace rheocyte {
@@ -127,7 +127,7 @@ class CombinedReader {
     const char *at = line.data(), *const end = at + line.size();
     while (true) {
       double number = 0;
-      const auto [stop, error] = std::from_chars(at, end, number);
+      const auto [stop, error] = number_from_chars(at, end, number);
       if (error != std::errc{} || !std::isfinite(number)) refuse("there is something else than numbers");
       numbers.push_back(number);
       if (stop == end) break;

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <cstring>
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
+#include "numeric/number_from_chars.h"
 #include "store/read_file.h"
 
 namespace rheocyte {
@@ -116,7 +116,7 @@ class TextReader {
     std::array<double, 3> row{};
     for (double& value : row) {
       if (line.starts_with('+')) line.remove_prefix(1);  // which from_chars does not know
-      const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
+      const auto [end, error] = number_from_chars(line.data(), line.data() + line.size(), value);
       const bool ends = end == line.data() + line.size() || *end == ' ' || *end == '\t';
       if (error != std::errc{} || !ends || !std::isfinite(value)) refuse(place(), "does not hold three numbers.");
       line = trim(line.substr(std::size_t(end - line.data())));

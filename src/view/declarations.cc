@@ -1,7 +1,6 @@
 #include "view/declarations.h"
 
 #include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "extract/recording_settings.h"
 #include "extract/settings_text.h"
 #include "measurement/viscosity.h"
+#include "numeric/number_from_chars.h"
 #include "store/build_info.h"
 #include "view/recording_columns.h"
 
@@ -99,7 +99,7 @@ Json known_media() {
 double asked_temperature(const Request& request) {
   const std::string text = request.asked("temperature");
   double celsius = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), celsius);
+  const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), celsius);
   if (error != std::errc() || end != text.data() + text.size() || !(celsius >= 0 && celsius <= 100))
     throw UserError("temperature: give it in degrees C, 0 .. 100.");
   return celsius;

@@ -52,17 +52,26 @@ class EvolutionLines {
 
   /// Gives the lines until the end, or until nobody takes them.
   void give(const TakePiece& take, const Client* client) {
+    bool is_wanted = true;
+    evolution_.follow_here([&] {
+      is_wanted = is_wanted && give_waiting(take) && !(client && client->has_left());
+      if (!is_wanted) evolution_.stop();
+    });
+    if (!is_wanted) return;
     for (;;) {
       evolution_.wait_for(Client::asked_every);
       const bool is_over = evolution_.is_over();
-      for (const std::string& line : evolution_.take())
-        if (!take(line)) return;
+      if (!give_waiting(take)) return;
       if (is_over) static_cast<void>(take(json_line(last()) + "\n"));
       if (is_over || (client && client->has_left())) return;
     }
   }
 
  private:
+  bool give_waiting(const TakePiece& take) {
+    return std::ranges::all_of(evolution_.take(), [&](const std::string& line) { return take(line); });
+  }
+
   Json last() const {
     try {
       evolution_.check();

@@ -70,12 +70,12 @@ ModuliRuns::ModuliRuns(const ViewItems& items)
 
 ModuliRuns::~ModuliRuns() = default;
 
-void ModuliRuns::start(std::size_t item, const Json& settings) {
+void ModuliRuns::start(std::size_t item, const Json& settings, const Client* client) {
   static_cast<void>(items_.recording(item));
-  begin(item, extract_options(settings, [this](std::size_t number) { return items_.table(number); }));
+  begin(item, extract_options(settings, [this](std::size_t number) { return items_.table(number); }), client);
 }
 
-void ModuliRuns::begin(std::size_t item, const ExtractOptions& options) {
+void ModuliRuns::begin(std::size_t item, const ExtractOptions& options, const Client* client) {
   const auto found = items_.recording(item);
   const auto run = std::make_shared<Run>();
   run->settings = all_settings(options);
@@ -95,12 +95,15 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options) {
                      {"combined", path_text(combined)},
                      {"several", path_text(run->several)},
                      {"keep", true}};
+  // A client whose request was answered with a thread begun waits for nothing.
+  const Client* const waits = has_threads ? nullptr : client;
   run->thread =
-      Thread([this, &run = *run, request](const std::stop_token& stop) { compute(run, request, stop); }, small_stack);
+      Thread([this, &run = *run, request, waits](const std::stop_token& stop) { compute(run, request, stop, waits); },
+             small_stack);
   runs_[item] = run;
 }
 
-void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& stop) {
+void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& stop, const Client* client) {
   while (!free_processors_.try_acquire_for(std::chrono::milliseconds(50)))
     if (stop.stop_requested()) return;
   Json report = Json::object();
@@ -109,6 +112,7 @@ void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& s
     run.version = file_version(run.files);
     HostedWork work = items_.host().ask(json_text(request));
     const std::stop_callback at_end(stop, [&work] { work.stop(); });
+    if (client) work.only_while([client] { return !client->has_left(); });
     report = parse_sound_json(work.all([&run](double done) {
       const std::scoped_lock lock(run.mutex);
       run.done = std::max(run.done, done);
@@ -138,7 +142,7 @@ void ModuliRuns::restore(const Json& kept) {
       const ItemPlace place = items_.at(item).place;
       if (place.path == path_of_text(one["path"].get<std::string>()) && place.kind == ItemKind::recording &&
           place.error.empty())
-        begin(item, options_of_settings(one["settings"]));
+        begin(item, options_of_settings(one["settings"]), nullptr);
     }
   }
 }

@@ -14,6 +14,7 @@
 
 namespace rheocyte {
 
+class Client;
 struct ExtractOptions;
 
 class ModuliRuns {
@@ -24,8 +25,9 @@ class ModuliRuns {
   ModuliRuns(const ModuliRuns&) = delete;
   ModuliRuns& operator=(const ModuliRuns&) = delete;
 
-  /// Starts over with these settings (see extract_options). UserError about the settings, Refused about the item.
-  void start(std::size_t item, const nlohmann::ordered_json& settings);
+  /// Starts over with these settings (see extract_options). Where there are no threads they are computed here, as long
+  /// as the client waits. UserError about the settings, Refused about the item.
+  void start(std::size_t item, const nlohmann::ordered_json& settings, const Client* client);
   /// For the session: of each run its recording and its settings; restored they start over.
   nlohmann::ordered_json kept() const;
   void restore(const nlohmann::ordered_json& kept);
@@ -48,10 +50,10 @@ class ModuliRuns {
 
  private:
   struct Run;
-  void begin(std::size_t item, const ExtractOptions& options);
+  void begin(std::size_t item, const ExtractOptions& options, const Client* client);
   std::shared_ptr<Run> run_of(std::size_t item) const;
   std::shared_ptr<Run> take_out(std::size_t item);
-  void compute(Run& run, const nlohmann::ordered_json& request, const std::stop_token& stop);
+  void compute(Run& run, const nlohmann::ordered_json& request, const std::stop_token& stop, const Client* client);
 
   const ViewItems& items_;
   std::counting_semaphore<> free_processors_;

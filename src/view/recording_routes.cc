@@ -114,7 +114,7 @@ class RecordingAnswers {
   }
 
   Answer start_moduli(const Request& request) {
-    runs_.start(request.number("item"), request.body.empty() ? Json::object() : request.json());
+    runs_.start(request.number("item"), request.body.empty() ? Json::object() : request.json(), request.client);
     return json_answer(runs_.state(request.number("item")), 202);
   }
 

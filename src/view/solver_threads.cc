@@ -14,7 +14,10 @@ constexpr std::size_t most_streams = 8;
 
 SolverThreads::SolverThreads(int threads, std::size_t session_bytes)
     : session_bytes_(session_bytes), workers_(static_cast<std::size_t>(threads)) {
-  threads_ = start_threads(threads, [this](int number) { work(*std::next(workers_.begin(), number)); });
+  if (!has_threads)
+    session_here_ = std::make_unique<Session>(session_bytes);
+  else
+    threads_ = start_threads(threads, [this](int number) { work(*std::next(workers_.begin(), number)); });
 }
 
 SolverThreads::~SolverThreads() {
@@ -114,7 +117,14 @@ void SolverThreads::look_after_client(Task& task) {
   if (std::erase(waiting_, &task) > 0) task.is_over = true;
 }
 
+JobEnd SolverThreads::run_here(const SolverJob& job) {
+  if (job.request.client_has_left()) return JobEnd::left;
+  job.work(*session_here_, std::atomic<bool>(false));
+  return JobEnd::done;
+}
+
 JobEnd SolverThreads::run(const SolverJob& job) {
+  if (!has_threads) return run_here(job);
   Task task{job};
   std::unique_lock lock(mutex_);
   supersede(job.stream);

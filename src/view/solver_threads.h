@@ -67,6 +67,8 @@ class SolverThreads {
   void supersede(const std::string& stream);
   void look_after_client(Task&);
 
+  JobEnd run_here(const SolverJob&);
+
   std::size_t session_bytes_;
   mutable std::mutex mutex_;
   std::condition_variable to_do_, ended_;
@@ -74,6 +76,7 @@ class SolverThreads {
   std::list<Worker> workers_;
   bool is_over_ = false;
   std::vector<Thread> threads_;
+  std::unique_ptr<Session> session_here_;  ///< where there are no threads
 };
 
 }  // namespace rheocyte

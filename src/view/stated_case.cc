@@ -1,12 +1,12 @@
 #include "view/stated_case.h"
 
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "case/case_keys.h"
 #include "case/keys_in_json.h"
 #include "case/read_case.h"
+#include "numeric/number_from_chars.h"
 
 namespace rheocyte {
 
@@ -23,7 +23,7 @@ double rounded_up(double value) {
 
 double number_in(const std::string& text) {
   double number = std::nan("");
-  std::from_chars(text.data(), text.data() + text.size(), number);
+  number_from_chars(text.data(), text.data() + text.size(), number);
   return number;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <system_error>
 
 #include "case/json_guard.h"
@@ -52,24 +51,37 @@ ViewItems::Item new_item(ItemPlace place) {
 
 ViewItems::ViewItems(std::span<const fs::path> paths) : host_(do_item_work) {
   for (auto& place : item_places(paths)) items_.push_back(new_item(std::move(place)));
-  reader_ = Thread([this](const std::stop_token& stop) { describe_all(stop); }, small_stack);
+  if (has_threads) reader_ = Thread([this](const std::stop_token& stop) { describe_all(stop); }, small_stack);
+  look_for_added();
 }
 
 ViewItems::~ViewItems() = default;
 
 void ViewItems::describe_all(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    std::optional<std::size_t> next;
-    {
-      std::unique_lock lock(mutex_);
-      const auto found = std::ranges::find(items_, State::loading, &Item::state);
-      if (found == items_.end()) {
-        added_.wait(lock, stop, [this] { return std::ranges::count(items_, State::loading, &Item::state) > 0; });
-        continue;
-      }
-      next = static_cast<std::size_t>(found - items_.begin());
-    }
-    describe(*next, stop);
+    if (describe_next(stop)) continue;
+    std::unique_lock lock(mutex_);
+    added_.wait(lock, stop, [this] { return std::ranges::count(items_, State::loading, &Item::state) > 0; });
+  }
+}
+
+/// False if there is none that waits for it.
+bool ViewItems::describe_next(const std::stop_token& stop) {
+  std::size_t next = 0;
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto found = std::ranges::find(items_, State::loading, &Item::state);
+    if (found == items_.end()) return false;
+    next = static_cast<std::size_t>(found - items_.begin());
+  }
+  describe(next, stop);
+  return true;
+}
+
+/// Without a thread that waits for them they are described here.
+void ViewItems::look_for_added() {
+  added_.notify_all();
+  while (!has_threads && describe_next({})) {
   }
 }
 
@@ -111,7 +123,6 @@ void ViewItems::look_after(std::size_t number) {
     item.error = vanished;
   } else if (item.error == vanished || item.version != version) {
     item.state = State::loading;
-    added_.notify_all();
   }
 }
 
@@ -130,10 +141,9 @@ std::vector<std::string> ViewItems::missing() const {
 
 Json ViewItems::list() {
   Json all = Json::array();
-  for (std::size_t number = 0; number < count(); ++number) {
-    look_after(number);
-    all.push_back(summary_of(number, at(number)));
-  }
+  for (std::size_t number = 0; number < count(); ++number) look_after(number);
+  look_for_added();
+  for (std::size_t number = 0; number < count(); ++number) all.push_back(summary_of(number, at(number)));
   return all;
 }
 
@@ -195,7 +205,7 @@ void ViewItems::restore(const Json& kept) {
       found->replicate = label_in(one, "replicate", found->replicate);
     }
   }
-  added_.notify_all();
+  look_for_added();
 }
 
 Json summary_of(std::size_t number, const ViewItems::Item& item) {

@@ -62,6 +62,8 @@ class ViewItems {
 
  private:
   void describe_all(const std::stop_token& stop);
+  bool describe_next(const std::stop_token& stop);
+  void look_for_added();
   void describe(std::size_t number, const std::stop_token& stop);
   void look_after(std::size_t number);
 

@@ -1,0 +1,38 @@
+// Of builds without processes: the work is done in its place. What breaks there ends the program.
+#include <exception>
+#include <new>
+
+#include "case/user_error.h"
+#include "store/contained.h"
+#include "store/stop_signal.h"
+
+namespace rheocyte {
+
+namespace {
+
+/// Thrown through the work where it tells its progress.
+struct Stopped {};
+
+}  // namespace
+
+ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
+                                 const TellProgress& on_progress) {
+  using Kind = ContainedEnd::Kind;
+  const auto tell = [&](double fraction) {
+    on_progress(fraction);
+    if (stop_wanted() || (limits.is_wanted && !limits.is_wanted())) throw Stopped();
+  };
+  try {
+    return {Kind::finished, work(tell)};
+  } catch (const Stopped&) {
+    return {Kind::stopped, {}};
+  } catch (const UserError& error) {
+    return {Kind::user_error, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {Kind::no_memory, {}};
+  } catch (const std::exception& error) {
+    return {Kind::own_error, error.what()};
+  }
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,14 @@
+// Of builds whose program is no file: what comes with it lies where the variable says, or in the sources.
+#include <cstdlib>
+
+#include "store/supplied_folder.h"
+
+namespace rheocyte {
+
+std::filesystem::path supplied_folder(const char* variable, const std::filesystem::path&,
+                                      const std::filesystem::path& source) {
+  const char* given = std::getenv(variable);
+  return given ? given : source;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,19 @@
+// Of builds without threads: the work is done when its thread is made.
+#include "store/thread.h"
+
+namespace rheocyte {
+
+const bool has_threads = false;
+
+Thread::Thread(Work work, std::size_t) { work(stop_.get_token()); }
+Thread::~Thread() = default;
+Thread::Thread(Thread&&) noexcept = default;
+Thread& Thread::operator=(Thread&&) noexcept = default;
+void Thread::join() {}
+
+std::vector<Thread> start_threads(int wanted, const std::function<void(int)>& work) {
+  for (int number = 0; number < wanted; ++number) work(number);
+  return {};
+}
+
+}  // namespace rheocyte
