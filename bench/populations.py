@@ -6,7 +6,10 @@
 usual       cells of d about 0.02          stiff       half of them look rounder than a sphere
 gates       a gate on the area keeps half  elongated   under axial tensions that give c2 of about 0.1 and 0.2
 null        three pairs, 3 % between recordings: how often p < 0.05 (--recordings: of pairs of conditions)
-speed       seconds and memory for 1e4 and 1e6 events
+speed       seconds and memory for 1e4 and 1e6 events, without pictures
+peer        R's lme4 on the moduli of single events of the same recordings (bench/population_peer.R): three pairs, 3 % between
+            recordings; size, power at 10 % and at equal size, bias, time (--recordings: of experiments with and without a
+            difference; --rscript names the program)
 
 Prints the bias of the mean of ln E and of its spread with their Monte Carlo errors, and how many 90 % intervals cover.
 """
@@ -37,6 +40,7 @@ young_modulus_kPa = {{mean = {modulus}, sd = {modulus_sd}, distribution = "logno
 """
 ELONGATED = '[shapes]\ntable = "HE-3D-el-26"'
 SPREAD = 0.2  # of E, relative
+BETWEEN = 0.03  # standard deviation of ln E between recordings
 NORMAL_90 = 1.6449
 
 
@@ -77,7 +81,7 @@ class Bench:
 
     def population(self, conditions, *options):
         named = [part for name, files in conditions.items() for part in ("--condition", f"{name}={','.join(map(str, files))}")]
-        subprocess.run([self.program, "population", *named, "-o", self.folder / "result", "--quiet", *options], check=True)
+        subprocess.run([self.program, "population", *named, "-o", self.folder / "result", "--quiet", "--no-picture", *options], check=True)
         return json.loads((self.folder / "result" / "population.json").read_text(encoding="utf-8"))
 
 
@@ -117,12 +121,18 @@ def coming_back(bench, cells, arguments):
     print("  recordings that do not fit, by measure:", misfits)
 
 
+def three_pairs(bench, arguments, experiment, difference=0.0):
+    """Files of control and drug; the recordings scatter by 3 %, those of the drug are stiffer by the difference of ln E."""
+    dice = random.Random(experiment)
+    return [[bench.recording(SCENARIOS["usual"], arguments.cells, 1000 * experiment + 10 * session + condition,
+                             math.exp(dice.gauss(condition * difference, BETWEEN))) for session in range(3)]
+            for condition in range(2)]
+
+
 def null(bench, arguments):
-    rejected, between = 0, 0.03
+    rejected = 0
     for experiment in range(arguments.recordings):
-        dice = random.Random(experiment)
-        files = [[bench.recording(SCENARIOS["usual"], arguments.cells, 1000 * experiment + 10 * session + condition,
-                                  math.exp(dice.gauss(0, between))) for session in range(3)] for condition in range(2)]
+        files = three_pairs(bench, arguments, experiment)
         record = bench.population({"control": files[0], "drug": files[1]}, "--paired")
         rejected += record["comparisons"][0]["p"] < 0.05
         for file in (*files[0], *files[1]):
@@ -141,6 +151,63 @@ def speed(bench, arguments):
         print(f"speed: {events} events in two conditions: {time.monotonic() - start:.1f} s with reading, at most {memory:.0f} MB")
 
 
+def moduli_of_events(bench, file):
+    """ln E of each event that `rheocyte extract` gives one by its asymmetry."""
+    subprocess.run([bench.program, "extract", file, "-o", bench.folder / "extracted", "--quiet"], check=True)
+    lines = [line for line in (bench.folder / "extracted" / f"{file.stem}_rheocyte.tsv").read_text().splitlines()
+             if not line.startswith("# ")]
+    heads = lines[0].removeprefix("#").strip().split("\t")
+    place = heads.index("young_modulus_asymmetry_kPa")
+    values = [float(line.split("\t")[place]) for line in lines[1:]]
+    return [math.log(value) for value in values if math.isfinite(value) and value > 0]
+
+
+def rejected_at_equal_size(nulls, others):
+    """Share of p among the others below the p that 5 % of the nulls are below: power after the size is set to 5 %, which
+    takes some hundred nulls; of fewer than 20 it is set to that of the least one."""
+    limit = sorted(nulls)[max(int(0.05 * len(nulls)) - 1, 0)]
+    return sum(p <= limit for p in others) / len(others)
+
+
+def peer(bench, arguments):
+    difference, ours, seconds = math.log(1.1), {}, 0.0
+    table = bench.folder / "moduli.tsv"
+    with open(table, "w", encoding="utf-8") as file:
+        file.write("experiment\tcondition\tsession\tln_modulus\n")
+        for experiment in range(2 * arguments.recordings):
+            has_difference = experiment >= arguments.recordings
+            files = three_pairs(bench, arguments, experiment, difference if has_difference else 0.0)
+            start = time.monotonic()
+            ours[experiment] = bench.population({"control": files[0], "drug": files[1]}, "--paired")
+            seconds += time.monotonic() - start
+            for condition, of in zip(("control", "drug"), files):
+                for session, recording in enumerate(of):
+                    for value in moduli_of_events(bench, recording):
+                        file.write(f"{experiment}\t{condition}\t{session}\t{value:.6g}\n")
+                    recording.unlink()
+    told = subprocess.run([arguments.rscript, Path(__file__).with_name("population_peer.R"), table], check=True,
+                          capture_output=True, text=True).stdout.splitlines()
+    told = told[next(k for k, line in enumerate(told) if line.startswith("experiment\t")):]  # R may greet first
+    rows = [dict(zip(told[0].split("\t"), map(float, line.split("\t")))) for line in told[1:]]
+    theirs = {int(row["experiment"]): row for row in rows}
+    found = {"rheocyte": ([each["comparisons"][0]["p"] for each in ours.values()],
+                          [each["comparisons"][0]["ln_ratio"] for each in ours.values()], seconds)}
+    for name, column in (("lme4, likelihood ratio", "p_ratio"), ("lme4, t", "p_t")):
+        found[name] = ([theirs[k][column] for k in ours], [theirs[k]["difference"] for k in ours],
+                       sum(row["seconds"] for row in rows))
+    for name, (p, differences, took) in found.items():
+        nulls, others = p[:arguments.recordings], p[arguments.recordings:]
+        off = [value - difference for value in differences[arguments.recordings:]]
+        print(f"{name}: p < 0.05 without a difference {100 * sum(x < 0.05 for x in nulls) / len(nulls):.0f} %, with it "
+              f"{100 * sum(x < 0.05 for x in others) / len(others):.0f} %, at equal size "
+              f"{100 * rejected_at_equal_size(nulls, others):.0f} %;", told_bias(off), f"; {took / len(p):.2f} s each")
+
+
+def told_bias(off):
+    mean, error = mean_and_error(off)
+    return f"bias of ln ratio {100 * mean:+.2f} +- {100 * error:.2f} %"
+
+
 def resource_of_children():
     import resource
 
@@ -149,10 +216,11 @@ def resource_of_children():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenario", choices=[*SCENARIOS, "null", "speed"])
+    parser.add_argument("scenario", choices=[*SCENARIOS, "null", "speed", "peer"])
     parser.add_argument("--program", default="build/rheocyte")
     parser.add_argument("--recordings", type=int, default=40)
     parser.add_argument("--cells", type=int, default=500)
+    parser.add_argument("--rscript", default="Rscript")
     parser.add_argument("--folder", help="for the recordings, which are removed in the end; default: that of temporary files")
     arguments = parser.parse_args()
     if arguments.folder:
@@ -162,7 +230,7 @@ def main():
         if arguments.scenario in SCENARIOS:
             coming_back(bench, SCENARIOS[arguments.scenario], arguments)
         else:
-            {"null": null, "speed": speed}[arguments.scenario](bench, arguments)
+            {"null": null, "speed": speed, "peer": peer}[arguments.scenario](bench, arguments)
 
 
 if __name__ == "__main__":

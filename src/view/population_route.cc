@@ -53,7 +53,8 @@ Json population_work(const Json& asked, const ViewItems& items) {
       if (!item.is_number_unsigned()) throw UserError("items are the numbers of recordings.");
       const auto path = items.recording(item).place.path;
       recordings.push_back(path_text(path));
-      files += (files.empty() ? "" : ",") + path.string();
+      if (!files.empty()) files += ',';
+      files += path.string();
     }
     command += " --condition " + quoted_for_shell(name + "=" + files);
     work["conditions"].push_back({{"name", name}, {"recordings", recordings}});
