@@ -222,6 +222,11 @@ TEST_F(InTime, AFunnelIntoASquareWritesBothViewsAndGoesOnWhenKilled) {
   ASSERT_EQ(run(command).exit_code, 0);
   EXPECT_EQ(text("killed/history.csv"), text("whole/history.csv"));
   EXPECT_EQ(text("killed/contours.csv"), text("whole/contours.csv"));
+  // The outline seen along the width has the same outputs; in the funnel it is another one.
+  const std::string across = text("whole/contours_across.csv");
+  EXPECT_EQ(text("killed/contours_across.csv"), across);
+  EXPECT_TRUE(across.starts_with("t_us,x_um,r_um\n0,"));
+  EXPECT_NE(across, text("whole/contours.csv"));
 }
 
 TEST_F(InTime, ARunThatStopsTellsThatTheCellHasNoStationaryShape) {
