@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fem/observe.h"
+#include "solve/duct.h"
 #include "solve/ladder.h"
 #include "solve/partitioned_stepper.h"
 #include "solve/time_resolution.h"
@@ -129,8 +130,12 @@ class TimeFollower {
 
   Status resume(const TimeStart& from) {
     if (!from.units) return stepper_->resume(from.state), Status::converged;
-    TimeState state = at_time_zero(stepper_->space(), from.state, *from.units);
-    state.next_step = TimeStepOptions{}.first_step;
+    const Problem& problem = stepper_->problem();
+    TimeState state =
+        is_duct(problem.section)
+            ? at_time_zero(static_cast<const DuctDiscrete&>(stepper_->discrete()).space(), 3, from.state, *from.units)
+            : at_time_zero(stepper_->space(), 2, from.state, *from.units);
+    state.next_step = step_options(problem, run_, stop_).first_step;
     return stepper_->resume(state), Status::converged;
   }
 
