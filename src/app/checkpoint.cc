@@ -81,6 +81,13 @@ std::optional<std::string> content_of(const fs::path& file) {
   return first_bytes(file, enough);
 }
 
+bool have_the_same_section(const Case& one, const Case& other) {
+  const Channel &a = one.channel, &b = other.channel;
+  if (a.section != b.section) return false;
+  return is_duct(a.section) ? a.width_um == b.width_um && a.height_um == b.height_um
+                            : tube_radius_um(one) == tube_radius_um(other);
+}
+
 double reached_us(const Checkpoint& checkpoint) { return checkpoint.record.rows.back().t_us; }
 
 /// Finds the latest checkpoint of a case in several folders.
@@ -185,14 +192,12 @@ TimeStart read_start(const fs::path& folder, const Case& c) {
   if (other.time.scheme == TimeScheme::stationary)
     refuse_path(folder,
                 "is a stationary result, which has no checkpoint; --start takes the folder of a result in time.");
-  if (is_duct(c.channel.section) || is_duct(other.channel.section))
-    refuse_path(folder, "cannot be a start: that is for channel.section = \"tube\", here and there.");
   const bool implicit = c.time.scheme == TimeScheme::monolithic && other.time.scheme == TimeScheme::monolithic;
   const bool straight = c.channel.profile.x_um.empty() && other.channel.profile.x_um.empty();
   if (!implicit || !straight)
     refuse_path(folder,
                 "cannot be a start: that is for time.scheme = \"monolithic\" in straight channels, here and there.");
-  if (tube_radius_um(c) != tube_radius_um(other) || c.cell.radius_um != other.cell.radius_um ||
+  if (!have_the_same_section(c, other) || c.cell.radius_um != other.cell.radius_um ||
       c.time.degree.value_or(other.time.degree.value_or(0)) != other.time.degree.value_or(c.time.degree.value_or(0)) ||
       c.cell.viscoelasticity != other.cell.viscoelasticity || c.flow.drive != other.flow.drive ||
       c.channel.length_um != other.channel.length_um)

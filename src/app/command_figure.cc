@@ -49,8 +49,9 @@ void add_figure_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("N", options->number,
                    "number of the figure in the paper; entry: a cell enters a narrow channel; square: what the tube "
-                   "does to cells in a square channel; off-axis: cells off the axis in height; real-cells: whether the "
-                   "cells of recordings have the shapes of the model")
+                   "does to cells in a square channel; transit: cells in the planar funnel of a chip, from above and "
+                   "from the side; off-axis: cells off the axis in height; real-cells: whether the cells of recordings "
+                   "have the shapes of the model")
       ->required();
   command->add_option("FILES", options->recordings, "recordings (.rtdc), for real-cells");
   command->add_option("--viscosity-mPas", options->viscosity_mPas, "of the liquid, for recordings that do not tell it")

@@ -36,6 +36,9 @@ void add_solve_command(CLI::App& app, int& exit_code) {
                     "print result.json on standard output and nothing else there; without -o nothing is written");
   command->add_flag("--quiet", options->quiet, "print neither progress nor summary");
   command->add_flag("--no-picture", options->no_picture, "do not draw picture.png and picture.svg");
+  command->add_flag("--no-output-fields", options->no_output_fields,
+                    "in time, do not write the folder fields and fields.pvd, up to 2 MB for each output; fields.vtu of "
+                    "the last state is written, and --continue needs the flag again");
   command->add_flag(
       "--check", options->check_only,
       "only check the case: exit code 0 or 2, nothing is written; with --json, print it with all defaults");

@@ -15,7 +15,8 @@ struct SolveOptions {
   bool json = false;                    ///< result.json on standard output and nothing else there
   bool quiet = false;                   ///< no progress, no summary
   bool no_picture = false;
-  bool check_only = false;  ///< validate the case, solve nothing
+  bool no_output_fields = false;  ///< in time, no fields but those of the last state
+  bool check_only = false;        ///< validate the case, solve nothing
 };
 
 /// Reads, solves, writes the folder, prints. Returns the exit code (exit_codes.h); UserError for the case and the disk.

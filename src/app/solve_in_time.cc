@@ -33,7 +33,7 @@ class Recorder {
  public:
   Recorder(const Result& result, const SolveOptions& options, ResultFolder& folder)
       : result_(result), options_(options), folder_(folder) {
-    fs::create_directory(folder_.scratch() / fields_folder);
+    if (!options.no_output_fields) fs::create_directory(folder_.scratch() / fields_folder);
   }
 
   /// Takes over what an earlier run has recorded, its field files included.
@@ -41,6 +41,7 @@ class Recorder {
     const TimeRecord& record = from.checkpoint.record;
     record_ = record;
     last_state_ = from.checkpoint.state;
+    if (options_.no_output_fields) return;
     for (std::size_t i = 0; i < record.frames.size(); ++i) {
       const fs::path file = fs::path(fields_folder) / field_file(i);
       std::error_code error;
@@ -64,7 +65,9 @@ class Recorder {
     folder_.write("history.csv", history_csv(record_));
     folder_.write("outputs.csv", outputs_csv(record_));
     folder_.write("contours.csv", contours_csv(record_));
-    folder_.write("fields.pvd", field_collection(record_, fields_folder));
+    if (const std::string across = contours_across_csv(record_); !across.empty())
+      folder_.write("contours_across.csv", across);
+    if (!options_.no_output_fields) folder_.write("fields.pvd", field_collection(record_, fields_folder));
     if (const WallTable& wall = result_.problem.wall; !wall.is_straight())
       folder_.write("channel.csv", channel_csv(result_.problem, result_.scales));
   }
@@ -72,7 +75,7 @@ class Recorder {
  private:
   void add(const TimeFrame& frame) {
     const fs::path file = folder_.scratch() / fields_folder / field_file(record_.frames.size());
-    write_field_file(frame.state.write_fields, result_.scales, file, options_.folder);
+    if (!options_.no_output_fields) write_field_file(frame.state.write_fields, result_.scales, file, options_.folder);
     record_.frames.push_back(contour_frame(frame, result_.scales));
   }
 

@@ -72,13 +72,17 @@ std::vector<Chapter> chapters() {
       {"contour.csv",
        "The surface from the front pole to the rear one, in a square channel or a rectangle along the silhouette "
        "that the camera sees "
-       "(contour_side.csv and contour_diagonal.csv: along either of a square):",
+       "(contour_side.csv, and contour_diagonal.csv of a square or contour_across.csv of a rectangle or funnel, along "
+       "its width: along these):",
        rows_of(contour_fields())},
       {"contour_offset.csv",
        "Of a cell off the axis, its closed convex outline in the plane of the flow and the offset, from the front on:",
        {{"x_um", "along the flow, from the barycentre"}, {"y_um", "along the offset, from the axis"}}},
       {"contours.csv",
        "Of a case in time, the contours one after another:",
+       {{"t_us", "time"}, {"x_um", "as in contour.csv"}, {"r_um", "likewise"}}},
+      {"contours_across.csv",
+       "The same of a cell in a rectangle or a funnel in three dimensions, seen along the width:",
        {{"t_us", "time"}, {"x_um", "as in contour.csv"}, {"r_um", "likewise"}}},
       {"channel.csv",
        "The wall of a channel that is not straight:",

@@ -132,10 +132,20 @@ ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
     result.point_um.middleRows(row, piece.rows()) = um * piece;
     row += piece.rows() - 1;
   }
+  for (const auto& [name, surface] : frame.state.views)
+    if (name == "across") result.across_um = um * surface.point;
   return result;
 }
 
 namespace {
+
+std::string contours_text(const TimeRecord& record, Eigen::MatrixX2d ContourFrame::*points) {
+  std::string text = "t_us,x_um,r_um\n";
+  for (const ContourFrame& frame : record.frames)
+    for (const auto& point : (frame.*points).rowwise())
+      text += fmt::format("{:.10g},{:.8g},{:.8g}\n", frame.t_us, point(0), std::max(point(1), 0.0));
+  return text;
+}
 
 template <class Row>
 std::vector<std::size_t> known_in(const std::vector<Row>& rows) {
@@ -176,13 +186,11 @@ std::string outputs_csv(const TimeRecord& record) {
   return text + "\n";
 }
 
-std::string contours_csv(const TimeRecord& record) {
-  std::string text = "t_us,x_um,r_um\n";
-  for (const ContourFrame& frame : record.frames)
-    for (Eigen::Index i = 0; i < frame.point_um.rows(); ++i)
-      text +=
-          fmt::format("{:.10g},{:.8g},{:.8g}\n", frame.t_us, frame.point_um(i, 0), std::max(frame.point_um(i, 1), 0.0));
-  return text;
+std::string contours_csv(const TimeRecord& record) { return contours_text(record, &ContourFrame::point_um); }
+
+std::string contours_across_csv(const TimeRecord& record) {
+  const bool is_known = !record.frames.empty() && record.frames.front().across_um.rows() > 0;
+  return is_known ? contours_text(record, &ContourFrame::across_um) : "";
 }
 
 std::string channel_csv(const Problem& problem, const Scales& scales) {

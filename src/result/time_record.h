@@ -28,11 +28,12 @@ struct ContourFrame {
   double t_us = 0, position_um = 0;
   Eigen::MatrixX2d point_um;                                  ///< (x, r), front pole first
   std::array<double, history_measures.size()> measures = {};  ///< in the order of history_measures
+  Eigen::MatrixX2d across_um = {};                            ///< the same seen along the width; empty: looks alike
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& f) {
-    return std::tie(f.t_us, f.position_um, f.point_um, f.measures);
+    return std::tie(f.t_us, f.position_um, f.point_um, f.measures, f.across_um);
   }
 };
 
@@ -79,6 +80,8 @@ std::span<const Field<TimeRecord, nlohmann::ordered_json>> time_fields();
 
 /// contours.csv: t_us, x_um, r_um; the frames one after another.
 std::string contours_csv(const TimeRecord&);
+/// contours_across.csv: the same along the width; empty where the channel looks alike from there.
+std::string contours_across_csv(const TimeRecord&);
 
 /// channel.csv: x_um, R_um; the wall of a channel that is not straight, finely, from the start of the cell. In a duct
 /// half its width.

@@ -32,6 +32,7 @@ std::vector<std::pair<std::string_view, Camera>> views_of(const Problem& problem
   if (problem.offset != 0) return {};
   std::vector<std::pair<std::string_view, Camera>> views{{"side", Camera::side}};
   if (is_square(problem)) views.emplace_back("diagonal", Camera::diagonal);
+  if (!is_square(problem)) views.emplace_back("across", Camera::along_width);
   return views;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fem/observe.h"
+#include "solve/duct.h"
 #include "solve/ladder.h"
 #include "solve/partitioned_stepper.h"
 #include "solve/time_resolution.h"
@@ -22,13 +23,21 @@ Subdivision fine_subdivision(int surface_elements) {
   return {front, 2 * front, std::max(1, front / 8), 4};
 }
 
+constexpr double residual_of_step = 1e-3, min_tolerance = 1e-9, max_tolerance = 1e-6;
+constexpr double first_step_of_accuracy = 8, max_first_step = 0.01;
+
 TimeStepOptions step_options(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
   TimeStepOptions options;
   options.accuracy = run.accuracy;
-  // A factorisation costs as much as tens of chord steps there, also from one step to the next; a deformation changes
-  // by about as much as the residual.
-  if (is_duct(problem.section)) options.newton = {.tolerance = 1e-7, .chord_reduction = 0.3, .keep_factors = true};
   options.newton.stop = stop;
+  if (!is_duct(problem.section)) return options;
+  // A deformation changes by about as much as the residual, the surface by more than that in a step that is accurate.
+  options.newton.tolerance = std::clamp(residual_of_step * run.accuracy, min_tolerance, max_tolerance);
+  // A factorisation takes as long as so many chord steps, also from one step to the next.
+  options.newton.chord_limit = 15;
+  options.newton.keep_factors = true;
+  // Without inertia nothing is fast at the start but the cell itself.
+  options.first_step = std::clamp(first_step_of_accuracy * run.accuracy, options.first_step, max_first_step);
   return options;
 }
 
@@ -121,8 +130,12 @@ class TimeFollower {
 
   Status resume(const TimeStart& from) {
     if (!from.units) return stepper_->resume(from.state), Status::converged;
-    TimeState state = at_time_zero(stepper_->space(), from.state, *from.units);
-    state.next_step = TimeStepOptions{}.first_step;
+    const Problem& problem = stepper_->problem();
+    TimeState state =
+        is_duct(problem.section)
+            ? at_time_zero(static_cast<const DuctDiscrete&>(stepper_->discrete()).space(), 3, from.state, *from.units)
+            : at_time_zero(stepper_->space(), 2, from.state, *from.units);
+    state.next_step = step_options(problem, run_, stop_).first_step;
     return stepper_->resume(state), Status::converged;
   }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "solve/chord_mixing.h"
+
 namespace rheocyte {
 
 namespace {
@@ -32,6 +34,13 @@ bool step(NonlinearSystem& system, const Media& media, const VectorXd& correctio
 /// is as small as this (in R) while the residual is small, too.
 constexpr double round_off_displacement = 1e-14, round_off_residual = 1e-6;
 
+/// Whether chord steps are still worth their time after one that took the residual from `before` to `now`.
+bool goes_on_with_chords(const NewtonOptions& options, double before, double now) {
+  if (!options.chord_steps) return false;
+  if (options.chord_limit == 0) return now < options.chord_reduction * before;
+  return now < before && std::log(now / options.tolerance) < options.chord_limit * std::log(before / now);
+}
+
 }  // namespace
 
 double residual_scale(NonlinearSystem& system, const Media& media) {
@@ -43,6 +52,7 @@ NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOpt
   const auto is_stopped = [&options] { return options.stop && *options.stop; };
   const double scale = options.residual_scale > 0 ? options.residual_scale : residual_scale(system, media);
   bool keep = options.keep_factors;  // whether the next step is a chord step
+  ChordMixing mixing(options.chord_limit > 0 ? mixed_chord_steps : 0);
   Residual residual;
   if (keep) {
     residual = system.residual(media, x);
@@ -54,6 +64,7 @@ NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOpt
       if (factorisations++ == options.iteration_limit) return report.status = Status::iteration_limit, report;
       residual = system.linearise(media, x);
       report.factored_at = x;
+      mixing.forget();
       if (is_stopped()) return report.status = Status::stopped, report;
       if (!system.has_factors()) {
         report.status = residual.value.allFinite() ? Status::singular_matrix : Status::not_finite;
@@ -62,7 +73,7 @@ NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOpt
       if (report.residual_history.empty()) report.residual_history.push_back(residual.value.norm() / scale);
     }
     if (residual.min_det <= 0) return report.status = Status::mesh_folded, report;
-    const VectorXd correction = system.solve(-residual.value);
+    const VectorXd correction = mixing.correction(system, x, residual.value);
     if (!correction.allFinite()) return report.status = Status::not_finite, report;
     const double displacement = system.largest_displacement(correction);
     if (report.iterations++ == 0) report.first_correction = displacement;
@@ -78,7 +89,7 @@ NewtonReport newton(NonlinearSystem& system, const Media& media, const NewtonOpt
     if (report.residual > hopeless_residual) return report.status = Status::iteration_limit, report;
     const bool at_round_off = displacement < round_off_displacement && report.residual < round_off_residual;
     if (report.residual < options.tolerance || at_round_off) return report.status = Status::converged, report;
-    keep = options.chord_steps && report.residual < options.chord_reduction * before;
+    keep = goes_on_with_chords(options, before, report.residual);
   }
 }
 

@@ -15,6 +15,9 @@ struct NewtonOptions {
   /// A chord step has to reduce the residual by this factor, or the tangent is renewed.
   double chord_reduction = 0.1;
   bool keep_factors = false;  ///< begin with chord steps with the factors that the system holds, of a state nearby
+  /// > 0: where a factorisation takes as long as so many chord steps, these learn from the last ones (ResidualMixing,
+  /// chord_mixing.h), and go on while no more than this are to be expected; in place of chord_reduction.
+  int chord_limit = 0;
   double residual_scale = 0;  ///< what residuals are relative to; 0: the function below
   const std::atomic<bool>* stop = nullptr;
 };

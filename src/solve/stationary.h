@@ -58,7 +58,7 @@ struct SurfaceProfile {
 
 /// What one sees of a cell in a duct from one of the directions of its symmetry.
 struct DuctView {
-  std::string_view name;  ///< "side" or "diagonal"
+  std::string_view name;  ///< "side", "diagonal", "across"
   SurfaceProfile surface;
 };
 
@@ -68,7 +68,7 @@ struct StationaryState : StateNumbers {
   Contour contour;  ///< barycentre at x = 0; in a duct the silhouette that the camera sees
   SurfaceProfile surface;
   Eigen::MatrixX2d offset_outline;    ///< of a cell off the axis, in the plane of its offset; else empty
-  std::vector<DuctView> views;        ///< in a square channel both, in a rectangle the one along the height
+  std::vector<DuctView> views;        ///< along the height, and along diagonal (square channel) or width
   double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
   double estimated_error = no_value;  ///< of the deformation, relative to it or to the floor below which it is
   double deformation_floor = 0;

@@ -19,7 +19,9 @@ struct TimeStart {
   std::optional<UnitChange> units = {};
 };
 
-/// The shape, the flow and the pressures of the last level at time zero, in new units.
-TimeState at_time_zero(const Discretisation&, const TimeState&, const UnitChange&);
+/// The shape, the flow and the pressures of the last level at time zero, in new units. For the spaces of tube and duct,
+/// whose vectors have 2 and 3 directions.
+template <class Space>
+TimeState at_time_zero(const Space&, int directions, const TimeState&, const UnitChange&);
 
 }  // namespace rheocyte

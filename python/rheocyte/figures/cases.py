@@ -129,7 +129,8 @@ class Laboratory:
 
     def start(self, name, file):
         """The program on one case, in a session of its own: signals reach it only from here."""
-        arguments = [self.program, "solve", str(file), "-o", str(self.folder / name), "--quiet", "--no-picture"]
+        arguments = [self.program, "solve", str(file), "-o", str(self.folder / name), "--quiet", "--no-picture",
+                     "--no-output-fields"]
         try:
             return subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                     stderr=subprocess.PIPE, text=True, start_new_session=True)
