@@ -12,9 +12,9 @@ const folder = skip ? null : await mkdtemp(join(tmpdir(), 'rheocyte-recordings-'
 after(() => folder && rm(folder, { recursive: true, force: true }));
 const files = folder ? await prepareRecordings(folder) : [];
 
-/** A test in the page, which must report no error. */
-export async function inPage(work, options) {
-  const opened = await openRecordings(options, files);
+/** A test in the page, which must report no error; with the prepared recordings, or others. */
+export async function inPage(work, options, shown = files) {
+  const opened = await openRecordings(options, shown);
   try {
     await work(opened.page, opened);
     assert.deepEqual(opened.failures, []);

@@ -1,7 +1,10 @@
 import assert from 'node:assert/strict';
+import { mkdtemp, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import test from 'node:test';
 import { skip } from './browser.mjs';
+import { synthesise } from './prepared.mjs';
 import { columnsOf, inPage } from './prepared_page.mjs';
 import * as recordings from './recordings_page.mjs';
 
@@ -232,8 +235,11 @@ test('Names of condition and replicate give the distribution its means', { skip 
   }),
 );
 
-test('Populations of the conditions of the list are fitted: a dot for each recording, intervals, and the ratio', { skip }, () =>
-  inPage(async (page) => {
+test('Populations of the conditions of the list are fitted: a dot for each recording, intervals, and the ratio', { skip }, async () => {
+  const folder = await mkdtemp(join(tmpdir(), 'rheocyte-populations-'));
+  const files = ['one.rtdc', 'other.rtdc'].map((name) => join(folder, name));
+  for (const [k, file] of files.entries()) await synthesise(file, ['recording.cells=200', `recording.seed=${k + 1}`]);
+  await inPage(async (page) => {
     for (const [item, condition] of ['control', 'drug'].entries()) {
       const row = page.locator('.recording').nth(item);
       await row.locator('.recording-name').click();
@@ -248,5 +254,6 @@ test('Populations of the conditions of the list are fitted: a dot for each recor
     assert.match(table, /drug \/ control/);
     assert.match(table, /none/, 'single recordings have no p');
     assert.match(await page.locator('.populations code').textContent(), /^rheocyte population --condition/);
-  }),
-);
+  }, undefined, files);
+  await rm(folder, { recursive: true });
+});

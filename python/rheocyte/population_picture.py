@@ -237,8 +237,15 @@ def draw_legend(figure, story):
                Line2D([], [], color="#5b6770", linewidth=5, alpha=0.25, label="moduli of single images")]
     if any(not check["fits"] for each in story.record["recordings"] for check in each["checks"]):
         entries.insert(1, Line2D([], [], **dot, markerfacecolor="white", label="checks do not hold"))
-    figure.legend(handles=entries, loc="outside lower center", ncols=3, frameon=False, fontsize=5.8, columnspacing=1.6,
-                  handlelength=1.6, labelspacing=0.25)
+    legend_below(figure, entries, 3, columnspacing=1.6, handlelength=1.6, labelspacing=0.25)
+
+
+def legend_below(figure, entries, columns, **style):
+    """A legend below all axes, for which the layout leaves room: matplotlib 3.6 knows no place "outside"."""
+    points, height = 5.8, figure.get_size_inches()[1]
+    share = (-(-len(entries) // columns) * 1.5 * points / 72 + 0.05) / height
+    figure.get_layout_engine().set(rect=(0, share, 1, 1 - share))
+    figure.legend(handles=entries, loc="lower center", ncols=columns, frameon=False, fontsize=points, **style)
 
 
 def draw_checks(record):
@@ -261,8 +268,8 @@ def draw_checks(record):
         axes.set_xlabel("share of the events below")
     for axes in panels[:, 0]:
         axes.set_ylabel("predicted \u2212 measured\n(in spreads)")
-    figure.legend(handles=[Line2D([], [], color=story.colour(name), label=name) for name in story.names],
-                  loc="outside lower center", ncols=min(len(story.names), 6), frameon=False, fontsize=6)
+    legend_below(figure, [Line2D([], [], color=story.colour(name), label=name) for name in story.names],
+                 min(len(story.names), 6))
     return figure
 
 
