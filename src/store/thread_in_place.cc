@@ -1,11 +1,13 @@
 // Of builds without threads: the work is done when its thread is made.
+#include <utility>
+
 #include "store/thread.h"
 
 namespace rheocyte {
 
 const bool has_threads = false;
 
-Thread::Thread(Work work, std::size_t) { work(stop_.get_token()); }
+Thread::Thread(Work work, std::size_t) { std::exchange(work, nullptr)(stop_.get_token()); }
 Thread::~Thread() = default;
 Thread::Thread(Thread&&) noexcept = default;
 Thread& Thread::operator=(Thread&&) noexcept = default;

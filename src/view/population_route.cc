@@ -48,15 +48,15 @@ Json population_work(const Json& asked, const ViewItems& items) {
   for (const Json& condition : asked.value("conditions", Json::array())) {
     const std::string name = condition.value("name", std::string());
     Json recordings = Json::array();
-    std::string files;
+    std::string files = name;
     for (const Json& item : condition.value("items", Json::array())) {
       if (!item.is_number_unsigned()) throw UserError("items are the numbers of recordings.");
       const auto path = items.recording(item).place.path;
-      recordings.push_back(path_text(path));
-      if (!files.empty()) files += ',';
+      files += recordings.empty() ? '=' : ',';
       files += path.string();
+      recordings.push_back(path_text(path));
     }
-    command += " --condition " + quoted_for_shell(name + "=" + files);
+    command += " --condition " + quoted_for_shell(files);
     work["conditions"].push_back({{"name", name}, {"recordings", recordings}});
   }
   if (!work.contains("conditions") || work["conditions"][0]["recordings"].empty())
