@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "case/case_text.h"
-#include "case/toml_parser.h"
+#include "case/parsed_toml.h"
 #include "case/user_error.h"
 #include "numeric/number_from_chars.h"
 
@@ -101,13 +101,7 @@ std::optional<std::vector<double>> as_list(std::string_view text) {
 
 std::vector<GivenKey> keys_in_toml(std::string_view text, const std::string& name) {
   std::vector<GivenKey> keys;
-  try {
-    const toml::table root = toml::parse(text, name);
-    collect(root, "", name, keys);
-  } catch (const toml::parse_error& error) {
-    throw UserError(
-        fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, one_line(error.description(), 200)));
-  }
+  collect(parsed_toml(text, name), "", name, keys);
   // toml++ sorts by name; the user reads from the top.
   const auto line = [&](const GivenKey& given) { return std::stol(given.where.substr(name.size() + 1)); };
   std::stable_sort(keys.begin(), keys.end(), [&](const auto& a, const auto& b) { return line(a) < line(b); });

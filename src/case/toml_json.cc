@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "case/case_text.h"
-#include "case/toml_parser.h"
+#include "case/parsed_toml.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -46,12 +46,7 @@ Json json_of(const toml::node& node, const std::string& name) {
 
 Json json_of_toml(std::string_view text, const std::string& name) {
   check_case_text(text, name);
-  try {
-    return json_of(toml::parse(text, name), name);
-  } catch (const toml::parse_error& error) {
-    throw UserError(
-        fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, one_line(error.description(), 200)));
-  }
+  return json_of(parsed_toml(text, name), name);
 }
 
 }  // namespace rheocyte

@@ -37,13 +37,13 @@ Json population_settings(const Json& given) {
   }
   for (const Json& one : settings.value("polygon", Json::array()))
     if (one.is_string() && is_polygon_file(one)) throw UserError("polygon must be features and corners, not a file.");
-  static_cast<void>(population_options(settings));
   return settings;
 }
 
 /// As the host reads them, and in "command" as a shell does.
 Json population_work(const Json& asked, const ViewItems& items) {
   Json work{{"do", "population"}, {"settings", population_settings(asked.value("settings", Json::object()))}};
+  PopulationOptions options = population_options(work["settings"]);
   std::string command = "rheocyte population";
   for (const Json& condition : asked.value("conditions", Json::array())) {
     const std::string name = condition.value("name", std::string());
@@ -62,7 +62,6 @@ Json population_work(const Json& asked, const ViewItems& items) {
   if (!work.contains("conditions") || work["conditions"][0]["recordings"].empty())
     throw UserError("Name the condition of at least one recording in the list.");
   work["file"] = work["conditions"][0]["recordings"][0];
-  PopulationOptions options = population_options(work["settings"]);
   work["command"] = command + options_text(settings_of(options));
   return work;
 }
