@@ -46,11 +46,12 @@ def extract(recording, *, progress=None, **settings):
 
 
 @with_settings(native.ModuliOptions)
-def moduli(recording, table, *, progress=None, **settings):
+def moduli(recording, table=None, *, progress=None, **settings):
     """Moduli of bulk and cortex of each cell from its contour, as `rheocyte moduli` gives them.
 
     recording       as for extract
-    table           folder of a combined table (examples/tables/combined.toml), which is one of the tube
+    table           combined table: a folder of rheocyte.table (examples/tables/combined.toml), its combined_*.cbor, or the
+                    name of one that comes with the package; None: HC-2D-EL-26, of elongated cells
     {settings}
     progress        as for extract
 
@@ -59,18 +60,19 @@ def moduli(recording, table, *, progress=None, **settings):
     tube). attrs: settings, warnings.
     """
     options = filled(native.ModuliOptions(), settings)
-    options.table = path(table, "table")
+    options.table = path("" if table is None else table, "table")
     with source_of(recording, gated(settings)) as source, progress_bar(progress) as tell:
         (columns, said), attributes = native.moduli(source.place, options, tell)
     return _framed(columns, said, attributes, source)
 
 
 @with_settings(native.TimeCourseOptions)
-def time_course(recordings, table, contraction_um, *, progress=None, **settings):
+def time_course(recordings, table=None, contraction_um=None, *, progress=None, **settings):
     """Young's modulus and viscosity of cells from how c3 changes along the channel, as `rheocyte time-course` does.
 
     recordings      one, or several of one population, as for extract
-    table           dynamic table: the folder of one that `rheocyte table` has made, or its dynamic_*.cbor
+    table           dynamic table: the folder of one that `rheocyte table` has made, or its dynamic_*.cbor; None:
+                    HE-chip-26, which comes with the package, of a square channel behind a funnel of 45 degrees
     contraction_um  pos_x of the end of the contraction, from which the cells come; one for all, or one each
     {settings}
     progress        as for extract
@@ -83,6 +85,8 @@ def time_course(recordings, table, contraction_um, *, progress=None, **settings)
     """
     import pandas
 
+    if contraction_um is None:
+        raise UserError("contraction_um is missing: pos_x of the end of the contraction, from which the cells come.")
     several = _several(recordings)
     places = np.atleast_1d(numbers(contraction_um, "contraction_um"))
     if len(places) not in (1, len(several)):
@@ -91,7 +95,7 @@ def time_course(recordings, table, contraction_um, *, progress=None, **settings)
     options = filled(native.TimeCourseOptions(), settings)
     with ExitStack() as stack, progress_bar(progress) as tell:
         sources = [stack.enter_context(source_of(recording, gated(settings))) for recording in several]
-        columns, told, lines = native.time_course([source.place for source in sources], path(table, "table"), each, options, tell)
+        columns, told, lines = native.time_course([source.place for source in sources], path("" if table is None else table, "table"), each, options, tell)
     for source in sources:
         columns["recording"] = [source.named(name) for name in columns["recording"]]
         told, lines = [source.named(line) for line in told], source.told(lines)

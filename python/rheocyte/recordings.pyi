@@ -38,7 +38,7 @@ def extract(
 ) -> pandas.DataFrame: ...
 def moduli(
     recording: _Path | _Dataset,
-    table: _Path,
+    table: _Path | None = None,
     *,
     section: Literal["tube", "square"] | None = None,
     channel_width_um: float | None = None,
@@ -60,8 +60,8 @@ def moduli(
 ) -> pandas.DataFrame: ...
 def time_course(
     recordings: _Path | _Dataset | Sequence[_Path | _Dataset],
-    table: _Path,
-    contraction_um: ArrayLike,
+    table: _Path | None = None,
+    contraction_um: ArrayLike | None = None,
     *,
     section: Literal["tube", "square"] | None = None,
     channel_width_um: float | None = None,

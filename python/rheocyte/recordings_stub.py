@@ -27,15 +27,15 @@ def extract(
 ) -> pandas.DataFrame: ...
 def moduli(
     recording: _Path | _Dataset,
-    table: _Path,
+    table: _Path | None = None,
     *,
 {moduli}
     progress: _Progress = None,
 ) -> pandas.DataFrame: ...
 def time_course(
     recordings: _Path | _Dataset | Sequence[_Path | _Dataset],
-    table: _Path,
-    contraction_um: ArrayLike,
+    table: _Path | None = None,
+    contraction_um: ArrayLike | None = None,
     *,
 {time_course}
     progress: _Progress = None,

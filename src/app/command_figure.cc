@@ -61,9 +61,9 @@ void add_figure_command(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--table", options->table,
-          "folder of a combined table (examples/tables/combined-elongated.toml), for real-cells: median outlines "
-          "are drawn over those of the cells that fit them")
-      ->type_name("DIR");
+          "combined table, for real-cells: median outlines are drawn over those of its cells that fit them; "
+          "HC-2D-EL-26 comes with the program")
+      ->type_name("TABLE");
   command
       ->add_option("-o,--output", options->folder,
                    "folder for figure-N.png, .svg and .csv; results in its folders cases and tables are used again")

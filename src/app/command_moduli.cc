@@ -43,7 +43,7 @@ class ModuliJob {
   }
 
   bool take(const RecordingTask& task, const ModuliSummary& summary) const {
-    write_own_file(summary_for(task), moduli_json(task.recording, options_.table, summary), mark_of_moduli_json,
+    write_own_file(summary_for(task), moduli_json(task.recording, table_.name, summary), mark_of_moduli_json,
                    Foreign::keep);
     const std::string name = one_line(task.recording.string(), 200);
     if (!options_.batch.quiet) {
@@ -77,9 +77,9 @@ void add_moduli_command(CLI::App& app, int& exit_code) {
   declare_batch_options(*command, options->batch);
   command
       ->add_option("--table", options->table,
-                   "folder of a combined table of `rheocyte table` (examples/tables/combined.toml)")
-      ->required()
-      ->type_name("DIR");
+                   "combined table: a folder of `rheocyte table` (examples/tables/combined.toml), its combined_*.cbor, or "
+                   "the name of one that comes with the program; default: HC-2D-EL-26, of elongated cells")
+      ->type_name("TABLE");
   declare_settings(*command, settings_of(*options));
   command->callback([options, &exit_code] {
     check_options(options->measuring);

@@ -13,6 +13,7 @@
 #include "case/user_error.h"
 #include "extract/course_events.h"
 #include "extract/recording_settings.h"
+#include "extract/shipped_tables.h"
 #include "extract/time_course_table.h"
 #include "store/contained.h"
 #include "store/own_file.h"
@@ -42,7 +43,7 @@ double contraction_of(const TimeCourseOptions& options, std::size_t recording, s
 
 int run(const TimeCourseOptions& options) {
   const auto tasks = tasks_of(options.batch);
-  const DynamicTable table = read_dynamic_table(options.table);
+  const DynamicTable table = read_dynamic_table(dynamic_table_or_shipped(options.table));
   check_replaceable(options.file, mark_of_courses, Foreign::keep);
   CourseTable courses(table, options.section);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -68,8 +69,8 @@ void add_time_course_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<TimeCourseOptions>();
   command->add_option("FILES", options->batch.inputs, "recordings (.rtdc) of one population; folders with -r")
       ->required();
-  command->add_option("--table", options->table, "dynamic table: a folder of `rheocyte table`, or its dynamic_*.cbor")
-      ->required()
+  command->add_option("--table", options->table, "dynamic table: a folder of `rheocyte table`, or its dynamic_*.cbor; default: HE-chip-26, of a "
+                  "square channel behind a funnel of 45 degrees")
       ->type_name("TABLE");
   command
       ->add_option("--contraction-um", options->contraction_um,

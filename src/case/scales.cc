@@ -25,6 +25,11 @@ double radius_of_equal_flow(const Extent& extent) {
 
 double given_gradient(const Case& c) { return *c.flow.pressure_drop_Pa / (*c.channel.length_um * m_per_um); }
 
+/// Of the channel, in units of length.
+double area_of(const Case& c) {
+  return is_duct(c.channel.section) ? 4 * extent_of(c).width * extent_of(c).height : std::numbers::pi;
+}
+
 /// U / R at the given pressure drop. The area is in units of R^2.
 double undisturbed_rate(const Case& c, const Liquid& liquid, double area) {
   const double tube = is_duct(c.channel.section) ? radius_of_equal_flow(extent_of(c)) : 1;
@@ -102,10 +107,15 @@ double tension_mN_per_m(const Case& c) {
 Scales scales_of(const Case& c) {
   const Liquid liquid = liquid_of(c.flow);
   const double R = unit_length_um(c) * m_per_um;
-  const double area = is_duct(c.channel.section) ? 4 * extent_of(c).width * extent_of(c).height : std::numbers::pi;
+  const double area = area_of(c);
   const double rate = c.flow.drive == Drive::pressure_drop ? undisturbed_rate(c, liquid, area)
                                                            : *c.flow.rate_ul_per_s * m3_per_ul / (area * R * R * R);
   return {R, rate * R, stress_at_rate(liquid, rate)};
+}
+
+double unit_time_s(const Case& c, double length_factor, double rate_ul_s) {
+  constexpr double mm_per_um = 1e-3;
+  return area_of(c) * std::pow(unit_length_um(c) * mm_per_um * length_factor, 3) / rate_ul_s;
 }
 
 double unit_rate_ul_per_s(const Scales& scales) {

@@ -48,6 +48,9 @@ Extent extent_of(const Case&);
 /// eta(U/h) U/h, and where the pressure drop is given, Q is that of the tube that lets the same Newtonian flow pass.
 Scales scales_of(const Case&);
 
+/// R / U of such a channel that is so many times as large, at this flow rate.
+double unit_time_s(const Case&, double length_factor, double rate_ul_s);
+
 /// pi R^2 U, the unit of flow rates.
 double unit_rate_ul_per_s(const Scales&);
 

@@ -176,12 +176,11 @@ CourseEvents read_course_events(const std::filesystem::path& path, const Measuri
 }
 
 CourseCells course_cells(const CourseEvents& events, const std::string& name, double contraction_um,
-                         const DynamicTable& table, const SquareCourse* square) {
+                         const DynamicTable& table, const SquareCourse* stationary) {
   check_channel(events.flow, name, table);
   const double direction = median_place(events) < contraction_um ? -1 : 1;
   const TimeCourse course(table);
   const ScaleFactors factors = scale_factors(channel_flow_of(table.spec().base), events.flow);
-  const double R_um = unit_length_um(table.spec().base), R_mm = 1e-3 * R_um * factors.length;
   CourseCells result;
   std::vector<Placed> placed;
   for (const CourseEvent& event : events.events) {
@@ -190,10 +189,10 @@ CourseCells course_cells(const CourseEvents& events, const std::string& name, do
     const bool has_place = table.has_place(image.place_um), has_area = course.has_area(image.area_um2);
     result.outside_places += !has_place;
     result.outside_areas += has_place && !has_area;
-    if (has_place && has_area) placed.push_back({event, square ? square->in_tube(image) : image});
+    if (has_place && has_area) placed.push_back({event, stationary ? stationary->in_table(image) : image});
   }
-  const double unit_s = std::numbers::pi * R_mm * R_mm * R_mm / events.flow.rate_ul_s;
-  result.cells = Linker(table, R_um, unit_s).link(std::move(placed), events.has_time);
+  const Case& base = table.spec().base;
+  result.cells = Linker(table, unit_length_um(base), unit_time_s(base, factors.length, events.flow.rate_ul_s)).link(std::move(placed), events.has_time);
   return result;
 }
 

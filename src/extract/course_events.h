@@ -41,7 +41,7 @@ CourseEvents read_course_events(const std::filesystem::path& recording, const Me
 
 /// A cell, or one that was not seen again.
 struct CourseCell {
-  CellImages images;           ///< in the channel of the table, which is a tube
+  CellImages images;           ///< in channel and liquid of the table
   std::vector<double> events;  ///< their numbers
 };
 
@@ -51,10 +51,10 @@ struct CourseCells {
 };
 
 /// The same in the channel of the table. `contraction_um`: pos_x of the end of the contraction, from which the cells
-/// move away. `square`: brings pictures of a square channel to the table's tube; null: it is that tube. UserError
-/// naming the recording if its channel is another one.
+/// move away. `stationary`: brings pictures of a square channel to channel and liquid of the table; null: these are
+/// those of the recording. UserError naming the recording if its channel has another width.
 CourseCells course_cells(const CourseEvents& events, const std::string& name, double contraction_um,
-                         const DynamicTable& table, const SquareCourse* square);
+                         const DynamicTable& table, const SquareCourse* stationary);
 
 /// UserError: why these cells do not tell Young's modulus and viscosity.
 void check_places_seen(const std::vector<CourseCell>& cells);

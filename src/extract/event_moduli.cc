@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "case/user_error.h"
+#include "extract/shipped_tables.h"
 #include "measurement/metadata.h"
 
 namespace rheocyte {
@@ -25,10 +28,18 @@ bool is_neo_hookean(const Cell& cell) {
          (cell.cortex.law == CortexLaw::neo_hookean || cell.cortex.law == CortexLaw::neo_hookean_reference);
 }
 
+CommonErrors relative_errors(const ModuliEstimate& e) {
+  const auto relative = [&](Modulus m) { return e.error(m) / e.value(m); };
+  return {relative(Modulus::young), relative(Modulus::cortex), e.stiffness_error_kPa / e.stiffness_kPa};
+}
+
 }  // namespace
 
 ModuliTable::ModuliTable(const ModuliOptions& options)
-    : content(read_combined_table(options.table)), between(content), simulated(channel_flow_of(content.spec.base)) {
+    : content(read_combined_table(combined_table_or_shipped(options.table))),
+      name(options.table.empty() ? content.spec.identifier : options.table.string()),
+      between(content),
+      simulated(channel_flow_of(content.spec.base)) {
   if (options.fit_tension && between.tension_ratios().size() < 2)
     throw UserError(
         fmt::format("rheocyte: --fit-tension needs a table with several tensions (table.tension_ratio); {} has one.",
@@ -83,16 +94,37 @@ CommonTension EventModuli::common_tension(std::span<const MeasuredCell> cells,
     goes_on();
     if (const auto seen = seen_cell(group, double(group.cells))) groups.push_back(*seen);
   }
-  return rheocyte::common_tension(moduli_, groups, goes_on);
+  CommonTension found = rheocyte::common_tension(moduli_, groups, goes_on);
+  if (found.is_found() && section_ == Section::square) found.widen(section_error_of_tension_Pa(cells));
+  return found;
+}
+
+double EventModuli::section_error_of_tension_Pa(std::span<const MeasuredCell> cells) const {
+  constexpr double so_many_that_pixels_do_not_count = 1e6;
+  const auto seen = seen_cell(median_of(cells), so_many_that_pixels_do_not_count);
+  if (!seen) return 0;
+  return moduli_.fit(seen->shape, seen->flow, AxialTension::unknown()).axial_tension_error_Pa;
 }
 
 CommonErrors EventModuli::common_errors(std::span<const MeasuredCell> cells) const {
   if (cells.size() < MedianCell::min_cells) return {};
   const auto seen = seen_cell(median_of(cells), double(cells.size()));
   if (!seen) return {};
-  const ModuliEstimate e = moduli_.fit(seen->shape, seen->flow, tension_);
-  const auto relative = [&](Modulus m) { return e.error(m) / e.value(m); };
-  return {relative(Modulus::young), relative(Modulus::cortex), e.stiffness_error_kPa / e.stiffness_kPa};
+  if (!std::isfinite(tension_.error_Pa)) return relative_errors(moduli_.fit(seen->shape, seen->flow, tension_));
+  // Many pictures would tell the tension better than it is known: what puts it off is in all of them.
+  const auto at = [&](double errors) {
+    return moduli_.fit(seen->shape, seen->flow, {tension_.value_Pa + errors * tension_.error_Pa, 0});
+  };
+  const ModuliEstimate less = at(-1), e = at(0), more = at(1);
+  const auto with_tension = [](double relative, double value, double low, double high) {
+    return std::hypot(relative, (high - low) / (2 * value));
+  };
+  const auto of = [&](double relative, Modulus m) {
+    return with_tension(relative, e.value(m), less.value(m), more.value(m));
+  };
+  const auto [young, cortex, stiffness] = relative_errors(e);
+  return {of(young, Modulus::young), of(cortex, Modulus::cortex),
+          with_tension(stiffness, e.stiffness_kPa, less.stiffness_kPa, more.stiffness_kPa)};
 }
 
 MedianCell EventModuli::median_cell(std::span<const MeasuredCell> cells) const {

@@ -24,6 +24,7 @@ struct ModuliTable {
   double sign_of_asymmetry() const;
 
   CombinedTable content;
+  std::string name;  ///< where it was asked for, or its identifier
   CombinedInterpolation between;
   ChannelFlow simulated;
 };
@@ -56,6 +57,8 @@ class EventModuli {
  private:
   /// With the noise of the mean of so many pictures. Nothing without a shape.
   std::optional<SeenCell> seen_cell(const MeasuredCell& measured, double pictures) const;
+  /// Standard error that what the law of the square channel leaves makes of the tension of the median cell.
+  double section_error_of_tension_Pa(std::span<const MeasuredCell> cells) const;
 
   Sight sight(const ChannelFlow& flow) const { return {flow, section_, section_error_factor_}; }
 

@@ -88,12 +88,12 @@ ordered_json median_cell_of(const MedianCell& m) {
 
 }  // namespace
 
-std::string moduli_json(const std::filesystem::path& recording, const std::filesystem::path& table,
+std::string moduli_json(const std::filesystem::path& recording, const std::string& table,
                         const ModuliSummary& s) {
   const ordered_json content{{"made_by", "rheocyte moduli"},
                              {"version", version},
                              {"recording", recording.string()},
-                             {"table", table.string()},
+                             {"table", table},
                              {"events", counts_of(s)},
                              {"young_modulus_kPa", quartiles_of(s.young_kPa, s.resolved())},
                              {"cortex_modulus_mN_per_m", quartiles_of(s.cortex_mN_per_m, s.resolved())},

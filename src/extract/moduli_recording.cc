@@ -74,7 +74,7 @@ class Fits {
     std::vector<std::string> remarks{
         fmt::format("rheocyte {} moduli", version),
         "recording: " + events_.recording().file().string(),
-        "table: " + options.table.string(),
+        "table: " + table_.name,
         fmt::format("by {}; {}",
                     options.only_figure            ? "area, deformation and Lambda1/Lambda2"
                     : axial_.is_of_elongated_cells ? "area and modes 2 .. 7 of the contour"

@@ -42,7 +42,7 @@ struct ExtractOptions {
 struct ModuliOptions {
   BatchOptions batch;
   MeasuringOptions measuring;
-  std::filesystem::path table;             ///< folder of a combined table
+  std::filesystem::path table;             ///< a combined one; empty: that which comes with the program
   bool fit_tension = false;                ///< as a third unknown
   std::optional<double> axial_tension_Pa;  ///< of the liquid; not given: found for each recording
   bool only_figure = false;                ///< by deformation and Lambda1 / Lambda2 in place of the whole contour

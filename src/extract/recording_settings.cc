@@ -155,8 +155,7 @@ Settings settings_of(ModuliOptions& o) {
   Setting tension = of_key(case_key("flow.axial_tension_Pa"),
                            setting("axial_tension_Pa", "Axial tension", &o.axial_tension_Pa,
                                    "tension of the liquid along the flow, which elongates the cells, 0 = none",
-                                   "it is found for each recording, if the table has elongated cells "
-                                   "(examples/tables/combined-elongated.toml)"));
+                                   "it is found for each recording, if the table has elongated cells"));
   tension.former_option = "--axial-tension";
   return joined(
       joined({seen_section(o.section)}, settings_of(o.measuring)),

@@ -13,4 +13,9 @@ std::map<std::string, std::filesystem::path> shipped_tables();
 /// Likewise the files elongated_<identifier>.cbor of elongated cells.
 std::map<std::string, std::filesystem::path> shipped_elongated_tables();
 
+/// The wanted table, by its place or its identifier, and where none is wanted the one that comes with the program: of
+/// cells with bulk and cortex, and of cells on their way. UserError if it is missing.
+std::filesystem::path combined_table_or_shipped(const std::filesystem::path& wanted);
+std::filesystem::path dynamic_table_or_shipped(const std::filesystem::path& wanted);
+
 }  // namespace rheocyte

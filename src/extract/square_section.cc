@@ -7,10 +7,13 @@
 
 namespace rheocyte {
 
+bool are_cells_of(const Case& table, std::string_view made_of) {
+  return !made_of.empty() && made_of == cells_in_words(model_text(table), table.channel.section);
+}
+
 Section section_seen(std::optional<Section> wanted, std::string_view made_of, const Case& table) {
   if (wanted) return *wanted;
-  const bool are_its_own = !made_of.empty() && made_of == cells_in_words(model_text(table), table.channel.section);
-  return are_its_own ? table.channel.section : Section::square;
+  return are_cells_of(table, made_of) ? table.channel.section : Section::square;
 }
 
 SquareSection::SquareSection(Section section, const Case& tube) {

@@ -9,12 +9,13 @@
 
 namespace rheocyte {
 
-/// In which the cells of a recording were seen: the wanted section; else the table's, the tube, where they are virtual
-/// cells of it (`made_of`: what the recording says under made_of_key, if anything); else the square.
+/// Whether the cells of a recording are virtual ones of a table. `made_of`: what it says under made_of_key, if anything.
+bool are_cells_of(const Case& table, std::string_view made_of);
+/// In which they were seen: the wanted section; else the table's where they are its virtual cells; else the square.
 Section section_seen(std::optional<Section> wanted, std::string_view made_of, const Case& table);
 /// What is said where it is the table's.
 inline constexpr std::string_view own_cells_text =
-    "made by rheocyte synth from cells of the table: the channel is its tube.";
+    "made by rheocyte synth from cells of the table: the channel is that of the table.";
 
 class SquareSection {
  public:

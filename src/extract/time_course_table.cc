@@ -64,12 +64,34 @@ std::string with_interval(const Credible& value, std::string_view unit) {
   return fmt::format("{:.3g} {} (90 %: {:.3g} to {:.3g})", value.value, unit, value.low, value.high);
 }
 
+constexpr std::string_view no_thinning_text =
+    "the liquid thins with shear otherwise than that of the table, and no table of it has the solids of this one: the "
+    "viscosity at the wall stands for both, and moduli are off by up to 5 %, those of large cells most.";
+
 std::string status_of(const CourseEstimate& estimate) {
   const bool modulus = estimate.young_modulus_kPa.is_resolved(), viscosity = estimate.viscosity_Pas.is_resolved();
   return modulus && viscosity ? "resolved" : modulus ? "viscosity unknown" : viscosity ? "modulus unknown" : "unknown";
 }
 
 }  // namespace
+
+CourseTable::CourseTable(const DynamicTable& table, std::optional<Section> section)
+    : table_(table), section_(section), square_(section.value_or(Section::square), table.spec().base) {
+  if (section == Section::tube && is_of_square())
+    throw UserError(fmt::format(
+        "rheocyte: --section tube, but the dynamic table {} is one of the square channel; leave the option out, or give "
+        "a table of a tube.",
+        table.spec().identifier));
+}
+
+bool CourseTable::is_of_square() const { return table_.spec().base.channel.section == Section::square; }
+
+bool CourseTable::is_elsewhere(const CourseEvents& events) const {
+  const Case& base = table_.spec().base;
+  if (!section_ && are_cells_of(base, events.made_of)) return false;
+  if (!is_of_square()) return section_ != Section::tube;
+  return std::abs(events.flow.exponent - channel_flow_of(base).exponent) > flow_exponent_tolerance;
+}
 
 void CourseTable::add(const CourseEvents& events, const std::string& name, double contraction_um) {
   if (!rows_.empty()) {
@@ -81,16 +103,16 @@ void CourseTable::add(const CourseEvents& events, const std::string& name, doubl
                       "recordings of one population must be of one flow, take them one by one.",
                       name, events.flow.rate_ul_s, events.flow.viscosity_mPas, first.rate_ul_s, first.viscosity_mPas));
   }
-  std::optional<SquareCourse> to_tube;
-  const bool is_square = section_seen(section_, events.made_of, table_.spec().base) == Section::square;
-  are_in_square_ = are_in_square_ || is_square;
-  if (!is_square && !section_) remarks_.emplace_back(own_cells_text);
-  if (const ModulusMap* const square = is_square ? square_.table(events.flow.exponent) : nullptr) {
-    to_tube.emplace(table_, *square);
+  std::optional<SquareCourse> stationary;
+  const bool is_elsewhere = this->is_elsewhere(events);
+  are_elsewhere_ = are_elsewhere_ || is_elsewhere;
+  if (!section_ && are_cells_of(table_.spec().base, events.made_of)) remarks_.emplace_back(own_cells_text);
+  if (const ModulusMap* const square = is_elsewhere ? square_.table(events.flow.exponent) : nullptr) {
+    stationary.emplace(table_, *square);
     square_table_ = square->origin().identifier;
-    unsettled_ = to_tube->unsettled();
+    unsettled_ = stationary->unsettled();
   }
-  CourseCells cells = course_cells(events, name, contraction_um, table_, to_tube ? &*to_tube : nullptr);
+  CourseCells cells = course_cells(events, name, contraction_um, table_, stationary ? &*stationary : nullptr);
   for (CourseCell& cell : cells.cells) rows_.push_back({name, std::move(cell), events.flow});
   outside_places_ += cells.outside_places;
   outside_areas_ += cells.outside_areas;
@@ -126,14 +148,14 @@ CourseRow CourseTable::told(const Row& row, std::size_t number) const {
 }
 
 std::string CourseTable::section_text(const std::vector<CellImages>& cells) const {
-  if (square_table_.empty()) return std::string(no_square_text);
+  if (square_table_.empty()) return std::string(is_of_square() ? no_thinning_text : no_square_text);
   const double factor = section_factor_of(cells);
   const SectionErrors errors = section_errors(factor, unsettled_);
   return fmt::format(
-      "the channel is square, and the table one of the tube of equal pressure drop: c3 was divided by {:.3f} (mean), "
-      "as "
-      "{} says of stationary solids; what may be left, {:.1f} % of E and {:.1f} % of the viscosity, is in the "
-      "intervals",
+      "{}: c3 was divided by {:.3f} (mean), as {} says of stationary solids; what may be left, {:.1f} % of E and "
+      "{:.1f} % of the viscosity, is in the intervals",
+      is_of_square() ? "the liquid thins with shear otherwise than that of the table"
+                     : "the channel is square, and the table one of the tube of equal pressure drop",
       factor, square_table_, 100 * errors.modulus, 100 * errors.viscosity);
 }
 
@@ -182,7 +204,7 @@ CourseReport CourseTable::report() const {
       fmt::format("{} cells, {} of them seen over at least {:g} um; {} events at places and {} with "
                   "areas that the table does not have",
                   cells.size(), seen_again, min_seen_um, outside_places_, outside_areas_));
-  if (are_in_square_) report.lines.push_back(section_text(images));
+  if (are_elsewhere_) report.lines.push_back(section_text(images));
   if (cells.size() >= min_population) {
     PopulationEstimate& population = report.population = TimeCourse(table_).population(images);
     const SectionErrors errors = section_errors(section_factor_of(images), unsettled_);

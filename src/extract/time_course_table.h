@@ -41,9 +41,9 @@ std::string course_text(const CourseReport& report);
 
 class CourseTable {
  public:
-  /// The table, which is one of the tube, must outlive it. `section`: in which the cells were seen, see section_seen.
-  CourseTable(const DynamicTable& table, std::optional<Section> section)
-      : table_(table), section_(section), square_(section.value_or(Section::square), table.spec().base) {}
+  /// The table must outlive it. `section`: in which the cells were seen, see section_seen. UserError where it is the
+  /// tube and the table is one of the square.
+  CourseTable(const DynamicTable& table, std::optional<Section> section);
 
   /// UserError as course_cells, and if its flow or viscosity differs from that of the recordings before.
   void add(const CourseEvents& events, const std::string& name, double contraction_um);
@@ -58,7 +58,10 @@ class CourseTable {
     ChannelFlow flow;
   };
   CourseRow told(const Row& row, std::size_t number) const;
-  /// What is said of the square channel, if it is one.
+  bool is_of_square() const;  ///< the table
+  /// Whether the table's channel and liquid are not those of a recording.
+  bool is_elsewhere(const CourseEvents& events) const;
+  /// What is said where they are not.
   std::string section_text(const std::vector<CellImages>& cells) const;
   /// What is said of elongated cells; empty if they are not.
   std::string elongation_text(const CourseReport& report) const;
@@ -66,8 +69,8 @@ class CourseTable {
   const DynamicTable& table_;
   std::optional<Section> section_;
   SquareSection square_;
-  bool are_in_square_ = false;  ///< those of any recording
-  std::string square_table_;    ///< by which the cells are brought to the tube; empty: they are not
+  bool are_elsewhere_ = false;  ///< the cells of any recording
+  std::string square_table_;    ///< by which they are brought to the table's channel and liquid; empty: they are not
   double unsettled_ = 0;
   std::vector<Row> rows_;
   std::vector<std::string> remarks_;

@@ -138,6 +138,12 @@ AxialTension CommonTension::tension() const {
   return {value_Pa, (upper_Pa - lower_Pa) / (2 * normal_95)};
 }
 
+void CommonTension::widen(double error_Pa) {
+  const double half_width_Pa = std::hypot((upper_Pa - lower_Pa) / 2, normal_95 * error_Pa);
+  lower_Pa = value_Pa - half_width_Pa;
+  upper_Pa = value_Pa + half_width_Pa;
+}
+
 CommonTension common_tension(const SeveralModuli& moduli, std::span<const SeenCell> cells,
                              const std::function<void()>& goes_on) {
   TensionProfile profile(moduli, cells, goes_on);

@@ -17,6 +17,8 @@ struct CommonTension {
   bool is_found() const { return cells >= min_cells && value_Pa == value_Pa; }
   /// With its standard error; unknown if it is not found.
   AxialTension tension() const;
+  /// The interval with another standard error that all cells share.
+  void widen(double error_Pa);
 };
 
 /// Where the sum of chi squared over the cells, or groups of them (means_by_size), is least, each with the moduli that

@@ -7,21 +7,21 @@
 
 namespace rheocyte {
 
-SquareCourse::SquareCourse(const DynamicTable& tube, const ModulusMap& square)
-    : tube_(tube), square_(square, channel_flow_of(tube.spec().base)) {}
+SquareCourse::SquareCourse(const DynamicTable& table, const ModulusMap& square)
+    : table_(table), square_(square, channel_flow_of(table.spec().base)) {}
 
 double SquareCourse::settled(CourseMeasure measure, const DynamicCell& cell) const {
-  return tube_.value(measure, cell, tube_.spec().last_um);
+  return table_.value(measure, cell, table_.spec().last_um);
 }
 
 DynamicCell SquareCourse::cell_of(double area_um2, double modulus_kPa) const {
-  const auto axes = nodes_of(tube_.spec());
-  DynamicCell cell{std::sqrt(area_um2 / std::numbers::pi), modulus_kPa, tube_.spec().min_time_ms};
+  const auto axes = nodes_of(table_.spec());
+  DynamicCell cell{std::sqrt(area_um2 / std::numbers::pi), modulus_kPa, table_.spec().min_time_ms};
   constexpr int rounds = 3;  // the area of a cell changes by some per cent
   for (int round = 0; round < rounds; ++round) {
-    auto at = coordinates_of(tube_.spec(), cell);
+    auto at = coordinates_of(table_.spec(), cell);
     for (std::size_t k = 0; k < at.size(); ++k) at[k] = std::clamp(at[k], axes[k].front(), axes[k].back());
-    cell = cell_at(tube_.spec(), at);
+    cell = cell_at(table_.spec(), at);
     if (round + 1 == rounds) break;
     cell.radius_um = std::sqrt(area_um2 / std::numbers::pi / settled(CourseMeasure::area_ratio, cell));
     cell.young_modulus_kPa = modulus_kPa;
@@ -37,7 +37,7 @@ SquareCourse::Change SquareCourse::change(double area_um2, double mode_3) const 
   return {shape(third) / settled(CourseMeasure::mode_3, cell), shape(second) - settled(CourseMeasure::mode_2, cell)};
 }
 
-CourseImage SquareCourse::in_tube(const CourseImage& image) const {
+CourseImage SquareCourse::in_table(const CourseImage& image) const {
   const Change by_square = change(image.area_um2, image.mode_3);
   CourseImage moved = image;
   moved.mode_3 /= by_square.factor;
@@ -48,11 +48,11 @@ CourseImage SquareCourse::in_tube(const CourseImage& image) const {
 }
 
 double SquareCourse::unsettled() const {
-  const DynamicSpec& spec = tube_.spec();
+  const DynamicSpec& spec = table_.spec();
   const auto axes = nodes_of(spec);
   const DynamicCell cell = cell_at(spec, {axes[0].back(), axes[1].front(), axes[2].front()});
   const double before = std::lerp(spec.first_um, spec.last_um, 2.0 / 3);
-  return std::abs(1 - tube_.value(CourseMeasure::mode_3, cell, before) / settled(CourseMeasure::mode_3, cell));
+  return std::abs(1 - table_.value(CourseMeasure::mode_3, cell, before) / settled(CourseMeasure::mode_3, cell));
 }
 
 double error_left_by_section(double factor) {

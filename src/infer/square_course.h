@@ -1,4 +1,4 @@
-// Pictures of cells in a square channel, brought to the tube for which a dynamic table was computed
+// Pictures of cells in a square channel, brought to the channel and the liquid for which a dynamic table was computed
 // (docs/theory-extract.md, sec. "The square channel").
 #pragma once
 #include "infer/square_solids.h"
@@ -9,9 +9,9 @@ namespace rheocyte {
 class SquareCourse {
  public:
   /// Both tables, of solids of one law, must outlive it.
-  SquareCourse(const DynamicTable& tube, const ModulusMap& square);
+  SquareCourse(const DynamicTable& table, const ModulusMap& square);
 
-  /// What the square does to a stationary cell: c_3 over that of the cell with this area and modulus in the tube, and
+  /// What square and liquid do to a stationary cell: c_3 over that of the table's cell with this area and modulus, and
   /// c_2 less that cell's.
   struct Change {
     double factor = 1, mode_2 = 0;
@@ -20,8 +20,8 @@ class SquareCourse {
   /// their way count as the stationary ones that are as asymmetric.
   Change change(double area_um2, double mode_3) const;
 
-  /// The picture as it would be in the tube.
-  CourseImage in_tube(const CourseImage& image) const;
+  /// The picture as it would be in the table's channel and liquid.
+  CourseImage in_table(const CourseImage& image) const;
 
   /// By how much, in parts of it, c_3 of the table's fastest cell changes on the last third of its way: this much, it
   /// is not stationary.
@@ -33,7 +33,7 @@ class SquareCourse {
   /// With this area and a modulus that the table has.
   DynamicCell cell_of(double area_um2, double modulus_kPa) const;
 
-  const DynamicTable& tube_;
+  const DynamicTable& table_;
   SquareSolids square_;
 };
 

@@ -1,4 +1,4 @@
-// Stationary solids in the square channel as a table of it knows them, seen from the channel of a table of the tube.
+// Stationary solids in the square channel as a table of it knows them, seen from the channel of another table.
 #pragma once
 #include "infer/modulus_map.h"
 #include "shape/outline_shape.h"

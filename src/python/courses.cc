@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "extract/shipped_tables.h"
 #include "extract/time_course_table.h"
 #include "extract/virtual_cells.h"
 #include "python/bindings.h"
@@ -29,7 +30,7 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
   const MeasuringOptions& measuring = options.measuring;
   check_options(measuring);
   const auto report = interruptible([&](const std::atomic<bool>& stop) -> CourseReport {
-    const DynamicTable table = read_dynamic_table(place);
+    const DynamicTable table = read_dynamic_table(dynamic_table_or_shipped(place));
     CourseTable courses(table, options.section);
     for (std::size_t i = 0; i < recordings.size(); ++i) {
       const auto work = [&](const TellProgress& tell_progress) {

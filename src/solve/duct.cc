@@ -96,6 +96,16 @@ void read_flow(const Problem& problem, const DuctDiscrete& discrete, const Vecto
   r.shear_rate_max = max_shear_rate(discrete.space(), discrete.system().element(), unknowns);
 }
 
+/// Of the side of a centred cell. The narrower the gap the more; a higher degree costs more than these
+/// (docs/theory-square.md, sec. "Discretisation").
+int elements_along(double radius_ratio) {
+  constexpr std::array<std::pair<double, int>, 4> up_to{{{0.55, 3}, {0.65, 4}, {0.88, 5}, {0.92, 6}}};
+  constexpr int in_narrowest = 8;
+  for (const auto& [ratio, elements] : up_to)
+    if (radius_ratio <= ratio) return elements;
+  return in_narrowest;
+}
+
 /// Numbers of a cell off the axis.
 void read_turning(const DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
   const DuctSpace& space = discrete.space();
@@ -128,9 +138,8 @@ Symmetry symmetry_of(const Problem& problem) {
 }
 
 DuctSubdivision subdivision_of(const Problem& problem) {
-  constexpr double narrow_gap = 0.88;
   if (!problem.wall.is_straight()) return {.along = 4, .axial = 4};
-  if (problem.offset == 0) return {.along = problem.radius_ratio > narrow_gap ? 4 : 3};
+  if (problem.offset == 0) return {.along = elements_along(problem.radius_ratio)};
   return {.along = 2, .across = 2};
 }
 

@@ -63,8 +63,7 @@ std::variant<CellShape, NoShape> CourseShapes::shape(const VirtualCell& cell) co
   shape.meridian = meridian_of(modes, shape.area_um2);
   shape.deformation = value(CourseMeasure::deformation);
   shape.volume_um3 = 4.0 / 3 * sphere * cell.radius_um;
-  const double R_mm = 1e-3 * unit_length_um(table_.spec().base) * scale.length;
-  shape.time_s = value(CourseMeasure::time) * std::numbers::pi * R_mm * R_mm * R_mm / flow_.rate_ul_s;
+  shape.time_s = value(CourseMeasure::time) * unit_time_s(table_.spec().base, scale.length, flow_.rate_ul_s);
   return shape;
 }
 

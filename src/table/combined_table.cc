@@ -68,13 +68,24 @@ std::string row_text(const TableSpec& spec, const CombinedBranch& branch, int i)
   return fmt::format("{}\n", joined(numbers, ","));
 }
 
-/// Of a row: far wider than what cells have.
-bool holds_a_cell(const std::vector<double>& row) {
-  const std::span features = std::span(row).subspan(leading_columns, feature_count);
-  return row[1] >= 0 && row[1] <= 1 && row[2] >= 0 && row[leading_columns - 1] >= 0 &&
-         features[int(ShapeFeature::area_um2)] > 0 && features[int(ShapeFeature::deformation)] < 1 &&
-         features[int(ShapeFeature::moment_ratio)] > 0 &&
-         std::ranges::all_of(features.subspan(int(ShapeFeature::first_mode)), [](double c) { return std::abs(c) < 1; });
+/// Far wider than what cells have.
+bool are_of_a_cell(const Eigen::VectorXd& features) {
+  return features.allFinite() && features(int(ShapeFeature::area_um2)) > 0 &&
+         features(int(ShapeFeature::deformation)) > 0 && features(int(ShapeFeature::deformation)) < 1 &&
+         features(int(ShapeFeature::moment_ratio)) > 0 && features.tail(mode_count).cwiseAbs().maxCoeff() < 1;
+}
+
+std::string_view why_no_state(const CombinedBranch& branch, int i, const Eigen::VectorXd& features) {
+  const auto& [radius, share, ratio, axial] = branch.place;
+  const auto at = std::size_t(i);
+  const double S = branch.stiffness_kPa[at];
+  if (!(radius > 0 && S > 0 && features(int(ShapeFeature::deformation)) > 0))
+    return "radius, stiffness and deformation are not positive";
+  if (!(share >= 0 && share <= 1 && ratio >= 0 && std::isfinite(axial) && branch.error[at] >= 0 &&
+        are_of_a_cell(features)))
+    return "the numbers are not those of a cell";
+  if (i > 0 && S >= branch.stiffness_kPa[at - 1]) return "the stiffness does not fall along the branch";
+  return {};
 }
 
 /// E, E2D and tension are in the file for its readers; they follow from the other columns (eq:combined).
@@ -149,15 +160,16 @@ class CombinedReader {
       rows_.emplace_back();
     }
     CombinedBranch& branch = branches.back();
-    const double deformation = row[leading_columns + int(ShapeFeature::deformation)];
-    if (!(row[0] > 0 && row[3] > 0 && deformation > 0)) refuse("radius, stiffness and deformation are not positive");
-    if (!holds_a_cell(row)) refuse("the numbers are not those of a cell");
-    if (!has_its_moduli(row)) refuse("the moduli are not those of this stiffness, radius, share and tension");
-    if (!branch.stiffness_kPa.empty() && row[3] >= branch.stiffness_kPa.back())
-      refuse("the stiffness does not fall along the branch");
     branch.stiffness_kPa.push_back(row[3]);
     branch.error.push_back(row[leading_columns - 1]);
     rows_.back().insert(rows_.back().end(), row.begin() + leading_columns, row.end());
+    if (const auto reason = why_no_state(branch, branch.samples() - 1, features_of(row)); !reason.empty())
+      refuse(std::string(reason));
+    if (!has_its_moduli(row)) refuse("the moduli are not those of this stiffness, radius, share and tension");
+  }
+
+  static Eigen::VectorXd features_of(const std::vector<double>& row) {
+    return Eigen::Map<const Eigen::VectorXd>(row.data() + leading_columns, feature_count);
   }
 
   void finish(CombinedBranch& branch) {
@@ -218,7 +230,16 @@ CombinedTable parse_combined_table(const TableSpec& spec, std::string_view csv, 
   return CombinedReader(csv, name).read(spec);
 }
 
+std::string_view why_no_branch(const CombinedBranch& branch) {
+  for (int i = 0; i < branch.samples(); ++i)
+    if (const auto reason = why_no_state(branch, i, branch.value.row(i)); !reason.empty()) return reason;
+  return branch.slope.allFinite() ? std::string_view() : "the numbers are not those of a cell";
+}
+
 CombinedTable read_combined_table(const std::filesystem::path& folder) {
+  constexpr std::size_t largest = std::size_t{1} << 30U;
+  if (folder.extension() == ".cbor")
+    return combined_from_bytes(content_of_file(folder, largest), one_line(folder.string(), 300));
   const auto refuse = [&](const std::string& reason) -> void {
     throw UserError(fmt::format("{}: {}", one_line(folder.string(), 300), reason));
   };
@@ -231,7 +252,6 @@ CombinedTable read_combined_table(const std::filesystem::path& folder) {
   const auto path = folder / combined_table_name(spec);
   if (!std::filesystem::exists(path, error))
     refuse(fmt::format("there is no {}; let `rheocyte table` finish it.", combined_table_name(spec)));
-  constexpr std::size_t largest = std::size_t{1} << 30U;
   return parse_combined_table(spec, content_of_file(path, largest), path.string());
 }
 

@@ -45,7 +45,16 @@ std::string combined_table_name(const TableSpec& spec);
 
 /// UserError with file and line: other columns, numbers that are none, rows that are not in order.
 CombinedTable parse_combined_table(const TableSpec& spec, std::string_view csv, const std::string& name);
-/// From the folder of a finished combined table. UserError if it is none.
-CombinedTable read_combined_table(const std::filesystem::path& folder);
+
+/// The table as one file, combined_<identifier>.cbor.
+std::string combined_file_name(const std::string& identifier);
+std::string to_bytes(const CombinedTable&);
+/// UserError naming `name` if the bytes are damaged or no combined table, or hold what no cell has.
+CombinedTable combined_from_bytes(std::string_view bytes, const std::string& name);
+/// Why these are no states along a branch; the end of a sentence, empty: they are.
+std::string_view why_no_branch(const CombinedBranch& branch);
+
+/// Of that file, or of the folder of a finished combined table. UserError if it is none.
+CombinedTable read_combined_table(const std::filesystem::path& place);
 
 }  // namespace rheocyte

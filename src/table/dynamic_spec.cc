@@ -69,8 +69,9 @@ const std::array all_dynamic_keys = {
 
 void refuse_keys_of_table(const KeyReading& keys) {
   constexpr std::string_view section = "channel.section";
-  if (keys.chosen(section) != "tube")
-    keys.refuse(section, fmt::format("{} is for single cells; dynamic tables are computed in tubes, leave it out.",
+  if (keys.chosen(section) == "rectangle")
+    keys.refuse(section, fmt::format("{} is for single cells; dynamic tables are computed in tubes and in the square "
+                                     "channel of a chip, leave it out or choose \"square\".",
                                      keys.stated(section)));
   const auto refuse = [&](std::string_view key) {
     if (keys.has(key))

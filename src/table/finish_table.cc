@@ -15,7 +15,9 @@ namespace rheocyte {
 namespace {
 
 void write_combined(const TableFolder& folder, const std::vector<SampledBranch>& branches) {
-  folder.publish(combined_table_name(folder.spec()), combined_table_csv(make_combined_table(folder.spec(), branches)));
+  const CombinedTable table = make_combined_table(folder.spec(), branches);
+  folder.publish(combined_table_name(folder.spec()), combined_table_csv(table));
+  folder.publish(combined_file_name(folder.spec().identifier), to_bytes(table));
   folder.publish("end-of-branch.csv", combined_ends_csv(folder.spec(), branches));
 }
 

@@ -15,18 +15,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The table as one file, or in its folder the text.
+bool is_combined(const fs::path& file) {
+  const fs::path ending = file.extension();
+  return (ending == ".cbor" || ending == ".csv") && file.filename().string().starts_with("combined_");
+}
+
 ItemKind kind_of_file(const fs::path& file) {
   const fs::path ending = file.extension();
   if (ending == ".toml") return ItemKind::case_file;
+  if (ending == ".cbor" && is_combined(file)) return ItemKind::combined;
   return ending == ".cbor" || ending == ".txt" ? ItemKind::table : ItemKind::recording;
 }
 
 bool is_grid(const fs::path& file) {
   return file.extension() == ".cbor" && file.filename().string().starts_with("grid_");
-}
-
-bool is_combined(const fs::path& file) {
-  return file.extension() == ".csv" && file.filename().string().starts_with("combined_");
 }
 
 std::vector<fs::path> entries_of(const fs::path& folder, std::error_code& error) {

@@ -35,11 +35,15 @@ table = "table"
 class TimeCourseCommand : public ::testing::Test {
  protected:
   void SetUp() override {
-    const DynamicContent content = invented_dynamic();
-    fs::create_directory(folder_.path() / "table");
+    make_table();
+    write_file(folder_.path() / "cells.toml", population);
+  }
+
+  void make_table(const std::string& spec = dynamic_spec_text) const {
+    const DynamicContent content = invented_dynamic(spec);
+    fs::create_directories(folder_.path() / "table");
     write_file(folder_.path() / "table" / "spec.toml", to_toml(content.spec));
     write_file(folder_.path() / "table" / dynamic_file_name("invented"), to_bytes(content));
-    write_file(folder_.path() / "cells.toml", population);
   }
 
   Ended call(std::vector<std::string> arguments) const {
@@ -89,6 +93,25 @@ TEST_F(TimeCourseCommand, VirtualCellsOfTheTableAreKnownAsItsOwnUnlessTheirSecti
   const std::string told = content_of(folder_.path() / "cells.tsv");
   EXPECT_EQ(told.find("made by rheocyte synth"), std::string::npos) << told;
   EXPECT_NE(told.find("the channel is square"), std::string::npos) << told;
+}
+
+TEST_F(TimeCourseCommand, ATableOfTheSquareChannelNeedsNothingOfTheTube) {
+  // Cells of its own liquid are compared as they are, those of a thinning one by the stationary solids of both.
+  make_table(square_dynamic_spec_text);
+  ASSERT_EQ(synth().exit_code, 0);
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--contraction-um", "0", "--section", "square"}}) {
+    const Ended ended = time_course(more);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_TRUE(ended.out.starts_with("80 cells, 80 of them seen over at least 20 um; 0 events")) << ended.out;
+    EXPECT_EQ(ended.out.find("c3 was divided"), std::string::npos) << ended.out;
+  }
+  expect_sentence(time_course({"--contraction-um", "0", "--section", "tube"}), "is one of the square channel");
+  const Ended thinning = time_course({"--contraction-um", "0", "--section", "square", "--medium", "CellCarrier",
+                                      "--temperature", "23"});
+  ASSERT_EQ(thinning.exit_code, 0) << thinning.err;
+  EXPECT_NE(thinning.out.find("the liquid thins with shear otherwise than that of the table: c3 was divided by"),
+            std::string::npos)
+      << thinning.out;
 }
 
 TEST_F(TimeCourseCommand, ElongatedCellsAreSaidToBeAndRoundOnesAreNot) {

@@ -1,4 +1,4 @@
-// Any bytes are a record of a branch, a grid, elongated cells, a cell's way or a dynamic table, or refused. No fuzzer
+// Any bytes are a record of a branch, a grid, elongated cells, a cell's way a combined or a dynamic table, or refused. No fuzzer
 // guesses a checksum: the bytes are tried as they stand, and as the content of a record that has been sealed properly.
 #include <array>
 
@@ -6,6 +6,7 @@
 #include "refused_or_read.h"
 #include "table/branch.h"
 #include "table/checked_record.h"
+#include "table/combined_table.h"
 #include "table/dynamic_table.h"
 #include "table/elongated_table.h"
 #include "table/stiffness_grid.h"
@@ -24,13 +25,15 @@ void read_all(const std::uint8_t* data, std::size_t size) {
     table.at(table.greatest());
   });
   refused_or_read(data, size, [](auto bytes) { rheocyte::course_from_bytes(bytes, spec, {6, 5, 0.5}, "course"); });
+  refused_or_read(data, size, [](auto bytes) { rheocyte::combined_from_bytes(bytes, "combined"); });
   refused_or_read(data, size, [](auto bytes) { rheocyte::dynamic_from_bytes(bytes, "dynamic"); });
 }
 
 /// Kind and format of the records, as they are written now.
-constexpr std::array<std::array<std::string_view, 2>, 5> kinds{{{"rheocyte branch", "2"},
+constexpr std::array<std::array<std::string_view, 2>, 6> kinds{{{"rheocyte branch", "2"},
                                                                 {"rheocyte grid", "1"},
                                                                 {"rheocyte elongated cells", "1"},
+                                                                {"rheocyte combined cells", "1"},
                                                                 {"rheocyte course", "1"},
                                                                 {"rheocyte dynamic table", "1"}}};
 

@@ -102,7 +102,7 @@ CellImages images_of(const Solved& cell, const SquareCourse* square) {
   CellImages images;
   for (const double place : {40.0, 140.0, 290.0}) {
     const CourseImage image{place, cell.area_um2, cell.mode_3, deviation, cell.mode_2};
-    images.push_back(square ? square->in_tube(image) : image);
+    images.push_back(square ? square->in_table(image) : image);
   }
   return images;
 }

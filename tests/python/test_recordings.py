@@ -286,7 +286,7 @@ def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
     shares = []
     frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, progress=shares.append)
     assert shares[-1] == 1 and frame.attrs["settings"]
-    assert any("the channel is its tube" in line for line in frame.attrs["warnings"])
+    assert any("the channel is that of the table" in line for line in frame.attrs["warnings"])
     subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--section", "tube", "--quiet"], cwd=tmp_path, check=True)
     written = pandas.read_csv(tmp_path / "cells_moduli.tsv", sep="\t", comment="#").drop(columns="event")
     assert [*frame] == [*written] and (frame["status"] == written["status"]).all()

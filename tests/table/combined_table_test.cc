@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "../refusal.h"
 #include "case/user_error.h"
 #include "invented_branch.h"
 #include "invented_combined.h"
@@ -48,6 +49,23 @@ TEST(CombinedTable, ReadsBackToTheSameBits) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(CombinedTable, AsOneFileItGivesBackTheSameBitsAndDamageIsRefusedInASentence) {
+  CombinedTable table = invented_combined_table(std::vector<std::string>{"table.radii=2"});
+  const std::string bytes = to_bytes(table);
+  const CombinedTable back = combined_from_bytes(bytes, "combined.cbor");
+  EXPECT_EQ(combined_table_csv(back), combined_table_csv(table));
+  EXPECT_EQ(to_toml(back.spec), to_toml(table.spec));
+  std::string cut = bytes, changed = bytes;
+  cut.resize(bytes.size() / 2);
+  changed[bytes.size() / 3] = char(changed[bytes.size() / 3] ^ 1);
+  for (const std::string& damaged : {cut, changed, std::string("no table")})
+    EXPECT_NE(refusal_of([&] { combined_from_bytes(damaged, "combined.cbor"); }).find("combined.cbor: this combined table"),
+              std::string::npos);
+  table.branches.back().stiffness_kPa[1] = 2 * table.branches.back().stiffness_kPa[0];
+  EXPECT_NE(refusal_of([&] { combined_from_bytes(to_bytes(table), "combined.cbor"); }).find("stiffness does not fall"),
+            std::string::npos);
 }
 
 TEST(CombinedTable, HoldsTheModesOfTheContours) {

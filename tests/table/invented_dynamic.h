@@ -43,8 +43,18 @@ inline CellCourse invented_course(const DynamicSpec& spec, const DynamicCell& ce
   return course;
 }
 
-inline DynamicContent invented_dynamic() {
-  DynamicContent content{parse_dynamic_spec(dynamic_spec_text, "invented.toml"), "a test", {}};
+/// The same behind the planar funnel of a square channel.
+inline const std::string square_dynamic_spec_text = R"([channel]
+section = "square"
+[channel.profile]
+x_um = [30.0, 70.0]
+width_um = [100.0, 20.0]
+[cell]
+density_kg_per_m3 = 0.0
+)" + dynamic_spec_text.substr(dynamic_spec_text.find("[flow]"));
+
+inline DynamicContent invented_dynamic(const std::string& spec_text = dynamic_spec_text) {
+  DynamicContent content{parse_dynamic_spec(spec_text, "invented.toml"), "a test", {}};
   for (const DynamicCell& cell : cells_of(content.spec)) content.courses.push_back(invented_course(content.spec, cell));
   return content;
 }

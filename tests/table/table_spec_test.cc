@@ -233,7 +233,7 @@ TEST(TableSpec, EveryReadySpecIsAGoodOne) {
     const auto spec = read_table_spec(entry.path());
     EXPECT_EQ(to_toml(parse_table_spec(to_toml(spec), "again")), to_toml(spec)) << name;
   }
-  EXPECT_EQ(specs, 13);
+  EXPECT_EQ(specs, 14);
 }
 
 }  // namespace
