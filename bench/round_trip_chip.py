@@ -32,15 +32,15 @@ def cell(random, viscosity):
 def seen(of_cell):
     """Of each place: where (um behind the funnel), when (s), and the closed outline (um)."""
     radius, modulus, viscosity = of_cell
-    states = rheocyte.evolve({
+    states = list(rheocyte.evolve({
         "channel": {"section": "square", "profile": {"x_um": [30.0, 70.0], "width_um": [100.0, 20.0]}},
         "flow": liquid() | {"density_kg_per_m3": 0},
         "cell": {"radius_um": radius, "viscosity_mPas": 1e3 * viscosity, "density_kg_per_m3": 0,
                  "bulk": {"law": "neo-hookean", "young_modulus_kPa": modulus}},
-        "time": {"end_um": FUNNEL_ENDS_UM + PLACES_UM[-1], "output_every_um": 5.0, "accuracy": 3e-4, "degree": 4}})
+        "time": {"end_um": FUNNEL_ENDS_UM + PLACES_UM[-1], "output_every_um": 5.0, "accuracy": 3e-4, "degree": 4}}))
     at = {round(state.position_um - FUNNEL_ENDS_UM): state for state in states}
     for place in PLACES_UM:
-        state = at.get(place, state)  # behind the place at which it has settled its shape stays
+        state = at.get(place, states[-1])  # behind the place at which it has settled its shape stays
         half = np.asarray(state.contour)
         rest_us = (FUNNEL_ENDS_UM + place - state.position_um) / state.cell_velocity_m_per_s
         yield place, 1e-6 * (state.t_us + rest_us), np.vstack([half, half[::-1] * [1, -1]])

@@ -59,10 +59,9 @@ void add_figure_command(CLI::App& app, int& exit_code) {
   command->add_option("--temperature-if-missing", options->temperature_if_missing, "degC, as for extract")
       ->type_name("VALUE");
   command
-      ->add_option(
-          "--table", options->table,
-          "combined table, for real-cells: median outlines are drawn over those of its cells that fit them; "
-          "HC-2D-EL-26 comes with the program")
+      ->add_option("--table", options->table,
+                   "combined table, for real-cells: median outlines are drawn over those of its cells that fit them; "
+                   "HC-2D-EL-26 comes with the program")
       ->type_name("TABLE");
   command
       ->add_option("-o,--output", options->folder,

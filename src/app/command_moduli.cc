@@ -76,9 +76,10 @@ void add_moduli_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ModuliOptions>();
   declare_batch_options(*command, options->batch);
   command
-      ->add_option("--table", options->table,
-                   "combined table: a folder of `rheocyte table` (examples/tables/combined.toml), its combined_*.cbor, or "
-                   "the name of one that comes with the program; default: HC-2D-EL-26, of elongated cells")
+      ->add_option(
+          "--table", options->table,
+          "combined table: a folder of `rheocyte table` (examples/tables/combined.toml), its combined_*.cbor, or "
+          "the name of one that comes with the program; default: HC-2D-EL-26, of elongated cells")
       ->type_name("TABLE");
   declare_settings(*command, settings_of(*options));
   command->callback([options, &exit_code] {

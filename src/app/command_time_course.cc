@@ -69,8 +69,10 @@ void add_time_course_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<TimeCourseOptions>();
   command->add_option("FILES", options->batch.inputs, "recordings (.rtdc) of one population; folders with -r")
       ->required();
-  command->add_option("--table", options->table, "dynamic table: a folder of `rheocyte table`, or its dynamic_*.cbor; default: HE-chip-26, of a "
-                  "square channel behind a funnel of 45 degrees")
+  command
+      ->add_option("--table", options->table,
+                   "dynamic table: a folder of `rheocyte table`, or its dynamic_*.cbor; default: HE-chip-26, of a "
+                   "square channel behind a funnel of 45 degrees")
       ->type_name("TABLE");
   command
       ->add_option("--contraction-um", options->contraction_um,

@@ -192,7 +192,8 @@ CourseCells course_cells(const CourseEvents& events, const std::string& name, do
     if (has_place && has_area) placed.push_back({event, stationary ? stationary->in_table(image) : image});
   }
   const Case& base = table.spec().base;
-  result.cells = Linker(table, unit_length_um(base), unit_time_s(base, factors.length, events.flow.rate_ul_s)).link(std::move(placed), events.has_time);
+  result.cells = Linker(table, unit_length_um(base), unit_time_s(base, factors.length, events.flow.rate_ul_s))
+                     .link(std::move(placed), events.has_time);
   return result;
 }
 

@@ -88,8 +88,7 @@ ordered_json median_cell_of(const MedianCell& m) {
 
 }  // namespace
 
-std::string moduli_json(const std::filesystem::path& recording, const std::string& table,
-                        const ModuliSummary& s) {
+std::string moduli_json(const std::filesystem::path& recording, const std::string& table, const ModuliSummary& s) {
   const ordered_json content{{"made_by", "rheocyte moduli"},
                              {"version", version},
                              {"recording", recording.string()},

@@ -9,8 +9,7 @@
 namespace rheocyte {
 
 /// Units are in the names; null where there is no value (docs/theory-extract.md, sec. "The command").
-std::string moduli_json(const std::filesystem::path& recording, const std::string& table,
-                        const ModuliSummary& summary);
+std::string moduli_json(const std::filesystem::path& recording, const std::string& table, const ModuliSummary& summary);
 /// With it all such files begin.
 inline constexpr std::string_view mark_of_moduli_json = "{\n  \"made_by\": \"rheocyte moduli\"";
 

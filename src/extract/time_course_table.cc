@@ -78,10 +78,11 @@ std::string status_of(const CourseEstimate& estimate) {
 CourseTable::CourseTable(const DynamicTable& table, std::optional<Section> section)
     : table_(table), section_(section), square_(section.value_or(Section::square), table.spec().base) {
   if (section == Section::tube && is_of_square())
-    throw UserError(fmt::format(
-        "rheocyte: --section tube, but the dynamic table {} is one of the square channel; leave the option out, or give "
-        "a table of a tube.",
-        table.spec().identifier));
+    throw UserError(
+        fmt::format("rheocyte: --section tube, but the dynamic table {} is one of the square channel; leave the option "
+                    "out, or give "
+                    "a table of a tube.",
+                    table.spec().identifier));
 }
 
 bool CourseTable::is_of_square() const { return table_.spec().base.channel.section == Section::square; }

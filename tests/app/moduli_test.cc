@@ -255,11 +255,21 @@ TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
   }
   const Ended given = moduli({folder.string(), "--viscosity-mPas", "12", "--axial-tension-Pa", "1000"});
   EXPECT_NE(given.out.find("axial tension: 1000 Pa as given"), std::string::npos) << given.out << given.err;
+  // The median's error contains that of a tension that was found.
+  const auto with_given = nlohmann::json::parse(content_of(folder_.path() / "M1_moduli.json"));
+  const auto error_of = [](const auto& s) { return s.at("stiffness_kPa").at("median_error").template get<double>(); };
+  EXPECT_GT(error_of(summary), 1.2 * error_of(with_given));
   expect_refusal({table_folder().string(), "--axial-tension-Pa", "400"}, "needs a table of elongated cells");
   EXPECT_NE(moduli({folder.string(), "--viscosity-mPas", "12", "--axial-tension", "1000", "--min", "index=100000"})
                 .err.find("--axial-tension is now called --axial-tension-Pa; this version still reads the old name"),
             std::string::npos);
   expect_refusal({folder.string(), "--only-figure"}, "too few features to find the axial tension");
+}
+
+TEST_F(ModuliCommand, WithoutATableThatOfTheProgramIsTaken) {
+  const Ended ended = run({{RHEOCYTE, "moduli", recording().string(), "--viscosity-mPas", "15"}});
+  EXPECT_NE(table().find("\n# table: HC-2D-EL-26\n"), std::string::npos) << ended.err;
+  EXPECT_EQ(nlohmann::json::parse(content_of(folder_.path() / "M1_moduli.json")).at("table"), "HC-2D-EL-26");
 }
 
 TEST_F(ModuliCommand, CellsThatMoveTowardsSmallerXHaveTheSameModuli) {

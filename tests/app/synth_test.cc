@@ -231,7 +231,8 @@ TEST_F(Synth, ModuliOfCombinedCellsAreThoseOfTheirTruth) {
   EXPECT_EQ(recording.metadata().text("user:rheocyte userdef7"), "true cortex modulus E2D (mN/m)");
   const auto ended = run({"moduli", path("v.rtdc"), "--table", path("table")});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.err.find("from cells of the table: the channel is that of the table"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("from cells of the table: the channel is that of the table"), std::string::npos)
+      << ended.err;
   std::istringstream lines(test::content_of(folder_ / "v_moduli.tsv"));
   std::size_t event = 0;
   double young_ratio = 0, cortex_ratio = 0;

@@ -99,15 +99,16 @@ TEST_F(TimeCourseCommand, ATableOfTheSquareChannelNeedsNothingOfTheTube) {
   // Cells of its own liquid are compared as they are, those of a thinning one by the stationary solids of both.
   make_table(square_dynamic_spec_text);
   ASSERT_EQ(synth().exit_code, 0);
-  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--contraction-um", "0", "--section", "square"}}) {
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--contraction-um", "0", "--section", "square"}}) {
     const Ended ended = time_course(more);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_TRUE(ended.out.starts_with("80 cells, 80 of them seen over at least 20 um; 0 events")) << ended.out;
     EXPECT_EQ(ended.out.find("c3 was divided"), std::string::npos) << ended.out;
   }
   expect_sentence(time_course({"--contraction-um", "0", "--section", "tube"}), "is one of the square channel");
-  const Ended thinning = time_course({"--contraction-um", "0", "--section", "square", "--medium", "CellCarrier",
-                                      "--temperature", "23"});
+  const Ended thinning =
+      time_course({"--contraction-um", "0", "--section", "square", "--medium", "CellCarrier", "--temperature", "23"});
   ASSERT_EQ(thinning.exit_code, 0) << thinning.err;
   EXPECT_NE(thinning.out.find("the liquid thins with shear otherwise than that of the table: c3 was divided by"),
             std::string::npos)

@@ -1,5 +1,6 @@
-// Any bytes are a record of a branch, a grid, elongated cells, a cell's way a combined or a dynamic table, or refused. No fuzzer
-// guesses a checksum: the bytes are tried as they stand, and as the content of a record that has been sealed properly.
+// Any bytes are a record of a branch, a grid, elongated cells, a cell's way a combined or a dynamic table, or refused.
+// No fuzzer guesses a checksum: the bytes are tried as they stand, and as the content of a record that has been sealed
+// properly.
 #include <array>
 
 #include "case/json_guard.h"

@@ -61,8 +61,9 @@ TEST(CombinedTable, AsOneFileItGivesBackTheSameBitsAndDamageIsRefusedInASentence
   cut.resize(bytes.size() / 2);
   changed[bytes.size() / 3] = char(changed[bytes.size() / 3] ^ 1);
   for (const std::string& damaged : {cut, changed, std::string("no table")})
-    EXPECT_NE(refusal_of([&] { combined_from_bytes(damaged, "combined.cbor"); }).find("combined.cbor: this combined table"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal_of([&] { combined_from_bytes(damaged, "combined.cbor"); }).find("combined.cbor: this combined table"),
+        std::string::npos);
   table.branches.back().stiffness_kPa[1] = 2 * table.branches.back().stiffness_kPa[0];
   EXPECT_NE(refusal_of([&] { combined_from_bytes(to_bytes(table), "combined.cbor"); }).find("stiffness does not fall"),
             std::string::npos);

@@ -107,7 +107,8 @@ TEST(DynamicTable, WhatItsSpecMustNotSayIsRefusedInASentence) {
   EXPECT_NE(refusal("dynamic.max_radius_um=40").find("outside its range"), std::string::npos);
   EXPECT_NE(refusal("dynamic.identifier=a b").find("no name of a table"), std::string::npos);
   EXPECT_NE(refusal("cell.bulk.law=none"), "accepted");
-  EXPECT_NE(refusal("channel.section=rectangle").find("computed in tubes and in the square channel"), std::string::npos);
+  EXPECT_NE(refusal("channel.section=rectangle").find("computed in tubes and in the square channel"),
+            std::string::npos);
   const std::string straight =
       "[channel]\nwidth_um = 20\n" + test::dynamic_spec_text.substr(test::dynamic_spec_text.find("[flow]"));
   EXPECT_NE(refusal_of([&] { parse_dynamic_spec(straight, "spec.toml"); }).find("needs the contraction"),
