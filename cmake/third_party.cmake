@@ -64,6 +64,9 @@ if(RHEOCYTE_STATIC_HDF5_LIBRARY AND RHEOCYTE_SZIP_LIBRARY AND RHEOCYTE_ZLIB_LIBR
     set(hdf5_of_programs ${static_hdf5})
   endif()
 endif()
+if(NOT RHEOCYTE_PROCESSES)  # static libraries alone
+  target_link_libraries(rheocyte::shared_hdf5 INTERFACE ${RHEOCYTE_ZLIB_LIBRARY})
+endif()
 set(is_program "$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>")
 add_library(rheocyte::hdf5 INTERFACE IMPORTED)
 target_include_directories(rheocyte::hdf5 INTERFACE ${RHEOCYTE_SHARED_HDF5_INCLUDE_DIR})
