@@ -1,7 +1,7 @@
 // The page without a server, with a stand-in for the program: requests, stops, breakdowns, files in and out.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { copyFile, mkdir, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { mkdir, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import test, { after, before } from 'node:test';
@@ -13,21 +13,27 @@ let folder;
 before(async () => {
   if (skip) return;
   folder = await mkdtemp(join(tmpdir(), 'rheocyte-alone-'));
-  for (const part of ['engine', 'tables']) await mkdir(join(folder, part));
-  await copyFile(here('stand_in_engine.js'), join(folder, 'engine', 'engine.js'));
-  await writeFile(join(folder, 'engine', 'engine.wasm'), 'no program');
+  await mkdir(join(folder, 'tables'));
   await writeFile(join(folder, 'tables', 'one.cbor'), 'a table');
-  execFileSync(process.execPath, [here('../single.mjs'), join(folder, 'engine'), join(folder, 'tables'), join(folder, 'page with blanks.html')]);
+  await makePage('page with blanks', await readFile(here('stand_in_engine.js'), 'utf8'));
 });
 after(() => folder && rm(folder, { recursive: true, force: true }));
 
+async function makePage(name, engine) {
+  const place = join(folder, `engine of ${name}`);
+  await mkdir(place);
+  await writeFile(join(place, 'engine.js'), engine);
+  await writeFile(join(place, 'engine.wasm'), 'no program');
+  execFileSync(process.execPath, [here('../single.mjs'), place, join(folder, 'tables'), join(folder, `${name}.html`)]);
+}
+
 /** Runs `work` with the page; whatever it asks of the network is an error. */
-async function inPage(work) {
+async function inPage(work, name = 'page with blanks') {
   const page = await openWindow();
   const outside = [];
   page.on('request', (request) => !/^(file|blob|data):/.test(request.url()) && outside.push(request.url()));
   try {
-    await page.goto(pathToFileURL(join(folder, 'page with blanks.html')).href);
+    await page.goto(pathToFileURL(join(folder, `${name}.html`)).href);
     await page.locator('header h1').waitFor();
     await work(page);
     assert.deepEqual(outside, []);
@@ -137,3 +143,31 @@ test('Exports become downloads, a folder as an archive that Python opens', { ski
     const listed = execFileSync('python3', ['-c', check, join(folder, 'folder.zip')], { encoding: 'utf8' }).trim();
     assert.equal(listed, "{'folder/a.txt': 'content of a.txt', 'folder/b.txt': 'content of b.txt'}");
   }));
+
+test('A cell that is solved and left alone keeps nobody waiting and takes no recording with it', { skip }, () =>
+  inPage(async (page) => {
+    await openRecordings(page);
+    await give(page, 'a.rtdc');
+    await page.locator('.recording', { hasText: 'a.rtdc' }).waitFor();
+    const found = await page.evaluate(async () => {
+      const control = new AbortController();
+      const slow = window.rheocyte.answer('/api/state?endless', { method: 'POST', body: '{}', signal: control.signal }).catch((reason) => reason.name);
+      const meanwhile = await (await window.rheocyte.answer('/api/items', {})).json();
+      control.abort();
+      const next = await window.rheocyte.answer('/api/state', { method: 'POST', body: '{}' });
+      return [meanwhile.length, await slow, next.status];
+    });
+    assert.deepEqual(found, [1, 'AbortError', 200]);
+    assert.equal(await page.locator('.notice', { hasText: 'Stopped' }).count(), 0);
+  }));
+
+test('In a browser that cannot run the program the page says so once, and refuses what is asked later', { skip }, async () => {
+  await makePage('none', 'const rheocyteEngine = () => Promise.reject(new Error("no SIMD"));');
+  await inPage(async (page) => {
+    const sentence = 'The program cannot run in this browser (no SIMD); it needs WebAssembly with SIMD and exceptions';
+    await notice(page, sentence);
+    const reason = await page.evaluate(() => window.rheocyte.answer('/api/keys', {}).catch(({ message }) => message));
+    assert.ok(reason.startsWith(sentence), reason);
+    assert.equal(await page.locator('.notice', { hasText: sentence }).count(), 1);
+  }, 'none');
+});

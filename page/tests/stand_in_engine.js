@@ -25,8 +25,13 @@ function rheocyteEngine(module) {
     '/api/breaks': () => {
       throw new Error('memory access out of bounds');
     },
-    '/api/long': () => {
+    '/api/long': (method) => {
+      if (method === 'DELETE') return answer('{}');
       for (const end = performance.now() + 60_000; performance.now() < end; );
+    },
+    '/api/state': (_method, _body, target) => {
+      while (target.includes('endless'));
+      answer('{}');
     },
     '/api/short': () => {
       for (const end = performance.now() + 500; performance.now() < end; );
@@ -48,7 +53,7 @@ function rheocyteEngine(module) {
   const request = (method, target, body) => {
     const path = target.split('?')[0];
     if (path === '/api/items/1/odd') throw new Error('HDF5 broke');
-    (answers[path] ?? (() => answer('{"error": "There is no such address.", "reason": "unknown"}', 404)))(method, body);
+    (answers[path] ?? (() => answer('{"error": "There is no such address.", "reason": "unknown"}', 404)))(method, body, target);
   };
   const calls = { rheocyte_request: request, rheocyte_open: open, rheocyte_count: () => listed.length, rheocyte_start: () => '' };
   return Promise.resolve({ FS, WORKERFS: {}, ccall: (name, _returns, _types, values) => calls[name](...values) });

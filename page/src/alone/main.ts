@@ -7,7 +7,7 @@ import { forgetComputed } from '../recordings/columns';
 import { items, readRecordings, recordings } from '../recordings/model';
 import { moduliVersion, readKnownModuli } from '../recordings/moduli';
 import type { Saved } from './messages';
-import { ProgramInPage } from './program';
+import { PairOfPrograms } from './pair';
 
 const content = (id: string) => document.getElementById(id)!.textContent!;
 
@@ -19,7 +19,7 @@ function download({ name, bytes }: Saved): void {
   window.setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-const program = new ProgramInPage(
+const program = new PairOfPrograms(
   { script: content('engine-worker'), wasm: content('engine-wasm'), tables: JSON.parse(content('engine-tables')) },
   { saved: download, restarted: (sentence) => (notify(sentence, 'failed'), void readAnew().catch(() => undefined)) },
 );

@@ -19,6 +19,7 @@ interface Job {
 
 /** Work that nobody waits for any more may go on so long; then its worker is ended. */
 const patience_ms = 2000;
+const lost = 'Stopped; moduli that were computed before must be computed again.';
 
 const isSession = ({ name }: File) => name.endsWith('.toml');
 const aborted = () => new DOMException('', 'AbortError');
@@ -42,6 +43,8 @@ export class ProgramInPage implements Program {
   private queue: Job[] = [];
   private running: Job | null = null;
   private isReady = false;
+  /** Why there is no program at all, once that is known. */
+  private absence: Refusal | null = null;
   private last = 0;
   /** Files that were given together, in the order of their folders. */
   private given: File[][] = [];
@@ -90,7 +93,8 @@ export class ProgramInPage implements Program {
 
   private add(wanted: Omit<Job, 'id' | 'sentences'>): Job {
     const job = { ...wanted, id: ++this.last, sentences: [] };
-    this.queue.push(job);
+    if (this.absence) this.fail(job, this.absence);
+    else this.queue.push(job);
     this.next();
     return job;
   }
@@ -102,7 +106,7 @@ export class ProgramInPage implements Program {
     const running = this.running;
     if (running && isMeant(running)) {
       left.push(running);
-      window.setTimeout(() => this.running === running && this.begin('Stopped; moduli that were computed before must be computed again.'), patience_ms);
+      window.setTimeout(() => this.running === running && this.begin(this.given.length > 0 ? lost : null), patience_ms);
     }
     for (const job of left) this.fail(job, aborted());
   }
@@ -190,7 +194,8 @@ export class ProgramInPage implements Program {
     if (!this.isReady) {
       this.worker.terminate();
       const sentence = `The program cannot run in this browser (${reason}); it needs WebAssembly with SIMD and exceptions: Chrome 95, Firefox 100, Safari 16.4 or newer.`;
-      for (const job of this.queue.splice(0)) this.fail(job, new Refusal(0, 'unreachable', sentence));
+      this.absence = new Refusal(0, 'unreachable', sentence);
+      for (const job of this.queue.splice(0)) this.fail(job, this.absence);
       return this.listener.restarted(sentence);
     }
     const culprit = this.running && this.fileOf(this.running);
@@ -210,9 +215,9 @@ export class ProgramInPage implements Program {
   }
 
   /** Another worker with the same files takes the place of the one before, and answers what waits. */
-  private begin(sentence: string): void {
+  private begin(sentence: string | null): void {
     this.worker.terminate();
-    this.failRunning(sentence);
+    this.failRunning(sentence ?? 'Stopped.');
     const waiting = this.queue;
     this.queue = [];
     this.itemFiles.clear();
@@ -220,7 +225,7 @@ export class ProgramInPage implements Program {
     for (const files of this.given) void this.openAgain(files).catch(() => undefined);
     for (const [path, body] of this.changes) void this.answer(path, { method: 'PATCH', body }).catch(() => undefined);
     this.queue.push(...waiting);
-    this.listener.restarted(sentence);
+    if (sentence) this.listener.restarted(sentence);
   }
 
   private fileOf(job: Job): File | null {
