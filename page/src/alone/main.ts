@@ -3,10 +3,12 @@ import { askOf } from '../api';
 import { notify, notifyFailure } from '../shell/notices';
 import { opener } from '../shell/OpenFiles';
 import { place, replacePlace } from '../shell/place';
+import { leaveSession, startSession } from '../shell/session';
 import { forgetComputed } from '../recordings/columns';
 import { items, readRecordings, recordings } from '../recordings/model';
 import { moduliVersion, readKnownModuli } from '../recordings/moduli';
 import type { Saved } from './messages';
+import { isSession } from './session_paths';
 import { PairOfPrograms } from './pair';
 
 const content = (id: string) => document.getElementById(id)!.textContent!;
@@ -24,7 +26,7 @@ const program = new PairOfPrograms(
   { saved: download, restarted: (sentence) => (notify(sentence, 'failed'), void readAnew().catch(() => undefined)) },
 );
 
-/** What was computed of recordings has gone with the worker. */
+/** What was computed of recordings has gone with the worker, or comes with a session. */
 async function readAnew(): Promise<void> {
   await readRecordings();
   for (const { item } of recordings(items.get())) {
@@ -35,10 +37,15 @@ async function readAnew(): Promise<void> {
 }
 
 async function open(files: File[]): Promise<void> {
+  const openings = await Promise.all(files.map((file) => file.slice(0, 100).text()));
+  const hasSession = openings.some(isSession);
+  if (hasSession) leaveSession();
   // A breakdown has been told already.
   for (const sentence of await program.open(files).catch(() => [])) notify(sentence, 'failed');
   if (place.get().workspace !== 'recordings') replacePlace({ workspace: 'recordings', query: new URLSearchParams() });
-  await readRecordings();
+  if (!hasSession) return readRecordings();
+  await startSession();
+  await readAnew();
 }
 
 function takeDrops(): void {

@@ -1,5 +1,6 @@
 // The worker: the program as WebAssembly (src/engine/engine.cc), whose loader stands before this script.
 import type { Ask, FromWorker, Open, Saved, Start, ToWorker } from './messages';
+import { isSession, withPaths } from './session_paths';
 import { zipOf } from './zip';
 
 interface Engine {
@@ -20,10 +21,12 @@ interface Engine {
 
 declare function rheocyteEngine(options: object): Promise<Engine>;
 
-const tables = '/tables', exports = '/exports', given = '/recordings';
+const tables = '/tables', exports = '/exports', given = '/recordings', sessions = '/sessions';
 
 let engine: Engine;
 let opened = 0;
+/** Of tables and files that were given, by their names. */
+const places = new Map<string, string>();
 /** Of what is answered now. */
 let id = 0;
 let head = { status: 0, type: '', headers: {} as Record<string, string> };
@@ -49,8 +52,11 @@ async function start(message: Start): Promise<void> {
     takeHead: (status: number, type: string, headers: Record<string, string>) => void (head = { status, type, headers }),
     takePiece,
   });
-  for (const folder of [tables, exports, given]) engine.FS.mkdirTree(folder);
-  for (const [name, content] of message.tables) engine.FS.writeFile(`${tables}/${name}`, await unpacked(content));
+  for (const folder of [tables, exports, given, sessions]) engine.FS.mkdirTree(folder);
+  for (const [name, content] of message.tables) {
+    places.set(name, `${tables}/${name}`);
+    engine.FS.writeFile(`${tables}/${name}`, await unpacked(content));
+  }
   engine.ccall('rheocyte_start', null, ['string', 'string'], [tables, exports]);
   tell({ kind: 'ready' });
 }
@@ -122,15 +128,26 @@ function ask(message: Ask): void {
 
 const count = () => Number(engine.ccall('rheocyte_count', 'number', [], []));
 
+/** Where a file is to be read: a session names files as they lie here. */
+function placeOf(file: File, path: string): string {
+  if (!file.name.endsWith('.toml')) return path;
+  const text = new TextDecoder().decode(engine.FS.readFile(path));
+  if (!isSession(text)) return path;
+  const session = `${sessions}/${file.name}`;
+  engine.FS.writeFile(session, new TextEncoder().encode(withPaths(text, places)));
+  return session;
+}
+
 function open(message: Open): void {
   begin(message);
   const folder = `${given}/${++opened}`;
   engine.FS.mkdirTree(folder);
   engine.FS.mount(engine.WORKERFS, { files: message.files }, folder);
-  message.files.forEach(({ name }, place) => {
+  for (const { name } of message.files) places.set(name, `${folder}/${name}`);
+  message.files.forEach((file, place) => {
     tell({ kind: 'opens', id, place });
     const before = count();
-    const sentence = engine.ccall('rheocyte_open', 'string', ['string'], [`${folder}/${name}`]);
+    const sentence = engine.ccall('rheocyte_open', 'string', ['string'], [placeOf(file, `${folder}/${file.name}`)]);
     tell({ kind: 'opened', id, place, item: count() > before ? before : null, sentence });
   });
   tell({ kind: 'end', id });
