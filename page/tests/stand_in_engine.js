@@ -56,5 +56,6 @@ function rheocyteEngine(module) {
     (answers[path] ?? (() => answer('{"error": "There is no such address.", "reason": "unknown"}', 404)))(method, body, target);
   };
   const calls = { rheocyte_request: request, rheocyte_open: open, rheocyte_count: () => listed.length, rheocyte_start: () => '' };
-  return Promise.resolve({ FS, WORKERFS: {}, ccall: (name, _returns, _types, values) => calls[name](...values) });
+  const memory = { stringToNewUTF8: (text) => text, _free() {} };
+  return Promise.resolve({ FS, WORKERFS: {}, ...memory, ccall: (name, _returns, _types, values) => calls[name](...values) });
 }

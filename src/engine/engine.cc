@@ -15,7 +15,10 @@
 // What the worker (page/src/alone/worker.ts) adds to the module.
 EM_JS(void, engine_head, (int status, const char* type, const char* headers),
       { Module.takeHead(status, UTF8ToString(type), JSON.parse(UTF8ToString(headers))); })
-EM_JS(void, engine_piece, (const char* from, int size), { Module.takePiece(HEAPU8.slice(from, from + size)); })
+EM_JS(void, engine_piece, (const char* from, int size), {
+  const first = from >>> 0;  // beyond 2 GB it arrives negative
+  Module.takePiece(HEAPU8.slice(first, first + size));
+})
 
 namespace rheocyte {
 

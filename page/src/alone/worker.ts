@@ -5,6 +5,8 @@ import { zipOf } from './zip';
 
 interface Engine {
   ccall(name: string, returns: 'string' | 'number' | null, types: string[], values: (string | number)[]): string;
+  stringToNewUTF8(text: string): number;
+  _free(place: number): void;
   FS: {
     mkdirTree(path: string): void;
     mount(type: unknown, options: { files: File[] }, place: string): void;
@@ -120,7 +122,9 @@ function ask(message: Ask): void {
   begin(message);
   exporting = isExport(message.target);
   const size = new TextEncoder().encode(message.body).length;
-  engine.ccall('rheocyte_request', null, ['string', 'string', 'string', 'number'], [message.method, message.target, message.body, size]);
+  const body = engine.stringToNewUTF8(message.body); // a picture would not fit on the stack
+  engine.ccall('rheocyte_request', null, ['string', 'string', 'number', 'number'], [message.method, message.target, body, size]);
+  engine._free(body);
   const saved = exporting ? endExport() : undefined;
   sendHead();
   tell({ kind: 'end', id, saved }, saved ? [saved.bytes.buffer] : []);
