@@ -47,7 +47,7 @@ const scripts = [
 const html = (await readFile(join(here, 'src/index.html'), 'utf8'))
   .replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${page.style}</style>`)
   .replace(/ *<script type="module"[^>]*><\/script>\n/, '')
-  .replace('<div id="page"></div>', '<div id="page"><p>rheocyte is starting …</p></div>')
+  .replace('<div id="page"></div>', '<p id="starting">rheocyte is starting …</p><div id="page"></div>')
   .replace('</body>', () => `${scripts.join('\n')}\n</body>`);
 await writeFile(out, html);
 console.log(`${(html.length / 1e6).toFixed(1)} MB  ${out}`);

@@ -128,7 +128,7 @@ test('A companion is a download that opens as a recording; a session finds its r
     await exported(page, 'Session', 'session.toml');
     await give(page, await exported(page, 'Companion .rtdc', 'companion.rtdc'));
     await page.locator('.recording', { hasText: 'companion' }).locator('.numbers').waitFor();
-    assert.ok((await answered(page, '/api/items/1')).features.includes('young_modulus_kPa'));
+    assert.ok((await answered(page, '/api/items/1')).features.includes('emodulus'));
   });
   await inPage(async (page) => {
     await give(page, join(folder, 'session.toml'), recording);

@@ -57,5 +57,5 @@ function rheocyteEngine(module) {
   };
   const calls = { rheocyte_request: request, rheocyte_open: open, rheocyte_count: () => listed.length, rheocyte_start: () => '' };
   const memory = { stringToNewUTF8: (text) => text, _free() {} };
-  return Promise.resolve({ FS, WORKERFS: {}, ...memory, ccall: (name, _returns, _types, values) => calls[name](...values) });
+  return Promise.resolve({ FS, WORKERFS: { stream_ops: {} }, ...memory, ccall: (name, _returns, _types, values) => calls[name](...values) });
 }

@@ -62,3 +62,4 @@ Object.assign(window, { rheocyte: program }); // for scripts: rheocyte.answer('/
 opener.set(open);
 takeDrops();
 await import('../main');
+document.getElementById('starting')!.remove();

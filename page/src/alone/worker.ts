@@ -1,5 +1,6 @@
 // The worker: the program as WebAssembly (src/engine/engine.cc), whose loader stands before this script.
 import type { Ask, FromWorker, Open, Saved, Start, ToWorker } from './messages';
+import { BlockReader } from './block_reader';
 import { isSession, withPaths } from './session_paths';
 import { zipOf } from './zip';
 
@@ -18,7 +19,14 @@ interface Engine {
     unlink(path: string): void;
     rmdir(path: string): void;
   };
-  WORKERFS: unknown;
+  WORKERFS: { stream_ops: { read: Read } };
+}
+
+/** Of the files that are mounted. */
+type Read = (stream: { node: { contents: Blob } }, buffer: Uint8Array, offset: number, length: number, position: number) => number;
+
+declare class FileReaderSync {
+  readAsArrayBuffer(piece: Blob): ArrayBuffer;
 }
 
 declare function rheocyteEngine(options: object): Promise<Engine>;
@@ -44,6 +52,11 @@ async function unpacked(base64: string): Promise<Uint8Array> {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
+const question = new FileReaderSync();
+const reader = new BlockReader((piece) => question.readAsArrayBuffer(piece));
+const readBlocks: Read = ({ node: { contents } }, buffer, offset, length, position) =>
+  reader.fill(buffer.subarray(offset, offset + length), contents, position);
+
 const isExport = (target: string) => target === '/api/export';
 
 async function start(message: Start): Promise<void> {
@@ -54,6 +67,7 @@ async function start(message: Start): Promise<void> {
     takeHead: (status: number, type: string, headers: Record<string, string>) => void (head = { status, type, headers }),
     takePiece,
   });
+  engine.WORKERFS.stream_ops.read = readBlocks;
   for (const folder of [tables, exports, given, sessions]) engine.FS.mkdirTree(folder);
   for (const [name, content] of message.tables) {
     places.set(name, `${tables}/${name}`);
