@@ -80,8 +80,9 @@ async function assertSameModuli(page, recording) {
   await run(program, ['extract', recording, '-o', target, '--quiet']);
   const theirs = await numbersIn(join(target, `${basename(recording, '.rtdc')}_rheocyte.tsv`));
   assert.equal(ours.length, theirs.length);
-  // The table has six digits, of which rounding may turn the last.
-  ours.forEach((value, k) => assert.ok(Object.is(value, theirs[k]) || Math.abs(value - theirs[k]) <= 2e-6 * Math.abs(theirs[k]), `${value} and ${theirs[k]}`));
+  // The table has six digits, of which rounding may turn the last; what is nought but for rounding has none.
+  const rounding = (value) => Math.max(2e-6 * Math.abs(value), 1e-12);
+  ours.forEach((value, k) => assert.ok(Object.is(value, theirs[k]) || Math.abs(value - theirs[k]) <= rounding(theirs[k]), `${value} and ${theirs[k]}`));
 }
 
 test('A slider moves the cell', { skip }, () =>
@@ -112,9 +113,9 @@ test('Moduli of a recording are those of rheocyte extract, and its table of even
   }));
 
 const measured = fileURLToPath(new URL('../../../shared/reference/rtdc/', import.meta.url));
-for (const name of ['example.rtdc', 'mask_contour_reference.rtdc'])
-  test(`Moduli of the measured recording ${name} are those of rheocyte extract`, { skip: skip || (existsSync(measured) ? false : `there is no ${measured}`) }, () =>
-    inPage((page) => assertSameModuli(page, join(measured, name))));
+const hasMeasured = skip || (existsSync(measured) ? false : `there is no ${measured}`);
+test('Moduli of a measured recording are those of rheocyte extract', { skip: hasMeasured }, () =>
+  inPage((page) => assertSameModuli(page, join(measured, 'wide_channel_issue_212.rtdc'))));
 
 test('A companion is a download that opens as a recording; a session finds its recordings again by their names', { skip }, async () => {
   const recording = join(folder, "M\u00fcller's cells.rtdc");
@@ -123,12 +124,11 @@ test('A companion is a download that opens as a recording; a session finds its r
     await give(page, recording);
     await drawn(page);
     await computeModuli(page);
-    await answered(page, '/api/items/0');
     await page.getByLabel('Two plots').check();
     await exported(page, 'Session', 'session.toml');
     await give(page, await exported(page, 'Companion .rtdc', 'companion.rtdc'));
     await page.locator('.recording', { hasText: 'companion' }).locator('.numbers').waitFor();
-    assert.ok((await answered(page, '/api/items/1')).features.includes('emodulus'));
+    assert.ok((await answered(page, '/api/items/1')).features.includes('emodulus_stored'));
   });
   await inPage(async (page) => {
     await give(page, join(folder, 'session.toml'), recording);
