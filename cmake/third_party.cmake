@@ -64,6 +64,9 @@ if(RHEOCYTE_STATIC_HDF5_LIBRARY AND RHEOCYTE_SZIP_LIBRARY AND RHEOCYTE_ZLIB_LIBR
     set(hdf5_of_programs ${static_hdf5})
   endif()
 endif()
+if(NOT RHEOCYTE_PROCESSES)  # static libraries alone
+  target_link_libraries(rheocyte::shared_hdf5 INTERFACE ${RHEOCYTE_ZLIB_LIBRARY})
+endif()
 set(is_program "$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>")
 add_library(rheocyte::hdf5 INTERFACE IMPORTED)
 target_include_directories(rheocyte::hdf5 INTERFACE ${RHEOCYTE_SHARED_HDF5_INCLUDE_DIR})
@@ -74,6 +77,8 @@ target_link_libraries(rheocyte::hdf5 INTERFACE $<$<NOT:${is_program}>:rheocyte::
 rheocyte_import(zstd LIBRARY zstd HEADER zstd.h PACKAGE libzstd-dev)
 rheocyte_import(qhull LIBRARY qhull_r HEADER libqhull_r/libqhull_r.h PACKAGE libqhull-dev)
 rheocyte_import(boost_math HEADER boost/math/distributions/students_t.hpp PACKAGE libboost-dev)
+# Numbers of double precision stay so on the way: longer ones differ from machine to machine, and WebAssembly has none.
+target_compile_definitions(rheocyte::boost_math INTERFACE BOOST_MATH_PROMOTE_DOUBLE_POLICY=false)
 if(RHEOCYTE_SOLVER AND RHEOCYTE_PROCESSES)
   rheocyte_import(beast HEADER boost/beast/http.hpp PACKAGE libboost-dev)
   # Without what nobody uses and some compilers take for something else; Boost.System is headers only.

@@ -1,4 +1,4 @@
-// The program's interface over HTTP: types of requests and answers, and one function for each of them.
+// The program's interface: types of requests and answers, and one function for each of them.
 
 export type Value = number | string | number[];
 /** A case by dotted names, as in the case reference: "cell.radius_um" -> 7.66. */
@@ -299,14 +299,30 @@ async function refusal(answer: Response): Promise<Refusal> {
   }
 }
 
+/** Who answers. */
+export interface Program {
+  answer(path: string, options: RequestInit): Promise<Response>;
+  /** An address from which the browser loads a picture. */
+  picture(path: string): Promise<string>;
+}
+
+/** Over HTTP, unless another one is put in its place. */
+let program: Program = {
+  answer: (path, options) => fetch(path, { credentials: 'same-origin', ...options }),
+  picture: async (path) => path,
+};
+export const askOf = (other: Program): void => void (program = other);
+export const addressOfPicture = (path: string): Promise<string> => program.picture(path);
+
 async function request(path: string, options: RequestInit = {}): Promise<Response> {
-  const answer = await fetch(path, { credentials: 'same-origin', ...options }).catch(give);
+  const answer = await program.answer(path, options).catch(give);
   if (!answer.ok) throw await refusal(answer);
   return answer;
 }
 
 /** An answer that did not come, or not to its end: because it was given up here, or because the program has gone. */
 function broken(failure: unknown): Refusal {
+  if (failure instanceof Refusal) return failure;
   if (failure instanceof DOMException && failure.name === 'AbortError') return new Refusal(0, 'stopped', 'Stopped.');
   return new Refusal(0, 'unreachable', 'The program does not answer; is it still running in its terminal?');
 }

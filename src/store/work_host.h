@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -31,6 +32,14 @@ class WorkReply {
   /// What is asked next (HostedWork::ask), however long that takes; nothing once nobody listens any more.
   std::optional<std::string> next_request() const;
 
+  /// What work that stays has made for all questions. In builds without processes it begins anew with each of them, and
+  /// finds this again.
+  template <class State, class... Given>
+  State& kept(const Given&... given) const {
+    if (!kept_) kept_ = std::make_shared<State>(given...);
+    return *std::static_pointer_cast<State>(kept_);
+  }
+
   /// What may break its process, in another one (run_contained_bytes): it gives pieces itself and tells its progress.
   /// `file` is what it reads, for the sentence. UserError.
   void run_contained(const std::filesystem::path& file, const std::function<void(const TellProgress&)>& work,
@@ -38,6 +47,7 @@ class WorkReply {
 
  private:
   int socket_;
+  mutable std::shared_ptr<void> kept_ = {};
 };
 
 /// The answer to one request, as it comes. Its end stops the work within 0.1 s, also if that has not finished.

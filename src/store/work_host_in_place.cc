@@ -19,6 +19,7 @@ namespace {
 struct Task {
   WorkHost::Work work;
   std::string request;
+  WorkReply reply;
   bool is_asked = true;                    ///< and not yet done
   std::deque<std::string> questions = {};  ///< to work that stays
   std::deque<std::string> pieces = {};
@@ -43,7 +44,7 @@ void do_now(int number) {
   Task& task = tasks().at(number);
   task.is_asked = false;
   try {
-    task.work(task.request, WorkReply(number));
+    task.work(task.request, task.reply);
   } catch (const UserError&) {
     task.failure = std::current_exception();
   } catch (const std::bad_alloc&) {
@@ -120,7 +121,8 @@ WorkHost::~WorkHost() {
 
 HostedWork WorkHost::ask(const std::string& request) const {
   static int last = 0;
-  tasks().emplace(++last, Task{works().at(this), request});
+  ++last;
+  tasks().emplace(last, Task{works().at(this), request, WorkReply(last)});
   return HostedWork(last);
 }
 

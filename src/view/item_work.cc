@@ -32,9 +32,13 @@ fs::path path_in(const Json& request, const char* key) { return path_of_text(req
 /// An open recording with its companion, if something has been computed from it.
 struct OpenRecording {
   explicit OpenRecording(const Json& request, const TellProgress& tell) : recording(path_in(request, "file")) {
-    recording.on_piece(now_and_then([tell] { tell(0); }));
+    tell_to(tell);
     if (const fs::path file = path_in(request, "companion"); !file.empty()) companion.emplace(file);
     if (const fs::path file = path_in(request, "several"); !file.empty()) several.emplace(file);
+  }
+  /// Who asks is told while the recording is read.
+  void tell_to(const TellProgress& tell) {
+    recording.on_piece(now_and_then([tell] { tell(0); }));
   }
   ComputedFiles computed() const { return {companion ? &*companion : nullptr, several ? &*several : nullptr}; }
 
@@ -80,18 +84,33 @@ void give_columns(const Json& request, const WorkReply& reply, const TellProgres
     }
 }
 
-/// Stays with its recording, tables and settings until nobody asks for an event any more.
-void inspect_events(const Json& request, const WorkReply& reply, const TellProgress& tell) {
-  const OpenRecording open(request, tell);
-  const ExtractOptions options = options_of_settings(request.at("settings"));
-  const ModulusTables tables(options.table, options.section);
-  std::optional<ModuliTable> combined;
-  if (const fs::path folder = path_in(request, "combined"); !folder.empty()) {
-    combined.emplace(moduli_options(options, folder));
+/// A recording, tables and settings for all events that are asked for.
+struct Inspection {
+  Inspection(const Json& request, const TellProgress& tell)
+      : open(request, tell),
+        options(options_of_settings(request.at("settings"))),
+        tables(options.table, options.section),
+        combined(combined_table(path_in(request, "combined"), options)),
+        inspector({open.recording, open.computed(), combined ? &*combined : nullptr}, options, tables) {}
+
+  static std::optional<ModuliTable> combined_table(const fs::path& folder, const ExtractOptions& options) {
+    if (folder.empty()) return std::nullopt;
+    return std::optional<ModuliTable>(std::in_place, moduli_options(options, folder));
   }
-  EventInspector inspector({open.recording, open.computed(), combined ? &*combined : nullptr}, options, tables);
+
+  OpenRecording open;
+  ExtractOptions options;
+  ModulusTables tables;
+  std::optional<ModuliTable> combined;
+  EventInspector inspector;
+};
+
+/// Stays until nobody asks for an event any more.
+void inspect_events(const Json& request, const WorkReply& reply, const TellProgress& tell) {
+  auto& inspection = reply.kept<Inspection>(request, tell);
+  inspection.open.tell_to(tell);
   while (const auto event = reply.next_request()) {
-    Json found = inspector.inspect(std::stoul(*event));
+    Json found = inspection.inspector.inspect(std::stoul(*event));
     found["version"] = request.value("version", "");
     reply.give(json_text(found));
     reply.end_answer();

@@ -7,6 +7,7 @@
 
 #include "measurement/recording_writer.h"
 #include "store/thread.h"
+#include "store/work_host.h"
 #include "view/view_routes.h"
 #include "virtual_cells.h"
 
@@ -58,6 +59,25 @@ TEST_F(InPlace, WhatIsNoRecordingIsToldAndHarmsNothingElse) {
   const Json items = json("GET", "/api/items");
   EXPECT_EQ(items[0]["state"], "failed");
   EXPECT_EQ(items[1]["state"], "ready");
+}
+
+/// Counts how often it is made.
+struct Made {
+  explicit Made(int* times) { ++*times; }
+};
+
+TEST_F(InPlace, WorkThatStaysFindsWhatItHasMadeWithTheNextQuestion) {
+  int times = 0;
+  const WorkHost host([&](const std::string&, const WorkReply& reply) {
+    reply.kept<Made>(&times);
+    while (const auto question = reply.next_request()) reply.give("answer to " + *question);
+  });
+  HostedWork work = host.ask("begin");
+  for (const char* question : {"a", "b"}) {
+    work.ask(question);
+    EXPECT_EQ(work.all(), std::string("answer to ") + question);
+  }
+  EXPECT_EQ(times, 1);
 }
 
 TEST_F(InPlace, ModuliForNobodyAreStopped) {

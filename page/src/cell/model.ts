@@ -167,7 +167,7 @@ export async function startCell(): Promise<void> {
   keys.set(keysByName(await readKeys()));
   keepInSession('cell', {
     save: () => ({ case: values.get() }),
-    restore: (kept) => values.set((kept as { case: Case }).case),
+    restore: (kept) => (solved.get() ? show : values.set)((kept as { case: Case }).case),
   });
   values.set(completed(keys.get(), caseOfAddress()));
   solve();

@@ -1,6 +1,6 @@
 // The image of an event at true scale: mask, outline, and the contour of the model's cell over it.
 import { useEffect, useState } from 'preact/hooks';
-import { eventPicture, type EventDetail } from '../api';
+import { addressOfPicture, eventPicture, type EventDetail } from '../api';
 import { store, useStore } from '../shell/store';
 import type { Choice } from './model';
 
@@ -24,7 +24,10 @@ function usePicture(address: string): Picture {
     const element = new Image();
     element.onload = () => setPicture({ element, missing: false });
     element.onerror = () => setPicture({ element: null, missing: true });
-    element.src = address;
+    addressOfPicture(address).then(
+      (found) => void (element.src = found),
+      () => element.onerror && setPicture({ element: null, missing: true }),
+    );
     return () => void (element.onload = element.onerror = null);
   }, [address]);
   return picture;

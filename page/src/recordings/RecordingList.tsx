@@ -2,6 +2,7 @@
 import { useEffect } from 'preact/hooks';
 import type { Item } from '../api';
 import { significant } from '../draw/numbers';
+import { OpenFiles, opener } from '../shell/OpenFiles';
 import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
 import { countWithin } from './analysis';
@@ -120,7 +121,8 @@ export function RecordingList() {
   return (
     <section class="recording-list" aria-label="List of recordings">
       <h2>Recordings</h2>
-      {all !== null && shown.length === 0 && (
+      <OpenFiles />
+      {!opener.get() && all !== null && shown.length === 0 && (
         <p class="soft">
           None was given. Start the view with recordings or folders of them: <code>rheocyte view FILES.rtdc</code>
         </p>

@@ -16,7 +16,7 @@ export function dismiss(id: number): void {
 
 export function notify(sentence: string, kind: Notice['kind'] = 'done'): void {
   const id = ++last;
-  notices.update((all) => [...all.slice(-2), { id, kind, sentence }]);
+  notices.update((all) => [...all.filter((other) => other.sentence !== sentence).slice(-2), { id, kind, sentence }]);
   if (kind === 'done') window.setTimeout(() => dismiss(id), 8000);
 }
 

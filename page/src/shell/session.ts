@@ -22,13 +22,17 @@ function saved(): Record<string, unknown> {
   return page;
 }
 
-/** To be called before the first part is kept; false where there is no session to restore. */
+/** Restores the session of the program, parts that are kept later when they are; false where there is none. */
 export async function startSession(): Promise<boolean> {
   restored = (await readSession().catch(() => ({ page: null }))).page ?? {};
+  for (const [name, part] of parts) if (name in restored) part.restore(restored[name]);
   return Object.keys(restored).length > 0;
 }
 
 export const sendSession = () => writeSession(saved());
+
+/** What has changed is not sent any more: another session takes its place. */
+export const leaveSession = () => window.clearTimeout(timer);
 
 /** Sends the session a moment after the last change. */
 export function sessionChanged(): void {

@@ -28,7 +28,7 @@ export function store<T>(initial: T): Store<T> {
 }
 
 export function useStore<T>(shared: Store<T>): T {
-  const [value, setValue] = useState(shared.get());
+  const [value, setValue] = useState(() => shared.get()); // also of a function
   useEffect(() => {
     setValue(() => shared.get());
     return shared.subscribe((next) => setValue(() => next));

@@ -1,0 +1,41 @@
+// What page and worker say to each other.
+export interface Start {
+  kind: 'start';
+  /** gzip in base64, as the tables, which follow their names */
+  wasm: string;
+  tables: [string, string][];
+}
+
+export interface Ask {
+  kind: 'ask';
+  id: number;
+  method: string;
+  /** path and query */
+  target: string;
+  body: string;
+}
+
+export interface Open {
+  kind: 'open';
+  id: number;
+  /** files that were given together lie in one folder */
+  files: File[];
+}
+
+export type ToWorker = Start | Ask | Open;
+
+export interface Saved {
+  name: string;
+  bytes: Uint8Array;
+}
+
+export type FromWorker =
+  | { kind: 'ready' }
+  | { kind: 'head'; id: number; status: number; headers: Record<string, string> }
+  | { kind: 'piece'; id: number; piece: Uint8Array }
+  | { kind: 'end'; id: number; saved?: Saved }
+  /** The file of this place among those given together is read now. */
+  | { kind: 'opens'; id: number; place: number }
+  /** The number of the item that it has become, if it is one; why it cannot be opened, or nothing. */
+  | { kind: 'opened'; id: number; place: number; item: number | null; sentence: string }
+  | { kind: 'broken'; reason: string };

@@ -1,0 +1,182 @@
+// The worker: the program as WebAssembly (src/engine/engine.cc), whose loader stands before this script.
+import type { Ask, FromWorker, Open, Saved, Start, ToWorker } from './messages';
+import { BlockReader } from './block_reader';
+import { isSession, withPaths } from './session_paths';
+import { zipOf } from './zip';
+
+interface Engine {
+  ccall(name: string, returns: 'string' | 'number' | null, types: string[], values: (string | number)[]): string;
+  stringToNewUTF8(text: string): number;
+  _free(place: number): void;
+  FS: {
+    mkdirTree(path: string): void;
+    mount(type: unknown, options: { files: File[] }, place: string): void;
+    writeFile(path: string, bytes: Uint8Array): void;
+    readFile(path: string): Uint8Array;
+    readdir(path: string): string[];
+    stat(path: string): { mode: number };
+    isDir(mode: number): boolean;
+    unlink(path: string): void;
+    rmdir(path: string): void;
+  };
+  WORKERFS: { stream_ops: { read: Read } };
+}
+
+/** Of the files that are mounted. */
+type Read = (stream: { node: { contents: Blob } }, buffer: Uint8Array, offset: number, length: number, position: number) => number;
+
+declare class FileReaderSync {
+  readAsArrayBuffer(piece: Blob): ArrayBuffer;
+}
+
+declare function rheocyteEngine(options: object): Promise<Engine>;
+
+const tables = '/tables', exports = '/exports', given = '/recordings', sessions = '/sessions';
+
+let engine: Engine;
+let opened = 0;
+/** Of tables and files that were given, by their names. */
+const places = new Map<string, string>();
+/** Of what is answered now. */
+let id = 0;
+let head = { status: 0, type: '', headers: {} as Record<string, string> };
+let text = '';
+
+const tell = (message: FromWorker, transfer: Transferable[] = []) => self.postMessage(message, { transfer });
+
+async function unpacked(base64: string): Promise<Uint8Array> {
+  const letters = atob(base64);
+  const bytes = new Uint8Array(letters.length);
+  for (let k = 0; k < letters.length; ++k) bytes[k] = letters.charCodeAt(k);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+const question = new FileReaderSync();
+const reader = new BlockReader((piece) => question.readAsArrayBuffer(piece));
+const readBlocks: Read = ({ node: { contents } }, buffer, offset, length, position) =>
+  reader.fill(buffer.subarray(offset, offset + length), contents, position);
+
+const isExport = (target: string) => target === '/api/export';
+
+async function start(message: Start): Promise<void> {
+  engine = await rheocyteEngine({
+    wasmBinary: await unpacked(message.wasm),
+    print: () => undefined,
+    printErr: () => undefined,
+    takeHead: (status: number, type: string, headers: Record<string, string>) => void (head = { status, type, headers }),
+    takePiece,
+  });
+  engine.WORKERFS.stream_ops.read = readBlocks;
+  for (const folder of [tables, exports, given, sessions]) engine.FS.mkdirTree(folder);
+  for (const [name, content] of message.tables) {
+    places.set(name, `${tables}/${name}`);
+    engine.FS.writeFile(`${tables}/${name}`, await unpacked(content));
+  }
+  engine.ccall('rheocyte_start', null, ['string', 'string'], [tables, exports]);
+  tell({ kind: 'ready' });
+}
+
+let isHeadSent = false;
+let exporting = false;
+
+function takePiece(piece: Uint8Array): void {
+  if (exporting) return void (text += new TextDecoder().decode(piece));
+  sendHead();
+  tell({ kind: 'piece', id, piece }, [piece.buffer]);
+}
+
+function sendHead(): void {
+  if (isHeadSent) return;
+  isHeadSent = true;
+  tell({ kind: 'head', id, status: head.status, headers: { ...head.headers, 'Content-Type': head.type } });
+}
+
+function begin(message: Ask | Open): void {
+  id = message.id;
+  isHeadSent = false;
+  text = '';
+}
+
+/** A file, or all files of a folder, which leave the file system of the program. */
+function taken(place: string): Saved {
+  const name = place.split('/').pop()!;
+  const { FS } = engine;
+  if (!FS.isDir(FS.stat(place).mode)) {
+    const bytes = FS.readFile(place);
+    FS.unlink(place);
+    return { name, bytes };
+  }
+  const files: Saved[] = [];
+  const gather = (folder: string) => {
+    for (const entry of FS.readdir(folder).filter((each) => each !== '.' && each !== '..')) {
+      const path = `${folder}/${entry}`;
+      if (FS.isDir(FS.stat(path).mode)) gather(path);
+      else {
+        files.push({ name: path.slice(place.length - name.length), bytes: FS.readFile(path) });
+        FS.unlink(path);
+      }
+    }
+    FS.rmdir(folder);
+  };
+  gather(place);
+  return { name: `${name}.zip`, bytes: zipOf(files) };
+}
+
+/** What is exported becomes a download of the page. */
+function endExport(): Saved | undefined {
+  const { file } = JSON.parse(text) as { file?: string };
+  const saved = head.status === 200 && file ? taken(file) : undefined;
+  exporting = false;
+  takePiece(new TextEncoder().encode(saved ? JSON.stringify({ file: `${saved.name}, among the downloads` }) : text));
+  return saved;
+}
+
+function ask(message: Ask): void {
+  begin(message);
+  exporting = isExport(message.target);
+  const size = new TextEncoder().encode(message.body).length;
+  const body = engine.stringToNewUTF8(message.body); // a picture would not fit on the stack
+  engine.ccall('rheocyte_request', null, ['string', 'string', 'number', 'number'], [message.method, message.target, body, size]);
+  engine._free(body);
+  const saved = exporting ? endExport() : undefined;
+  sendHead();
+  tell({ kind: 'end', id, saved }, saved ? [saved.bytes.buffer] : []);
+}
+
+const count = () => Number(engine.ccall('rheocyte_count', 'number', [], []));
+
+/** Where a file is to be read: a session names files as they lie here. */
+function placeOf(file: File, path: string): string {
+  if (!file.name.endsWith('.toml')) return path;
+  const text = new TextDecoder().decode(engine.FS.readFile(path));
+  if (!isSession(text)) return path;
+  const session = `${sessions}/${file.name}`;
+  engine.FS.writeFile(session, new TextEncoder().encode(withPaths(text, places)));
+  return session;
+}
+
+function open(message: Open): void {
+  begin(message);
+  const folder = `${given}/${++opened}`;
+  engine.FS.mkdirTree(folder);
+  engine.FS.mount(engine.WORKERFS, { files: message.files }, folder);
+  for (const { name } of message.files) places.set(name, `${folder}/${name}`);
+  message.files.forEach((file, place) => {
+    tell({ kind: 'opens', id, place });
+    const before = count();
+    const sentence = engine.ccall('rheocyte_open', 'string', ['string'], [placeOf(file, `${folder}/${file.name}`)]);
+    tell({ kind: 'opened', id, place, item: count() > before ? before : null, sentence });
+  });
+  tell({ kind: 'end', id });
+}
+
+self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
+  try {
+    if (data.kind === 'start') await start(data);
+    else if (data.kind === 'ask') ask(data);
+    else open(data);
+  } catch (failure) {
+    tell({ kind: 'broken', reason: String(failure instanceof Error ? failure.message : failure) });
+  }
+};
