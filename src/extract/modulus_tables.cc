@@ -12,6 +12,7 @@
 #include "infer/read_modulus_map.h"
 #include "store/read_file.h"
 #include "table/origin_record.h"
+#include "table/table_files.h"
 
 namespace rheocyte {
 
@@ -153,13 +154,7 @@ ElongatedContent given_elongated_table(const std::string& name) {
   std::error_code error;
   const auto shipped = shipped_elongated_tables();
   if (const auto found = shipped.find(name); found != shipped.end()) file = found->second;
-  if (fs::is_directory(file, error)) {
-    std::vector<fs::path> tables;
-    for (const auto& entry : fs::directory_iterator(file, error))
-      if (const auto one = entry.path().filename().string(); one.starts_with("elongated_") && one.ends_with(".cbor"))
-        tables.push_back(entry.path());
-    if (tables.size() == 1) file = tables.front();
-  }
+  if (const auto tables = table_files(file, "elongated"); tables.size() == 1) file = tables.begin()->second;
   if (!fs::is_regular_file(file, error))
     throw UserError(fmt::format(
         "rheocyte: --table {}: there is no such table of elongated cells; give a file elongated_*.cbor, the folder of "

@@ -7,6 +7,7 @@
 #include "case/user_error.h"
 #include "store/build_info.h"
 #include "store/supplied_folder.h"
+#include "table/table_files.h"
 
 namespace rheocyte {
 
@@ -16,22 +17,10 @@ namespace {
 
 fs::path tables_folder() { return supplied_folder("RHEOCYTE_TABLES", "../share/rheocyte/tables", data_folder); }
 
-std::map<std::string, fs::path> files_with(std::string_view prefix) {
-  std::map<std::string, fs::path> tables;
-  std::error_code error;
-  constexpr std::string_view suffix = ".cbor";
-  for (const auto& entry : fs::directory_iterator(tables_folder(), error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.size() > prefix.size() + suffix.size() && name.starts_with(prefix) && name.ends_with(suffix))
-      tables.emplace(name.substr(prefix.size(), name.size() - prefix.size() - suffix.size()), entry.path());
-  }
-  return tables;
-}
-
-fs::path wanted_or_shipped(const fs::path& wanted, std::string_view prefix, std::string_view noun) {
+fs::path wanted_or_shipped(const fs::path& wanted, std::string_view kind, std::string_view noun) {
   std::error_code error;
   if (!wanted.empty() && fs::exists(wanted, error)) return wanted;
-  const auto shipped = files_with(prefix);
+  const auto shipped = table_files(tables_folder(), kind);
   if (wanted.empty() && shipped.empty())
     throw UserError(fmt::format(
         "rheocyte: the {} that comes with the program is missing in {}; install the program again, or give --table.",
@@ -42,16 +31,16 @@ fs::path wanted_or_shipped(const fs::path& wanted, std::string_view prefix, std:
 
 }  // namespace
 
-std::map<std::string, fs::path> shipped_tables() { return files_with("grid_"); }
+std::map<std::string, fs::path> shipped_tables() { return table_files(tables_folder(), "grid"); }
 
-std::map<std::string, fs::path> shipped_elongated_tables() { return files_with("elongated_"); }
+std::map<std::string, fs::path> shipped_elongated_tables() { return table_files(tables_folder(), "elongated"); }
 
 fs::path combined_table_or_shipped(const fs::path& wanted) {
-  return wanted_or_shipped(wanted, "combined_", "combined table");
+  return wanted_or_shipped(wanted, "combined", "combined table");
 }
 
 fs::path dynamic_table_or_shipped(const fs::path& wanted) {
-  return wanted_or_shipped(wanted, "dynamic_", "dynamic table");
+  return wanted_or_shipped(wanted, "dynamic", "dynamic table");
 }
 
 }  // namespace rheocyte

@@ -4,7 +4,6 @@
 
 #include <string>
 #include <system_error>
-#include <vector>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
@@ -12,6 +11,7 @@
 #include "infer/published_map.h"
 #include "store/read_file.h"
 #include "table/origin_record.h"
+#include "table/table_files.h"
 
 namespace rheocyte {
 
@@ -21,11 +21,7 @@ namespace fs = std::filesystem;
 
 // The grid in the folder of a table.
 fs::path grid_in(const fs::path& folder) {
-  std::vector<fs::path> found;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".cbor" && entry.path().filename().string().starts_with("grid_"))
-      found.push_back(entry.path());
+  const auto found = table_files(folder, "grid");
   const std::string name = one_line(folder.string(), 300);
   if (found.empty())
     throw UserError(
@@ -33,7 +29,7 @@ fs::path grid_in(const fs::path& folder) {
                     "complete; give --table the folder of a complete table, or a file.",
                     name));
   if (found.size() > 1) throw UserError(fmt::format("{}: holds several grid_*.cbor; give --table one of them.", name));
-  return found.front();
+  return found.begin()->second;
 }
 
 }  // namespace

@@ -65,13 +65,18 @@ class BranchFollower {
   /// Of a share of the deformation; near the end of a branch the compliance goes about as the deformation's root.
   double height_of(double share) const { return std::sqrt(share); }
 
+  /// At its last degree, too.
+  bool is_wanted(const StationaryState& state) const {
+    return state.outcome.status == Status::converged && state.stability_margin >= wanted_.least_margin;
+  }
+
   /// Nothing if the end is too near for one of the states.
   std::vector<StationaryState> states_to(double last) {
     std::vector<StationaryState> states;
     for (auto height = wanted_.heights.rbegin(); height != wanted_.heights.rend(); ++height) {
       auto state = state_of(*height * last);
       const bool gains = *height > soft_height;
-      if (!state || is_stopped() || (gains && state->outcome.status != Status::converged)) return {};
+      if (!state || is_stopped() || (gains && !is_wanted(*state))) return {};
       states.push_back(std::move(*state));
     }
     std::ranges::reverse(states);

@@ -8,6 +8,7 @@
 #include "store/read_file.h"
 #include "table/checked_record.h"
 #include "table/dynamic_table.h"
+#include "table/table_files.h"
 
 namespace rheocyte {
 
@@ -119,11 +120,7 @@ DynamicTable read_dynamic_table(const std::filesystem::path& place) {
   namespace fs = std::filesystem;
   fs::path file = place;
   std::error_code error;
-  if (fs::is_directory(place, error))
-    for (const auto& entry : fs::directory_iterator(place, error)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with("dynamic_") && name.ends_with(".cbor")) file = entry.path();
-    }
+  if (const auto tables = table_files(place, "dynamic"); !tables.empty()) file = tables.begin()->second;
   if (!fs::is_regular_file(file, error))
     throw UserError(
         fmt::format("{}: there is no dynamic table here; give the folder of one that `rheocyte table` has "
