@@ -103,7 +103,8 @@ double EventModuli::section_error_of_tension_Pa(std::span<const MeasuredCell> ce
   constexpr double so_many_that_pixels_do_not_count = 1e6;
   const auto seen = seen_cell(median_of(cells), so_many_that_pixels_do_not_count);
   if (!seen) return 0;
-  return moduli_.fit(seen->shape, seen->flow, AxialTension::unknown()).axial_tension_error_Pa;
+  const double error_Pa = moduli_.fit(seen->shape, seen->flow, AxialTension::unknown()).axial_tension_error_Pa;
+  return std::isfinite(error_Pa) ? error_Pa : 0;
 }
 
 CommonErrors EventModuli::common_errors(std::span<const MeasuredCell> cells) const {
