@@ -1,29 +1,20 @@
 // Builds the page into dist: one module, one style sheet, parts that are loaded on demand, each with a compressed copy.
 import { build } from 'esbuild';
 import { copyFile, mkdir, readFile, readdir, rm, writeFile } from 'node:fs/promises';
-import { dirname, join } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
+import { bundling, here } from './bundling.mjs';
 
-const here = dirname(fileURLToPath(import.meta.url));
 const dist = join(here, 'dist');
 
 async function bundle() {
   await build({
-    absWorkingDir: here,
+    ...bundling,
     entryPoints: { app: 'src/main.tsx' },
     outdir: 'dist',
-    bundle: true,
     splitting: true,
     format: 'esm',
-    target: ['es2022'],
     chunkNames: '[name]-[hash]',
-    minify: true,
-    jsx: 'automatic',
-    jsxImportSource: 'preact',
-    legalComments: 'none',
-    loader: { '.svg': 'text' },
-    logLevel: 'warning',
   });
 }
 

@@ -2,11 +2,10 @@
 // engine.wasm, TABLES that of the tables.
 import { build } from 'esbuild';
 import { readdir, readFile, writeFile } from 'node:fs/promises';
-import { dirname, join } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
+import { bundling, here } from './bundling.mjs';
 
-const here = dirname(fileURLToPath(import.meta.url));
 const [engine, tables, out] = process.argv.slice(2);
 
 const packed = async (file) => gzipSync(await readFile(file), { level: 9 }).toString('base64');
@@ -15,19 +14,11 @@ const within = (text) => text.replaceAll('</script', '<\\/script').replaceAll('<
 
 async function bundled(entry, format) {
   const { outputFiles } = await build({
-    absWorkingDir: here,
+    ...bundling,
     entryPoints: { part: entry },
     outdir: 'none',
     write: false,
-    bundle: true,
     format,
-    target: ['es2022'],
-    minify: true,
-    jsx: 'automatic',
-    jsxImportSource: 'preact',
-    legalComments: 'none',
-    loader: { '.svg': 'text' },
-    logLevel: 'warning',
   });
   const ending = (end) => outputFiles.find(({ path }) => path.endsWith(end))?.text ?? '';
   return { script: ending('.js'), style: ending('.css') };
