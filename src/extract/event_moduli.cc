@@ -111,7 +111,8 @@ CommonErrors EventModuli::common_errors(std::span<const MeasuredCell> cells) con
   if (cells.size() < MedianCell::min_cells) return {};
   const auto seen = seen_cell(median_of(cells), double(cells.size()));
   if (!seen) return {};
-  if (!std::isfinite(tension_.error_Pa)) return relative_errors(moduli_.fit(seen->shape, seen->flow, tension_));
+  const bool is_uncertain = tension_.error_Pa > 0 && std::isfinite(tension_.error_Pa);
+  if (!is_uncertain) return relative_errors(moduli_.fit(seen->shape, seen->flow, tension_));
   // Many pictures would tell the tension better than it is known: what puts it off is in all of them.
   const auto at = [&](double errors) {
     return moduli_.fit(seen->shape, seen->flow, {tension_.value_Pa + errors * tension_.error_Pa, 0});

@@ -80,8 +80,7 @@ CourseTable::CourseTable(const DynamicTable& table, std::optional<Section> secti
   if (section == Section::tube && is_of_square())
     throw UserError(
         fmt::format("rheocyte: --section tube, but the dynamic table {} is one of the square channel; leave the option "
-                    "out, or give "
-                    "a table of a tube.",
+                    "out, or give a table of a tube.",
                     table.spec().identifier));
 }
 
