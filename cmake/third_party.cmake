@@ -64,8 +64,8 @@ if(RHEOCYTE_STATIC_HDF5_LIBRARY AND RHEOCYTE_SZIP_LIBRARY AND RHEOCYTE_ZLIB_LIBR
     set(hdf5_of_programs ${static_hdf5})
   endif()
 endif()
-if(NOT RHEOCYTE_PROCESSES)  # static libraries alone
-  target_link_libraries(rheocyte::shared_hdf5 INTERFACE ${RHEOCYTE_ZLIB_LIBRARY})
+if(WIN32 OR NOT RHEOCYTE_PROCESSES)  # static libraries alone
+  target_link_libraries(rheocyte::shared_hdf5 INTERFACE ${RHEOCYTE_ZLIB_LIBRARY} $<$<BOOL:${WIN32}>:shlwapi>)
 endif()
 set(is_program "$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>")
 add_library(rheocyte::hdf5 INTERFACE IMPORTED)
@@ -83,8 +83,14 @@ if(RHEOCYTE_SOLVER AND RHEOCYTE_PROCESSES)
   rheocyte_import(beast HEADER boost/beast/http.hpp PACKAGE libboost-dev)
   # Without what nobody uses and some compilers take for something else; Boost.System is headers only.
   target_compile_definitions(rheocyte::beast INTERFACE BOOST_ASIO_DISABLE_CO_AWAIT BOOST_ERROR_CODE_HEADER_ONLY)
+  if(WIN32)
+    target_link_libraries(rheocyte::beast INTERFACE ws2_32 mswsock)
+  endif()
 endif()
 
+if(WIN32)  # the user's own, in the PATH
+  return()
+endif()
 # Debian's interpreter first: another python3 that stands earlier in PATH often lacks the packages.
 if(NOT RHEOCYTE_PYTHON_EXECUTABLE)
   find_program(RHEOCYTE_PATH_PYTHON python3)

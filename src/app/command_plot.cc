@@ -2,7 +2,6 @@
 // Each recording is read in a process of its own; the Python package draws. `exit_code`: 0, 1 if the drawing program
 // fails, 2 if a recording could not be used (no picture then), 128 + signal.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
@@ -19,6 +18,7 @@
 #include "store/contained.h"
 #include "store/file_writer.h"
 #include "store/python_package.h"
+#include "store/scratch.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
@@ -36,21 +36,18 @@ class HandOver {
  public:
   HandOver() {
     std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "rheocyte-plot-XXXXXX").string();
-    if (error || !::mkdtemp(name.data()))
+    const fs::path place = fs::temp_directory_path(error);
+    if (!error) folder_ = new_scratch_folder(place / "rheocyte-plot");
+    if (error || folder_.failed)
       throw UserError("rheocyte: there is no place for temporary files; TMPDIR names a folder for them.");
-    path_ = name;
   }
-  ~HandOver() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
+  ~HandOver() { remove_scratch(folder_); }
   HandOver(const HandOver&) = delete;
   HandOver& operator=(const HandOver&) = delete;
-  const fs::path& path() const { return path_; }
+  const fs::path& path() const { return folder_.path; }
 
  private:
-  fs::path path_;
+  Scratch folder_;
 };
 
 /// The picture of one call.

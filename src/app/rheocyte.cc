@@ -1,6 +1,4 @@
 // The program that the user calls.
-#include <malloc.h>
-
 #include <CLI/CLI.hpp>
 
 #include "app/command_line.h"
@@ -8,12 +6,12 @@
 #include "app/exit_codes.h"
 #include "store/build_info.h"
 #include "store/process_limits.h"
+#include "store/program.h"
 #include "store/standard_error.h"
 
 int main(int argc, char** argv) {
-  // Matrices come and go by the hundred in each iteration: giving their memory back each time costs more than they do.
-  ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
-  ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  argv = rheocyte::begin_program(argc, argv);
+  rheocyte::keep_freed_memory();
   rheocyte::end_without_memory(rheocyte::exit_own_bug);
   if (const std::string lack = rheocyte::lift_stack_limit(argv); !lack.empty()) {
     rheocyte::tell(lack);

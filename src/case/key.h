@@ -3,6 +3,7 @@
 // (case/case_keys.cc, table/table_keys.cc, synth/synth_keys.cc).
 #pragma once
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -114,6 +115,8 @@ std::optional<Value> value_of(const Member& member) {
     return static_cast<double>(member);
   } else if constexpr (std::is_same_v<Member, Spread>) {
     return member;
+  } else if constexpr (std::is_same_v<Member, std::filesystem::path>) {
+    return member.string();
   } else {
     return std::string(member);
   }

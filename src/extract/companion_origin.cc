@@ -1,5 +1,6 @@
 #include "extract/companion_origin.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,14 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string now_utc() {
-  const std::time_t now = std::time(nullptr);
-  char text[32] = "";
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
+std::string now_utc() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 // Paths under which the original is looked for: where it is now, seen from the companion's folder, and in that folder.
 std::vector<std::string> paths_to(const fs::path& original, const fs::path& folder) {

@@ -1,10 +1,8 @@
 #include "extract/find_table.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <sstream>
 #include <string_view>
@@ -12,9 +10,9 @@
 #include <vector>
 
 #include "case/nearest_name.h"
-#include "case/split.h"
 #include "case/user_error.h"
 #include "extract/shipped_tables.h"
+#include "store/environment.h"
 #include "store/read_file.h"
 
 namespace rheocyte {
@@ -23,17 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folder_in(const char* variable) {
-  const char* const value = std::getenv(variable);
-  return value ? fs::path(value) : fs::path();
-}
-
-// Below lib/pythonX.Y of a prefix.
+// Below lib/pythonX.Y of a prefix, or on Windows below Lib.
 void add_packages_of(const fs::path& prefix, std::vector<fs::path>& folders) {
   if (prefix.empty()) return;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(prefix / "lib", error)) {
     const std::string name = entry.path().filename().string();
+    if (name == "site-packages") folders.push_back(entry.path());
     if (!name.starts_with("python3")) continue;
     for (const char* const kind : {"site-packages", "dist-packages"}) folders.push_back(entry.path() / kind);
   }
@@ -41,29 +35,19 @@ void add_packages_of(const fs::path& prefix, std::vector<fs::path>& folders) {
 
 // Of the python3 that a shell would start: its environment, and that in which a link to it leads.
 void add_packages_of_python(std::vector<fs::path>& folders) {
-  const std::string path = folder_in("PATH").string();
-  for (const auto& folder : split(path, ':')) {
-    const fs::path program = fs::path(folder) / "python3";
-    std::error_code error;
-    if (folder.empty() || ::access(program.c_str(), X_OK) != 0) continue;
-    add_packages_of(program.parent_path().parent_path(), folders);
-    add_packages_of(fs::canonical(program, error).parent_path().parent_path(), folders);
-    return;
-  }
+  const fs::path program = program_in_path(python_name);
+  if (program.empty()) return;
+  std::error_code error;
+  for (const fs::path& place : {program, fs::canonical(program, error)})
+    add_packages_of(prefix_of_program(place), folders);
 }
 
 std::vector<fs::path> package_folders() {
-  std::vector<fs::path> folders;
-  const std::string search = folder_in("PYTHONPATH").string();
-  for (std::size_t at = 0; at < search.size();) {
-    const auto end = std::min(search.find(':', at), search.size());
-    if (end > at) folders.emplace_back(search.substr(at, end - at));
-    at = end + 1;
-  }
-  add_packages_of(folder_in("VIRTUAL_ENV"), folders);
-  add_packages_of(folder_in("CONDA_PREFIX"), folders);
+  std::vector<fs::path> folders = folders_in("PYTHONPATH");
+  add_packages_of(environment("VIRTUAL_ENV"), folders);
+  add_packages_of(environment("CONDA_PREFIX"), folders);
   add_packages_of_python(folders);
-  if (const auto home = folder_in("HOME"); !home.empty()) add_packages_of(home / ".local", folders);
+  if (const fs::path home = environment("HOME"); !home.empty()) add_packages_of(home / ".local", folders);
   add_packages_of("/usr/local", folders);
   add_packages_of("/usr", folders);
   return folders;

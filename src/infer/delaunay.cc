@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "infer/triangulation.h"
+#include "store/system_files.h"
 
 namespace rheocyte {
 
@@ -17,7 +18,7 @@ constexpr const char* options = "qhull d Qt Qbb Qc Qz Q12";
 
 // Qhull prints its errors; they are of no use to the user, whose sentence says what is wrong with the points.
 struct Silence {
-  std::FILE* file = std::fopen("/dev/null", "w");
+  std::FILE* file = std::fopen(nowhere, "w");
   ~Silence() {
     if (file) std::fclose(file);
   }

@@ -1,7 +1,6 @@
 #include "measurement/recording.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include "measurement/hdf5_writing.h"
 #include "measurement/recording_content.h"
 #include "numeric/no_value.h"
+#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -51,11 +51,12 @@ Hdf5Handle open_file(const fs::path& file) {
   const Hdf5Handle access(::H5Pcreate(H5P_FILE_ACCESS));
   // Recordings often lie on network drives that know no locks; nothing is written to them.
   ::H5Pset_file_locking(access.get(), false, true);
-  Hdf5Handle opened(::H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.get()));
+  const std::string name = file.string();  // UTF-8 on Windows, too
+  Hdf5Handle opened(::H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.get()));
   if (opened) return opened;
-  if (::access(file.c_str(), R_OK) != 0) refuse_path(file, "cannot be read; check its permissions.");
-  if (::H5Fis_hdf5(file.c_str()) <= 0) refuse_other_kinds(file);
-  if (::H5Fis_hdf5(file.c_str()) <= 0)
+  if (!first_bytes(file, 1)) refuse_path(file, "cannot be read; check its permissions.");
+  if (::H5Fis_hdf5(name.c_str()) <= 0) refuse_other_kinds(file);
+  if (::H5Fis_hdf5(name.c_str()) <= 0)
     refuse_path(file, "is not an HDF5 file, or its first bytes are damaged; .rtdc recordings are HDF5 files.");
   if (is_being_written(file))
     refuse_path(file,

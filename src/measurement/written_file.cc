@@ -4,7 +4,7 @@
 
 #include "case/refuse_path.h"
 #include "store/scratch.h"
-#include "store/whole_file.h"
+#include "store/system_files.h"
 
 namespace rheocyte {
 
@@ -12,7 +12,7 @@ WrittenFile::WrittenFile(const std::filesystem::path& path) : path_(path) {
   prepare_hdf5();
   const Hdf5Handle access(::H5Pcreate(H5P_FILE_ACCESS));
   ::H5Pset_file_locking(access.get(), false, true);
-  file_ = Hdf5Handle(::H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+  file_ = Hdf5Handle(::H5Fcreate(path.string().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
   check(bool(file_), "the file");
 }
 

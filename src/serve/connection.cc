@@ -1,7 +1,6 @@
 #include "serve/connection.h"
 
 #include <fmt/format.h>
-#include <poll.h>
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/executor_work_guard.hpp>
@@ -14,7 +13,7 @@
 #include <utility>
 
 #include "serve/answer_text.h"
-#include "serve/peer_user.h"
+#include "serve/system_sockets.h"
 
 namespace rheocyte {
 
@@ -54,7 +53,7 @@ Connection::Connection(tcp::socket socket, SharedByConnections& shared)
       shared_(shared),
       deadline_(socket_.get_executor()),
       place_(shared.open.insert(shared.open.end(), this)),
-      descriptor_(socket_.native_handle()) {
+      descriptor_(static_cast<SystemSocket>(socket_.native_handle())) {
   error_code ignored;
   socket_.set_option(tcp::no_delay(true), ignored);  // head and body are two small packets
 }
@@ -75,9 +74,7 @@ void Connection::close() {
 
 bool Connection::has_left() const {
   const std::scoped_lock lock(mutex_);  // a number that is closed may soon be that of another one
-  pollfd asked{descriptor_, POLLRDHUP, 0};
-  return descriptor_ < 0 ||
-         (::poll(&asked, 1, 0) > 0 && (asked.revents & (POLLRDHUP | POLLHUP | POLLERR | POLLNVAL)) != 0);
+  return descriptor_ < 0 || peer_has_left(descriptor_);
 }
 
 void Connection::expect_within(Duration time) {

@@ -19,6 +19,7 @@
 
 #include "serve/answer_threads.h"
 #include "serve/site.h"
+#include "serve/system_sockets.h"
 
 namespace rheocyte {
 
@@ -85,7 +86,7 @@ class Connection final : public Client, public std::enable_shared_from_this<Conn
   unsigned version_ = 11;
 
   mutable std::mutex mutex_;  ///< of what follows
-  int descriptor_;            ///< -1: closed
+  SystemSocket descriptor_;   ///< -1: closed
 };
 
 }  // namespace rheocyte

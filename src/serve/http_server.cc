@@ -1,8 +1,6 @@
 #include "serve/http_server.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
@@ -15,6 +13,8 @@
 #include "serve/access.h"
 #include "serve/connection.h"
 #include "serve/site.h"
+#include "serve/system_sockets.h"
+#include "store/process_limits.h"
 
 namespace rheocyte {
 
@@ -24,14 +24,9 @@ constexpr auto pause_without_room = std::chrono::milliseconds(100);
 
 /// Half of what this process may have open: reading recordings needs some, too.
 std::size_t most_connections() {
-  constexpr rlim_t enough = 500;
-  rlimit files{};
-  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return enough;
-  return static_cast<std::size_t>(std::min(enough, std::max<rlim_t>(4, files.rlim_cur / 2)));
+  constexpr std::size_t some = 4, enough = 500;
+  return std::clamp(open_files_limit() / 2, some, enough);
 }
-
-/// Programs that are started, such as a browser, must not hold the port.
-void keep_to_this_process(int descriptor) { ::fcntl(descriptor, F_SETFD, FD_CLOEXEC); }
 
 [[noreturn]] void refuse_place(const ServedPlace& place, const boost::system::error_code& error) {
   const std::string host = one_line(place.host, 80);
@@ -91,7 +86,7 @@ class HttpServer::Inside {
     if (!error) acceptor_.bind(end, error);
     if (!error) acceptor_.listen(Tcp::acceptor::max_listen_connections, error);
     if (error) refuse_place(place, error);
-    keep_to_this_process(acceptor_.native_handle());
+    keep_to_this_process(static_cast<SystemSocket>(acceptor_.native_handle()));
     return port_ = acceptor_.local_endpoint().port();
   }
 
@@ -111,7 +106,7 @@ class HttpServer::Inside {
   }
 
   void admit(Tcp::socket socket) {
-    keep_to_this_process(socket.native_handle());
+    keep_to_this_process(static_cast<SystemSocket>(socket.native_handle()));
     if (shared_.open.size() >= most_connections_ && !make_room()) return;
     std::make_shared<Connection>(std::move(socket), shared_)->begin();
   }

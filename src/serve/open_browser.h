@@ -1,7 +1,5 @@
 // The user's browser.
 #pragma once
-#include <sys/types.h>
-
 #include <string>
 
 namespace rheocyte {
@@ -14,7 +12,7 @@ class StartedBrowser {
   bool has_just_failed();
 
  private:
-  pid_t child_;
+  int child_;
   bool has_failed_ = false;
 };
 

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <utility>
 
+#include "store/last_line.h"
 #include "store/stop_signal.h"
 
 namespace rheocyte {
@@ -65,7 +66,6 @@ bool wait_to_read(int descriptor, bool wanted_before) {
 }
 
 std::string last_line_from(int descriptor) {
-  constexpr std::size_t kept = 4096;
   const bool wanted_before = stop_wanted();  // then this is a part of stopping
   std::string tail;
   char buffer[1024];
@@ -73,57 +73,57 @@ std::string last_line_from(int descriptor) {
     const ssize_t count = ::read(descriptor, buffer, sizeof buffer);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
-    tail.append(buffer, static_cast<std::size_t>(count));
-    if (tail.size() > kept) tail.erase(0, tail.size() - kept);
+    keep_tail(tail, {buffer, static_cast<std::size_t>(count)});
   }
-  const auto end = tail.find_last_not_of("\n ");
-  if (end == std::string::npos) return {};
-  const auto start = tail.rfind('\n', end);
-  return tail.substr(start == std::string::npos ? 0 : start + 1,
-                     end - (start == std::string::npos ? 0 : start + 1) + 1);
+  return last_line_of(tail);
 }
 
 }  // namespace
 
-int wait_for(pid_t child) {
+int wait_for(int child) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return status;
 }
 
-ChildProcess::ChildProcess(std::vector<std::string> arguments) {
+struct ChildProcess::Running {
+  int child = -1;
+  int input = -1, output = -1;
+};
+
+ChildProcess::ChildProcess(std::vector<std::string> arguments) : running_(std::make_unique<Running>()) {
   const auto pointers = pointers_to(arguments);
   int inputs[2], outputs[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, inputs) != 0) return;
   if (::pipe2(outputs, O_CLOEXEC) == 0) {
     const pid_t parent = ::getpid();
-    child_ = ::fork();
-    if (child_ == 0) become(pointers.data(), inputs[0], outputs[1], parent);
-    output_ = outputs[0];
+    running_->child = ::fork();
+    if (running_->child == 0) become(pointers.data(), inputs[0], outputs[1], parent);
+    running_->output = outputs[0];
     ::close(outputs[1]);
   }
-  input_ = inputs[1];
+  running_->input = inputs[1];
   ::close(inputs[0]);
 }
 
 ChildProcess::~ChildProcess() {
-  close(input_);
-  close(output_);
-  if (child_ <= 0) return;
-  ::kill(child_, SIGKILL);
-  wait_for(child_);
+  close(running_->input);
+  close(running_->output);
+  if (running_->child <= 0) return;
+  ::kill(running_->child, SIGKILL);
+  wait_for(running_->child);
 }
 
 ChildResult ChildProcess::finish(std::string_view input) {
-  if (child_ <= 0) return {-1, "it cannot be started"};
-  send(input_, input);
-  ::shutdown(input_, SHUT_WR);
+  if (running_->child <= 0) return {-1, "it cannot be started"};
+  send(running_->input, input);
+  ::shutdown(running_->input, SHUT_WR);
   ChildResult result;
   const bool wanted_before = stop_wanted();
-  result.last_line = last_line_from(output_);
-  if (stop_wanted() && !wanted_before) ::kill(child_, SIGKILL);
-  const int status = wait_for(std::exchange(child_, -1));
+  result.last_line = last_line_from(running_->output);
+  if (stop_wanted() && !wanted_before) ::kill(running_->child, SIGKILL);
+  const int status = wait_for(std::exchange(running_->child, -1));
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   return result;
 }

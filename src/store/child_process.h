@@ -1,7 +1,6 @@
 // Helpers that the program starts.
 #pragma once
-#include <sys/types.h>
-
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +14,7 @@ struct ChildResult {
 
 /// A program that runs beside ours. It has no terminal: its input comes from finish(), its outputs never reach ours.
 /// Signals that ask us to stop (SIGINT, SIGTERM) are not meant for it; it gets SIGUSR1 when the thread that started
-/// it ends.
+/// it ends, and on Windows ends with our program.
 class ChildProcess {
  public:
   explicit ChildProcess(std::vector<std::string> arguments);
@@ -29,8 +28,8 @@ class ChildProcess {
   ChildResult finish(std::string_view input);
 
  private:
-  int child_ = -1;
-  int input_ = -1, output_ = -1;  ///< our ends
+  struct Running;  ///< the process and our ends of its input and output
+  std::unique_ptr<Running> running_;
 };
 
 /// Becomes another program, which the terminal's signals then reach. Returns only if it cannot be started: its name and
@@ -38,6 +37,6 @@ class ChildProcess {
 std::string become_program(std::vector<std::string> arguments);
 
 /// Waits for the end of a child, whatever signals come. The status is that of waitpid().
-int wait_for(pid_t child);
+int wait_for(int child);
 
 }  // namespace rheocyte

@@ -15,9 +15,18 @@ class Claim {
   ~Claim();
   explicit operator bool() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
+  /// Gives it up. 0, or the number of the error (errno): what was written to a file may then be lost.
+  int close();
 
  private:
   int descriptor_ = -1;
+};
+
+/// A claim, or the number of the error (errno) that stands in its way: EWOULDBLOCK if somebody else has one, for what
+/// is made EEXIST if something stands there.
+struct Claiming {
+  Claim claim;
+  int failed = 0;
 };
 
 /// Of a file or folder that is there. False if it is held already, is none, or its file system knows no locks.
@@ -25,5 +34,14 @@ Claim claim_on(const std::filesystem::path&);
 
 /// Waits until nobody else holds the folder; without locks it does not wait.
 Claim wait_for_folder(const std::filesystem::path&);
+
+enum class IfHeld { fail, wait };
+/// Of a file that is made if it is not there, and only claimed.
+Claiming claim_on_mark(const std::filesystem::path&, IfHeld);
+
+/// Makes an empty file that can be written to, or a folder for this user alone; never through a link. Without locks the
+/// claim is there all the same.
+Claiming make_claimed_file(const std::filesystem::path&);
+Claiming make_claimed_folder(const std::filesystem::path&);
 
 }  // namespace rheocyte

@@ -4,6 +4,7 @@
 
 #include "case/user_error.h"
 #include "store/contained.h"
+#include "store/in_place.h"
 #include "store/stop_signal.h"
 
 namespace rheocyte {
@@ -15,6 +16,11 @@ struct Stopped {};
 
 }  // namespace
 
+std::recursive_mutex& turn_of_work() {
+  static std::recursive_mutex turn;
+  return turn;
+}
+
 ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
                                  const TellProgress& on_progress) {
   using Kind = ContainedEnd::Kind;
@@ -22,6 +28,7 @@ ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgr
     on_progress(fraction);
     if (stop_wanted() || (limits.is_wanted && !limits.is_wanted())) throw Stopped();
   };
+  const std::scoped_lock alone(turn_of_work());
   try {
     return {Kind::finished, work(tell)};
   } catch (const Stopped&) {

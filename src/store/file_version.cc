@@ -1,11 +1,12 @@
 #include "store/file_version.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <system_error>
 #include <vector>
+
+#include "store/system_files.h"
 
 namespace rheocyte {
 
@@ -13,18 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string of_file(const struct stat& file) {
-  const auto time = [](const timespec& at) { return fmt::format("{:x}.{:x}", at.tv_sec, at.tv_nsec); };
-  return fmt::format("{:x}-{:x}-{:x}-{}-{};", file.st_dev, file.st_ino, file.st_size, time(file.st_mtim),
-                     time(file.st_ctim));
+std::string of_file(const FileFacts& file) {
+  return fmt::format("{:x}-{:x}-{:x}-{:x}-{:x};", file.device, file.number, file.size, file.content_changed_ns,
+                     file.entry_changed_ns);
 }
 
 }  // namespace
 
 std::string file_version(const fs::path& place) {
-  struct stat found {};
-  if (::stat(place.c_str(), &found) != 0) return {};
-  if (!S_ISDIR(found.st_mode)) return of_file(found);
+  const auto found = facts_of(place, Links::follow);
+  if (!found) return {};
+  if (!found->is_folder) return of_file(*found);
   std::vector<std::string> entries;
   std::error_code error;
   for (auto at = fs::directory_iterator(place, error); !error && at != fs::end(at); at.increment(error))

@@ -5,12 +5,13 @@
 #include <utility>
 
 #include "case/refuse_path.h"
+#include "store/system_files.h"
 #include "store/whole_file.h"
 
 namespace rheocyte {
 
 FileWriter::FileWriter(const std::filesystem::path& file, std::string advice)
-    : path_(file), advice_(std::move(advice)), file_(std::fopen(file.c_str(), "wbe")) {
+    : path_(file), advice_(std::move(advice)), file_(open_stream(file)) {
   if (!file_) refuse();
 }
 

@@ -1,12 +1,11 @@
 #include "store/foreign_files.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "store/system_files.h"
 
 namespace rheocyte {
 
@@ -29,10 +28,8 @@ bool is_folder(const fs::path& path) {
 
 // Two names of one file, or of one link.
 bool is_same(const fs::path& one, const fs::path& other) {
-  struct stat a {
-  }, b{};
-  return ::lstat(one.c_str(), &a) == 0 && ::lstat(other.c_str(), &b) == 0 && a.st_dev == b.st_dev &&
-         a.st_ino == b.st_ino;
+  const auto a = facts_of(one, Links::look_at), b = facts_of(other, Links::look_at);
+  return a && b && a->is_same_as(*b);
 }
 
 }  // namespace
@@ -43,7 +40,7 @@ void link_foreign_files(const fs::path& from, const fs::path& to, OwnNames own) 
   std::error_code error;
   for (const auto& name : foreign_names(from, own)) {
     if (!is_folder(from / name)) {
-      static_cast<void>(::link((from / name).c_str(), (to / name).c_str()));  // of a link the link itself
+      link_file(from / name, to / name);
     } else if (fs::create_directory(to / name, from / name, error)) {
       link_foreign_files(from / name, to / name, {});
     }

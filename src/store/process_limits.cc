@@ -1,6 +1,8 @@
 #include "store/process_limits.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -38,6 +40,23 @@ std::string lift_stack_limit(char** arguments) {
   }
   return fmt::format("rheocyte: the stack is limited to {} kB; at least {} kB are needed (ulimit -s {}).",
                      stack.rlim_max >> 10U, min_stack >> 10U, usual_stack >> 10U);
+}
+
+int allowed_processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  return ::sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
+}
+
+std::size_t open_files_limit() {
+  constexpr std::size_t usual = 1024;
+  rlimit files{};
+  return ::getrlimit(RLIMIT_NOFILE, &files) == 0 ? static_cast<std::size_t>(files.rlim_cur) : usual;
+}
+
+void keep_freed_memory() {
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
 void end_without_memory(int exit_code) {

@@ -4,9 +4,11 @@
 
 namespace rheocyte {
 
-/// Both return 0, or the number of the error: EINVAL where the file system knows no such thing.
+/// All return 0, or the number of the error (errno); the first two EINVAL where the file system knows no such thing.
+int exchange_names(const std::filesystem::path& one, const std::filesystem::path& other);
 /// EEXIST if something stands there already.
 int rename_to_new(const std::filesystem::path& from, const std::filesystem::path& to);
-int exchange_names(const std::filesystem::path& one, const std::filesystem::path& other);
+/// Replaces a file that stands there.
+int rename_over(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace rheocyte

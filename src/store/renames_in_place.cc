@@ -22,4 +22,8 @@ int exchange_names(const fs::path& one, const fs::path& other) {
   return done ? 0 : errno;
 }
 
+int rename_over(const std::filesystem::path& from, const std::filesystem::path& to) {
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
 }  // namespace rheocyte

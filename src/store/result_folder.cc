@@ -1,7 +1,6 @@
 #include "store/result_folder.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include "store/foreign_files.h"
 #include "store/read_file.h"
 #include "store/renames.h"
+#include "store/system_files.h"
 #include "store/whole_file.h"
 
 namespace rheocyte {
@@ -57,9 +57,8 @@ void check_replaceable(const fs::path& folder) {
     refuse_path(folder, "holds files but no result of rheocyte; give a new or empty folder with -o.");
   if (is_inside(fs::current_path(error), folder))
     refuse_path(folder, "is the current folder or contains it; give another folder with -o.");
-  struct stat here {
-  }, above{};
-  if (::stat(folder.c_str(), &here) == 0 && ::stat((folder / "..").c_str(), &above) == 0 && here.st_dev != above.st_dev)
+  const auto here = facts_of(folder, Links::follow), above = facts_of(folder / "..", Links::follow);
+  if (here && above && here->device != above->device)
     refuse_path(folder, "is a mount point and cannot be replaced as a whole; give a folder inside it with -o.");
 }
 
@@ -79,8 +78,8 @@ Scratch make_scratch(const fs::path& folder) {
   if (error) refuse_path(folder, fmt::format("cannot make its parent folder ({}).", error.message()));
   Scratch scratch = new_scratch_folder(folder);
   if (scratch.failed) refuse_path(folder, fmt::format("cannot write a result there ({}).", reason_of(scratch.failed)));
-  ::chmod(scratch.path.c_str(),
-          fs::exists(folder) ? 0777 & static_cast<mode_t>(fs::status(folder).permissions()) : 0755);
+  constexpr fs::perms usual{0755}, known{0777};
+  fs::permissions(scratch.path, fs::exists(folder) ? fs::status(folder).permissions() & known : usual, error);
   return scratch;
 }
 
@@ -92,7 +91,7 @@ void keep_on_disk(const fs::path& path) {
 // Afterwards `folder` is the new result and `scratch` holds the old one, if there was one.
 void swap_in(const fs::path& scratch, const fs::path& folder) {
   const int failed = fs::exists(folder) ? exchange_names(scratch, folder) : rename_to_new(scratch, folder);
-  if (!failed || (failed == EINVAL && !fs::exists(folder) && ::rename(scratch.c_str(), folder.c_str()) == 0)) return;
+  if (!failed || (failed == EINVAL && !fs::exists(folder) && rename_over(scratch, folder) == 0)) return;
   refuse_path(folder, fmt::format("cannot put the result in its place ({}).", reason_of(failed)));
 }
 
@@ -101,17 +100,12 @@ bool has_checkpoints(const fs::path& folder) {
   return std::ranges::any_of(checkpoints, [&](const char* name) { return fs::exists(folder / name, error); });
 }
 
-void remove(const Scratch& scratch) {
-  std::error_code ignored;
-  if (!scratch.path.empty()) fs::remove_all(scratch.path, ignored);
-}
-
 }  // namespace
 
 fs::path check_result_folder(const fs::path& folder) {
   fs::path path = resolved(folder);
   check_replaceable(path);
-  remove(make_scratch(path));
+  remove_scratch(make_scratch(path));
   return path;
 }
 
@@ -124,11 +118,11 @@ std::vector<Scratch> interrupted_results(const fs::path& folder) {
 ResultFolder::ResultFolder(const fs::path& folder) : folder_(resolved(folder)) {
   check_replaceable(folder_);
   for (const auto& scratch : left_over_folders(folder_))
-    if (!has_checkpoints(scratch.path) && !has_foreign_files(scratch.path, own_files)) remove(scratch);
+    if (!has_checkpoints(scratch.path) && !has_foreign_files(scratch.path, own_files)) remove_scratch(scratch);
   scratch_ = make_scratch(folder_);
 }
 
-ResultFolder::~ResultFolder() { remove(scratch_); }
+ResultFolder::~ResultFolder() { remove_scratch(scratch_); }
 
 void ResultFolder::write(const std::string& file_name, std::string_view content) const {
   if (const int failed = write_part(scratch_.path / file_name, content))
@@ -148,10 +142,11 @@ void ResultFolder::publish() {
   swap_in(scratch, folder_);
   keep_on_disk(folder_.parent_path());
   // What cannot be moved stays in the old folder under its scratch name: better a left-over than a lost file.
-  if (!fs::exists(scratch) || move_foreign_files(scratch, folder_, own_files, Twice::moved_replaces)) remove(scratch_);
+  if (!fs::exists(scratch) || move_foreign_files(scratch, folder_, own_files, Twice::moved_replaces))
+    remove_scratch(scratch_);
   scratch_ = {};
   for (const auto& left_over : left_over_folders(folder_))
-    if (move_foreign_files(left_over.path, folder_, own_files, Twice::both_stay)) remove(left_over);
+    if (move_foreign_files(left_over.path, folder_, own_files, Twice::both_stay)) remove_scratch(left_over);
 }
 
 }  // namespace rheocyte

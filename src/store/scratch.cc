@@ -1,10 +1,6 @@
 #include "store/scratch.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <mutex>
@@ -15,7 +11,7 @@
 #include <system_error>
 
 #include "numeric/fingerprint.h"
-#include "store/read_file.h"
+#include "store/system_files.h"
 
 namespace rheocyte {
 
@@ -27,13 +23,6 @@ constexpr std::string_view infix = ".rheocyte-";
 constexpr std::size_t machine_digits = 12, random_digits = 12;
 constexpr int max_number_of_tries = 100;
 
-// False if another process has taken it for a left-over in the moment between its making and its claim.
-bool hold(const Claim& claim) {
-  if (::flock(claim.descriptor(), LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
-  struct stat made {};
-  return ::fstat(claim.descriptor(), &made) == 0 && made.st_nlink > 0;
-}
-
 bool is_first_call_for(const fs::path& folder) {
   static std::mutex mutex;
   static std::set<fs::path> known;
@@ -44,12 +33,7 @@ bool is_first_call_for(const fs::path& folder) {
 /// This machine since it was started, in machine_digits. A lock may hold on one machine alone (NFS with local_lock,
 /// Lustre with localflock), so that a file of another one seems to be nobody's.
 const std::string& this_machine() {
-  static const std::string digits = [] {
-    std::string name(256, '\0');
-    ::gethostname(name.data(), name.size() - 1);
-    return fingerprint(name + first_bytes("/proc/sys/kernel/random/boot_id", 64).value_or(""))
-        .substr(0, machine_digits);
-  }();
+  static const std::string digits = fingerprint(identity_of_machine()).substr(0, machine_digits);
   return digits;
 }
 
@@ -57,13 +41,13 @@ bool is_digits(std::string_view text) { return text.find_first_not_of("012345678
 
 fs::path folder_of(const fs::path& wanted) { return wanted.has_parent_path() ? wanted.parent_path() : "."; }
 
-template <class Make>
-Scratch new_scratch(const fs::path& wanted, const Make& make) {
+// EWOULDBLOCK: another process has taken it for a left-over in the moment between its making and its claim.
+Scratch new_scratch(const fs::path& wanted, Claiming (*make)(const fs::path&)) {
   for (int i = 0; i < max_number_of_tries; ++i) {
-    Scratch scratch{scratch_beside(wanted), {}};
-    scratch.claim = make(scratch.path);
-    if (!scratch.claim && errno != EEXIST) return {{}, {}, errno};
-    if (scratch.claim && hold(scratch.claim)) return scratch;
+    const fs::path path = scratch_beside(wanted);
+    Claiming made = make(path);
+    if (!made.failed) return {path, std::move(made.claim)};
+    if (made.failed != EEXIST && made.failed != EWOULDBLOCK) return {{}, {}, made.failed};
   }
   return {{}, {}, EEXIST};
 }
@@ -94,22 +78,20 @@ void remove_left_over_files(const fs::path& folder) {
     if (place_of(entry.path()) == entry.path() || !entry.is_regular_file(error) || entry.is_symlink(error)) continue;
     const std::string name = entry.path().filename().string();
     if (!name.substr(name.rfind(infix) + infix.size()).starts_with(this_machine())) continue;
-    if (const Claim mine = claim_on(entry.path())) ::unlink(entry.path().c_str());
+    if (const Claim mine = claim_on(entry.path())) fs::remove(entry.path(), error);
   }
 }
 
 Scratch new_scratch_file(const fs::path& wanted) {
   if (is_first_call_for(folder_of(wanted))) remove_left_over_files(folder_of(wanted));
-  return new_scratch(wanted, [](const fs::path& path) {
-    return Claim(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
-  });
+  return new_scratch(wanted, make_claimed_file);
 }
 
-Scratch new_scratch_folder(const fs::path& wanted) {
-  return new_scratch(wanted, [](const fs::path& path) {
-    if (::mkdir(path.c_str(), 0700) != 0) return Claim();
-    return Claim(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-  });
+Scratch new_scratch_folder(const fs::path& wanted) { return new_scratch(wanted, make_claimed_folder); }
+
+void remove_scratch(const Scratch& scratch) {
+  std::error_code ignored;
+  if (!scratch.path.empty()) fs::remove_all(scratch.path, ignored);
 }
 
 std::vector<Scratch> left_over_folders(const fs::path& place) {

@@ -25,6 +25,9 @@ struct Scratch {
 Scratch new_scratch_file(const std::filesystem::path& wanted);
 Scratch new_scratch_folder(const std::filesystem::path& wanted);
 
+/// Removes it with all that it holds.
+void remove_scratch(const Scratch&);
+
 /// The files of hidden names in a folder that killed processes of this machine have left since it was started. Those of
 /// other machines may be in use.
 void remove_left_over_files(const std::filesystem::path& folder);

@@ -1,11 +1,8 @@
 #include "store/whole_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <string>
 #include <system_error>
@@ -13,6 +10,7 @@
 
 #include "case/refuse_path.h"
 #include "store/renames.h"
+#include "store/system_files.h"
 
 namespace rheocyte {
 
@@ -20,21 +18,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// 0, or the number of the error.
-int write_all(int descriptor, std::string_view content) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a quota or limit then is an error of write() like a full disk
-  while (!content.empty()) {
-    const auto written = ::write(descriptor, content.data(), content.size());
-    if (written < 0 && errno != EINTR) return errno;
-    if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
-
 int move(const fs::path& from, const fs::path& to, Older older) {
   if (older == Older::keep)  // which some file systems do not know
     if (const int failed = rename_to_new(from, to); failed != EINVAL) return failed;
-  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+  return rename_over(from, to);
 }
 
 [[noreturn]] void refuse(const fs::path& path, const char* what, int reason) {
@@ -51,27 +38,19 @@ int publish_file(const fs::path& scratch, const fs::path& wanted, Older older) {
   return 0;
 }
 
-int bring_to_disk(const fs::path& path) {
-  const Claim open(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!open) return errno;
-  // Some file systems know no fsync; that is no loss of data.
-  return ::fsync(open.descriptor()) == 0 || errno == EINVAL ? 0 : errno;
-}
-
 int write_part(const fs::path& file, std::string_view content) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (descriptor < 0) return errno;
-  int failed = write_all(descriptor, content);
-  if (::close(descriptor) != 0 && !failed) failed = errno;
-  return failed;
+  OpenFile opened = open_to_write(file);
+  if (opened.failed) return opened.failed;
+  const int failed = write_all(opened.file, content), not_closed = opened.file.close();
+  return failed ? failed : not_closed;
 }
 
 int write_whole_file(const fs::path& wanted, std::string_view content) {
   const Scratch scratch = new_scratch_file(wanted);
   if (scratch.failed) return scratch.failed;
-  int failed = write_all(scratch.claim.descriptor(), content);
+  int failed = write_all(scratch.claim, content);
   if (!failed) failed = publish_file(scratch.path, wanted, Older::replace);
-  if (failed) ::unlink(scratch.path.c_str());
+  if (failed) remove_scratch(scratch);
   return failed;
 }
 
@@ -82,7 +61,7 @@ WholeFile::WholeFile(const fs::path& wanted, std::function<void()> check) : want
 }
 
 WholeFile::~WholeFile() {
-  if (scratch_.claim) ::unlink(scratch_.path.c_str());
+  if (scratch_.claim) remove_scratch(scratch_);
 }
 
 void WholeFile::check() const {

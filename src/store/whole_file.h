@@ -46,7 +46,4 @@ enum class Older { replace, keep };
 /// step. Returns 0 or errno.
 int publish_file(const std::filesystem::path& scratch, const std::filesystem::path& wanted, Older);
 
-/// A file or a folder. Returns 0 or errno.
-int bring_to_disk(const std::filesystem::path& path);
-
 }  // namespace rheocyte

@@ -1,9 +1,6 @@
 #include "store/work_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
@@ -31,17 +28,19 @@ std::string content_of(const fs::path& path) {
   return first_bytes(path, enough).value_or("");
 }
 
-// Nothing if another process holds it, unless the operation waits for that one.
-Claim locked(const fs::path& path, int operation) {
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) refuse_path(path, fmt::format("cannot be made ({}).", words_for(errno)));
-  if (::flock(descriptor, operation) == 0) return Claim(descriptor);
-  const int reason = errno;
-  ::close(descriptor);
-  if (reason != EWOULDBLOCK)
+bool is_of_locks(int reason) {
+  return reason == ENOLCK || reason == EOPNOTSUPP || reason == ENOSYS || reason == EINVAL;
+}
+
+// Nothing if another process holds it, unless that one is waited for.
+Claim locked(const fs::path& path, IfHeld if_held) {
+  Claiming claiming = claim_on_mark(path, if_held);
+  if (is_of_locks(claiming.failed))
     refuse_path(path, fmt::format("cannot be locked ({}); put the table on a file system that knows locks, with -o.",
-                                  words_for(reason)));
-  return {};
+                                  words_for(claiming.failed)));
+  if (claiming.failed && claiming.failed != EWOULDBLOCK)
+    refuse_path(path, fmt::format("cannot be made ({}).", words_for(claiming.failed)));
+  return std::move(claiming.claim);
 }
 
 void write_whole(const fs::path& path, std::string_view content) {
@@ -83,7 +82,7 @@ void WorkFolder::begin() const {
   // With the claim beside them they are ours: of a process that begins at this moment, or was lost on the way.
   if (has_files && !fs::exists(folder_ / beginning, ignored) && !holds_the_spec())
     refuse_path(folder_, "holds other files; give a new or empty folder with -o.");
-  const Claim alone = locked(folder_ / beginning, LOCK_EX);
+  const Claim alone = locked(folder_ / beginning, IfHeld::wait);
   if (is_begun()) return;
   fs::create_directories(folder_ / wanted_.pieces, error);
   if (error) refuse_path(folder_, fmt::format("cannot be made ({}).", error.message()));
@@ -91,7 +90,7 @@ void WorkFolder::begin() const {
   write_whole(folder_ / mark_file, wanted_.mark);
 }
 
-Claim WorkFolder::claim(const std::string& piece) const { return locked(record(piece + ".claim"), LOCK_EX | LOCK_NB); }
+Claim WorkFolder::claim(const std::string& piece) const { return locked(record(piece + ".claim"), IfHeld::fail); }
 
 bool WorkFolder::has(const std::string& name) const {
   std::error_code error;

@@ -1,8 +1,6 @@
 // Work in processes of their own for a program that has threads: a fork of such a program is safe only for a program
 // that begins anew, so a host is forked while there is one thread yet, and forks for everybody from then on.
 #pragma once
-#include <sys/types.h>
-
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -102,7 +100,7 @@ class WorkHost {
  private:
   Scratch folder_;
   int control_ = -1;
-  pid_t host_ = -1;
+  int host_ = -1;  ///< the process
   mutable std::mutex mutex_;
 };
 

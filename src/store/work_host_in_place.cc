@@ -1,13 +1,16 @@
 // Of builds without processes: work is done where its answer is read, and what is not taken at once waits.
 #include <fmt/format.h>
 
+#include <atomic>
 #include <deque>
 #include <exception>
 #include <map>
+#include <mutex>
 #include <new>
 #include <utility>
 
 #include "case/user_error.h"
+#include "store/in_place.h"
 #include "store/private_folder.h"
 #include "store/system_limit.h"
 #include "store/work_host.h"
@@ -28,19 +31,42 @@ struct Task {
   const TellProgress* on_progress = nullptr;
 };
 
-/// By their numbers, which stand in the place of sockets. Nodes of a map stay where they are, also when work asks for
-/// work.
-std::map<int, Task>& tasks() {
-  static std::map<int, Task> all;
+/// For several threads at once. Nodes of a map stay where they are, also when work asks for work.
+template <class Key, class Value>
+class SharedMap {
+ public:
+  Value& at(const Key& key) {
+    const std::scoped_lock alone(mutex_);
+    return all_.at(key);
+  }
+  void add(const Key& key, Value value) {
+    const std::scoped_lock alone(mutex_);
+    all_.insert_or_assign(key, std::move(value));
+  }
+  void remove(const Key& key) {
+    typename std::map<Key, Value>::node_type removed;  // its end may ask for work, too
+    const std::scoped_lock alone(mutex_);
+    removed = all_.extract(key);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<Key, Value> all_;
+};
+
+/// By their numbers, which stand in the place of sockets.
+SharedMap<int, Task>& tasks() {
+  static SharedMap<int, Task> all;
   return all;
 }
 
-std::map<const WorkHost*, WorkHost::Work>& works() {
-  static std::map<const WorkHost*, WorkHost::Work> all;
+SharedMap<const WorkHost*, WorkHost::Work>& works() {
+  static SharedMap<const WorkHost*, WorkHost::Work> all;
   return all;
 }
 
 void do_now(int number) {
+  const std::scoped_lock alone(turn_of_work());
   Task& task = tasks().at(number);
   task.is_asked = false;
   try {
@@ -83,7 +109,7 @@ std::optional<std::string> WorkReply::next_request() const {
 HostedWork::HostedWork(HostedWork&& other) noexcept
     : socket_(std::exchange(other.socket_, -1)), is_wanted_(std::move(other.is_wanted_)) {}
 
-HostedWork::~HostedWork() { tasks().erase(socket_); }
+HostedWork::~HostedWork() { tasks().remove(socket_); }
 
 void HostedWork::stop() const {}
 
@@ -109,21 +135,21 @@ void HostedWork::read(const Take& take, const TellProgress& on_progress) {
 }
 
 WorkHost::WorkHost(const Work& work, const std::function<void()>& prepare) : folder_(new_private_folder()) {
-  works()[this] = work;
+  works().add(this, work);
   if (prepare) prepare();
 }
 
 WorkHost::~WorkHost() {
-  works().erase(this);
+  works().remove(this);
   std::error_code error;
   std::filesystem::remove_all(folder_.path.parent_path(), error);
 }
 
 HostedWork WorkHost::ask(const std::string& request) const {
-  static int last = 0;
-  ++last;
-  tasks().emplace(last, Task{works().at(this), request, WorkReply(last)});
-  return HostedWork(last);
+  static std::atomic<int> last = 0;
+  const int number = ++last;
+  tasks().add(number, Task{works().at(this), request, WorkReply(number)});
+  return HostedWork(number);
 }
 
 }  // namespace rheocyte

@@ -1,7 +1,5 @@
 #include "sweep/shared_work.h"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <atomic>
 #include <charconv>
@@ -15,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "store/process_limits.h"
 #include "store/thread.h"
 
 namespace rheocyte {
@@ -119,9 +118,7 @@ Rank rank_from_environment() {
 
 int available_processors(const Rank& rank) {
   const int all = int(std::max(1u, std::thread::hardware_concurrency()));
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  const int allowed = ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : all;
+  const int told = allowed_processors(), allowed = told > 0 ? told : all;
   if (rank.count <= 1) return allowed;
   const int not_bound = 1, bound = allowed < all ? allowed : not_bound;
   return std::clamp(number_in_environment("SLURM_CPUS_PER_TASK", bound), 1, allowed);

@@ -1,7 +1,6 @@
 #include "view/export_folder.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -24,13 +23,13 @@ constexpr std::size_t longest_name = 120;
 constexpr int most_exports = 4;
 
 bool is_file_name(std::string_view name) {
-  const auto is_odd = [](unsigned char c) { return c < 0x20 || c == 0x7F || c == '/'; };
-  return !name.empty() && name.size() <= longest_name && name.front() != '.' && std::ranges::none_of(name, is_odd);
+  const auto is_odd = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+  return !name.empty() && name.size() <= longest_name && name.front() != '.' && fs::path(name).filename() == name &&
+         std::ranges::none_of(name, is_odd);
 }
 
-bool is_same_and_unchanged(const struct stat& a, const struct stat& b) {
-  return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size &&
-         a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
+bool is_same_and_unchanged(const FileFacts& a, const FileFacts& b) {
+  return a.is_same_as(b) && a.size == b.size && a.content_changed_ns == b.content_changed_ns;
 }
 
 [[noreturn]] void refuse_to_write(const fs::path& path, int reason) {
@@ -44,7 +43,7 @@ ExportFolder::ExportFolder(const fs::path& folder) : folder_(fs::absolute(folder
   if (folder.empty()) return;  // the current one: whether it can be written to matters for exports alone
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (!error && ::access(folder_.c_str(), W_OK | X_OK) != 0) error.assign(errno, std::generic_category());
+  if (!error) error.assign(check_writable(folder_), std::generic_category());
   if (error)
     throw UserError(
         fmt::format("rheocyte view: nothing can be written into {} ({}); give another folder with --output.",
@@ -61,17 +60,17 @@ ExportPlace ExportFolder::claim(std::string_view name, ExportKind kind) {
 }
 
 void ExportFolder::check(const fs::path& path, ExportKind kind) const {
-  struct stat now {};
-  if (::lstat(path.c_str(), &now) != 0) return;  // nothing stands there
+  const auto now = facts_of(path, Links::look_at);
+  if (!now) return;  // nothing stands there
   const auto known = written_.find(path);
-  if (known == written_.end() || !is_same_and_unchanged(known->second, now))
+  if (known == written_.end() || !is_same_and_unchanged(known->second, *now))
     throw Refused(
         409, "exists",
         fmt::format("{} is there already and was not written by this view; give another name.", path.string()));
-  if (S_ISDIR(now.st_mode) != (kind == ExportKind::folder))
+  if (now->is_folder != (kind == ExportKind::folder))
     throw Refused(409, "exists",
                   fmt::format("{} is a {} of an earlier export; give another name.", path.string(),
-                              S_ISDIR(now.st_mode) ? "folder" : "file"));
+                              now->is_folder ? "folder" : "file"));
 }
 
 fs::path ExportFolder::write(std::string_view name, std::string_view content) {
@@ -112,10 +111,10 @@ void ExportPlace::publish() {
 }
 
 void ExportPlace::keep() {
-  struct stat now {};
-  if (::lstat(path_.c_str(), &now) != 0) return;
+  const auto now = facts_of(path_, Links::look_at);
+  if (!now) return;
   const std::scoped_lock lock(folder_.mutex_);
-  folder_.written_.insert_or_assign(path_, now);
+  folder_.written_.insert_or_assign(path_, *now);
 }
 
 void Exports::add(std::string what, Export write) { exports_.insert_or_assign(std::move(what), std::move(write)); }

@@ -1,7 +1,5 @@
 // The only place that the view writes to.
 #pragma once
-#include <sys/stat.h>
-
 #include <atomic>
 #include <filesystem>
 #include <functional>
@@ -14,6 +12,7 @@
 #include <string_view>
 
 #include "serve/router.h"
+#include "store/system_files.h"
 
 namespace rheocyte {
 
@@ -68,7 +67,7 @@ class ExportFolder {
 
   std::filesystem::path folder_;
   mutable std::mutex mutex_;
-  std::map<std::filesystem::path, struct stat> written_;
+  std::map<std::filesystem::path, FileFacts> written_;
   std::set<std::filesystem::path> under_way_;
 };
 

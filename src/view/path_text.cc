@@ -30,7 +30,7 @@ std::size_t character_length(std::string_view bytes) {
 }  // namespace
 
 std::string path_text(const std::filesystem::path& path) {
-  const std::string& bytes = path.native();
+  const std::string bytes = path.string();
   std::string text;
   for (std::size_t at = 0; at < bytes.size();) {
     const std::size_t length = character_length(std::string_view(bytes).substr(at));

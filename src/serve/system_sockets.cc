@@ -1,8 +1,10 @@
-#include "serve/peer_user.h"
+#include "serve/system_sockets.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -46,7 +48,8 @@ bool is_line_of_own(const std::string& line, const std::vector<std::string>& the
 
 }  // namespace
 
-bool peer_is_own_user(int socket) {
+bool peer_is_own_user(SystemSocket peer) {
+  const int socket = static_cast<int>(peer);
   sockaddr_storage theirs{}, ours{};
   socklen_t length_of_theirs = sizeof theirs, length_of_ours = sizeof ours;
   if (::getpeername(socket, reinterpret_cast<sockaddr*>(&theirs), &length_of_theirs) != 0 ||
@@ -59,5 +62,12 @@ bool peer_is_own_user(int socket) {
   }
   return false;
 }
+
+bool peer_has_left(SystemSocket peer) {
+  pollfd asked{static_cast<int>(peer), POLLRDHUP, 0};
+  return ::poll(&asked, 1, 0) > 0 && (asked.revents & (POLLRDHUP | POLLHUP | POLLERR | POLLNVAL)) != 0;
+}
+
+void keep_to_this_process(SystemSocket socket) { ::fcntl(static_cast<int>(socket), F_SETFD, FD_CLOEXEC); }
 
 }  // namespace rheocyte

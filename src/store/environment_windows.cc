@@ -1,0 +1,41 @@
+#include <windows.h>
+
+#include "store/environment.h"
+#include "store/windows_errors.h"
+
+namespace rheocyte {
+
+namespace fs = std::filesystem;
+
+const char* const python_name = "python";
+
+std::string environment(const char* variable) {
+  const wchar_t* const value = ::_wgetenv(wide(variable).c_str());
+  return value ? narrow(value) : "";
+}
+
+std::vector<fs::path> folders_in(const char* variable) {
+  const std::string search = environment(variable);
+  std::vector<fs::path> folders;
+  for (std::size_t at = 0; at < search.size();) {
+    const auto end = std::min(search.find(';', at), search.size());
+    if (end > at) folders.emplace_back(search.substr(at, end - at));
+    at = end + 1;
+  }
+  return folders;
+}
+
+fs::path program_in_path(const std::string& name) {
+  std::error_code error;
+  for (const auto& folder : folders_in("PATH"))
+    if (fs::path program = folder / (name + ".exe"); fs::is_regular_file(program, error)) return program;
+  return {};
+}
+
+/// Python stands beside its packages, in a virtual environment in a folder of them.
+fs::path prefix_of_program(const fs::path& program) {
+  const fs::path folder = program.parent_path();
+  return folder.filename() == "Scripts" ? folder.parent_path() : folder;
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,27 @@
+#include <windows.h>
+
+#include <string>
+#include <system_error>
+
+#include "store/environment.h"
+#include "store/supplied_folder.h"
+
+namespace rheocyte {
+
+namespace fs = std::filesystem;
+
+fs::path program_folder() {
+  std::wstring name(32768, L'\0');
+  name.resize(::GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size())));
+  return fs::path(name).parent_path();
+}
+
+/// The program stands beside the folder `share`, not in a folder beside it.
+fs::path supplied_folder(const char* variable, const fs::path& installed, const fs::path& source) {
+  if (const std::string given = environment(variable); !given.empty()) return given;
+  const fs::path place = program_folder() / installed.lexically_relative("..");
+  std::error_code error;
+  return fs::exists(place, error) ? place : source;
+}
+
+}  // namespace rheocyte
