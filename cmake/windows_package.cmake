@@ -1,1 +1,14 @@
-# TODO
+# What `cpack` packs for Windows: one folder with the program and all that it needs.
+install(FILES LICENSE CITATION.cff CHANGELOG.md COMPONENT rheocyte DESTINATION .)
+install(FILES docs/windows.md COMPONENT rheocyte DESTINATION . RENAME README.md)
+install(DIRECTORY examples DESTINATION . COMPONENT rheocyte PATTERN "*.ipynb" EXCLUDE PATTERN "*.sh" EXCLUDE)
+install(DIRECTORY page/dist/ DESTINATION share/rheocyte/page COMPONENT rheocyte OPTIONAL)
+
+set(CPACK_GENERATOR ZIP)
+set(CPACK_PACKAGE_FILE_NAME rheocyte-${PROJECT_VERSION}-windows-x86_64)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL rheocyte)
+set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENT_INCLUDE_TOPLEVEL_DIRECTORY ON)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+include(CPack)
