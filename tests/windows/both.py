@@ -55,7 +55,7 @@ class Wine:
 
     def call(self, *words, cwd=None, **environment):
         return subprocess.run(self.arguments(*words), cwd=cwd or self.folder, env={**self.environment, **environment},
-                              stdin=subprocess.DEVNULL, capture_output=True, timeout=600, check=False)
+                              stdin=subprocess.DEVNULL, capture_output=True, timeout=120, check=False)
 
     def start(self, *words, cwd):
         return subprocess.Popen(self.arguments(*words), cwd=cwd, env=self.environment, stdin=subprocess.DEVNULL,
@@ -70,7 +70,7 @@ class Native:
 
     def call(self, *words, cwd):
         return subprocess.run([str(NATIVE), *map(str, words)], cwd=cwd, stdin=subprocess.DEVNULL, capture_output=True,
-                              timeout=600, check=False)
+                              timeout=120, check=False)
 
 
 class Differences:
