@@ -5,16 +5,22 @@ main(). Without arguments the module is loaded at once and awaits them on standa
 its end: the program starts it while there is nothing to draw yet. It draws nothing if none come.
 """
 
+import contextlib
 import importlib
 import os
-import resource
 import signal
 import sys
+
+try:
+    import resource
+except ImportError:  # Windows has no limits of this kind
+    resource = None
 
 
 def main():
     """Command line."""
-    signal.signal(signal.SIGUSR1, lambda *_: sys.exit(1))  # the program is gone; temporary files go, too
+    if hasattr(signal, "SIGUSR1"):  # the program is gone; temporary files go, too
+        signal.signal(signal.SIGUSR1, lambda *_: sys.exit(1))
     name, *arguments = sys.argv[1:]
     check_memory()
     try:
@@ -32,6 +38,8 @@ def main():
 
 def check_memory():
     """Under a small limit of memory, OpenBLAS, on which numpy stands, asks for it again and again without end."""
+    if not resource:
+        return
     limit, needed = resource.getrlimit(resource.RLIMIT_AS)[0], 400 << 20
     if limit != resource.RLIM_INFINITY and limit < needed:
         print(f"rheocyte: the pictures need {needed >> 20} MB of memory; ulimit -v allows {limit >> 20} MB.",
@@ -39,16 +47,24 @@ def check_memory():
         sys.exit(2)
 
 
+@contextlib.contextmanager
+def elsewhere():
+    """In the top folder, then where it was before, also where that has lost its name."""
+    here = os.open(".", os.O_PATH) if hasattr(os, "O_PATH") else os.getcwd()
+    os.chdir("/")
+    try:
+        yield
+    finally:
+        os.chdir(here)
+        if isinstance(here, int):
+            os.close(here)
+
+
 def load_matplotlib():
     """Loads matplotlib without any settings but its own: it would read a matplotlibrc of the current folder, too."""
     os.environ.update(MATPLOTLIBRC=os.devnull, MPLBACKEND="Agg", OPENBLAS_NUM_THREADS="1")
-    here = os.open(".", os.O_PATH)
-    os.chdir("/")
-    try:
+    with elsewhere():
         from matplotlib.artist import Artist
-    finally:
-        os.fchdir(here)
-        os.close(here)
     # The help texts of its classes' properties are a quarter of the time that loading takes.
     if hasattr(Artist, "_update_set_signature_and_docstring"):
         Artist._update_set_signature_and_docstring = classmethod(lambda cls: None)

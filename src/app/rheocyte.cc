@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   CLI::App app{"rheocyte: shapes of cells in the channel of real-time deformability cytometry", "rheocyte"};
   app.set_version_flag("--version", std::string("rheocyte ") + rheocyte::version);
   app.require_subcommand(1);
+  app.allow_windows_style_options(false);  // "/folder" is a folder
   app.footer("First steps: rheocyte solve examples/paper-cell.toml -o paper-cell; rheocyte help case");
 
   int exit_code = 0;

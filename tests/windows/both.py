@@ -1,12 +1,15 @@
 """The program of this machine and the one for Windows, which wine runs, and how far what they write differs."""
 
+import fcntl
 import json
 import math
 import os
+import pty
 import re
 import shutil
 import signal
 import subprocess
+import termios
 import time
 import zipfile
 from pathlib import Path
@@ -46,7 +49,8 @@ class Wine:
         self.program = next(folder.glob("*/rheocyte.exe"))
         self.environment = {name: value for name, value in os.environ.items()
                             if not name.startswith(("RHEOCYTE", "PYTHON", "DISPLAY"))}
-        self.environment.update(WINEPREFIX=str(MADE / "wine"), WINEDEBUG="-all", WINEDLLOVERRIDES="mscoree,mshtml=d")
+        self.environment.update(LC_ALL="C.UTF-8", WINEPREFIX=str(MADE / "wine"), WINEDEBUG="-all",
+                                WINEDLLOVERRIDES="mscoree,mshtml=d")
         self.server = shutil.which("wineserver")
         self.call("--version")  # makes that Windows where it is not there yet
 
@@ -61,6 +65,19 @@ class Wine:
         return subprocess.Popen(self.arguments(*words), cwd=cwd, env=self.environment, stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
 
+    def start_in_terminal(self, *words, cwd):
+        """With a terminal of its own, which gives Ctrl-C to the program; the process and our end of the terminal."""
+        ours, theirs = pty.openpty()
+
+        def take_terminal():
+            os.setsid()
+            fcntl.ioctl(theirs, termios.TIOCSCTTY, 0)
+
+        process = subprocess.Popen(self.arguments(*words), cwd=cwd, env=self.environment, stdin=theirs, stdout=theirs,
+                                   stderr=subprocess.PIPE, preexec_fn=take_terminal)
+        os.close(theirs)
+        return process, ours
+
     def close(self):
         subprocess.run([self.server, "-k"], env=self.environment, check=False)
 
@@ -71,6 +88,10 @@ class Native:
     def call(self, *words, cwd):
         return subprocess.run([str(NATIVE), *map(str, words)], cwd=cwd, stdin=subprocess.DEVNULL, capture_output=True,
                               timeout=120, check=False)
+
+    def start(self, *words, cwd):
+        return subprocess.Popen([str(NATIVE), *map(str, words)], cwd=cwd, stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
 
 
 class Differences:

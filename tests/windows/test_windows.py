@@ -1,10 +1,14 @@
 """The program for Windows under wine against that of this machine: the same files, numbers and sentences; and what Windows
 alone has. python3 -m unittest, in this folder; skips where there is no wine, or no program (tools/windows)."""
 
+import json
+import os
+import re
 import shutil
 import sys
 import tempfile
 import unittest
+import urllib.request
 from pathlib import Path
 
 from both import TOP, Differences, Native, Wine, kill, wait_for, why_not
@@ -23,7 +27,7 @@ CELLS += [("paper-cell", ["numerics.accuracy=1e-3", *changes]) for changes in (
     ["cell.radius_um=4.5"], ["flow.rate_ul_per_s=0.01"], ["flow.density_kg_per_m3=0"], ["channel.width_um=30"],
     ["flow.law=power-law", "flow.exponent=0.6", "flow.consistency_Pa_sn=0.4"], ["cell.bulk.law=mooney-rivlin"])]
 CELLS += [("shell-cell", [*QUICK, *changes]) for changes in (
-    ["cell.cortex.modulus_mN_per_m=60"], ["cell.cortex.tension_ratio=0.02"], ["cell.radius_um=6"])]
+    ["cell.cortex.modulus_mN_per_m=60"], ["cell.cortex.tension_ratio=0.3"], ["cell.radius_um=6"])]
 CELLS += [("combined-cell", [*QUICK, *changes]) for changes in (
     ["cell.cortex.modulus_mN_per_m=8"], ["cell.bulk.young_modulus_kPa=5"], ["flow.rate_ul_per_s=0.02"])]
 CELLS += [("square-channel", ["numerics.accuracy=3e-2", "channel.camera=side", "cell.bulk.young_modulus_kPa=3"]),
@@ -32,8 +36,8 @@ CELLS += [("square-channel", ["numerics.accuracy=3e-2", "channel.camera=side", "
 # Virtual recordings: what is changed of examples/recordings/virtual-cells.toml.
 RECORDINGS = [[], ["recording.seed=2"], ["recording.pictures=masks"], ["flow.rate_ul_per_s=0.06"],
               ["flow.medium=0.59% MC-PBS"], ["recording.pixel_size_um=0.26"], ["noise.contour_um=0.05"],
-              ["cell.radius_um={mean = 5.4, sd = 0.3}"], ["cell.bulk.young_modulus_kPa={mean = 4, sd = 1}"],
-              ["shapes.table=", "noise.thermometer_C=0.2"]]
+              ["cell.radius_um.mean=5.4"], ["cell.bulk.young_modulus_kPa.mean=4"],
+              ["flow.temperature_C.mean=25", "noise.thermometer_C=0.2"]]
 
 
 def setting(changes):
@@ -86,7 +90,7 @@ class TestCells(OnBoth):
         differences = Differences(CLOSED)
         calls = [["analytic", "cell", "--radius-um", "6", "--young-modulus-kPa", "5", "-o", "contour.csv", "--json"],
                  ["analytic", "cell", "--radius-um", "6", "--cortex-modulus-mN-m", "20", "-o", "shell.csv", "--json"],
-                 ["scale", "LE-2D-26", "-o", "scaled.txt", "--channel-width-um", "30", "--viscosity-mPas", "6"],
+                 ["scale", "LE-2D-26", "-o", "scaled.txt", "--channel-width-um", "30", "--inexact"],
                  ["scale", "HE-3D-26", "-o", "lines.txt", "--lines"]]
         for words in calls:
             ours, theirs = self.both(*words)
@@ -198,14 +202,28 @@ class TestTables(OnBoth):
         self.assertEqual(whole.returncode, 0, whole.stderr)
         process = self.wine.start(*self.SMALL, "-o", "killed", "--jobs", "1", cwd=self.there)
         pieces = self.there / "killed" / "branches"
-        begun = wait_for(lambda: pieces.is_dir() and any(file.suffix == ".bin" for file in pieces.iterdir()), 60)
+        begun = wait_for(lambda: pieces.is_dir() and any(pieces.glob("radius-*.cbor")), 60)
         kill(process)
         self.assertTrue(begun, f"no branch in {list((self.there / 'killed').rglob('*'))}")
-        kept = {file: file.stat().st_mtime_ns for file in pieces.glob("*.bin")}
+        kept = {file: file.stat().st_mtime_ns for file in pieces.glob("radius-*.cbor")}
         again = self.wine.call(*self.SMALL, "-o", "killed", "--jobs", "2", cwd=self.there)
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertEqual(kept, {file: file.stat().st_mtime_ns for file in kept})
         self.same_tables(self.there / "whole", self.there / "killed", 0.0)
+
+    def test_ctrl_c(self):
+        """Ctrl-C ends a table with what is finished, a sentence and exit code 130; the same command goes on."""
+        process, terminal = self.wine.start_in_terminal(*self.SMALL, "-o", "stopped", "--jobs", "1", cwd=self.there)
+        branches = self.there / "stopped" / "branches"
+        begun = wait_for(lambda: any(branches.glob("radius-*.cbor")), 60)
+        os.write(terminal, b"\x03")
+        _, errors = process.communicate(timeout=60)
+        os.close(terminal)
+        self.assertTrue(begun)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn(b"the same command goes on from here", errors)
+        again = self.wine.call(*self.SMALL, "-o", "stopped", cwd=self.there)
+        self.assertEqual(again.returncode, 0, again.stderr)
 
     def test_two_calls_share_a_table(self):
         """Two calls for one folder do each branch once, and both end well."""
@@ -287,6 +305,49 @@ class TestFiles(OnBoth):
                       ["scale", "no-table", "-o", "x.txt"], ["solve", "examples"]):
             ours, theirs = self.both(*words, code=2)
             self.assertEqual(ours.stderr.decode(), theirs.stderr.decode())
+
+
+class TestView(OnBoth):
+    def asked(self, process, requests):
+        """The answers to requests, (path, body or None), of a view that has been started."""
+        address, token = re.match(r"view: (\S+)/\?token=(\w+)", process.stdout.readline().decode()).groups()
+        answers = []
+        for path, body in requests:
+            request = urllib.request.Request(address + path, data=body and json.dumps(body).encode(),
+                                             headers={"Authorization": f"Bearer {token}"})
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                answers.append(answer.read())
+        return answers
+
+    def test_view(self):
+        """The view answers on states, events, pictures and moduli as it does here."""
+        made = self.native.call("synth", "examples/recordings/virtual-cells.toml", "-o", "cells.rtdc", "--set",
+                                "recording.cells=50", cwd=self.here)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        shutil.copy(self.here / "cells.rtdc", self.there)
+        shown = self.native.call("solve", "examples/paper-cell.toml", "--check", "--json", "--set", "numerics.accuracy=1e-2",
+                                 cwd=self.here)
+        case = json.loads(shown.stdout)["case"]
+        item = "/api/items/0"
+        requests = [("/api/state", case), (f"{item}/events?features=emodulus,area_um,deform", None),
+                    (f"{item}/events/3", None), (f"{item}/events/3/image", None), ("/api/features", None), ("/", None)]
+        words = ["view", "--no-browser", "cells.rtdc"]
+        answers = []
+        for start, folder in ((self.native.start, self.here), (self.wine.start, self.there)):
+            process = start(*words, cwd=folder)
+            try:
+                answers.append(self.asked(process, requests))
+            finally:
+                kill(process)
+                for stream in (process.stdout, process.stderr):
+                    stream.close()
+        differences = Differences(STATES)
+        for (path, _), ours, theirs in zip(requests, *answers):
+            if ours == theirs:
+                continue
+            self.assertTrue(ours.startswith(b"{"), path)
+            differences.json(path, json.loads(ours), json.loads(theirs))
+        self.assert_same(differences)
 
 
 if __name__ == "__main__":
