@@ -10,6 +10,7 @@
 
 namespace rheocyte {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 void set_neighbours(std::vector<std::vector<int>> nodes, std::size_t nodes_of_face,
