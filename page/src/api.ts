@@ -100,6 +100,8 @@ export interface Result {
   estimated_error: number | null;
   /** of each measure, in its unit */
   errors: Record<string, number | null>;
+  /** of each measure by the numbers of the case that were asked for */
+  gradients: Record<string, Record<string, number | null>>;
   wall_time_s: number;
   tube_radius_um: number;
   case: Sections;
@@ -432,6 +434,12 @@ export async function solveState(sections: Sections, want: StateRequest, signal?
   const line = await parts.line().catch(() => null);
   if (line === null) throw new Refusal(0, 'stopped', 'Stopped.');
   return { state: JSON.parse(line) as State, fields: readFields(parts).catch(() => null) };
+}
+
+/** The same with the gradients by all numbers of the case, without fields. */
+export async function solveGradients(sections: Sections, want: StateRequest): Promise<State> {
+  const path = `/api/state?${query({ stream: want.stream, accuracy: want.accuracy, gradient: 'all' })}`;
+  return (await (await request(path, sending('POST', sections))).json()) as State;
 }
 
 export type EvolveLine = TimeStep | { result: Result } | { error: string };

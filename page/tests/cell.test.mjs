@@ -49,6 +49,25 @@ test('Each number stands with the error that the program states for it', { skip 
     assert.ok(errors().deformation > 0);
   }));
 
+test('What the deformation depends on is shown where it is asked for, and follows the case', { skip }, () =>
+  withCell(async ({ page }) => {
+    const value = async (key) => {
+      const text = await page.locator(`.influences [data-key="${key}"] .value`).textContent();
+      return Number(text.replace(' %', '').replace('−', '-'));
+    };
+    await page.getByText('What it depends on').click();
+    await page.locator('.influences table:not(.stale)').waitFor();
+    assert.ok((await value(modulus)) < -1 && (await value('cell.radius_um')) > 1 && (await value('channel.width_um')) < -5);
+    // One per cent more, solved.
+    const before = [await shownDeformation(page), await value('cell.radius_um')];
+    await typeNumber(page, 'cell.radius_um', String(1.01 * Number(await field(page, 'cell.radius_um').inputValue())));
+    assert.ok(await until(async () => (await shownDeformation(page)) !== before[0]));
+    await settled(page);
+    const change = 100 * ((await shownDeformation(page)) / before[0] - 1);
+    assert.ok(Math.abs(change - before[1]) < 0.05 * change + 0.1, `${change} % is not ${before[1]} %`);
+    await page.locator('.influences table:not(.stale)').waitFor();
+  }));
+
 test('A state that does not exist leaves the last one greyed, says why, and the nearest one is a click away', { skip }, () =>
   withCell(async ({ page }) => {
     const before = await shownDeformation(page);

@@ -19,20 +19,21 @@ from rheocyte.progress import told_to
 _DEFAULT_MEMORY_MB = 256
 
 
-def solve(case=None, *, check=False, progress=None, **overrides):
+def solve(case=None, *, check=False, progress=None, gradient=(), **overrides):
     """The stationary shape of a cell, from the sphere to the wanted stiffness by itself.
 
     case        a Case, the path of a case file, a dictionary or None; keywords replace its keys as for Case
     check       raise NoStateError where the state does not exist or was not reached; else the Result says so in
                 `status` and `message`, and holds the last state on the way
     progress    called after each step with a dictionary (compliance, deformation, newton_iterations, degree)
+    gradient    keys of the case by which all numbers of the result are differentiated, or "all": Result.gradient
 
     Returns a Result. UserError for a case that is wrong; Ctrl-C ends the computation.
     The equations stand in docs/theory.md.
 
     >>> rheocyte.solve("examples/paper-cell.toml").deformation
     """
-    return Session(memory_MB=0).solve(case, check=check, progress=progress, **overrides)
+    return Session(memory_MB=0).solve(case, check=check, progress=progress, gradient=gradient, **overrides)
 
 
 class Session:
@@ -50,11 +51,12 @@ class Session:
             raise UserError(f"Session: memory_MB is {size:g}; give a size from 0 on.")
         self._native = native.Session(int(size * 2**20))
 
-    def solve(self, case=None, *, check=False, progress=None, **overrides):
+    def solve(self, case=None, *, check=False, progress=None, gradient=(), **overrides):
         """As rheocyte.solve, from a kept state if one is near; the answer is the same up to rounding and tolerance."""
+        keys = [gradient] if isinstance(gradient, str) else [str(key) for key in gradient]
         if not isinstance(case, Case) or overrides:
             case = Case(case, **overrides)
-        result = Result(self._native.solve(case._values, told_to(progress)), case)
+        result = Result(self._native.solve(case._values, keys, told_to(progress)), case)
         if check and not result.converged:
             raise NoStateError(result)
         return result
@@ -82,6 +84,9 @@ class Result:
     result.contour         meridian, array (n, 2): x along the channel from the barycentre, r >= 0 from the axis, in um,
                            from the front pole to the rear one
     result.surface         columns of contour.csv by their names: stretches, tensions (mN/m), curvatures (1/um)
+    result.gradient        derivatives by keys of the case, of solve(..., gradient=[...]):
+                           result.gradient["cell.radius_um"]["deformation"] is in 1/um; None where there is none
+    result.surface_gradient(key)   those of the columns of `surface`
     result.fields()        velocity, pressure, stress, displacement in cell and liquid
     result.plot()          the picture, a matplotlib figure
     """
@@ -148,6 +153,26 @@ class Result:
         """Meridian, array (n, 2) of x and r >= 0 in um, x from the barycentre along the flow; n = 0 without a state."""
         surface = self.surface
         return np.stack([surface["x_um"], surface["r_um"]], axis=1)
+
+    @property
+    def gradient(self):
+        """Derivatives of the measures: dictionary by keys of the case of dictionaries by measures.
+
+        Each in the unit of the measure over that of the key, of the numbers as they are computed, on their mesh; None where
+        a measure has no number. Empty unless `gradient` was given to solve, and None for all measures of a state that did
+        not converge.
+        """
+        return self._numbers["gradients"]
+
+    def surface_gradient(self, key):
+        """Derivatives of the columns of `surface` by a key of the case: dictionary of arrays (n,) by their names.
+
+        Each in the unit of the column over that of the key, at the same material points of the cell: x_um and r_um tell how
+        the contour moves. UserError for a key that was not among `gradient` of solve.
+        """
+        if key not in self.gradient:
+            raise UserError(f"surface_gradient: there is no gradient by {key!r}; give it to solve(..., gradient=[...]).")
+        return self._native.surface_gradient(list(self.gradient).index(key))
 
     def fields(self, x_um=None, r_um=None):
         """Fields of cell and liquid in the half section r >= 0.

@@ -1,4 +1,4 @@
-from collections.abc import Callable, Iterator, KeysView, Mapping
+from collections.abc import Callable, Iterable, Iterator, KeysView, Mapping
 from os import PathLike
 from typing import Any, overload
 
@@ -16,6 +16,7 @@ def solve(
     *,
     check: bool = False,
     progress: Callable[[dict[str, float]], object] | None = None,
+    gradient: str | Iterable[str] = (),
     **overrides: Any,
 ) -> Result: ...
 
@@ -27,6 +28,7 @@ class Session:
         *,
         check: bool = False,
         progress: Callable[[dict[str, float]], object] | None = None,
+        gradient: str | Iterable[str] = (),
         **overrides: Any,
     ) -> Result: ...
     @property
@@ -52,6 +54,9 @@ class Result:
     def surface(self) -> dict[str, NDArray[np.float64]]: ...
     @property
     def contour(self) -> NDArray[np.float64]: ...
+    @property
+    def gradient(self) -> dict[str, dict[str, float | None]]: ...
+    def surface_gradient(self, key: str) -> dict[str, NDArray[np.float64]]: ...
     @overload
     def fields(self, x_um: None = None, r_um: None = None) -> Fields: ...
     @overload

@@ -21,6 +21,15 @@ void add_solve_command(CLI::App& app, int& exit_code) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       ->add_option(
+          "--gradient", options->gradients,
+          "add derivatives of all measures with respect to a number of the case to result.json, or to \"all\" of "
+          "them; may be repeated")
+      ->type_name("KEY")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option(
           "--continue", options->continue_from,
           "go on from the last checkpoint of this folder, of a killed computation too; only for a case with a [time] "
           "section")

@@ -8,13 +8,14 @@
 #include "app/exit_codes.h"
 #include "app/finish_result.h"
 #include "app/solve_in_time.h"
+#include "case/case_line.h"
 #include "case/json_guard.h"
 #include "case/read_case.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "result/counted.h"
-#include "result/result.h"
+#include "result/gradient.h"
 #include "store/build_info.h"
 #include "store/result_folder.h"
 #include "store/standard_error.h"
@@ -50,6 +51,7 @@ void print_case(const Case& c) {
 
 int solve_case(const SolveOptions& options) {
   const Case c = read_case(options.case_file, options.settings);
+  const auto gradients = asked_line_keys(c, options.gradients, options.case_file);
   if (options.check_only) {
     if (options.json) print_case(c);
     return exit_converged;
@@ -68,10 +70,10 @@ int solve_case(const SolveOptions& options) {
     throw UserError(
         "rheocyte: --continue is for a case with a [time] section; a stationary one has nothing to continue.");
 
-  Result result{c, scales_of(c), problem_of(c), {}};
   const auto progress = options.quiet ? ProgressCallback{} : progress_lines(c);
-  result.state = solve_stationary(result.problem, progress, &stop_wanted());
-  refuse_unfinite_numbers(result);
+  const Result result = solve_with_gradients(c, gradients, [&](const Problem& problem, std::span<ProblemLine> lines) {
+    return solve_stationary(problem, progress, &stop_wanted(), lines);
+  });
 
   if (!is_written) return report_result(result, options, to_json(result));
   ResultFolder folder(options.folder);

@@ -12,6 +12,7 @@ struct SolveOptions {
   std::filesystem::path continue_from;  ///< folder of an earlier result in time; empty: from the sphere
   std::filesystem::path start_from;     ///< folder of a result in time whose last state is the start; or empty
   std::vector<std::string> settings;    ///< "key=value"
+  std::vector<std::string> gradients;   ///< keys, or "all"
   bool json = false;                    ///< result.json on standard output and nothing else there
   bool quiet = false;                   ///< no progress, no summary
   bool no_picture = false;

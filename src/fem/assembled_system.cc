@@ -64,6 +64,12 @@ VectorXd AssembledSystem<Scalar>::solve(const VectorXd& rhs) {
 }
 
 template <class Scalar>
+MatrixXd AssembledSystem<Scalar>::solve_columns(const MatrixXd& rhs) {
+  const Stopwatch watch(work_.substitution_s);
+  return lu_->solve_columns(rhs);
+}
+
+template <class Scalar>
 void AssembledSystem<Scalar>::drop_factors() {
   lu_->drop_factors();
   has_factors_ = false;

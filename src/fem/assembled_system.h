@@ -22,6 +22,7 @@ class AssembledSystem : public NonlinearSystem {
   Residual residual(const Media&, const VectorXd& unknowns) override;
   Residual linearise(const Media&, const VectorXd& unknowns) override;
   VectorXd solve(const VectorXd& rhs) override;
+  MatrixXd solve_columns(const MatrixXd& rhs) override;
   void drop_factors() override;
   /// The residual; the tangent, if it is used, is given part by part, and is the sum of these.
   Residual assemble(const Media&, const VectorXd& unknowns, const UseTangent&);

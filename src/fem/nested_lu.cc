@@ -10,6 +10,7 @@
 
 namespace rheocyte {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 void set_neighbours(std::vector<std::vector<int>> nodes, std::size_t nodes_of_face,
@@ -138,29 +139,44 @@ bool NestedLU<Scalar>::is_regular() const {
   return pivots.allFinite() && pivots.minCoeff() > 0;
 }
 
+/// Each column is scaled by itself.
 template <class Scalar>
-VectorXd NestedLU<Scalar>::solve(const VectorXd& rhs) const {
-  using Vector = Eigen::VectorX<Scalar>;
+template <int columns>
+Eigen::Matrix<double, Eigen::Dynamic, columns> NestedLU<Scalar>::substituted(
+    const Eigen::Matrix<double, Eigen::Dynamic, columns>& rhs) const {
+  using Columns = Eigen::Matrix<Scalar, Eigen::Dynamic, columns>;
   // Residuals far below the smallest number of single precision are corrected as well as others.
-  const double size = rhs.cwiseAbs().maxCoeff();
-  if (size == 0 || !std::isfinite(size)) return rhs;
-  Vector x = (rhs / size).template cast<Scalar>();
+  const Eigen::RowVectorXd size = rhs.cwiseAbs().colwise().maxCoeff();
+  if (!size.allFinite()) return rhs;
+  const Eigen::RowVectorXd divisor = (size.array() == 0).select(1, size.array());
+  Columns x = (rhs.array().rowwise() / divisor.array()).template cast<Scalar>();
   for (const Front& front : fronts_) {
     if (front.eliminated == 0) continue;
     const std::vector<int>& all = front.unknowns;
     const std::vector<int> first(all.begin(), all.begin() + front.eliminated),
         rest(all.begin() + front.eliminated, all.end());
-    const Vector y = front.lu.solve(Vector(x(first)));
-    x(first) = y;
-    if (!rest.empty()) x(rest) -= front.rows * y;
+    const Columns y = front.lu.solve(Columns(x(first, Eigen::all)));
+    x(first, Eigen::all) = y;
+    if (!rest.empty()) x(rest, Eigen::all) -= front.rows * y;
   }
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
     const std::vector<int>& all = front->unknowns;
     const std::vector<int> first(all.begin(), all.begin() + front->eliminated),
         rest(all.begin() + front->eliminated, all.end());
-    if (front->eliminated > 0 && !rest.empty()) x(first) -= front->solved_columns * Vector(x(rest));
+    if (front->eliminated > 0 && !rest.empty())
+      x(first, Eigen::all) -= front->solved_columns * Columns(x(rest, Eigen::all));
   }
-  return size * x.template cast<double>();
+  return x.template cast<double>().array().rowwise() * size.array();
+}
+
+template <class Scalar>
+VectorXd NestedLU<Scalar>::solve(const VectorXd& rhs) const {
+  return substituted<1>(rhs);
+}
+
+template <class Scalar>
+MatrixXd NestedLU<Scalar>::solve_columns(const MatrixXd& rhs) const {
+  return substituted<Eigen::Dynamic>(rhs);
 }
 
 template <class Scalar>

@@ -9,6 +9,7 @@
 
 namespace rheocyte {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Residual of all equations.
@@ -32,6 +33,8 @@ class NonlinearSystem {
   virtual Residual linearise(const Media&, const VectorXd& unknowns) = 0;
   /// With its factors.
   virtual VectorXd solve(const VectorXd& rhs) = 0;
+  /// Of several right-hand sides.
+  virtual MatrixXd solve_columns(const MatrixXd& rhs) = 0;
 
   /// Radius of the cell at rest.
   virtual double cell_radius() const = 0;

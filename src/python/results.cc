@@ -12,17 +12,32 @@ namespace py = pybind11;
 
 std::string json_text(const Result& result) { return json_line(to_json(result)); }
 
-py::dict surface_columns(const Result& result) {
-  const SurfaceProfile& surface = result.state.surface;
-  std::vector<Eigen::Index> rows;  // the first point of a piece is the last one of the piece before
-  for (Eigen::Index i = 0; i < surface.point.rows(); ++i)
+/// Of the surface's points; the first one of a piece is the last one of the piece before.
+std::vector<Eigen::Index> surface_rows(const Result& result) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < result.state.surface.point.rows(); ++i)
     if (i == 0 || i % SurfaceProfile::points_per_piece != 0) rows.push_back(i);
+  return rows;
+}
+
+py::dict surface_columns(const Result& result) {
   py::dict columns;
   for (const auto& field : contour_fields()) {
     std::vector<double> values;
     const double unit = dimensionless_one(unit_of(field.name), result.scales);
-    for (const auto i : rows) values.push_back(field.value({surface, i}) * unit);
+    for (const auto i : surface_rows(result)) values.push_back(field.value({result.state.surface, i}) * unit);
     columns[py::str(field.name)] = array_of(std::move(values));
+  }
+  return columns;
+}
+
+py::dict surface_gradient(const Result& result, std::size_t gradient) {
+  const Eigen::MatrixXd& slopes = result.gradients.at(gradient).surface;
+  py::dict columns;
+  for (Eigen::Index j = 0; j < slopes.cols(); ++j) {
+    std::vector<double> values;
+    for (const auto i : surface_rows(result)) values.push_back(slopes(i, j));
+    columns[py::str(contour_fields()[std::size_t(j)].name)] = array_of(std::move(values));
   }
   return columns;
 }
@@ -31,6 +46,7 @@ void bind_results(py::module_& module) {
   py::class_<Result>(module, "Result")
       .def("json", [](const Result& r) { return json_text(r); })
       .def("surface", &surface_columns)
+      .def("surface_gradient", &surface_gradient)
       .def("has_state", [](const Result& r) { return bool(r.state.write_fields); })
       .def("write_fields",
            [](const Result& r, const std::string& path) {

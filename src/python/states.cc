@@ -4,11 +4,11 @@
 
 #include <mutex>
 
-#include "case/scales.h"
+#include "case/case_line.h"
 #include "case/user_error.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
-#include "result/result.h"
+#include "result/gradient.h"
 #include "solve/session.h"
 
 namespace rheocyte {
@@ -31,19 +31,20 @@ class SharedSession {
  public:
   explicit SharedSession(std::size_t memory_limit_bytes) : session_(memory_limit_bytes) {}
 
-  Result solve(const Case& c, const std::optional<py::function>& progress) {
+  Result solve(const Case& c, const std::vector<std::string>& keys, const std::optional<py::function>& progress) {
     if (c.time.scheme != TimeScheme::stationary)
       throw UserError("rheocyte.solve: the case has keys of the section time; follow it with rheocyte.evolve.");
+    const auto gradients = asked_line_keys(c, keys, "rheocyte.solve");
     const auto tell = [&](const BranchStep& step) {
       const py::gil_scoped_acquire acquired;
       (*progress)(described(step));
     };
     return interruptible([&](const std::atomic<bool>& stop) {
       const std::scoped_lock alone(mutex_);
-      Result result{c, scales_of(c), problem_of(c), {}};
-      result.state = session_.solve(result.problem, progress ? ProgressCallback(tell) : ProgressCallback{}, &stop);
-      refuse_unfinite_numbers(result);
-      return result;
+      const auto report = progress ? ProgressCallback(tell) : ProgressCallback{};
+      return solve_with_gradients(c, gradients, [&](const Problem& problem, std::span<ProblemLine> lines) {
+        return session_.solve(problem, report, &stop, lines);
+      });
     });
   }
 

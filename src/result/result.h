@@ -2,6 +2,8 @@
 #pragma once
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "case/case.h"
 #include "result/field.h"
@@ -9,12 +11,21 @@
 
 namespace rheocyte {
 
+/// Derivatives of a state with respect to a number of its case, each in the unit of what is differentiated over that of
+/// the key. Not numbers where they could not be found.
+struct Gradient {
+  std::string_view key;
+  Eigen::VectorXd measures;  ///< in the order of state_measures
+  Eigen::MatrixXd surface;   ///< of the columns of contour.csv, row by row at the same material points
+};
+
 /// A state together with what turns it into physical numbers.
 struct Result {
   Case input;
   Scales scales;
   Problem problem;
   StationaryState state;
+  std::vector<Gradient> gradients = {};  ///< those that were asked for
 };
 
 /// Solver's results are not trusted blindly: a converged state with a number that is not finite becomes `not_finite`.

@@ -39,6 +39,14 @@ Json errors_of(const Result& result) {
   return json;
 }
 
+Json gradients_of(const Result& result) {
+  Json json = Json::object();
+  for (const Gradient& gradient : result.gradients)
+    for (std::size_t i = 0; i < std::size(state_measures); ++i)
+      json[gradient.key][state_measures[i].name] = gradient.measures(Eigen::Index(i));
+  return json;
+}
+
 bool is_sound(const StateMeasure& measure, const StateNumbers& numbers) {
   const double value = measure.value(numbers);
   return std::isfinite(value) || (std::isnan(value) && !measure.null_where.empty());
@@ -95,6 +103,11 @@ std::span<const Field<Result, Json>> computation_fields() {
        "estimated errors of the measures above, absolute, each under the name and in the unit of its measure; null for "
        "a state on the way, and where there is no measure or nothing to compare with",
        errors_of},
+      {"gradients",
+       "derivatives of the measures above with respect to the numbers of the case that were asked for (solve "
+       "--gradient), by keys of the case and names of measures, each in the unit of the measure over that of the key; "
+       "those of the numbers as they are computed, on their mesh; else empty",
+       gradients_of},
       {"wall_time_s", "time that the solver took", [](const Result& r) -> Json { return r.state.statistics.total_s; }},
       {"case", "the complete case with its defaults; its keys are those of the case reference",
        [](const Result& r) { return to_json(r.input); }},

@@ -21,9 +21,12 @@ double stretch_by_tension(const Problem& a, const Problem& b) {
 bool has_same_laws(const Problem& a, const Problem& b) {
   const bool same_side = (a.offset == 0) == (b.offset == 0) && (a.offset == 0 || a.camera == b.camera);
   return a.bulk.law == b.bulk.law && a.cortex.law == b.cortex.law && (a.cortex.bending > 0) == (b.cortex.bending > 0) &&
-         a.liquid.law == b.liquid.law && (is_power_law(a.liquid.law) || a.liquid == b.liquid) && a.drive == b.drive &&
-         a.channel_length == b.channel_length && a.section == b.section && a.extent.width == b.extent.width &&
-         a.extent.height == b.extent.height && same_side;
+         a.liquid.law == b.liquid.law && a.drive == b.drive && a.section == b.section && same_side;
+}
+
+bool has_same_channel(const Problem& a, const Problem& b) {
+  return a.channel_length == b.channel_length && a.extent.width == b.extent.width &&
+         a.extent.height == b.extent.height && (is_power_law(a.liquid.law) || a.liquid == b.liquid);
 }
 
 double distance(const Problem& a, const Problem& b) {

@@ -7,6 +7,7 @@
 #include "solve/equilibrium_offset.h"
 #include "solve/near_problem.h"
 #include "solve/resolved_branch.h"
+#include "solve/sensitivity.h"
 #include "solve/surface_stability.h"
 
 namespace rheocyte {
@@ -61,8 +62,8 @@ ResolvedState follow_to_known_end(const Problem& problem, const Geometry& geomet
 /// If a stop is wanted what was kept becomes what it was.
 Status Session::answer_nearby(const Problem& problem, ResolvedBranch& branch, Ladder& answer) {
   const auto is_near = [&](const Kept& kept) {
-    return has_same_laws(kept.problem, problem) && distance(kept.problem, problem) < max_change &&
-           branch.geometry().make == kept.make &&
+    return has_same_laws(kept.problem, problem) && has_same_channel(kept.problem, problem) &&
+           distance(kept.problem, problem) < max_change && branch.geometry().make == kept.make &&
            branch.geometry().is_alike(kept.problem, problem, kept.ladder.rungs.back().discrete->resolution());
   };
   const auto found = std::ranges::find_if(kept_, is_near);
@@ -79,15 +80,17 @@ Status Session::answer_nearby(const Problem& problem, ResolvedBranch& branch, La
   return status;
 }
 
-StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress,
-                               const std::atomic<bool>* stop) {
-  const SolveAtOffset solve = [&](const Problem& p) { return solve_in(solver_geometry(p), p, progress, stop); };
+StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress, const std::atomic<bool>* stop,
+                               std::span<ProblemLine> lines) {
   const bool is_sought = is_duct(problem.section) && problem.place == CellPlace::equilibrium;
-  return is_sought ? solve_at_equilibrium(problem, solve) : solve(problem);
+  if (!is_sought) return solve_in(solver_geometry(problem), problem, progress, stop, lines);
+  for (ProblemLine& line : lines) line.clear();
+  return solve_at_equilibrium(problem,
+                              [&](const Problem& p) { return solve_in(solver_geometry(p), p, progress, stop); });
 }
 
 StationaryState Session::solve_in(const Geometry& geometry, const Problem& problem, const ProgressCallback& progress,
-                                  const std::atomic<bool>* stop) {
+                                  const std::atomic<bool>* stop, std::span<ProblemLine> lines) {
   StationaryState result;
   result.shape = measure(Contour{});  // not a number until there is a shape
   double total_s = 0;
@@ -127,6 +130,11 @@ StationaryState Session::solve_in(const Geometry& geometry, const Problem& probl
       result.outcome.reached = state.branch.parameter;
     }
     explain(problem, geometry, state.gave_up, result);
+    if (result.outcome.status == Status::converged && !lines.empty()) {
+      follow_lines(geometry, problem, state, lines);
+    } else {
+      for (ProblemLine& line : lines) line.clear();
+    }
     // Stopped on the way to a finer mesh the ladder is still good to begin from.
     const bool is_good = status == Status::converged || status == Status::stopped;
     if (is_good && !ladder.rungs.empty()) keep(std::move(answer));

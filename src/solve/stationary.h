@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -84,11 +85,25 @@ struct StationaryState : StateNumbers {
   std::function<SampledFields(const Scales&, int points)> sample_fields;
 };
 
+/// A problem one parameter away from another one.
+struct LinePoint {
+  double change = 0;  ///< of the parameter
+  double weight = 0;  ///< derivative = sum of weight * value, over the points
+  Problem problem = {};
+  StationaryState state = {};  ///< to first order in the parameter
+};
+
+/// Around a problem, one parameter changed: the points of a formula of finite differences of second order.
+using ProblemLine = std::vector<LinePoint>;
+
 /// Called after each continuation step.
 using ProgressCallback = std::function<void(const BranchStep&)>;
 
 /// Solves the problem from the unstressed sphere. Never throws for a numerical failure: the state then holds the
-/// last converged shape on the branch and the outcome says why it stopped. `stop` is polled once an iteration.
-StationaryState solve_stationary(const Problem&, const ProgressCallback& = {}, const std::atomic<bool>* stop = nullptr);
+/// last converged shape on the branch and the outcome says why it stopped. `stop` is polled once an iteration. Lines
+/// around the problem are followed from a converged state of a cell whose place is given; those that cannot be are
+/// empty afterwards.
+StationaryState solve_stationary(const Problem&, const ProgressCallback& = {}, const std::atomic<bool>* stop = nullptr,
+                                 std::span<ProblemLine> = {});
 
 }  // namespace rheocyte

@@ -6,11 +6,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "case/case_line.h"
 #include "case/json_guard.h"
 #include "case/read_case.h"
 #include "case/scales.h"
+#include "case/split.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
+#include "result/gradient.h"
 #include "result/write_result.h"
 #include "serve/json_member.h"
 #include "store/base64.h"
@@ -66,11 +69,18 @@ Answer with_fields_after(const std::shared_ptr<const ShownState>& shown) {
   return answer;
 }
 
+/// The keys of `gradient`, with commas between them, or "all".
+std::vector<std::string_view> asked_gradients(const Case& c, const std::string& wanted) {
+  return wanted.empty() ? std::vector<std::string_view>{} : asked_line_keys(c, split(wanted, ','), "gradient");
+}
+
 Answer state(SolverThreads& threads, const Request& request) {
   Result result = stationary(stated_case(request.json(), request.asked("accuracy")));
+  const auto gradients = asked_gradients(result.input, request.asked("gradient"));
   solve(threads, request, [&](Session& session, const std::atomic<bool>& stop) {
-    result.state = session.solve(result.problem, {}, &stop);
-    refuse_unfinite_numbers(result);
+    result = solve_with_gradients(result.input, gradients, [&](const Problem& problem, std::span<ProblemLine> lines) {
+      return session.solve(problem, {}, &stop, lines);
+    });
   });
   if (!exists(result)) return no_state(result);
   const auto shown = std::make_shared<const ShownState>(std::move(result));

@@ -84,7 +84,8 @@ class EvolutionLines {
   }
 
   std::string line_of(const TimeFrame& frame, const Evolution<std::string>& so_far) const {
-    const auto& [input, scales, problem, state] = so_far.result();
+    const Result& result = so_far.result();
+    const Scales& scales = result.scales;
     const TimeRun& run = so_far.run();
     std::string line =
         json_line({{"time_s", scales.time_s() * frame.time},
@@ -94,7 +95,8 @@ class EvolutionLines {
                    {"progress", std::isfinite(run.end) ? frame.time / run.end : frame.position / run.end_position},
                    {"contour", outline_json(frame.state.contour, scales.length_um())}});
     if (has_fields(so_far))
-      add_member(line, "fields", ShownState({input, scales, problem, frame.state}).fields(points_in_frame));
+      add_member(line, "fields",
+                 ShownState({result.input, scales, result.problem, frame.state}).fields(points_in_frame));
     return line + "\n";
   }
 

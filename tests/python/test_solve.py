@@ -180,3 +180,25 @@ def test_fields_are_saved_as_the_command_line_writes_them(state, tmp_path):
     for wrong in (None, 1, "a\0b"):  # 1 would be standard output
         with pytest.raises(UserError, match="not a path"):
             state.save_fields(wrong)
+
+
+def test_gradients_are_those_of_the_numbers():
+    flow = {"rate_ul_per_s": 0.04, "viscosity_mPas": 15}
+    cell = {"radius_um": 6.0, "bulk": {"young_modulus_kPa": 2.0}}
+    case = Case({"channel": {"width_um": 20}, "flow": flow, "cell": cell, "numerics": {"accuracy": 1e-4}})
+    state = rheocyte.solve(case, gradient=["cell.radius_um", "cell.bulk.young_modulus_kPa"])
+    assert list(state.gradient) == ["cell.radius_um", "cell.bulk.young_modulus_kPa"]
+    step = 1e-3
+    larger = rheocyte.solve(case, **{"cell.radius_um": 6 + step})
+    smaller = rheocyte.solve(case, **{"cell.radius_um": 6 - step})
+    slope = (larger.deformation - smaller.deformation) / (2 * step)
+    assert state.gradient["cell.radius_um"]["deformation"] == pytest.approx(slope, rel=1e-5)
+    assert state.gradient["cell.radius_um"]["drift_velocity_m_per_s"] is None
+    moved = state.surface_gradient("cell.radius_um")
+    assert np.allclose(moved["r_um"], (larger.surface["r_um"] - smaller.surface["r_um"]) / (2 * step), atol=1e-5)
+    assert list(rheocyte.solve(case, gradient="cell.radius_um").gradient) == ["cell.radius_um"]
+    assert rheocyte.solve(case).gradient == {}
+    with pytest.raises(UserError, match="did you mean cell.radius_um"):
+        rheocyte.solve(case, gradient=["cell.radius"])
+    with pytest.raises(UserError, match="no gradient by 'flow.rate_ul_per_s'"):
+        state.surface_gradient("flow.rate_ul_per_s")

@@ -72,7 +72,7 @@ Outcome wait_for_stop(const std::atomic<bool>* stop) {
 }  // namespace
 
 StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress,
-                                 const std::atomic<bool>* stop) {
+                                 const std::atomic<bool>* stop, std::span<ProblemLine>) {
   const auto failure = wanted_failure();
   if (failure == "throw") throw std::logic_error("a bug\nof the solver");
   StationaryState state;

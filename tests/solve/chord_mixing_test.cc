@@ -30,6 +30,7 @@ class Kept final : public NonlinearSystem {
     return residual(media, x);
   }
   VectorXd solve(const VectorXd& rhs) override { return rhs.cwiseQuotient(A_.diagonal()); }
+  MatrixXd solve_columns(const MatrixXd& rhs) override { return A_.diagonal().cwiseInverse().asDiagonal() * rhs; }
 
   double cell_radius() const override { return 1; }
   double largest_displacement(const VectorXd& x) const override { return x.cwiseAbs().maxCoeff(); }

@@ -94,6 +94,24 @@ TEST_F(CellRoutes, TheAccuracyOfARequestReplacesThatOfTheCase) {
   EXPECT_EQ(post("/api/state", cell(), {{"accuracy", "fine"}}).status, 400);
 }
 
+/// From a kept state, whose factors are those of another one nearby, as from nothing.
+TEST_F(CellRoutes, GradientsComeWhereTheyAreAskedFor) {
+  const std::string key = "cell.bulk.young_modulus_kPa";
+  EXPECT_TRUE(json("/api/state", cell())["gradients"].empty());
+  const Json cold = json("/api/state", cell(4.1), {{"gradient", key}});
+  json("/api/state", cell(4), {{"stream", "s"}});
+  const Json warm = json("/api/state", cell(4.1), {{"stream", "s"}, {"gradient", key + ",cell.radius_um"}});
+  EXPECT_EQ(cold["gradients"].size(), 1);
+  EXPECT_EQ(warm["gradients"].size(), 2);
+  const double slope = cold["gradients"][key]["deformation"].get<double>();
+  EXPECT_LT(slope, 0);
+  EXPECT_NEAR(warm["gradients"][key]["deformation"].get<double>() / slope, 1, 1e-5);
+  EXPECT_GT(json("/api/state", cell(), {{"gradient", "all"}})["gradients"].size(), 6);
+  const Answer refused = post("/api/state", cell(), {{"gradient", "cell.radius"}});
+  EXPECT_EQ(refused.status, 400);
+  EXPECT_NE(refused.body.find("did you mean cell.radius_um"), std::string::npos);
+}
+
 TEST_F(CellRoutes, OutlinesAreClosedAboutTheirCentroidAndFieldsFitToThem) {
   const Json state = json("/api/state", cell(), {{"fields", "1"}});
   for (const char* name : {"contour", "hull"}) {

@@ -1,6 +1,7 @@
 // The numbers at the right, each with its estimated error. Places stay where they are while the digits change.
 import { significant } from '../draw/numbers';
 import { useStore } from '../shell/store';
+import { Influences } from './Influences';
 import * as model from './model';
 import { run } from './time';
 
@@ -101,12 +102,15 @@ export function Numbers() {
   }
   if (!solved) return <dl class="numbers" />;
   return (
-    <dl class={refused ? 'numbers stale' : 'numbers'}>
-      {rowsOf(solved).map((row) => (
-        <Measure key={row.title} row={row} />
-      ))}
-      <Margin solved={solved} />
-      <Accuracy solved={solved} />
-    </dl>
+    <>
+      <dl class={refused ? 'numbers stale' : 'numbers'}>
+        {rowsOf(solved).map((row) => (
+          <Measure key={row.title} row={row} />
+        ))}
+        <Margin solved={solved} />
+        <Accuracy solved={solved} />
+      </dl>
+      <Influences />
+    </>
   );
 }

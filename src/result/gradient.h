@@ -1,0 +1,17 @@
+// How the numbers of a result change with those of its case (docs/theory.md, sec. "Gradients").
+#pragma once
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "result/result.h"
+
+namespace rheocyte {
+
+/// Solves a problem, and follows lines around it.
+using SolveWithLines = std::function<StationaryState(const Problem&, std::span<ProblemLine>)>;
+
+/// The result of a stationary case, with its gradients by these keys (asked_line_keys), in their order.
+Result solve_with_gradients(const Case&, std::span<const std::string_view> keys, const SolveWithLines&);
+
+}  // namespace rheocyte
