@@ -1,5 +1,6 @@
-// How the standard library reads folders, with paths of any length: the functions of mingw-w64 stop at 260 characters, and
-// removing a folder then never ends. The linker takes these in their place; a program has to name this file as its own.
+// How the standard library reads folders, with paths of any length: the functions of mingw-w64 stop at 260 characters,
+// and removing a folder then never ends. The linker takes these in their place; a program has to name this file as its
+// own.
 #include <dirent.h>
 #include <windows.h>
 

@@ -12,13 +12,16 @@ import subprocess
 import termios
 import time
 import zipfile
+from decimal import Decimal
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
 MADE = TOP / "build" / "windows"
 NATIVE = Path(os.environ.get("RHEOCYTE_PROGRAM", TOP / "build" / "rheocyte"))
 # What no two runs have in common, or what names the machine.
-OF_THE_RUN = {"wall_time_s", "statistics", "compiler", "residual", "version", "date", "computed_s", "program"}
+OF_THE_RUN = {"wall_time_s", "statistics", "compiler", "residual", "version", "date", "computed_s", "program", "threads"}
+# Of differences of numbers of the order of one, such as errors: below it they are rounding.
+ROUNDING = 1e-12
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
@@ -94,14 +97,29 @@ class Native:
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
 
 
+def is_rounded_otherwise(one, other):
+    """Whether two written numbers of fewer digits than are computed differ by one in the last."""
+    a, b = Decimal(one), Decimal(other)
+    last = max(a.as_tuple().exponent, b.as_tuple().exponent)
+    return max(len(a.as_tuple().digits), len(b.as_tuple().digits)) < 15 and abs(a - b) <= Decimal((0, (1,), last))
+
+
+def here(word):
+    """A path of the program for Windows as that of the one here, which works in another folder."""
+    if isinstance(word, str) and "\\" in word:
+        return word.replace("Z:", "").replace("\\", "/").replace("/windows/", "/native/")
+    return word
+
+
 class Differences:
-    """Collects where two results differ by more than `limit` of a number, or of the scale that stands beside it."""
+    """Collects where two results differ by more than `limit` of a number, or of the scale that stands beside it, and by more
+    than ROUNDING. Paths of Windows count as those of the folder `native`."""
 
     def __init__(self, limit):
         self.limit, self.greatest, self.found = limit, 0.0, []
 
     def number(self, place, one, other, scale=0.0):
-        if one == other or (math.isnan(one) and math.isnan(other)):
+        if one == other or (math.isnan(one) and math.isnan(other)) or abs(one - other) < ROUNDING:
             return
         size = max(abs(one), abs(scale))
         difference = abs(one - other) / size if size > 0 else math.inf
@@ -128,7 +146,7 @@ class Differences:
             size = max((abs(x) for x in one if isinstance(x, int | float)), default=0.0)
             for number, pair in enumerate(zip(one, other)):
                 self.one_json(f"{place}/{number}", *pair, size, None)
-        elif one != other:
+        elif one != here(other):
             self.found.append(f"{place}: {one!r} and {other!r}")
 
     def one_json(self, place, one, other, scale, scales):
@@ -153,10 +171,11 @@ class Differences:
                 self.found.append(f"{place}:{line}: {row} and {theirs}")
                 continue
             for column, (word, their) in enumerate(zip(row, theirs)):
-                if word == their:
+                if word == here(their):
                     continue
                 if NUMBER.fullmatch(word) and NUMBER.fullmatch(their):
-                    self.number(f"{place}:{line}", float(word), float(their), sizes[len(row), column])
+                    if not is_rounded_otherwise(word, their):
+                        self.number(f"{place}:{line}", float(word), float(their), sizes[len(row), column])
                 else:
                     self.found.append(f"{place}:{line}: {word!r} and {their!r}")
 
