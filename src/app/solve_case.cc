@@ -51,7 +51,7 @@ void print_case(const Case& c) {
 
 int solve_case(const SolveOptions& options) {
   const Case c = read_case(options.case_file, options.settings);
-  const auto gradients = asked_line_keys(c, options.gradients, options.case_file);
+  const auto gradients = asked_line_keys(c, options.gradients, options.case_file.string());
   if (options.check_only) {
     if (options.json) print_case(c);
     return exit_converged;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "serve/open_browser.h"
+#include "store/utf8_paths.h"
 
 namespace rheocyte {
 

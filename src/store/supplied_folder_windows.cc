@@ -5,6 +5,7 @@
 
 #include "store/environment.h"
 #include "store/supplied_folder.h"
+#include "store/utf8_paths.h"
 
 namespace rheocyte {
 

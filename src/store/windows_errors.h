@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "store/utf8_paths.h"
+
 namespace rheocyte {
 
 /// Of the last call that failed in this thread; EWOULDBLOCK for what another program has.

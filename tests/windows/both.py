@@ -138,6 +138,7 @@ class Differences:
                 # An error is a difference of two numbers: it has the digits of these.
                 inner = one if key in ("errors", "standard_errors") else None
                 scale = (scales or {}).get(key, 0.0)
+                scale = 1000 * scale if isinstance(scale, int | float) else 0.0
                 self.one_json(f"{place}/{key}", one[key], other[key], scale, inner)
         elif isinstance(one, list):
             if len(one) != len(other):
