@@ -2,8 +2,9 @@
 //
 //     build/bench_duct_states [ACCURACY [FIRST [LAST]]]   twenty fixed cells (or some of them); default 1e-3
 //     build/bench_duct_states random [COUNT [SEED]]       random cells at 1e-3 against the same at 3e-5
-//     build/bench_duct_states warm [ACCURACY [COUNT]]     small steps in a session, each against the answer from the
-//     sphere
+//     build/bench_duct_states first [COUNT [SEED]]        random cells of more kinds: what degree 4 states, against
+//     degree 6 build/bench_duct_states warm [ACCURACY [COUNT]]     small steps in a session, each against the answer
+//     from the sphere
 //
 // Processor times of one thread.
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "numeric/quantile.h"
+#include "solve/resolved_branch.h"
 #include "solve/session.h"
 #include "solve/stationary.h"
 
@@ -136,6 +138,59 @@ void check_estimates(int count, unsigned seed) {
              *std::ranges::max_element(shares));
 }
 
+/// Of all kinds on the axis, to the softest.
+Problem random_problem(std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Problem problem;
+  problem.section = Section::square;
+  problem.radius_ratio = 0.2 + 0.7 * uniform(random);
+  const BulkLaw law = std::array{linear, neo_hookean, mooney}[std::size_t(3 * uniform(random))];
+  const bool is_newtonian = uniform(random) < 0.5;
+  if (!is_newtonian) problem.liquid = {.law = LiquidLaw::power_law, .exponent = 0.6};
+  const double d = 2e-4 * std::pow(400, uniform(random));
+  const double modulus = std::sqrt((is_newtonian ? 3 : 1) * std::pow(problem.radius_ratio, 2.1) / d);
+  problem.bulk = {.law = law, .shear_modulus = modulus};
+  const double kind = uniform(random), stiffness = modulus * problem.radius_ratio;
+  if (kind < 0.25) {
+    problem.bulk.axial_tension = 0.3 * modulus * uniform(random);
+  } else if (kind < 0.5) {
+    problem.cortex = {.law = CortexLaw::linear, .modulus = 2 * stiffness * uniform(random)};
+    problem.cortex.tension = 0.3 * stiffness * uniform(random);
+  }
+  return problem;
+}
+
+void check_first_estimates(int count, unsigned seed) {
+  constexpr double not_reached = 1e-12;
+  constexpr int last_degree = 6;
+  std::mt19937 random(seed);
+  fmt::print("| r0/h | n | d | margin | change of d | change of the margin | stated | true error |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|\n");
+  while (count > 0) {
+    Problem problem = random_problem(random);
+    problem.accuracy = not_reached;
+    Geometry geometry = solver_geometry(problem);
+    geometry.rungs.front().last_degree = last_degree;
+    ResolvedBranch branch(problem, geometry);
+    ResolvedState state = branch.follow();
+    Ladder ladder{geometry.errors}, first{geometry.errors};
+    if (state.status != Status::converged) continue;  // beyond the end of its branch
+    branch.climb(state, ladder);
+    if (ladder.rungs.front().discrete->resolution().degree != 3 || std::ssize(ladder.rungs) <= last_degree - 3)
+      continue;
+    for (const std::size_t rung : {0, 1}) first.add(ladder.rungs[rung], ladder.numbers[rung]);
+    const StateNumbers &coarse = ladder.numbers[0], &fine = ladder.numbers[1];
+    const double d = ladder.deformation();
+    fmt::print("| {:.2f} | {} | {:.4g} | {:.3f} | {:.1e} | {:.3f} | {:.1e} | {:.1e} |\n", problem.radius_ratio,
+               problem.liquid.exponent, d, fine.stability_margin,
+               std::abs(fine.shape.deformation - coarse.shape.deformation) / d,
+               fine.stability_margin - coarse.stability_margin, first.estimated_error,
+               std::abs(fine.shape.deformation - d) / d);
+    std::fflush(stdout);
+    --count;
+  }
+}
+
 /// One number changed by at most three per cent.
 void step(std::mt19937& random, int which, Problem& problem) {
   std::uniform_real_distribution<double> by(-0.03, 0.03);
@@ -180,11 +235,14 @@ int main(int count, char** words) {
   const auto word = [&](int i, double otherwise) { return count > i ? std::atof(words[i]) : otherwise; };
   if (count > 1 && std::string_view(words[1]) == "random") {
     check_estimates(int(word(2, 30)), unsigned(word(3, 1)));
+  } else if (count > 1 && std::string_view(words[1]) == "first") {
+    check_first_estimates(int(word(2, 30)), unsigned(word(3, 1)));
   } else if (count > 1 && std::string_view(words[1]) == "warm") {
     print_warm_starts(word(2, 1e-3), int(word(3, 12)));
   } else if (count > 1 && word(1, 0) <= 0) {
-    fmt::print(stderr,
-               "bench_duct_states [ACCURACY [FIRST [LAST]]], random [COUNT [SEED]] or warm [ACCURACY [COUNT]]\n");
+    fmt::print(
+        stderr,
+        "bench_duct_states [ACCURACY [FIRST [LAST]]], random or first [COUNT [SEED]], or warm [ACCURACY [COUNT]]\n");
     return 2;
   } else {
     print_states(word(1, 1e-3), int(word(2, 0)), int(word(3, std::size(cells))));

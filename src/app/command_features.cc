@@ -61,6 +61,7 @@ void add_features_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("features", "features of the shape of the cells in recordings (.rtdc) from contours or masks");
   auto options = std::make_shared<FeaturesOptions>();
   declare_batch_options(*command, options->batch);
+  declare_jobs(*command, options->batch);
   declare_settings(*command, settings_of(*options));
   command->callback([options, &exit_code] {
     watch_signals(SecondSignal::waits);

@@ -75,6 +75,7 @@ void add_moduli_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("moduli", "bulk and cortex moduli of the cells in recordings (.rtdc) from their contours");
   auto options = std::make_shared<ModuliOptions>();
   declare_batch_options(*command, options->batch);
+  declare_jobs(*command, options->batch);
   command
       ->add_option(
           "--table", options->table,

@@ -43,6 +43,14 @@ void declare_batch_options(CLI::App& command, BatchOptions& options) {
   command.add_flag("--quiet", options.quiet, "print neither progress nor results");
 }
 
+void declare_jobs(CLI::App& command, BatchOptions& options) {
+  command
+      .add_option(
+          "-j,--jobs", options.jobs,
+          "recordings that are read at once; default: as many as there are processors. Results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+}
+
 void declare_settings(CLI::App& command, const Settings& settings) {
   for (const Setting& setting : settings) {
     auto* const option = std::visit(SettingOption{command, setting}, setting.place);
@@ -52,6 +60,7 @@ void declare_settings(CLI::App& command, const Settings& settings) {
 
 void declare_extract_options(CLI::App& command, ExtractOptions& options, std::function<void()> run) {
   declare_batch_options(command, options.batch);
+  declare_jobs(command, options.batch);
   declare_settings(command, settings_of(options));
   command.add_flag("--no-tsv", options.no_tsv, "do not write a table with one line per event");
   command.callback([&options, run = std::move(run)] {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <system_error>
+#include <thread>
 
 #include "case/refuse_path.h"
 
@@ -32,6 +34,11 @@ void check_is_there(const fs::path& recording) {
   if (recording.string().find("://") != std::string::npos)
     refuse_path(recording, "is an address on a network; download the recording and give the file.");
   refuse_path(recording, "there is no such file.");
+}
+
+int jobs_at_once(const BatchOptions& options) {
+  const int processors = std::max(1, int(std::thread::hardware_concurrency()));
+  return options.jobs > 0 ? options.jobs : processors;
 }
 
 std::vector<RecordingTask> tasks_of(const BatchOptions& options) {

@@ -2,8 +2,11 @@
 // but itself.
 #pragma once
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -48,41 +51,130 @@ auto read_contained(const std::filesystem::path& recording, const MeasuringOptio
   return std::move(done.result);
 }
 
-/// Runs a job on the recordings in turn and returns the exit code: of a failure, if there was any, else of a recording
-/// without any result. The job says by
+/// As many as the options say, or the machine has processors.
+int jobs_at_once(const BatchOptions&);
+
+/// The recordings of one call: some are read at once, and told of in their order. See run_batch.
+template <class Job>
+class RecordingBatch {
+ public:
+  RecordingBatch(std::span<const RecordingTask> tasks, const BatchOptions& options, double patience_s, Job& job)
+      : options_(options), patience_s_(patience_s), job_(job) {
+    for (const RecordingTask& task : tasks) turns_.push_back(std::make_unique<Turn>(task));
+  }
+
+  int run() {
+    ContainedPool pool(jobs_at_once(options_));
+    for (const auto& turn : turns_) {
+      if (was_stopped_) break;
+      begin(*turn, pool);
+      tell_in_order();
+    }
+    pool.wait_for_all();
+    for (const auto& turn : turns_) tell_of(*turn);  // the last ones, or those that a stop has left behind
+    if (was_stopped_) return exit_stopped();
+    return failed_ ? exit_user_error : empty_ ? exit_numerical : exit_converged;
+  }
+
+ private:
+  using Files = decltype(std::declval<Job&>().files(std::declval<const RecordingTask&>()));
+  using Result = std::decay_t<decltype(std::declval<Job&>().work(
+      std::declval<const RecordingTask&>(), std::declval<const Files&>(), std::declval<const TellProgress&>()))>;
+
+  struct Turn {
+    explicit Turn(const RecordingTask& of) : task(of) {}
+    const RecordingTask& task;
+    std::unique_ptr<ResultPlace> place = {};  ///< until all have ended: others may write there
+    std::optional<Files> files = {};
+    bool has_ended = false, is_told = false;
+    std::optional<Result> result = {};
+    std::string sentence = {};  ///< without a result
+  };
+
+  /// What fails is known at once.
+  void begin(Turn& turn, ContainedPool& pool) {
+    try {
+      check_is_there(turn.task.recording);
+      turn.place = std::make_unique<ResultPlace>(turn.task.results.parent_path(), options_.folder);
+      turn.files.emplace(job_.files(turn.task));
+      Containment limits;
+      limits.patience_s = patience_s_;
+      pool.start(
+          [this, &turn](const TellProgress& tell_progress) {
+            return to_bytes(job_.work(turn.task, *turn.files, tell_progress));
+          },
+          limits, FileProgress(one_line(turn.task.recording.string(), 200), options_.quiet),
+          [this, &turn](ContainedEnd end) {
+            this->end(turn, contained_from<Result>(std::move(end)));
+            tell_in_order();
+          });
+    } catch (const UserError& error) {
+      fail(turn, error.what());
+    }
+  }
+
+  /// What has finished is there at once, whatever comes of the others.
+  void end(Turn& turn, Contained<Result> done) {
+    if (done.stopped()) {
+      was_stopped_ = true;
+      turn.files.reset();
+      return;
+    }
+    if (!done.finished()) return fail(turn, sentence_for(turn.task.recording, done.end, patience_s_));
+    try {
+      turn.files->publish();
+      turn.files.reset();
+      turn.result = std::move(done.result);
+      turn.has_ended = true;
+    } catch (const UserError& error) {
+      fail(turn, error.what());
+    }
+  }
+
+  void fail(Turn& turn, std::string sentence) {
+    turn.files.reset();
+    turn.sentence = std::move(sentence);
+    turn.has_ended = true;
+  }
+
+  void tell_in_order() {
+    for (const auto& turn : turns_) {
+      if (!turn->has_ended) return;
+      tell_of(*turn);
+    }
+  }
+
+  void tell_of(Turn& turn) {
+    if (!turn.has_ended || std::exchange(turn.is_told, true)) return;
+    try {
+      if (turn.result) {
+        if (!job_.take(turn.task, *turn.result)) empty_ = true;
+        return;
+      }
+    } catch (const UserError& error) {
+      turn.sentence = error.what();
+    }
+    failed_ = true;
+    tell(turn.sentence);
+    job_.fail(turn.task, turn.sentence);
+  }
+
+  const BatchOptions& options_;
+  double patience_s_;
+  Job& job_;
+  std::vector<std::unique_ptr<Turn>> turns_;
+  bool was_stopped_ = false, failed_ = false, empty_ = false;
+};
+
+/// Runs a job on the recordings and returns the exit code: of a failure, if there was any, else of a recording without
+/// any result. The job says by
 ///   files(task)                                   which files are made, with publish(); here, UserError
 ///   work(task, files, tell_progress) -> Result    what is read and written; in a process of its own, UserError
 ///   take(task, result) -> bool                    what is told of the result; false: it has no modulus
 ///   fail(task, sentence)                          what else is done about a failure, which is told already
 template <class Job>
 int run_batch(std::span<const RecordingTask> tasks, const BatchOptions& options, double patience_s, Job& job) {
-  bool failed = false, empty = false;
-  for (const auto& task : tasks) {
-    std::string sentence;
-    try {
-      check_is_there(task.recording);
-      const ResultPlace place(task.results.parent_path(), options.folder);
-      auto files = job.files(task);
-      const auto work = [&](const TellProgress& tell_progress) { return job.work(task, files, tell_progress); };
-      Containment limits;
-      limits.patience_s = patience_s;
-      const auto done =
-          run_contained(work, limits, FileProgress(one_line(task.recording.string(), 200), options.quiet));
-      if (done.stopped()) return exit_stopped();
-      if (done.finished()) {
-        files.publish();
-        if (!job.take(task, done.result)) empty = true;
-        continue;
-      }
-      sentence = sentence_for(task.recording, done.end, patience_s);
-    } catch (const UserError& error) {
-      sentence = error.what();
-    }
-    failed = true;
-    tell(sentence);
-    job.fail(task, sentence);
-  }
-  return failed ? exit_user_error : empty ? exit_numerical : exit_converged;
+  return RecordingBatch<Job>(tasks, options, patience_s, job).run();
 }
 
 }  // namespace rheocyte

@@ -110,9 +110,11 @@ std::vector<std::string_view> asked_line_keys(const Case& c, std::span<const std
     const auto found = std::ranges::find(known, key);
     if (found == known.end() && key == bending)
       throw UserError(fmt::format("{}: there is no gradient by {} where it is 0; its effect begins there.", name, key));
-    if (found == known.end())
-      throw UserError(fmt::format("{}: there is no gradient by \"{}\"{}; of this case there are those by {}.", name,
-                                  one_line(key, 60), did_you_mean(key, known), fmt::join(known, ", ")));
+    if (found == known.end()) {
+      const std::string near = did_you_mean(key, known);
+      throw UserError(fmt::format("{}: there is no gradient by \"{}\"{} Of this case there are those by {}.", name,
+                                  one_line(key, 60), near.empty() ? "." : near, fmt::join(known, ", ")));
+    }
     if (std::ranges::find(asked, *found) == asked.end()) asked.push_back(*found);
   }
   return asked;

@@ -15,6 +15,7 @@ struct BatchOptions {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path folder;  ///< of the results; empty: beside each recording
   bool recursive = false, quiet = false;
+  int jobs = 0;  ///< recordings that are read at once; 0: as many as there are processors
 };
 
 /// How recordings were measured, and which of their events count. What is not given is taken from the recording.

@@ -19,8 +19,9 @@ constexpr double share_of_velocity = 1e-4;
 double estimate_error(const std::vector<double>& values, const ErrorRule& rule) {
   const std::size_t n = values.size();
   if (n < 2) return std::numeric_limits<double>::infinity();
-  const double error = error_of_last(values, rule.share_of_change_before) / std::max(std::abs(values[n - 1]), 1e-300);
-  return n == 2 ? std::max(error, rule.min_of_two) : error;
+  const double size = std::max(std::abs(values[n - 1]), 1e-300);
+  if (n > 2) return error_of_last(values, rule.share_of_change_before) / size;
+  return std::max(rule.share_of_first_change * std::abs(values[1] - values[0]) / size, rule.min_of_two);
 }
 
 double deformation_floor(const Problem& problem) {
@@ -35,9 +36,12 @@ void Ladder::add(ResolvedState state, const StateNumbers& of_state) {
   for (const StateNumbers& rung : numbers) deformations.push_back(rung.shape.deformation);
   estimated_error = estimate_error(deformations, rule);
   if (numbers.size() != 2) return;
-  const double change = std::abs(numbers[1].shape.inertia_ratio - numbers[0].shape.inertia_ratio);
+  const auto change = [this](auto of) { return std::abs(of(numbers[1]) - of(numbers[0])); };
+  const double by_inertia = change([](const StateNumbers&n) { return n.shape.inertia_ratio; }),
+               by_margin = change([](const StateNumbers&n) { return n.stability_margin; });
   if (rule.share_of_inertia > 0)
-    estimated_error = std::max(estimated_error, rule.share_of_inertia * change / std::max(deformation(), 1e-300));
+    estimated_error = std::max(estimated_error, rule.share_of_inertia * by_inertia / std::max(deformation(), 1e-300));
+  if (rule.share_of_margin > 0) estimated_error = std::max(estimated_error, rule.share_of_margin * by_margin);
 }
 
 double Ladder::stated_error(const Problem& problem) const {

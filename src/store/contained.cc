@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -14,8 +15,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "case/user_error.h"
 #include "store/child_process.h"
@@ -127,10 +131,12 @@ class SignalsHeldBack {
   ::_exit(0);  // no destructors of the parent's objects, no flushing of its buffers
 }
 
+}  // namespace
+
 /// Puts messages together from what arrives in pieces.
-class Inbox {
+class ContainedInbox {
  public:
-  explicit Inbox(const TellProgress& on_progress) : on_progress_(on_progress) {}
+  explicit ContainedInbox(const TellProgress& on_progress) : on_progress_(on_progress) {}
 
   /// False at the end of the pipe.
   bool read_from(int pipe) {
@@ -176,8 +182,10 @@ class Inbox {
   bool has_end_ = false;
 };
 
+namespace {
+
 // What the messages, the status and our own impatience say together.
-ContainedEnd conclude(const Inbox& inbox, int status) {
+ContainedEnd conclude(const ContainedInbox& inbox, int status) {
   if (WIFEXITED(status) && inbox.has_end()) return inbox.end();
   // A breakdown after the result (when HDF5 closes) does not make the result good: files may be incomplete.
   if (WIFSIGNALED(status))
@@ -192,48 +200,105 @@ void kill_child(pid_t child) {
   for (int i = 0; i < rounds && ::waitpid(child, nullptr, WNOHANG) == 0; ++i) ::poll(nullptr, 0, pause_ms);
 }
 
-ContainedEnd watch(pid_t child, int pipe, const Containment& limits, const TellProgress& on_progress) {
-  Inbox inbox(on_progress);
-  Clock::time_point last_word = Clock::now();
-  for (;;) {
-    pollfd wanted{pipe, POLLIN, 0};
-    const int ready = ::poll(&wanted, 1, limits.is_wanted ? 50 : 200);
-    if (ready > 0) {
-      if (!inbox.read_from(pipe)) return conclude(inbox, wait_for(child));
-      last_word = Clock::now();
-    }
-    const bool hangs = std::chrono::duration<double>(Clock::now() - last_word).count() > limits.patience_s;
-    const bool stops = stop_wanted() || (limits.is_wanted && !limits.is_wanted());
-    if (!hangs && !stops) continue;
-    kill_child(child);
-    return {stops ? Kind::stopped : Kind::hung, {}};
-  }
-}
-
 }  // namespace
 
-ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
-                                 const TellProgress& on_progress) {
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw SystemLimit("open files", errno);
-  std::fflush(nullptr);
-  std::optional<SignalsHeldBack> signals(std::in_place);
-  const pid_t child = ::fork();
-  if (child < 0) {
-    const int reason = errno;
-    ::close(ends[0]);
+/// A child and what has come from it.
+class ContainedPool::Run {
+ public:
+  Run(const ContainedWork& work, Containment limits, TellProgress on_progress, OnEnd on_end)
+      : limits_(std::move(limits)), on_progress_(std::move(on_progress)), on_end_(std::move(on_end)) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw SystemLimit("open files", errno);
+    std::fflush(nullptr);
+    const SignalsHeldBack signals;
+    child_ = ::fork();
+    if (child_ < 0) {
+      const int reason = errno;
+      ::close(ends[0]);
+      ::close(ends[1]);
+      throw SystemLimit("processes", reason);
+    }
+    if (child_ == 0) {
+      ::close(ends[0]);
+      be_the_child(work, limits_, ends[1], signals);
+    }
     ::close(ends[1]);
-    throw SystemLimit("processes", reason);
+    pipe_ = ends[0];
   }
-  if (child == 0) {
-    ::close(ends[0]);
-    be_the_child(work, limits, ends[1], *signals);
+  ~Run() {
+    if (!has_ended_) kill_child(child_);
+    ::close(pipe_);
   }
-  signals.reset();
-  ::close(ends[1]);
-  ContainedEnd end = watch(child, ends[0], limits, on_progress);
-  ::close(ends[0]);
-  return end;
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  int pipe() const { return pipe_; }
+  int pause_ms() const { return limits_.is_wanted ? 50 : 200; }
+
+  /// What has come, if there is anything, and whether it has to be given up. Its end, once it has come.
+  std::optional<ContainedEnd> look(bool has_come) {
+    if (has_come) {
+      last_word_ = Clock::now();
+      if (!inbox_.read_from(pipe_)) return has_ended_ = true, conclude(inbox_, wait_for(child_));
+    }
+    const bool hangs = std::chrono::duration<double>(Clock::now() - last_word_).count() > limits_.patience_s;
+    const bool stops = stop_wanted() || (limits_.is_wanted && !limits_.is_wanted());
+    if (!hangs && !stops) return std::nullopt;
+    kill_child(child_);
+    has_ended_ = true;
+    return ContainedEnd{stops ? Kind::stopped : Kind::hung, {}};
+  }
+  void tell_end(ContainedEnd end) const { on_end_(std::move(end)); }
+
+ private:
+  Containment limits_;
+  TellProgress on_progress_;
+  OnEnd on_end_;
+  pid_t child_ = -1;
+  int pipe_ = -1;
+  ContainedInbox inbox_{on_progress_};
+  Clock::time_point last_word_ = Clock::now();
+  bool has_ended_ = false;
+};
+
+ContainedPool::ContainedPool(int at_once) : at_once_(at_once) {}
+ContainedPool::~ContainedPool() = default;
+
+void ContainedPool::start(const ContainedWork& work, Containment limits, TellProgress on_progress, OnEnd on_end) {
+  while (std::ssize(runs_) >= at_once_) look();
+  runs_.push_back(std::make_unique<Run>(work, std::move(limits), std::move(on_progress), std::move(on_end)));
+}
+
+void ContainedPool::wait_for_all() {
+  while (!runs_.empty()) look();
+}
+
+void ContainedPool::look() {
+  std::vector<pollfd> wanted;
+  int pause_ms = 200;
+  for (const auto& run : runs_) {
+    wanted.push_back({run->pipe(), POLLIN, 0});
+    pause_ms = std::min(pause_ms, run->pause_ms());
+  }
+  const int ready = ::poll(wanted.data(), wanted.size(), pause_ms);
+  std::vector<std::pair<std::unique_ptr<Run>, ContainedEnd>> ended;
+  for (std::size_t i = wanted.size(); i-- > 0;) {
+    const auto run = runs_.begin() + std::ptrdiff_t(i);
+    auto end = (*run)->look(ready > 0 && wanted[i].revents != 0);
+    if (!end) continue;
+    ended.emplace_back(std::move(*run), std::move(*end));
+    runs_.erase(run);
+  }
+  for (auto& [run, end] : ended) run->tell_end(std::move(end));
+}
+
+ContainedEnd run_contained_bytes(const ContainedWork& work, const Containment& limits,
+                                 const TellProgress& on_progress) {
+  ContainedEnd result;
+  ContainedPool pool(1);
+  pool.start(work, limits, on_progress, [&](ContainedEnd end) { result = std::move(end); });
+  pool.wait_for_all();
+  return result;
 }
 
 }  // namespace rheocyte

@@ -21,7 +21,18 @@ std::recursive_mutex& turn_of_work() {
   return turn;
 }
 
-ContainedEnd run_contained_bytes(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
+class ContainedPool::Run {};
+
+ContainedPool::ContainedPool(int at_once) : at_once_(at_once) {}
+ContainedPool::~ContainedPool() = default;
+
+void ContainedPool::start(const ContainedWork& work, Containment limits, TellProgress on_progress, OnEnd on_end) {
+  on_end(run_contained_bytes(work, limits, on_progress));
+}
+
+void ContainedPool::wait_for_all() {}
+
+ContainedEnd run_contained_bytes(const ContainedWork& work, const Containment& limits,
                                  const TellProgress& on_progress) {
   using Kind = ContainedEnd::Kind;
   const auto tell = [&](double fraction) {

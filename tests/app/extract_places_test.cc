@@ -61,6 +61,44 @@ TEST_F(ExtractPlaces, FoldersWithoutResultsAreNotLeftBehind) {
   EXPECT_TRUE(fs::exists(folder_ / "out/day2/good_rheocyte.rtdc"));
 }
 
+/// Whatever ends first, and however: results, sentences and summary are those of one recording after another.
+TEST_F(ExtractPlaces, RecordingsThatAreReadAtOnceAreToldOfInTheirOrder) {
+  std::vector<std::string> files;
+  for (int i = 0; i < 9; ++i) {
+    const std::string name = "M" + std::to_string(i) + ".rtdc";
+    if (i == 2) std::ofstream(folder_ / name) << "no recording";
+    if (i != 2 && i != 5) write_recording(name);  // there is no M5
+    files.push_back(path(name));
+  }
+  const auto extract_with = [&](const std::string& jobs, const std::string& out) {
+    std::vector<std::string> arguments = files;
+    arguments.insert(arguments.end(), {"-j", jobs, "-o", path(out)});
+    return extract(arguments);
+  };
+  const auto content = [&](const std::string& name) {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const auto one = extract_with("1", "one"), some = extract_with("4", "some");
+  EXPECT_EQ(one.exit_code, 2);
+  EXPECT_EQ(some.exit_code, 2);
+  const auto in = [&](std::string text, const std::string& folder) {
+    for (auto at = text.find(folder); at != std::string::npos; at = text.find(folder))
+      text.replace(at, folder.size(), "X");
+    return text;
+  };
+  EXPECT_EQ(in(one.out, path("one")), in(some.out, path("some")));
+  EXPECT_EQ(one.err, some.err);
+  EXPECT_NE(some.out.find("7 of 9 recordings"), std::string::npos) << some.out;
+  EXPECT_EQ(content("one/rheocyte_summary.tsv"), content("some/rheocyte_summary.tsv"));
+  for (const int i : {0, 1, 3, 4, 6, 7, 8}) {
+    const std::string table = "/M" + std::to_string(i) + "_rheocyte.tsv";
+    EXPECT_EQ(content("one" + table), content("some" + table));
+    EXPECT_FALSE(content("some" + table).empty());
+  }
+  expect_refusal({path("M0.rtdc"), "-j", "0"}, "jobs");
+}
+
 TEST_F(ExtractPlaces, ForARecordingThatIsNotThereNothingIsMade) {
   expect_refusal({path("nofolder/sub/M1.rtdc")}, "M1.rtdc: there is no such file.");
   EXPECT_FALSE(fs::exists(folder_ / "nofolder"));

@@ -30,6 +30,35 @@ TEST(Contained, TheResultComesBackWhole) {
   EXPECT_EQ(done.result, work({}));
 }
 
+/// Some at once, of which one breaks down and one throws; each end comes once, with what belongs to it.
+TEST(Contained, SeveralAtOnceEndEachByItself) {
+  std::vector<std::string> ends(8);
+  std::vector<double> told(8, 0);
+  ContainedPool pool(3);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    pool.start(
+        [i](const TellProgress& tell) -> std::string {
+          tell(0.1 * double(i));
+          if (i == 2) throw UserError("a sentence.");
+          if (i == 5) {
+            std::signal(SIGSEGV, SIG_DFL);
+            std::raise(SIGSEGV);
+          }
+          return std::string(100'000, char('a' + i));  // more than a pipe holds
+        },
+        {}, [&told, i](double fraction) { told[i] = fraction; },
+        [&ends, i](const ContainedEnd& end) {
+          EXPECT_TRUE(ends[i].empty());
+          ends[i] = end.kind == Kind::broke_down ? "broken" : end.text;
+        });
+  }
+  pool.wait_for_all();
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    EXPECT_EQ(ends[i], i == 2 ? "a sentence." : i == 5 ? "broken" : std::string(100'000, char('a' + i))) << i;
+    EXPECT_EQ(told[i], 0.1 * double(i));
+  }
+}
+
 TEST(Contained, ProgressIsToldInOrder) {
   std::vector<double> told;
   run_contained(
