@@ -34,6 +34,7 @@ test('A box gate counts in all recordings; its limits are those of the command',
     const known = await columnsOf(page, 0, 'area_um', 'deform');
     const expected = [within(known, ...limits).length, within(await columnsOf(page, 1, 'area_um', 'deform'), ...limits).length];
     const counts = () => Promise.all([0, 1].map(async (item) => recordings.numberIn((await recordings.statisticsOf(page, item)).Events)));
+    await page.getByRole('tab', { name: 'Statistics', exact: true }).click();
     assert.ok(await until(async () => String(await counts()) === String(expected)), `${await counts()} are not ${expected}`);
     assert.ok(expected[0] > 50 && expected[0] < known.area_um.length, String(expected));
     const command = await page.locator('.command code').textContent();
