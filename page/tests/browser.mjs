@@ -35,6 +35,7 @@ export async function openPage(target, options, prepare) {
   let page = null;
   const end = async () => {
     try {
+      await page?.unrouteAll({ behavior: 'ignoreErrors' }); // what is under way answers nobody any more
       await page?.context().close();
     } finally {
       await target.stop();

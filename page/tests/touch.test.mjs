@@ -149,7 +149,8 @@ test('Two fingers stretch the picture of the cell, one finger then moves it, and
 test('A tap on the picture reads values out, also when it is stretched by keys', { skip }, async () => {
   const { page, end } = await openCell(upright);
   try {
-    const at = middleOf(await page.locator('.channel').boundingBox());
+    const box = await page.locator('.channel').boundingBox();
+    const at = middleOf(box);
     await page.touchscreen.tap(at.x, at.y);
     const first = await page.locator('.readout').innerText();
     assert.match(first, /x -?0\.\d+ µm, r -?0\.\d+ µm/);
@@ -157,7 +158,7 @@ test('A tap on the picture reads values out, also when it is stretched by keys',
     await page.touchscreen.tap(at.x + 125, at.y);
     const second = () => page.locator('.readout').innerText({ timeout: 1000 }).catch(() => '');
     const x = (text) => Number(/x (-?[\d.]+)/.exec(text)?.[1]);
-    const stage = stageOf(1, 391, 10.94, null);
+    const stage = stageOf(1, box.height, 10.94, null);
     assert.ok(await until(async () => Math.abs(x(await second()) - x(first) - 100 / stage.scale) < 0.2), `${first} ${await second()}`);
   } finally {
     await end();
