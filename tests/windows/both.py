@@ -158,7 +158,7 @@ class Differences:
 
     def table(self, place, one, other):
         """Words between white space and commas; numbers relative to the greatest of their column."""
-        rows, others = ([re.split(r"[\t ,;]+", line) for line in text.split("\n")] for text in (one, other))
+        rows, others = ([re.split(r"[\t ,;=\"]+", line) for line in text.split("\n")] for text in (one, other))
         if len(rows) != len(others):
             self.found.append(f"{place}: {len(rows)} and {len(others)} lines")
             return

@@ -14,8 +14,10 @@ from pathlib import Path
 from both import TOP, Differences, Native, Wine, kill, wait_for, why_not
 
 # Both programs do the same in the same order, but for functions (exp, pow, sin) of two C libraries, whose last digits differ.
-# Newton's method carries that on to where it ends, steps in time add it up, and the last states of a branch depend on it most.
-CLOSED, STATES, NEARLY_UNSTABLE = 1e-12, 1e-10, 1e-8
+# Newton's method carries that on to where it ends, and the last states of a branch depend on it most.
+CLOSED, STATES, NEARLY_UNSTABLE = 1e-12, 1e-10, 3e-7
+# What ends within a tolerance of its own: iterations in three dimensions, and steps in time.
+WITHIN_TOLERANCE = {"rectangle": 1e-7, "paper-cell-in-time": 3e-9, "transit-square": 3e-6}
 
 QUICK = ["numerics.accuracy=1e-2"]
 CELLS = [(name, QUICK) for name in (
@@ -77,13 +79,13 @@ class OnBoth(unittest.TestCase):
 class TestCells(OnBoth):
     def test_cells(self):
         """Thirty cells have the same states, outlines and fields."""
-        differences = Differences(STATES)
         for number, (name, changes) in enumerate(CELLS):
             with self.subTest(name=name, changes=changes):
                 out = f"cell-{number}"
                 self.both("solve", f"examples/{name}.toml", *setting(changes), "-o", out, "--no-picture", "--quiet")
+                differences = Differences(WITHIN_TOLERANCE.get(name, STATES))
                 differences.files(self.here / out, self.there / out)
-        self.assert_same(differences)
+                self.assert_same(differences)
 
     def test_closed_results(self):
         """The analytical model, scaled tables, and plans agree to the limit of double precision."""
@@ -163,7 +165,7 @@ class TestRecordings(OnBoth):
             self.assertLess(abs(one["median"] - other["median"]), one["median_error"] / 3)
 
     def test_companion(self):
-        """A companion file of Windows is one for the view here, with the same moduli."""
+        """Both write one companion file, of the same size but for what two versions of HDF5 write differently."""
         self.both("extract", "r0.rtdc", "-o", "companion")
         names = [file.name for file in (self.here / "companion").glob("*.rtdc")]
         self.assertEqual(len(names), 1)
@@ -173,9 +175,13 @@ class TestRecordings(OnBoth):
 
     def test_time_course(self):
         """Cells at several places behind a contraction have the same moduli and viscosities."""
-        words = ["synth", "examples/recordings/virtual-cells.toml", "-o", "way.rtdc", "--set", "recording.cells=30", "--set",
-                 "recording.places_um=[20, 60, 120, 200, 300]", "--set", "cell.viscosity_mPas=40", "--set",
-                 f"shapes.table={self.wine.program.parent / 'share/rheocyte/tables'}", "--set", "cell.bulk.young_modulus_kPa.mean=6"]
+        folder = self.here / "chip"
+        folder.mkdir()
+        shutil.copy(TOP / "data" / "dynamic_HE-chip-26.cbor", folder)
+        shutil.copy(TOP / "examples/tables/dynamic-chip.toml", folder / "spec.toml")
+        words = ["synth", "examples/recordings/virtual-cells.toml", "-o", "way.rtdc", *setting([
+            "recording.cells=30", "recording.places_um=[20, 60, 120, 200, 300]", "cell.viscosity_mPas=1000",
+            f"shapes.table={folder}", "cell.bulk.young_modulus_kPa.mean=0.8"])]
         made = self.native.call(*words, cwd=self.here)
         if made.returncode != 0:
             self.fail(made.stderr.decode())
@@ -265,7 +271,7 @@ class TestFiles(OnBoth):
         read = self.wine.call("extract", f"{folder.name}\\Prüfung 1.rtdc", "-o", self.windows_path(folder / "Maß"),
                               cwd=self.there)
         self.assertEqual(read.returncode, 0, read.stderr.decode())
-        self.assertIn("Prüfung 1", (folder / "Maß" / "summary.tsv").read_text())
+        self.assertIn("Prüfung 1", (folder / "Maß" / "rheocyte_summary.tsv").read_text(encoding="utf-8"))
 
     def test_long_paths(self):
         """A result more than 260 characters deep."""
