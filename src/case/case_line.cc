@@ -103,7 +103,7 @@ std::vector<std::string_view> asked_line_keys(const Case& c, std::span<const std
         "{}: gradients are those of a cell at a given place; give the place that was found as cell.offset_um, and "
         "cell.place = \"given\".",
         name));
-  const std::vector<std::string_view> known = line_keys(c);
+  std::vector<std::string_view> known = line_keys(c);
   if (std::ranges::find(keys, "all") != keys.end()) return known;
   std::vector<std::string_view> asked;
   for (const std::string& key : keys) {
