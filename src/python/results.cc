@@ -12,6 +12,8 @@ namespace py = pybind11;
 
 std::string json_text(const Result& result) { return json_line(to_json(result)); }
 
+namespace {
+
 /// Of the surface's points; the first one of a piece is the last one of the piece before.
 std::vector<Eigen::Index> surface_rows(const Result& result) {
   std::vector<Eigen::Index> rows;
@@ -19,6 +21,8 @@ std::vector<Eigen::Index> surface_rows(const Result& result) {
     if (i == 0 || i % SurfaceProfile::points_per_piece != 0) rows.push_back(i);
   return rows;
 }
+
+}  // namespace
 
 py::dict surface_columns(const Result& result) {
   py::dict columns;
@@ -31,6 +35,8 @@ py::dict surface_columns(const Result& result) {
   return columns;
 }
 
+namespace {
+
 py::dict surface_gradient(const Result& result, std::size_t gradient) {
   const Eigen::MatrixXd& slopes = result.gradients.at(gradient).surface;
   py::dict columns;
@@ -41,6 +47,8 @@ py::dict surface_gradient(const Result& result, std::size_t gradient) {
   }
   return columns;
 }
+
+}  // namespace
 
 void bind_results(py::module_& module) {
   py::class_<Result>(module, "Result")

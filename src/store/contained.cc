@@ -264,9 +264,10 @@ class ContainedPool::Run {
 ContainedPool::ContainedPool(int at_once) : at_once_(at_once) {}
 ContainedPool::~ContainedPool() = default;
 
-void ContainedPool::start(const ContainedWork& work, Containment limits, TellProgress on_progress, OnEnd on_end) {
+void ContainedPool::start(const ContainedWork& work, const Containment& limits, const TellProgress& on_progress,
+                          const OnEnd& on_end) {
   while (std::ssize(runs_) >= at_once_) look();
-  runs_.push_back(std::make_unique<Run>(work, std::move(limits), std::move(on_progress), std::move(on_end)));
+  runs_.push_back(std::make_unique<Run>(work, limits, on_progress, on_end));
 }
 
 void ContainedPool::wait_for_all() {

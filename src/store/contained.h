@@ -63,7 +63,8 @@ class ContainedPool {
   ContainedPool& operator=(const ContainedPool&) = delete;
 
   /// Waits for a place. SystemLimit if the system gives no process.
-  void start(const ContainedWork& work, Containment limits, TellProgress on_progress, OnEnd on_end);
+  void start(const ContainedWork& work, const Containment& limits, const TellProgress& on_progress,
+             const OnEnd& on_end);
   void wait_for_all();
 
  private:

@@ -26,7 +26,8 @@ class ContainedPool::Run {};
 ContainedPool::ContainedPool(int at_once) : at_once_(at_once) {}
 ContainedPool::~ContainedPool() = default;
 
-void ContainedPool::start(const ContainedWork& work, Containment limits, TellProgress on_progress, OnEnd on_end) {
+void ContainedPool::start(const ContainedWork& work, const Containment& limits, const TellProgress& on_progress,
+                          const OnEnd& on_end) {
   on_end(run_contained_bytes(work, limits, on_progress));
 }
 
