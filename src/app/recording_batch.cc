@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <system_error>
-#include <thread>
 
 #include "case/refuse_path.h"
+#include "store/process_limits.h"
 
 namespace rheocyte {
 
@@ -37,8 +37,7 @@ void check_is_there(const fs::path& recording) {
 }
 
 int jobs_at_once(const BatchOptions& options) {
-  const int processors = std::max(1, int(std::thread::hardware_concurrency()));
-  return options.jobs > 0 ? options.jobs : processors;
+  return options.jobs > 0 ? options.jobs : std::max(1, allowed_processors());
 }
 
 std::vector<RecordingTask> tasks_of(const BatchOptions& options) {

@@ -23,13 +23,11 @@ bool have_same_mesh_and_inflow(const Problem& a, const Problem& b) {
   return has_same_channel(a, b) && has_same_mesh(a, b) && liquid == b.liquid;
 }
 
-Media media_of(const Problem& problem) { return at_compliance(problem, 1); }
-
 /// A problem's equations in the unknowns of a state.
 class Equations {
  public:
   Equations(const Geometry& geometry, const Problem& base, const ResolvedState& state, const Problem& problem)
-      : media_(media_of(problem)),
+      : media_(problem),
         discrete_(have_same_mesh_and_inflow(base, problem) ? state.discrete
                                                            : geometry.make(problem, state.discrete->resolution())) {}
 
@@ -129,8 +127,8 @@ void follow_lines(const Geometry& geometry, const Problem& base, ResolvedState& 
     if (!slopes) lines[j].clear();
     for (std::size_t i = 0; i < lines[j].size(); ++i) {
       LinePoint& point = lines[j][i];
-      const Problem here = with_media(point.problem, media_of(point.problem));
-      equations[j][i].discrete().describe(here, unknowns + point.change * slopes->col(Eigen::Index(j)), point.state);
+      equations[j][i].discrete().describe(point.problem, unknowns + point.change * slopes->col(Eigen::Index(j)),
+                                          point.state);
     }
   }
 }

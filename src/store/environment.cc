@@ -2,13 +2,13 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 
 namespace rheocyte {
 
 namespace fs = std::filesystem;
 
+const char list_separator = ':';
 const char* const python_name = "python3";
 
 std::string environment(const char* variable) {
@@ -17,17 +17,6 @@ std::string environment(const char* variable) {
 }
 
 fs::path prefix_of_program(const fs::path& program) { return program.parent_path().parent_path(); }
-
-std::vector<fs::path> folders_in(const char* variable) {
-  const std::string search = environment(variable);
-  std::vector<fs::path> folders;
-  for (std::size_t at = 0; at < search.size();) {
-    const auto end = std::min(search.find(':', at), search.size());
-    if (end > at) folders.emplace_back(search.substr(at, end - at));
-    at = end + 1;
-  }
-  return folders;
-}
 
 fs::path program_in_path(const std::string& name) {
   for (const auto& folder : folders_in("PATH"))

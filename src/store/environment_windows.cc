@@ -7,22 +7,12 @@ namespace rheocyte {
 
 namespace fs = std::filesystem;
 
+const char list_separator = ';';
 const char* const python_name = "python";
 
 std::string environment(const char* variable) {
   const wchar_t* const value = ::_wgetenv(wide(variable).c_str());
   return value ? narrow(value) : "";
-}
-
-std::vector<fs::path> folders_in(const char* variable) {
-  const std::string search = environment(variable);
-  std::vector<fs::path> folders;
-  for (std::size_t at = 0; at < search.size();) {
-    const auto end = std::min(search.find(';', at), search.size());
-    if (end > at) folders.emplace_back(search.substr(at, end - at));
-    at = end + 1;
-  }
-  return folders;
 }
 
 fs::path program_in_path(const std::string& name) {
