@@ -244,15 +244,18 @@ export interface PopulationRecording {
   condition: string;
   /** from 1 on */
   session: number;
-  population?: { median_young_modulus_kPa: Estimate };
+  /** medians by `median_` and the key of the quantity */
+  population?: Record<string, Estimate | undefined>;
   failure: string | null;
   checks: { measure: string; fits: boolean }[];
 }
 
 /** What the page reads of population.json; there is more. */
 export interface Population {
-  conditions: { name: string; median_young_modulus_kPa?: Estimate }[];
-  comparisons: { control: string; treated: string; ratio: Estimate; ratio_by_sampling_alone: Estimate; p: number | null }[];
+  /** what the model tells of cells, the best one first */
+  quantities: { key: string; symbol: string; unit: string }[];
+  conditions: ({ name: string } & Record<string, unknown>)[];
+  comparisons: { control: string; treated: string; quantity: string; ratio: Estimate; ratio_by_sampling_alone: Estimate; p: number | null }[];
   recordings: PopulationRecording[];
 }
 

@@ -255,7 +255,7 @@ test('the dots of the sessions stand beside each other in the slot of their cond
   const lost = { recording: 'b2', condition: 'b', session: 2, checks: [], failure: 'too stiff to be seen' };
   const condition = (name, value) => ({ name, median_young_modulus_kPa: { value, lower: null, upper: null } });
   const found = { conditions: [condition('a', 2), condition('b', 4)], comparisons: [], recordings: [recording('a', 1, 2), recording('a', 2, 2.2), recording('b', 1, 4), lost] };
-  const { dots, span, slots } = dotsOf(found);
+  const { dots, span, slots } = dotsOf(found, 'young_modulus_kPa');
   assert.equal(slots, 2);
   assert.equal(dots.length, 3);
   assert.ok(0 < dots[0].place && dots[0].place < dots[1].place && dots[1].place < 1 && 1 < dots[2].place && dots[2].place < 2);

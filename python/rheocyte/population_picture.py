@@ -54,9 +54,13 @@ class Story:
         """Those of a condition in the order of their sessions."""
         return [each for each in self.record["recordings"] if each["condition"] == name]
 
-    def modulus(self, name, session):
-        """Median modulus of a recording, NaN where there is none."""
-        return next((modulus_of(each)[0] for each in self.recordings(name) if each["session"] == session), np.nan)
+    def modulus(self, name, session, key):
+        """Median of a quantity in a recording, NaN where there is none."""
+        return next((modulus_of(each, key)[0] for each in self.recordings(name) if each["session"] == session), np.nan)
+
+    def comparisons(self, key):
+        """Those of a quantity."""
+        return [each for each in self.record["comparisons"] if each["quantity"] == key]
 
     def places(self, name, centre):
         """Of the sessions of a condition, round its own place."""
@@ -64,10 +68,9 @@ class Story:
         return centre + SHARE_OF_PLACE * (np.arange(count) - (count - 1) / 2) / max(count, 3)
 
 
-def modulus_of(recording):
-    """Median with its interval, NaN where there is none."""
-    found = (recording.get("population") or {}).get("median_young_modulus_kPa") or {}
-    return tuple(np.nan if found.get(name) is None else found[name] for name in ("value", "lower", "upper"))
+def modulus_of(recording, key):
+    """Median of a quantity with its interval, NaN where there is none."""
+    return interval_of(recording.get("population") or {}, "median_" + key)
 
 
 def interval_of(entry, name):
@@ -79,47 +82,69 @@ def interval_of(entry, name):
 def draw(record):
     """The figure of moduli, ratios and cells."""
     story = Story(record)
-    compared = bool(record["comparisons"])
-    widths = [1 + 0.35 * len(story.names), 0.75 + 0.45 * len(record["comparisons"]), 1.7]
+    return draw_several(story) if record["model"] != "solid" else draw_solids(story)
+
+
+def draw_solids(story):
+    """Young's moduli, their ratios, and the cells."""
+    compared = bool(story.record["comparisons"])
+    widths = [1 + 0.35 * len(story.names), 0.75 + 0.45 * len(story.record["comparisons"]), 1.7]
     figure = page.new_figure(page.WIDTH_IN, 2.75, STYLE, layout="constrained")
     axes = list(figure.subplots(1, 3 if compared else 2, width_ratios=widths if compared else widths[::2]))
-    draw_moduli(axes.pop(0), story)
+    key = "young_modulus_kPa"
+    draw_moduli(axes.pop(0), story, key, "median Young's modulus (kPa)")
     if compared:
-        draw_ratios(axes.pop(0), story)
+        draw_ratios(axes.pop(0), story, key, "ratio of the medians")
     draw_cells(axes.pop(0), story)
     draw_legend(figure, story)
     return figure
 
 
-def draw_moduli(axes, story):
+def draw_several(story):
+    """A column for each quantity: its medians, and below them the ratios."""
+    quantities = story.record["quantities"] or [{"key": "stiffness_kPa", "symbol": "E + E2D/r0", "unit": "kPa"}]
+    compared = bool(story.record["comparisons"])
+    figure = page.new_figure(page.WIDTH_IN, 4.4 if compared else 2.75, STYLE, layout="constrained")
+    panels = figure.subplots(2 if compared else 1, len(quantities), squeeze=False)
+    for column, each in enumerate(quantities):
+        draw_moduli(panels[0, column], story, each["key"], f"{each['symbol']} ({each['unit']})")
+        if compared and story.comparisons(each["key"]):
+            draw_ratios(panels[1, column], story, each["key"], "ratio")
+        elif compared:
+            panels[1, column].set_visible(False)
+    draw_legend(figure, story)
+    return figure
+
+
+def draw_moduli(axes, story, key, title):
     """One dot a session with its interval, the condition beside them."""
-    axes.set_title("median Young's modulus (kPa)")
+    axes.set_title(title)
     if story.paired:
-        draw_pairs(axes, story)
+        draw_pairs(axes, story, key)
     for centre, name in enumerate(story.names):
         colour = story.colour(name)
         for place, recording in zip(story.places(name, centre), story.recordings(name)):
-            draw_recording(axes, place, recording, colour)
-        value, lower, upper = interval_of(story.conditions[centre], "median_young_modulus_kPa")
+            draw_recording(axes, place, recording, key, colour)
+        value, lower, upper = interval_of(story.conditions[centre], "median_" + key)
         if np.isfinite(value):
             draw_mean(axes, centre + 0.36, (value, lower, upper), colour)
     axes.set_xlim(-0.5, len(story.names) - 0.4)
     axes.set_xticks(range(len(story.names)), story.names)
     axes.tick_params(axis="x", length=0)
-    scaled(axes, [value for each in story.record["recordings"] for value in modulus_of(each)])
+    scaled(axes, [value for each in story.record["recordings"] for value in modulus_of(each, key)])
 
 
-def draw_pairs(axes, story):
+def draw_pairs(axes, story, key):
     """Lines that join the recordings of a session."""
     for k in range(len(story.recordings(story.names[0]))):
         across = [story.places(name, centre)[k] for centre, name in enumerate(story.names)]
-        axes.plot(across, [modulus_of(story.recordings(name)[k])[0] for name in story.names], color=FAINT, linewidth=0.7,
-                  zorder=1)
+        axes.plot(across, [modulus_of(story.recordings(name)[k], key)[0] for name in story.names], color=FAINT,
+                  linewidth=0.7, zorder=1)
 
 
-def draw_recording(axes, place, recording, colour):
+def draw_recording(axes, place, recording, key, colour):
     """A full dot, an open one where the checks do not hold, an arrow where there is a lower limit alone."""
-    value, lower, upper = modulus_of(recording)
+    value, lower, upper = modulus_of(recording, key)
     if not np.isfinite(value):
         if limit := recording.get("young_modulus_above_kPa"):
             axes.annotate("", (place, limit * 1.25), (place, limit), arrowprops={"arrowstyle": "->", "color": colour})
@@ -152,10 +177,10 @@ def scaled(axes, values):
     axes.margins(y=0.08)
 
 
-def draw_ratios(axes, story):
+def draw_ratios(axes, story, key, title):
     """One dot a session, and the mean with its interval; 1 is no difference."""
-    comparisons = story.record["comparisons"]
-    axes.set_title("ratio of the medians")
+    comparisons = story.comparisons(key)
+    axes.set_title(title)
     axes.axhline(1, color=colours.INK, linewidth=0.6, zorder=0)
     for place, each in enumerate(comparisons):
         colour = story.colour(each["treated"])
@@ -178,11 +203,11 @@ def draw_ratios(axes, story):
 
 def ratios_of(story, comparison):
     """Of each session if they are pairs; else of each recording to the mean of the control."""
-    treated = story.recordings(comparison["treated"])
+    treated, key = story.recordings(comparison["treated"]), comparison["quantity"]
     if comparison["test"] == "paired t":
-        return [modulus_of(each)[0] / story.modulus(comparison["control"], each["session"]) for each in treated]
-    control = np.exp(np.mean([np.log(modulus_of(each)[0]) for each in story.recordings(comparison["control"])]))
-    return [modulus_of(each)[0] / control for each in treated]
+        return [modulus_of(each, key)[0] / story.modulus(comparison["control"], each["session"], key) for each in treated]
+    control = np.exp(np.mean([np.log(modulus_of(each, key)[0]) for each in story.recordings(comparison["control"])]))
+    return [modulus_of(each, key)[0] / control for each in treated]
 
 
 def draw_cells(axes, story):
@@ -232,9 +257,10 @@ def draw_legend(figure, story):
     dot = {"linestyle": "", "marker": "o", "markersize": 4.4, "color": "#5b6770"}
     entries = [Line2D([], [], **dot, label=f"a recording, with the {level} interval of its events"),
                Line2D([], [], linestyle="", marker="D", markersize=4.6, color="#5b6770",
-                      label=f"condition, with the {level} interval by its recordings"),
-               Line2D([], [], color="#5b6770", linewidth=0.9, label="cells of a recording, without noise"),
-               Line2D([], [], color="#5b6770", linewidth=5, alpha=0.25, label="moduli of single images")]
+                      label=f"condition, with the {level} interval by its recordings")]
+    if story.record["model"] == "solid":
+        entries += [Line2D([], [], color="#5b6770", linewidth=0.9, label="cells of a recording, without noise"),
+                    Line2D([], [], color="#5b6770", linewidth=5, alpha=0.25, label="moduli of single images")]
     if any(not check["fits"] for each in story.record["recordings"] for check in each["checks"]):
         entries.insert(1, Line2D([], [], **dot, markerfacecolor="white", label="checks do not hold"))
     legend_below(figure, entries, 3, columnspacing=1.6, handlelength=1.6, labelspacing=0.25)

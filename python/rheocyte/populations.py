@@ -21,8 +21,12 @@ class Population:
     conditions      one row per condition: recordings, events, young_modulus_kPa with lower_kPa and upper_kPa (by the
                     scatter of the recordings), spreads, radius_um; stiffening with its ends (the exponent of E over the
                     stress, of recordings at several flow rates)
-    comparisons     one row per condition but the first: control, treated, ratio, lower, upper, p, degrees_of_freedom,
-                    sampling_lower, sampling_upper
+    comparisons     one row per condition but the first, and quantity: control, treated, quantity, ratio, lower, upper, p,
+                    degrees_of_freedom, sampling_lower, sampling_upper
+
+    With model="cortex" the modulus columns are those of each quantity that is told, with its unit: stiffness_kPa (E + E2D/r0),
+    young_modulus_kPa, cortex_modulus_mN_per_m, cortex_tension_mN_per_m, axial_tension_Pa (of the liquid), each with _lower and
+    _upper; NaN where a recording does not tell it.
     record          the dictionary of population.json
     """
 
@@ -31,8 +35,9 @@ class Population:
 
         self.record = json.loads(text)
         self._events = events
-        self.recordings = pandas.DataFrame([_recording_row(each) for each in self.record["recordings"]])
-        self.conditions = pandas.DataFrame([_condition_row(each) for each in self.record["conditions"]])
+        several = [each["key"] for each in self.record["quantities"]] if self.record["model"] != "solid" else None
+        self.recordings = pandas.DataFrame([_recording_row(each, several) for each in self.record["recordings"]])
+        self.conditions = pandas.DataFrame([_condition_row(each, several) for each in self.record["conditions"]])
         self.comparisons = pandas.DataFrame([_comparison_row(each) for each in self.record["comparisons"]])
 
     def events(self, recording=0):
@@ -71,14 +76,19 @@ class Population:
 
     def __repr__(self):
         lines = [f"Population of {len(self.recordings)} recordings"]
-        for row in self.conditions.itertuples():
-            lines.append(f"{row.condition}: {_told(row.young_modulus_kPa, row.lower_kPa, row.upper_kPa, ' kPa')}, recordings: "
-                         f"{row.recordings}, events: {row.events}")
+        quantities = {each["key"]: each for each in self.record["quantities"]}
+        several = len(quantities) > 1
+        for condition in self.record["conditions"]:
+            told = [f"{each['symbol'] + ' ' if several else ''}{_told(*_interval(condition, 'median_' + key), ' ' + each['unit'])}"
+                    for key, each in quantities.items() if "median_" + key in condition]
+            lines.append(f"{condition['name']}: {', '.join(told) or 'no number'}, recordings: {condition['recordings']}, "
+                         f"events: {condition['events']}")
         for row in self.comparisons.itertuples():
+            of = f"{quantities[row.quantity]['symbol']}, " if several else ""
             if np.isfinite(row.p):
-                lines.append(f"{row.treated} / {row.control}: {_told(row.ratio, row.lower, row.upper)}, p = {row.p:.2g}")
+                lines.append(f"{row.treated} / {row.control}: {of}{_told(row.ratio, row.lower, row.upper)}, p = {row.p:.2g}")
             else:
-                lines.append(f"{row.treated} / {row.control}: {_told(row.ratio, row.sampling_lower, row.sampling_upper)} by "
+                lines.append(f"{row.treated} / {row.control}: {of}{_told(row.ratio, row.sampling_lower, row.sampling_upper)} by "
                              "sampling alone, no p")
         lines.append(f"checks hold in {int(self.recordings['fits'].sum())} of {len(self.recordings)} recordings")
         return "\n".join(lines)
@@ -155,23 +165,31 @@ def _interval(record, name):
     return [np.nan if value.get(part) is None else value[part] for part in ("value", "lower", "upper")]
 
 
-def _recording_row(record):
+def _moduli(record, several):
+    """Columns of the medians: of solids one, else of each quantity."""
+    if several is None:
+        return dict(zip(("young_modulus_kPa", "lower_kPa", "upper_kPa"), _interval(record, "median_young_modulus_kPa")))
+    columns = {}
+    for key in several:
+        columns.update(zip((key, f"{key}_lower", f"{key}_upper"), _interval(record, f"median_{key}")))
+    return columns
+
+
+def _recording_row(record, several):
     found = record.get("population") or {}
-    modulus, lower, upper = _interval(found, "median_young_modulus_kPa")
-    return {"condition": record["condition"], "session": record["session"], "recording": record["recording"],
-            "events": record["events"]["fitted"], "young_modulus_kPa": modulus, "lower_kPa": lower, "upper_kPa": upper,
-            "ln_modulus_spread": found.get("spread_of_ln_modulus", np.nan), "radius_um": found.get("median_radius_um", np.nan),
-            "ln_radius_spread": found.get("spread_of_ln_radius", np.nan), "correlation": found.get("correlation", np.nan),
-            "kept_share": found.get("kept_share", np.nan), "fits": all(check["fits"] for check in record["checks"]),
-            "failure": record["failure"] or ""}
+    spread = found.get("spread_of_ln_modulus" if several is None else f"spread_of_ln_{several[0]}" if several else "", np.nan)
+    row = {"condition": record["condition"], "session": record["session"], "recording": record["recording"],
+           "events": record["events"]["fitted"], **_moduli(found, several), "ln_modulus_spread": spread,
+           "radius_um": found.get("median_radius_um", np.nan), "ln_radius_spread": found.get("spread_of_ln_radius", np.nan)}
+    if several is None:
+        row.update(correlation=found.get("correlation", np.nan), kept_share=found.get("kept_share", np.nan))
+    return {**row, "fits": all(check["fits"] for check in record["checks"]), "failure": record["failure"] or ""}
 
 
-def _condition_row(record):
-    modulus, lower, upper = _interval(record, "median_young_modulus_kPa")
+def _condition_row(record, several):
     exponent, least, greatest = _interval(record.get("stiffening") or {}, "exponent_of_modulus_over_stress")
     return {"condition": record["name"], "recordings": record["recordings"], "events": record["events"],
-            "young_modulus_kPa": modulus, "lower_kPa": lower, "upper_kPa": upper,
-            "ln_modulus_spread": record.get("spread_of_ln_modulus", np.nan),
+            **_moduli(record, several), "ln_modulus_spread": record.get("spread_of_ln_modulus", np.nan),
             "radius_um": record.get("median_radius_um", np.nan),
             "ln_radius_spread": record.get("spread_of_ln_radius", np.nan),
             "stiffening": exponent, "stiffening_lower": least, "stiffening_upper": greatest}
@@ -181,7 +199,7 @@ def _comparison_row(record):
     ratio, lower, upper = _interval(record, "ratio")
     _, sampling_lower, sampling_upper = _interval(record, "ratio_by_sampling_alone")
     freedom = record["degrees_of_freedom"]
-    return {"control": record["control"], "treated": record["treated"], "ratio": ratio, "lower": lower, "upper": upper,
+    return {"control": record["control"], "treated": record["treated"], "quantity": record["quantity"], "ratio": ratio, "lower": lower, "upper": upper,
             "p": np.nan if record["p"] is None else record["p"],
             "degrees_of_freedom": np.nan if freedom is None else freedom,
             "sampling_lower": sampling_lower, "sampling_upper": sampling_upper}

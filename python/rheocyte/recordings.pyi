@@ -81,6 +81,8 @@ def time_course(
 def population(
     conditions: Mapping[str, _Path | _Dataset | Sequence[_Path | _Dataset]],
     *,
+    model: str | None = None,
+    section: Literal["tube", "square"] | None = None,
     by: str | None = None,
     paired: bool = False,
     between_recordings: float | None = None,

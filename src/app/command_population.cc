@@ -12,6 +12,7 @@
 #include "case/user_error.h"
 #include "extract/population_json.h"
 #include "extract/population_spec.h"
+#include "extract/population_tables.h"
 #include "extract/recording_settings.h"
 #include "extract/settings_text.h"
 #include "store/contained.h"

@@ -59,6 +59,10 @@ Section ModuliTable::section_of(const Recording& recording, std::optional<Sectio
   return section_seen(wanted, recording.metadata().text(made_of_key).value_or(""), content.spec.base);
 }
 
+double ModuliTable::section_error_factor() const {
+  return is_neo_hookean(content.spec.base.cell) ? 1 : error_factor_of_other_laws;
+}
+
 double ModuliTable::sign_of_asymmetry() const {
   const CellBox& box = between.box();
   return between.at((box.least + box.greatest) / 2).value(first_mode_row + 1);
@@ -68,7 +72,7 @@ EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& o
                          Section seen_in)
     : flow_(settings.conditions.flow),
       section_(seen_in),
-      section_error_factor_(is_neo_hookean(table.content.spec.base.cell) ? 1 : error_factor_of_other_laws),
+      section_error_factor_(table.section_error_factor()),
       pixels_(table.between, settings.pixel_size_um * table.simulated.width_um / flow_.width_um),
       moduli_(table.between, table.simulated,
               {features_of(options, table), has_free_tension(options, table), table.between.tension_ratios().front()}),

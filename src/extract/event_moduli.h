@@ -20,6 +20,8 @@ struct ModuliTable {
   /// See section_seen.
   Section section_of(const Recording&, std::optional<Section> wanted) const;
 
+  /// By how much more the law of the square channel leaves of its cells than of neo-Hookean ones.
+  double section_error_factor() const;
   /// Of c_3 of its cells.
   double sign_of_asymmetry() const;
 

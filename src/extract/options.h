@@ -63,9 +63,11 @@ struct PopulationOptions {
   std::filesystem::path folder;         ///< of the results
   bool quiet = false;
   MeasuringOptions measuring;
-  std::string table;                         ///< of elongated cells; empty: that which comes with the program
-  std::string by;                            ///< asymmetry, odd-deformation, deformation; empty: asymmetry
-  bool paired = false;                       ///< the recordings of each condition are of the same sessions, in order
+  std::string model;               ///< solid or cortex; empty: solid
+  std::optional<Section> section;  ///< in which cells with a cortex were seen; not given: section_seen
+  std::string table;               ///< of elongated cells, or a combined one; empty: that which comes with the program
+  std::string by;                  ///< asymmetry, odd-deformation, deformation; empty: asymmetry
+  bool paired = false;             ///< the recordings of each condition are of the same sessions, in order
   std::optional<double> between_recordings;  ///< known standard deviation of ln E
   bool no_bins = false;
   std::optional<double> jobs;  ///< threads

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "measurement/pixel_errors.h"
 #include "numeric/quantile.h"
@@ -115,34 +116,6 @@ double greatest_difference(std::vector<double>& a, std::vector<double>& b) {
   return greatest;
 }
 
-MeasureCheck compared_measure(int measure, bool is_fitted, std::vector<double> measured,
-                              std::vector<double> predicted) {
-  MeasureCheck check;
-  check.is_fitted = is_fitted;
-  check.name = checked_names[std::size_t(measure)];
-  check.events = measured.size();
-  const CountedSample<double> of_measured(measured), of_predicted(predicted);
-  check.measured = {of_measured.quantile(0.5), error_of_median(of_measured)};
-  check.predicted = {of_predicted.quantile(0.5), error_of_median(of_predicted)};
-  check.spread = robust_deviation(of_measured);
-  for (const double place : check_places()) {
-    check.measured_quantiles.push_back(of_measured.quantile(place));
-    check.predicted_quantiles.push_back(of_predicted.quantile(place));
-  }
-  check.distance = greatest_difference(measured, predicted);
-  const double off = std::abs(check.measured.value - check.predicted.value),
-               chance = most_errors * std::hypot(check.measured.error, check.predicted.error);
-  if (measure == checked_mode_4 || measure == checked_mode_5) {
-    check.fits = off < std::max(least_mode_difference, chance);
-    return check;
-  }
-  const double by_chance = (is_fitted ? chance_of_fitted : chance_of_others) / std::sqrt(double(check.events));
-  const bool is_far = check.distance > std::max(by_chance, is_fitted ? least_of_fitted : least_of_others);
-  const bool is_off = off > std::max(chance, (is_fitted ? share_of_fitted : share_of_others) * check.spread);
-  check.fits = !is_far && !is_off;
-  return check;
-}
-
 CheckedValues measured_values(const PopulationEvents& events, std::size_t i) {
   CheckedValues values{};
   const auto at = [&](SeenMeasure m) { return events.of(m)[i]; };
@@ -157,6 +130,35 @@ std::vector<double> check_places() {
   std::vector<double> places;
   for (int k = 1; k < 20; ++k) places.push_back(0.05 * k);
   return places;
+}
+
+MeasureCheck compared_measure(std::string name, MeasureRule rule, std::vector<double> measured,
+                              std::vector<double> predicted) {
+  MeasureCheck check;
+  const bool is_fitted = rule == MeasureRule::fitted;
+  check.is_fitted = is_fitted || rule == MeasureRule::fitted_among_others;
+  check.name = std::move(name);
+  check.events = measured.size();
+  const CountedSample<double> of_measured(measured), of_predicted(predicted);
+  check.measured = {of_measured.quantile(0.5), error_of_median(of_measured)};
+  check.predicted = {of_predicted.quantile(0.5), error_of_median(of_predicted)};
+  check.spread = robust_deviation(of_measured);
+  for (const double place : check_places()) {
+    check.measured_quantiles.push_back(of_measured.quantile(place));
+    check.predicted_quantiles.push_back(of_predicted.quantile(place));
+  }
+  check.distance = greatest_difference(measured, predicted);
+  const double off = std::abs(check.measured.value - check.predicted.value),
+               chance = most_errors * std::hypot(check.measured.error, check.predicted.error);
+  if (rule == MeasureRule::of_all_real_cells) {
+    check.fits = off < std::max(least_mode_difference, chance);
+    return check;
+  }
+  const double by_chance = (is_fitted ? chance_of_fitted : chance_of_others) / std::sqrt(double(check.events));
+  const bool is_far = check.distance > std::max(by_chance, is_fitted ? least_of_fitted : least_of_others);
+  const bool is_off = off > std::max(chance, (is_fitted ? share_of_fitted : share_of_others) * check.spread);
+  check.fits = !is_far && !is_off;
+  return check;
 }
 
 std::vector<MeasureCheck> check_population(const PopulationEvents& events, const PopulationSample& sample,
@@ -182,9 +184,11 @@ std::vector<MeasureCheck> check_population(const PopulationEvents& events, const
   const int last = events.has_outlines ? checked_mode_5 : checked_inertia;
   for (int m = 0; m <= last; ++m) {
     const int fitted_measure = maps.by() == StiffnessMeasure::asymmetry ? checked_mode_3 : checked_deformation;
-    const bool is_fitted = m == checked_area || m == fitted_measure;
-    checks.push_back(
-        compared_measure(m, is_fitted, std::move(measured[std::size_t(m)]), std::move(predicted[std::size_t(m)])));
+    const MeasureRule rule = m == checked_area || m == fitted_measure     ? MeasureRule::fitted
+                             : m == checked_mode_4 || m == checked_mode_5 ? MeasureRule::of_all_real_cells
+                                                                          : MeasureRule::not_fitted;
+    checks.push_back(compared_measure(checked_names[std::size_t(m)], rule, std::move(measured[std::size_t(m)]),
+                                      std::move(predicted[std::size_t(m)])));
   }
   return checks;
 }

@@ -24,6 +24,15 @@ struct MeasureCheck {
 };
 /// Shares at which the quantiles are told.
 std::vector<double> check_places();
+/// How much a measure may be off.
+enum class MeasureRule {
+  fitted,
+  fitted_among_others,  ///< with fewer parameters than measures: as the next
+  not_fitted,           ///< it has no parameters to follow chance with, and the laws of the pixels leave as much
+  of_all_real_cells     ///< not fitted either, and a little off in all of them: the median alone counts
+};
+MeasureCheck compared_measure(std::string name, MeasureRule rule, std::vector<double> measured,
+                              std::vector<double> predicted);
 
 /// Of the events of the sample; the population is drawn with the elongations and viscosities of the events.
 std::vector<MeasureCheck> check_population(const PopulationEvents& events, const PopulationSample& sample,

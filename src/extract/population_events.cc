@@ -7,11 +7,13 @@
 #include "extract/direction_of_cells.h"
 #include "extract/event_pass.h"
 #include "extract/outlined_events.h"
+#include "measurement/metadata.h"
 
 namespace rheocyte {
 namespace {
 
 constexpr std::size_t population_block = 256;
+constexpr int modes_seen = int(SeenMeasure::viscosity_mPas) - int(SeenMeasure::mode_2);
 constexpr double sign_of_cells_of_tables = 1;  ///< of c_3 of cells that move towards +x
 constexpr std::string_view stored_inertia_ratio = "inert_ratio_cvx";
 
@@ -69,7 +71,7 @@ class OutlinedReader {
       seen_at(seen, SeenMeasure::area_um2) = std::exp(shape(int(ShapeFeature::area_um2)));
       seen_at(seen, SeenMeasure::deformation) = shape(int(ShapeFeature::deformation));
       seen_at(seen, SeenMeasure::inertia_ratio) = 1 / std::sqrt(shape(int(ShapeFeature::moment_ratio)));
-      for (int k = 0; k < 4; ++k) seen[std::size_t(int(SeenMeasure::mode_2) + k)] = shape(mode_2 + k);
+      for (int k = 0; k < modes_seen; ++k) seen[std::size_t(int(SeenMeasure::mode_2) + k)] = shape(mode_2 + k);
       seen_at(seen, SeenMeasure::viscosity_mPas) = events_.viscosity_mPas()[i];
       add(seen, first + i, all_);
     }
@@ -137,6 +139,7 @@ PopulationEvents events_by(Recording& recording, const MeasuringOptions& options
   PopulationEvents all;
   all.recorded = recording.events();
   all.warnings = recording.remarks();
+  all.made_of = recording.metadata().text(made_of_key).value_or("");
   EventPass pass(recording, tell_progress);
   Reader reader(recording, options, by, all);
   pass.in_blocks(population_block, [&](std::size_t first, std::size_t count) { reader.take(first, count); });

@@ -15,7 +15,18 @@
 namespace rheocyte {
 
 /// What is measured of each event.
-enum class SeenMeasure { area_um2, deformation, inertia_ratio, mode_2, mode_3, mode_4, mode_5, viscosity_mPas };
+enum class SeenMeasure {
+  area_um2,
+  deformation,
+  inertia_ratio,
+  mode_2,
+  mode_3,
+  mode_4,
+  mode_5,
+  mode_6,
+  mode_7,
+  viscosity_mPas
+};
 inline constexpr int seen_measures = int(SeenMeasure::viscosity_mPas) + 1;
 
 struct PopulationEvents {
@@ -31,6 +42,7 @@ struct PopulationEvents {
   std::vector<double> number;                                ///< of each event in the recording, from 1 on
   std::array<std::vector<double>, seen_measures> seen = {};  ///< without outlines the modes are empty
   std::vector<std::string> settings, warnings;
+  std::string made_of;  ///< of virtual cells (made_of_key)
 
   std::size_t events() const { return number.size(); }
   const std::vector<double>& of(SeenMeasure m) const { return seen[std::size_t(m)]; }
@@ -41,7 +53,7 @@ struct PopulationEvents {
     return std::tie(s.flow, s.pixel_size_um, s.has_outlines, s.direction, s.recorded, s.gated, s.without_numbers,
                     s.least_area_um2, s.greatest_area_um2, s.least_deformation, s.greatest_deformation, s.gates,
                     s.gates_beside_the_model, s.number, s.seen[0], s.seen[1], s.seen[2], s.seen[3], s.seen[4],
-                    s.seen[5], s.seen[6], s.seen[7], s.settings, s.warnings);
+                    s.seen[5], s.seen[6], s.seen[7], s.seen[8], s.seen[9], s.settings, s.warnings, s.made_of);
   }
 };
 

@@ -15,6 +15,20 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr int population_schema = 1;
+constexpr std::array combined_names{"mean_ln_radius",
+                                    "mean_ln_stiffness",
+                                    "mean_cortex_share",
+                                    "mean_tension_ratio",
+                                    "mean_axial_tension_over_wall_stress",
+                                    "ln_root_radius_radius",
+                                    "root_stiffness_radius",
+                                    "ln_root_stiffness_stiffness",
+                                    "root_share_radius",
+                                    "root_share_stiffness",
+                                    "ln_root_share_share",
+                                    "ln_spread_of_tension_ratio",
+                                    "ln_spread_of_axial_tension"};
+constexpr double normal_95 = 1.959964;  ///< half width of the interval of 95 %
 constexpr std::array parameter_names{"mean_ln_radius", "mean_ln_modulus", "ln_radius_spread", "ln_modulus_spread",
                                      "artanh_correlation"};
 
@@ -87,6 +101,48 @@ ordered_json fitted_json(const FittedCells& f) {
           {"covariance", covariance_json(f)}};
 }
 
+ordered_json solid_json(const RecordingReport& r) {
+  ordered_json json = fitted_json(r.fitted);
+  json["moduli_of_single_images"] = images_json(r.images);
+  return json;
+}
+
+ordered_json law_json(const CombinedReport& combined) {
+  const MomentFit& fit = combined.found.fit;
+  ordered_json all = ordered_json::array();
+  for (int k = 0; k < combined_parameters; ++k)
+    all.push_back({{"name", combined_names[std::size_t(k)]},
+                   {"value", fit.parameters(k)},
+                   {"standard_error", json_number(std::sqrt(fit.covariance(k, k)))},
+                   {"at_bound", bool(fit.at_bound[std::size_t(k)])}});
+  return all;
+}
+
+/// The intervals are those of the events; what recordings of one set-up share stands beside them.
+ordered_json combined_json(const RecordingReport& r) {
+  ordered_json json;
+  for (const QuantityEstimate& e : r.quantities) {
+    const double half = normal_95 * std::sqrt(e.mean.variance);
+    const std::string key(words_of(e.quantity).key);
+    json["median_" + key] =
+        interval_json(std::exp(e.mean.value), std::exp(e.mean.value - half), std::exp(e.mean.value + half));
+    json["spread_of_ln_" + key] = e.spread;
+    json["common_relative_error_of_" + key] = e.common_error;
+  }
+  const CombinedReport& combined = *r.combined;
+  json["bulk_and_cortex_not_told_because"] =
+      combined.not_told.empty() ? ordered_json(nullptr) : ordered_json(combined.not_told);
+  json["cortex_share"] = combined.found.law.mean(2);
+  json["tension_ratio"] = combined.found.law.tension_ratio;
+  json["axial_tension_over_wall_stress"] = combined.found.law.axial_tension;
+  json["median_radius_um"] = std::exp(r.log_radius);
+  json["spread_of_ln_radius"] = r.radius_spread;
+  json["section"] = combined.section == Section::square ? "square" : "tube";
+  json["strangers"] = combined.strangers;
+  json["parameters"] = law_json(combined);
+  return json;
+}
+
 ordered_json recording_json(const RecordingReport& r, const PopulationReport& report) {
   ordered_json checks = ordered_json::array();
   for (const auto& check : r.checks) checks.push_back(check_json(check));
@@ -110,10 +166,7 @@ ordered_json recording_json(const RecordingReport& r, const PopulationReport& re
                       {"fitted", r.fitted_events},
                       {"binned", r.is_binned}}},
                     {"median_elongation", json_number(r.median_elongation)}};
-  if (r.failure.empty()) {
-    json["population"] = fitted_json(r.fitted);
-    json["population"]["moduli_of_single_images"] = images_json(r.images);
-  }
+  if (r.failure.empty()) json["population"] = r.combined ? combined_json(r) : solid_json(r);
   if (r.fitted.least_log_modulus) json["young_modulus_above_kPa"] = std::exp(*r.fitted.least_log_modulus);
   json["failure"] = r.failure.empty() ? ordered_json(nullptr) : ordered_json(r.failure);
   json["checks"] = std::move(checks);
@@ -129,18 +182,24 @@ ordered_json stiffening_json(const Stiffening& s, double wall_stress_Pa) {
           {"wall_stress_of_the_condition_Pa", wall_stress_Pa}};
 }
 
+/// The first quantity has its scatter and spread beside it.
 ordered_json condition_json(const ConditionReport& c) {
   ordered_json json{{"name", c.name}, {"recordings", c.recordings}, {"events", c.events}};
   if (!c.has_numbers()) return json;
-  const auto& e = c.log_modulus;
-  json["median_young_modulus_kPa"] = interval_json(std::exp(e.value), std::exp(e.lower), std::exp(e.upper));
-  json["interval_by"] = c.is_by_recordings ? "scatter of the recordings" : "sampling of the events";
-  json["mean_young_modulus_kPa"] = std::exp(e.value + c.modulus_spread * c.modulus_spread / 2);
-  json["spread_of_ln_modulus"] = c.modulus_spread;
+  for (const ConditionQuantity& told : c.quantities) {
+    const auto& e = told.log_mean;
+    const std::string key(words_of(told.quantity).key);
+    json["median_" + key] = interval_json(std::exp(e.value), std::exp(e.lower), std::exp(e.upper));
+    if (told.quantity != PopulationQuantity::axial_tension)
+      json["mean_" + key] = std::exp(e.value + told.spread * told.spread / 2);
+  }
+  const ConditionQuantity& first = c.quantities.front();
+  json["interval_by"] = first.is_by_recordings ? "scatter of the recordings" : "sampling of the events";
+  json["spread_of_ln_modulus"] = first.spread;
   json["median_radius_um"] = std::exp(c.log_radius);
   json["spread_of_ln_radius"] = c.radius_spread;
-  json["scatter_between_recordings"] = interval_json(c.between.deviation, c.between.lower, c.between.upper);
-  if (c.stiffening) json["stiffening"] = stiffening_json(*c.stiffening, c.wall_stress_Pa);
+  json["scatter_between_recordings"] = interval_json(first.between.deviation, first.between.lower, first.between.upper);
+  if (first.stiffening) json["stiffening"] = stiffening_json(*first.stiffening, c.wall_stress_Pa);
   return json;
 }
 
@@ -151,6 +210,7 @@ ordered_json comparison_json(const ConditionComparison& c, const PopulationRepor
   };
   ordered_json json{{"control", report.conditions[c.control].name},
                     {"treated", report.conditions[c.treated].name},
+                    {"quantity", words_of(c.quantity).key},
                     {"test", c.is_paired ? "paired t" : "Welch's t"},
                     {"ratio", ratio(d.lower, d.value, d.upper)},
                     {"p", json_number(d.p)},
@@ -165,34 +225,43 @@ ordered_json comparison_json(const ConditionComparison& c, const PopulationRepor
   return json;
 }
 
-std::string kPa_text(const IntervalEstimate& log_modulus) {
-  return fmt::format("{:.3g} kPa ({:.3g} .. {:.3g})", std::exp(log_modulus.value), std::exp(log_modulus.lower),
-                     std::exp(log_modulus.upper));
+std::string median_text(const ConditionQuantity& told) {
+  const auto [key, symbol, unit] = words_of(told.quantity);
+  const IntervalEstimate& e = told.log_mean;
+  return fmt::format("{} {:.3g} {} ({:.3g} .. {:.3g})", symbol, std::exp(e.value), unit, std::exp(e.lower),
+                     std::exp(e.upper));
 }
 
 std::string condition_line(const ConditionReport& c, StiffnessMeasure by) {
   if (!c.has_numbers()) return fmt::format("{}: no number, because a recording has none.", c.name);
+  std::string medians;
+  for (const ConditionQuantity& told : c.quantities) medians += (medians.empty() ? "" : ", ") + median_text(told);
+  const ConditionQuantity& first = c.quantities.front();
   return fmt::format(
-      "{}: median E {} {}; spread of E {:.0f} %; r0 {:.2f} um, spread {:.1f} %; {} {:.3f}; recordings: {}, events: {}",
-      c.name, kPa_text(c.log_modulus), c.is_by_recordings ? "by its recordings" : "by sampling alone",
-      100 * c.modulus_spread, std::exp(c.log_radius), 100 * c.radius_spread,
+      "{}: median {} {}; spread of {} {:.0f} %; r0 {:.2f} um, spread {:.1f} %; {} {:.3f}; recordings: {}, events: {}",
+      c.name, medians, first.is_by_recordings ? "by its recordings" : "by sampling alone",
+      words_of(first.quantity).symbol, 100 * first.spread, std::exp(c.log_radius), 100 * c.radius_spread,
       by == StiffnessMeasure::asymmetry ? "c2" : "elongation", c.elongation, c.recordings, c.events);
 }
 
 std::string stiffening_line(const ConditionReport& c) {
-  const Stiffening& s = *c.stiffening;
-  const std::string told = fmt::format("{}: E grows as the power {:.2f} of the stress, ", c.name, s.exponent);
+  const auto& [quantity, mean, is_by_recordings, spread, between, stiffening] = c.quantities.front();
+  const Stiffening& s = *stiffening;
+  const auto symbol = words_of(quantity).symbol;
+  const std::string told = fmt::format("{}: {} grows as the power {:.2f} of the stress, ", c.name, symbol, s.exponent);
   if (!s.has_scatter())
     return told + fmt::format("{:.2f} .. {:.2f} by sampling alone; three recordings tell how they scatter",
                               s.sampling_lower, s.sampling_upper);
-  return told + fmt::format("{:.2f} .. {:.2f} by its recordings; its E is that at {:.3g} Pa at the wall", s.lower,
-                            s.upper, c.wall_stress_Pa);
+  return told + fmt::format("{:.2f} .. {:.2f} by its recordings; its {} is that at {:.3g} Pa at the wall", s.lower,
+                            s.upper, symbol, c.wall_stress_Pa);
 }
 
 std::string comparison_line(const ConditionComparison& c, const PopulationReport& report) {
   const ConditionDifference& d = c.difference;
-  std::string line = fmt::format("{} / {}: ratio {:.3f}", report.conditions[c.treated].name,
-                                 report.conditions[c.control].name, std::exp(d.value));
+  const bool is_one_of_several = report.model != "solid";
+  std::string line = fmt::format(
+      "{} / {}: {}ratio {:.3f}", report.conditions[c.treated].name, report.conditions[c.control].name,
+      is_one_of_several ? fmt::format("{}, ", words_of(c.quantity).symbol) : std::string(), std::exp(d.value));
   if (std::isfinite(d.p))
     line += fmt::format(" ({:.3f} .. {:.3f}), p = {:.2g} by {} with {:.3g} degrees of freedom", std::exp(d.lower),
                         std::exp(d.upper), d.p, c.is_paired ? "the paired t test" : "Welch's test", d.freedom);
@@ -224,13 +293,17 @@ std::string checks_line(const PopulationReport& report) {
 }
 
 std::string systematic_line(const PopulationReport& report) {
-  double table = 0;
-  for (const auto& r : report.recordings) table = std::max(table, r.table_error);
-  return fmt::format(
-      "systematic errors, which do not enter ratios: {} law of the pixels 1 %, table {:.1g} %, viscosity model and "
-      "section "
-      "as docs/verification.md has them",
-      report.by == StiffnessMeasure::asymmetry ? "c3" : "deformation", 100 * table);
+  double table = 0, common = 0;
+  for (const auto& r : report.recordings) {
+    table = std::max(table, r.table_error);
+    if (!r.quantities.empty()) common = std::max(common, r.quantities.front().common_error);
+  }
+  const std::string told = "systematic errors, which do not enter ratios: " + report.measure_error;
+  if (common > 0)
+    return told + fmt::format(", table and section {:.2g} % of {}, viscosity model as docs/verification.md has it",
+                              100 * common, words_of(report.quantities().front()).symbol);
+  return told +
+         fmt::format(", table {:.1g} %, viscosity model and section as docs/verification.md has them", 100 * table);
 }
 
 }  // namespace
@@ -241,15 +314,21 @@ std::string population_json(const PopulationReport& report) {
   for (const auto& r : report.recordings) recordings.push_back(recording_json(r, report));
   for (const auto& c : report.conditions) conditions.push_back(condition_json(c));
   for (const auto& c : report.comparisons) comparisons.push_back(comparison_json(c, report));
+  ordered_json quantities = ordered_json::array();
+  for (const PopulationQuantity quantity : report.quantities()) {
+    const auto [key, symbol, unit] = words_of(quantity);
+    quantities.push_back({{"key", key}, {"symbol", symbol}, {"unit", unit}});
+  }
   const ordered_json content{{"made_by", "rheocyte population"},
                              {"version", version},
                              {"schema", population_schema},
-                             {"model", "solid"},
+                             {"model", report.model},
+                             {"quantities", quantities},
                              {"by", name_of(report.by)},
                              {"level", report.level},
                              {"between_recordings", report.between_recordings ? ordered_json(*report.between_recordings)
                                                                               : ordered_json(nullptr)},
-                             {"elongation", "eliminated event by event, with a flat prior"},
+                             {"elongation", report.elongation},
                              {"conditions", conditions},
                              {"comparisons", comparisons},
                              {"recordings", recordings},
@@ -257,52 +336,11 @@ std::string population_json(const PopulationReport& report) {
   return content.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string population_table(const PopulationReport& report) {
-  std::string text(mark_of_population_table);
-  text +=
-      "events\tyoung_modulus_kPa\tlower_kPa\tupper_kPa\tln_modulus\tln_modulus_error\tln_modulus_spread\tradius_um\t"
-      "ln_radius_spread\tcorrelation\telongation\twall_stress_Pa\tkept_share\tfits\n";
-  for (const auto& r : report.recordings) {
-    text += fmt::format("{}\t{}\t{}\t{}\t", report.conditions[r.condition].name, r.session + 1, r.recording.string(),
-                        r.fitted_events);
-    if (!r.failure.empty()) {
-      constexpr int numbers = 12;
-      for (int k = 0; k < numbers; ++k) text += "nan\t";
-      text += "no\n";
-      continue;
-    }
-    const CellDistribution& c = r.fitted.cells;
-    const auto& e = r.fitted.intervals[std::size_t(number_of(PopulationParameter::mean_log_modulus))];
-    text += fmt::format(
-        "{:.6g}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.4g}\t{:.4g}\t{:.4g}\t{}\n",
-        std::exp(c.mean_log_modulus), std::exp(e.lower), std::exp(e.upper), c.mean_log_modulus,
-        r.fitted.standard_error(PopulationParameter::mean_log_modulus), c.modulus_spread, std::exp(c.mean_log_radius),
-        c.radius_spread, c.correlation, r.median_elongation, r.wall_stress_Pa(), r.fitted.kept_share,
-        std::ranges::all_of(r.checks, &MeasureCheck::fits) ? "yes" : "no");
-  }
-  return text;
-}
-
-std::string population_events_table(const RecordingReport& recording) {
-  const auto& cells = recording.fitted.shrunken;
-  if (cells.empty()) return {};
-  std::vector<std::size_t> order(cells.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::ranges::sort(order, {}, [&](std::size_t k) { return recording.shrunken_events[k]; });
-  std::string text(mark_of_population_events);
-  text += "radius_um\tln_radius_sd\n";
-  for (const std::size_t k : order)
-    text += fmt::format("{}\t{:.5g}\t{:.3g}\t{:.5g}\t{:.3g}\n", recording.shrunken_events[k],
-                        std::exp(cells[k].log_modulus), cells[k].modulus_deviation, std::exp(cells[k].log_radius),
-                        cells[k].radius_deviation);
-  return text;
-}
-
 std::vector<std::string> population_lines(const PopulationReport& report) {
   std::vector<std::string> lines;
   for (const auto& c : report.conditions) lines.push_back(condition_line(c, report.by));
   for (const auto& c : report.conditions)
-    if (c.stiffening) lines.push_back(stiffening_line(c));
+    if (c.has_numbers() && c.quantities.front().stiffening) lines.push_back(stiffening_line(c));
   for (const auto& c : report.comparisons) lines.push_back(comparison_line(c, report));
   if (const auto checks = checks_line(report); !checks.empty()) {
     lines.push_back(checks);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <set>
-#include <thread>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t fewest_population_events = 20, areas_that_tell = 32;
+constexpr std::size_t areas_that_tell = 32;
 constexpr std::array measure_words{std::pair(std::string_view("asymmetry"), StiffnessMeasure::asymmetry),
                                    std::pair(std::string_view("odd-deformation"), StiffnessMeasure::odd_deformation),
                                    std::pair(std::string_view("deformation"), StiffnessMeasure::deformation)};
@@ -57,36 +57,6 @@ void check_pairs(const std::vector<PopulationCondition>& conditions) {
           conditions.front().name, conditions.front().recordings.size(), condition.name, condition.recordings.size()));
 }
 
-std::string too_stiff_text(const RecordingReport& r) {
-  if (!r.fitted.least_log_modulus)
-    return "the cells are too stiff to be seen: their asymmetry is below its noise, and no limit can be given.";
-  return fmt::format(
-      "the cells are too stiff to be seen: their median asymmetry is below its noise; E is above {:.3g} kPa (95 %). A "
-      "narrower channel, more flow or a more viscous medium shows them; `rheocyte plan` says which.",
-      std::exp(*r.fitted.least_log_modulus));
-}
-
-/// Of what is no user's mistake; empty if there are numbers.
-std::string failure_of(const RecordingReport& r) {
-  switch (r.fitted.state) {
-    case FitState::fitted: return {};
-    case FitState::too_stiff: return too_stiff_text(r);
-    case FitState::singular:
-      return "the events do not tell all parameters of the population apart: the information is singular; more events "
-             "or wider gates help.";
-    default:
-      return "no population was found that has these events most probably; do the gates leave cells of one kind?";
-  }
-}
-
-void tell_bounds(RecordingReport& r) {
-  constexpr std::array names{"the mean radius", "the mean of ln E", "the spread of the radius", "the spread of E",
-                             "the correlation of radius and E"};
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (r.fitted.state == FitState::fitted && r.fitted.at_bound[k])
-      r.warnings.push_back(fmt::format("{} is at its bound and has no interval.", names[k]));
-}
-
 std::vector<std::string> differences_within(const std::vector<RecordingReport>& recordings,
                                             const std::vector<PopulationCondition>& conditions) {
   std::vector<std::string> warnings;
@@ -102,15 +72,36 @@ std::vector<std::string> differences_within(const std::vector<RecordingReport>& 
   return warnings;
 }
 
-/// The means of the recordings of a condition, in the order of the sessions; empty if one has none.
-std::vector<RecordingMean> means_of(const std::vector<RecordingReport>& recordings, std::size_t condition) {
-  std::vector<RecordingMean> means;
+/// A quantity in the recordings of a condition, in the order of the sessions; empty if one does not tell it.
+std::vector<QuantityEstimate> estimates_of(const std::vector<RecordingReport>& recordings, std::size_t condition,
+                                           PopulationQuantity quantity) {
+  std::vector<QuantityEstimate> estimates;
   for (const auto& r : recordings) {
     if (r.condition != condition) continue;
-    if (!r.failure.empty()) return {};
-    means.push_back(r.mean());
+    const QuantityEstimate* const estimate = r.estimate(quantity);
+    if (!estimate) return {};
+    estimates.push_back(*estimate);
   }
+  return estimates;
+}
+
+std::vector<RecordingMean> means_of(const std::vector<QuantityEstimate>& estimates) {
+  std::vector<RecordingMean> means;
+  for (const auto& e : estimates) means.push_back(e.mean);
   return means;
+}
+
+/// Of any recording, in the order in which a model tells them.
+std::vector<PopulationQuantity> quantities_told(const std::vector<RecordingReport>& recordings) {
+  std::vector<PopulationQuantity> told;
+  for (const auto& r : recordings)
+    for (const auto& e : r.quantities)
+      if (std::ranges::find(told, e.quantity) == told.end()) told.push_back(e.quantity);
+  return told;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
 /// A comparison of the condition with zero has the interval of its mean.
@@ -121,52 +112,71 @@ IntervalEstimate mean_of_condition(const std::vector<RecordingMean>& means, doub
   return {d.value, d.sampling_lower, d.sampling_upper};
 }
 
-/// Recordings of one condition at several flow rates tell how E grows with the stress; they scatter about a line then.
-void tell_stiffening(const std::vector<RecordingReport>& recordings, std::size_t condition, double level,
-                     ConditionReport& report) {
-  std::vector<MeanAtStress> means;
+/// Of the recordings of a condition.
+struct StressesOfCondition {
+  std::vector<double> log_stress;
+  double mean = 0;
+};
+
+StressesOfCondition stresses_of(const std::vector<RecordingReport>& recordings, std::size_t condition) {
+  StressesOfCondition stresses;
   for (const auto& r : recordings)
-    if (r.condition == condition) means.push_back({r.mean(), std::log(r.wall_stress_Pa())});
-  double log_stress = 0;
-  for (const auto& m : means) log_stress += m.log_stress / double(means.size());
-  report.wall_stress_Pa = std::exp(log_stress);
-  if (!differ_in_stress(means)) return;
-  const Stiffening& found = report.stiffening.emplace(stiffening_of(means, level));
-  report.between = {};  // they scatter about the line, not about their mean
-  report.is_by_recordings = found.has_scatter();
-  report.log_modulus = found.has_scatter() ? IntervalEstimate{found.value, found.value_lower, found.value_upper}
-                                           : mean_of_condition(means_of(recordings, condition), level, false);
+    if (r.condition == condition) stresses.log_stress.push_back(std::log(r.wall_stress_Pa()));
+  stresses.mean = mean_of(stresses.log_stress);
+  return stresses;
+}
+
+/// Recordings of one condition at several flow rates tell how a modulus grows with the stress; they scatter about a
+/// line then.
+void tell_stiffening(const std::vector<RecordingMean>& means, const StressesOfCondition& stresses, double level,
+                     ConditionQuantity& told) {
+  std::vector<MeanAtStress> at_stress;
+  for (std::size_t j = 0; j < means.size(); ++j) at_stress.push_back({means[j], stresses.log_stress[j]});
+  if (!differ_in_stress(at_stress)) return;
+  const Stiffening& found = told.stiffening.emplace(stiffening_of(at_stress, level));
+  told.between = {};  // they scatter about the line, not about their mean
+  told.is_by_recordings = found.has_scatter();
+  told.log_mean = found.has_scatter() ? IntervalEstimate{found.value, found.value_lower, found.value_upper}
+                                      : mean_of_condition(means, level, false);
+}
+
+ConditionQuantity condition_quantity(PopulationQuantity quantity, const std::vector<QuantityEstimate>& estimates,
+                                     const StressesOfCondition& stresses, double level) {
+  const auto means = means_of(estimates);
+  std::vector<double> log_spreads;
+  for (const auto& e : estimates) log_spreads.push_back(std::log(e.spread));
+  ConditionQuantity told;
+  told.quantity = quantity;
+  told.is_by_recordings = means.size() > 1;
+  told.log_mean = mean_of_condition(means, level, told.is_by_recordings);
+  told.spread = std::exp(mean_of(log_spreads));
+  told.between = scatter_between(means, level);
+  tell_stiffening(means, stresses, level, told);
+  return told;
 }
 
 ConditionReport condition_report(const std::vector<RecordingReport>& recordings, std::size_t condition,
                                  const std::string& name, double level) {
   ConditionReport report;
   report.name = name;
-  std::vector<double> elongations, log_spreads, radii, log_radius_spreads;
+  std::vector<double> elongations, radii, log_radius_spreads;
   for (const auto& r : recordings) {
     if (r.condition != condition) continue;
     ++report.recordings;
     report.events += r.fitted_events;
     elongations.push_back(r.median_elongation);
-    radii.push_back(r.fitted.cells.mean_log_radius);
-    log_spreads.push_back(std::log(r.fitted.cells.modulus_spread));
-    log_radius_spreads.push_back(std::log(r.fitted.cells.radius_spread));
+    radii.push_back(r.log_radius);
+    log_radius_spreads.push_back(std::log(r.radius_spread));
   }
   report.elongation = median_of(elongations);
-  const auto means = means_of(recordings, condition);
-  if (means.empty()) return report;
-  const auto average = [](const std::vector<double>& values) {
-    double sum = 0;
-    for (const double v : values) sum += v;
-    return sum / double(values.size());
-  };
-  report.is_by_recordings = means.size() > 1;
-  report.log_modulus = mean_of_condition(means, level, report.is_by_recordings);
-  report.modulus_spread = std::exp(average(log_spreads));
-  report.log_radius = average(radii);
-  report.radius_spread = std::exp(average(log_radius_spreads));
-  report.between = scatter_between(means, level);
-  tell_stiffening(recordings, condition, level, report);
+  const StressesOfCondition stresses = stresses_of(recordings, condition);
+  for (const PopulationQuantity quantity : quantities_told(recordings))
+    if (const auto estimates = estimates_of(recordings, condition, quantity); !estimates.empty())
+      report.quantities.push_back(condition_quantity(quantity, estimates, stresses, level));
+  if (!report.has_numbers()) return report;
+  report.log_radius = mean_of(radii);
+  report.radius_spread = std::exp(mean_of(log_radius_spreads));
+  report.wall_stress_Pa = std::exp(stresses.mean);
   return report;
 }
 
@@ -207,26 +217,17 @@ std::string_view name_of(StiffnessMeasure by) {
   return std::ranges::find(measure_words, by, &decltype(measure_words)::value_type::second)->first;
 }
 
-RecordingMean RecordingReport::mean() const {
-  constexpr int e = number_of(PopulationParameter::mean_log_modulus);
-  return {fitted.cells.mean_log_modulus, fitted.covariance(e, e)};
-}
-
-double RecordingReport::wall_stress_Pa() const {
-  ChannelFlow at_median = flow;
-  at_median.viscosity_mPas = median_viscosity_mPas;
-  return wall_shear_stress_Pa(at_median);
-}
-
 bool PopulationReport::has_failures() const {
   return std::ranges::any_of(recordings, [](const auto& r) { return !r.failure.empty(); });
 }
+
+std::vector<PopulationQuantity> PopulationReport::quantities() const { return quantities_told(recordings); }
 
 PopulationAnalysis::PopulationAnalysis(const PopulationOptions& options, std::vector<PopulationCondition> conditions)
     : options_(options),
       conditions_(std::move(conditions)),
       by_(stiffness_measure_of(options)),
-      maps_(by_, options.table) {}
+      model_(population_model(options)) {}
 
 void PopulationAnalysis::check_new(const RecordingReport& recording, const PopulationEvents& events) {
   const auto& areas = events.of(SeenMeasure::area_um2);
@@ -249,8 +250,8 @@ RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t
   r.median_viscosity_mPas = median_of(events.of(SeenMeasure::viscosity_mPas));
   r.median_elongation = median_of(events.of(events.has_outlines ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio));
   r.direction = events.direction;
-  r.table = maps_.table(events);
-  r.table_error = maps_.table_error(events);
+  r.table = model_->table(events);
+  r.table_error = model_->table_error(events);
   r.gates = events.gates;
   r.recorded = events.recorded, r.gated = events.gated, r.without_numbers = events.without_numbers;
   r.settings = events.settings;
@@ -268,33 +269,15 @@ const RecordingReport& PopulationAnalysis::add(std::size_t condition, std::size_
     refuse_path(r.recording, events.gates.empty() ? "has no event with an outline, a size and a viscosity."
                                                   : "has no event inside the gates (" + events.gates + ").");
   check_new(r, events);
-  const PopulationSample made = population_sample(events, maps_, {options_.no_bins});
-  r.beside_table = made.beside_table;
-  r.fitted_events = std::size_t(std::lround(made.sample.events()));
-  r.is_binned = made.is_binned;
-  if (r.fitted_events < fewest_population_events)
-    refuse_path(r.recording, fmt::format("has {} events that the gates and the table of its cells leave, of {}; a "
-                                         "population needs at least {}.",
-                                         r.fitted_events, r.recorded, fewest_population_events));
-  FitSettings settings;
-  settings.threads = int(options_.jobs.value_or(std::thread::hardware_concurrency()));
-  settings.with_shrunken = true;
-  r.fitted = fit_cells(made.sample, settings);
-  if (r.fitted.state == FitState::tail)
-    refuse_path(r.recording, fmt::format("the gates leave a tail of its cells, {:.1g} of them; nothing certain can be "
-                                         "said of the rest. Widen the gates.",
-                                         r.fitted.kept_share));
-  r.failure = failure_of(r);
-  if (r.failure.empty()) r.images = single_images(made.sample, r.fitted.cells, r.fitted.event_error);
-  tell_bounds(r);
-  for (const std::size_t i : made.events) r.shrunken_events.push_back(std::size_t(events.number[i]));
-  if (r.failure.empty()) r.checks = check_population(events, made, r.fitted, maps_);
-  if (made.is_binned) r.fitted.shrunken.clear();  // those of the bins
+  model_->fit(events, r);
   return recordings_.emplace_back(std::move(r));
 }
 
 PopulationReport PopulationAnalysis::report() const {
   PopulationReport report;
+  report.model = model_->name();
+  report.elongation = model_->elongation_text();
+  report.measure_error = model_->measure_error_text();
   report.by = by_;
   report.between_recordings = options_.between_recordings;
   report.recordings = recordings_;
@@ -302,14 +285,15 @@ PopulationReport PopulationAnalysis::report() const {
   for (std::size_t c = 0; c < conditions_.size(); ++c)
     report.conditions.push_back(condition_report(recordings_, c, conditions_[c].name, report.level));
   const ComparisonSettings settings{report.level, options_.between_recordings};
-  const auto control = means_of(recordings_, 0);
-  for (std::size_t c = 1; c < conditions_.size(); ++c) {
-    const auto treated = means_of(recordings_, c);
-    if (control.empty() || treated.empty()) continue;
-    const auto difference = options_.paired ? paired_difference(control, treated, settings)
-                                            : unpaired_difference(control, treated, settings);
-    report.comparisons.push_back({0, c, options_.paired, difference});
-  }
+  for (std::size_t c = 1; c < conditions_.size(); ++c)
+    for (const PopulationQuantity quantity : quantities_told(recordings_)) {
+      const auto control = means_of(estimates_of(recordings_, 0, quantity)),
+                 treated = means_of(estimates_of(recordings_, c, quantity));
+      if (control.empty() || treated.empty()) continue;
+      const auto difference = options_.paired ? paired_difference(control, treated, settings)
+                                              : unpaired_difference(control, treated, settings);
+      report.comparisons.push_back({0, c, quantity, options_.paired, difference});
+    }
   return report;
 }
 

@@ -1,16 +1,15 @@
 // What recordings of one or several conditions say about their cells (docs/populations.md).
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "extract/options.h"
-#include "extract/population_check.h"
-#include "extract/population_sample.h"
+#include "extract/population_model.h"
+#include "extract/recording_report.h"
 #include "population/comparison.h"
-#include "population/fit_cells.h"
-#include "population/single_images.h"
 #include "population/stiffening.h"
 
 namespace rheocyte {
@@ -28,54 +27,39 @@ void check_conditions(const std::vector<PopulationCondition>& conditions, bool p
 StiffnessMeasure stiffness_measure_of(const PopulationOptions& options);
 std::string_view name_of(StiffnessMeasure by);
 
-/// One recording; its events stay outside.
-struct RecordingReport {
-  std::filesystem::path recording;
-  std::size_t condition = 0, session = 0;  ///< counted from 0
-  ChannelFlow flow;
-  double pixel_size_um = 0, median_viscosity_mPas = 0, median_elongation = 0;
-  int direction = 0;
-  std::string table, gates;
-  double table_error = 0;
-  std::size_t recorded = 0, gated = 0, without_numbers = 0, beside_table = 0, fitted_events = 0;
-  bool is_binned = false;
-  FittedCells fitted;
-  SingleImages images;
-  std::vector<MeasureCheck> checks;
-  std::vector<std::size_t> shrunken_events;  ///< number of the event, from 1 on, of each of fitted.shrunken
-  std::vector<std::string> settings, warnings;
-  std::string failure;  ///< why there is no number, in a sentence; else empty
-
-  RecordingMean mean() const;
-  /// At the wall without a cell, at the median viscosity.
-  double wall_stress_Pa() const;
-};
-
 /// A mean and its interval at the level of the report; NaN where there is none.
 struct IntervalEstimate {
   double value = no_value, lower = no_value, upper = no_value;
 };
 
+struct ConditionQuantity {
+  PopulationQuantity quantity;
+  IntervalEstimate log_mean;
+  bool is_by_recordings = false;  ///< the interval is that of the scatter of recordings; else of sampling
+  double spread = no_value;       ///< between cells, mean over the recordings
+  ScatterBetween between;
+  std::optional<Stiffening> stiffening;  ///< if its recordings have different stresses
+};
+
 struct ConditionReport {
   std::string name;
   std::size_t recordings = 0, events = 0;
-  IntervalEstimate log_modulus;   ///< of the mean of ln E
-  bool is_by_recordings = false;  ///< the interval is that of the scatter of recordings; else of sampling
-  double modulus_spread = no_value, log_radius = no_value, radius_spread = no_value;  ///< means over the recordings
-  double elongation = no_value;  ///< median of the recordings' medians
-  ScatterBetween between;
-  std::optional<Stiffening> stiffening;  ///< if its recordings have different stresses
-  double wall_stress_Pa = no_value;      ///< geometric mean of them, at which log_modulus holds
-  bool has_numbers() const { return std::isfinite(log_modulus.value); }
+  std::vector<ConditionQuantity> quantities;               ///< those that all its recordings tell
+  double log_radius = no_value, radius_spread = no_value;  ///< means over the recordings
+  double elongation = no_value;                            ///< median of the recordings' medians
+  double wall_stress_Pa = no_value;  ///< geometric mean of theirs, at which means with a stiffening hold
+  bool has_numbers() const { return !quantities.empty(); }
 };
 
 struct ConditionComparison {
   std::size_t control = 0, treated = 0;  ///< conditions
+  PopulationQuantity quantity;
   bool is_paired = false;
   ConditionDifference difference;
 };
 
 struct PopulationReport {
+  std::string model, elongation, measure_error;  ///< those of PopulationModel
   StiffnessMeasure by = StiffnessMeasure::asymmetry;
   double level = 0.95;
   std::optional<double> between_recordings;
@@ -85,6 +69,8 @@ struct PopulationReport {
   std::vector<std::string> warnings;
 
   bool has_failures() const;
+  /// Of any recording, in the order in which the model tells them.
+  std::vector<PopulationQuantity> quantities() const;
 };
 
 /// Takes the recordings one after the other, in the order of the conditions.
@@ -106,7 +92,7 @@ class PopulationAnalysis {
   PopulationOptions options_;
   std::vector<PopulationCondition> conditions_;
   StiffnessMeasure by_;
-  PopulationMaps maps_;
+  std::unique_ptr<PopulationModel> model_;
   std::vector<RecordingReport> recordings_;
   std::vector<std::vector<double>> first_areas_;  ///< of each recording: by these the same measurement is known again
 };

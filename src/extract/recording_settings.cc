@@ -176,7 +176,14 @@ Settings settings_of(PopulationOptions& o) {
   Setting jobs = setting("jobs", "Jobs", &o.jobs, "threads; the numbers do not depend on them", "all processor cores");
   jobs.range = {1, 1024};
   return joined(
-      {of_type("MEASURE", {"asymmetry", "odd-deformation", "deformation"},
+      {of_type(
+           "MODEL", {"solid", "cortex"},
+           setting("model", "Cells", &o.model,
+                   "what the cells are: solid, or cortex, solids in a shell under tension, drawn out by one tension "
+                   "of the liquid, of which bulk, cortex and tensions are told",
+                   "solid")),
+       seen_section(o.section),
+       of_type("MEASURE", {"asymmetry", "odd-deformation", "deformation"},
                setting("by", "By", &o.by,
                        "what tells the stiffness beside the area: asymmetry of the outline; odd-deformation, "
                        "deformation and inertia ratio; or deformation, of cells that the flow alone elongates",
@@ -187,7 +194,7 @@ Settings settings_of(PopulationOptions& o) {
        of_type("TABLE", {},
                setting("table", "Table", &o.table,
                        "table of elongated cells: a file elongated_*.cbor, the folder of `rheocyte table` with one, or "
-                       "an identifier of the program's tables",
+                       "an identifier of the program's tables; of cells with a cortex a combined one",
                        "the program's own")),
        setting("no_bins", "No bins", &o.no_bins, "take each event by itself, also of more than 20,000"),
        std::move(jobs)},

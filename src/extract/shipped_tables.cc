@@ -35,6 +35,8 @@ std::map<std::string, fs::path> shipped_tables() { return table_files(tables_fol
 
 std::map<std::string, fs::path> shipped_elongated_tables() { return table_files(tables_folder(), "elongated"); }
 
+std::map<std::string, fs::path> shipped_combined_tables() { return table_files(tables_folder(), "combined"); }
+
 fs::path combined_table_or_shipped(const fs::path& wanted) {
   return wanted_or_shipped(wanted, "combined", "combined table");
 }

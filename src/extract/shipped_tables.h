@@ -12,6 +12,8 @@ std::map<std::string, std::filesystem::path> shipped_tables();
 
 /// Likewise the files elongated_<identifier>.cbor of elongated cells.
 std::map<std::string, std::filesystem::path> shipped_elongated_tables();
+/// Likewise the files combined_<identifier>.cbor of cells with bulk and cortex.
+std::map<std::string, std::filesystem::path> shipped_combined_tables();
 
 /// The wanted table, by its place or its identifier, and where none is wanted the one that comes with the program: of
 /// cells with bulk and cortex, and of cells on their way. UserError if it is missing.

@@ -19,6 +19,7 @@ double flow_exponent(const SynthSpec& spec) {
 
 fs::path found_table(const SynthSpec& spec, const fs::path& folder) {
   if (spec.table.empty()) {
+    if (spec.kind == CellKind::combined) return combined_table_or_shipped({});
     const auto elongated = spec.axial_tension_Pa ? elongated_file(flow_exponent(spec)) : std::nullopt;
     return elongated ? elongated->file : ModulusTables("").file(flow_exponent(spec));
   }
@@ -27,6 +28,7 @@ fs::path found_table(const SynthSpec& spec, const fs::path& folder) {
   if (fs::exists(beside, error)) return beside;
   auto shipped = shipped_tables();
   shipped.merge(shipped_elongated_tables());
+  shipped.merge(shipped_combined_tables());
   const auto found = shipped.find(spec.table.string());
   return found == shipped.end() ? beside : found->second;
 }

@@ -99,6 +99,7 @@ class SeveralModuli {
   ShapeVector shape_of(const CellCoordinates& cell, const ChannelFlow& flow) const;
   const CombinedInterpolation& table() const { return table_; }
   const ChannelFlow& simulated() const { return simulated_; }  ///< the table's channel
+  const std::vector<int>& features() const { return options_.features; }
   /// Features less parameters, the axial tension being known.
   int freedom() const;
 

@@ -5,6 +5,7 @@
 
 #include "extract/experiment_plan.h"
 #include "extract/population_json.h"
+#include "extract/population_tables.h"
 #include "python/bindings.h"
 #include "python/contained_reading.h"
 #include "python/interruptible.h"

@@ -201,6 +201,18 @@ Eigen::MatrixX2d outline_of_modes(const std::array<double, mode_count>& modes, d
   return outline;
 }
 
+Eigen::MatrixX2d outline_of_hull_modes(const std::array<double, mode_count>& modes, double area, int points) {
+  constexpr int rounds = 6;
+  std::array<double, mode_count> tried = modes;
+  double size = area;
+  for (int round = 0; round < rounds; ++round) {
+    const OutlineShape hull = outline_shape(outline_of_modes(tried, size, points));
+    for (std::size_t k = 0; k < tried.size(); ++k) tried[k] += modes[k] - hull.modes[k];
+    size *= area / hull.area;
+  }
+  return outline_of_modes(tried, size, points);
+}
+
 double volume_of_revolution(const Eigen::MatrixX2d& outline) {
   assert(outline.rows() % 2 == 0);
   double sum = 0;  // of frusta

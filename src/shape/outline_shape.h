@@ -62,6 +62,9 @@ Eigen::MatrixX2d mirrored(const Eigen::MatrixX2d& meridian);
 /// The outline with these modes, area and nothing else, `points` of them; about the origin.
 Eigen::MatrixX2d outline_of_modes(const std::array<double, mode_count>& modes, double area, int points);
 
+/// The one of which the hull has these modes and this area, to 1e-4 of the radius if there is one.
+Eigen::MatrixX2d outline_of_hull_modes(const std::array<double, mode_count>& modes, double area, int points);
+
 /// Volume of the body of revolution about the x-axis of a closed outline that is symmetric about it and starts at an
 /// angle of 0: that of its upper half.
 double volume_of_revolution(const Eigen::MatrixX2d& outline);

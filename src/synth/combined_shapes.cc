@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -17,6 +18,8 @@ constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoor
               x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio),
               x_axial = int(CellCoordinate::axial_ratio);
 
+constexpr int points_of_outline = 720;
+
 std::vector<SampledBranch> without_empty(std::vector<SampledBranch> branches) {
   std::erase_if(branches, [](const SampledBranch& branch) { return branch.empty(); });
   return branches;
@@ -29,6 +32,9 @@ CombinedShapes::CombinedShapes(const TableSpec& spec, std::vector<SampledBranch>
       between_(make_combined_table(spec, branches_)),
       cells_(cells),
       progress_(progress_of(spec)) {}
+
+CombinedShapes::CombinedShapes(const CombinedTable& table, const SimulatedCells& cells)
+    : between_(table), cells_(cells), progress_(progress_of(table.spec)) {}
 
 std::variant<CellShape, NoShape> CombinedShapes::shape(const VirtualCell& cell) const {
   const ScaleFactors scale = cells_.scale_for(cell);
@@ -67,7 +73,20 @@ std::variant<CellShape, NoShape> CombinedShapes::at(CellCoordinates cell, double
   if (excess(high).value > 0) return NoShape::too_soft;
   cell(x_progress) = bracketed_newton(excess, low, high, (low + high) / 2, false, 1e-12);
   if (!between_.at(cell).inside) return NoShape::too_soft;  // all branches begin alike but end one by one
-  return blended(cell);
+  return branches_.empty() ? by_modes(between_.at(cell)) : blended(cell);
+}
+
+CellShape CombinedShapes::by_modes(const CombinedState& state) const {
+  std::array<double, mode_count> modes{};
+  for (int k = 0; k < mode_count; ++k) modes[std::size_t(k)] = state.value(first_mode_row + k);
+  CellShape shape;
+  shape.area_um2 = std::exp(state.value(log_area_row));
+  const Eigen::MatrixX2d outline = outline_of_hull_modes(modes, shape.area_um2, points_of_outline);
+  shape.meridian = outline.topRows(points_of_outline / 2 + 1);  // from the front to the rear
+  shape.meridian.col(1) = shape.meridian.col(1).cwiseMax(0);
+  shape.deformation = state.value(deformation_row);
+  shape.volume_um3 = volume_of_revolution(outline);
+  return shape;
 }
 
 CellShape CombinedShapes::blended(const CellCoordinates& cell) const {

@@ -9,13 +9,17 @@
 namespace rheocyte {
 
 /// A cell is scaled to the channel of the simulations (eq:scaling) and found in the table by its radius, share of the
-/// cortex, tension and stiffness (eq:combined). Area and deformation are those of the table's interpolation; the points
-/// of the contour, in units of the radius, are the sum of those of the same branches at the same deformation, with the
-/// same weights. Modes up to the twelfth would not do: a dent makes corners in the hull, and hides the contour.
+/// cortex, tension and stiffness (eq:combined). Area and deformation are those of the table's interpolation. With the
+/// contours of the branches the points, in units of the radius, are the sum of those of the same branches at the same
+/// deformation, with the same weights. A table as one file has none: then the outline is the one of twelve modes whose
+/// hull has the table's modes; the contour within a dent is not there, nor what the hull's corners make of higher
+/// modes.
 class CombinedShapes : public CellShapes {
  public:
   /// All contours with the same points (asserted). UserError: fewer than two radii or shares.
   CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches, const SimulatedCells& cells);
+  /// By a table as one file. UserError as above.
+  CombinedShapes(const CombinedTable& table, const SimulatedCells& cells);
 
   std::variant<CellShape, NoShape> shape(const VirtualCell& cell) const override;
   std::optional<Elongation> elongation() const override {
@@ -28,8 +32,9 @@ class CombinedShapes : public CellShapes {
   /// In the table's channel.
   std::variant<CellShape, NoShape> at(CellCoordinates cell, double log_stiffness) const;
   CellShape blended(const CellCoordinates& cell) const;
+  CellShape by_modes(const CombinedState& state) const;
 
-  std::vector<SampledBranch> branches_;  ///< in the order of the table's
+  std::vector<SampledBranch> branches_;  ///< in the order of the table's; empty: without contours
   CombinedInterpolation between_;
   SimulatedCells cells_;
   Measure progress_;  ///< of the branches

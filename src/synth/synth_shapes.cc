@@ -75,6 +75,17 @@ std::unique_ptr<CellShapes> shapes_of_combined_table(SynthSpec& spec, const Tabl
                                           simulated_cells(spec, folder.spec().base));
 }
 
+/// A table as one file.
+std::unique_ptr<CellShapes> shapes_of_combined_file(SynthSpec& spec) {
+  if (spec.kind != CellKind::combined)
+    refuse_path(spec.table, "its cells have a bulk and a cortex, so cell.kind must be \"combined\".");
+  if (spec.is_on_its_way()) refuse_path(spec.table, is_stationary);
+  const CombinedTable table = read_combined_table(spec.table);
+  spec.made_of = cells_of(table.spec.base);
+  check_tensions(spec, table.spec.tension_ratios);
+  return std::make_unique<CombinedShapes>(table, simulated_cells(spec, table.spec.base));
+}
+
 std::unique_ptr<CellShapes> shapes_of_dynamic_table(SynthSpec& spec) {
   if (!spec.is_on_its_way())
     refuse_path(spec.table, "is a dynamic table; give recording.places_um, where its cells are seen.");
@@ -98,7 +109,9 @@ std::unique_ptr<CellShapes> shapes_of_elongated(SynthSpec& spec, const fs::path&
 
 std::unique_ptr<CellShapes> shapes_of_grid(SynthSpec& spec) {
   const std::string name = one_line(spec.table.string(), 300);
-  if (spec.table.filename().string().starts_with("elongated_")) return shapes_of_elongated(spec, spec.table);
+  const std::string file_name = spec.table.filename().string();
+  if (file_name.starts_with("elongated_")) return shapes_of_elongated(spec, spec.table);
+  if (file_name.starts_with("combined_")) return shapes_of_combined_file(spec);
   GridContent grid = grid_from_bytes(content_of_file(spec.table, largest_grid), name);
   if (grid.origin.is_shell || spec.kind != CellKind::solid)
     refuse_path(spec.table,

@@ -57,10 +57,10 @@ void check_shapes(SynthSpec& spec, const KeyReading& keys) {
   if (!spec.table.empty()) return;
   if (spec.is_on_its_way())
     keys.refuse("recording.places_um", "recording.places_um needs shapes.table, the folder of a dynamic table.");
-  if (spec.kind == CellKind::combined)
-    keys.refuse("shapes.table",
-                "cell.kind = \"combined\" needs shapes.table, the folder of a table with table.cortex_share; the "
-                "analytical model has no such cells.");
+  if (spec.kind == CellKind::combined && spec.analytical)
+    keys.refuse("shapes.model",
+                "cell.kind = \"combined\" and shapes.model = \"analytical\" contradict each other: the analytical "
+                "model has no such cells.");
   if (spec.kind == CellKind::shell && !spec.analytical)
     keys.refuse("shapes.table",
                 "cell.kind = \"shell\" needs shapes.table, the folder of a table of shells, or shapes.model = "

@@ -35,9 +35,10 @@ def condition(name, modulus):
 
 @pytest.fixture
 def record():
-    comparison = {"control": "control", "treated": "drug", "test": "paired t", "ratio": interval(1.3), "p": 0.02,
+    comparison = {"control": "control", "treated": "drug", "quantity": "young_modulus_kPa", "test": "paired t", "ratio": interval(1.3), "p": 0.02,
                   "degrees_of_freedom": 1, "ratio_by_sampling_alone": interval(1.3)}
-    return {"made_by": "rheocyte population", "level": 0.95, "conditions": [condition("control", 4), condition("drug", 5.2)],
+    return {"made_by": "rheocyte population", "level": 0.95, "model": "solid",
+            "quantities": [{"key": "young_modulus_kPa", "symbol": "E", "unit": "kPa"}], "conditions": [condition("control", 4), condition("drug", 5.2)],
             "comparisons": [comparison],
             "recordings": [recording("control", 1, 4.0), recording("control", 2, 4.1), recording("drug", 1, 5.1),
                            recording("drug", 2, 5.3)]}
@@ -93,3 +94,33 @@ def test_a_plan_shows_what_follows_from_it():
     plan = rheocyte.plan(6.5, 2, width_um=20, medium="0.49% MC-PBS", rate_ul_s=0.04)
     assert all(line in repr(plan) for line in plan.attrs["lines"]) and plan.attrs["lines"]
     assert type(plan[["width_um"]]) is type(plan)
+
+
+def with_cortex(record):
+    """The same recordings as cells with a cortex, of which two numbers are told."""
+    record = copy.deepcopy(record)
+    record["model"] = "cortex"
+    record["quantities"] = [{"key": "stiffness_kPa", "symbol": "E + E2D/r0", "unit": "kPa"},
+                            {"key": "cortex_modulus_mN_per_m", "symbol": "E2D", "unit": "mN/m"}]
+    for each in [*record["conditions"], *(recording["population"] for recording in record["recordings"])]:
+        modulus = each.pop("median_young_modulus_kPa")
+        each["median_stiffness_kPa"], each["median_cortex_modulus_mN_per_m"] = modulus, interval(2 * modulus["value"])
+    comparison = record["comparisons"][0]
+    record["comparisons"] = [{**comparison, "quantity": each["key"]} for each in record["quantities"]]
+    return record
+
+
+def test_cells_with_a_cortex_have_a_column_for_each_quantity(record):
+    found = shown(with_cortex(record))
+    assert found.recordings["stiffness_kPa"].tolist() == [4.0, 4.1, 5.1, 5.3]
+    assert found.recordings["cortex_modulus_mN_per_m_upper"][0] == pytest.approx(8.4)
+    assert found.conditions["cortex_modulus_mN_per_m"].tolist() == [8, 10.4]
+    assert found.comparisons["quantity"].tolist() == ["stiffness_kPa", "cortex_modulus_mN_per_m"]
+    text = repr(found)
+    assert "control: E + E2D/r0 4 kPa (3.8 .. 4.2), E2D 8 mN/m (7.6 .. 8.4), recordings: 2" in text
+    assert "drug / control: E2D, 1.3 (1.23 .. 1.37), p = 0.02" in text
+
+
+def test_the_picture_of_cells_with_a_cortex_has_a_column_for_each_quantity(record):
+    titles = [axes.get_title(loc="left") for axes in shown(with_cortex(record)).plot().axes]
+    assert titles == ["E + E2D/r0 (kPa)", "E2D (mN/m)", "ratio", "ratio"]

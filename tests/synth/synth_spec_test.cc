@@ -104,7 +104,8 @@ TEST(SynthSpec, MistakesAreNamedWithTheWayOut) {
   expect_refusal(channel + liquid + "[cell]\nkind = \"shell\"\nradius_um = 6\n",
                  "cell.cortex.modulus_mN_per_m is missing");
   const std::string both = cell + "kind = \"combined\"\ncortex.modulus_mN_per_m = 3\n";
-  expect_refusal(channel + liquid + both, "needs shapes.table");
+  expect_refusal(channel + liquid + both + "[shapes]\nmodel = \"analytical\"\n",
+                 "cell.kind = \"combined\" and shapes.model = \"analytical\" contradict each other");
   expect_refusal(channel + liquid + cell + "kind = \"combined\"\n", "cell.cortex.modulus_mN_per_m is missing");
   expect_refusal(channel + liquid + cell + "cortex.modulus_mN_per_m.mean = 3\n",
                  "because cell.kind is \"solid\"; remove it or choose \"shell\" or \"combined\"");

@@ -5,8 +5,8 @@ import { significant } from '../draw/numbers';
 import { Progress } from '../shell/Progress';
 import { useStore } from '../shell/store';
 import { items, recordings } from './model';
-import { computePopulation, paired, population, populationRuns, stopPopulation } from './population_runs';
-import { sessionsOf, dotsOf } from './condition_dots';
+import { computePopulation, paired, population, populationRuns, stopPopulation, withCortex } from './population_runs';
+import { dotsOf, medianOf, sessionsOf } from './condition_dots';
 import { ticksOf, type Span } from './scale';
 import { useSize } from './use_size';
 
@@ -15,10 +15,12 @@ const left = 62;
 const inner = { top: 10, bottom: 26 };
 const widest = 150;
 
-function Dot({ recording, x, up }: { recording: PopulationRecording; x: number; up: (value: number) => number }) {
-  const { value, lower, upper } = recording.population!.median_young_modulus_kPa;
+type Quantity = Population['quantities'][number];
+
+function Dot({ recording, quantity, x, up }: { recording: PopulationRecording; quantity: Quantity; x: number; up: (value: number) => number }) {
+  const { value, lower, upper } = medianOf(recording.population, quantity.key)!;
   const fits = recording.checks.every((check) => check.fits);
-  const said = `${recording.recording.split('/').pop()}: ${significant(value)} kPa${fits ? '' : ', does not fit'}`;
+  const said = `${recording.recording.split('/').pop()}: ${significant(value)} ${quantity.unit}${fits ? '' : ', does not fit'}`;
   return (
     <g class={fits ? 'session' : 'session misfit'}>
       <title>{said}</title>
@@ -28,14 +30,16 @@ function Dot({ recording, x, up }: { recording: PopulationRecording; x: number; 
   );
 }
 
-function Plot({ found, room }: { found: Population; room: number }) {
-  const { dots, span, slots } = dotsOf(found);
+function Plot({ found, quantity, room }: { found: Population; quantity: Quantity; room: number }) {
+  const { dots, span, slots } = dotsOf(found, quantity.key);
   const slot = Math.min(widest, (room - left) / Math.max(1, slots));
   const up = (value: number) => height - inner.bottom - ((value - span.low) / (span.high - span.low)) * (height - inner.top - inner.bottom);
   return (
-    <svg class="populations-plot" width={left + slot * slots + 8} height={height} role="img" aria-label="Median Young's modulus of each recording, by condition">
-      <Axis span={span} up={up} right={left + slot * slots} />
-      {found.conditions.map(({ name, median_young_modulus_kPa: mean }, k) => {
+    <svg class="populations-plot" width={left + slot * slots + 8} height={height} role="img" aria-label={`Median ${quantity.symbol} of each recording, by condition`}>
+      <Axis span={span} up={up} right={left + slot * slots} title={`Median ${quantity.symbol}, ${quantity.unit}`} />
+      {found.conditions.map((condition, k) => {
+        const { name } = condition;
+        const mean = medianOf(condition, quantity.key);
         const x = left + slot * (k + 0.86);
         return (
           <g key={name}>
@@ -52,13 +56,13 @@ function Plot({ found, room }: { found: Population; room: number }) {
         );
       })}
       {dots.map(({ recording, place }) => (
-        <Dot key={recording.recording} recording={recording} x={left + slot * place} up={up} />
+        <Dot key={recording.recording} recording={recording} quantity={quantity} x={left + slot * place} up={up} />
       ))}
     </svg>
   );
 }
 
-function Axis({ span, up, right }: { span: Span; up: (value: number) => number; right: number }) {
+function Axis({ span, up, right, title }: { span: Span; up: (value: number) => number; right: number; title: string }) {
   return (
     <g class="plot-axes">
       {ticksOf('linear', span, 4).map(({ place, label }) => (
@@ -71,7 +75,7 @@ function Axis({ span, up, right }: { span: Span; up: (value: number) => number; 
       ))}
       <path d={`M${left} ${inner.top}V${height - inner.bottom}H${right}`} fill="none" />
       <text class="plot-title" transform={`translate(13 ${(height - inner.bottom) / 2}) rotate(-90)`} text-anchor="middle">
-        Median E, kPa
+        {title}
       </text>
     </g>
   );
@@ -81,28 +85,31 @@ function interval(value: { lower: number | null; upper: number | null } | undefi
   return value && value.lower !== null && value.upper !== null ? `${significant(value.lower, 3)} to ${significant(value.upper, 3)}` : '–';
 }
 
-function Table({ found }: { found: Population }) {
+function Table({ found, quantity: { key, symbol, unit } }: { found: Population; quantity: Quantity }) {
   return (
     <table class="conditions">
       <caption class="hidden">Populations by condition</caption>
       <thead>
         <tr>
           <th scope="col">Condition</th>
-          <th scope="col">Median E</th>
+          <th scope="col">{`Median ${symbol}`}</th>
           <th scope="col">95 % interval</th>
           <th scope="col">p</th>
         </tr>
       </thead>
       <tbody>
-        {found.conditions.map(({ name, median_young_modulus_kPa: mean }) => (
-          <tr key={name}>
-            <th scope="row">{name}</th>
-            <td>{mean ? `${significant(mean.value, 3)} kPa` : '–'}</td>
-            <td>{interval(mean)}</td>
-            <td />
-          </tr>
-        ))}
-        {found.comparisons.map(({ control, treated, ratio, ratio_by_sampling_alone: sampling, p }) => (
+        {found.conditions.map((condition) => {
+          const mean = medianOf(condition, key);
+          return (
+            <tr key={condition.name}>
+              <th scope="row">{condition.name}</th>
+              <td>{mean ? `${significant(mean.value, 3)} ${unit}` : '–'}</td>
+              <td>{interval(mean)}</td>
+              <td />
+            </tr>
+          );
+        })}
+        {found.comparisons.filter(({ quantity }) => quantity === key).map(({ control, treated, ratio, ratio_by_sampling_alone: sampling, p }) => (
           <tr key={treated} class="comparison">
             <th scope="row">{`${treated} / ${control}`}</th>
             <td>{significant(ratio.value, 3)}</td>
@@ -119,6 +126,7 @@ function Start() {
   const all = recordings(useStore(items));
   const running = useStore(populationRuns);
   const wantsPairs = useStore(paired);
+  const cortex = useStore(withCortex);
   const conditions = sessionsOf(all);
   if (running) return <Progress label="Fitting populations" onStop={stopPopulation} />;
   return (
@@ -130,6 +138,10 @@ function Start() {
         <input type="checkbox" checked={wantsPairs} onChange={({ currentTarget }) => paired.set(currentTarget.checked)} />
         Replicates are pairs
       </label>
+      <label class="check" title="Bulk, cortex and tensions of cells, by the whole outline, in place of the modulus of solids">
+        <input type="checkbox" checked={cortex} onChange={({ currentTarget }) => withCortex.set(currentTarget.checked)} />
+        Cells have a cortex
+      </label>
     </div>
   );
 }
@@ -138,11 +150,14 @@ export function Populations() {
   const found = useStore(population);
   const { element, width } = useSize<HTMLDivElement>();
   const [open, setOpen] = useState(false);
+  const [chosen, choose] = useState('');
+  const quantities = found?.record.quantities ?? [];
+  const quantity = quantities.find(({ key }) => key === chosen) ?? quantities[0];
   return (
     <div class="distributions populations">
       <div class="distribution-plot" ref={element} tabIndex={0} role="region" aria-label="Populations by condition">
-        {found ? (
-          <Plot found={found.record} room={width} />
+        {found && quantity ? (
+          <Plot found={found.record} quantity={quantity} room={width} />
         ) : (
           <p class="soft">
             Name conditions and replicates in the list; the distributions of radius and modulus of the cells of each recording are then
@@ -152,7 +167,19 @@ export function Populations() {
       </div>
       <div class="distribution-notes">
         <Start />
-        {found && <Table found={found.record} />}
+        {quantities.length > 1 && (
+          <label class="row">
+            Shown
+            <select value={quantity?.key} onChange={({ currentTarget }) => choose(currentTarget.value)}>
+              {quantities.map(({ key, symbol }) => (
+                <option key={key} value={key}>
+                  {symbol}
+                </option>
+              ))}
+            </select>
+          </label>
+        )}
+        {found && quantity && <Table found={found.record} quantity={quantity} />}
         {found?.record.comparisons.some(({ p }) => p === null) && (
           <p class="soft">* By sampling alone: a single recording does not tell how recordings scatter.</p>
         )}

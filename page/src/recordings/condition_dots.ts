@@ -1,5 +1,5 @@
 // Which recordings are whose sessions, and where the dots of fitted populations stand.
-import type { Item, Population, PopulationCondition, PopulationRecording } from '../api';
+import type { Estimate, Item, Population, PopulationCondition, PopulationRecording } from '../api';
 import type { Span } from './scale';
 
 /** Recordings that have a condition, in the order of the list; those of a condition in the order of their replicates. */
@@ -18,17 +18,20 @@ export interface SessionDot {
   place: number;
 }
 
+/** Median of a quantity; nothing where it is not told. */
+export const medianOf = (of: Record<string, unknown> | undefined, key: string): Estimate | undefined => of?.[`median_${key}`] as Estimate | undefined;
+
 /** Sessions side by side within the slot of their condition, left of its mean; an axis that holds all intervals. */
-export function dotsOf(found: Population): { dots: SessionDot[]; span: Span; slots: number } {
+export function dotsOf(found: Population, key: string): { dots: SessionDot[]; span: Span; slots: number } {
   const names = found.conditions.map(({ name }) => name);
   const dots = found.recordings
-    .filter((recording) => recording.population)
+    .filter((recording) => medianOf(recording.population, key))
     .map((recording) => {
       const count = found.recordings.filter(({ condition }) => condition === recording.condition).length;
       return { recording, place: names.indexOf(recording.condition) + 0.16 + (0.56 * (recording.session - 0.5)) / count };
     });
   const all = [...dots.map(({ recording }) => recording.population!), ...found.conditions].flatMap((each) => {
-    const modulus = each.median_young_modulus_kPa;
+    const modulus = medianOf(each, key);
     return modulus ? [modulus.value, modulus.lower ?? modulus.value, modulus.upper ?? modulus.value] : [];
   });
   const low = Math.min(...all);

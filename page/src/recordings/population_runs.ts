@@ -11,6 +11,8 @@ export const population = store<PopulationAnswer | null>(null);
 export const populationRuns = store(false);
 /** Whether the recordings of one replicate belong together. */
 export const paired = store(false);
+/** Whether bulk, cortex and tensions are told of cells, in place of the modulus of solids. */
+export const withCortex = store(false);
 
 let stopping: AbortController | null = null;
 
@@ -18,7 +20,7 @@ export async function computePopulation(): Promise<void> {
   stopping = new AbortController();
   populationRuns.set(true);
   try {
-    const settings = { ...settingsToSend(moduliSettings.get()), ...gateSettings(gates.get()), paired: paired.get() };
+    const settings = { ...settingsToSend(moduliSettings.get()), ...gateSettings(gates.get()), paired: paired.get(), ...(withCortex.get() && { model: 'cortex' }) };
     population.set(await fitPopulation({ conditions: sessionsOf(recordings(items.get())), settings }, stopping.signal));
   } catch (failure) {
     notifyFailure(failure);

@@ -1,0 +1,26 @@
+#include "extract/population_model.h"
+
+#include <fmt/format.h>
+
+#include "case/refuse_path.h"
+#include "case/user_error.h"
+#include "extract/combined_populations.h"
+#include "extract/solid_populations.h"
+
+namespace rheocyte {
+
+std::unique_ptr<PopulationModel> population_model(const PopulationOptions& options) {
+  if (options.model == "cortex") return std::make_unique<CombinedPopulations>(options);
+  if (options.model.empty() || options.model == "solid") return std::make_unique<SolidPopulations>(options);
+  throw UserError(fmt::format("rheocyte: --model {}: it must be solid or cortex.", one_line(options.model, 40)));
+}
+
+void check_events_of_population(const RecordingReport& report) {
+  constexpr std::size_t fewest_population_events = 20;
+  if (report.fitted_events < fewest_population_events)
+    refuse_path(report.recording, fmt::format("has {} events that the gates and the table of its cells leave, of {}; a "
+                                              "population needs at least {}.",
+                                              report.fitted_events, report.recorded, fewest_population_events));
+}
+
+}  // namespace rheocyte

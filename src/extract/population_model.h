@@ -1,0 +1,34 @@
+// Of what cells the populations of recordings are: each model tells of one recording what it can, in the same numbers.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "extract/options.h"
+#include "extract/population_events.h"
+#include "extract/recording_report.h"
+
+namespace rheocyte {
+
+class PopulationModel {
+ public:
+  virtual ~PopulationModel() = default;
+  virtual std::string_view name() const = 0;
+  /// As it stands in the records.
+  virtual std::string_view elongation_text() const = 0;
+  virtual std::string table(const PopulationEvents& events) = 0;
+  /// Relative error of its moduli.
+  virtual double table_error(const PopulationEvents& events) = 0;
+  /// Of what is measured, in words, with its relative error.
+  virtual std::string measure_error_text() const = 0;
+  /// Fits the population of a recording and adds what is found, or why there are no numbers. UserError: too few events,
+  /// none inside the gates, gates that leave a tail.
+  virtual void fit(const PopulationEvents& events, RecordingReport& report) = 0;
+};
+
+/// `--model`: solids, or solids with a cortex. UserError if it is none, or a table is missing, or does not go with it.
+std::unique_ptr<PopulationModel> population_model(const PopulationOptions& options);
+
+/// UserError below the events that a population needs.
+void check_events_of_population(const RecordingReport& report);
+
+}  // namespace rheocyte

@@ -1,0 +1,86 @@
+#include "extract/solid_populations.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <thread>
+
+#include "case/refuse_path.h"
+#include "extract/population_recordings.h"
+
+namespace rheocyte {
+namespace {
+
+std::string too_stiff_text(const RecordingReport& r) {
+  if (!r.fitted.least_log_modulus)
+    return "the cells are too stiff to be seen: their asymmetry is below its noise, and no limit can be given.";
+  return fmt::format(
+      "the cells are too stiff to be seen: their median asymmetry is below its noise; E is above {:.3g} kPa (95 %). A "
+      "narrower channel, more flow or a more viscous medium shows them; `rheocyte plan` says which.",
+      std::exp(*r.fitted.least_log_modulus));
+}
+
+/// Of what is no user's mistake; empty if there are numbers.
+std::string failure_of(const RecordingReport& r) {
+  switch (r.fitted.state) {
+    case FitState::fitted: return {};
+    case FitState::too_stiff: return too_stiff_text(r);
+    case FitState::singular:
+      return "the events do not tell all parameters of the population apart: the information is singular; more events "
+             "or wider gates help.";
+    default:
+      return "no population was found that has these events most probably; do the gates leave cells of one kind?";
+  }
+}
+
+void tell_bounds(RecordingReport& r) {
+  constexpr std::array names{"the mean radius", "the mean of ln E", "the spread of the radius", "the spread of E",
+                             "the correlation of radius and E"};
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (r.fitted.state == FitState::fitted && r.fitted.at_bound[k])
+      r.warnings.push_back(fmt::format("{} is at its bound and has no interval.", names[k]));
+}
+
+}  // namespace
+
+SolidPopulations::SolidPopulations(const PopulationOptions& options)
+    : maps_(stiffness_measure_of(options), options.table),
+      no_bins_(options.no_bins),
+      threads_(int(options.jobs.value_or(std::thread::hardware_concurrency()))) {}
+
+std::string SolidPopulations::measure_error_text() const {
+  return fmt::format("{} law of the pixels 1 %", maps_.by() == StiffnessMeasure::asymmetry ? "c3" : "deformation");
+}
+
+void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r) {
+  const PopulationSample made = population_sample(events, maps_, {no_bins_});
+  r.beside_table = made.beside_table;
+  r.fitted_events = std::size_t(std::lround(made.sample.events()));
+  r.is_binned = made.is_binned;
+  check_events_of_population(r);
+  FitSettings settings;
+  settings.threads = threads_;
+  settings.with_shrunken = true;
+  r.fitted = fit_cells(made.sample, settings);
+  if (r.fitted.state == FitState::tail)
+    refuse_path(r.recording, fmt::format("the gates leave a tail of its cells, {:.1g} of them; nothing certain can be "
+                                         "said of the rest. Widen the gates.",
+                                         r.fitted.kept_share));
+  r.failure = failure_of(r);
+  tell_bounds(r);
+  for (const std::size_t i : made.events) r.shrunken_events.push_back(std::size_t(events.number[i]));
+  if (r.failure.empty()) {
+    constexpr int e = number_of(PopulationParameter::mean_log_modulus);
+    const CellDistribution& cells = r.fitted.cells;
+    r.quantities = {
+        {PopulationQuantity::young_modulus, {cells.mean_log_modulus, r.fitted.covariance(e, e)}, cells.modulus_spread}};
+    r.log_radius = cells.mean_log_radius;
+    r.radius_spread = cells.radius_spread;
+    r.images = single_images(made.sample, r.fitted.cells, r.fitted.event_error);
+    r.checks = check_population(events, made, r.fitted, maps_);
+  }
+  if (made.is_binned) r.fitted.shrunken.clear();  // those of the bins
+}
+
+}  // namespace rheocyte

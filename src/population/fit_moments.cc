@@ -1,0 +1,291 @@
+#include "population/fit_moments.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "numeric/dense_solve.h"
+#include "numeric/quantile.h"
+
+namespace rheocyte {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int most_steps_of_turn = 40, most_moment_newton_steps = 10;
+/// In standard errors: nearer to the end Newton's method is tried.
+constexpr double most_distance_of_newton = 20;
+/// Steps below this share of a standard error change nothing that is told.
+constexpr double moment_tolerance = 0.03;
+constexpr double first_damping = 1e-3, greatest_damping = 1e8;
+/// Standard deviations of one number beyond which a normal distribution has one event of 20,000.
+constexpr double far_away = 3.9;
+constexpr int rounds_of_strangers = 5;
+
+Moments moments_of(const MatrixXd& events, const std::vector<bool>& leave_out) {
+  VectorXd sum = VectorXd::Zero(events.cols());
+  double count = 0;
+  for (Eigen::Index i = 0; i < events.rows(); ++i) {
+    if (leave_out[std::size_t(i)]) continue;
+    sum += events.row(i).transpose();
+    ++count;
+  }
+  Moments found{sum / count, MatrixXd::Zero(events.cols(), events.cols())};
+  for (Eigen::Index i = 0; i < events.rows(); ++i) {
+    if (leave_out[std::size_t(i)]) continue;
+    const VectorXd off = events.row(i).transpose() - found.mean;
+    found.covariance += off * off.transpose() / count;
+  }
+  return found;
+}
+
+/// By how much the squared distance of an event far away exceeds that of the median one (Wilson and Hilferty 1931).
+double stranger_over_median(double measures) {
+  const double variance = 2 / (9 * measures), middle = 1 - variance;
+  return std::pow((middle + far_away * std::sqrt(variance)) / middle, 3);
+}
+
+/// By their distance from the others, in units of these' scatter; again until the same ones are left out.
+std::vector<bool> strangers(const MatrixXd& events) {
+  std::vector<bool> found(std::size_t(events.rows()), false);
+  for (int round = 0; round < rounds_of_strangers; ++round) {
+    const Moments moments = moments_of(events, found);
+    const MatrixXd white = whitening(moments.covariance);
+    if (white.size() == 0) return found;
+    std::vector<double> distance(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      distance[i] = (white * (events.row(Eigen::Index(i)).transpose() - moments.mean)).squaredNorm();
+    const double limit = stranger_over_median(double(events.cols())) * quantile(distance, 0.5);
+    for (std::size_t i = 0; i < found.size(); ++i) found[i] = distance[i] > limit;
+  }
+  return found;
+}
+
+MatrixXd inverse_of(const MatrixXd& A) { return solve_dense(A, MatrixXd::Identity(A.rows(), A.cols())); }
+
+/// What the search for some of the parameters sees: slopes of the logarithm of the likelihood of one event, and its
+/// information.
+struct Direction {
+  VectorXd score;
+  MatrixXd information;
+};
+
+class MomentSearch {
+ public:
+  MomentSearch(const MomentModel& model, const MatrixXd& events, const VectorXd& start, const MomentSettings& settings)
+      : model_(model), events_(events), settings_(settings) {
+    assert(events.allFinite());
+    found_.is_stranger = strangers(events);
+    for (const bool is_stranger : found_.is_stranger) found_.events += is_stranger ? 0 : 1;
+    found_.measured = moments_of(events, found_.is_stranger);
+    found_.parameters = start.cwiseMax(settings.least).cwiseMin(settings.greatest);
+    found_.at_bound.assign(std::size_t(start.size()), false);
+    weight_ = inverse_of(found_.measured.covariance + double(found_.events) * settings.common_covariance);
+  }
+
+  /// Both parts in turn, until Newton's method for all equations together takes over. Moments have kinks where the
+  /// model's pieces meet: what neither moves any more is the end, too.
+  MomentFit search() {
+    if (!weight_.allFinite()) return found_;
+    for (int turn = 0; turn < settings_.most_turns && !found_.is_found; ++turn) {
+      const VectorXd before = found_.parameters;
+      if (!minimise(Part::means) || !minimise(Part::scatter)) return found_;
+      Equations e = equations();
+      for (int k = 0; k < most_moment_newton_steps; ++k) {
+        const double moved = distance(e);
+        if (moved < moment_tolerance || !(moved < most_distance_of_newton) || !newton_step(e, moved)) break;
+        e = equations();
+      }
+      tell(e);
+      found_.is_found = distance(e) < moment_tolerance || is_at_rest(before);
+    }
+    return found_;
+  }
+
+ private:
+  enum class Part { means, scatter };
+
+  std::vector<int> parameters_of(Part part) const {
+    const int first = part == Part::means ? 0 : model_.means(),
+              last = part == Part::means ? model_.means() : int(found_.parameters.size());
+    std::vector<int> all(std::size_t(last - first));
+    std::iota(all.begin(), all.end(), first);
+    return all;
+  }
+
+  /// Of the means: chi squared in one event's scatter. Of the scatter: minus twice the logarithm of the likelihood of a
+  /// normal distribution about the measured mean.
+  double loss_of(Part part, const Moments& moments) const {
+    if (!moments.mean.allFinite()) return HUGE_VAL;
+    const VectorXd off = found_.measured.mean - moments.mean;
+    if (part == Part::means) return off.dot(weight_ * off);
+    const MatrixXd white = whitening(moments.covariance);
+    if (white.size() == 0) return HUGE_VAL;
+    return (white * found_.measured.covariance * white.transpose()).trace() - 2 * white.diagonal().array().log().sum();
+  }
+
+  Direction direction(Part part, const MomentSlopes& s, const std::vector<int>& parameters,
+                      const Moments& measured) const {
+    const auto n = Eigen::Index(parameters.size());
+    Direction found{VectorXd(n), MatrixXd(n, n)};
+    const VectorXd off = weight_ * (measured.mean - s.there.mean);
+    const MatrixXd precision = part == Part::means ? weight_ : inverse_of(s.there.covariance);
+    const MatrixXd scatter = precision * (measured.covariance - s.there.covariance) * precision;
+    for (Eigen::Index a = 0; a < n; ++a) {
+      const Moments& by = s.by_parameter[std::size_t(parameters[std::size_t(a)])];
+      const MatrixXd weighed = precision * by.covariance * precision;
+      found.score(a) = part == Part::means ? by.mean.dot(off) : scatter.cwiseProduct(by.covariance).sum() / 2;
+      for (Eigen::Index b = 0; b < n; ++b) {
+        const Moments& other = s.by_parameter[std::size_t(parameters[std::size_t(b)])];
+        found.information(a, b) =
+            part == Part::means ? by.mean.dot(weight_ * other.mean) : weighed.cwiseProduct(other.covariance).sum() / 2;
+      }
+    }
+    return found;
+  }
+
+  /// By Fisher's scoring, damped as far as it does not lead on, of those that are not held at a bound. False without a
+  /// minimum.
+  bool minimise(Part part) {
+    double damping = first_damping, loss = loss_of(part, model_.at(found_.parameters));
+    for (int k = 0; k < most_steps_of_turn && std::isfinite(loss); ++k) {
+      settings_.goes_on();
+      const MomentSlopes slopes = model_.slopes(found_.parameters);
+      const std::vector<int> free = free_of(part, slopes);
+      if (free.empty()) return true;
+      const Direction d = direction(part, slopes, free, found_.measured);
+      const VectorXd error = (inverse_of(d.information).diagonal() / double(found_.events)).cwiseSqrt();
+      const VectorXd step = solve_dense(d.information, d.score);
+      if (!((step.array() / error.array()).abs().maxCoeff() > moment_tolerance / 2)) return step.allFinite();
+      while (!try_step(part, free, d, damping, loss)) {
+        damping *= 4;
+        if (damping > greatest_damping) return true;  // as near as rounding lets it come
+      }
+      damping = std::max(damping / 8, 1e-9);
+    }
+    return std::isfinite(loss);
+  }
+
+  std::vector<int> free_of(Part part, const MomentSlopes& slopes) {
+    const std::vector<int> all = parameters_of(part);
+    const Direction d = direction(part, slopes, all, found_.measured);
+    std::vector<int> free;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const int a = all[k];
+      const double uphill = d.score(Eigen::Index(k));
+      const bool is_held = (found_.parameters(a) <= settings_.least(a) && uphill <= 0) ||
+                           (found_.parameters(a) >= settings_.greatest(a) && uphill >= 0);
+      found_.at_bound[std::size_t(a)] = is_held;
+      if (!is_held) free.push_back(a);
+    }
+    return free;
+  }
+
+  bool try_step(Part part, const std::vector<int>& free, const Direction& d, double damping, double& loss) {
+    MatrixXd damped = d.information;
+    damped.diagonal() *= 1 + damping;
+    const VectorXd step = solve_dense(damped, d.score);
+    VectorXd next = found_.parameters;
+    next(free) += step;
+    next = next.cwiseMax(settings_.least).cwiseMin(settings_.greatest);
+    const double there = loss_of(part, model_.at(next));
+    if (!(there < loss)) return false;
+    found_.parameters = next;
+    loss = there;
+    return true;
+  }
+
+  /// Those of both parts for the parameters that are not held: each is 0 at the end.
+  struct Equations {
+    std::vector<int> free, means, scatter;
+    MomentSlopes slopes;
+    VectorXd value;
+    MatrixXd matrix;  ///< minus its slopes by the parameters
+  };
+
+  Equations equations() {
+    settings_.goes_on();
+    Equations e;
+    e.slopes = model_.slopes(found_.parameters);
+    e.means = free_of(Part::means, e.slopes);
+    e.scatter = free_of(Part::scatter, e.slopes);
+    e.free = e.means;
+    e.free.insert(e.free.end(), e.scatter.begin(), e.scatter.end());
+    const auto n = Eigen::Index(e.free.size()), m = Eigen::Index(e.means.size());
+    e.value = scores(e, found_.measured);
+    e.matrix.resize(n, n);
+    e.matrix.topRows(m) = direction(Part::means, e.slopes, e.free, found_.measured).information.topRows(m);
+    e.matrix.bottomRows(n - m) =
+        direction(Part::scatter, e.slopes, e.free, found_.measured).information.bottomRows(n - m);
+    return e;
+  }
+
+  VectorXd scores(const Equations& e, const Moments& measured) const {
+    VectorXd all(Eigen::Index(e.free.size()));
+    all.head(Eigen::Index(e.means.size())) = direction(Part::means, e.slopes, e.means, measured).score;
+    all.tail(Eigen::Index(e.scatter.size())) = direction(Part::scatter, e.slopes, e.scatter, measured).score;
+    return all;
+  }
+
+  /// Of the end, in standard errors of the parameters as far as one event's information tells them.
+  double distance(const Equations& e) const {
+    const VectorXd step = solve_dense(e.matrix, e.value);
+    const VectorXd error = (inverse_of(e.matrix).diagonal().cwiseAbs() / double(found_.events)).cwiseSqrt();
+    return (step.array() / error.array()).abs().maxCoeff();
+  }
+
+  bool is_at_rest(const VectorXd& before) const {
+    const VectorXd moved = (found_.parameters - before).cwiseAbs(), error = found_.covariance.diagonal().cwiseSqrt();
+    return found_.covariance.allFinite() && (moved.array() <= moment_tolerance * error.array()).all();
+  }
+
+  bool newton_step(const Equations& e, double moved) {
+    const VectorXd before = found_.parameters;
+    found_.parameters(e.free) += solve_dense(e.matrix, e.value);
+    found_.parameters = found_.parameters.cwiseMax(settings_.least).cwiseMin(settings_.greatest);
+    const MomentSlopes there = model_.slopes(found_.parameters);
+    const bool leads_on = there.there.mean.allFinite() && distance(equations()) < moved / 2;
+    if (!leads_on) found_.parameters = before;
+    return leads_on;
+  }
+
+  /// With the slopes of the equations on both sides of the scatter of the events' scores (Huber 1967).
+  void tell(const Equations& e) {
+    const auto n = Eigen::Index(e.free.size()), m = Eigen::Index(e.means.size());
+    MatrixXd products = MatrixXd::Zero(n, n), by_shift = MatrixXd::Zero(n, found_.measured.mean.size());
+    for (Eigen::Index i = 0; i < events_.rows(); ++i) {
+      if (found_.is_stranger[std::size_t(i)]) continue;
+      const VectorXd off = events_.row(i).transpose() - found_.measured.mean;
+      const VectorXd score = scores(e, {events_.row(i).transpose(), off * off.transpose()});
+      products += score * score.transpose();
+    }
+    for (Eigen::Index a = 0; a < m; ++a)
+      by_shift.row(a) = e.slopes.by_parameter[std::size_t(e.means[std::size_t(a)])].mean.transpose() * weight_;
+    const MatrixXd bread = inverse_of(e.matrix);
+    const auto all = found_.parameters.size();
+    found_.covariance = MatrixXd::Zero(all, all);
+    found_.covariance(e.free, e.free) = bread * products * bread.transpose() / std::pow(double(found_.events), 2);
+    found_.by_shift = MatrixXd::Zero(all, by_shift.cols());
+    found_.by_shift(e.free, Eigen::all) = bread * by_shift;
+    found_.fitted = e.slopes.there;
+    found_.misfit = loss_of(Part::means, e.slopes.there) * double(found_.events);
+  }
+
+  const MomentModel& model_;
+  const MatrixXd& events_;
+  const MomentSettings& settings_;
+  MatrixXd weight_;  ///< inverse of the covariance of the events
+  MomentFit found_;
+};
+
+}  // namespace
+
+MomentFit fit_moments(const MomentModel& model, const MatrixXd& events, const VectorXd& start,
+                      const MomentSettings& settings) {
+  return MomentSearch(model, events, start, settings).search();
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,57 @@
+// Cells of several numbers each: their law is told by mean and covariance of what is measured of the events of a
+// recording (docs/theory-populations.md, eq:moments).
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+namespace rheocyte {
+
+/// Of some measures, with the noise of the pictures.
+struct Moments {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+
+/// With their slopes by each parameter.
+struct MomentSlopes {
+  Moments there;
+  std::vector<Moments> by_parameter;
+};
+
+/// Moments as functions of the parameters of a law, first those that are its means, then those of its scatter.
+class MomentModel {
+ public:
+  virtual ~MomentModel() = default;
+  virtual Moments at(const Eigen::VectorXd& parameters) const = 0;
+  virtual MomentSlopes slopes(const Eigen::VectorXd& parameters) const = 0;
+  virtual int means() const = 0;
+};
+
+struct MomentSettings {
+  /// How well the model has the means of all events together: errors that more events do not make smaller.
+  Eigen::MatrixXd common_covariance;
+  Eigen::VectorXd least, greatest;        ///< within which the parameters are searched
+  int most_turns = 20;                    ///< between the two parts
+  std::function<void()> goes_on = [] {};  ///< called from step to step
+};
+
+struct MomentFit {
+  bool is_found = false;  ///< else all of this is that of the last step
+  Eigen::VectorXd parameters;
+  std::vector<bool> at_bound;  ///< such a parameter counts as known
+  Eigen::MatrixXd covariance;  ///< of the parameters, by the scatter of the events, whatever their law is
+  Eigen::MatrixXd by_shift;    ///< slopes of the parameters by a shift of the measures that all events have in common
+  double misfit = 0;           ///< of the means: chi squared, with the common errors
+  Moments fitted, measured;    ///< of the events that count
+  std::vector<bool> is_stranger;  ///< by event: farther from the rest than cells of one kind are
+  std::size_t events = 0;         ///< that count
+};
+
+/// The parameters that are means by the means of the events, which stand in rows, those of the scatter by their
+/// covariance, in turn. A scatter of another kind than the law's hardly moves the means then, where it would in the
+/// most likely normal distribution of both together. All events finite (asserted).
+MomentFit fit_moments(const MomentModel& model, const Eigen::MatrixXd& events, const Eigen::VectorXd& start,
+                      const MomentSettings& settings);
+
+}  // namespace rheocyte

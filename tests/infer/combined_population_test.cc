@@ -1,0 +1,139 @@
+// Populations of cells with bulk, cortex and tensions, by the table that comes with the program and cells of it.
+#include "infer/combined_population.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measurement/shape_in_pixels.h"
+#include "numeric/cell_random.h"
+
+namespace rheocyte::combined_population_test {
+namespace {
+
+constexpr double pixel_um = 0.34;
+
+class CombinedPopulationTest : public ::testing::Test {
+ protected:
+  static const CombinedTable& table() {
+    static const CombinedTable content = read_combined_table(SHIPPED_TABLES "/combined_HC-2D-EL-26.cbor");
+    return content;
+  }
+  static CombinedLaw usual_law() {
+    CombinedLaw law;
+    law.mean << std::log(6.5), std::log(3.5), 0.44;
+    law.tension_ratio = 0.3, law.ratio_spread = 0.06;
+    law.axial_tension = 0.3, law.axial_spread = 0.02;
+    law.root << 0.07, 0, 0, -0.02, 0.14, 0, -0.02, -0.02, 0.06;
+    return law;
+  }
+  /// Masks of the law's cells: outlines whose hulls have the modes of the table.
+  std::vector<MeasuredCell> pictures(const CombinedLaw& law, int count, std::uint64_t seed) const {
+    CombinedMoments smooth(moduli_, sight_, pixel_um);
+    std::vector<MeasuredCell> cells;
+    for (const ShapeVector& shape : smooth.drawn_smooth(law.parameters(), std::size_t(count), seed)) {
+      std::array<double, mode_count> modes{};
+      for (int k = 0; k < mode_count; ++k) modes[std::size_t(k)] = shape(int(ShapeFeature::first_mode) + k);
+      CellRandom random(seed, cells.size(), Purpose::place);
+      const double along = random.uniform() - 0.5, across = random.uniform() - 0.5;
+      cells.push_back(
+          {features_in_pixels(outline_of_hull_modes(modes, std::exp(shape(0)), 400), pixel_um, {along, across}),
+           sight_.flow});
+    }
+    return cells;
+  }
+
+  CombinedInterpolation between_{table()};
+  ChannelFlow simulated_ = channel_flow_of(table().spec.base);
+  SeveralModuli moduli_{between_, simulated_, {features_of_contour(7), true, 0}};
+  Sight sight_{{20, 0.04, 15, simulated_.exponent}, Section::tube, 1};
+};
+
+TEST_F(CombinedPopulationTest, SlopesAreDifferences) {
+  for (const Section section : {Section::tube, Section::square}) {
+    Sight sight = sight_;
+    sight.section = section;
+    const CombinedMoments model(moduli_, sight, pixel_um);
+    const CombinedVector q = usual_law().parameters();
+    const MomentSlopes slopes = model.slopes(q);
+    constexpr double step = 1e-5;
+    for (int a = 0; a < combined_parameters; ++a) {
+      const CombinedVector change = step * CombinedVector::Unit(a);
+      const Moments above = model.at(q + change), below = model.at(q - change);
+      const Moments& by = slopes.by_parameter[std::size_t(a)];
+      EXPECT_LT(((above.mean - below.mean) / (2 * step) - by.mean).norm(), 1e-4 * by.mean.norm() + 1e-6) << a;
+      EXPECT_LT(((above.covariance - below.covariance) / (2 * step) - by.covariance).norm(),
+                1e-3 * by.covariance.norm() + 1e-7)
+          << a;
+    }
+  }
+}
+
+TEST_F(CombinedPopulationTest, NodesHaveTheMomentsOfManyCells) {
+  const CombinedMoments model(moduli_, sight_, pixel_um);
+  const CombinedVector q = usual_law().parameters();
+  constexpr std::size_t cells = 4000;
+  const Moments nodes = model.at(q);
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(nodes.mean.size());
+  for (const ShapeVector& shape : model.drawn_smooth(q, cells, 1)) mean += shape(model.features()) / double(cells);
+  const Eigen::VectorXd error = (nodes.covariance.diagonal() / double(cells)).cwiseSqrt();
+  for (Eigen::Index k = 0; k < mean.size(); ++k) EXPECT_NEAR(mean(k), nodes.mean(k), 3.5 * error(k) + 2e-5) << k;
+}
+
+TEST_F(CombinedPopulationTest, BulkCortexAndTensionsComeBackFromPictures) {
+  const CombinedLaw law = usual_law();
+  const auto cells = pictures(law, 600, 3);
+  const CombinedPopulation found = fit_combined_population(moduli_, sight_, pixel_um, cells, [] {});
+  ASSERT_TRUE(found.fit.is_found);
+  const CombinedVector truth = law.parameters();
+  for (const auto p : {CombinedParameter::log_radius, CombinedParameter::log_stiffness, CombinedParameter::cortex_share,
+                       CombinedParameter::tension_ratio, CombinedParameter::axial_tension}) {
+    const int a = int(p);
+    EXPECT_NEAR(found.fit.parameters(a), truth(a), 3 * std::sqrt(found.fit.covariance(a, a))) << a;
+  }
+  EXPECT_LT(
+      std::sqrt(found.fit.covariance(int(CombinedParameter::log_stiffness), int(CombinedParameter::log_stiffness))),
+      0.08);
+  EXPECT_LT(found.fit.misfit, 14) << "two degrees of freedom, 1 of 1000";
+  const CombinedLogs logs = log_means(found.law), true_logs = log_means(law);
+  EXPECT_NEAR(logs.young, true_logs.young, 0.25);
+  EXPECT_NEAR(logs.cortex, true_logs.cortex, 0.12);
+}
+
+TEST(CombinedLaw, MeansOfLogarithmsAreThoseOfManyCells) {
+  CombinedLaw law;
+  law.mean << std::log(6.5), std::log(3.5), 0.44;
+  law.tension_ratio = 0.3, law.ratio_spread = 0.03, law.axial_tension = 0.5, law.axial_spread = 0.05;
+  law.root << 0.07, 0, 0, -0.02, 0.14, 0, -0.02, -0.02, 0.06;
+  constexpr int cells = 100'000;
+  CombinedLogs mean{}, square{};
+  const auto add = [](double value, double& sum, double& squares) {
+    sum += value / cells;
+    squares += value * value / cells;
+  };
+  for (int i = 0; i < cells; ++i) {
+    CellRandom random(1, std::uint64_t(i), Purpose::population);
+    const Eigen::Vector3d z(random.normal(), random.normal(), random.normal());
+    const Eigen::Vector3d x = law.mean + law.root * z;
+    const double cortex = x(0) + x(1) + std::log(x(2));
+    add(x(1) + std::log(1 - x(2)), mean.young, square.young);
+    add(cortex, mean.cortex, square.cortex);
+    add(cortex + std::log(law.tension_ratio + law.ratio_spread * random.normal()), mean.tension, square.tension);
+  }
+  const CombinedLogs told = log_means(law), spread = log_spreads(law);
+  EXPECT_NEAR(told.young, mean.young, 3e-3);
+  EXPECT_NEAR(told.cortex, mean.cortex, 3e-3);
+  EXPECT_NEAR(told.tension, mean.tension, 3e-3);
+  EXPECT_NEAR(spread.young, std::sqrt(square.young - mean.young * mean.young), 0.01);
+  EXPECT_NEAR(spread.cortex, std::sqrt(square.cortex - mean.cortex * mean.cortex), 0.01);
+  EXPECT_NEAR(spread.tension, std::sqrt(square.tension - mean.tension * mean.tension), 0.01);
+}
+
+TEST(CombinedLaw, ParametersAreThereAndBack) {
+  CombinedVector q;
+  q << 1.9, 1.2, 0.4, 0.3, 0.9, -2.7, -0.03, -1.9, 0.02, -0.01, -2.8, -2.5, -4;
+  EXPECT_LT((CombinedLaw::of(q).parameters() - q).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace rheocyte::combined_population_test
