@@ -12,7 +12,7 @@ namespace rheocyte {
 namespace {
 
 /// Operations of a factorisation below which another thread does not pay for its start: some milliseconds.
-constexpr double flops_of_thread = 1e8;
+constexpr double flops_of_thread = 1e7;
 
 }  // namespace
 
