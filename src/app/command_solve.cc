@@ -41,6 +41,12 @@ void add_solve_command(CLI::App& app, int& exit_code) {
           "a case with a [time] section")
       ->type_name("DIR")
       ->excludes("--continue");
+  command
+      ->add_option("--threads", options->threads,
+                   "threads at most, which a case takes as far as its work pays for them; the numbers do not depend on "
+                   "it; default: all processors. Where several cases are solved at once, 1 each is fastest")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--json", options->json,
                     "print result.json on standard output and nothing else there; without -o nothing is written");
   command->add_flag("--quiet", options->quiet, "print neither progress nor summary");
