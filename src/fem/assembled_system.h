@@ -24,6 +24,8 @@ class AssembledSystem : public NonlinearSystem {
   /// Tangent times a vector at given unknowns (for tests; assembles anew).
   VectorXd apply_tangent(const Media&, const VectorXd& unknowns, const VectorXd& direction);
 
+  /// How the linear system is factorised.
+  const NestedLU<Scalar>& factors() const { return *lu_; }
   /// Of one factorisation of the linear system, and of the entries of its factors.
   double factorisation_flops() const { return lu_->flops(); }
   double factor_entries() const { return lu_->entries(); }

@@ -15,16 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-/// Of tasks, before those of elements: what is begun is ended first.
-constexpr int block_rank = 0, join_rank = 1;
-
-/// Remaining columns of a front that are condensed in one task. The results depend on it in the last bits.
-constexpr Index columns_at_once = 256;
-
-}  // namespace
-
 void set_neighbours(std::vector<std::vector<int>> nodes, std::size_t nodes_of_face,
                     std::vector<CoupledUnknowns>& elements) {
   for (auto& of_element : nodes) std::sort(of_element.begin(), of_element.end());
@@ -161,7 +151,7 @@ void NestedLU<Scalar>::join(int front, const Work& work) {
   if (blocks == 0) return end(front, work);
   const auto left = std::make_shared<std::atomic<Index>>(blocks);
   for (Index block = 0; block < blocks; ++block) {
-    work.tasks.add(block_rank, [=, this, &whole](int) {
+    work.tasks.add(rank_of_blocks, [=, this, &whole](int) {
       if (!work.is_stopped()) condense_block(whole, column, block);
       if (--*left == 0) end(front, work);
     });
@@ -200,7 +190,7 @@ void NestedLU<Scalar>::end(int front, const Work& work) {
     if (!fronts_[parts[0]].waits || !fronts_[parts[1]].waits) return;
     for (const int part : parts) fronts_[part].waits = false;
   }
-  work.tasks.add(join_rank, [=, this, whole = condensed.whole](int) { join(whole, work); });
+  work.tasks.add(rank_of_joins, [=, this, whole = condensed.whole](int) { join(whole, work); });
 }
 
 // What is not finite anywhere makes all that is joined with it NaN, up to the pivots of the whole.
@@ -262,6 +252,13 @@ void NestedLU<Scalar>::drop_factors() {
     front.triangular.reset();
     for (Matrix* matrix : {&front.factors, &front.solved_columns, &front.rows, &front.schur}) matrix->resize(0, 0);
   }
+}
+
+template <class Scalar>
+std::vector<typename NestedLU<Scalar>::Size> NestedLU<Scalar>::sizes() const {
+  std::vector<Size> sizes;
+  for (const Front& front : fronts_) sizes.push_back({front.parts, front.eliminated, int(front.remaining())});
+  return sizes;
 }
 
 template <class Scalar>

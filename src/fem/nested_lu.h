@@ -36,8 +36,11 @@ class NestedLU {
  public:
   using Matrix = Eigen::MatrixX<Scalar>;
 
-  /// Of tasks that condense elements, after what they have made possible, so that few condensed matrices wait.
-  static constexpr int rank_of_elements = 2;
+  /// Ranks of tasks: a subdomain that is begun is ended first, then others are joined, and elements come last, so that
+  /// few condensed matrices wait.
+  static constexpr int rank_of_blocks = 0, rank_of_joins = 1, rank_of_elements = 2;
+  /// Remaining columns of a subdomain that are condensed in one task, however many threads there are.
+  static constexpr Eigen::Index columns_at_once = 256;
 
   /// Chooses the order of joining. The elements must hang together through their faces.
   NestedLU(int unknowns, const std::vector<CoupledUnknowns>&);
@@ -64,6 +67,13 @@ class NestedLU {
   /// Frees the memory of the factors; the order stays.
   void drop_factors();
 
+  /// How many unknowns of a subdomain are eliminated and remain, and what is joined to it (-1: it is an element).
+  struct Size {
+    std::array<int, 2> parts;
+    int eliminated, remaining;
+  };
+  /// Elements first, each subdomain after its parts.
+  std::vector<Size> sizes() const;
   double flops() const { return flops_; }  ///< of one factorisation, elements included
   double entries() const;                  ///< of the factors
   std::size_t memory_bytes() const { return std::size_t(entries()) * sizeof(Scalar); }
