@@ -76,18 +76,19 @@ double flops_in_a_row(const NestedLU<float>& lu, int threads) {
   std::map<int, std::deque<CountedTask>> waiting;
   std::multimap<double, CountedTask> running;  // by their ends
   for (const int e : lu.elements())
-    waiting[LU::rank_of_elements].push_back({elimination_flops(sizes[e].eliminated, sizes[e].remaining), 2, e});
+    waiting[LU::rank_of_elements].push_back({elimination_flops(sizes[e].eliminated, sizes[e].remaining), LU::rank_of_elements, e});
   const auto is_done = [&](const CountedTask& task) {
     const auto& [parts, eliminated, remaining] = sizes[task.joined];
     const double f = eliminated, o = remaining;
     if (task.rank == LU::rank_of_joins) {
-      for (double from = 0; from < o; from += LU::columns_at_once, ++left[task.joined])
+      const double at_once = double(LU::columns_at_once(remaining));
+      for (double from = 0; from < o; from += at_once, ++left[task.joined])
         waiting[LU::rank_of_blocks].push_back(
-            {(2 * f * f + 2 * f * o) * std::min<double>(LU::columns_at_once, o - from), 0, task.joined});
+            {(2 * f * f + 2 * f * o) * std::min(at_once, o - from), LU::rank_of_blocks, task.joined});
     }
     if (--left[task.joined] > 0 || whole[task.joined] < 0 || --parts_left[whole[task.joined]] > 0) return;
     const double n = sizes[whole[task.joined]].eliminated;
-    waiting[LU::rank_of_joins].push_back({n * n * n * 2 / 3, 1, whole[task.joined]});
+    waiting[LU::rank_of_joins].push_back({n * n * n * 2 / 3, LU::rank_of_joins, whole[task.joined]});
   };
   double now = 0;
   for (;;) {

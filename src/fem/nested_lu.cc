@@ -93,16 +93,27 @@ void NestedLU<Scalar>::factorise(Front& front, const Column& column) {
   if (o > 0) front.triangular.emplace(front.factors);
 }
 
+// So that several threads find work in a front of usual size, and that products of so few columns cost no more than of
+// all. Eigen's kernels take some columns at once: of a multiple of these, the results are those of all at once.
+template <class Scalar>
+Index NestedLU<Scalar>::columns_at_once(Index remaining) {
+  constexpr Index fewest = 128, most = 256, wanted_blocks = 4, of_kernels = 16;
+  const auto over = [](Index all, Index size) { return (all + size - 1) / size; };
+  const Index blocks = std::max(over(remaining, most), std::min(wanted_blocks, over(remaining, fewest)));
+  return blocks == 0 ? most : over(over(remaining, blocks), of_kernels) * of_kernels;
+}
+
 template <class Scalar>
 Index NestedLU<Scalar>::blocks_of(const Front& front) {
-  return (front.remaining() + columns_at_once - 1) / columns_at_once;
+  const Index at_once = columns_at_once(front.remaining());
+  return (front.remaining() + at_once - 1) / at_once;
 }
 
 template <class Scalar>
 template <class Column>
 void NestedLU<Scalar>::condense_block(Front& front, const Column& column, Index block) {
-  const Index f = front.eliminated, from = block * columns_at_once,
-              size = std::min(columns_at_once, front.remaining() - from);
+  const Index f = front.eliminated, at_once = columns_at_once(front.remaining()), from = block * at_once,
+              size = std::min(at_once, front.remaining() - from);
   Eigen::VectorX<Scalar> first(f);
   for (Index j = from; j < from + size; ++j) {
     column(f + j, first.data(), front.schur.col(j).data());

@@ -39,8 +39,8 @@ class NestedLU {
   /// Ranks of tasks: a subdomain that is begun is ended first, then others are joined, and elements come last, so that
   /// few condensed matrices wait.
   static constexpr int rank_of_blocks = 0, rank_of_joins = 1, rank_of_elements = 2;
-  /// Remaining columns of a subdomain that are condensed in one task, however many threads there are.
-  static constexpr Eigen::Index columns_at_once = 256;
+  /// Of the remaining columns of a subdomain those that are condensed in one task, however many threads there are.
+  static Eigen::Index columns_at_once(Eigen::Index remaining);
 
   /// Chooses the order of joining. The elements must hang together through their faces.
   NestedLU(int unknowns, const std::vector<CoupledUnknowns>&);
