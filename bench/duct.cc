@@ -76,7 +76,8 @@ double flops_in_a_row(const NestedLU<float>& lu, int threads) {
   std::map<int, std::deque<CountedTask>> waiting;
   std::multimap<double, CountedTask> running;  // by their ends
   for (const int e : lu.elements())
-    waiting[LU::rank_of_elements].push_back({elimination_flops(sizes[e].eliminated, sizes[e].remaining), LU::rank_of_elements, e});
+    waiting[LU::rank_of_elements].push_back(
+        {elimination_flops(sizes[e].eliminated, sizes[e].remaining), LU::rank_of_elements, e});
   const auto is_done = [&](const CountedTask& task) {
     const auto& [parts, eliminated, remaining] = sizes[task.joined];
     const double f = eliminated, o = remaining;

@@ -252,9 +252,9 @@ int main(int count, char** words) {
   } else if (count > 1 && std::string_view(words[1]) == "threads") {
     print_states(int(word(2, 1)), word(3, 1e-3), int(word(4, 0)), int(word(5, std::size(cells))));
   } else if (count > 1 && word(1, 0) <= 0) {
-    fmt::print(
-        stderr,
-        "bench_duct_states [threads N] [ACCURACY [FIRST [LAST]]], random or first [COUNT [SEED]], or warm [ACCURACY [COUNT]]\n");
+    fmt::print(stderr,
+               "bench_duct_states [threads N] [ACCURACY [FIRST [LAST]]], random or first [COUNT [SEED]], or warm "
+               "[ACCURACY [COUNT]]\n");
     return 2;
   } else {
     print_states(1, word(1, 1e-3), int(word(2, 0)), int(word(3, std::size(cells))));

@@ -192,7 +192,8 @@ void HexahedronTangent::add_fields(const HexahedronUnknowns& self, bool has_iner
     for (int k = has_inertia ? 0 : 1; k <= 3; ++k) {
       for (int l = has_inertia ? 0 : 1; l <= 3; ++l) {
         const int input = input_of<Fields>(source, b, l);
-        if (input >= 0) coefficients[k][l] = workspace.element.flux_slopes.col((4 * a + k) * Fields::count + input).data();
+        if (input >= 0)
+          coefficients[k][l] = workspace.element.flux_slopes.col((4 * a + k) * Fields::count + input).data();
       }
     }
     workspace.tensor.integrate(element_, coefficients);

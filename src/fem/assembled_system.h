@@ -33,9 +33,7 @@ class AssembledSystem : public NonlinearSystem {
  protected:
   AssembledSystem(int unknowns, int cell_velocity) : cell_velocity_(cell_velocity), unknowns_(unknowns) {}
   /// The parts by the unknowns that they couple.
-  void couple(const std::vector<CoupledUnknowns>& parts) {
-    lu_ = std::make_unique<NestedLU<Scalar>>(unknowns_, parts);
-  }
+  void couple(const std::vector<CoupledUnknowns>& parts) { lu_ = std::make_unique<NestedLU<Scalar>>(unknowns_, parts); }
   const std::vector<int>& order(int part) const { return lu_->order(part); }
   std::size_t factor_bytes() const { return has_factors_ ? lu_->memory_bytes() : 0; }
   /// Of a system whose unknowns mean the same.

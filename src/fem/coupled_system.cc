@@ -135,8 +135,7 @@ void CoupledSystem::add_element(int part, const At& at, PartResidual& sum, PartW
   const ElementUnknowns& element = elements_[parts_[part].element];
   integrate(parts_[part].element, at.media, at.unknowns, at.want, workspace.element);
   for (int i = 0; i < int(element.rows.size()); ++i) sum.add(element.rows[i], workspace.element.residual(i));
-  if (at.want == Want::residual_and_tangent)
-    places_[part].add(element, workspace.element.tangent, workspace.matrix);
+  if (at.want == Want::residual_and_tangent) places_[part].add(element, workspace.element.tangent, workspace.matrix);
 }
 
 void CoupledSystem::add_surface(const Part& part, const At& at, PartResidual& sum,

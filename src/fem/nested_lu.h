@@ -49,11 +49,11 @@ class NestedLU {
   const std::vector<int>& order(int element) const { return fronts_[element].unknowns; }
   /// All elements, one subdomain after the other.
   const std::vector<int>& elements() const { return elements_; }
-  /// Condenses an element's matrix; once both parts of a subdomain are there, their joining is added to the tasks, which
-  /// may be shared by several threads: the sums have the same order whoever computes them when. Each element has to be
-  /// given once; in the order of `elements` few condensed matrices wait for others. Once `stop` is set, which is looked
-  /// at between the parts of the work, no more is done: then, and after an exception, `drop_factors` has to come before
-  /// a new beginning.
+  /// Condenses an element's matrix; once both parts of a subdomain are there, their joining is added to the tasks,
+  /// which may be shared by several threads: the sums have the same order whoever computes them when. Each element has
+  /// to be given once; in the order of `elements` few condensed matrices wait for others. Once `stop` is set, which is
+  /// looked at between the parts of the work, no more is done: then, and after an exception, `drop_factors` has to come
+  /// before a new beginning.
   void condense(int element, const Matrix& matrix, Tasks&, const std::atomic<bool>* stop = nullptr);
   /// The same at once, with all that can be joined. False once `stop` is set.
   bool condense(int element, const Matrix& matrix, const std::atomic<bool>* stop = nullptr);
@@ -93,8 +93,8 @@ class NestedLU {
     std::array<std::vector<Run>, 2> ended, left;
     /// Column by column of the matrix here, that of the part's remaining unknowns; -1: none.
     std::array<std::vector<int>, 2> column_of_part;
-    Matrix factors;                ///< L and U of K_ff, its rows permuted
-    Eigen::VectorXi permuted_row;  ///< where a row of K_ff is among those of the factors
+    Matrix factors;                                       ///< L and U of K_ff, its rows permuted
+    Eigen::VectorXi permuted_row;                         ///< where a row of K_ff is among those of the factors
     std::optional<TriangularFactors<Scalar>> triangular;  ///< of these, until the rest is condensed
     Matrix solved_columns, rows;                          ///< K_ff^-1 K_fo and K_of
     Matrix schur;                                         ///< of the remaining unknowns, until it is joined

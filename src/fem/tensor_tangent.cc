@@ -56,7 +56,8 @@ MatrixXd TensorElement::tested(int part, const MatrixXd& at_points) const {
 
 /// sums(i3 j3; q1 q2) over q3 for rows and columns of a kind: derived in the first direction (1), in the second (2), or
 /// neither (0), which a value (part 0) and a derivative in the third one (part 3) are.
-void TensorTangent::sum_third(const TensorElement& element, const Coefficients& C, int row_kind, int column_kind, Eigen::MatrixXf& sums) {
+void TensorTangent::sum_third(const TensorElement& element, const Coefficients& C, int row_kind, int column_kind,
+                              Eigen::MatrixXf& sums) {
   const int n = element.nodes_, m = element.points_;
   sums.setZero(n * n, m * m);
   const auto parts = [](int kind) { return kind == 0 ? std::array{0, 3} : std::array{kind, -1}; };

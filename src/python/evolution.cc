@@ -11,6 +11,7 @@
 #include "python/bindings.h"
 #include "python/interruptible.h"
 #include "python/result_object.h"
+#include "sweep/shared_work.h"
 
 namespace rheocyte {
 

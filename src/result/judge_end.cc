@@ -97,8 +97,7 @@ StateNumbers errors_by(const StationaryState& stationary, bool is_other_channel,
   return errors;
 }
 
-void compare_with_stationary(Result& result, TimeRecord& record, const Problem& problem,
-                             const WorkLimits& limits) {
+void compare_with_stationary(Result& result, TimeRecord& record, const Problem& problem, const WorkLimits& limits) {
   Outcome& outcome = result.state.outcome;
   const StationaryState stationary = solve_stationary(problem, {}, limits);
   const Status there = stationary.outcome.status;

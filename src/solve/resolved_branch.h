@@ -19,8 +19,7 @@ enum class Search { thorough, hopeful, quick };
 /// found, those of a way that begins anew once it is beyond what was reported. `stop` is polled once an iteration.
 class ResolvedBranch {
  public:
-  ResolvedBranch(const Problem& problem, Geometry geometry, ProgressCallback report = {},
-                 const WorkLimits& limits = {})
+  ResolvedBranch(const Problem& problem, Geometry geometry, ProgressCallback report = {}, const WorkLimits& limits = {})
       : ResolvedBranch(problem, softening(problem), std::move(geometry), std::move(report), limits) {}
   ResolvedBranch(const Problem&, MediaAt, Geometry, ProgressCallback, const WorkLimits&);
 

@@ -4,8 +4,8 @@
 
 namespace rheocyte {
 
-StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress,
-                                 const WorkLimits& limits, std::span<ProblemLine> lines) {
+StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress, const WorkLimits& limits,
+                                 std::span<ProblemLine> lines) {
   return Session(0).solve(problem, progress, limits, lines);
 }
 

@@ -100,9 +100,9 @@ using ProblemLine = std::vector<LinePoint>;
 using ProgressCallback = std::function<void(const BranchStep&)>;
 
 /// Solves the problem from the unstressed sphere. Never throws for a numerical failure: the state then holds the
-/// last converged shape on the branch and the outcome says why it stopped. A stop is looked for once an iteration. Lines
-/// around the problem are followed from a converged state of a cell whose place is given; those that cannot be are
-/// empty afterwards.
+/// last converged shape on the branch and the outcome says why it stopped. A stop is looked for once an iteration.
+/// Lines around the problem are followed from a converged state of a cell whose place is given; those that cannot be
+/// are empty afterwards.
 StationaryState solve_stationary(const Problem&, const ProgressCallback& = {}, const WorkLimits& limits = {},
                                  std::span<ProblemLine> = {});
 
