@@ -9,14 +9,15 @@ from rheocyte.errors import UserError
 
 def threads_of(threads):
     """For the native module: 0 stands for all processors. None: these in the main thread of a process that multiprocessing
-    has not started, else one, since workers of a pool take a case each. UserError for what is not a whole number from 1 on.
+    has not started, else one, since workers of a pool take a case each. UserError for what is not a whole number from 1 to
+    1024.
     """
     if threads is None:
         return 1 if _is_worker() else 0
     count = number(threads, "threads")
-    if count < 1 or count != int(count):
-        raise UserError(f"threads is {count:g}; give a whole number from 1 on.")
-    return min(int(count), 2**16)
+    if not 1 <= count <= 1024 or count != int(count):
+        raise UserError(f"threads is {count:g}; give a whole number from 1 to 1024.")
+    return int(count)
 
 
 def _is_worker():
