@@ -188,7 +188,7 @@ def test_fields_are_saved_as_the_command_line_writes_them(state, tmp_path):
 def test_gradients_are_those_of_the_numbers():
     flow = {"rate_ul_per_s": 0.04, "viscosity_mPas": 15}
     cell = {"radius_um": 6.0, "bulk": {"young_modulus_kPa": 2.0}}
-    case = Case({"channel": {"width_um": 20}, "flow": flow, "cell": cell, "numerics": {"numerics__accuracy": 1e-4}})
+    case = Case({"channel": {"width_um": 20}, "flow": flow, "cell": cell, "numerics": {"accuracy": 1e-4}})
     state = rheocyte.solve(case, gradient=["cell.radius_um", "cell.bulk.young_modulus_kPa"])
     assert list(state.gradient) == ["cell.radius_um", "cell.bulk.young_modulus_kPa"]
     step = 1e-3
