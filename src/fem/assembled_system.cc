@@ -11,7 +11,8 @@ namespace rheocyte {
 
 namespace {
 
-/// Operations of a factorisation below which another thread does not pay for its start: some milliseconds.
+/// Operations of a factorisation for each thread; with the integrals they take a millisecond, far longer than its
+/// start.
 constexpr double flops_of_thread = 1e7;
 
 }  // namespace
