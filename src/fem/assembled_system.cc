@@ -11,9 +11,9 @@ namespace rheocyte {
 
 namespace {
 
-/// Operations of a factorisation for each thread; with the integrals they take a millisecond, far longer than its
+/// Operations of a factorisation for each thread; with the integrals they take some milliseconds, far longer than its
 /// start.
-constexpr double flops_of_thread = 1e7;
+constexpr double flops_of_thread = 1e8;
 
 }  // namespace
 
