@@ -8,6 +8,7 @@ N runs; `true error` is against a run at a thirtieth of the accuracy. The cases 
 """
 import argparse
 import json
+import os
 import statistics
 import subprocess
 import sys
@@ -46,6 +47,7 @@ def solve(program, radius, law, modulus, accuracy):
 
 
 def main():
+    os.sched_setaffinity(0, [max(os.sched_getaffinity(0))])  # one processor, and so one thread
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("--runs", type=int, default=5)
     arguments.add_argument("--program", default=str(TOP / "build" / "rheocyte"))

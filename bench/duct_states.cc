@@ -1,17 +1,19 @@
 // Whole states in the square channel, from the sphere: what they take, and whether their stated errors are honest.
 //
 //     build/bench_duct_states [ACCURACY [FIRST [LAST]]]   twenty fixed cells (or some of them); default 1e-3
+//     build/bench_duct_states threads N [ACCURACY [FIRST [LAST]]]   the same with so many threads
 //     build/bench_duct_states random [COUNT [SEED]]       random cells at 1e-3 against the same at 3e-5
 //     build/bench_duct_states first [COUNT [SEED]]        random cells of more kinds: what degree 4 states, against
 //     degree 6 build/bench_duct_states warm [ACCURACY [COUNT]]     small steps in a session, each against the answer
 //     from the sphere
 //
-// Processor times of one thread.
+// Processor times, added over the threads; of the fixed cells wall times, too.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -62,6 +64,10 @@ std::string_view name_of(BulkLaw law) {
 
 double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 /// Of this process so far.
 double max_memory_GB() {
   rusage usage{};
@@ -81,26 +87,30 @@ void print_cell(const Cell& cell) {
   std::fflush(stdout);
 }
 
-void print_states(double accuracy, int first, int last) {
+void print_states(int threads, double accuracy, int first, int last) {
   fmt::print(
       "| r0/h | law | n | mu/S | d | estimated | degrees | iterations | factorisations | assembly (s) | factorisation "
-      "(s) | time (s) |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  std::vector<double> times;
+      "(s) | time (s) | wall (s) |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  std::vector<double> times, walls;
   for (int i = first; i < last; ++i) {
     const Cell& cell = cells[i];
     print_cell(cell);
-    const double start = processor_seconds();
-    const StationaryState state = solve_stationary(cell.problem(accuracy));
+    const double start = processor_seconds(), wall_start = wall_seconds();
+    const StationaryState state = solve_stationary(cell.problem(accuracy), {}, {nullptr, threads});
     times.push_back(processor_seconds() - start);
+    walls.push_back(wall_seconds() - wall_start);
     const SolveStatistics& s = state.statistics;
-    fmt::print("| {:.6g} | {:.1e} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} |{}\n", state.shape.deformation,
+    fmt::print("| {:.6g} | {:.1e} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |{}\n", state.shape.deformation,
                state.estimated_error, degrees_of(state), s.newton_iterations, s.factorisations, s.assembly_s,
-               s.factorisation_s, times.back(),
+               s.factorisation_s, times.back(), walls.back(),
                state.outcome.status == Status::converged ? "" : fmt::format(" {}", name(state.outcome.status)));
     std::fflush(stdout);
   }
-  fmt::print("\naccuracy {:g}: median {:.2f} s, at most {:.2f} s; {:.2f} GB\n", accuracy, median_of(times),
-             *std::ranges::max_element(times), max_memory_GB());
+  fmt::print(
+      "\naccuracy {:g}, threads {}: median {:.3f} s, at most {:.3f} s; wall: median {:.3f} s, at most {:.3f} s; {:.3f} "
+      "GB\n",
+      accuracy, threads, median_of(times), *std::ranges::max_element(times), median_of(walls),
+      *std::ranges::max_element(walls), max_memory_GB());
 }
 
 /// d is about 3 a^2.1 / (mu/S)^2 in a Newtonian liquid and a third of that in a shear-thinning one.
@@ -239,12 +249,14 @@ int main(int count, char** words) {
     check_first_estimates(int(word(2, 30)), unsigned(word(3, 1)));
   } else if (count > 1 && std::string_view(words[1]) == "warm") {
     print_warm_starts(word(2, 1e-3), int(word(3, 12)));
+  } else if (count > 1 && std::string_view(words[1]) == "threads") {
+    print_states(int(word(2, 1)), word(3, 1e-3), int(word(4, 0)), int(word(5, std::size(cells))));
   } else if (count > 1 && word(1, 0) <= 0) {
-    fmt::print(
-        stderr,
-        "bench_duct_states [ACCURACY [FIRST [LAST]]], random or first [COUNT [SEED]], or warm [ACCURACY [COUNT]]\n");
+    fmt::print(stderr,
+               "bench_duct_states [threads N] [ACCURACY [FIRST [LAST]]], random or first [COUNT [SEED]], or warm "
+               "[ACCURACY [COUNT]]\n");
     return 2;
   } else {
-    print_states(word(1, 1e-3), int(word(2, 0)), int(word(3, std::size(cells))));
+    print_states(1, word(1, 1e-3), int(word(2, 0)), int(word(3, std::size(cells))));
   }
 }

@@ -6,12 +6,14 @@ from rheocyte.cases import Case
 from rheocyte.errors import NoStateError
 from rheocyte.native_module import native
 from rheocyte.states import Result
+from rheocyte.worker_threads import threads_of
 
 
-def evolve(case=None, **overrides):
+def evolve(case=None, *, threads=None, **overrides):
     """Follows a cell from the sphere in time; the case needs time.end_us (or end_um) and cell.viscosity_mPas.
 
-    case    a Case, the path of a case file, a dictionary or None; keywords replace its keys as for Case
+    case       a Case, the path of a case file, a dictionary or None; keywords replace its keys as for Case
+    threads    at most, as for rheocyte.solve
 
     Returns an Evolution, an iterator of the states at 0, time.output_every_us (or _um), ..., the end. It computes in a thread
     of its own, ahead of the loop. Equations and schemes stand in docs/theory-time.md.
@@ -21,7 +23,7 @@ def evolve(case=None, **overrides):
     """
     if not isinstance(case, Case) or overrides:
         case = Case(case, **overrides)
-    return Evolution(case)
+    return Evolution(case, threads)
 
 
 class State:
@@ -49,9 +51,9 @@ class Evolution:
     it as NoStateError.
     """
 
-    def __init__(self, case):
+    def __init__(self, case, threads=None):
         self._case = case
-        self._native = native.Evolution(case._values)
+        self._native = native.Evolution(case._values, threads_of(threads))
         self._waiting = []
 
     def __iter__(self):

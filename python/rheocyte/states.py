@@ -15,11 +15,12 @@ from rheocyte.errors import NoStateError, UserError
 from rheocyte.memory_file import written
 from rheocyte.native_module import native
 from rheocyte.progress import told_to
+from rheocyte.worker_threads import threads_of
 
 _DEFAULT_MEMORY_MB = 256
 
 
-def solve(case=None, *, check=False, progress=None, gradient=(), **overrides):
+def solve(case=None, *, check=False, progress=None, gradient=(), threads=None, **overrides):
     """The stationary shape of a cell, from the sphere to the wanted stiffness by itself.
 
     case        a Case, the path of a case file, a dictionary or None; keywords replace its keys as for Case
@@ -27,13 +28,16 @@ def solve(case=None, *, check=False, progress=None, gradient=(), **overrides):
                 `status` and `message`, and holds the last state on the way
     progress    called after each step with a dictionary (compliance, deformation, newton_iterations, degree)
     gradient    keys of the case by which all numbers of the result are differentiated, or "all": Result.gradient
+    threads     at most; the numbers do not depend on it. None: all processors, as far as the work pays for them, but one in
+                threads and processes that others have started, as those of pools
 
     Returns a Result. UserError for a case that is wrong; Ctrl-C ends the computation.
     The equations stand in docs/theory.md.
 
     >>> rheocyte.solve("examples/paper-cell.toml").deformation
     """
-    return Session(memory_MB=0).solve(case, check=check, progress=progress, gradient=gradient, **overrides)
+    return Session(memory_MB=0).solve(case, check=check, progress=progress, gradient=gradient, threads=threads,
+                                    **overrides)
 
 
 class Session:
@@ -51,12 +55,12 @@ class Session:
             raise UserError(f"Session: memory_MB is {size:g}; give a size from 0 on.")
         self._native = native.Session(int(size * 2**20))
 
-    def solve(self, case=None, *, check=False, progress=None, gradient=(), **overrides):
+    def solve(self, case=None, *, check=False, progress=None, gradient=(), threads=None, **overrides):
         """As rheocyte.solve, from a kept state if one is near; the answer is the same up to rounding and tolerance."""
         keys = [gradient] if isinstance(gradient, str) else [str(key) for key in gradient]
         if not isinstance(case, Case) or overrides:
             case = Case(case, **overrides)
-        result = Result(self._native.solve(case._values, keys, told_to(progress)), case)
+        result = Result(self._native.solve(case._values, keys, told_to(progress), threads_of(threads)), case)
         if check and not result.converged:
             raise NoStateError(result)
         return result

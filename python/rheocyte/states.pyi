@@ -17,6 +17,7 @@ def solve(
     check: bool = False,
     progress: Callable[[dict[str, float]], object] | None = None,
     gradient: str | Iterable[str] = (),
+    threads: int | None = None,
     **overrides: Any,
 ) -> Result: ...
 
@@ -29,6 +30,7 @@ class Session:
         check: bool = False,
         progress: Callable[[dict[str, float]], object] | None = None,
         gradient: str | Iterable[str] = (),
+        threads: int | None = None,
         **overrides: Any,
     ) -> Result: ...
     @property

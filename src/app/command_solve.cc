@@ -41,6 +41,13 @@ void add_solve_command(CLI::App& app, int& exit_code) {
           "a case with a [time] section")
       ->type_name("DIR")
       ->excludes("--continue");
+  command
+      ->add_option(
+          "--threads", options->threads,
+          "threads at most, as far as the work pays for them; default: all processors. The numbers do not depend "
+          "on it; give 1 where several cases are solved at once")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--json", options->json,
                     "print result.json on standard output and nothing else there; without -o nothing is written");
   command->add_flag("--quiet", options->quiet, "print neither progress nor summary");

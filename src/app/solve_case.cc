@@ -21,6 +21,7 @@
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
+#include "sweep/shared_work.h"
 
 namespace rheocyte {
 
@@ -49,6 +50,10 @@ void print_case(const Case& c) {
 
 }  // namespace
 
+WorkLimits work_limits(const SolveOptions& options) {
+  return {&stop_wanted(), options.threads > 0 ? options.threads : available_processors()};
+}
+
 int solve_case(const SolveOptions& options) {
   const Case c = read_case(options.case_file, options.settings);
   const auto gradients = asked_line_keys(c, options.gradients, options.case_file.string());
@@ -72,7 +77,7 @@ int solve_case(const SolveOptions& options) {
 
   const auto progress = options.quiet ? ProgressCallback{} : progress_lines(c);
   const Result result = solve_with_gradients(c, gradients, [&](const Problem& problem, std::span<ProblemLine> lines) {
-    return solve_stationary(problem, progress, &stop_wanted(), lines);
+    return solve_stationary(problem, progress, work_limits(options), lines);
   });
 
   if (!is_written) return report_result(result, options, to_json(result));

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "fem/work_limits.h"
+
 namespace rheocyte {
 
 struct SolveOptions {
@@ -17,8 +19,12 @@ struct SolveOptions {
   bool quiet = false;                   ///< no progress, no summary
   bool no_picture = false;
   bool no_output_fields = false;  ///< in time, no fields but those of the last state
+  int threads = 0;                ///< at most; 0: all processors
   bool check_only = false;        ///< validate the case, solve nothing
 };
+
+/// When and with how many threads it works.
+WorkLimits work_limits(const SolveOptions&);
 
 /// Reads, solves, writes the folder, prints. Returns the exit code (exit_codes.h); UserError for the case and the disk.
 int solve_case(const SolveOptions&);

@@ -135,9 +135,9 @@ int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Draw
     from->claim = {};  // what a killed run has left may go once there is a result
   }
   result.state = follow_in_time(result.problem, time_run_of(c, result.scales), recorder.observer(),
-                                start ? &*start : nullptr, &stop_wanted());
+                                start ? &*start : nullptr, work_limits(options));
   recorder.write_all();
-  judge_end(result, recorder.record(), stop_wanted());
+  judge_end(result, recorder.record(), work_limits(options));
   refuse_unfinite_numbers(result);
   const auto numbers = to_json(result, recorder.record());
   return finish_result(result, folder, options, numbers, drawing);

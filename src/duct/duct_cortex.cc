@@ -244,7 +244,7 @@ void DuctCortex::find_edges() {
 }
 
 void DuctCortex::integrate(int index, const Cortex& law, const VectorXd& unknowns, Want want,
-                           PatchSystem& system) const {
+                           ElementSystem& system) const {
   const Patch& patch = patches_[index];
   if (patch.rest_volume.size() > 0) {
     const double at_rest = rest_pressure(law, space_.mesh().geometry().radius());
@@ -277,7 +277,7 @@ void DuctCortex::integrate(int index, const Cortex& law, const VectorXd& unknown
 
 template <int numbers, class Energy>
 void DuctCortex::integrate(const Patch& patch, const Energy& energy_at, const VectorXd& unknowns, Want want,
-                           PatchSystem& system) const {
+                           ElementSystem& system) const {
   const int points = int(patch.weights.size()), n = int(patch.rest.rows()), parts = numbers / 3;
   MatrixXd x = patch.rest;
   for (int i = 0; i < 3 * n; ++i) {

@@ -8,12 +8,6 @@
 
 namespace rheocyte {
 
-/// Residual and tangent of a patch, rows and columns as its unknowns.
-struct PatchSystem {
-  VectorXd residual;
-  MatrixXd tangent;
-};
-
 class DuctCortex {
  public:
   /// Where it bends, faces that meet in an edge know each other. The space must outlive this object.
@@ -26,7 +20,8 @@ class DuctCortex {
   const Eigen::MatrixXi& unknowns_of(int patch) const { return patches_[patch].unknowns; }
   const Eigen::MatrixXi& equations_of(int patch) const { return patches_[patch].equations; }
 
-  void integrate(int patch, const Cortex&, const VectorXd& unknowns, Want, PatchSystem&) const;
+  /// Residual and tangent of a patch, rows and columns as its unknowns.
+  void integrate(int patch, const Cortex&, const VectorXd& unknowns, Want, ElementSystem&) const;
 
  private:
   /// A face, or the two that meet in an edge, which in a mirror plane are a face and its image; or the face of a liquid
@@ -49,7 +44,7 @@ class DuctCortex {
   Image mirror_at(const Edge&) const;
   void find_edges();
   template <int numbers, class Energy>
-  void integrate(const Patch&, const Energy& energy_at, const VectorXd& unknowns, Want, PatchSystem&) const;
+  void integrate(const Patch&, const Energy& energy_at, const VectorXd& unknowns, Want, ElementSystem&) const;
 
   const DuctSpace& space_;
   ReferenceElement<2> reference_;

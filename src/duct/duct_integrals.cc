@@ -100,56 +100,58 @@ template MatrixXd numbers_at_points<Liquids>(const DuctSpace&, const TensorEleme
 namespace {
 
 /// Fluxes at the points of an element of the cell, at rest or on its way.
-void evaluate_cell(const Bulk& bulk, const Hexahedron& at, Want want, HexahedronPoints& points) {
+void evaluate_cell(const Bulk& bulk, const Hexahedron& at, Want want, ElementSystem& points) {
   const HexahedronUnknowns& self = at.self;
   const VectorXd& weights = at.space.reference().weights;
   if (self.history.empty()) {
     const auto form_at = [&](int q) { return CellPoint<3>{bulk, self.undeformed[q]}; };
-    return evaluate_points<CellPoint<3>>(points.numbers, weights, form_at, want, points.fluxes);
+    return evaluate_points<CellPoint<3>>(points.numbers, weights, form_at, want, points);
   }
   const auto form_at = [&](int q) {
     return MovingCellPoint<3>{
         .law = bulk, .undeformed = self.undeformed[q], .rate = self.rate, .history = self.history[q]};
   };
-  evaluate_points<MovingCellPoint<3>>(points.numbers, weights, form_at, want, points.fluxes);
+  evaluate_points<MovingCellPoint<3>>(points.numbers, weights, form_at, want, points);
 }
 
 }  // namespace
 
 VectorXd integrate_hexahedron(const Hexahedron& at, const Media& media, const VectorXd& unknowns, Want want,
-                              HexahedronPoints& points) {
+                              ElementSystem& points) {
   const auto& [space, element, e, self] = at;
   const ReferenceElement<3>& reference = space.reference();
-  ElementSystem& system = points.fluxes;
   if (self.liquid) {
     points.numbers = numbers_at_points<Liquids>(at, unknowns);
     evaluate_points<LiquidPoint<3>>(
-        points.numbers, reference.weights, [&](int) { return LiquidPoint<3>{media.liquid}; }, want, system);
+        points.numbers, reference.weights, [&](int) { return LiquidPoint<3>{media.liquid}; }, want, points);
   } else {
     points.numbers = numbers_at_points<Cell>(at, unknowns);
     evaluate_cell(media.bulk, at, want, points);
   }
-  system.min_det = min_relative_det(self.undeformed, points.numbers);
+  points.min_det = min_relative_det(self.undeformed, points.numbers);
   const int n = reference.nodes(), m = reference.pressures();
   VectorXd residual = VectorXd::Zero(3 * n + m);
   for (int k = 0; k <= 3; ++k) {
     if (k == 0 && media.liquid.reynolds == 0) continue;
     MatrixXd fluxes(reference.points(), 3);
-    for (int c = 0; c < 3; ++c) fluxes.col(c) = system.fluxes.col(4 * c + k);
+    for (int c = 0; c < 3; ++c) fluxes.col(c) = points.fluxes.col(4 * c + k);
     const MatrixXd tested = element.tested(k, fluxes);  // components x nodes
     for (int c = 0; c < 3; ++c) residual.segment(c * n, n) += tested.row(c).transpose();
   }
-  residual.tail(m) = reference.pressure.value.transpose() * system.fluxes.col(12);
+  residual.tail(m) = reference.pressure.value.transpose() * points.fluxes.col(12);
   return residual;
 }
 
 /// Adds what the pressure modes do to the momentum a, and the displacements or velocities b to the tests of pressures.
 template <class Fields>
-void HexahedronTangent::add_pressures(const HexahedronUnknowns& self, const HexahedronPoints& points,
-                                      const std::vector<int>& place, Eigen::MatrixXf& matrix) {
+void HexahedronTangent::add_pressures(const HexahedronUnknowns& self, Workspace& workspace) const {
+  const std::vector<int>& place = workspace.place;
+  Eigen::MatrixXf& matrix = workspace.matrix;
   const MatrixXd& modes = element_modes_;
   const int n = int(self.rows.size() - self.pressure.size()) / 3, m = int(self.pressure.size());
-  const auto slope = [&](int flux, int input) { return points.fluxes.flux_slopes.col(flux * Fields::count + input); };
+  const auto slope = [&](int flux, int input) {
+    return workspace.element.flux_slopes.col(flux * Fields::count + input);
+  };
   const auto tested = [&](const auto& coefficients) {
     MatrixXd sum = MatrixXd::Zero(m, n);
     for (int k = 1; k <= 3; ++k) sum += element_.tested(k, coefficients(k).asDiagonal() * modes);
@@ -182,20 +184,21 @@ void HexahedronTangent::add_pressures(const HexahedronUnknowns& self, const Hexa
 }
 
 template <class Fields>
-void HexahedronTangent::add_fields(const HexahedronUnknowns& self, bool has_inertia, const HexahedronPoints& points,
-                                   const std::vector<int>& place, Eigen::MatrixXf& matrix) {
+void HexahedronTangent::add_fields(const HexahedronUnknowns& self, bool has_inertia, Workspace& workspace) const {
+  const std::vector<int>& place = workspace.place;
   const int n = int(self.rows.size() - self.pressure.size()) / 3;
   const auto add = [&](Source source, const std::vector<Slot>& columns, int a, int b) {
     TensorTangent::Coefficients coefficients{};
     for (int k = has_inertia ? 0 : 1; k <= 3; ++k) {
       for (int l = has_inertia ? 0 : 1; l <= 3; ++l) {
         const int input = input_of<Fields>(source, b, l);
-        if (input >= 0) coefficients[k][l] = points.fluxes.flux_slopes.col((4 * a + k) * Fields::count + input).data();
+        if (input >= 0)
+          coefficients[k][l] = workspace.element.flux_slopes.col((4 * a + k) * Fields::count + input).data();
       }
     }
-    tangent_.integrate(coefficients);
-    scatter(tangent_, element_.nodes_1d(), places(self.rows.data() + a * n, n, place), columns.data() + b * n, place,
-            matrix);
+    workspace.tensor.integrate(element_, coefficients);
+    scatter(workspace.tensor, element_.nodes_1d(), places(self.rows.data() + a * n, n, place), columns.data() + b * n,
+            place, workspace.matrix);
   };
   for (int a = 0; a < 3; ++a) {
     for (int b = 0; b < 3; ++b) {
@@ -203,15 +206,14 @@ void HexahedronTangent::add_fields(const HexahedronUnknowns& self, bool has_iner
       if (self.liquid) add(Source::velocity, self.velocity, a, b);
     }
   }
-  add_pressures<Fields>(self, points, place, matrix);
+  add_pressures<Fields>(self, workspace);
 }
 
-void HexahedronTangent::add(const HexahedronUnknowns& self, bool has_inertia, const HexahedronPoints& points,
-                            const std::vector<int>& place, Eigen::MatrixXf& matrix) {
+void HexahedronTangent::add(const HexahedronUnknowns& self, bool has_inertia, Workspace& workspace) const {
   if (self.liquid) {
-    add_fields<Liquids>(self, has_inertia, points, place, matrix);
+    add_fields<Liquids>(self, has_inertia, workspace);
   } else {
-    add_fields<Cell>(self, false, points, place, matrix);
+    add_fields<Cell>(self, false, workspace);
   }
 }
 

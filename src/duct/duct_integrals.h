@@ -3,17 +3,9 @@
 #pragma once
 #include "duct/duct_space.h"
 #include "fem/element_integrals.h"
-#include "fem/nested_lu.h"
-#include "fem/tensor_tangent.h"
+#include "fem/part_workspace.h"
 
 namespace rheocyte {
-
-/// Values at the quadrature points of a hexahedron of the numbers of some fields, and the fluxes that they make; kept
-/// between calls to save memory traffic.
-struct HexahedronPoints {
-  MatrixXd numbers;
-  ElementSystem fluxes;
-};
 
 /// Local values of slots.
 VectorXd values_of(const std::vector<Slot>&, const VectorXd& unknowns);
@@ -34,31 +26,28 @@ struct Hexahedron {
   const HexahedronUnknowns& self;
 };
 
-/// Residual of one element in the order of its rows; `points` keeps fluxes and, if wanted, their derivatives, and the
-/// least relative det of the map.
-VectorXd integrate_hexahedron(const Hexahedron&, const Media&, const VectorXd& unknowns, Want,
-                              HexahedronPoints& points);
+/// Residual of one element in the order of its rows; `points` keeps the fluxes at the points and, if wanted, their
+/// derivatives, and the least relative det of the map.
+VectorXd integrate_hexahedron(const Hexahedron&, const Media&, const VectorXd& unknowns, Want, ElementSystem& points);
 
-/// Adds the tangent that `points` hold to a matrix whose rows and columns are numbered by `place`, unknown by unknown.
+/// Adds the tangent of an element whose fluxes a workspace holds to the matrix there.
 class HexahedronTangent {
  public:
+  using Workspace = PartWorkspace<float>;
+
   /// Both must outlive this object.
   HexahedronTangent(const TensorElement& element, const ReferenceElement<3>& reference)
-      : element_(element), element_modes_(reference.pressure.value), tangent_(element) {}
-  void add(const HexahedronUnknowns&, bool has_inertia, const HexahedronPoints&, const std::vector<int>& place,
-           Eigen::MatrixXf& matrix);
+      : element_(element), element_modes_(reference.pressure.value) {}
+  void add(const HexahedronUnknowns&, bool has_inertia, Workspace&) const;
 
  private:
   template <class Fields>
-  void add_fields(const HexahedronUnknowns&, bool has_inertia, const HexahedronPoints&, const std::vector<int>& place,
-                  Eigen::MatrixXf& matrix);
+  void add_fields(const HexahedronUnknowns&, bool has_inertia, Workspace&) const;
   template <class Fields>
-  void add_pressures(const HexahedronUnknowns&, const HexahedronPoints&, const std::vector<int>& place,
-                     Eigen::MatrixXf& matrix);
+  void add_pressures(const HexahedronUnknowns&, Workspace&) const;
 
   const TensorElement& element_;
   const MatrixXd& element_modes_;
-  TensorTangent tangent_;
 };
 
 }  // namespace rheocyte

@@ -80,34 +80,34 @@ VectorXd DuctSystem::loads(const Media& media, const VectorXd&) {
   return total;
 }
 
-double DuctSystem::add_part(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
+double DuctSystem::add_part(int part, const At& at, PartResidual& sum, PartWorkspace<float>& workspace) const {
   const int e = filled_[part];
   const HexahedronUnknowns& self = unknowns_of(e);
-  const VectorXd residual = integrate_hexahedron({space_, element_, e, self}, media, unknowns, want, points_);
-  for (int i = 0; i < residual.size(); ++i) {
-    if (self.rows[i] >= 0) total(self.rows[i]) += residual(i);
+  const VectorXd residual =
+      integrate_hexahedron({space_, element_, e, self}, at.media, at.unknowns, at.want, workspace.element);
+  for (int i = 0; i < residual.size(); ++i) sum.add(self.rows[i], residual(i));
+  if (at.want == Want::residual_and_tangent) {
+    tangent_.add(self, at.media.liquid.reynolds != 0, workspace);
+    turning_.add_tangent(e, at.unknowns, workspace.place, workspace.matrix);
   }
-  if (want == Want::residual_and_tangent) {
-    tangent_.add(self, media.liquid.reynolds != 0, points_, place(), matrix());
-    turning_.add_tangent(e, unknowns, place(), matrix());
-  }
-  add_cortex(e, media.cortex, unknowns, want, total);
-  return points_.fluxes.min_det;
+  add_cortex(e, at, sum, workspace);
+  return workspace.element.min_det;
 }
 
-void DuctSystem::add_cortex(int element, const Cortex& cortex, const VectorXd& unknowns, Want want, VectorXd& total) {
+void DuctSystem::add_cortex(int element, const At& at, PartResidual& sum, PartWorkspace<float>& workspace) const {
+  const Cortex& cortex = at.media.cortex;
   const bool is_bare = cortex.law == CortexLaw::none && cortex.tension == 0 && cortex.bending == 0;
   if (is_bare && space_.inner_pressure() < 0) return;
+  const std::vector<int>& place = workspace.place;
+  const ElementSystem& of_patch = workspace.surface;
   for (const int patch : cortex_.patches_of(element)) {
-    cortex_.integrate(patch, cortex, unknowns, want, patch_);
+    cortex_.integrate(patch, cortex, at.unknowns, at.want, workspace.surface);
     const Eigen::MatrixXi &rows = cortex_.equations_of(patch), &columns = cortex_.unknowns_of(patch);
-    for (int i = 0; i < int(rows.size()); ++i) {
-      if (rows(i) >= 0) total(rows(i)) += patch_.residual(i);
-    }
-    for (int j = 0; j < int(columns.size()) && want == Want::residual_and_tangent; ++j) {
+    for (int i = 0; i < int(rows.size()); ++i) sum.add(rows(i), of_patch.residual(i));
+    for (int j = 0; j < int(columns.size()) && at.want == Want::residual_and_tangent; ++j) {
       if (columns(j) < 0) continue;
       for (int i = 0; i < int(rows.size()); ++i) {
-        if (rows(i) >= 0) matrix()(place()[rows(i)], place()[columns(j)]) += float(patch_.tangent(i, j));
+        if (rows(i) >= 0) workspace.matrix(place[rows(i)], place[columns(j)]) += float(of_patch.tangent(i, j));
       }
     }
   }

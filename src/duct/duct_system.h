@@ -38,10 +38,10 @@ class DuctSystem : public AssembledSystem<float> {
 
  private:
   VectorXd loads(const Media&, const VectorXd& unknowns) override;
-  double add_part(int part, const Media&, const VectorXd& unknowns, Want, VectorXd& total) override;
+  double add_part(int part, const At&, PartResidual&, PartWorkspace<float>&) const override;
   void finish(const VectorXd& unknowns, VectorXd& total) const override { turning_.add_residual(unknowns, total); }
   /// Of the patches of the surface that an element has a share in.
-  void add_cortex(int element, const Cortex&, const VectorXd& unknowns, Want, VectorXd& total);
+  void add_cortex(int element, const At&, PartResidual&, PartWorkspace<float>&) const;
 
   const DuctSpace& space_;
   double drop_;
@@ -52,8 +52,6 @@ class DuctSystem : public AssembledSystem<float> {
   VectorXd outlet_load_, inlet_load_;
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
   TurningSurface turning_;
-  HexahedronPoints points_;
-  PatchSystem patch_;
 };
 
 }  // namespace rheocyte

@@ -9,51 +9,93 @@
 
 namespace rheocyte {
 
+namespace {
+
+/// Operations of a factorisation for each thread; with the integrals they take some milliseconds, far longer than its
+/// start.
+constexpr double flops_of_thread = 1e8;
+
+}  // namespace
+
 template <class Scalar>
 VectorXd AssembledSystem<Scalar>::sphere() const {
-  VectorXd unknowns = VectorXd::Zero(Eigen::Index(place_.size()));
+  VectorXd unknowns = VectorXd::Zero(unknowns_);
   unknowns(cell_velocity_) = 1;
   return unknowns;
 }
 
 template <class Scalar>
-Residual AssembledSystem<Scalar>::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use) {
-  const Want want = use ? Want::residual_and_tangent : Want::residual;
+Residual AssembledSystem<Scalar>::assemble(const Media& media, const VectorXd& unknowns, const UseTangent& use,
+                                           int threads) {
+  const At at{media, unknowns, use ? Want::residual_and_tangent : Want::residual};
   VectorXd total = loads(media, unknowns);
-  double min_det = std::numeric_limits<double>::infinity();
-  for (const int part : lu_->elements()) {
+  struct OfPart {
+    PartResidual residual;
+    double min_det = std::numeric_limits<double>::infinity(), seconds = 0;
+  };
+  std::vector<OfPart> parts(lu_->elements().size());
+  workspaces_.resize(std::max(workspaces_.size(), std::size_t(threads)));
+  for (auto& workspace : workspaces_) workspace.place.resize(unknowns_, -1);
+  Tasks tasks;
+  const auto work_on = [&](int part, int thread) {
+    if (use && limits_.is_stopped()) return;
+    PartWorkspace<Scalar>& workspace = workspaces_[thread];
     const std::vector<int>& order = lu_->order(part);
     {
-      const Stopwatch watch(work_.assembly_s);
+      const Stopwatch watch(parts[part].seconds);
       if (use) {
-        matrix_.setZero(Eigen::Index(order.size()), Eigen::Index(order.size()));
-        for (int i = 0; i < int(order.size()); ++i) place_[order[i]] = i;
+        workspace.matrix.setZero(Eigen::Index(order.size()), Eigen::Index(order.size()));
+        for (int i = 0; i < int(order.size()); ++i) workspace.place[order[i]] = i;
       }
-      min_det = std::min(min_det, add_part(part, media, unknowns, want, total));
+      parts[part].min_det = add_part(part, at, parts[part].residual, workspace);
     }
-    if (!use) continue;
-    const Stopwatch watch(work_.factorisation_s);
-    if (!use(part, order, matrix_)) return {VectorXd::Constant(total.size(), no_value), min_det};
+    if (use) use(part, order, workspace.matrix, tasks);
+  };
+  for (const int part : lu_->elements()) {
+    tasks.add(NestedLU<Scalar>::rank_of_elements, [&work_on, part](int thread) { work_on(part, thread); });
   }
+  tasks.run(threads);
+  double min_det = std::numeric_limits<double>::infinity(), seconds = 0;
+  for (const int part : lu_->elements()) {
+    parts[part].residual.add_to(total);
+    min_det = std::min(min_det, parts[part].min_det);
+    seconds += parts[part].seconds;
+  }
+  work_.assembly_s += seconds;
+  work_.factorisation_s += tasks.seconds() - seconds;
   finish(unknowns, total);
   return {std::move(total), min_det};
 }
 
 template <class Scalar>
+int AssembledSystem<Scalar>::worthwhile_threads() const {
+  return std::max(1, int(std::min(double(limits_.threads), lu_->flops() / flops_of_thread)));
+}
+
+template <class Scalar>
 Residual AssembledSystem<Scalar>::residual(const Media& media, const VectorXd& unknowns) {
-  return assemble(media, unknowns, {});
+  return assemble(media, unknowns, {}, worthwhile_threads());
 }
 
 template <class Scalar>
 Residual AssembledSystem<Scalar>::linearise(const Media& media, const VectorXd& unknowns) {
-  const auto condense = [this](int part, const std::vector<int>&, const Matrix& tangent) {
-    return lu_->condense(part, tangent, stop_);
+  const auto condense = [this](int part, const std::vector<int>&, const Matrix& tangent, Tasks& tasks) {
+    lu_->condense(part, tangent, tasks, limits_.stop);
   };
-  Residual residual = assemble(media, unknowns, condense);
-  const bool is_stopped = stop_ && *stop_;
-  if (is_stopped) drop_factors();
-  has_factors_ = !is_stopped && residual.value.allFinite() && lu_->is_regular();
   ++work_.factorisations;
+  has_factors_ = false;
+  Residual residual;
+  try {
+    residual = assemble(media, unknowns, condense, worthwhile_threads());
+  } catch (...) {
+    drop_factors();
+    throw;
+  }
+  if (limits_.is_stopped()) {
+    drop_factors();
+    residual.value.setConstant(no_value);
+  }
+  has_factors_ = residual.value.allFinite() && lu_->is_regular();
   return residual;
 }
 
@@ -77,7 +119,7 @@ void AssembledSystem<Scalar>::drop_factors() {
 
 template <class Scalar>
 void AssembledSystem<Scalar>::exchange_factors(AssembledSystem& other) {
-  assert(place_.size() == other.place_.size() && lu_->elements().size() == other.lu_->elements().size());
+  assert(unknowns_ == other.unknowns_ && lu_->elements().size() == other.lu_->elements().size());
   std::swap(lu_, other.lu_);
   std::swap(has_factors_, other.has_factors_);
 }
@@ -86,11 +128,10 @@ template <class Scalar>
 VectorXd AssembledSystem<Scalar>::apply_tangent(const Media& media, const VectorXd& unknowns,
                                                 const VectorXd& direction) {
   VectorXd product = VectorXd::Zero(unknowns.size());
-  const auto apply = [&](int, const std::vector<int>& order, const Matrix& tangent) {
+  const auto apply = [&](int, const std::vector<int>& order, const Matrix& tangent, Tasks&) {
     product(order) += tangent.template cast<double>() * direction(order);
-    return true;
   };
-  assemble(media, unknowns, apply);
+  assemble(media, unknowns, apply, 1);
   return product;
 }
 

@@ -120,38 +120,38 @@ VectorXd CoupledSystem::loads(const Media& media, const VectorXd& unknowns) {
   return total;
 }
 
-double CoupledSystem::add_part(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
-  add_element(part, media, unknowns, want, total);
-  const double min_det = element_.min_det;
-  add_surface(parts_[part], media.cortex, unknowns, want, total);
-  if (want == Want::residual_and_tangent) {
+double CoupledSystem::add_part(int part, const At& at, PartResidual& sum, PartWorkspace<double>& workspace) const {
+  add_element(part, at, sum, workspace);
+  add_surface(parts_[part], at, sum, workspace);
+  if (at.want == Want::residual_and_tangent) {
+    const std::vector<int>& place = workspace.place;
     for (const int i : parts_[part].inlet)
-      matrix()(place()[i], place()[space_->cell_velocity()]) += inlet_slope_ * inlet_load_(i);
+      workspace.matrix(place[i], place[space_->cell_velocity()]) += inlet_slope_ * inlet_load_(i);
   }
-  return min_det;
+  return workspace.element.min_det;
 }
 
-void CoupledSystem::add_element(int part, const Media& media, const VectorXd& unknowns, Want want, VectorXd& total) {
+void CoupledSystem::add_element(int part, const At& at, PartResidual& sum, PartWorkspace<double>& workspace) const {
   const ElementUnknowns& element = elements_[parts_[part].element];
-  integrate(parts_[part].element, media, unknowns, want, element_);
-  for (int i = 0; i < int(element.rows.size()); ++i) {
-    if (element.rows[i] >= 0) total(element.rows[i]) += element_.residual(i);
-  }
-  if (want == Want::residual_and_tangent) places_[part].add(element, element_.tangent, matrix());
+  integrate(parts_[part].element, at.media, at.unknowns, at.want, workspace.element);
+  for (int i = 0; i < int(element.rows.size()); ++i) sum.add(element.rows[i], workspace.element.residual(i));
+  if (at.want == Want::residual_and_tangent) places_[part].add(element, workspace.element.tangent, workspace.matrix);
 }
 
-void CoupledSystem::add_surface(const Part& part, const Cortex& cortex, const VectorXd& unknowns, Want want,
-                                VectorXd& total) {
+void CoupledSystem::add_surface(const Part& part, const At& at, PartResidual& sum,
+                                PartWorkspace<double>& workspace) const {
+  const std::vector<int>& place = workspace.place;
+  const ElementSystem& patch = workspace.surface;
   for (const int k : part.patches) {
-    if (k >= surface_.active(cortex)) continue;
-    surface_.integrate(k, cortex, unknowns, want, element_);
+    if (k >= surface_.active(at.media.cortex)) continue;
+    surface_.integrate(k, at.media.cortex, at.unknowns, at.want, workspace.surface);
     const std::vector<int>& rows = surface_.patches()[k].unknowns;
     for (int j = 0; j < int(rows.size()); ++j) {
       if (rows[j] < 0) continue;
-      total(rows[j]) += element_.residual(j);
-      if (want == Want::residual) continue;
+      sum.add(rows[j], patch.residual(j));
+      if (at.want == Want::residual) continue;
       for (int i = 0; i < int(rows.size()); ++i) {
-        if (rows[i] >= 0) matrix()(place()[rows[i]], place()[rows[j]]) += element_.tangent(i, j);
+        if (rows[i] >= 0) workspace.matrix(place[rows[i]], place[rows[j]]) += patch.tangent(i, j);
       }
     }
   }

@@ -52,10 +52,10 @@ class CoupledSystem : public AssembledSystem<double> {
   void share_out_surface();
   void share_out_inlet(const VectorXd& load);
   VectorXd loads(const Media&, const VectorXd& unknowns) override;
-  double add_part(int part, const Media&, const VectorXd& unknowns, Want, VectorXd& total) override;
-  void add_element(int part, const Media&, const VectorXd& unknowns, Want, VectorXd& total);
+  double add_part(int part, const At&, PartResidual&, PartWorkspace<double>&) const override;
+  void add_element(int part, const At&, PartResidual&, PartWorkspace<double>&) const;
   /// Cortex, volume of a pure shell, and barycentre.
-  void add_surface(const Part&, const Cortex&, const VectorXd& unknowns, Want, VectorXd& total);
+  void add_surface(const Part&, const At&, PartResidual&, PartWorkspace<double>&) const;
   /// Of the last liquid that was asked for: most have to integrate for it.
   double undisturbed_pressure(const Liquid&) const;
 
@@ -67,7 +67,6 @@ class CoupledSystem : public AssembledSystem<double> {
   mutable std::optional<std::pair<Liquid, double>> undisturbed_;
   VectorXd inlet_load_;  ///< of this moment
   double inlet_slope_ = 0;
-  ElementSystem element_;
 };
 
 /// Of a system with axial symmetry.

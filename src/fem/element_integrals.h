@@ -13,7 +13,7 @@ struct ElementSystem {
   MatrixXd tangent;
   double min_det = 0;  ///< least det of the element map relative to the undeformed one; <= 0: folded
   // scratch
-  MatrixXd fluxes, flux_slopes, weighted, coefficients, sums;
+  MatrixXd numbers, fluxes, flux_slopes, weighted, coefficients, sums;
 };
 
 enum class Want { residual, residual_and_tangent };

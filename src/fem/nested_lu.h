@@ -6,10 +6,15 @@
 // Matrices and factors may have single precision, which halves memory and time: they only correct a state, and Newton's
 // method, whose residuals have double precision, goes on with the same factors until nothing is left to correct.
 #pragma once
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <array>
 #include <atomic>
+#include <mutex>
+#include <optional>
 #include <vector>
+
+#include "fem/triangular_solve.h"
+#include "store/tasks.h"
 
 namespace rheocyte {
 
@@ -31,6 +36,12 @@ class NestedLU {
  public:
   using Matrix = Eigen::MatrixX<Scalar>;
 
+  /// Ranks of tasks: a subdomain that is begun is ended first, then others are joined, and elements come last, so that
+  /// few condensed matrices wait.
+  static constexpr int rank_of_blocks = 0, rank_of_joins = 1, rank_of_elements = 2;
+  /// Of the remaining columns of a subdomain those that are condensed in one task, however many threads there are.
+  static Eigen::Index columns_at_once(Eigen::Index remaining);
+
   /// Chooses the order of joining. The elements must hang together through their faces.
   NestedLU(int unknowns, const std::vector<CoupledUnknowns>&);
 
@@ -38,9 +49,13 @@ class NestedLU {
   const std::vector<int>& order(int element) const { return fronts_[element].unknowns; }
   /// All elements, one subdomain after the other.
   const std::vector<int>& elements() const { return elements_; }
-  /// Condenses an element's matrix, and joins all subdomains whose parts are there. Each element has to be given once;
-  /// in the order of `elements` few condensed matrices wait for others. False once `stop` is set, which is looked at
-  /// between the parts of the work: then `drop_factors` has to come before a new beginning.
+  /// Condenses an element's matrix; once both parts of a subdomain are there, their joining is added to the tasks,
+  /// which may be shared by several threads: the sums have the same order whoever computes them when. Each element has
+  /// to be given once; in the order of `elements` few condensed matrices wait for others. Once `stop` is set, which is
+  /// looked at between the parts of the work, no more is done: then, and after an exception, `drop_factors` has to come
+  /// before a new beginning.
+  void condense(int element, const Matrix& matrix, Tasks&, const std::atomic<bool>* stop = nullptr);
+  /// The same at once, with all that can be joined. False once `stop` is set.
   bool condense(int element, const Matrix& matrix, const std::atomic<bool>* stop = nullptr);
   /// Once all elements are condensed: whether the sum of their matrices is finite and regular.
   bool is_regular() const;
@@ -52,6 +67,13 @@ class NestedLU {
   /// Frees the memory of the factors; the order stays.
   void drop_factors();
 
+  /// How many unknowns of a subdomain are eliminated and remain, and what is joined to it (-1: it is an element).
+  struct Size {
+    std::array<int, 2> parts;
+    int eliminated, remaining;
+  };
+  /// Elements first, each subdomain after its parts.
+  std::vector<Size> sizes() const;
   double flops() const { return flops_; }  ///< of one factorisation, elements included
   double entries() const;                  ///< of the factors
   std::size_t memory_bytes() const { return std::size_t(entries()) * sizeof(Scalar); }
@@ -69,22 +91,35 @@ class NestedLU {
     bool waits = false;                ///< condensed, for the other part
     /// Of the parts' remaining unknowns: those that are eliminated here, and the others, counted from 0 as well.
     std::array<std::vector<Run>, 2> ended, left;
-    Eigen::PartialPivLU<Matrix> lu;
-    Matrix solved_columns, rows;  ///< K_ff^-1 K_fo and K_of
-    Matrix schur;                 ///< of the remaining unknowns, until it is joined
+    /// Column by column of the matrix here, that of the part's remaining unknowns; -1: none.
+    std::array<std::vector<int>, 2> column_of_part;
+    Matrix factors;                                       ///< L and U of K_ff, its rows permuted
+    Eigen::VectorXi permuted_row;                         ///< where a row of K_ff is among those of the factors
+    std::optional<TriangularFactors<Scalar>> triangular;  ///< of these, until the rest is condensed
+    Matrix solved_columns, rows;                          ///< K_ff^-1 K_fo and K_of
+    Matrix schur;                                         ///< of the remaining unknowns, until it is joined
+    Eigen::Index remaining() const { return Eigen::Index(unknowns.size()) - eliminated; }
   };
-  /// A matrix, split at the unknowns that are eliminated.
-  struct Blocks {
-    Matrix own, columns;  ///< K_ff, K_fo
-    Matrix rows, rest;    ///< K_of, K_oo
+  /// What is done with the tasks and when it ends.
+  struct Work {
+    Tasks& tasks;
+    const std::atomic<bool>* stop;
+    bool is_stopped() const { return stop && *stop; }
   };
-  static bool eliminate(Front&, Blocks, const std::atomic<bool>* stop);
-  Blocks joined(const Front&);
+  template <class Column>
+  static void factorise(Front&, const Column&);
+  template <class Column>
+  static void condense_block(Front&, const Column&, Eigen::Index block);
+  static Eigen::Index blocks_of(const Front&);
+  void join(int front, const Work&);
+  void end(int front, const Work&);
+  void add_column(const Front&, Eigen::Index j, Scalar* first, Scalar* rest) const;
   template <int columns>
   Eigen::Matrix<double, Eigen::Dynamic, columns> substituted(
       const Eigen::Matrix<double, Eigen::Dynamic, columns>& rhs) const;
   static void append(int in_part, int in_whole, std::vector<Run>& runs);
 
+  std::mutex waiting_;         ///< for which fronts wait
   std::vector<Front> fronts_;  ///< elements first, each after its parts, the whole last
   std::vector<int> elements_;
   double flops_ = 0;

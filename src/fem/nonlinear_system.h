@@ -1,9 +1,9 @@
 // What Newton's method and the continuation know of a discretised problem, in whatever dimension it is.
 #pragma once
 #include <Eigen/Core>
-#include <atomic>
 #include <cstddef>
 
+#include "fem/work_limits.h"
 #include "fem/work_meter.h"
 #include "laws/media.h"
 
@@ -51,15 +51,16 @@ class NonlinearSystem {
   bool has_factors() const { return has_factors_; }
   /// Frees their memory.
   virtual void drop_factors() = 0;
-  /// From now on, until null is given: once `stop` is set `linearise` may give up, with numbers that are not finite.
-  void obey(const std::atomic<bool>* stop) { stop_ = stop; }
+  /// From now on: once it is to stop `linearise` may give up, with numbers that are not finite; `residual` and
+  /// `linearise` take as many threads as are allowed and as their work pays for.
+  void obey(const WorkLimits& limits) { limits_ = limits; }
 
   const WorkMeter& work() const { return work_; }
 
  protected:
   WorkMeter work_;
   bool has_factors_ = false;
-  const std::atomic<bool>* stop_ = nullptr;
+  WorkLimits limits_;
 };
 
 }  // namespace rheocyte

@@ -56,36 +56,38 @@ MatrixXd TensorElement::tested(int part, const MatrixXd& at_points) const {
 
 /// sums(i3 j3; q1 q2) over q3 for rows and columns of a kind: derived in the first direction (1), in the second (2), or
 /// neither (0), which a value (part 0) and a derivative in the third one (part 3) are.
-void TensorTangent::sum_third(const Coefficients& C, int row_kind, int column_kind, Eigen::MatrixXf& sums) {
-  const int n = element_.nodes_, m = element_.points_;
+void TensorTangent::sum_third(const TensorElement& element, const Coefficients& C, int row_kind, int column_kind,
+                              Eigen::MatrixXf& sums) {
+  const int n = element.nodes_, m = element.points_;
   sums.setZero(n * n, m * m);
   const auto parts = [](int kind) { return kind == 0 ? std::array{0, 3} : std::array{kind, -1}; };
   for (const int k : parts(row_kind)) {
     for (const int l : parts(column_kind)) {
       if (k < 0 || l < 0 || !C[k][l]) continue;
       const ConstMap coefficients(C[k][l], m * m, m);
-      sums.noalias() += element_.products_[k == 3][l == 3].transpose() * coefficients.cast<float>().transpose();
+      sums.noalias() += element.products_[k == 3][l == 3].transpose() * coefficients.cast<float>().transpose();
     }
   }
 }
 
-void TensorTangent::integrate(const Coefficients& C) {
-  const int n = element_.nodes_, m = element_.points_, nn = n * n;
+void TensorTangent::integrate(const TensorElement& element, const Coefficients& C) {
+  const int n = element.nodes_, m = element.points_, nn = n * n;
+  nodes_ = n;
   // second(i2 j2; i3 j3, q1), one block after the other for the derivatives in the first direction: none, of the rows,
   // of the columns, of both.
   second_.setZero(nn, 4 * Eigen::Index(nn) * m);
   for (int row_kind = 0; row_kind < 3; ++row_kind) {
     for (int column_kind = 0; column_kind < 3; ++column_kind) {
-      sum_third(C, row_kind, column_kind, third_);
+      sum_third(element, C, row_kind, column_kind, third_);
       const ConstMapF by_second(third_.data(), Eigen::Index(nn) * m, m);
       const int block = (row_kind == 1) + 2 * (column_kind == 1);
       second_.middleCols(block * Eigen::Index(nn) * m, Eigen::Index(nn) * m).noalias() +=
-          element_.products_[row_kind == 2][column_kind == 2].transpose() * by_second.transpose();
+          element.products_[row_kind == 2][column_kind == 2].transpose() * by_second.transpose();
     }
   }
   const ConstMapF by_first(second_.data(), Eigen::Index(nn) * nn, 4 * m);
   result_.resize(nn, Eigen::Index(nn) * nn);
-  result_.noalias() = element_.stacked_products_.transpose() * by_first.transpose();
+  result_.noalias() = element.stacked_products_.transpose() * by_first.transpose();
 }
 
 }  // namespace rheocyte

@@ -38,22 +38,21 @@ class TensorElement {
 /// of NestedLU.
 class TensorTangent {
  public:
-  explicit TensorTangent(const TensorElement& element) : element_(element) {}
-
   /// Coefficients at the points, nullptr where there are none: C[k][m].
   using Coefficients = std::array<std::array<const double*, 4>, 4>;
-  void integrate(const Coefficients&);
+  void integrate(const TensorElement&, const Coefficients&);
 
   /// The entries of column (j1, j2, j3) in the rows (0, i2, i3), (1, i2, i3), ..., which are contiguous.
   const float* run(int i2, int i3, int j1, int j2, int j3) const {
-    const int n = element_.nodes_;
+    const int n = nodes_;
     return result_.data() + n * (j1 + n * ((i2 + n * j2) + n * n * (i3 + n * j3)));
   }
 
  private:
-  void sum_third(const Coefficients&, int row_kind, int column_kind, Eigen::MatrixXf& sums);
+  static void sum_third(const TensorElement&, const Coefficients&, int row_kind, int column_kind,
+                        Eigen::MatrixXf& sums);
 
-  const TensorElement& element_;
+  int nodes_ = 0;
   Eigen::MatrixXf third_, second_, result_;
 };
 

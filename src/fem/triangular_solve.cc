@@ -12,34 +12,45 @@ using Eigen::Index;
 constexpr Index rows_at_once = 32;
 
 template <unsigned part, class Matrix>
-Matrix inverse_of_block(const Matrix& factors, Index from, Index size) {
-  Matrix inverse = Matrix::Identity(size, size);
-  factors.block(from, from, size, size).template triangularView<part>().solveInPlace(inverse);
-  return inverse;
+Matrix inverses_of_blocks(const Matrix& factors) {
+  const Index n = factors.rows();
+  Matrix inverses = Matrix::Zero(std::min(rows_at_once, n), n);
+  for (Index from = 0; from < n; from += rows_at_once) {
+    const Index size = std::min(rows_at_once, n - from);
+    auto inverse = inverses.block(0, from, size, size);
+    inverse.setIdentity();
+    factors.block(from, from, size, size).template triangularView<part>().solveInPlace(inverse);
+  }
+  return inverses;
 }
 
 }  // namespace
 
 template <class Scalar>
-void solve_triangular(const Eigen::MatrixX<Scalar>& factors, Eigen::MatrixX<Scalar>& columns) {
-  using Matrix = Eigen::MatrixX<Scalar>;
-  const Index n = factors.rows();
+TriangularFactors<Scalar>::TriangularFactors(const Matrix& factors)
+    : factors_(factors),
+      inverse_lower_(inverses_of_blocks<Eigen::UnitLower>(factors)),
+      inverse_upper_(inverses_of_blocks<Eigen::Upper>(factors)) {}
+
+template <class Scalar>
+void TriangularFactors<Scalar>::solve_in_place(Eigen::Ref<Matrix> columns) const {
+  const Index n = factors_.rows();
   Matrix solved;
   for (Index from = 0; from < n; from += rows_at_once) {
     const Index size = std::min(rows_at_once, n - from), rest = n - from - size;
-    solved.noalias() = inverse_of_block<Eigen::UnitLower>(factors, from, size) * columns.middleRows(from, size);
+    solved.noalias() = inverse_lower_.block(0, from, size, size) * columns.middleRows(from, size);
     columns.middleRows(from, size) = solved;
-    columns.bottomRows(rest).noalias() -= factors.block(from + size, from, rest, size) * solved;
+    columns.bottomRows(rest).noalias() -= factors_.block(from + size, from, rest, size) * solved;
   }
   for (Index end = n; end > 0; end = (end - 1) / rows_at_once * rows_at_once) {
     const Index from = (end - 1) / rows_at_once * rows_at_once, size = end - from;
-    solved.noalias() = inverse_of_block<Eigen::Upper>(factors, from, size) * columns.middleRows(from, size);
+    solved.noalias() = inverse_upper_.block(0, from, size, size) * columns.middleRows(from, size);
     columns.middleRows(from, size) = solved;
-    columns.topRows(from).noalias() -= factors.block(0, from, from, size) * solved;
+    columns.topRows(from).noalias() -= factors_.block(0, from, from, size) * solved;
   }
 }
 
-template void solve_triangular(const Eigen::MatrixXf&, Eigen::MatrixXf&);
-template void solve_triangular(const Eigen::MatrixXd&, Eigen::MatrixXd&);
+template class TriangularFactors<float>;
+template class TriangularFactors<double>;
 
 }  // namespace rheocyte

@@ -4,7 +4,7 @@
 
 namespace rheocyte {
 
-/// Seconds and counts of the parts of the work.
+/// Seconds and counts of the parts of the work; seconds are added over the threads.
 struct WorkMeter {
   double assembly_s = 0;  ///< integrals over elements: residuals and tangents
   double factorisation_s = 0;

@@ -11,6 +11,7 @@
 #include "python/bindings.h"
 #include "python/interruptible.h"
 #include "python/result_object.h"
+#include "sweep/shared_work.h"
 
 namespace rheocyte {
 
@@ -34,14 +35,15 @@ struct SeenFrame {
 
 class PythonEvolution {
  public:
-  explicit PythonEvolution(const Case& c) {
+  /// Threads: at most; 0: all processors.
+  PythonEvolution(const Case& c, int threads) {
     if (c.time.scheme == TimeScheme::stationary)
       throw UserError(
           "rheocyte.evolve: the case has neither time.end_us nor time.end_um; give one, and cell.viscosity_mPas.");
     const auto seen = [](const TimeFrame& frame, const Evolution<SeenFrame>& so_far) {
       return SeenFrame{so_far.record().frames.back(), frame.state};
     };
-    evolution_ = std::make_unique<Evolution<SeenFrame>>(c, seen);
+    evolution_ = std::make_unique<Evolution<SeenFrame>>(c, seen, threads > 0 ? threads : available_processors());
   }
   ~PythonEvolution() {
     evolution_->stop();
@@ -103,7 +105,7 @@ class PythonEvolution {
 
 void bind_evolution(py::module_& module) {
   py::class_<PythonEvolution>(module, "Evolution")
-      .def(py::init<const Case&>())
+      .def(py::init<const Case&, int>())
       .def("next", &PythonEvolution::next)
       .def("history", &PythonEvolution::history)
       .def("is_over", &PythonEvolution::is_over)

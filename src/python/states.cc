@@ -10,6 +10,7 @@
 #include "python/interruptible.h"
 #include "result/gradient.h"
 #include "solve/session.h"
+#include "sweep/shared_work.h"
 
 namespace rheocyte {
 
@@ -31,7 +32,9 @@ class SharedSession {
  public:
   explicit SharedSession(std::size_t memory_limit_bytes) : session_(memory_limit_bytes) {}
 
-  Result solve(const Case& c, const std::vector<std::string>& keys, const std::optional<py::function>& progress) {
+  /// Threads: at most; 0: all processors.
+  Result solve(const Case& c, const std::vector<std::string>& keys, const std::optional<py::function>& progress,
+               int threads) {
     if (c.time.scheme != TimeScheme::stationary)
       throw UserError("rheocyte.solve: the case has keys of the section time; follow it with rheocyte.evolve.");
     const auto gradients = asked_line_keys(c, keys, "rheocyte.solve");
@@ -39,11 +42,12 @@ class SharedSession {
       const py::gil_scoped_acquire acquired;
       (*progress)(described(step));
     };
+    if (threads == 0) threads = available_processors();
     return interruptible([&](const std::atomic<bool>& stop) {
       const std::scoped_lock alone(mutex_);
       const auto report = progress ? ProgressCallback(tell) : ProgressCallback{};
       return solve_with_gradients(c, gradients, [&](const Problem& problem, std::span<ProblemLine> lines) {
-        return session_.solve(problem, report, &stop, lines);
+        return session_.solve(problem, report, {&stop, threads}, lines);
       });
     });
   }

@@ -25,10 +25,12 @@ class Evolution {
   /// Called in the thread that computes, with the frames so far in the record.
   using MakeItem = std::function<Item(const TimeFrame&, const Evolution&)>;
 
-  Evolution(const Case& c, MakeItem make_item)
+  /// With so many threads at most, where the work pays for them.
+  Evolution(const Case& c, MakeItem make_item, int threads = 1)
       : result_{c, scales_of(c), problem_of(c), {}},
         run_(time_run_of(c, result_.scales)),
-        make_item_(std::move(make_item)) {
+        make_item_(std::move(make_item)),
+        limits_(&stop_, threads) {
     if (has_threads) thread_ = Thread([this](const std::stop_token&) { follow(); });
   }
   ~Evolution() {
@@ -88,8 +90,8 @@ class Evolution {
  private:
   void follow() {
     try {
-      result_.state = follow_in_time(result_.problem, run_, observer(), nullptr, &stop_);
-      judge_end(result_, record_, stop_);
+      result_.state = follow_in_time(result_.problem, run_, observer(), nullptr, limits_);
+      judge_end(result_, record_, limits_);
       refuse_unfinite_numbers(result_);
     } catch (...) {
       failure_ = std::current_exception();
@@ -127,6 +129,7 @@ class Evolution {
   std::function<void()> at_item_ = {};
   TimeRecord record_;
   std::atomic<bool> stop_{false};
+  WorkLimits limits_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Item> items_;

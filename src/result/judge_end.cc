@@ -97,10 +97,9 @@ StateNumbers errors_by(const StationaryState& stationary, bool is_other_channel,
   return errors;
 }
 
-void compare_with_stationary(Result& result, TimeRecord& record, const Problem& problem,
-                             const std::atomic<bool>& stop) {
+void compare_with_stationary(Result& result, TimeRecord& record, const Problem& problem, const WorkLimits& limits) {
   Outcome& outcome = result.state.outcome;
-  const StationaryState stationary = solve_stationary(problem, {}, &stop);
+  const StationaryState stationary = solve_stationary(problem, {}, limits);
   const Status there = stationary.outcome.status;
   const bool failed = record.end == TimeEnd::failure;
   if (there == Status::stopped) return;
@@ -172,7 +171,7 @@ bool has_settled(const TimeRecord& record, double distance, double accuracy) {
   return change < std::max(share_of_distance * distance, accuracy) * std::abs(d);
 }
 
-void judge_end(Result& result, TimeRecord& record, const std::atomic<bool>& stop) {
+void judge_end(Result& result, TimeRecord& record, const WorkLimits& limits) {
   if (record.rows.empty()) return;
   record.end = end_of(record, result);
   record.comparison = result.state.comparison;
@@ -180,7 +179,7 @@ void judge_end(Result& result, TimeRecord& record, const std::atomic<bool>& stop
     if (auto problem = straight_from_here(result, record)) {
       const double wanted = result.input.time.mesh_accuracy.value_or(HUGE_VAL);
       problem->accuracy = std::min(problem->accuracy, share_of_stationary * wanted);
-      compare_with_stationary(result, record, *problem, stop);
+      compare_with_stationary(result, record, *problem, limits);
     }
   result.state.outcome.message += told_of_surface(record, result.problem);
   judge(result);

@@ -142,8 +142,9 @@ std::span<const Field<SolveStatistics, Json>> statistics_fields() {
       {"elements", "of the finest mesh", [](const S& s) -> Json { return s.elements; }},
       {"factorisations", "of Newton's matrix", [](const S& s) -> Json { return s.factorisations; }},
       {"continuation_steps", "steps in stiffness, or in time", [](const S& s) -> Json { return s.continuation_steps; }},
-      {"assembly_s", "time for integrals over elements", [](const S& s) -> Json { return s.assembly_s; }},
-      {"factorisation_s", "time for factorisations, those inside of elements included",
+      {"assembly_s", "time for integrals over elements, added over the threads",
+       [](const S& s) -> Json { return s.assembly_s; }},
+      {"factorisation_s", "time for factorisations, those inside of elements included, likewise added",
        [](const S& s) -> Json { return s.factorisation_s; }},
       {"substitution_s", "time for solutions with the factors", [](const S& s) -> Json { return s.substitution_s; }},
       {"total_s", "as wall_time_s", [](const S& s) -> Json { return s.total_s; }}};

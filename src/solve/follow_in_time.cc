@@ -26,10 +26,11 @@ Subdivision fine_subdivision(int surface_elements) {
 constexpr double residual_of_step = 1e-3, min_tolerance = 1e-9, max_tolerance = 1e-6;
 constexpr double first_step_of_accuracy = 8, max_first_step = 0.01;
 
-TimeStepOptions step_options(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
+TimeStepOptions step_options(const Problem& problem, const TimeRun& run, const WorkLimits& limits) {
   TimeStepOptions options;
   options.accuracy = run.accuracy;
-  options.newton.stop = stop;
+  options.newton.stop = limits.stop;
+  options.threads = limits.threads;
   if (!is_duct(problem.section)) return options;
   // A deformation changes by about as much as the residual, the surface by more than that in a step that is accurate.
   options.newton.tolerance = std::clamp(residual_of_step * run.accuracy, min_tolerance, max_tolerance);
@@ -44,19 +45,19 @@ TimeStepOptions step_options(const Problem& problem, const TimeRun& run, const s
 /// Whether the user has chosen the mesh; then no accuracy is wanted of it.
 bool is_mesh_given(const TimeRun& run) { return run.degree > 0 || run.scheme == TimeScheme::partitioned; }
 
-Resolution resolution_of(const Problem& problem, const TimeRun& run, const std::atomic<bool>* stop) {
+Resolution resolution_of(const Problem& problem, const TimeRun& run, const WorkLimits& limits) {
   Resolution resolution = usual_time_resolution_of(problem);
   if (run.degree > 0) resolution.degree = run.degree;
   if (run.scheme == TimeScheme::partitioned && run.surface_elements > 0)
     resolution.subdivision = fine_subdivision(run.surface_elements);
-  return is_mesh_given(run) ? resolution : resolution_in_time(problem, run.mesh_accuracy, stop);
+  return is_mesh_given(run) ? resolution : resolution_in_time(problem, run.mesh_accuracy, limits);
 }
 
 std::unique_ptr<Stepper> make_stepper(const Problem& problem, const TimeRun& run, const Resolution& resolution,
-                                      const std::atomic<bool>* stop) {
+                                      const WorkLimits& limits) {
   if (run.scheme == TimeScheme::partitioned)
     return std::make_unique<PartitionedStepper>(problem, resolution, PartitionedOptions{run.step});
-  return std::make_unique<TimeStepper>(problem, resolution, step_options(problem, run, stop));
+  return std::make_unique<TimeStepper>(problem, resolution, step_options(problem, run, limits));
 }
 
 /// Whether a shape no longer changes: its rate falls as r(t) = r0 exp(-t / tau), or so, and what is left of its way,
@@ -87,12 +88,12 @@ bool has_settled(const Stepper& stepper) {
 class TimeFollower {
  public:
   TimeFollower(const Problem& problem, const TimeRun& run, const Resolution& resolution, const TimeObserver& observer,
-               const std::atomic<bool>* stop)
+               const WorkLimits& limits)
       : run_(run),
         degree_(resolution.degree),
         observer_(observer),
-        stop_(stop),
-        stepper_(make_stepper(problem, run, resolution, stop)) {}
+        limits_(limits),
+        stepper_(make_stepper(problem, run, resolution, limits)) {}
 
   bool has_settled() const { return settled_; }
   /// "12 % of the way": how far it has come.
@@ -135,7 +136,7 @@ class TimeFollower {
         is_duct(problem.section)
             ? at_time_zero(static_cast<const DuctDiscrete&>(stepper_->discrete()).space(), 3, from.state, *from.units)
             : at_time_zero(stepper_->space(), 2, from.state, *from.units);
-    state.next_step = step_options(problem, run_, stop_).first_step;
+    state.next_step = step_options(problem, run_, limits_).first_step;
     return stepper_->resume(state), Status::converged;
   }
 
@@ -149,7 +150,7 @@ class TimeFollower {
   void advance(StationaryState& result) {
     SolveStatistics& statistics = result.statistics;
     while (result.outcome.status == Status::converged && !at_end()) {
-      if (stop_ && *stop_) {
+      if (limits_.is_stopped()) {
         result.outcome.status = Status::stopped;
         break;
       }
@@ -238,7 +239,7 @@ class TimeFollower {
   TimeRun run_;
   int degree_;
   TimeObserver observer_;
-  const std::atomic<bool>* stop_;
+  WorkLimits limits_;
   std::unique_ptr<Stepper> stepper_;
   bool settled_ = false;
 };
@@ -267,12 +268,12 @@ struct OtherRun {
 };
 
 OtherRun run_on(const Resolution& resolution, const Problem& problem, const TimeRun& run,
-                const Deformations& deformations, const std::atomic<bool>* stop) {
+                const Deformations& deformations, const WorkLimits& limits) {
   Deformations compared;
   std::vector<TimePoint> steps;
   const auto note_step = [&steps](const TimePoint& point, const TimeState&) { steps.push_back(point); };
   const TimeObserver observer = noting(compared, {.frame = {}, .step = note_step, .compared = {}});
-  TimeFollower follower(problem, run, resolution, observer, stop);
+  TimeFollower follower(problem, run, resolution, observer, limits);
   const StationaryState end = follower.follow(nullptr);
   double greatest = 0, change = 0;
   for (std::size_t i = 0; i < std::min(deformations.size(), compared.size()); ++i) {
@@ -298,10 +299,10 @@ std::string told_of_failure(const OtherRun& other) {
 /// run is smaller. Where that is not enough for the wanted accuracy, from a third one, a degree finer. Gives the steps
 /// of the run that tells the error; none if nothing does.
 std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run, const Resolution& resolution,
-                                      const Deformations& deformations, const std::atomic<bool>* stop,
+                                      const Deformations& deformations, const WorkLimits& limits,
                                       StationaryState& result) {
   const double d = result.shape.deformation, size = std::max(d, result.deformation_floor);
-  const OtherRun coarse = run_on(to_compare_with(problem, resolution), problem, run, deformations, stop);
+  const OtherRun coarse = run_on(to_compare_with(problem, resolution), problem, run, deformations, limits);
   result.comparison = coarse.status;
   const bool is_known = coarse.status == Status::converged;
   const double change = std::abs(coarse.numbers.shape.deformation - d) / size;
@@ -317,7 +318,7 @@ std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run
     result.outcome.message += is_known ? told(coarse, change) : told_of_failure(coarse);
     return is_known ? coarse.steps : std::vector<TimePoint>();
   }
-  const OtherRun fine = run_on(finer, problem, run, deformations, stop);
+  const OtherRun fine = run_on(finer, problem, run, deformations, limits);
   const bool is_stopped = fine.status == Status::stopped;
   if (!is_known || is_stopped) result.comparison = fine.status;
   if (is_stopped) {
@@ -346,15 +347,15 @@ std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run
 }  // namespace
 
 StationaryState follow_in_time(const Problem& problem, const TimeRun& run, const TimeObserver& observer,
-                               const TimeStart* from, const std::atomic<bool>* stop) {
-  const Resolution resolution = from ? from->state.resolution : resolution_of(problem, run, stop);
+                               const TimeStart* from, const WorkLimits& limits) {
+  const Resolution resolution = from ? from->state.resolution : resolution_of(problem, run, limits);
   const bool estimates = run.estimates_error && !from;
   Deformations deformations;
-  TimeFollower follower(problem, run, resolution, estimates ? noting(deformations, observer) : observer, stop);
+  TimeFollower follower(problem, run, resolution, estimates ? noting(deformations, observer) : observer, limits);
   StationaryState result = follower.follow(from);
   if (!is_mesh_given(run)) result.deformation_floor = run.accuracy / run.mesh_accuracy;
   if (estimates && result.outcome.status == Status::converged && !follower.has_settled()) {
-    const auto compared = estimate_error(problem, run, resolution, deformations, stop, result);
+    const auto compared = estimate_error(problem, run, resolution, deformations, limits, result);
     if (observer.compared && !compared.empty()) observer.compared(compared);
   }
   return result;

@@ -13,10 +13,10 @@ namespace rheocyte {
 class ResolvedBranch::Metered {
  public:
   Metered(ResolvedBranch& branch, NonlinearSystem& system) : branch_(branch), system_(system), before_(system.work()) {
-    system_.obey(branch.stop_);
+    system_.obey(branch.limits_);
   }
   ~Metered() {
-    system_.obey(nullptr);
+    system_.obey({});
     branch_.statistics_ += system_.work() - before_;
   }
   Metered(const Metered&) = delete;
@@ -29,13 +29,13 @@ class ResolvedBranch::Metered {
 };
 
 ResolvedBranch::ResolvedBranch(const Problem& problem, MediaAt media, Geometry geometry, ProgressCallback report,
-                               const std::atomic<bool>* stop)
+                               const WorkLimits& limits)
     : problem_(problem),
       media_(std::move(media)),
       geometry_(std::move(geometry)),
       report_(std::move(report)),
-      stop_(stop) {
-  for (NewtonOptions* options : {&geometry_.along, &geometry_.across, &geometry_.fine}) options->stop = stop;
+      limits_(limits) {
+  for (NewtonOptions* options : {&geometry_.along, &geometry_.across, &geometry_.fine}) options->stop = limits.stop;
 }
 
 std::shared_ptr<Discrete> ResolvedBranch::discretise(const Resolution& resolution) {

@@ -1,6 +1,5 @@
 // The states of one case: along its branch on coarse resolutions, then from one resolution to the next finer one.
 #pragma once
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -20,10 +19,9 @@ enum class Search { thorough, hopeful, quick };
 /// found, those of a way that begins anew once it is beyond what was reported. `stop` is polled once an iteration.
 class ResolvedBranch {
  public:
-  ResolvedBranch(const Problem& problem, Geometry geometry, ProgressCallback report = {},
-                 const std::atomic<bool>* stop = nullptr)
-      : ResolvedBranch(problem, softening(problem), std::move(geometry), std::move(report), stop) {}
-  ResolvedBranch(const Problem&, MediaAt, Geometry, ProgressCallback, const std::atomic<bool>* stop);
+  ResolvedBranch(const Problem& problem, Geometry geometry, ProgressCallback report = {}, const WorkLimits& limits = {})
+      : ResolvedBranch(problem, softening(problem), std::move(geometry), std::move(report), limits) {}
+  ResolvedBranch(const Problem&, MediaAt, Geometry, ProgressCallback, const WorkLimits&);
 
   /// Whether a state of the way is accepted.
   using Accept = std::function<bool(Discrete&, const BranchState&)>;
@@ -31,7 +29,7 @@ class ResolvedBranch {
   /// The problem of a state of the branch.
   Problem problem_at(double compliance) const { return with_media(problem_, media_(compliance)); }
   const Geometry& geometry() const { return geometry_; }
-  bool is_stopped() const { return stop_ && *stop_; }
+  bool is_stopped() const { return limits_.is_stopped(); }
   /// Of all resolutions, for states to come.
   void keep_factors() { keeps_factors_ = true; }
   /// The work since it was asked for last; sizes are left alone.
@@ -77,7 +75,7 @@ class ResolvedBranch {
   MediaAt media_;
   Geometry geometry_;
   ProgressCallback report_;
-  const std::atomic<bool>* stop_;
+  WorkLimits limits_;
   SolveStatistics statistics_;
   std::vector<std::shared_ptr<Discrete>> made_;
   bool keeps_factors_ = false;

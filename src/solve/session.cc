@@ -40,7 +40,7 @@ void explain(const Problem& problem, const Geometry& geometry, bool gave_up, Sta
 
 /// To the end of the branch, which is known to lie before the problem.
 ResolvedState follow_to_known_end(const Problem& problem, const Geometry& geometry, const ProgressCallback& report,
-                                  const std::atomic<bool>* stop, SolveStatistics& work) {
+                                  const WorkLimits& limits, SolveStatistics& work) {
   const Problem target = at_end_of_branch(problem);
   const double share = problem.bulk.shear_modulus / target.bulk.shear_modulus;
   ResolvedBranch to_end(
@@ -49,7 +49,7 @@ ResolvedState follow_to_known_end(const Problem& problem, const Geometry& geomet
         step.compliance *= share;
         report(step);
       },
-      stop);
+      limits);
   ResolvedState state = to_end.follow(Search::quick);
   work += to_end.take_statistics();
   state.branch.parameter *= share;
@@ -80,17 +80,17 @@ Status Session::answer_nearby(const Problem& problem, ResolvedBranch& branch, La
   return status;
 }
 
-StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress, const std::atomic<bool>* stop,
+StationaryState Session::solve(const Problem& problem, const ProgressCallback& progress, const WorkLimits& limits,
                                std::span<ProblemLine> lines) {
   const bool is_sought = is_duct(problem.section) && problem.place == CellPlace::equilibrium;
-  if (!is_sought) return solve_in(solver_geometry(problem), problem, progress, stop, lines);
+  if (!is_sought) return solve_in(solver_geometry(problem), problem, progress, limits, lines);
   for (ProblemLine& line : lines) line.clear();
   return solve_at_equilibrium(problem,
-                              [&](const Problem& p) { return solve_in(solver_geometry(p), p, progress, stop); });
+                              [&](const Problem& p) { return solve_in(solver_geometry(p), p, progress, limits); });
 }
 
 StationaryState Session::solve_in(const Geometry& geometry, const Problem& problem, const ProgressCallback& progress,
-                                  const std::atomic<bool>* stop, std::span<ProblemLine> lines) {
+                                  const WorkLimits& limits, std::span<ProblemLine> lines) {
   StationaryState result;
   result.shape = measure(Contour{});  // not a number until there is a shape
   double total_s = 0;
@@ -100,7 +100,7 @@ StationaryState Session::solve_in(const Geometry& geometry, const Problem& probl
       result.branch.push_back(step);
       if (progress) progress(step);
     };
-    ResolvedBranch branch(problem, geometry, report, stop);
+    ResolvedBranch branch(problem, geometry, report, limits);
     if (memory_limit_ > 0) branch.keep_factors();
     Kept answer{problem, geometry.make, {geometry.errors}};
     Ladder& ladder = answer.ladder;
@@ -112,7 +112,7 @@ StationaryState Session::solve_in(const Geometry& geometry, const Problem& probl
       state = ladder.rungs.back();
     } else if (status != Status::stopped) {
       const bool ends_before = geometry.knows_ends && is_far_too_soft(problem);
-      state = ends_before ? follow_to_known_end(problem, geometry, report, stop, work) : branch.follow();
+      state = ends_before ? follow_to_known_end(problem, geometry, report, limits, work) : branch.follow();
       status = state.status;
     }
     if (status == Status::converged) status = branch.climb(state, ladder);

@@ -22,13 +22,13 @@ class Session {
 
   /// The stationary state of a problem, from a kept one nearby or from the unstressed sphere; the answer is the same up
   /// to rounding and the tolerance of Newton's method. Never throws for a numerical failure: the state then holds the
-  /// last converged shape on the branch and the outcome says why it stopped. `stop` is polled once an iteration; what
-  /// was kept before stays. Lines: as by solve_stationary.
-  StationaryState solve(const Problem&, const ProgressCallback& = {}, const std::atomic<bool>* stop = nullptr,
+  /// last converged shape on the branch and the outcome says why it stopped. A stop is looked for once an iteration;
+  /// what was kept before stays. Lines: as by solve_stationary.
+  StationaryState solve(const Problem&, const ProgressCallback& = {}, const WorkLimits& limits = {},
                         std::span<ProblemLine> = {});
   /// The same in a given geometry, at the given place.
-  StationaryState solve_in(const Geometry&, const Problem&, const ProgressCallback& = {},
-                           const std::atomic<bool>* stop = nullptr, std::span<ProblemLine> = {});
+  StationaryState solve_in(const Geometry&, const Problem&, const ProgressCallback& = {}, const WorkLimits& limits = {},
+                           std::span<ProblemLine> = {});
 
   /// How many answers started from a kept state.
   int warm_starts() const { return warm_starts_; }

@@ -4,9 +4,9 @@
 
 namespace rheocyte {
 
-StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress,
-                                 const std::atomic<bool>* stop, std::span<ProblemLine> lines) {
-  return Session(0).solve(problem, progress, stop, lines);
+StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress, const WorkLimits& limits,
+                                 std::span<ProblemLine> lines) {
+  return Session(0).solve(problem, progress, limits, lines);
 }
 
 }  // namespace rheocyte

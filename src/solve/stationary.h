@@ -1,6 +1,5 @@
 // The stationary shape of one cell: from the sphere to the wanted state by itself (docs/theory.md, sec. 4).
 #pragma once
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <span>
@@ -10,6 +9,7 @@
 
 #include "case/problem.h"
 #include "fem/sampled_fields.h"
+#include "fem/work_limits.h"
 #include "fem/work_meter.h"
 #include "shape/contour.h"
 #include "solve/number_errors.h"
@@ -100,10 +100,10 @@ using ProblemLine = std::vector<LinePoint>;
 using ProgressCallback = std::function<void(const BranchStep&)>;
 
 /// Solves the problem from the unstressed sphere. Never throws for a numerical failure: the state then holds the
-/// last converged shape on the branch and the outcome says why it stopped. `stop` is polled once an iteration. Lines
-/// around the problem are followed from a converged state of a cell whose place is given; those that cannot be are
-/// empty afterwards.
-StationaryState solve_stationary(const Problem&, const ProgressCallback& = {}, const std::atomic<bool>* stop = nullptr,
+/// last converged shape on the branch and the outcome says why it stopped. A stop is looked for once an iteration.
+/// Lines around the problem are followed from a converged state of a cell whose place is given; those that cannot be
+/// are empty afterwards.
+StationaryState solve_stationary(const Problem&, const ProgressCallback& = {}, const WorkLimits& limits = {},
                                  std::span<ProblemLine> = {});
 
 }  // namespace rheocyte

@@ -23,7 +23,7 @@ Resolution chosen(const Problem& problem, Resolution resolution) {
 
 }  // namespace
 
-Resolution resolution_in_time(const Problem& problem, double accuracy, const std::atomic<bool>* stop) {
+Resolution resolution_in_time(const Problem& problem, double accuracy, const WorkLimits& limits) {
   Problem straight = problem;
   straight.wall = {};
   if (!problem.tension_profile.is_even()) axial_tension(straight) = problem.tension_profile.tension.back();
@@ -31,7 +31,7 @@ Resolution resolution_in_time(const Problem& problem, double accuracy, const std
   if (problem.bulk.shear_modulus == 0 && problem.bulk.branch_modulus > 0) return usual_time_resolution_of(problem);
   const Geometry geometry = solver_geometry(straight);
   if (geometry.knows_ends && is_far_too_soft(straight)) return usual_time_resolution_of(problem);
-  ResolvedBranch branch(straight, geometry, {}, stop);
+  ResolvedBranch branch(straight, geometry, {}, limits);
   ResolvedState state = branch.follow();
   if (state.status != Status::converged) return usual_time_resolution_of(problem);
   Ladder ladder{branch.geometry().errors};

@@ -1,8 +1,7 @@
 // The mesh on which a cell is followed in time (docs/theory-time.md, sec. "the mesh").
 #pragma once
-#include <atomic>
-
 #include "case/problem.h"
+#include "fem/work_limits.h"
 #include "solve/resolution.h"
 
 namespace rheocyte {
@@ -23,7 +22,7 @@ inline Resolution usual_time_resolution_of(const Problem& problem) {
 
 /// The coarsest resolution on which the stationary deformation of the same cell, in the narrowest part of its channel,
 /// is right within half of the accuracy (relative). The usual one where there is no such shape.
-Resolution resolution_in_time(const Problem&, double accuracy, const std::atomic<bool>* stop);
+Resolution resolution_in_time(const Problem&, double accuracy, const WorkLimits& limits);
 
 /// One that is a degree coarser (finer where there is no coarser one), to compare with.
 Resolution to_compare_with(const Problem&, const Resolution&);

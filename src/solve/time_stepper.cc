@@ -32,6 +32,7 @@ TimeStepper::TimeStepper(const Problem& problem, std::unique_ptr<MovingDiscrete>
       options_(options),
       moving_(std::move(moving)),
       surface_(moving_->surface_unknowns()) {
+  moving_->system().obey({nullptr, options.threads});  // Newton's method stops between iterations
   options_.newton.residual_scale = residual_scale(moving_->system(), media_);
   // A viscosity in series with a spring does not damp short waves, least of all those of a cell that is let go.
   if (media_.bulk.branch_modulus > 0)

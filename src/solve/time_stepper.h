@@ -21,6 +21,7 @@ struct TimeStepOptions {
   int max_order = max_bdf_order;
   double fixed_step = 0;  ///< > 0: all steps have this size and, as soon as there are enough levels, the greatest order
   NewtonOptions newton = {1e-9};
+  int threads = 1;  ///< at most
 };
 
 class TimeStepper final : public Stepper {

@@ -46,7 +46,7 @@ double work(const DuctCortex& surface, const DuctSpace& space, const Cortex& cor
   double sum = 0;
   for (int e = 0; e < int(space.elements().size()); ++e) {
     for (const int patch : surface.patches_of(e)) {
-      PatchSystem system;
+      ElementSystem system;
       surface.integrate(patch, cortex, unknowns, Want::residual, system);
       const Eigen::MatrixXi& of_patch = surface.equations_of(patch);
       for (int i = 0; i < int(of_patch.size()); ++i) {

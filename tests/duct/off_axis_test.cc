@@ -181,7 +181,7 @@ TEST(OffAxis, TheLiquidsForceAndTorqueOnTheCellVanish) {
   const VectorXd x = solved(duct.system, media);
   const DuctSpace& space = duct.space;
   const int n = space.reference().nodes();
-  HexahedronPoints points;
+  ElementSystem points;
   double largest = 0, torque = 0;
   DuctPoint force = DuctPoint::Zero();
   for (int e = 0; e < int(space.elements().size()); ++e) {

@@ -112,7 +112,8 @@ TEST(NestedLU, TriangularFactorsAreSolvedBlockByBlock) {
     factors.triangularView<Eigen::UnitLower>().solveInPlace(expected);
     factors.triangularView<Eigen::Upper>().solveInPlace(expected);
     Eigen::MatrixXf solved = columns.cast<float>();
-    solve_triangular<float>(factors.cast<float>(), solved);
+    const Eigen::MatrixXf single = factors.cast<float>();
+    TriangularFactors<float>(single).solve_in_place(solved);
     EXPECT_LT((solved.cast<double>() - expected).norm(), 1e-6 * expected.norm()) << n;
   }
 }

@@ -1,6 +1,8 @@
 """Solving in Python gives what the command line gives, keeps Python's lock free, and ends by Ctrl-C."""
 
+import concurrent.futures
 import json
+import multiprocessing
 import subprocess
 import sys
 import threading
@@ -10,6 +12,7 @@ import pytest
 
 import rheocyte
 from rheocyte import Case, NoStateError, Session, UserError
+from rheocyte.worker_threads import threads_of
 
 
 def test_the_result_has_the_numbers_of_result_json(state):
@@ -29,7 +32,7 @@ def test_the_command_line_gives_the_same_numbers(state, program, tmp_path):
     subprocess.run([program, "solve", tmp_path / "case.toml", "-o", tmp_path / "r", "--quiet", "--no-picture"], check=True)
     other = json.loads((tmp_path / "r" / "result.json").read_text())
     for name in ("deformation", "area_um2", "pressure_drop_Pa", "case_hash"):
-        assert other[name] == state[name]  # one library, one case, no threads: equal to the last bit
+        assert other[name] == state[name]  # one library, one case, any number of threads: equal to the last bit
     table = np.genfromtxt(tmp_path / "r" / "contour.csv", delimiter=",", names=True)
     assert np.allclose(state.contour[:, 0], table["x_um"], rtol=1e-9, atol=1e-9)  # ten digits in the file
 
@@ -202,3 +205,28 @@ def test_gradients_are_those_of_the_numbers():
         rheocyte.solve(case, gradient=["cell.radius"])
     with pytest.raises(UserError, match="no gradient by 'flow.rate_ul_per_s'"):
         state.surface_gradient("flow.rate_ul_per_s")
+
+
+@pytest.mark.parametrize("section, accuracy", [("square", 0.02), ("tube", 1e-4)])
+def test_the_numbers_do_not_depend_on_the_number_of_threads(section, accuracy):
+    case = Case({"channel": {"width_um": 20, "section": section}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+                 "cell": {"radius_um": 6}}, young_modulus_kPa=8, numerics__accuracy=accuracy)
+    alone, together, by_default = (rheocyte.solve(case, threads=threads) for threads in (1, 3, None))
+    assert alone.converged
+    assert alone.deformation == together.deformation == by_default.deformation
+    assert (alone.contour == together.contour).all() and (alone.contour == by_default.contour).all()
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.5, "many"])
+def test_a_number_of_threads_is_a_whole_one_from_1_on(paper, threads):
+    with pytest.raises(UserError, match="threads is"):
+        rheocyte.solve(paper, threads=threads)
+
+
+def test_workers_of_pools_take_one_thread_each():
+    assert threads_of(None) == 0  # all processors
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        assert pool.submit(threads_of, None).result() == 1
+        assert pool.submit(threads_of, 3).result() == 3
+    with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+        assert pool.submit(threads_of, None).result() == 1

@@ -64,22 +64,22 @@ Outcome outcome_of(const std::string& failure) {
 }
 
 // As the true solver does: polls, and keeps the last state.
-Outcome wait_for_stop(const std::atomic<bool>* stop) {
-  for (int i = 0; i < 2000 && !(stop && *stop); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+Outcome wait_for_stop(const WorkLimits& limits) {
+  for (int i = 0; i < 2000 && !limits.is_stopped(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return {Status::stopped, "Stopped by a signal.", 0.5};
 }
 
 }  // namespace
 
-StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress,
-                                 const std::atomic<bool>* stop, std::span<ProblemLine>) {
+StationaryState solve_stationary(const Problem& problem, const ProgressCallback& progress, const WorkLimits& limits,
+                                 std::span<ProblemLine>) {
   const auto failure = wanted_failure();
   if (failure == "throw") throw std::logic_error("a bug\nof the solver");
   StationaryState state;
   state.branch = {{0, 0, 3, 4}, {0.5, 0.01, 4, 4}};
   if (progress)
     for (const auto& point : state.branch) progress(point);
-  state.outcome = failure == "slow" ? wait_for_stop(stop) : outcome_of(failure);
+  state.outcome = failure == "slow" ? wait_for_stop(limits) : outcome_of(failure);
   state.contour = sphere(problem.radius_ratio);
   state.surface = surface_of_sphere(problem.radius_ratio);
   state.shape = measure(state.contour);
@@ -101,8 +101,8 @@ StationaryState solve_stationary(const Problem& problem, const ProgressCallback&
 
 /// In time nothing fails on demand: one state, no step.
 StationaryState follow_in_time(const Problem& problem, const TimeRun&, const TimeObserver&, const TimeStart*,
-                               const std::atomic<bool>* stop) {
-  return solve_stationary(problem, {}, stop);
+                               const WorkLimits& limits) {
+  return solve_stationary(problem, {}, limits);
 }
 
 }  // namespace rheocyte

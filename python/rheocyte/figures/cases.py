@@ -130,7 +130,7 @@ class Laboratory:
     def start(self, name, file):
         """The program on one case, in a session of its own: signals reach it only from here."""
         arguments = [self.program, "solve", str(file), "-o", str(self.folder / name), "--quiet", "--no-picture",
-                     "--no-output-fields"]
+                     "--no-output-fields", "--threads", "1"]
         try:
             return subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                     stderr=subprocess.PIPE, text=True, start_new_session=True)
