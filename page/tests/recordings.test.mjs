@@ -258,3 +258,30 @@ test('Populations of the conditions of the list are fitted: a dot for each recor
   }, undefined, files);
   await rm(folder, { recursive: true });
 });
+
+test('Bulk, cortex and tensions of populations are told one by one', { skip }, async () => {
+  const folder = await mkdtemp(join(tmpdir(), 'rheocyte-cortex-'));
+  const files = ['one.rtdc', 'other.rtdc'].map((name) => join(folder, name));
+  const cells = ['cell.kind=combined', 'flow.axial_tension_Pa=250', 'flow.viscosity_mPas=15', 'cell.radius_um.mean=6.5', 'cell.radius_um.sd=0.4'];
+  for (const [k, file] of files.entries())
+    await synthesise(file, [...cells, 'recording.cells=400', `recording.seed=${k + 1}`, 'cell.cortex.tension_ratio=0.3', `cell.cortex.modulus_mN_per_m=${10 - 3 * k}`]);
+  await inPage(async (page) => {
+    for (const [item, condition] of ['control', 'drug'].entries()) {
+      const row = page.locator('.recording').nth(item);
+      await row.locator('.recording-name').click();
+      await row.getByLabel('Condition', { exact: true }).fill(condition);
+      await page.keyboard.press('Enter');
+    }
+    await page.getByRole('tab', { name: 'Populations' }).click();
+    await page.getByLabel('Cells have a cortex').check();
+    await page.getByRole('button', { name: 'Fit populations' }).click();
+    await page.getByRole('img', { name: 'Median E + E2D/r0 of each recording, by condition' }).waitFor();
+    await page.getByLabel('Shown').selectOption('E2D');
+    await page.getByRole('img', { name: 'Median E2D of each recording, by condition' }).waitFor();
+    assert.equal(await page.locator('.populations-plot .session').count(), 2);
+    assert.match(await page.locator('.populations table').textContent(), /mN\/m.*drug \/ control0\.[67]/);
+    assert.match(await page.locator('.populations code').textContent(), /--model cortex/);
+    if (process.env.SHOT) await page.screenshot({ path: process.env.SHOT });
+  }, undefined, files);
+  await rm(folder, { recursive: true });
+});

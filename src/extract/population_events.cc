@@ -155,9 +155,10 @@ PopulationEvents read_population_events(const std::filesystem::path& file, const
   Recording recording(file);
   if (ShapeSource::has_outlines(recording)) return events_by<OutlinedReader>(recording, options, by, tell_progress);
   if (by == StiffnessMeasure::asymmetry)
-    refuse_path(file,
-                "has neither contours nor masks, from which the asymmetry of the outlines follows; with inertia ratios "
-                "(inert_ratio_cvx) --by odd-deformation does without.");
+    refuse_path(
+        file,
+        "has neither contours nor masks, from which the asymmetry of the outlines follows; populations of solids "
+        "are fitted without them by --by odd-deformation, if there are inertia ratios (inert_ratio_cvx).");
   if (!recording.has_scalar(std::string(stored_inertia_ratio)))
     refuse_path(
         file,
