@@ -100,7 +100,8 @@ ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
 ShapeErrors RenderedErrors::of(const CellCoordinates& cell) const {
   const CombinedState state = table_.at(cell);
   // Random numbers of its own: what is left of the mean over the places is not the same for all cells of a recording.
-  const auto number = std::bit_cast<std::uint64_t>(state.value(log_area_row));
+  // By seven digits, so that they do not depend on the last ones of a machine's logarithm.
+  const auto number = std::bit_cast<std::uint32_t>(float(state.value(log_area_row)));
   return state.inside ? rendered(state, pixel_size_um_, draws_of_one_cell, number) : at(cell);
 }
 
