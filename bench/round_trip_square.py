@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""How well `rheocyte moduli` finds cells that are solved in the square channel itself, by a table of the tube.
+"""How well `rheocyte moduli` and `rheocyte population --model cortex` find cells that are solved in the square channel itself, by
+a table of the tube.
 
     bench/round_trip_square.py TABLE FOLDER [--recordings 8] [--cells 24] [--places 6] [--program build/rheocyte]
 
@@ -97,7 +98,23 @@ def round_trip(number, options):
     subprocess.run([options.program, "moduli", file, "--table", options.table, "-o", options.folder], check=True,
                    capture_output=True)
     found = json.loads((options.folder / f"square-{number}_moduli.json").read_text())
+    found["population"] = as_population(file, options)
     return {"axial_tension": medians.axial} | dict(zip(MODULI, np.median(moduli, axis=0))), found
+
+
+def as_population(file, options):
+    """Medians with their standard errors, those of table and section included, by name; without the ones that are not told."""
+    folder = options.folder / f"{file.stem}-population"
+    subprocess.run([options.program, "population", "--model", "cortex", "--condition", f"cells={file}", "--table", options.table,
+                    "-o", folder, "--no-picture", "--quiet"], check=False, capture_output=True)
+    found = json.loads((folder / "population.json").read_text())["recordings"][0].get("population") or {}
+    told = {}
+    for name in (*MODULI, "axial_tension_Pa"):
+        if f"median_{name}" in found:
+            value, upper = (found[f"median_{name}"][part] for part in ("value", "upper"))
+            relative = np.hypot(np.log(upper / value) / 1.96, found[f"common_relative_error_of_{name}"])
+            told[name] = f"{value:.4g} +- {relative * value:.2g}"
+    return told
 
 
 def main():
@@ -119,7 +136,7 @@ def main():
               f"{tension['upper_Pa']:.1f})", end="")
         for name in MODULI:
             print(f", {name} {truth[name]:.4g}: {found[name]['median']:.4g} +- {found[name]['median_error']:.2g}", end="")
-        print(flush=True)
+        print(";", "as a population:", ", ".join(f"{name} {told}" for name, told in found["population"].items()) or "nothing", flush=True)
 
 
 if __name__ == "__main__":

@@ -127,13 +127,12 @@ class MomentSearch {
     return (white * found_.measured.covariance * white.transpose()).trace() - 2 * white.diagonal().array().log().sum();
   }
 
-  Direction direction(Part part, const MomentSlopes& s, const std::vector<int>& parameters,
-                      const Moments& measured) const {
+  Direction direction(Part part, const MomentSlopes& s, const std::vector<int>& parameters) const {
     const auto n = Eigen::Index(parameters.size());
     Direction found{VectorXd(n), MatrixXd(n, n)};
-    const VectorXd off = weight_ * (measured.mean - s.there.mean);
+    const VectorXd off = weight_ * (found_.measured.mean - s.there.mean);
     const MatrixXd precision = part == Part::means ? weight_ : inverse_of(s.there.covariance);
-    const MatrixXd scatter = precision * (measured.covariance - s.there.covariance) * precision;
+    const MatrixXd scatter = precision * (found_.measured.covariance - s.there.covariance) * precision;
     for (Eigen::Index a = 0; a < n; ++a) {
       const Moments& by = s.by_parameter[std::size_t(parameters[std::size_t(a)])];
       const MatrixXd weighed = precision * by.covariance * precision;
@@ -156,7 +155,7 @@ class MomentSearch {
       const MomentSlopes slopes = model_.slopes(found_.parameters);
       const std::vector<int> free = free_of(part, slopes);
       if (free.empty()) return true;
-      const Direction d = direction(part, slopes, free, found_.measured);
+      const Direction d = direction(part, slopes, free);
       const VectorXd error = (inverse_of(d.information).diagonal() / double(found_.events)).cwiseSqrt();
       const VectorXd step = solve_dense(d.information, d.score);
       if (!((step.array() / error.array()).abs().maxCoeff() > moment_tolerance / 2)) return step.allFinite();
@@ -171,7 +170,7 @@ class MomentSearch {
 
   std::vector<int> free_of(Part part, const MomentSlopes& slopes) {
     const std::vector<int> all = parameters_of(part);
-    const Direction d = direction(part, slopes, all, found_.measured);
+    const Direction d = direction(part, slopes, all);
     std::vector<int> free;
     for (std::size_t k = 0; k < all.size(); ++k) {
       const int a = all[k];
@@ -215,19 +214,12 @@ class MomentSearch {
     e.free = e.means;
     e.free.insert(e.free.end(), e.scatter.begin(), e.scatter.end());
     const auto n = Eigen::Index(e.free.size()), m = Eigen::Index(e.means.size());
-    e.value = scores(e, found_.measured);
+    e.value.resize(n);
+    e.value << direction(Part::means, e.slopes, e.means).score, direction(Part::scatter, e.slopes, e.scatter).score;
     e.matrix.resize(n, n);
-    e.matrix.topRows(m) = direction(Part::means, e.slopes, e.free, found_.measured).information.topRows(m);
-    e.matrix.bottomRows(n - m) =
-        direction(Part::scatter, e.slopes, e.free, found_.measured).information.bottomRows(n - m);
+    e.matrix.topRows(m) = direction(Part::means, e.slopes, e.free).information.topRows(m);
+    e.matrix.bottomRows(n - m) = direction(Part::scatter, e.slopes, e.free).information.bottomRows(n - m);
     return e;
-  }
-
-  VectorXd scores(const Equations& e, const Moments& measured) const {
-    VectorXd all(Eigen::Index(e.free.size()));
-    all.head(Eigen::Index(e.means.size())) = direction(Part::means, e.slopes, e.means, measured).score;
-    all.tail(Eigen::Index(e.scatter.size())) = direction(Part::scatter, e.slopes, e.scatter, measured).score;
-    return all;
   }
 
   /// Of the end, in standard errors of the parameters as far as one event's information tells them.
@@ -252,22 +244,43 @@ class MomentSearch {
     return leads_on;
   }
 
-  /// With the slopes of the equations on both sides of the scatter of the events' scores (Huber 1967).
-  void tell(const Equations& e) {
-    const auto n = Eigen::Index(e.free.size()), m = Eigen::Index(e.means.size());
-    MatrixXd products = MatrixXd::Zero(n, n), by_shift = MatrixXd::Zero(n, found_.measured.mean.size());
+  /// The scores of single events: those of the means are linear in what was measured, those of the scatter quadratic.
+  MatrixXd products_of_scores(const Equations& e) const {
+    const auto m = Eigen::Index(e.means.size()), n = Eigen::Index(e.free.size());
+    const MatrixXd precision = inverse_of(e.slopes.there.covariance);
+    MatrixXd linear(m, found_.measured.mean.size());
+    for (Eigen::Index a = 0; a < m; ++a) linear.row(a) = slope(e, a).mean.transpose() * weight_;
+    std::vector<MatrixXd> quadratic;
+    for (Eigen::Index a = m; a < n; ++a) quadratic.emplace_back(precision * slope(e, a).covariance * precision / 2);
+    MatrixXd products = MatrixXd::Zero(n, n);
+    VectorXd score(n);
     for (Eigen::Index i = 0; i < events_.rows(); ++i) {
       if (found_.is_stranger[std::size_t(i)]) continue;
-      const VectorXd off = events_.row(i).transpose() - found_.measured.mean;
-      const VectorXd score = scores(e, {events_.row(i).transpose(), off * off.transpose()});
+      const VectorXd measured = events_.row(i).transpose(), off = measured - found_.measured.mean;
+      score.head(m) = linear * (measured - e.slopes.there.mean);
+      for (Eigen::Index a = m; a < n; ++a) {
+        const MatrixXd& q = quadratic[std::size_t(a - m)];
+        score(a) = off.dot(q * off) - q.cwiseProduct(e.slopes.there.covariance).sum();
+      }
       products += score * score.transpose();
     }
-    for (Eigen::Index a = 0; a < m; ++a)
-      by_shift.row(a) = e.slopes.by_parameter[std::size_t(e.means[std::size_t(a)])].mean.transpose() * weight_;
+    return products;
+  }
+
+  static const Moments& slope(const Equations& e, Eigen::Index place) {
+    return e.slopes.by_parameter[std::size_t(e.free[std::size_t(place)])];
+  }
+
+  /// With the slopes of the equations on both sides of the scatter of the events' scores (Huber 1967).
+  void tell(const Equations& e) {
+    const auto m = Eigen::Index(e.means.size()), n = Eigen::Index(e.free.size());
+    MatrixXd by_shift = MatrixXd::Zero(n, found_.measured.mean.size());
+    for (Eigen::Index a = 0; a < m; ++a) by_shift.row(a) = slope(e, a).mean.transpose() * weight_;
     const MatrixXd bread = inverse_of(e.matrix);
     const auto all = found_.parameters.size();
     found_.covariance = MatrixXd::Zero(all, all);
-    found_.covariance(e.free, e.free) = bread * products * bread.transpose() / std::pow(double(found_.events), 2);
+    found_.covariance(e.free, e.free) =
+        bread * products_of_scores(e) * bread.transpose() / std::pow(double(found_.events), 2);
     found_.by_shift = MatrixXd::Zero(all, by_shift.cols());
     found_.by_shift(e.free, Eigen::all) = bread * by_shift;
     found_.fitted = e.slopes.there;

@@ -1,11 +1,12 @@
-"""Figure 9: deformation against the ratio of the moments of area for cells with a bulk and a cortex."""
+"""Figure 9: deformation against the ratio of the moments of area for cells with a bulk and a cortex; and what images of
+such cells tell of both moduli, one by one and as a population."""
 
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
-from rheocyte.figures import paper, style
+from rheocyte.figures import bulk_and_cortex, paper, style
 
 RADIUS_UM = 7.27
 YOUNG_MODULI_KPA = [0.763, 1.527, 2.291, 3.055]
@@ -27,7 +28,7 @@ def make(laboratory):
     states = {cell: solved[name(*cell)] for cell in cells}
     # Cells that are too soft to have a smooth stationary shape are an answer, not a failure.
     laboratory.failures = [failure for failure in laboratory.failures if failure.result["status"] not in ENDS]
-    return draw(states), [row(cell, state) for cell, state in states.items()]
+    return draw(states, bulk_and_cortex.measured(laboratory)), [row(cell, state) for cell, state in states.items()]
 
 
 def name(young, cortex):
@@ -49,10 +50,10 @@ def row(cell, state):
     return dict(zip(COLUMNS, [cell[0], cell[1], f"{paper.TENSION_RATIO * cell[1]:g}", state.result["status"], *numbers]))
 
 
-def draw(states):
-    """One line for each Young's modulus, the cortex by colour, the image cell on top."""
-    figure = style.new_figure(3.9)
-    axes = figure.add_axes([0.085, 0.115, 0.775, 0.800])
+def draw(states, measured):
+    """One line for each Young's modulus, the cortex by colour, the image cell on top; below it moduli of virtual cells."""
+    figure = style.new_figure(6.6)
+    axes = figure.add_axes([0.085, 0.485, 0.775, 0.470])
     colours = colormaps["viridis"].reversed()
     scale = Normalize(CORTEX_MODULI_MN_PER_M[0] - 0.5, CORTEX_MODULI_MN_PER_M[-1] + 0.5)
     for young in YOUNG_MODULI_KPA:
@@ -60,11 +61,13 @@ def draw(states):
     draw_image_cell(axes, states[IMAGE_CELL])
     axes.set(xlabel="$\\Lambda_1/\\Lambda_2$", ylabel="deformation $d$")
     axes.margins(0.09, 0.08)
-    bar = figure.colorbar(ScalarMappable(scale, colours), cax=figure.add_axes([0.890, 0.115, 0.018, 0.800]))
+    bar = figure.colorbar(ScalarMappable(scale, colours), cax=figure.add_axes([0.890, 0.485, 0.018, 0.470]))
     bar.set_label("$E_{2D}$ (mN/m)")
     bar.outline.set_visible(False)
-    figure.text(0.008, 0.955, f"neo-Hookean bulk and cortex, $r_0$ = {RADIUS_UM:g} µm, "
+    figure.text(0.008, 0.972, f"neo-Hookean bulk and cortex, $r_0$ = {RADIUS_UM:g} µm, "
                 f"$\\gamma$ = {paper.TENSION_RATIO:g} $E_{{2D}}$", weight="bold", fontsize=7.5)
+    figure.text(0.008, 0.395, "what images tell of both moduli: virtual cells, masks of 0.34 µm pixels", weight="bold", fontsize=7.5)
+    bulk_and_cortex.draw(figure.add_axes([0.085, 0.065, 0.775, 0.310]), *measured)
     return figure
 
 
@@ -84,8 +87,10 @@ def draw_line(axes, young, states, colour_of):
         axes.annotate(f"{1000 * young:.0f} Pa", (x[-1], y[-1]), xytext=(5, -3), textcoords="offset points", ha="left",
                       va="top", fontsize=6.5)
     else:
+        leftmost = min(state["moment_ratio"] for state in states.values() if state.converged)
+        beside = {"xytext": (6, 2), "ha": "left", "va": "bottom"} if x[0] == leftmost else {"xytext": (-5, -2), "ha": "right", "va": "top"}
         axes.annotate(f"{1000 * young:.0f} Pa, dashed:\nno smooth shape below {there[0][0]:g} mN/m", (x[0], y[0]),
-                      xytext=(-5, -2), textcoords="offset points", ha="right", va="top", fontsize=6.5)
+                      textcoords="offset points", fontsize=6.5, **beside)
 
 
 def draw_image_cell(axes, state):
