@@ -11,7 +11,11 @@ namespace rheocyte {
 
 std::unique_ptr<PopulationModel> population_model(const PopulationOptions& options) {
   if (options.model == "cortex") return std::make_unique<CombinedPopulations>(options);
-  if (options.model.empty() || options.model == "solid") return std::make_unique<SolidPopulations>(options);
+  if (options.model.empty() || options.model == "solid") {
+    if (options.section)
+      throw UserError("rheocyte: --section is for --model cortex; solids have tables of the square channel itself.");
+    return std::make_unique<SolidPopulations>(options);
+  }
   throw UserError(fmt::format("rheocyte: --model {}: it must be solid or cortex.", one_line(options.model, 40)));
 }
 

@@ -35,6 +35,7 @@ Json population_settings(const Json& given) {
     const std::string name(setting.name);
     if (name != "table" && name != "jobs" && given.contains(name)) settings[name] = given[name];
   }
+  if (settings.value("model", Json()) != "cortex") settings.erase("section");  // of the moduli beside it
   for (const Json& one : settings.value("polygon", Json::array()))
     if (one.is_string() && is_polygon_file(one)) throw UserError("polygon must be features and corners, not a file.");
   return settings;

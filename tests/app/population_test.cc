@@ -180,6 +180,7 @@ TEST_F(PopulationCommand, WhatCellsWithACortexCannotBeAskedIsASentence) {
   };
   refused({"--model", "cortex", "--by", "deformation"}, "--by deformation and --model cortex contradict each other");
   refused({"--model", "jelly"}, "--model");
+  refused({"--section", "tube"}, "--section is for --model cortex");
   refused({"--model", "cortex", "--table", "HE-3D-el-26"}, "HE-3D-el-26");
 }
 
