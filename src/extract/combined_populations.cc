@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "case/user_error.h"
-#include "extract/plausibility.h"
 
 namespace rheocyte {
 namespace {
@@ -170,6 +169,11 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   for (std::size_t i = 0; i < events.events(); ++i) cells.push_back(cell_of(events, i));
   r.fitted_events = cells.size();
   check_events_of_population(r);
+  if (std::isfinite(events.least_area_um2) || std::isfinite(events.greatest_area_um2))
+    r.warnings.emplace_back(
+        "limits of the area are no part of the model of cells with a cortex: they should leave the population alone, "
+        "or "
+        "its numbers shift.");
   CombinedReport& combined = r.combined.emplace();
   combined.section = section_seen(wanted_section_, events.made_of, table_.content.spec.base);
   combined.wall_stress_Pa = r.wall_stress_Pa();

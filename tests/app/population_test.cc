@@ -162,7 +162,9 @@ TEST_F(PopulationCommand, BulkCortexAndTensionsComeBackAndSoDoesWhatADrugDoes) {
 
 TEST_F(PopulationCommand, SolidsHaveNoCortexToTell) {
   synth("solids.rtdc", {"recording.cells=300"});
-  const Ended ended = call({"population", "--model", "cortex", "--condition", "a=solids.rtdc", "--no-picture"});
+  const Ended ended =
+      call({"population", "--model", "cortex", "--condition", "a=solids.rtdc", "--no-picture", "--min", "area_um=60"});
+  EXPECT_NE(ended.err.find("limits of the area are no part of the model"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("bulk and cortex are not told apart, because"), std::string::npos) << ended.err;
   const auto all = record();
   EXPECT_FALSE(all["conditions"][0].contains("median_cortex_modulus_mN_per_m"));
