@@ -78,7 +78,10 @@ test('pages opened from the folder load nothing from elsewhere, show their equat
     const wide = [];
     for (const name of [...index().docnames, 'search', 'genindex']) {
       await page.goto(pathToFileURL(path.join(site, `${name}.html`)).href, { waitUntil: 'domcontentloaded' });
-      const [width, room] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+      const [width, room] = await page.evaluate(async () => {
+        await document.fonts.ready;  // leaving the page would end their loading, which is no failure
+        return [document.documentElement.scrollWidth, document.documentElement.clientWidth];
+      });
       if (width > room) wide.push(`${name}: ${width} of ${room}`);
     }
     assert.deepEqual(wide, [], 'wider than a tablet');
