@@ -18,7 +18,7 @@ PopulationEvents events_of_many_elongations(int count) {
   events.least_deformation = -1, events.greatest_deformation = 1;
   for (int k = 0; k < count; ++k) {
     const double place = (k + 0.5) / count;
-    const std::array<double, seen_measures> seen{115, 0.02, 1.2, 0.06 + 0.08 * place * place, 0.03, 0, 0, 15};
+    const std::array<double, seen_measures> seen{115, 0.02, 1.2, 0.06 + 0.08 * place * place, 0.03, 0, 0, 0, 0, 15};
     events.number.push_back(k + 1);
     for (std::size_t m = 0; m < seen.size(); ++m) events.seen[m].push_back(seen[m]);
   }
