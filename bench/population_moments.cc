@@ -126,13 +126,7 @@ Wanted wanted_by(int argc, char** argv) {
 
 /// Standard error of a mean of logarithms.
 double error_of(const CombinedPopulation& found, double CombinedLogs::*log) {
-  constexpr double step = 1e-5;
-  Eigen::VectorXd slopes(combined_parameters);
-  for (int a = 0; a < combined_parameters; ++a) {
-    const CombinedVector change = step * CombinedVector::Unit(a), q = found.fit.parameters;
-    slopes(a) =
-        (log_means(CombinedLaw::of(q + change)).*log - log_means(CombinedLaw::of(q - change)).*log) / (2 * step);
-  }
+  const CombinedVector slopes = slopes_of_mean(found.fit.parameters, log);
   return std::sqrt(slopes.dot(found.fit.covariance * slopes));
 }
 

@@ -236,18 +236,23 @@ test('Names of condition and replicate give the distribution its means', { skip 
   }),
 );
 
+/** The tab, once the first two recordings of the list are the conditions control and drug. */
+async function openPopulations(page) {
+  for (const [item, condition] of ['control', 'drug'].entries()) {
+    const row = page.locator('.recording').nth(item);
+    await row.locator('.recording-name').click();
+    await row.getByLabel('Condition', { exact: true }).fill(condition);
+    await page.keyboard.press('Enter');
+  }
+  await page.getByRole('tab', { name: 'Populations' }).click();
+}
+
 test('Populations of the conditions of the list are fitted: a dot for each recording, intervals, and the ratio', { skip }, async () => {
   const folder = await mkdtemp(join(tmpdir(), 'rheocyte-populations-'));
   const files = ['one.rtdc', 'other.rtdc'].map((name) => join(folder, name));
   for (const [k, file] of files.entries()) await synthesise(file, ['recording.cells=200', `recording.seed=${k + 1}`]);
   await inPage(async (page) => {
-    for (const [item, condition] of ['control', 'drug'].entries()) {
-      const row = page.locator('.recording').nth(item);
-      await row.locator('.recording-name').click();
-      await row.getByLabel('Condition', { exact: true }).fill(condition);
-      await page.keyboard.press('Enter');
-    }
-    await page.getByRole('tab', { name: 'Populations' }).click();
+    await openPopulations(page);
     await page.getByRole('button', { name: 'Fit populations' }).click();
     await page.locator('.populations-plot .session').first().waitFor();
     assert.equal(await page.locator('.populations-plot .session').count(), 2);
@@ -266,13 +271,7 @@ test('Bulk, cortex and tensions of populations are told one by one', { skip }, a
   for (const [k, file] of files.entries())
     await synthesise(file, [...cells, 'recording.cells=400', `recording.seed=${k + 1}`, 'cell.cortex.tension_ratio=0.3', `cell.cortex.modulus_mN_per_m=${10 - 3 * k}`]);
   await inPage(async (page) => {
-    for (const [item, condition] of ['control', 'drug'].entries()) {
-      const row = page.locator('.recording').nth(item);
-      await row.locator('.recording-name').click();
-      await row.getByLabel('Condition', { exact: true }).fill(condition);
-      await page.keyboard.press('Enter');
-    }
-    await page.getByRole('tab', { name: 'Populations' }).click();
+    await openPopulations(page);
     await page.getByLabel('Cells have a cortex').check();
     await page.getByRole('button', { name: 'Fit populations' }).click();
     await page.getByRole('img', { name: 'Median E + E2D/r0 of each recording, by condition' }).waitFor();
@@ -281,7 +280,6 @@ test('Bulk, cortex and tensions of populations are told one by one', { skip }, a
     assert.equal(await page.locator('.populations-plot .session').count(), 2);
     assert.match(await page.locator('.populations table').textContent(), /mN\/m.*drug \/ control0\.[67]/);
     assert.match(await page.locator('.populations code').textContent(), /--model cortex/);
-    if (process.env.SHOT) await page.screenshot({ path: process.env.SHOT });
   }, undefined, files);
   await rm(folder, { recursive: true });
 });

@@ -11,8 +11,6 @@
 namespace rheocyte {
 namespace {
 
-using Eigen::VectorXd;
-
 constexpr int mode_2 = int(ShapeFeature::first_mode), last_fitted_mode = 7;
 /// Between nodes of the shipped table (docs/verification.md, sec. 7).
 constexpr double error_of_combined_table = 0.01;
@@ -51,21 +49,8 @@ constexpr std::array quantities_of_law{
     QuantityOfLaw{PopulationQuantity::axial_tension, &CombinedLogs::axial},
 };
 
-/// Slopes of the mean of a logarithm by the parameters.
-VectorXd by_parameters(const VectorXd& parameters, double CombinedLogs::*log) {
-  constexpr double step = 1e-5;
-  VectorXd slopes(combined_parameters);
-  for (int a = 0; a < combined_parameters; ++a) {
-    const VectorXd change = step * VectorXd::Unit(combined_parameters, a);
-    slopes(a) =
-        (log_means(CombinedLaw::of(parameters + change)).*log - log_means(CombinedLaw::of(parameters - change)).*log) /
-        (2 * step);
-  }
-  return slopes;
-}
-
 QuantityEstimate estimate_of(const CombinedPopulation& found, const QuantityOfLaw& wanted, double wall_stress_Pa) {
-  const VectorXd slopes = by_parameters(found.fit.parameters, wanted.log);
+  const CombinedVector slopes = slopes_of_mean(found.fit.parameters, wanted.log);
   const double unit = wanted.quantity == PopulationQuantity::axial_tension ? std::log(wall_stress_Pa) : 0;
   return {wanted.quantity,
           {log_means(found.law).*wanted.log + unit, slopes.dot(found.fit.covariance * slopes)},
@@ -172,8 +157,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   if (std::isfinite(events.least_area_um2) || std::isfinite(events.greatest_area_um2))
     r.warnings.emplace_back(
         "limits of the area are no part of the model of cells with a cortex: they should leave the population alone, "
-        "or "
-        "its numbers shift.");
+        "or its numbers shift.");
   CombinedReport& combined = r.combined.emplace();
   combined.section = section_seen(wanted_section_, events.made_of, table_.content.spec.base);
   combined.wall_stress_Pa = r.wall_stress_Pa();

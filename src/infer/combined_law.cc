@@ -20,6 +20,18 @@ CombinedLogs log_means(const CombinedLaw& law) {
   return logs;
 }
 
+CombinedVector slopes_of_mean(const CombinedVector& parameters, double CombinedLogs::*log) {
+  constexpr double step = 1e-5;
+  CombinedVector slopes;
+  for (int a = 0; a < combined_parameters; ++a) {
+    const CombinedVector change = step * CombinedVector::Unit(a);
+    slopes(a) =
+        (log_means(CombinedLaw::of(parameters + change)).*log - log_means(CombinedLaw::of(parameters - change)).*log) /
+        (2 * step);
+  }
+  return slopes;
+}
+
 CombinedLogs log_spreads(const CombinedLaw& law) {
   const double share = law.mean(2), ratio = law.tension_ratio;
   const auto spread = [&](const Eigen::RowVector3d& by_numbers) { return (by_numbers * law.root).norm(); };

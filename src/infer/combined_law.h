@@ -58,6 +58,8 @@ struct CombinedLogs {
 };
 /// Means over the cells, to the second order of the spreads.
 CombinedLogs log_means(const CombinedLaw& law);
+/// Slopes of one of these by the parameters.
+CombinedVector slopes_of_mean(const CombinedVector& parameters, double CombinedLogs::*log);
 /// Standard deviations between cells, to the first order.
 CombinedLogs log_spreads(const CombinedLaw& law);
 
