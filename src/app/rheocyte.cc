@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   argv = rheocyte::begin_program(argc, argv);
   rheocyte::keep_freed_memory();
   rheocyte::end_without_memory(rheocyte::exit_own_bug);
-  if (const std::string lack = rheocyte::lift_stack_limit(argv); !lack.empty()) {
+  if (const std::string lack = rheocyte::secure_stack(argv); !lack.empty()) {
     rheocyte::tell(lack);
     return rheocyte::exit_user_error;
   }

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <sched.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <new>
 #include <string_view>
 
@@ -19,8 +21,7 @@ namespace {
 constexpr rlim_t min_stack = 1 << 20;
 constexpr std::string_view no_memory =
     "rheocyte: the memory does not suffice (of this machine, or the limit of ulimit -v); a larger numerics.accuracy "
-    "needs "
-    "less. What was finished is kept.\n";
+    "needs less. What was finished is kept.\n";
 
 int code_without_memory = 1;
 
@@ -29,11 +30,25 @@ int code_without_memory = 1;
   ::_exit(code_without_memory);
 }
 
+/// Memory for the stack is taken now or never: when it is wanted later and there is none, the system ends the program
+/// without a word.
+[[gnu::noinline]] void take_stack() {
+  constexpr std::size_t taken = min_stack / 4 * 3, page = 4096;
+  void* const room = ::mmap(nullptr, taken, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) end_now();
+  ::munmap(room, taken);
+  std::array<volatile char, taken> stack;
+  for (std::size_t i = 0; i < taken; i += page) stack[taken - 1 - i] = 0;
+}
+
 }  // namespace
 
-std::string lift_stack_limit(char** arguments) {
+std::string secure_stack(char** arguments) {
   rlimit stack{};
-  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= min_stack) return {};
+  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= min_stack) {
+    take_stack();
+    return {};
+  }
   if (stack.rlim_max >= min_stack) {
     stack.rlim_cur = std::min<rlim_t>(usual_stack, stack.rlim_max);
     if (::setrlimit(RLIMIT_STACK, &stack) == 0) ::execv("/proc/self/exe", arguments);

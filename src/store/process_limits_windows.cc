@@ -26,7 +26,7 @@ int code_without_memory = 1;
 }  // namespace
 
 /// The linker has set it.
-std::string lift_stack_limit(char**) { return {}; }
+std::string secure_stack(char**) { return {}; }
 
 int allowed_processors() {
   DWORD_PTR mine = 0, all = 0;
