@@ -124,10 +124,10 @@ Wanted wanted_by(int argc, char** argv) {
   return wanted;
 }
 
-/// Standard error of a mean of logarithms.
+/// Standard error of a mean of logarithms, with what the table leaves of all events alike.
 double error_of(const CombinedPopulation& found, double CombinedLogs::*log) {
   const CombinedVector slopes = slopes_of_mean(found.fit.parameters, log);
-  return std::sqrt(slopes.dot(found.fit.covariance * slopes));
+  return std::sqrt(slopes.dot((found.fit.covariance + found.common_covariance) * slopes));
 }
 
 }  // namespace
@@ -151,7 +151,8 @@ int rheocyte::measure(int argc, char** argv) {
     tallies["ln E2D"].take(logs.cortex, truth.cortex, error_of(found, &CombinedLogs::cortex));
     tallies["ln S"].take(logs.stiffness, truth.stiffness, error_of(found, &CombinedLogs::stiffness));
     tallies["ln T"].take(logs.axial, std::log(wanted.tension), error_of(found, &CombinedLogs::axial));
-    tallies["tension ratio"].take(found.law.tension_ratio, truth.ratio, std::sqrt(found.fit.covariance(ratio, ratio)));
+    tallies["tension ratio"].take(found.law.tension_ratio, truth.ratio,
+                                  std::sqrt(found.fit.covariance(ratio, ratio) + found.common_covariance(ratio, ratio)));
   }
   for (const auto& [name, tally] : tallies) tally.print(name);
   return 0;
