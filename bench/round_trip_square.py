@@ -7,7 +7,7 @@ a table of the tube.
 TABLE is a combined table of elongated cells (examples/tables/combined-elongated.toml). Each recording has cells with bulk,
 cortex and surface tension under one axial tension, their medians at random, in CellCarrier at 23 degC (a power-law
 liquid; the table's is Newtonian), drawn as masks of 0.34 um pixels at random places. No cell is one of the table, and none
-was solved by the method of its tube. Needs matplotlib and h5py.
+was solved by the method of its tube. Recordings that are in FOLDER are not solved again. Needs matplotlib and h5py.
 """
 import argparse
 import json
@@ -45,7 +45,7 @@ class Medians:
         young, cortex = self.young * np.exp(0.2 * random.normal()), self.cortex * np.exp(0.2 * random.normal())
         return {"radius_um": 6.4 * np.exp(0.05 * random.normal()),
                 "bulk": {"law": "neo-hookean", "young_modulus_kPa": young},
-                "cortex": {"law": "neo-hookean-reference", "modulus_mN_per_m": cortex, "bending_kBT": 1e4,
+                "cortex": {"law": "neo-hookean-reference", "modulus_mN_per_m": cortex, "bending_kBT": 2e3,
                            "tension_mN_per_m": self.ratio * cortex}}
 
 
@@ -80,7 +80,11 @@ def write(file, masks):
         recording["events/mask"] = (255 * np.asarray(masks)).astype(np.uint8)
 
 
-def round_trip(number, options):
+def recorded(number, options):
+    """The file and the medians of its cells."""
+    file, kept = (options.folder / f"square-{number}{end}" for end in (".rtdc", "-truth.json"))
+    if kept.exists():
+        return file, json.loads(kept.read_text())
     random = np.random.default_rng([3, number])
     medians, masks, moduli = Medians(random), [], []
     for _ in range(5 * options.cells):
@@ -93,13 +97,19 @@ def round_trip(number, options):
         masks += [mask(outline, random) for _ in range(options.places)]
         if len(moduli) == options.cells:
             break
-    file = options.folder / f"square-{number}.rtdc"
     write(file, np.array(masks))
+    truth = {"axial_tension": medians.axial} | dict(zip(MODULI, np.median(moduli, axis=0)))
+    kept.write_text(json.dumps(truth))
+    return file, truth
+
+
+def round_trip(number, options):
+    file, truth = recorded(number, options)
     subprocess.run([options.program, "moduli", file, "--table", options.table, "-o", options.folder], check=True,
                    capture_output=True)
-    found = json.loads((options.folder / f"square-{number}_moduli.json").read_text())
+    found = json.loads((options.folder / f"{file.stem}_moduli.json").read_text())
     found["population"] = as_population(file, options)
-    return {"axial_tension": medians.axial} | dict(zip(MODULI, np.median(moduli, axis=0))), found
+    return truth, found
 
 
 def as_population(file, options):

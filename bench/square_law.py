@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-"""What the square channel does to the shape of a cell of the tube: the law in src/infer/square_law.cc.
+"""How the shape of a cell in the square channel differs from that of the cell of the combined table: square_law.h.
 
-    bench/square_law.py FILE [--cells 400] [--workers 2]
+    bench/square_law.py FILE [--cells 3000] [--workers 2] [--law src/infer/square_changes.h]
 
 Random neo-Hookean cells with bulk, cortex and a tension of the liquid are solved in the square channel, with liquids of
-exponents from 0.5 to 1, and in the tube with the Newtonian liquid of the same viscosity at the wall, for which combined
-tables are computed. FILE keeps what is solved, one line a cell; a second run goes on from there. A law is fitted to the
-differences; prints its coefficients as they stand in the source, and what it leaves of cells that were left out.
+exponents from 0.5 to 1 and the bending stiffness of a thin cortex, and in the tube with the Newtonian liquid of the same
+viscosity at the wall and the bending stiffness of the table. FILE keeps what is solved, one line a cell; a second run goes
+on from there. A law is fitted to how the cells in the square differ from those of the table, which differ from those in
+the tube by what it leaves between its branches. Prints what the law leaves of cells that were left out of the fit.
 """
 import argparse
 import itertools
 import json
 import math
+import subprocess
 import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -27,7 +29,10 @@ WALL_STRESS_PA = 228.0  # of the tube; any number near it would do
 BENDING_KBT = {"tube": 3e4, "square": 2e3}
 FEATURES = ["area_um2", "deformation", "moment_ratio"] + [f"mode_{k}" for k in range(2, 8)]
 MODE_2, MODE_3 = FEATURES.index("mode_2"), FEATURES.index("mode_3")
+# Of the numbers of the law.
+RANGES = np.array([[0.40, 0.82], [-0.06, 0.42], [0, 0.12], [0, 1], [0, 0.85], [0, 0.5]])
 LEAST_MODE_3, GREATEST_MODE_3 = 0.006, 0.12
+STIFF_CELLS, ALL_CELLS = 874, 1601  # the rest are as those of real recordings
 PATIENCE_S = 6  # of processor time; cells at the end of their branch take minutes
 
 
@@ -36,14 +41,22 @@ class Cell:
     liquid's exponent, and S over the stress at the wall."""
 
     def __init__(self, number):
-        random = np.random.default_rng([12, number])
-        self.radius = random.uniform(0.38, 0.84)
-        self.share = random.choice([0, 1, random.uniform(0, 1)], p=[0.1, 0.1, 0.8])
-        self.axial = random.choice([0, random.uniform(-0.06, 1)], p=[0.2, 0.8])
+        random = np.random.default_rng([13, number])
+        self.radius = random.uniform(0.40, 0.80)
+        self.share = random.choice([0, random.uniform(0, 0.75), random.uniform(0.75, 1)], p=[0.08, 0.8, 0.12])
+        self.axial = random.choice([0, random.uniform(-0.06, 1)], p=[0.15, 0.85])
         # A cortex without tension, drawn out, wrinkles in the middle: combined tables begin at 0.11.
-        self.tension = random.uniform(0.1 if self.axial else 0, 0.85)
+        self.tension = random.uniform(0.1, 0.85)
+        if self.axial == 0 and random.uniform() < 0.3:
+            self.tension = random.uniform(0, 0.1)
         self.exponent = random.choice([1, random.uniform(0.5, 1)], p=[0.5, 0.5])
         self.stiffness = math.exp(random.uniform(math.log(1.2), math.log(20)))
+        if number >= STIFF_CELLS:  # c3 is then evenly distributed
+            self.stiffness = 1 / random.uniform(1 / 6, 1 / 1.4)
+        if number >= ALL_CELLS:
+            self.radius, self.share, self.axial = random.uniform(0.55, 0.72), random.uniform(0.2, 0.75), random.uniform(0.1, 0.8)
+            self.tension, self.exponent = random.uniform(0.2, 0.85), random.choice([1, random.uniform(0.55, 0.75)], p=[0.2, 0.8])
+            self.stiffness = random.uniform(1.5, 4)
 
     def case(self, section):
         stress = self.stiffness * WALL_STRESS_PA
@@ -98,52 +111,135 @@ def solve_cells(file, cells, workers):
             out.flush()
 
 
+def in_table(found, options):
+    """Features of the cells by the table; of those outside it by the tube."""
+    def line(cell):
+        young = (1 - cell.share) * cell.stiffness * WALL_STRESS_PA * 1e-3
+        radius_um = cell.radius * WIDTH_UM / 2
+        cortex = cell.share * cell.stiffness * WALL_STRESS_PA * 1e-3 * radius_um
+        return f"{radius_um} {young} {cortex} {cell.tension} {cell.axial * cell.stiffness * WALL_STRESS_PA}"
+
+    lines = "\n".join(line(Cell(one["number"])) for one in found)
+    told = subprocess.run([options.states, options.table], input=lines, text=True, capture_output=True, check=True).stdout
+    features = np.array([one["tube"] for one in found])
+    features[:, 0] = np.log(features[:, 0])
+    is_inside = np.zeros(len(found), bool)
+    for i, state in enumerate(told.splitlines()):
+        if state != "none":
+            features[i], is_inside[i] = [float(x) for x in state.split()], True
+    return features, is_inside
+
+
+def changes(found, options):
+    """Of each cell the numbers of the law, and the changes of its features."""
+    cells = [Cell(one["number"]) for one in found]
+    square = np.array([one["square"] for one in found])
+    radius = np.sqrt(square[:, 0] / math.pi) / (WIDTH_UM / 2)
+    square[:, 0] = np.log(square[:, 0])
+    numbers = np.stack([radius, square[:, MODE_2], square[:, MODE_3], [c.share for c in cells],
+                        [c.share * c.tension for c in cells], [1 - c.exponent for c in cells]], axis=1)
+    features, is_inside = in_table(found, options)
+    return numbers, square - features, is_inside
+
+
 def terms(numbers):
-    """All products of up to two of the numbers: what square_terms of src/infer/square_law.cc gives."""
-    columns = [np.ones(len(numbers))]
-    for degree in (1, 2):
-        columns += [numbers[:, list(which)].prod(axis=1)
-                    for which in itertools.combinations_with_replacement(range(numbers.shape[1]), degree)]
+    """All products of up to three of the numbers, from -1 to 1 in their ranges: square_terms of src/infer/square_law.cc."""
+    places = (numbers - RANGES[:, 0]) / (RANGES[:, 1] - RANGES[:, 0]) * 2 - 1
+    columns = [np.ones(len(places))]
+    for degree in (1, 2, 3):
+        columns += [places[:, list(which)].prod(axis=1)
+                    for which in itertools.combinations_with_replacement(range(places.shape[1]), degree)]
     return np.stack(columns, axis=1)
 
 
-def changes(found):
-    """Of each cell the numbers of the law, and the changes of its features."""
-    cells = [Cell(one["number"]) for one in found]
-    tube, square = (np.array([one[section] for one in found]) for section in ("tube", "square"))
-    change = square - tube
-    change[:, 0] = np.log(square[:, 0] / tube[:, 0])
-    radius = np.sqrt(square[:, 0] / math.pi) / (WIDTH_UM / 2)
-    numbers = np.stack([radius, square[:, MODE_2], square[:, MODE_3], [c.share for c in cells],
-                        [c.share * c.tension for c in cells], [1 - c.exponent for c in cells]], axis=1)
-    return numbers, change
+class Law:
+    """Of one feature, over c3: least squares, in which cells that are far off count less (Huber 1964), and coefficients that
+    few cells tell are small."""
+
+    def __init__(self, numbers, wanted, ridge=0.02):
+        rows, wanted = terms(numbers), wanted / numbers[:, 2]
+        small = ridge * np.eye(rows.shape[1])
+        weights = numbers[:, 2]  # between an error that goes with c3 and one that does not
+        for _ in range(10):
+            self.coefficients = np.linalg.solve(rows.T * weights @ rows + small, rows.T * weights @ wanted)
+            off = abs(wanted - rows @ self.coefficients) * np.sqrt(numbers[:, 2])
+            weights = numbers[:, 2] * np.minimum(1, 3 * np.median(off) / 0.6745 / np.maximum(off, 1e-12))
+
+    def at(self, numbers):
+        return terms(numbers) @ self.coefficients * numbers[:, 2]
 
 
-def report(found):
-    """The law, over c3, and what it leaves of each cell when fitted to the others."""
-    numbers, change = changes(found)
-    mode_3 = numbers[:, 2]
-    rows = terms(numbers) * mode_3[:, None]
-    leverage = np.einsum("ij,ji->i", rows, np.linalg.pinv(rows))
-    for name, wanted in zip(FEATURES, change.T):
-        law = np.linalg.lstsq(rows, wanted, rcond=None)[0]
-        left = (wanted - rows @ law) / (1 - leverage)
-        rms = lambda values: np.sqrt(np.mean(values**2))
-        print(f"// {name}: change {rms(wanted):.2g}; left {rms(left):.2g}, {np.quantile(abs(left), 0.95):.2g} (95 %)")
-        print(f"{{{rms(left / mode_3):.2g}, {{" + ", ".join(f"{c:.4g}" for c in law) + "}},")
+def left_out(numbers, changes, parts=10):
+    """What the laws leave of cells that were left out of the fit, a tenth at a time."""
+    part = np.arange(len(numbers)) % parts
+    left = np.empty_like(changes)
+    for p in range(parts):
+        for feature in range(len(FEATURES)):
+            law = Law(numbers[part != p], changes[part != p, feature])
+            left[part == p, feature] = changes[part == p, feature] - law.at(numbers[part == p])
+    return left
+
+
+def numbers_of(values, digits=4):
+    return ", ".join(f"{value:.{digits}g}" for value in values)
+
+
+def report(found, options):
+    numbers, change, is_inside = changes(found, options)
+    print(f"// {len(found)} cells, {is_inside.sum()} of them in the table")
+    left = left_out(numbers, change)
+    rms = lambda values: np.sqrt(np.mean(values**2, axis=0))
+    for name, wanted, lacks in zip(FEATURES, change[is_inside].T, left[is_inside].T):
+        print(f"// {name}: change {rms(wanted):.2g}; left {rms(lacks):.2g}, median {np.median(abs(lacks)):.2g}, "
+              f"{np.quantile(abs(lacks), 0.95):.2g} (95 %)")
+    over_mode_3 = left[is_inside] / numbers[is_inside, 2:3]
+    spread = np.quantile(abs(over_mode_3), 0.9, axis=0) / 1.645  # so that 90 % intervals hold
+    print("// left, over c3:", numbers_of(spread, 2))
+    print_common(numbers[is_inside], np.clip(over_mode_3 / spread, -3, 3))
+    if options.law:
+        write_law(options.law, numbers, change, spread, np.corrcoef(np.clip(over_mode_3 / spread, -3, 3).T))
+
+
+def print_common(numbers, left):
+    """Correlation of what is left of two soft cells, by their distance in spreads of a population."""
+    soft = numbers[:, 2] > 0.05
+    places, left = numbers[soft] / [0.04, 0.03, 0.012, 0.08, 0.05, 0.08], left[soft]
+    squared = sum((x[:, None] - x) ** 2 for x in places.T)
+    for least, most in ((0, 2), (2, 4), (4, 6)):
+        i, k = np.where((squared > max(least**2, 1e-9)) & (squared < most**2))
+        in_common = (left[i] * left[k]).mean(axis=0) / (left**2).mean(axis=0)
+        print(f"// correlation of two cells {least} to {most} spreads apart ({len(i)} pairs): {numbers_of(in_common, 2)}")
+
+
+def array_of(name, rows):
+    lines = [f"    // {feature}\n    {{{numbers_of(row)}}}," for feature, row in zip(FEATURES, rows)]
+    return [f"inline constexpr std::array<std::array<double, {len(rows[0])}>, {len(rows)}> {name}{{{{", *lines, "}};", ""]
+
+
+def write_law(file, numbers, change, spread, correlation):
+    laws = [Law(numbers, wanted).coefficients for wanted in change.T]
+    file.write_text("\n".join([
+        "// Made by bench/square_law.py from cells that it has solved, for square_law.cc alone.", "#pragma once",
+        "#include <array>", "", "namespace rheocyte {", "",
+        "/// A feature's change is c_3 times a sum of terms.", *array_of("square_changes", laws),
+        "/// Standard deviation of what the sums leave, over c_3, and its correlations.",
+        f"inline constexpr std::array<double, {len(spread)}> square_left{{{numbers_of(spread)}}};",
+        *array_of("square_correlations", correlation), "}  // namespace rheocyte", ""]))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", type=Path)
-    parser.add_argument("--cells", type=int, default=400)
+    parser.add_argument("--cells", type=int, default=3000)
     parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--table", default="data/combined_HC-2D-EL-26.cbor")
+    parser.add_argument("--states", default="build/combined_states")
+    parser.add_argument("--law", type=Path, help="the header to write")
     options = parser.parse_args()
     solve_cells(options.file, options.cells, options.workers)
     found = [json.loads(line) for line in options.file.read_text().splitlines()]
     found = [one for one in found if "square" in one]
-    print(f"// {len(found)} of {options.cells} cells")
-    report(found)
+    report(found, options)
 
 
 if __name__ == "__main__":

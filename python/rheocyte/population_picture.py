@@ -16,7 +16,8 @@ from rheocyte import colours, page
 from rheocyte.files import InputError, reason, run, save_figure
 from rheocyte.figures.style import STYLE
 
-OF_CONDITIONS = ("#2f6fa8", "#d0572b", "#3d7a4a", "#8a5a9e", "#b08a1e", "#5b6770")
+OF_CONDITIONS = ("#2f6fa8", "#d0572b", "#3d7a4a", "#8a5a9e", "#b08a1e", "#5b6770", "#c05a86", "#1f8a8a", "#7b5a3a", "#3b3f8f")
+LONGEST_NAME, POINTS_OF_LETTER = 24, 3.9
 FAINT, BAND = "#aab3bb", "#eef1f4"
 SHARE_OF_PLACE = 0.5  # of the distance between conditions, over which their sessions are spread
 WORDS = {"ln A": "area", "c3": "asymmetry c3", "c4": "c4", "c5": "c5", "d": "deformation"}
@@ -129,9 +130,27 @@ def draw_moduli(axes, story, key, title):
         if np.isfinite(value):
             draw_mean(axes, centre + 0.36, (value, lower, upper), colour)
     axes.set_xlim(-0.5, len(story.names) - 0.4)
-    axes.set_xticks(range(len(story.names)), story.names)
-    axes.tick_params(axis="x", length=0)
+    name_places(axes, [shortened(name) for name in story.names])
     scaled(axes, [value for each in story.record["recordings"] for value in modulus_of(each, key)])
+
+
+def shortened(name):
+    """A name of a condition where there is little room."""
+    return name if len(name) <= LONGEST_NAME else name[:LONGEST_NAME - 1] + "\u2026"
+
+
+def name_places(axes, names):
+    """Words below the places 0, 1, ...; slanted where they would lie on one another."""
+    slots = axes.get_subplotspec().get_gridspec()
+    share = (slots.get_width_ratios() or [1] * slots.ncols)[axes.get_subplotspec().colspan.start]
+    width = 0.8 * 72 * axes.figure.get_size_inches()[0] * share / sum(slots.get_width_ratios() or [1] * slots.ncols)
+    longest = max(len(line) for name in names for line in name.split("\n"))
+    is_crowded = longest * POINTS_OF_LETTER * len(names) > width
+    axes.set_xticks(range(len(names)), names)
+    axes.tick_params(axis="x", length=0)
+    if is_crowded:
+        for label in axes.get_xticklabels():
+            label.set(rotation=40, ha="right", rotation_mode="anchor", fontsize=6)
 
 
 def draw_pairs(axes, story, key):
@@ -194,8 +213,7 @@ def draw_ratios(axes, story, key, title):
         axes.annotate(f"{interval[0]:.3g}\n{words}", (place, 1), (0, -1), xycoords=("data", "axes fraction"),
                       textcoords="offset points", ha="center", va="top", fontsize=6)
     axes.set_xlim(-0.5, len(comparisons) - 0.4)
-    axes.set_xticks(range(len(comparisons)), [f"{each['treated']} /\n{each['control']}" for each in comparisons])
-    axes.tick_params(axis="x", length=0)
+    name_places(axes, [f"{shortened(each['treated'])} /\n{shortened(each['control'])}" for each in comparisons])
     axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
     low, high = axes.get_ylim()
     axes.set_ylim(low - 0.05 * (high - low), high + 0.28 * (high - low))  # for the words
@@ -257,13 +275,19 @@ def draw_legend(figure, story):
     dot = {"linestyle": "", "marker": "o", "markersize": 4.4, "color": "#5b6770"}
     entries = [Line2D([], [], **dot, label=f"a recording, with the {level} interval of its events"),
                Line2D([], [], linestyle="", marker="D", markersize=4.6, color="#5b6770",
-                      label=f"condition, with the {level} interval by its recordings")]
+                      label=f"condition, with the {level} interval by {how_known(story)}")]
     if story.record["model"] == "solid":
         entries += [Line2D([], [], color="#5b6770", linewidth=0.9, label="cells of a recording, without noise"),
                     Line2D([], [], color="#5b6770", linewidth=5, alpha=0.25, label="moduli of single images")]
     if any(not check["fits"] for each in story.record["recordings"] for check in each["checks"]):
         entries.insert(1, Line2D([], [], **dot, markerfacecolor="white", label="checks do not hold"))
     legend_below(figure, entries, 3, columnspacing=1.6, handlelength=1.6, labelspacing=0.25)
+
+
+def how_known(story):
+    """What the intervals of the conditions come from."""
+    by_recordings = {each["interval_by"] == "scatter of the recordings" for each in story.conditions if "interval_by" in each}
+    return {(True,): "its recordings", (False,): "sampling alone"}.get(tuple(by_recordings), "its recordings (one: by sampling)")
 
 
 def legend_below(figure, entries, columns, **style):

@@ -17,7 +17,7 @@ class Population:
 
     recordings      pandas.DataFrame, one row per recording: condition, session, recording, events (that were fitted),
                     young_modulus_kPa (median), lower_kPa, upper_kPa, ln_modulus_spread, radius_um, ln_radius_spread,
-                    correlation, kept_share (by the gates), fits (whether all checks hold), failure
+                    correlation, kept_share (by the gates), fits (whether there are numbers and all checks hold), failure
     conditions      one row per condition: recordings, events, young_modulus_kPa with lower_kPa and upper_kPa (by the
                     scatter of the recordings), spreads, radius_um; stiffening with its ends (the exponent of E over the
                     stress, of recordings at several flow rates)
@@ -25,8 +25,8 @@ class Population:
                     degrees_of_freedom, sampling_lower, sampling_upper
 
     With model="cortex" the modulus columns are those of each quantity that is told, with its unit: stiffness_kPa (E + E2D/r0),
-    young_modulus_kPa, cortex_modulus_mN_per_m, cortex_tension_mN_per_m, axial_tension_Pa (of the liquid), each with _lower and
-    _upper; NaN where a recording does not tell it.
+    young_modulus_kPa, cortex_modulus_mN_per_m, cortex_tension_mN_per_m, axial_tension_Pa (of the liquid), each with _lower,
+    _upper and _ln_spread (between cells); NaN where a recording does not tell it.
     record          the dictionary of population.json
     """
 
@@ -90,7 +90,10 @@ class Population:
             else:
                 lines.append(f"{row.treated} / {row.control}: {of}{_told(row.ratio, row.sampling_lower, row.sampling_upper)} by "
                              "sampling alone, no p")
-        lines.append(f"checks hold in {int(self.recordings['fits'].sum())} of {len(self.recordings)} recordings")
+        failed = self.recordings[self.recordings["failure"] != ""]
+        lines.append(f"checks hold in {int(self.recordings['fits'].sum())} of {len(self.recordings) - len(failed)} recordings "
+                     "with numbers")
+        lines += [f"{row.recording}: {row.failure}" for row in failed.itertuples()]
         return "\n".join(lines)
 
 
@@ -112,7 +115,8 @@ def plan(radius_um, young_modulus_kPa, *, spread=0.2, radius_spread=0.07, betwee
                     what is compared; without rates those of mean speeds of 0.04, 0.1, 0.2 and 0.4 m/s
 
     Returns a pandas.DataFrame with one row per channel: speed, viscosity, stress at the wall, deformation and mode_3 of the
-    median cell, share of the cells inside the table, the error of ln E by one image, sessions that are needed.
+    median cell, share of the cells inside the table, the error of ln E by one image, sessions that are needed (inf: more than
+    100; NaN: the table has no such cells).
     attrs["lines"]: what is recommended, and what limits. UserError for a number that makes no sense.
     """
     import pandas
@@ -168,29 +172,29 @@ def _interval(record, name):
 def _moduli(record, several):
     """Columns of the medians: of solids one, else of each quantity."""
     if several is None:
-        return dict(zip(("young_modulus_kPa", "lower_kPa", "upper_kPa"), _interval(record, "median_young_modulus_kPa")))
+        return {**dict(zip(("young_modulus_kPa", "lower_kPa", "upper_kPa"), _interval(record, "median_young_modulus_kPa"))),
+                "ln_modulus_spread": record.get("spread_of_ln_modulus", np.nan)}
     columns = {}
     for key in several:
         columns.update(zip((key, f"{key}_lower", f"{key}_upper"), _interval(record, f"median_{key}")))
+        columns[f"{key}_ln_spread"] = record.get(f"spread_of_ln_{key}", np.nan)
     return columns
 
 
 def _recording_row(record, several):
     found = record.get("population") or {}
-    spread = found.get("spread_of_ln_modulus" if several is None else f"spread_of_ln_{several[0]}" if several else "", np.nan)
     row = {"condition": record["condition"], "session": record["session"], "recording": record["recording"],
-           "events": record["events"]["fitted"], **_moduli(found, several), "ln_modulus_spread": spread,
-           "radius_um": found.get("median_radius_um", np.nan), "ln_radius_spread": found.get("spread_of_ln_radius", np.nan)}
+           "events": record["events"]["fitted"], **_moduli(found, several), "radius_um": found.get("median_radius_um", np.nan), "ln_radius_spread": found.get("spread_of_ln_radius", np.nan)}
     if several is None:
         row.update(correlation=found.get("correlation", np.nan), kept_share=found.get("kept_share", np.nan))
-    return {**row, "fits": all(check["fits"] for check in record["checks"]), "failure": record["failure"] or ""}
+    fits = not record["failure"] and all(check["fits"] for check in record["checks"])
+    return {**row, "fits": fits, "failure": record["failure"] or ""}
 
 
 def _condition_row(record, several):
     exponent, least, greatest = _interval(record.get("stiffening") or {}, "exponent_of_modulus_over_stress")
     return {"condition": record["name"], "recordings": record["recordings"], "events": record["events"],
-            **_moduli(record, several), "ln_modulus_spread": record.get("spread_of_ln_modulus", np.nan),
-            "radius_um": record.get("median_radius_um", np.nan),
+            **_moduli(record, several), "radius_um": record.get("median_radius_um", np.nan),
             "ln_radius_spread": record.get("spread_of_ln_radius", np.nan),
             "stiffening": exponent, "stiffening_lower": least, "stiffening_upper": greatest}
 

@@ -1,6 +1,6 @@
 """Recordings of RT-DC: Young's moduli of their events, moduli of bulk and cortex, features of masks, virtual ones."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -117,7 +117,9 @@ def population(conditions, *, progress=None, **settings):
     plot(), and all of population.json as record (docs/populations.md). Recordings without a number say why in their column
     failure. UserError for what is wrong with a recording or the conditions.
     """
-    if not isinstance(conditions, Mapping):
+    if hasattr(conditions, "to_dict"):  # a pandas.Series
+        conditions = conditions.to_dict()
+    if not isinstance(conditions, Mapping) or not all(isinstance(name, str) for name in conditions):
         raise UserError('conditions must be a dictionary of names and recordings, such as {"control": ["A.rtdc"]}.')
     options = filled(native.PopulationOptions(), settings)
     with ExitStack() as stack, progress_bar(progress) as tell:
@@ -131,7 +133,9 @@ def population(conditions, *, progress=None, **settings):
 
 
 def _several(recordings):
-    return recordings if isinstance(recordings, (list, tuple)) else [recordings]
+    if hasattr(recordings, "tolist"):  # arrays and columns
+        recordings = recordings.tolist()
+    return list(recordings) if isinstance(recordings, (list, tuple, set, frozenset, Iterator)) else [recordings]
 
 
 def synth(spec, file, *, replace=False, progress=None, **overrides):

@@ -13,6 +13,7 @@
 #include "case/user_error.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 
@@ -67,6 +68,8 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code)
   } catch (const CLI::ParseError& error) {
     return report(fmt::format("rheocyte: {}{} (see `rheocyte --help`)", error.what(), file_like_an_option(argc, argv)),
                   exit_user_error);
+  } catch (const StoppedBySignal&) {
+    return exit_stopped();
   } catch (const UserError& error) {
     return report(error.what(), exit_user_error);
   } catch (const std::bad_alloc&) {

@@ -40,7 +40,19 @@ fs::path events_file(const fs::path& folder, const RecordingReport& r, const Pop
   return folder / fmt::format("events_{}_{}.tsv", report.conditions[r.condition].name, r.session + 1);
 }
 
+/// What an earlier run has left there and this one may not write anew.
+void remove_earlier(const fs::path& folder) {
+  std::error_code none;
+  for (const char* const picture :
+       {"population.png", "population.svg", "population-checks.png", "population-checks.svg"})
+    fs::remove(folder / picture, none);
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (entry.path().filename().string().starts_with("events_") && is_own_file(entry.path(), mark_of_population_events))
+      fs::remove(entry.path(), none);
+}
+
 void write(const fs::path& folder, const PopulationReport& report) {
+  remove_earlier(folder);
   write_own_file(folder / "population.json", population_json(report), mark_of_population_json, Foreign::keep);
   write_own_file(folder / "population.tsv", population_table(report), mark_of_population_table, Foreign::keep);
   for (const auto& r : report.recordings)
@@ -87,14 +99,14 @@ int run(const PopulationCall& call) {
   check_replaceable(options.folder / "population.json", mark_of_population_json, Foreign::keep);
   for (const auto& condition : conditions)
     for (const auto& recording : condition.recordings) check_is_there(recording);
+  const ResultPlace place(options.folder, {});
   std::optional<Drawing> drawing;  // loads while the recordings are read
   if (!call.no_picture) drawing.emplace("population_picture");
   PopulationAnalysis analysis(options, conditions);
   for (std::size_t c = 0; c < conditions.size(); ++c)
     for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j) {
       const PopulationEvents events = read(conditions[c].recordings[j], options);
-      if (stop_wanted()) return exit_stopped();
-      tell_recording(analysis.add(c, j, events));
+      tell_recording(analysis.add(c, j, events, go_on_unless_stopped));
     }
   const PopulationReport report = analysis.report();
   write(options.folder, report);

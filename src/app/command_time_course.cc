@@ -50,7 +50,6 @@ int run(const TimeCourseOptions& options) {
     const double contraction_um = contraction_of(options, i, tasks.size());
     const std::string name = one_line(tasks[i].recording.string(), 200);
     const CourseEvents events = read(tasks[i], options);
-    if (stop_wanted()) return exit_stopped();
     for (const std::string& warning : events.warnings) tell(fmt::format("{}: {}", name, warning));
     courses.add(events, name, contraction_um);
   }

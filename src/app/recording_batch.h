@@ -16,6 +16,7 @@
 #include "extract/recording_list.h"
 #include "store/contained.h"
 #include "store/standard_error.h"
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 
@@ -47,6 +48,7 @@ auto read_contained(const std::filesystem::path& recording, const MeasuringOptio
   Containment limits;
   limits.patience_s = measuring.patience_s.value_or(default_patience_s);
   auto done = run_contained(read, limits, FileProgress(one_line(recording.string(), 200), quiet));
+  if (done.stopped()) throw StoppedBySignal{};
   if (!done.finished()) throw UserError(sentence_for(recording, done.end, limits.patience_s));
   return std::move(done.result);
 }

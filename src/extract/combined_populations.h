@@ -18,9 +18,8 @@ class CombinedPopulations : public PopulationModel {
     return "by one axial tension of the liquid in each recording, with a scatter between cells";
   }
   std::string table(const PopulationEvents&) override { return table_.name; }
-  double table_error(const PopulationEvents&) override;
-  std::string measure_error_text() const override { return "pixels below the intervals"; }
-  void fit(const PopulationEvents& events, RecordingReport& report) override;
+  std::string systematic_errors(std::span<const RecordingReport> recordings) const override;
+  void fit(const PopulationEvents& events, RecordingReport& report, const std::function<void()>& goes_on) override;
 
  private:
   std::optional<Section> wanted_section_;

@@ -205,6 +205,16 @@ ExperimentPlan plan_experiment(const PlanOptions& options) {
   return plan;
 }
 
+namespace {
+
+/// inf: more than are looked at; nan: of cells outside the table.
+std::string sessions_text(const PlannedChannel& channel) {
+  if (channel.sessions > 0) return std::to_string(channel.sessions);
+  return std::isfinite(channel.error_by_asymmetry) ? "inf" : "nan";
+}
+
+}  // namespace
+
 std::string plan_table(const ExperimentPlan& plan) {
   std::string text(mark_of_plan);
   text +=
@@ -214,7 +224,7 @@ std::string plan_table(const ExperimentPlan& plan) {
     text += fmt::format("{:g}\t{}\t{:.4g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{}\t{}\n",
                         c.flow.width_um, c.medium, c.flow.rate_ul_s, c.speed_m_s, c.flow.viscosity_mPas,
                         c.wall_stress_Pa, c.deformation, c.mode_3, c.inside, c.error_by_asymmetry,
-                        c.error_by_deformation, c.is_recommended ? "yes" : "no", c.sessions);
+                        c.error_by_deformation, c.is_recommended ? "yes" : "no", sessions_text(c));
   return text;
 }
 

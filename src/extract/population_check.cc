@@ -24,7 +24,7 @@ constexpr double chance_of_fitted = 1.2, least_of_fitted = 0.04, chance_of_other
 /// Of the medians.
 constexpr double most_errors = 5, share_of_fitted = 0.1, share_of_others = 0.2;
 /// Of c_4 and c_5, in which all real cells differ a little from solids.
-constexpr double least_mode_difference = 0.01;
+constexpr double least_mode_difference = 0.01, most_spreads_of_modes = 0.5;
 constexpr int checked_measures = 6;
 
 enum Checked { checked_area, checked_deformation, checked_inertia, checked_mode_3, checked_mode_4, checked_mode_5 };
@@ -151,7 +151,7 @@ MeasureCheck compared_measure(std::string name, MeasureRule rule, std::vector<do
   const double off = std::abs(check.measured.value - check.predicted.value),
                chance = most_errors * std::hypot(check.measured.error, check.predicted.error);
   if (rule == MeasureRule::of_all_real_cells) {
-    check.fits = off < std::max(least_mode_difference, chance);
+    check.fits = off < std::max(std::min(least_mode_difference, most_spreads_of_modes * check.spread), chance);
     return check;
   }
   const double by_chance = (is_fitted ? chance_of_fitted : chance_of_others) / std::sqrt(double(check.events));

@@ -29,7 +29,7 @@ enum class MeasureRule {
   fitted,
   fitted_among_others,  ///< with fewer parameters than measures: as the next
   not_fitted,           ///< it has no parameters to follow chance with, and the laws of the pixels leave as much
-  of_all_real_cells     ///< not fitted either, and a little off in all of them: the median alone counts
+  of_all_real_cells     ///< not fitted either, and a little off in most of them: the median alone counts
 };
 MeasureCheck compared_measure(std::string name, MeasureRule rule, std::vector<double> measured,
                               std::vector<double> predicted);

@@ -190,6 +190,7 @@ ordered_json condition_json(const ConditionReport& c) {
     const auto& e = told.log_mean;
     const std::string key(words_of(told.quantity).key);
     json["median_" + key] = interval_json(std::exp(e.value), std::exp(e.lower), std::exp(e.upper));
+    json["spread_of_ln_" + key] = told.spread;
     if (told.quantity != PopulationQuantity::axial_tension)
       json["mean_" + key] = std::exp(e.value + told.spread * told.spread / 2);
   }
@@ -288,22 +289,12 @@ std::string checks_line(const PopulationReport& report) {
   if (checked == 0) return {};
   if (!first)
     return fmt::format("checks: {} of {} recordings fit in all measures, also in those not fitted", checked, checked);
-  return fmt::format("checks: {} of {} recordings do not fit; {}: {}", misfits, checked,
-                     first->recording.filename().string(), check_text(first->checks));
-}
-
-std::string systematic_line(const PopulationReport& report) {
-  double table = 0, common = 0;
-  for (const auto& r : report.recordings) {
-    table = std::max(table, r.table_error);
-    if (!r.quantities.empty()) common = std::max(common, r.quantities.front().common_error);
-  }
-  const std::string told = "systematic errors, which do not enter ratios: " + report.measure_error;
-  if (common > 0)
-    return told + fmt::format(", table and section {:.2g} % of {}, viscosity model as docs/verification.md has it",
-                              100 * common, words_of(report.quantities().front()).symbol);
-  return told +
-         fmt::format(", table {:.1g} %, viscosity model and section as docs/verification.md has them", 100 * table);
+  const bool is_no_solid = report.model == "solid" && std::ranges::any_of(first->checks, [](const MeasureCheck& check) {
+                             return !check.fits && (check.name == "c4" || check.name == "c5");
+                           });
+  return fmt::format("checks: {} of {} recordings do not fit; {}: {}{}", misfits, checked,
+                     first->recording.filename().string(), check_text(first->checks),
+                     is_no_solid ? ". Cells with a cortex have other c4 and c5 than solids: --model cortex" : "");
 }
 
 }  // namespace
@@ -344,7 +335,7 @@ std::vector<std::string> population_lines(const PopulationReport& report) {
   for (const auto& c : report.comparisons) lines.push_back(comparison_line(c, report));
   if (const auto checks = checks_line(report); !checks.empty()) {
     lines.push_back(checks);
-    lines.push_back(systematic_line(report));
+    lines.push_back("systematic errors, which do not enter ratios: " + report.systematic_errors);
   }
   return lines;
 }

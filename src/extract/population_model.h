@@ -1,6 +1,8 @@
 // Of what cells the populations of recordings are: each model tells of one recording what it can, in the same numbers.
 #pragma once
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "extract/options.h"
@@ -16,13 +18,11 @@ class PopulationModel {
   /// As it stands in the records.
   virtual std::string_view elongation_text() const = 0;
   virtual std::string table(const PopulationEvents& events) = 0;
-  /// Relative error of its moduli.
-  virtual double table_error(const PopulationEvents& events) = 0;
-  /// Of what is measured, in words, with its relative error.
-  virtual std::string measure_error_text() const = 0;
-  /// Fits the population of a recording and adds what is found, or why there are no numbers. UserError: too few events,
-  /// none inside the gates, gates that leave a tail.
-  virtual void fit(const PopulationEvents& events, RecordingReport& report) = 0;
+  /// What the recordings have in common, in words, with relative errors.
+  virtual std::string systematic_errors(std::span<const RecordingReport> recordings) const = 0;
+  /// Fits the population of a recording and adds what is found, or why there are no numbers; `goes_on` is called from
+  /// step to step where that takes long. UserError: too few events, none inside the gates, gates that leave a tail.
+  virtual void fit(const PopulationEvents& events, RecordingReport& report, const std::function<void()>& goes_on) = 0;
 };
 
 /// `--model`: solids, or solids with a cortex. UserError if it is none, or a table is missing, or does not go with it.

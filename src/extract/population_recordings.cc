@@ -37,6 +37,18 @@ PopulationCondition condition_of(const std::string& text) {
   return condition;
 }
 
+/// It is a part of the names of files, and a word of tables.
+void check_name(const std::string& name) {
+  constexpr std::size_t longest = 100;
+  const bool is_word =
+      std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '/' || c == '\\'; });
+  if (!is_word || name.size() > longest)
+    throw UserError(
+        fmt::format("rheocyte: the condition {}: a name has no more than {} characters, and neither slashes "
+                    "nor line breaks or tabs.",
+                    one_line(name, 60), longest));
+}
+
 void check_files(const std::vector<PopulationCondition>& conditions) {
   std::set<fs::path> known;
   for (const auto& condition : conditions)
@@ -168,7 +180,7 @@ ConditionReport condition_report(const std::vector<RecordingReport>& recordings,
     radii.push_back(r.log_radius);
     log_radius_spreads.push_back(std::log(r.radius_spread));
   }
-  report.elongation = median_of(elongations);
+  report.elongation = mean_of(elongations);
   const StressesOfCondition stresses = stresses_of(recordings, condition);
   for (const PopulationQuantity quantity : quantities_told(recordings))
     if (const auto estimates = estimates_of(recordings, condition, quantity); !estimates.empty())
@@ -195,6 +207,7 @@ void check_conditions(const std::vector<PopulationCondition>& conditions, bool p
         "rheocyte: no condition is given; for example --condition control=A.rtdc,B.rtdc --condition "
         "drug=C.rtdc,D.rtdc, or a SPEC.toml with a section [conditions].");
   for (const auto& [name, recordings] : conditions) {
+    check_name(name);
     if (recordings.empty())
       throw UserError(fmt::format("rheocyte: the condition {} has no recordings.", one_line(name, 60)));
     if (std::ranges::count(conditions, name, &PopulationCondition::name) > 1)
@@ -251,7 +264,6 @@ RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t
   r.median_elongation = median_of(events.of(events.has_outlines ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio));
   r.direction = events.direction;
   r.table = model_->table(events);
-  r.table_error = model_->table_error(events);
   r.gates = events.gates;
   r.recorded = events.recorded, r.gated = events.gated, r.without_numbers = events.without_numbers;
   r.settings = events.settings;
@@ -263,13 +275,13 @@ RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t
 }
 
 const RecordingReport& PopulationAnalysis::add(std::size_t condition, std::size_t session,
-                                               const PopulationEvents& events) {
+                                               const PopulationEvents& events, const std::function<void()>& goes_on) {
   RecordingReport r = described(condition, session, events);
   if (events.events() == 0)
     refuse_path(r.recording, events.gates.empty() ? "has no event with an outline, a size and a viscosity."
                                                   : "has no event inside the gates (" + events.gates + ").");
   check_new(r, events);
-  model_->fit(events, r);
+  model_->fit(events, r, goes_on);
   return recordings_.emplace_back(std::move(r));
 }
 
@@ -277,10 +289,10 @@ PopulationReport PopulationAnalysis::report() const {
   PopulationReport report;
   report.model = model_->name();
   report.elongation = model_->elongation_text();
-  report.measure_error = model_->measure_error_text();
   report.by = by_;
   report.between_recordings = options_.between_recordings;
   report.recordings = recordings_;
+  report.systematic_errors = model_->systematic_errors(recordings_);
   report.warnings = differences_within(recordings_, conditions_);
   for (std::size_t c = 0; c < conditions_.size(); ++c)
     report.conditions.push_back(condition_report(recordings_, c, conditions_[c].name, report.level));

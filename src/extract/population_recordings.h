@@ -46,7 +46,7 @@ struct ConditionReport {
   std::size_t recordings = 0, events = 0;
   std::vector<ConditionQuantity> quantities;               ///< those that all its recordings tell
   double log_radius = no_value, radius_spread = no_value;  ///< means over the recordings
-  double elongation = no_value;                            ///< median of the recordings' medians
+  double elongation = no_value;                            ///< mean of the recordings' medians
   double wall_stress_Pa = no_value;  ///< geometric mean of theirs, at which means with a stiffening hold
   bool has_numbers() const { return !quantities.empty(); }
 };
@@ -59,7 +59,7 @@ struct ConditionComparison {
 };
 
 struct PopulationReport {
-  std::string model, elongation, measure_error;  ///< those of PopulationModel
+  std::string model, elongation, systematic_errors;  ///< those of PopulationModel
   StiffnessMeasure by = StiffnessMeasure::asymmetry;
   double level = 0.95;
   std::optional<double> between_recordings;
@@ -79,9 +79,10 @@ class PopulationAnalysis {
   /// UserError if tables are missing.
   PopulationAnalysis(const PopulationOptions& options, std::vector<PopulationCondition> conditions);
 
-  /// Fits the population of a recording. UserError: too few events, none inside the gates, gates that leave a tail, the
-  /// same measurement once more.
-  const RecordingReport& add(std::size_t condition, std::size_t session, const PopulationEvents& events);
+  /// Fits the population of a recording; of cells with a cortex, `goes_on` is called from step to step. UserError: too
+  /// few events, none inside the gates, gates that leave a tail, the same measurement once more.
+  const RecordingReport& add(std::size_t condition, std::size_t session, const PopulationEvents& events,
+                             const std::function<void()>& goes_on);
   /// Of all that were added.
   PopulationReport report() const;
 

@@ -50,7 +50,6 @@ struct RecordingReport {
   double pixel_size_um = 0, median_viscosity_mPas = 0, median_elongation = 0;
   int direction = 0;
   std::string table, gates;
-  double table_error = 0;
   std::size_t recorded = 0, gated = 0, without_numbers = 0, beside_table = 0, fitted_events = 0;
   bool is_binned = false;
   std::vector<QuantityEstimate> quantities;  ///< the first one is what the model tells best

@@ -49,11 +49,14 @@ SolidPopulations::SolidPopulations(const PopulationOptions& options)
       no_bins_(options.no_bins),
       threads_(int(options.jobs.value_or(std::thread::hardware_concurrency()))) {}
 
-std::string SolidPopulations::measure_error_text() const {
-  return fmt::format("{} law of the pixels 1 %", maps_.by() == StiffnessMeasure::asymmetry ? "c3" : "deformation");
+std::string SolidPopulations::systematic_errors(std::span<const RecordingReport>) const {
+  return fmt::format(
+      "{} law of the pixels 1 %, table {:.1g} %, viscosity model and section as docs/verification.md has them",
+      maps_.by() == StiffnessMeasure::asymmetry ? "c3" : "deformation", 100 * table_error_);
 }
 
-void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r) {
+void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r, const std::function<void()>&) {
+  table_error_ = std::max(table_error_, maps_.table_error(events));
   const PopulationSample made = population_sample(events, maps_, {no_bins_});
   r.beside_table = made.beside_table;
   r.fitted_events = std::size_t(std::lround(made.sample.events()));

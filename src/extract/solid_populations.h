@@ -15,12 +15,12 @@ class SolidPopulations : public PopulationModel {
   std::string_view name() const override { return "solid"; }
   std::string_view elongation_text() const override { return "eliminated event by event, with a flat prior"; }
   std::string table(const PopulationEvents& events) override { return maps_.table(events); }
-  double table_error(const PopulationEvents& events) override { return maps_.table_error(events); }
-  std::string measure_error_text() const override;
-  void fit(const PopulationEvents& events, RecordingReport& report) override;
+  std::string systematic_errors(std::span<const RecordingReport> recordings) const override;
+  void fit(const PopulationEvents& events, RecordingReport& report, const std::function<void()>& goes_on) override;
 
  private:
   PopulationMaps maps_;
+  double table_error_ = 0;  ///< greatest of the recordings so far
   bool no_bins_;
   int threads_;
 };

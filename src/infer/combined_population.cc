@@ -22,8 +22,9 @@ constexpr double beyond_soft_end = 0.5, beyond_stiff_end = 3;
 constexpr double least_slope_of_stiffness = -0.1;
 constexpr std::size_t pictures_of_event = 10, fewest_pictures = 10'000, most_pictures = 40'000;
 constexpr int pictures_of_cell = 8;
-/// Of modes between the branches of a table (bench/check_combined).
-constexpr double error_of_table = 1e-4;
+/// Of what the law of the square leaves of single cells, what two cells of one population have in common
+/// (bench/square_law.py: 0.3 and 0.1 of cells that are within and about two and more of its spreads from one another).
+constexpr double variance_in_common = 0.2;
 constexpr std::size_t virtual_events = 5'000;
 constexpr int turns_of_beginning = 3, turns_of_round = 20, rounds_of_pictures = 3, pictures_of_median = 2'000;
 
@@ -272,12 +273,25 @@ VectorXd CombinedMoments::by_log_viscosity(const CombinedVector& parameters) con
   return -slopes(parameters).by_parameter[int(CombinedParameter::log_stiffness)].mean;
 }
 
-MatrixXd CombinedMoments::common_covariance(const CombinedVector& parameters) const {
+CellCoordinates CombinedMoments::mean_cell(const CombinedVector& parameters) const {
   const CombinedLaw law = CombinedLaw::of(parameters);
+  const Progress of_mean = progress(law);
+  const Numbers mean = of_mean.mean;
+  CellCoordinates cell;
+  cell(int(CellCoordinate::log_radius)) = mean(0) - std::log(scale_.length);
+  cell(int(CellCoordinate::cortex_share)) = mean(2);
+  cell(int(CellCoordinate::log_progress)) = of_mean.value;
+  cell(int(CellCoordinate::tension_ratio)) = mean(3);
+  cell(int(CellCoordinate::axial_ratio)) = mean(4) / std::exp(mean(1));
+  return cell;
+}
+
+MatrixXd CombinedMoments::common_covariance(const CombinedVector& parameters) const {
   const auto n = Eigen::Index(features().size());
-  const MatrixXd of_table = std::pow(error_of_table, 2) * MatrixXd::Identity(n, n);
-  return of_table + section(numbers(law, nodes_[0]), shape(law, nodes_[0], progress(law)).value)
-                        .covariance(features(), features());
+  if (sight_.section == Section::tube) return std::pow(error_between_branches, 2) * MatrixXd::Identity(n, n);
+  const CombinedLaw law = CombinedLaw::of(parameters);
+  return variance_in_common * section(numbers(law, nodes_[0]), shape(law, nodes_[0], progress(law)).value)
+                                  .covariance(features(), features());
 }
 
 namespace {
@@ -367,6 +381,7 @@ CombinedPopulation fit_combined_population(const SeveralModuli& moduli, const Si
   found.law = CombinedLaw::of(q);
   found.common_covariance = found.fit.by_shift * model.common_covariance(q) * found.fit.by_shift.transpose();
   found.features = model.features();
+  found.mean_cell = model.mean_cell(q);
   found.residual = found.fit.measured.mean - found.fit.fitted.mean;
   found.drawn = model.drawn(q, virtual_events);
   return found;

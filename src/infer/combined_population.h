@@ -28,7 +28,9 @@ class CombinedMoments : public MomentModel {
   bool render(const CombinedVector& parameters, std::size_t pictures);
   /// Slopes of the mean features by ln of the viscosity of the liquid, whose tension goes with the wall's shear stress.
   Eigen::VectorXd by_log_viscosity(const CombinedVector& parameters) const;
-  /// What the law of the section leaves and all events have in common.
+  /// The mean cell of a law, in the table.
+  CellCoordinates mean_cell(const CombinedVector& parameters) const;
+  /// What the table, and in the square channel the law that brings it there, leaves and all events have in common.
   Eigen::MatrixXd common_covariance(const CombinedVector& parameters) const;
 
   /// Until then they do this.
@@ -89,9 +91,10 @@ class CombinedMoments : public MomentModel {
 struct CombinedPopulation {
   MomentFit fit;  ///< `parameters` are a CombinedVector
   CombinedLaw law;
-  Eigen::MatrixXd common_covariance;  ///< of the parameters, by what all events have in common: the law of the section
+  Eigen::MatrixXd common_covariance;  ///< of the parameters, by what all events have in common: table and section
   std::vector<int> features;          ///< that were fitted, of ShapeFeature
   Eigen::VectorXd residual;           ///< of their means, measured - fitted
+  CellCoordinates mean_cell;          ///< of the law, in the table, which may end before
   std::vector<ShapeVector> drawn;     ///< virtual events of the law
 };
 

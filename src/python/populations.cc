@@ -9,6 +9,7 @@
 #include "python/bindings.h"
 #include "python/contained_reading.h"
 #include "python/interruptible.h"
+#include "store/stop_signal.h"
 
 namespace rheocyte {
 
@@ -45,7 +46,13 @@ py::tuple population(const NamedRecordings& named, const PopulationOptions& opti
         };
         const PopulationEvents events = read_contained(file, options.measuring, work, progress, stop);
         if (stop) return {};
-        analysis.add(c, j, events);
+        try {
+          analysis.add(c, j, events, [&stop] {
+            if (stop) throw StoppedBySignal{};
+          });
+        } catch (const StoppedBySignal&) {
+          return {};
+        }
       }
     const PopulationReport report = analysis.report();
     PopulationTexts made{population_json(report), {}};

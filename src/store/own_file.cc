@@ -13,11 +13,10 @@ namespace rheocyte {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-bool begins_with(const fs::path& path, std::string_view mark) { return first_bytes(path, mark.size()) == mark; }
-
-}  // namespace
+bool is_own_file(const fs::path& path, std::string_view mark) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && first_bytes(path, mark.size()) == mark;
+}
 
 void check_replaceable(const fs::path& path, std::string_view mark, Foreign foreign) {
   std::error_code error;
@@ -26,7 +25,7 @@ void check_replaceable(const fs::path& path, std::string_view mark, Foreign fore
   if (error) refuse_path(path, fmt::format("cannot write there ({}).", error.message()));
   if (fs::is_directory(status)) refuse_path(path, "is a folder; give the name of a file with -o.");
   if (!fs::is_regular_file(status)) refuse_path(path, "is not a regular file; give another name with -o.");
-  if (foreign == Foreign::replace || begins_with(path, mark)) return;
+  if (foreign == Foreign::replace || is_own_file(path, mark)) return;
   refuse_path(path,
               foreign == Foreign::keep
                   ? "is there and was not written by rheocyte; move it away, or name another folder with -o."

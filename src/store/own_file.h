@@ -14,6 +14,9 @@ enum class Foreign {
 /// Of a command with --force.
 inline Foreign foreign(bool force) { return force ? Foreign::replace : Foreign::keep_unless_forced; }
 
+/// Whether it is a file that begins with `mark`.
+bool is_own_file(const std::filesystem::path&, std::string_view mark);
+
 /// UserError if a file, a folder or something else stands in the wanted place that is not ours to replace: that does
 /// not begin with `mark`, or as `foreign` says.
 void check_replaceable(const std::filesystem::path&, std::string_view mark, Foreign foreign);

@@ -86,7 +86,7 @@ void compute_population(const Json& request, const WorkReply& reply, const TellP
       const auto events =
           read_population_events(conditions[c].recordings[j], options.measuring, stiffness_measure_of(options),
                                  [&](double share) { tell((done + 0.5 * share) / all); });
-      analysis.add(c, j, events);
+      analysis.add(c, j, events, [] {});
       tell((done + 1) / all);
     }
   const PopulationReport report = analysis.report();
