@@ -91,8 +91,8 @@ class Population:
                 lines.append(f"{row.treated} / {row.control}: {of}{_told(row.ratio, row.sampling_lower, row.sampling_upper)} by "
                              "sampling alone, no p")
         failed = self.recordings[self.recordings["failure"] != ""]
-        lines.append(f"checks hold in {int(self.recordings['fits'].sum())} of {len(self.recordings) - len(failed)} recordings "
-                     "with numbers")
+        lines.append(f"checks hold in {int(self.recordings['fits'].sum())} of {len(self.recordings) - len(failed)} recordings"
+                     + (" with numbers" if len(failed) else ""))
         lines += [f"{row.recording}: {row.failure}" for row in failed.itertuples()]
         return "\n".join(lines)
 

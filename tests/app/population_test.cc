@@ -158,6 +158,14 @@ TEST_F(PopulationCommand, BulkCortexAndTensionsComeBackAndSoDoesWhatADrugDoes) {
   EXPECT_TRUE(fs::exists(folder_.path() / "population" / "population.png")) << ended.err;
   EXPECT_NE(content_of(folder_.path() / "population" / "population.tsv").find("\tcortex_modulus_mN_per_m\t"),
             std::string::npos);
+  EXPECT_NE(ended.out.find(" % of E2D, "), std::string::npos) << "each quantity has its systematic error";
+
+  const Ended outside = call({"population", "--model", "cortex", "--condition", "control=control.rtdc",
+                              "--channel-width-um", "40", "--no-picture"});
+  EXPECT_EQ(outside.exit_code, 3);
+  EXPECT_NE(outside.err.find("are smaller than those of the table, which has 7.9"), std::string::npos) << outside.err;
+  EXPECT_TRUE(record()["conditions"][0]["median_stiffness_kPa"].is_null());
+  EXPECT_FALSE(fs::exists(folder_.path() / "population" / "population.png")) << "of the run before";
 }
 
 TEST_F(PopulationCommand, SolidsHaveNoCortexToTell) {
@@ -299,6 +307,20 @@ TEST_F(PopulationCommand, OneRecordingEachHasARatioButNoP) {
   EXPECT_FALSE(record()["comparisons"][0]["p_with_known_scatter"].is_null());
 }
 
+TEST_F(PopulationCommand, TwoRecordingsHaveTheirMeanElongationAndOldFilesGo) {
+  synth("a.rtdc", {"recording.cells=80"});
+  synth("b.rtdc", {"recording.cells=80", "recording.seed=5", "flow.axial_tension_Pa.mean=20"});
+  ASSERT_EQ(call({"population", "--condition", "b=b.rtdc", "--no-picture", "--quiet"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_.path() / "population" / "events_b_1.tsv"));
+  const Ended ended = call({"population", "--condition", "a=a.rtdc,b.rtdc", "--no-picture"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_FALSE(fs::exists(folder_.path() / "population" / "events_b_1.tsv"));
+  const auto recordings = record()["recordings"];
+  const double mean = (double(recordings[0]["median_elongation"]) + double(recordings[1]["median_elongation"])) / 2;
+  EXPECT_GT(std::abs(double(recordings[0]["median_elongation"]) - mean), 0.01);
+  EXPECT_NE(ended.out.find(fmt::format("; c2 {:.3f}; recordings: 2", mean)), std::string::npos) << ended.out;
+}
+
 TEST_F(PopulationCommand, GatesOnTheAreaAreCorrectedForAndOthersAreNamed) {
   synth("a.rtdc", {"recording.cells=500"});
   // The median cell has an area of about 130 um2: the gate takes the smaller half.
@@ -336,6 +358,10 @@ TEST_F(PopulationCommand, WhatDoesNotWorkIsSaidInOneSentence) {
   refused({"--condition", "a=a.rtdc", "--condition", "a=few.rtdc"}, "the condition a is given twice");
   refused({"--condition", "a=a.rtdc", "--condition", "b=few.rtdc,again.rtdc", "--paired"},
           "--paired wants equally many");
+  refused({"--condition", "../a=a.rtdc"}, "neither slashes nor line breaks");
+  refused({"--condition", "a\tb=a.rtdc"}, "neither slashes nor line breaks");
+  refused({"--condition", std::string(101, 'a') + "=a.rtdc"}, "no more than 100 characters");
+  refused({"--condition", "a=a.rtdc", "-o", "a.rtdc"}, "the folder cannot be made");
   refused({"--condition", "a=few.rtdc"}, "a population needs at least 20");
   refused({"--condition", "a=missing.rtdc"}, "there is no such file");
   refused({"--condition", "a=a.rtdc", "--min", "area_um=900"}, "has no event inside the gates");
@@ -352,6 +378,9 @@ TEST_F(PopulationCommand, APlanNamesAChannelTheSessionsAndWhatLimits) {
   EXPECT_NE(ended.out.find("what limits is the scatter between recordings"), std::string::npos) << ended.out;
   expect_sentence(call({"plan", "--radius-um", "6.5", "--young-modulus-kPa", "2", "--medium", "honey"}),
                   "--medium honey is not known");
+  EXPECT_NE(
+      call({"plan", "--radius-um", "6.5", "--young-modulus-kPa", "2", "--difference", "0.001"}).out.find("\tinf\n"),
+      std::string::npos);
   expect_sentence(call({"plan", "--radius-um", "60", "--young-modulus-kPa", "2"}), "no channel of these has cells");
   expect_sentence(call({"plan", "--radius-um", "6", "--young-modulus-kPa", "2", "--difference", "0"}),
                   "cannot be found");
