@@ -151,8 +151,9 @@ int rheocyte::measure(int argc, char** argv) {
     tallies["ln E2D"].take(logs.cortex, truth.cortex, error_of(found, &CombinedLogs::cortex));
     tallies["ln S"].take(logs.stiffness, truth.stiffness, error_of(found, &CombinedLogs::stiffness));
     tallies["ln T"].take(logs.axial, std::log(wanted.tension), error_of(found, &CombinedLogs::axial));
-    tallies["tension ratio"].take(found.law.tension_ratio, truth.ratio,
-                                  std::sqrt(found.fit.covariance(ratio, ratio) + found.common_covariance(ratio, ratio)));
+    tallies["tension ratio"].take(
+        found.law.tension_ratio, truth.ratio,
+        std::sqrt(found.fit.covariance(ratio, ratio) + found.common_covariance(ratio, ratio)));
   }
   for (const auto& [name, tally] : tallies) tally.print(name);
   return 0;

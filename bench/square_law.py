@@ -212,8 +212,9 @@ def print_common(numbers, left):
 
 
 def array_of(name, rows):
-    lines = [f"    // {feature}\n    {{{numbers_of(row)}}}," for feature, row in zip(FEATURES, rows)]
-    return [f"inline constexpr std::array<std::array<double, {len(rows[0])}>, {len(rows)}> {name}{{{{", *lines, "}};", ""]
+    parts = [f"{name}_of_{feature}" for feature in FEATURES]
+    lines = [f"inline constexpr std::array<double, {len(row)}> {part}{{{numbers_of(row)}}};" for part, row in zip(parts, rows)]
+    return [*lines, f"inline constexpr std::array {name}{{{', '.join(parts)}}};", ""]
 
 
 def write_law(file, numbers, change, spread, correlation):
