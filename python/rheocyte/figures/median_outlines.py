@@ -54,13 +54,13 @@ def draw(figure, cells):
         axes.set_aspect("equal")
     for letter, axes, (name, cell) in zip("cdefghijklmnopqrstuvwxyz", panels, cells.items()):
         axes.fill(*outline(cell, "measured"), color="#d5d9dd", linewidth=0)
-        known = cell["status"] in ("resolved", "not-told-apart", "poor-fit")
+        known = cell["status"] != "no-data"
         text = "no cell of the table has this outline"
         if known:
             axes.plot(*outline(cell, "fitted"), color=style.LINEAR, linewidth=1)
             text = (f"E {cell['young_modulus_kPa']:.2g} kPa, E2D {cell['cortex_modulus_mN_per_m']:.2g} mN/m\n"
                     f"T {cell['axial_tension_Pa']:.0f} ± {cell['axial_tension_error_Pa']:.0f} Pa\n"
                     f"χ² {cell['chi_squared']:.2g} at {cell['degrees_of_freedom']}"
-                    + (": a poor fit" if cell["status"] == "poor-fit" else ""))
+                    + {"poor-fit": ": a poor fit", "outside-table": ", beyond the table"}.get(cell["status"], ""))
         axes.set_title(f"{letter}   {name[:24]}\n{cell['cells']} cells", fontsize=6, loc="left")
         axes.text(0.5, -0.02, text, fontsize=5.5, ha="center", va="top", transform=axes.transAxes)
