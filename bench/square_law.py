@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How the shape of a cell in the square channel differs from that of the cell of the combined table: square_law.h.
 
-    bench/square_law.py FILE [--cells 3000] [--workers 2] [--law src/infer/square_changes.h]
+    bench/square_law.py FILE [--cells 2124] [--workers 2] [--law src/infer/square_changes.h]
 
 Random neo-Hookean cells with bulk, cortex and a tension of the liquid are solved in the square channel, with liquids of
 exponents from 0.5 to 1 and the bending stiffness of a thin cortex, and in the tube with the Newtonian liquid of the same
@@ -231,7 +231,7 @@ def write_law(file, numbers, change, spread, correlation):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", type=Path)
-    parser.add_argument("--cells", type=int, default=3000)
+    parser.add_argument("--cells", type=int, default=2124)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--table", default="data/combined_HC-2D-EL-26.cbor")
     parser.add_argument("--states", default="build/combined_states")

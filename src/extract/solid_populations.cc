@@ -30,7 +30,8 @@ std::string failure_of(const RecordingReport& r) {
       return "the events do not tell all parameters of the population apart: the information is singular; more events "
              "or wider gates help.";
     default:
-      return "no population was found that has these events most probably; do the gates leave cells of one kind?";
+      return "no most probable population was found: the measure of these events is near the noise of the pixels, or "
+             "the gates leave cells of one kind.";
   }
 }
 
