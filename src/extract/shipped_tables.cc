@@ -17,6 +17,16 @@ namespace {
 
 fs::path tables_folder() { return supplied_folder("RHEOCYTE_TABLES", "../share/rheocyte/tables", data_folder); }
 
+/// A name that is that of a table of another kind.
+void refuse_other_kind(const std::string& wanted, std::string_view kind, std::string_view noun) {
+  for (const std::string_view other : {"grid", "elongated", "combined", "dynamic"}) {
+    if (other == kind || !table_files(tables_folder(), other).contains(wanted)) continue;
+    std::string names;
+    for (const auto& [name, file] : table_files(tables_folder(), kind)) names += (names.empty() ? "" : ", ") + name;
+    throw UserError(fmt::format("rheocyte: --table {}: it is no {}; with the program comes {}.", wanted, noun, names));
+  }
+}
+
 fs::path wanted_or_shipped(const fs::path& wanted, std::string_view kind, std::string_view noun) {
   std::error_code error;
   if (!wanted.empty() && fs::exists(wanted, error)) return wanted;
@@ -26,7 +36,9 @@ fs::path wanted_or_shipped(const fs::path& wanted, std::string_view kind, std::s
         "rheocyte: the {} that comes with the program is missing in {}; install the program again, or give --table.",
         noun, tables_folder().string()));
   const auto found = wanted.empty() ? shipped.begin() : shipped.find(wanted.string());
-  return found == shipped.end() ? wanted : found->second;
+  if (found != shipped.end()) return found->second;
+  refuse_other_kind(wanted.string(), kind, noun);
+  return wanted;
 }
 
 }  // namespace
@@ -38,11 +50,11 @@ std::map<std::string, fs::path> shipped_elongated_tables() { return table_files(
 std::map<std::string, fs::path> shipped_combined_tables() { return table_files(tables_folder(), "combined"); }
 
 fs::path combined_table_or_shipped(const fs::path& wanted) {
-  return wanted_or_shipped(wanted, "combined", "combined table");
+  return wanted_or_shipped(wanted, "combined", "table of cells with bulk and cortex");
 }
 
 fs::path dynamic_table_or_shipped(const fs::path& wanted) {
-  return wanted_or_shipped(wanted, "dynamic", "dynamic table");
+  return wanted_or_shipped(wanted, "dynamic", "table of cells on their way");
 }
 
 }  // namespace rheocyte

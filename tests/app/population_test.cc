@@ -191,7 +191,8 @@ TEST_F(PopulationCommand, WhatCellsWithACortexCannotBeAskedIsASentence) {
   refused({"--model", "cortex", "--by", "deformation"}, "--by deformation and --model cortex contradict each other");
   refused({"--model", "jelly"}, "--model");
   refused({"--section", "tube"}, "--section is for --model cortex");
-  refused({"--model", "cortex", "--table", "HE-3D-el-26"}, "HE-3D-el-26");
+  refused({"--model", "cortex", "--table", "HE-3D-el-26"},
+          "--table HE-3D-el-26: it is no table of cells with bulk and cortex; with the program comes HC-2D-EL-26");
 }
 
 TEST_F(PopulationCommand, TheSameInputGivesTheSameBytesForAnyNumberOfThreads) {
