@@ -46,9 +46,11 @@ class Population:
         which were counted in bins."""
         import pandas
 
+        if recording not in range(len(self._events)):
+            raise UserError(f"recording is the number of a row of recordings, 0 to {len(self._events) - 1}; got {recording!r}.")
         if not self._events[recording]:
-            raise UserError("the events of this recording have no values of their own: it has none, or they were counted in "
-                            "bins; no_bins=True takes each by itself.")
+            raise UserError("the events of this recording have no values of their own: it has no numbers, its cells have a "
+                            "cortex, or they were counted in bins; no_bins=True takes each by itself.")
         return pandas.read_csv(io.StringIO(self._events[recording]), sep="\t", index_col="event")
 
     def check(self):

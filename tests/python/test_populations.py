@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rheocyte
-from rheocyte import population_picture
+from rheocyte import UserError, population_picture
 from rheocyte.files import save_figure
 from rheocyte.populations import Population
 
@@ -55,6 +55,37 @@ def test_a_population_tells_its_estimates_and_its_checks(record):
     assert text.endswith("checks hold in 4 of 4 recordings")
     record["comparisons"][0]["p"] = None
     assert "by sampling alone, no p" in repr(shown(record))
+
+
+def test_a_recording_that_is_not_there_is_named(record):
+    found = shown(record)
+    for wrong in (9, "control1.rtdc", None):
+        with pytest.raises(UserError, match="number of a row of recordings, 0 to 3"):
+            found.events(wrong)
+    with pytest.raises(UserError, match="no values of their own"):
+        found.events(0)
+
+
+def test_recordings_without_numbers_do_not_hold_their_checks(record):
+    record["recordings"][0].update(population=None, checks=[], failure="no population was found")
+    found = shown(record)
+    assert list(found.recordings["fits"]) == [False, True, True, True]
+    assert "checks hold in 3 of 3 recordings with numbers" in repr(found)
+    assert "control1.rtdc: no population was found" in repr(found)
+
+
+def test_long_names_of_conditions_are_slanted_and_the_legend_is_true(record):
+    name = "untreated control of the first of May"
+    for each in record["recordings"][:2]:
+        each["condition"] = name
+    record["conditions"][0]["name"] = record["comparisons"][0]["control"] = name
+    figure = population_picture.draw(record)
+    labels = figure.axes[0].get_xticklabels()
+    assert labels[0].get_text() == "untreated control of th\u2026" and labels[0].get_rotation() == 40
+    assert "by its recordings" in figure.legends[0].get_texts()[1].get_text()
+    for each in record["conditions"]:
+        each["interval_by"] = "sampling of the events"
+    assert "by sampling alone" in population_picture.draw(record).legends[0].get_texts()[1].get_text()
 
 
 def test_the_exponent_over_the_stress_is_a_column_of_the_conditions(record):
