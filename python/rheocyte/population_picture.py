@@ -210,7 +210,7 @@ def draw_ratios(axes, story, key, title):
         interval = interval_of(each, "ratio" if by_recordings else "ratio_by_sampling_alone")
         draw_mean(axes, place + 0.36, interval, colour)
         words = f"p = {each['p']:.2g}" if by_recordings else "no p"
-        axes.annotate(f"{interval[0]:.3g}\n{words}", (place, 1), (0, -1), xycoords=("data", "axes fraction"),
+        axes.annotate(f"{interval[0]:.3f}\n{words}", (place, 1), (0, -1), xycoords=("data", "axes fraction"),
                       textcoords="offset points", ha="center", va="top", fontsize=6)
     axes.set_xlim(-0.5, len(comparisons) - 0.4)
     name_places(axes, [f"{shortened(each['treated'])} /\n{shortened(each['control'])}" for each in comparisons])

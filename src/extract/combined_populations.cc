@@ -98,6 +98,7 @@ std::string listed(const std::vector<std::string>& words) {
 void tell(const CombinedPopulation& found, CombinedReport& combined, RecordingReport& r) {
   combined.not_told = not_told_apart(found);
   std::vector<std::string> told, unknown;
+  bool more_events_help = false;
   for (const QuantityOfLaw& wanted : quantities_of_law) {
     const bool is_of_parts =
         wanted.quantity != PopulationQuantity::stiffness && wanted.quantity != PopulationQuantity::axial_tension;
@@ -106,13 +107,15 @@ void tell(const CombinedPopulation& found, CombinedReport& combined, RecordingRe
     const std::string symbol(words_of(wanted.quantity).symbol);
     (is_told(e) ? told : unknown).push_back(symbol);
     if (is_told(e)) r.quantities.push_back(e);
+    more_events_help |= !is_told(e) && std::sqrt(e.mean.variance) > e.common_error;
   }
   if (!combined.not_told.empty())
     r.warnings.push_back(fmt::format("bulk and cortex are not told apart, because {}; what is told is {}.",
                                      combined.not_told, told.empty() ? "nothing" : listed(told)));
   if (!unknown.empty())
-    r.warnings.push_back(fmt::format("{} {} not told: known to no better than {:.0f} %. More events help.",
-                                     listed(unknown), unknown.size() > 1 ? "are" : "is", 100 * most_relative_error));
+    r.warnings.push_back(fmt::format("{} {} not told: known to no better than {:.0f} %{}", listed(unknown),
+                                     unknown.size() > 1 ? "are" : "is", 100 * most_relative_error,
+                                     more_events_help ? "; more events help." : " by the table."));
   r.log_radius = found.law.mean(0);
   r.radius_spread = found.law.spread(0);
 }
