@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "case/joined.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -214,16 +215,14 @@ CombinedPopulations::CombinedPopulations(const PopulationOptions& options)
 }
 
 std::string CombinedPopulations::systematic_errors(std::span<const RecordingReport> recordings) const {
-  std::string errors;
+  std::vector<std::string> errors;
   for (const QuantityOfLaw& wanted : quantities_of_law) {
     double greatest = 0;
     for (const RecordingReport& r : recordings)
       if (const QuantityEstimate* e = r.estimate(wanted.quantity)) greatest = std::max(greatest, e->common_error);
-    if (greatest > 0)
-      errors +=
-          fmt::format("{}{:.2g} % of {}", errors.empty() ? "" : ", ", 100 * greatest, words_of(wanted.quantity).symbol);
+    if (greatest > 0) errors.push_back(fmt::format("{:.2g} % of {}", 100 * greatest, words_of(wanted.quantity).symbol));
   }
-  return "table and section " + (errors.empty() ? "as docs/verification.md has them" : errors) +
+  return "table and section " + (errors.empty() ? "as docs/verification.md has them" : joined(errors, ", ")) +
          "; pixels below the intervals; viscosity model as docs/verification.md has it";
 }
 

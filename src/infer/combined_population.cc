@@ -94,15 +94,24 @@ Eigen::Matrix<double, CombinedMoments::varying, combined_parameters> CombinedMom
   return by;
 }
 
+CellCoordinates CombinedMoments::place_in_table(const Numbers& numbers, double log_progress) const {
+  CellCoordinates cell;
+  cell(int(CellCoordinate::log_radius)) = numbers(0) - std::log(scale_.length);
+  cell(int(CellCoordinate::cortex_share)) = numbers(2);
+  cell(int(CellCoordinate::log_progress)) = log_progress;
+  cell(int(CellCoordinate::tension_ratio)) = numbers(3);
+  cell(int(CellCoordinate::axial_ratio)) = numbers(4) / std::exp(numbers(1));
+  return cell;
+}
+
 /// Of the cell of the table with these numbers; how far the flow deforms it is found by Newton's method.
 CombinedMoments::Shape CombinedMoments::shape_in_tube(const Numbers& numbers, double first) const {
   constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
                 x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio),
                 x_axial = int(CellCoordinate::axial_ratio);
-  const double log_stiffness = numbers(1) - std::log(scale_.modulus), axial = numbers(4) / std::exp(numbers(1));
-  CellCoordinates cell;
-  cell(x_radius) = numbers(0) - std::log(scale_.length);
-  cell(x_share) = numbers(2), cell(x_ratio) = numbers(3), cell(x_axial) = axial;
+  const double log_stiffness = numbers(1) - std::log(scale_.modulus);
+  CellCoordinates cell = place_in_table(numbers, first);
+  const double axial = cell(x_axial);
   const CellBox& box = moduli_.table().box();
   const double least = box.least(x_progress) - beyond_stiff_end, greatest = box.greatest(x_progress) + beyond_soft_end;
   cell(x_progress) = std::clamp(first, least, greatest);
@@ -276,14 +285,7 @@ VectorXd CombinedMoments::by_log_viscosity(const CombinedVector& parameters) con
 CellCoordinates CombinedMoments::mean_cell(const CombinedVector& parameters) const {
   const CombinedLaw law = CombinedLaw::of(parameters);
   const Progress of_mean = progress(law);
-  const Numbers mean = of_mean.mean;
-  CellCoordinates cell;
-  cell(int(CellCoordinate::log_radius)) = mean(0) - std::log(scale_.length);
-  cell(int(CellCoordinate::cortex_share)) = mean(2);
-  cell(int(CellCoordinate::log_progress)) = of_mean.value;
-  cell(int(CellCoordinate::tension_ratio)) = mean(3);
-  cell(int(CellCoordinate::axial_ratio)) = mean(4) / std::exp(mean(1));
-  return cell;
+  return place_in_table(of_mean.mean, of_mean.value);
 }
 
 MatrixXd CombinedMoments::common_covariance(const CombinedVector& parameters) const {

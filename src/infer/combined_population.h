@@ -65,6 +65,7 @@ class CombinedMoments : public MomentModel {
   };
   /// In the channel, without pixels.
   Shape shape(const CombinedLaw& law, const Node& node, const Progress& progress) const;
+  CellCoordinates place_in_table(const Numbers& numbers, double log_progress) const;
   /// `first`: where the search for the deformation begins (ln of the progress).
   Shape shape_in_tube(const Numbers& numbers, double first) const;
   Progress progress(const CombinedLaw& law) const;

@@ -245,11 +245,9 @@ class MomentSearch {
   }
 
   /// The scores of single events: those of the means are linear in what was measured, those of the scatter quadratic.
-  MatrixXd products_of_scores(const Equations& e) const {
+  MatrixXd products_of_scores(const Equations& e, const MatrixXd& linear) const {
     const auto m = Eigen::Index(e.means.size()), n = Eigen::Index(e.free.size());
     const MatrixXd precision = inverse_of(e.slopes.there.covariance);
-    MatrixXd linear(m, found_.measured.mean.size());
-    for (Eigen::Index a = 0; a < m; ++a) linear.row(a) = slope(e, a).mean.transpose() * weight_;
     std::vector<MatrixXd> quadratic;
     for (Eigen::Index a = m; a < n; ++a) quadratic.emplace_back(precision * slope(e, a).covariance * precision / 2);
     MatrixXd products = MatrixXd::Zero(n, n);
@@ -280,7 +278,7 @@ class MomentSearch {
     const auto all = found_.parameters.size();
     found_.covariance = MatrixXd::Zero(all, all);
     found_.covariance(e.free, e.free) =
-        bread * products_of_scores(e) * bread.transpose() / std::pow(double(found_.events), 2);
+        bread * products_of_scores(e, by_shift.topRows(m)) * bread.transpose() / std::pow(double(found_.events), 2);
     found_.by_shift = MatrixXd::Zero(all, by_shift.cols());
     found_.by_shift(e.free, Eigen::all) = bread * by_shift;
     found_.fitted = e.slopes.there;
