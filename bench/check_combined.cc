@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "infer/bulk_cortex_fit.h"
 #include "infer/rendered_errors.h"
-#include "infer/several_moduli.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/quantile.h"
 #include "program.h"
@@ -195,7 +195,7 @@ int rheocyte::measure(int argc, char** argv) {
   const ChannelFlow flow = channel_flow_of(folder.spec().base);
   if (argc == 2) return print_errors_of_pixels(between, RenderedErrors(between, pixel_um)), 0;
   const CombinedShapes shapes(folder.spec(), folder.read_all(), {flow, flow});
-  const SeveralModuli by_figure(between, flow, {features_of_figure()}),
+  const BulkCortexFit by_figure(between, flow, {features_of_figure()}),
       by_contour(between, flow, {features_of_contour()});
   ShapeErrors fine;
   fine.covariance.diagonal().setConstant(1e-8);

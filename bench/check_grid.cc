@@ -35,9 +35,9 @@ void print_differences(const char* what, const std::vector<double>& all) {
 class Comparison {
  public:
   void add(double area, double deformation, const StiffnessAnswer& exact, const GridAnswer& ours) {
-    if (exact.reason == NoAnswer::none && ours.reason == NoAnswer::none && exact.regularised == ours.regularised) {
+    if (exact.reason == OutOfTable::none && ours.reason == OutOfTable::none && exact.regularised == ours.regularised) {
       const double difference = std::abs(std::exp(ours.log_stiffness) / exact.stiffness - 1);
-      ours.regularised ? add_held(difference, ours.error) : add_bare(area, deformation, difference, exact, ours);
+      ours.regularised ? add_regularised(difference, ours.error) : add_bare(area, deformation, difference, exact, ours);
     } else if (const auto names = std::pair{name(exact), name(ours)}; names.first != names.second) {
       ++disagreements_[names];
     }
@@ -48,7 +48,7 @@ class Comparison {
     print_differences("of these, deformations of 0.003 to 0.1", usual_);
     print_differences("regularised", held_);
     fmt::print("regularised, beyond three stated errors: {} of {}, at most {:.1f} of them\n", beyond_error_,
-               held_.size(), worst_held_);
+               held_.size(), worst_regularised_);
     for (const auto& [names, count] : disagreements_)
       fmt::print("{:.3f} %: {} between the branches, {} in the grid\n", 100.0 * count / places, names.first,
                  names.second);
@@ -57,14 +57,14 @@ class Comparison {
  private:
   template <class Answer>
   static std::string name(const Answer& answer) {
-    if (answer.reason == NoAnswer::none) return answer.regularised ? "regularised" : "bare";
+    if (answer.reason == OutOfTable::none) return answer.regularised ? "regularised" : "bare";
     return std::string(name_of(answer.reason));
   }
-  void add_held(double difference, double error) {
+  void add_regularised(double difference, double error) {
     held_.push_back(difference);
     if (difference <= 3 * error) return;
     ++beyond_error_;
-    worst_held_ = std::max(worst_held_, difference / error);
+    worst_regularised_ = std::max(worst_regularised_, difference / error);
   }
   void add_bare(double area, double deformation, double difference, const StiffnessAnswer& exact,
                 const GridAnswer& ours) {
@@ -78,7 +78,7 @@ class Comparison {
 
   std::vector<double> bare_, held_, usual_;
   std::map<std::pair<std::string, std::string>, int> disagreements_;
-  double worst_ = 0, worst_held_ = 0;
+  double worst_ = 0, worst_regularised_ = 0;
   int beyond_error_ = 0;
 };
 

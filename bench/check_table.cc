@@ -60,7 +60,7 @@ int rheocyte::measure(int argc, char** argv) {
     }
     const double um = 1e6 * scales_of(cell).length_m, area = state.shape.area * um * um;
     const StiffnessAnswer answer = table.by_area(area, state.shape.deformation);
-    if (answer.reason != NoAnswer::none || answer.regularised) continue;
+    if (answer.reason != OutOfTable::none || answer.regularised) continue;
     differences.push_back(std::abs(answer.stiffness / stiffness - 1));
     if (differences.back() > 1e-3)
       fmt::print("area {:.4g}, deformation {:.5g}: stiffness off by {:.2e}, estimated {:.1e}\n", area,

@@ -47,7 +47,7 @@ int rheocyte::measure(int argc, char** argv) {
     const std::string reason(name_of(answer.reason));
     points << fmt::format("{},{},{},{},{},{}\n", area, deformation, stiffness, answer.stiffness,
                           int(answer.regularised), reason);
-    if (answer.reason != NoAnswer::none) {
+    if (answer.reason != OutOfTable::none) {
       ++without[reason];
     } else {
       (answer.regularised ? regularised : bare).push_back(std::abs(answer.stiffness / stiffness - 1));

@@ -80,7 +80,7 @@ class Recordings {
   CombinedTable table_;
   CombinedInterpolation between_;
   ChannelFlow simulated_;
-  SeveralModuli moduli_;
+  BulkCortexFit moduli_;
   ChannelFlow flow_;
   CombinedShapes shapes_;
   Wanted wanted_;

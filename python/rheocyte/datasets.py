@@ -89,7 +89,7 @@ def _name(dataset):
 
 
 def _stored_metadata(root):
-    """Metadata of the dataset's file as they are stored; None if it is no file that can be read here."""
+    """Metadata of the dataset's file as they are stored; None if it is not a file that can be read here."""
     if getattr(root, "format", "") != "hdf5" or not isinstance(root.path, (str, os.PathLike)):
         return None
     import h5py

@@ -15,7 +15,7 @@ def images_of(case):
     """What makes the whole cell, in width and height, from the part that was computed: matrices of its (y, z)."""
     width, height = case["cell"].get("offset_um") or (0, 0)
     if width == 0 and height == 0:
-        is_funnel = "profile" in case["channel"]  # whose width is no height
+        is_funnel = "profile" in case["channel"]  # whose width is not a height
         return IMAGES["rectangle" if is_funnel else case["channel"]["section"]]
     # The half of a cell off the axis lies along y, its mirror plane is z = 0.
     return [(SWAP if height else np.eye(2)) @ np.diag([1, sign]) for sign in (1, -1)]

@@ -332,7 +332,7 @@ def modulus(smooth, viscosity, settings, table):
 
 
 def column_of(dataset, name):
-    """A feature with one value per event; NaN for what is no number and behind the end of one that is shorter."""
+    """A feature with one value per event; NaN for what is not a number and behind the end of one that is shorter."""
     values, column = np.asarray(dataset[name][:], dtype=float), np.full(len(dataset), np.nan)
     column[:len(values)] = values[:len(column)]
     return np.where(np.isfinite(column), column, np.nan)

@@ -34,7 +34,7 @@ def read_record(folder):
     except ValueError as error:
         raise InputError(f"{path} is damaged: {error}.") from error
     if not isinstance(record, dict) or record.get("made_by") != "rheocyte population":
-        raise InputError(f"{path} is no file of rheocyte population.")
+        raise InputError(f"{path} is not a file of rheocyte population.")
     return record
 
 

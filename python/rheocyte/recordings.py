@@ -177,7 +177,7 @@ def features(masks, pixel_size_um):
     try:
         array = np.asarray(masks)
     except (TypeError, ValueError, RuntimeError) as error:
-        raise UserError(f"masks is no array: {error}.") from error
+        raise UserError(f"masks is not an array: {error}.") from error
     if array.dtype.kind not in "biu" or array.ndim not in (2, 3) or 0 in array.shape[-2:]:
         raise UserError(f"masks has the type {array.dtype} and the shape {array.shape}; wanted are booleans or whole "
                         "numbers (events, rows, columns).")

@@ -123,7 +123,7 @@ def _polygons(polygons, name):
     names = [path(file, name) for file in files]
     for file in names:
         if not file.endswith(".poly"):
-            raise UserError(f"{name}: {file} is no file of polygon filters (.poly).")
+            raise UserError(f"{name}: {file} is not a file of polygon filters (.poly).")
     return names
 
 

@@ -50,7 +50,7 @@ void run_cell(CellOptions& options) {
   options.input.tension_ratio = options.tension_ratio.value_or(default_tension_ratio);
   const AnalyticCell cell = analytic_cell(options.input);
   if (!options.contour.empty())
-    write_own_file(options.contour, contour_text(cell), contour_mark, foreign(options.force));
+    replace_own_file(options.contour, contour_text(cell), contour_mark, foreign(options.force));
   print(options.json ? json_text(cell) : summary(cell));
 }
 
@@ -79,7 +79,7 @@ void run_table(AnalyticTableOptions& options, TextFile (*make)(const AnalyticTab
   complete(options.input.conditions);
   const TextFile file = make(options.input);
   const auto path = options.folder / file.name;
-  write_own_file(path, file.content, table_mark, foreign(options.force));
+  replace_own_file(path, file.content, table_mark, foreign(options.force));
   print(fmt::format("{}: {} rows\n", path.string(), file.rows));
 }
 

@@ -57,8 +57,8 @@ class ExtractJob {
     return {{task.result(suffix + ".rtdc"), task.result(suffix + ".tsv")}, !options_.no_tsv};
   }
 
-  ExtractSummary work(const RecordingTask& task, const ExtractFiles& files, const TellProgress& tell_progress) const {
-    return extract_recording(task.recording, files, options_, tables_, tell_progress);
+  ExtractSummary work(const RecordingTask& task, const ExtractFiles& files, const TellProgress& report_progress) const {
+    return extract_recording(task.recording, files, options_, tables_, report_progress);
   }
 
   bool take(const RecordingTask& task, const ExtractSummary& summary) {

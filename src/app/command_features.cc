@@ -28,11 +28,11 @@ class FeaturesJob {
     return run_batch(tasks, options_.batch, options_.patience_s.value_or(default_patience_s), *this);
   }
 
-  WholeFile files(const RecordingTask& task) const { return features_file(place_for(task)); }
+  AtomicFile files(const RecordingTask& task) const { return features_file(place_for(task)); }
 
-  FeaturesSummary work(const RecordingTask& task, const WholeFile& file, const TellProgress& tell_progress) const {
+  FeaturesSummary work(const RecordingTask& task, const AtomicFile& file, const TellProgress& report_progress) const {
     return features_of_recording(task.recording, place_for(task), file.scratch(), options_.pixel_size_um,
-                                 tell_progress);
+                                 report_progress);
   }
 
   bool take(const RecordingTask& task, const FeaturesSummary& summary) const {

@@ -11,11 +11,11 @@
 #include "extract/moduli_json.h"
 #include "extract/moduli_recording.h"
 #include "extract/recording_settings.h"
+#include "store/atomic_file.h"
 #include "store/own_file.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
-#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -31,20 +31,20 @@ class ModuliJob {
     return run_batch(tasks, options_.batch, options_.measuring.patience_s.value_or(default_patience_s), *this);
   }
 
-  WholeFile files(const RecordingTask& task) const {
+  AtomicFile files(const RecordingTask& task) const {
     check_replaceable(summary_for(task), mark_of_moduli_json, Foreign::keep);
     const auto file = file_for(task);
-    return WholeFile(file, [file] { check_replaceable(file, mark_of_events(file), Foreign::keep); });
+    return AtomicFile(file, [file] { check_replaceable(file, mark_of_events(file), Foreign::keep); });
   }
 
-  ModuliSummary work(const RecordingTask& task, const WholeFile& file, const TellProgress& tell_progress) const {
+  ModuliSummary work(const RecordingTask& task, const AtomicFile& file, const TellProgress& report_progress) const {
     ModuliText text(file.scratch());
-    return moduli_of_recording(task.recording, options_, table_, text, tell_progress);
+    return moduli_of_recording(task.recording, options_, table_, text, report_progress);
   }
 
   bool take(const RecordingTask& task, const ModuliSummary& summary) const {
-    write_own_file(summary_for(task), moduli_json(task.recording, table_.name, summary), mark_of_moduli_json,
-                   Foreign::keep);
+    replace_own_file(summary_for(task), moduli_json(task.recording, table_.name, summary), mark_of_moduli_json,
+                     Foreign::keep);
     const std::string name = one_line(task.recording.string(), 200);
     if (!options_.batch.quiet) {
       print(fmt::format("{}: {}, see {}\n", name, in_one_line(summary), file_for(task).string()));

@@ -19,7 +19,7 @@ void run(const PlanOptions& options, const std::filesystem::path& file) {
   if (file.empty())
     print(plan_table(plan));
   else
-    write_own_file(file, plan_table(plan), mark_of_plan, Foreign::keep);
+    replace_own_file(file, plan_table(plan), mark_of_plan, Foreign::keep);
   for (const std::string& line : plan.lines) print(line + "\n");
 }
 

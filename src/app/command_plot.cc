@@ -15,14 +15,14 @@
 #include "case/user_error.h"
 #include "extract/plot_lines.h"
 #include "extract/plot_panel.h"
-#include "store/contained.h"
+#include "store/atomic_file.h"
 #include "store/file_writer.h"
+#include "store/isolated.h"
 #include "store/python_package.h"
 #include "store/scratch.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
-#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -74,8 +74,8 @@ class Plot {
   }
 
  private:
-  Contained<PlotPanel> read_panel(const fs::path& recording, const fs::path& events) const {
-    Containment limits;
+  Isolated<PlotPanel> read_panel(const fs::path& recording, const fs::path& events) const {
+    Isolation limits;
     limits.patience_s = options_.measuring.patience_s.value_or(default_patience_s);
     const auto work = [&](const TellProgress& on_progress) {
       FileWriter file(events, "is the disk full? TMPDIR names another folder.");
@@ -86,7 +86,7 @@ class Plot {
       file.close();
       return panel;
     };
-    return run_contained(work, limits, [](double) {});
+    return run_isolated(work, limits, [](double) {});
   }
 
   json described(const fs::path& recording, const PlotPanel& panel) {

@@ -15,7 +15,7 @@
 #include "extract/population_tables.h"
 #include "extract/recording_settings.h"
 #include "extract/settings_text.h"
-#include "store/contained.h"
+#include "store/isolated.h"
 #include "store/own_file.h"
 #include "store/python_package.h"
 #include "store/standard_error.h"
@@ -31,8 +31,8 @@ namespace fs = std::filesystem;
 PopulationEvents read(const fs::path& recording, const PopulationOptions& options) {
   check_is_there(recording);
   const StiffnessMeasure by = stiffness_measure_of(options);
-  return read_contained(recording, options.measuring, options.quiet, [&](const TellProgress& tell_progress) {
-    return read_population_events(recording, options.measuring, by, tell_progress);
+  return read_isolated(recording, options.measuring, options.quiet, [&](const TellProgress& report_progress) {
+    return read_population_events(recording, options.measuring, by, report_progress);
   });
 }
 
@@ -53,11 +53,11 @@ void remove_earlier(const fs::path& folder) {
 
 void write(const fs::path& folder, const PopulationReport& report) {
   remove_earlier(folder);
-  write_own_file(folder / "population.json", population_json(report), mark_of_population_json, Foreign::keep);
-  write_own_file(folder / "population.tsv", population_table(report), mark_of_population_table, Foreign::keep);
+  replace_own_file(folder / "population.json", population_json(report), mark_of_population_json, Foreign::keep);
+  replace_own_file(folder / "population.tsv", population_table(report), mark_of_population_table, Foreign::keep);
   for (const auto& r : report.recordings)
     if (const std::string events = population_events_table(r); !events.empty())
-      write_own_file(events_file(folder, r, report), events, mark_of_population_events, Foreign::keep);
+      replace_own_file(events_file(folder, r, report), events, mark_of_population_events, Foreign::keep);
 }
 
 void tell_recording(const RecordingReport& r) {
@@ -99,7 +99,7 @@ int run(const PopulationCall& call) {
   check_replaceable(options.folder / "population.json", mark_of_population_json, Foreign::keep);
   for (const auto& condition : conditions)
     for (const auto& recording : condition.recordings) check_is_there(recording);
-  const ResultPlace place(options.folder, {});
+  const ResultFolderGuard place(options.folder, {});
   std::optional<Drawing> drawing;  // loads while the recordings are read
   if (!call.no_picture) drawing.emplace("population_picture");
   PopulationAnalysis analysis(options, conditions);

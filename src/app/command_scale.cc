@@ -17,8 +17,8 @@
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/find_table.h"
+#include "infer/map_as_lut.h"
 #include "infer/read_modulus_map.h"
-#include "infer/text_of_map.h"
 #include "store/build_info.h"
 #include "store/own_file.h"
 #include "table/scale.h"
@@ -46,7 +46,7 @@ TableText read_text(const ScaleOptions& options, const std::filesystem::path& ta
     return read_table_text(table);
   }
   const auto map = read_modulus_map(table);
-  return options.lines ? lines_of_map(*map) : text_of_map(*map);
+  return options.lines ? lines_of_map(*map) : map_as_lut(*map);
 }
 
 ChannelFlow wanted_flow(const ScaleOptions& options, const TableText& table) {
@@ -85,7 +85,7 @@ void run(const ScaleOptions& options) {
     throw UserError(fmt::format("{}: is the table itself; give another name with -o.", options.output.string()));
   TableText table = read_text(options, file);
   if (scales) table = rescaled(options, table, file.string());
-  write_own_file(options.output, to_text(table), table_mark, foreign(options.force));
+  replace_own_file(options.output, to_text(table), table_mark, foreign(options.force));
 }
 
 std::string check_identifier(const std::string& name) {

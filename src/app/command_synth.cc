@@ -15,12 +15,12 @@
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/virtual_cells.h"
+#include "store/atomic_file.h"
 #include "store/build_info.h"
-#include "store/contained.h"
+#include "store/isolated.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
-#include "store/whole_file.h"
 #include "synth/synth_keys.h"
 #include "synth/virtual_recording.h"
 
@@ -57,10 +57,10 @@ void report(const SynthOptions& options, const VirtualRecording& r) {
       tell(fmt::format("{} of {} cells are left out: {}.", r.missing[k], r.cells, names_of_missing_shapes[k]));
 }
 
-[[noreturn]] void refuse(const ContainedEnd& end) {
-  if (end.kind == ContainedEnd::Kind::user_error) throw UserError(end.text);
-  if (end.kind == ContainedEnd::Kind::no_memory) throw std::bad_alloc();
-  throw std::runtime_error(end.kind == ContainedEnd::Kind::hung ? "writing the recording hung" : end.text);
+[[noreturn]] void refuse(const IsolatedEnd& end) {
+  if (end.kind == IsolatedEnd::Kind::user_error) throw UserError(end.text);
+  if (end.kind == IsolatedEnd::Kind::no_memory) throw std::bad_alloc();
+  throw std::runtime_error(end.kind == IsolatedEnd::Kind::hung ? "writing the recording hung" : end.text);
 }
 
 int run(const SynthOptions& options) {
@@ -72,11 +72,11 @@ int run(const SynthOptions& options) {
   SynthSpec spec = parse_synth_spec(text, options.spec.string(), options.settings);
   const auto shapes = virtual_cells(spec, options.spec.parent_path());
   const RecordingProvenance provenance{fmt::format("rheocyte {}", version), text};
-  WholeFile file(options.output, [&] { check_output(options); });
-  const auto work = [&](const TellProgress& tell_progress) {
-    return write_virtual_recording(spec, *shapes, provenance, file.scratch(), tell_progress);
+  AtomicFile file(options.output, [&] { check_output(options); });
+  const auto work = [&](const TellProgress& report_progress) {
+    return write_virtual_recording(spec, *shapes, provenance, file.scratch(), report_progress);
   };
-  const auto done = run_contained(work, {}, FileProgress(one_line(options.output.string(), 200), options.quiet));
+  const auto done = run_isolated(work, {}, FileProgress(one_line(options.output.string(), 200), options.quiet));
   if (done.stopped()) return exit_stopped();
   if (!done.finished()) refuse(done.end);
   file.publish();

@@ -15,7 +15,7 @@
 #include "extract/recording_settings.h"
 #include "extract/shipped_tables.h"
 #include "extract/time_course_table.h"
-#include "store/contained.h"
+#include "store/isolated.h"
 #include "store/own_file.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
@@ -26,9 +26,10 @@ namespace rheocyte {
 namespace {
 
 CourseEvents read(const RecordingTask& task, const TimeCourseOptions& options) {
-  return read_contained(task.recording, options.measuring, options.batch.quiet, [&](const TellProgress& tell_progress) {
-    return read_course_events(task.recording, options.measuring, tell_progress);
-  });
+  return read_isolated(task.recording, options.measuring, options.batch.quiet,
+                       [&](const TellProgress& report_progress) {
+                         return read_course_events(task.recording, options.measuring, report_progress);
+                       });
 }
 
 double contraction_of(const TimeCourseOptions& options, std::size_t recording, std::size_t recordings) {
@@ -54,7 +55,7 @@ int run(const TimeCourseOptions& options) {
     courses.add(events, name, contraction_um);
   }
   const CourseReport report = courses.report();
-  write_own_file(options.file, course_text(report), mark_of_courses, Foreign::keep);
+  replace_own_file(options.file, course_text(report), mark_of_courses, Foreign::keep);
   if (!options.batch.quiet)
     for (const std::string& line : report.lines) print(line + "\n");
   return exit_converged;

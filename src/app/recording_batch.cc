@@ -12,7 +12,7 @@ namespace rheocyte {
 
 namespace fs = std::filesystem;
 
-ResultPlace::ResultPlace(const fs::path& folder, const fs::path& of_all) {
+ResultFolderGuard::ResultFolderGuard(const fs::path& folder, const fs::path& of_all) {
   std::error_code error;
   std::vector<fs::path> missing;
   const fs::path top = (of_all / "result").lexically_normal().parent_path();
@@ -23,7 +23,7 @@ ResultPlace::ResultPlace(const fs::path& folder, const fs::path& of_all) {
   made_.assign(missing.rbegin(), missing.rend());
 }
 
-ResultPlace::~ResultPlace() {
+ResultFolderGuard::~ResultFolderGuard() {
   std::error_code not_empty;
   for (; !made_.empty(); made_.pop_back()) fs::remove(made_.back(), not_empty);
 }

@@ -14,7 +14,7 @@
 #include "case/user_error.h"
 #include "extract/options.h"
 #include "extract/recording_list.h"
-#include "store/contained.h"
+#include "store/isolated.h"
 #include "store/standard_error.h"
 #include "store/stop_signal.h"
 
@@ -22,13 +22,13 @@ namespace rheocyte {
 
 /// The folder of a result, below that of all results, while the result is written. Folders that were made for it and
 /// are empty in the end go again; that of all results stays, in which other calls may be about to write.
-class ResultPlace {
+class ResultFolderGuard {
  public:
   /// Makes the folder. UserError.
-  ResultPlace(const std::filesystem::path& folder, const std::filesystem::path& of_all);
-  ~ResultPlace();
-  ResultPlace(const ResultPlace&) = delete;
-  ResultPlace& operator=(const ResultPlace&) = delete;
+  ResultFolderGuard(const std::filesystem::path& folder, const std::filesystem::path& of_all);
+  ~ResultFolderGuard();
+  ResultFolderGuard(const ResultFolderGuard&) = delete;
+  ResultFolderGuard& operator=(const ResultFolderGuard&) = delete;
 
  private:
   std::vector<std::filesystem::path> made_;  ///< the deepest last
@@ -40,14 +40,14 @@ std::vector<RecordingTask> tasks_of(const BatchOptions& options);
 /// UserError if there is no such file: before anything is made for its results.
 void check_is_there(const std::filesystem::path& recording);
 
-/// What `read(tell_progress)` gives of a recording, in a process of its own. UserError with the reason if it gives
+/// What `read(report_progress)` gives of a recording, in a process of its own. UserError with the reason if it gives
 /// nothing.
 template <class Read>
-auto read_contained(const std::filesystem::path& recording, const MeasuringOptions& measuring, bool quiet,
-                    const Read& read) {
-  Containment limits;
+auto read_isolated(const std::filesystem::path& recording, const MeasuringOptions& measuring, bool quiet,
+                   const Read& read) {
+  Isolation limits;
   limits.patience_s = measuring.patience_s.value_or(default_patience_s);
-  auto done = run_contained(read, limits, FileProgress(one_line(recording.string(), 200), quiet));
+  auto done = run_isolated(read, limits, FileProgress(one_line(recording.string(), 200), quiet));
   if (done.stopped()) throw StoppedBySignal{};
   if (!done.finished()) throw UserError(sentence_for(recording, done.end, limits.patience_s));
   return std::move(done.result);
@@ -66,7 +66,7 @@ class RecordingBatch {
   }
 
   int run() {
-    ContainedPool pool(jobs_at_once(options_));
+    IsolatedPool pool(jobs_at_once(options_));
     for (const auto& turn : turns_) {
       if (was_stopped_) break;
       begin(*turn, pool);
@@ -86,7 +86,7 @@ class RecordingBatch {
   struct Turn {
     explicit Turn(const RecordingTask& of) : task(of) {}
     const RecordingTask& task;
-    std::unique_ptr<ResultPlace> place = {};  ///< until all have ended: others may write there
+    std::unique_ptr<ResultFolderGuard> place = {};  ///< until all have ended: others may write there
     std::optional<Files> files = {};
     bool has_ended = false, is_told = false;
     std::optional<Result> result = {};
@@ -94,20 +94,20 @@ class RecordingBatch {
   };
 
   /// What fails is known at once.
-  void begin(Turn& turn, ContainedPool& pool) {
+  void begin(Turn& turn, IsolatedPool& pool) {
     try {
       check_is_there(turn.task.recording);
-      turn.place = std::make_unique<ResultPlace>(turn.task.results.parent_path(), options_.folder);
+      turn.place = std::make_unique<ResultFolderGuard>(turn.task.results.parent_path(), options_.folder);
       turn.files.emplace(job_.files(turn.task));
-      Containment limits;
+      Isolation limits;
       limits.patience_s = patience_s_;
       pool.start(
-          [this, &turn](const TellProgress& tell_progress) {
-            return to_bytes(job_.work(turn.task, *turn.files, tell_progress));
+          [this, &turn](const TellProgress& report_progress) {
+            return to_bytes(job_.work(turn.task, *turn.files, report_progress));
           },
           limits, FileProgress(one_line(turn.task.recording.string(), 200), options_.quiet),
-          [this, &turn](ContainedEnd end) {
-            this->end(turn, contained_from<Result>(std::move(end)));
+          [this, &turn](IsolatedEnd end) {
+            this->end(turn, isolated_from<Result>(std::move(end)));
             tell_in_order();
           });
     } catch (const UserError& error) {
@@ -116,7 +116,7 @@ class RecordingBatch {
   }
 
   /// What has finished is there at once, whatever comes of the others.
-  void end(Turn& turn, Contained<Result> done) {
+  void end(Turn& turn, Isolated<Result> done) {
     if (done.stopped()) {
       was_stopped_ = true;
       turn.files.reset();
@@ -171,7 +171,7 @@ class RecordingBatch {
 /// Runs a job on the recordings and returns the exit code: of a failure, if there was any, else of a recording without
 /// any result. The job says by
 ///   files(task)                                   which files are made, with publish(); here, UserError
-///   work(task, files, tell_progress) -> Result    what is read and written; in a process of its own, UserError
+///   work(task, files, report_progress) -> Result    what is read and written; in a process of its own, UserError
 ///   take(task, result) -> bool                    what is told of the result; false: it has no modulus
 ///   fail(task, sentence)                          what else is done about a failure, which is told already
 template <class Job>

@@ -14,8 +14,8 @@
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
-#include "result/counted.h"
 #include "result/gradient.h"
+#include "result/plural.h"
 #include "store/build_info.h"
 #include "store/result_folder.h"
 #include "store/standard_error.h"
@@ -36,7 +36,7 @@ ProgressCallback progress_lines(const Case& c) {
                                ? fmt::format("E = {:.5g} kPa", share * *cell.bulk.young_modulus_kPa)
                                : fmt::format("E2D = {:.5g} mN/m", share * cell.cortex.modulus_mN_per_m.value_or(0));
     tell(fmt::format("step {:>3}  {:<16}  degree {:>2}  deformation {:.6f}  {}", ++step, stiffness, point.degree,
-                     point.deformation, counted(point.newton_iterations, "Newton iteration")));
+                     point.deformation, plural(point.newton_iterations, "Newton iteration")));
   };
 }
 

@@ -11,8 +11,8 @@
 #include "app/finish_result.h"
 #include "case/scales.h"
 #include "case/user_error.h"
-#include "result/counted.h"
 #include "result/judge_end.h"
+#include "result/plural.h"
 #include "result/result_in_time.h"
 #include "result/write_result.h"
 #include "store/standard_error.h"
@@ -86,7 +86,7 @@ class Recorder {
     const HistoryRow& row = record_.rows.back();
     if (!options_.quiet)
       tell(fmt::format("t {:>10.4f} us  step {:<9.3g} order {}  deformation {:.6f}  {}", row.t_us, row.step_us,
-                       row.order, row.measure("deformation"), counted(row.newton_iterations, "Newton iteration")));
+                       row.order, row.measure("deformation"), plural(row.newton_iterations, "Newton iteration")));
   }
 
   void write_checkpoint_if_due() {
@@ -134,8 +134,8 @@ int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Draw
     recorder.take_over(*from);
     from->claim = {};  // what a killed run has left may go once there is a result
   }
-  result.state = follow_in_time(result.problem, time_run_of(c, result.scales), recorder.observer(),
-                                start ? &*start : nullptr, work_limits(options));
+  result.state = transient(result.problem, time_run_of(c, result.scales), recorder.observer(),
+                           start ? &*start : nullptr, work_limits(options));
   recorder.write_all();
   judge_end(result, recorder.record(), work_limits(options));
   refuse_unfinite_numbers(result);

@@ -82,7 +82,7 @@ std::optional<double> as_number(std::string_view text) {
   return one_zero(number);
 }
 
-// "[0, 0.5]"; nothing if it is no list of numbers.
+// "[0, 0.5]"; nothing if it is not a list of numbers.
 std::optional<std::vector<double>> as_list(std::string_view text) {
   if (!text.starts_with('[') || !text.ends_with(']')) return {};
   text = text.substr(1, text.size() - 2);

@@ -46,7 +46,7 @@ std::vector<double> checked_list(const KeyDescription& key, const List& list, co
   const auto* values = std::get_if<std::vector<double>>(&given.value);
   const auto what = with_meaning(allowed_values(key), key);
   if (!values)
-    refuse(given, fmt::format("{} is no list of numbers, for example [0, 60]; it can be {}.", stated(given), what));
+    refuse(given, fmt::format("{} is not a list of numbers, for example [0, 60]; it can be {}.", stated(given), what));
   for (const double value : *values)
     if (!list.range.contains(value))
       refuse(given, fmt::format("{} contains {}, which is outside its range; it can be {}.", given.key, value, what));

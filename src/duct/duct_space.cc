@@ -30,7 +30,7 @@ DuctSpace::DuctSpace(const DuctMesh& mesh, Interior interior, int degree)
     }
   }
   straight_points_ = points_;
-  find_held_nodes();
+  find_fixed_nodes();
 }
 
 DuctSpace::DuctSpace(const DuctMesh& mesh, int degree, const Liquid& liquid, Drive drive, Interior interior)
@@ -117,18 +117,18 @@ double DuctSpace::inlet_slope(const VectorXd& outward) const {
 }
 
 /// The node on the cell's axis, or on its surface, that is nearest to its middle, and the one at its front pole.
-void DuctSpace::find_held_nodes() {
+void DuctSpace::find_fixed_nodes() {
   const double radius = mesh_.geometry().radius();
   double nearest = radius;
   const Eigen::Vector2d centre(mesh_.geometry().shape().offset, 0);
   for (int i = 0; i < nodes_.count; ++i) {
     const double off = (points_[i].tail<2>() - centre).norm();
-    if (off < same_place && std::abs(points_[i](0) - radius) < same_place) held_pole_ = i;
+    if (off < same_place && std::abs(points_[i](0) - radius) < same_place) fixed_pole_ = i;
     const bool is_candidate = interior_ == Interior::liquid
                                   ? std::abs(std::hypot(points_[i](0), off) - radius) < same_place
                                   : off < same_place;
     if (!is_candidate || std::abs(points_[i](0)) >= nearest - same_place) continue;
-    held_node_ = i;
+    fixed_node_ = i;
     nearest = std::abs(points_[i](0));
   }
 }
@@ -168,8 +168,8 @@ void DuctSpace::number_unknowns(const std::function<double(const Eigen::Vector2d
     };
     if (f.cell && !f.liquid && interior_ == Interior::liquid) continue;
     if (f.cell) {
-      if (i != held_node_) displacement_[3 * i] = unknowns_++;
-      const bool is_held = f.across.holds_y || (turns() && (i == held_node_ || i == held_pole_));
+      if (i != fixed_node_) displacement_[3 * i] = unknowns_++;
+      const bool is_held = f.across.holds_y || (turns() && (i == fixed_node_ || i == fixed_pole_));
       number_across(is_held, [&](int c) -> int& { return displacement_[3 * i + c]; });
       if (!(turns() && f.liquid)) continue;
     }
@@ -194,9 +194,9 @@ void DuctSpace::number_unknowns(const std::function<double(const Eigen::Vector2d
 }
 
 int DuctSpace::momentum_row(int node, int c) const {
-  if (node == held_node_ && c == 0) return cell_velocity_;
-  if (turns() && node == held_node_ && c == 1) return drift_;
-  if (turns() && node == held_pole_ && c == 1) return spin_;
+  if (node == fixed_node_ && c == 0) return cell_velocity_;
+  if (turns() && node == fixed_node_ && c == 1) return drift_;
+  if (turns() && node == fixed_pole_ && c == 1) return spin_;
   return displacement(node, c);
 }
 
@@ -251,7 +251,7 @@ HexahedronUnknowns DuctSpace::unknowns_of(int element) const {
     for (const int node : nodes) {
       // On the surface the liquid's momentum is added to the cell's equation. The relative velocity vanishes there, or
       // is that of the turning surface.
-      const bool in_cell = displacement(node, 0) >= 0 || node == held_node_;
+      const bool in_cell = displacement(node, 0) >= 0 || node == fixed_node_;
       if (unknowns.liquid) unknowns.velocity.push_back(velocity(node, c));
       const int own = is_motion(velocity(node, c).unknown) ? -1 : velocity(node, c).unknown;
       unknowns.rows.push_back(unknowns.is_empty ? -1 : in_cell ? momentum_row(node, c) : own);

@@ -83,7 +83,7 @@ class DuctSpace {
   int pressure(int element, int mode) const { return pressure_[element * reference_.pressures() + mode]; }
   /// The node whose axial displacement is held, which fixes the cell's place: on the axis, or, round a liquid interior,
   /// on the surface.
-  int held_node() const { return held_node_; }
+  int fixed_node() const { return fixed_node_; }
 
  private:
   struct NodeFlags {
@@ -93,7 +93,7 @@ class DuctSpace {
   std::vector<NodeFlags> flag_nodes() const;
   DuctSpace(const DuctMesh&, Interior, int degree);
   void number_unknowns(const std::function<double(const Eigen::Vector2d&)>& inflow);
-  void find_held_nodes();
+  void find_fixed_nodes();
   /// The undisturbed flow through the inlet's section where the wall is so much wider, at the nodes of the section.
   VectorXd inflow_at(double stretch) const;
   void set_inflow(const VectorXd& outward);
@@ -114,8 +114,8 @@ class DuctSpace {
   std::vector<Eigen::Vector2d> wall_shares_;  ///< of the motion of the wall, that the nodes take over
   std::vector<int> displacement_, pressure_;
   std::vector<Slot> velocity_;
-  int unknowns_ = 0, cell_velocity_ = -1, inner_pressure_ = -1, drift_ = -1, spin_ = -1, held_node_ = -1,
-      held_pole_ = -1;
+  int unknowns_ = 0, cell_velocity_ = -1, inner_pressure_ = -1, drift_ = -1, spin_ = -1, fixed_node_ = -1,
+      fixed_pole_ = -1;
   std::vector<HexahedronUnknowns> elements_;
 };
 

@@ -127,7 +127,7 @@ VectorXd transfer(const DuctSpace& from, const VectorXd& unknowns, const DuctSpa
     }
     const MatrixXd values = apply_in_each_direction(basis, field);
     for (int k = 0; k < target.nodes(); ++k) {
-      if (!liquid && nodes_to[k] == to.held_node()) shift = values(k, 0);
+      if (!liquid && nodes_to[k] == to.fixed_node()) shift = values(k, 0);
       for (int c = 0; c < 3; ++c) {
         const int unknown = liquid ? to.velocity(nodes_to[k], c).unknown : to.displacement(nodes_to[k], c);
         if (unknown >= 0 && !to.is_motion(unknown)) result(unknown) = values(k, c);

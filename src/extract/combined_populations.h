@@ -24,7 +24,7 @@ class CombinedPopulations : public PopulationModel {
  private:
   std::optional<Section> wanted_section_;
   ModuliTable table_;
-  SeveralModuli moduli_;
+  BulkCortexFit moduli_;
 };
 
 }  // namespace rheocyte

@@ -13,7 +13,7 @@
 #include "case/user_error.h"
 #include "measurement/basin.h"
 #include "store/build_info.h"
-#include "store/contained.h"
+#include "store/isolated.h"
 
 namespace rheocyte {
 
@@ -38,7 +38,7 @@ std::vector<std::string> paths_to(const fs::path& original, const fs::path& fold
   refuse_path(place, fmt::format("is there and {}; move it away, or name another folder with -o.", what));
 }
 
-// Nothing if it is no recording at all.
+// Nothing if it is not a recording at all.
 std::optional<Metadata> metadata_in(const fs::path& place) {
   try {
     return Recording(place).metadata();
@@ -82,7 +82,7 @@ void check_companion(const fs::path& place) {
     const auto programs = metadata ? metadata->text("setup:software version") : std::nullopt;
     return programs && programs->find("rheocyte ") != std::string::npos;
   };
-  const auto looked = run_contained(is_ours, {}, [](double) {});
+  const auto looked = run_isolated(is_ours, {}, [](double) {});
   if (!looked.stopped() && !(looked.finished() && looked.result))
     refuse_to_replace(place, "was not written by rheocyte");
 }

@@ -167,9 +167,9 @@ void check_channel(const ChannelFlow& flow, const std::string& name, const Dynam
 }  // namespace
 
 CourseEvents read_course_events(const std::filesystem::path& path, const MeasuringOptions& options,
-                                const TellProgress& tell_progress) {
+                                const TellProgress& report_progress) {
   Recording recording(path);
-  EventPass pass(recording, tell_progress);
+  EventPass pass(recording, report_progress);
   CourseReader reader(recording, options);
   pass.in_blocks(outlines_at_a_time, [&](std::size_t first, std::size_t count) { reader.take(first, count); });
   return reader.result();

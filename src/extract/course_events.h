@@ -37,7 +37,7 @@ struct CourseEvents {
 
 /// UserError for what is wrong with the recording, which must have pos_x and contours or masks.
 CourseEvents read_course_events(const std::filesystem::path& recording, const MeasuringOptions& options,
-                                const TellProgress& tell_progress);
+                                const TellProgress& report_progress);
 
 /// A cell, or one that was not seen again.
 struct CourseCell {

@@ -3,10 +3,10 @@
 #include "extract/extract_settings.h"
 #include "extract/moduli_summary.h"
 #include "extract/square_section.h"
+#include "infer/bulk_cortex_fit.h"
 #include "infer/common_tension.h"
 #include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
-#include "infer/several_moduli.h"
 
 namespace rheocyte {
 
@@ -68,7 +68,7 @@ class EventModuli {
   Section section_;
   double section_error_factor_;
   RenderedErrors pixels_;
-  SeveralModuli moduli_;
+  BulkCortexFit moduli_;
   AxialTension tension_;
 };
 

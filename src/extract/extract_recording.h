@@ -6,8 +6,8 @@
 #include "extract/extract_summary.h"
 #include "extract/modulus_tables.h"
 #include "extract/options.h"
+#include "store/atomic_file.h"
 #include "store/progress.h"
-#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -37,8 +37,8 @@ class ExtractFiles {
  private:
   std::filesystem::path place_;
   bool for_ourselves_;
-  WholeFile companion_;
-  std::optional<WholeFile> events_;
+  AtomicFile companion_;
+  std::optional<AtomicFile> events_;
 };
 
 /// UserError if the options ask for something that the table does not have.

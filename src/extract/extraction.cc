@@ -26,7 +26,7 @@ PixelUse pixel_use(const ExtractOptions& options) {
 
 std::string corrected_for_pixels(const MeasuringConditions& conditions, const ModulusMap& table) {
   if (conditions.pixel_size_um == 0) return "nothing";
-  return table.is_own() && conditions.correct_area ? "area and deformation" : "deformation";
+  return table.is_rheocyte_table() && conditions.correct_area ? "area and deformation" : "deformation";
 }
 
 EventShapes::Tables shape_tables(const ModulusTables& tables, double flow_exponent) {
@@ -51,7 +51,7 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
       features_(recording, shapes_) {
   gates_.check(features_);
   moduli_.reserve(recording.events());
-  if (table_.is_own()) standard_errors_.reserve(recording.events());
+  if (table_.is_rheocyte_table()) standard_errors_.reserve(recording.events());
 }
 
 void Extraction::Columns::resize(std::size_t count) {
@@ -80,10 +80,10 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   }
   table().estimate(settings_.conditions, events, {c.modulus, c.standard_error, c.states});
   const Moduli moduli{c.modulus, c.standard_error, c.states};
-  take_account_of_inertia(moduli);
-  if (table().is_own()) set_aside_unresolved(moduli);
+  add_inertia_error(moduli);
+  if (table().is_rheocyte_table()) mark_unresolved(moduli);
   compute_shapes(first, events);
-  if (!gates_.empty()) shut_out(first);
+  if (!gates_.empty()) apply_gates(first);
   collect();
   const auto& s = c.shapes;
   return {c.area,   c.deformation,        c.viscosity, c.modulus, c.standard_error, c.states, s.excess,
@@ -95,8 +95,8 @@ void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events)
   if (!event_shapes_.elongated_by()) return;
   ElongationValues& e = columns_.shapes.elongation;
   const Moduli moduli{e.modulus_kPa, e.standard_error_kPa, e.states};
-  take_account_of_inertia(moduli);
-  set_aside_unresolved(moduli);
+  add_inertia_error(moduli);
+  mark_unresolved(moduli);
   for (std::size_t i = 0; i < e.modulus_kPa.size(); ++i)
     if (std::isnan(e.modulus_kPa[i])) e.forget(i);
 }
@@ -221,7 +221,7 @@ void Extraction::count_inertial(double viscosity_mPas) {
 }
 
 // What is known of it counts as an error of the modulus; events beyond that are flagged.
-void Extraction::take_account_of_inertia(const Moduli& moduli) {
+void Extraction::add_inertia_error(const Moduli& moduli) {
   ChannelFlow flow = settings_.conditions.flow;
   flow.viscosity_mPas = 1;
   const double at_1_mPas = reynolds_number(buffer_density_kg_per_m3, flow);
@@ -236,7 +236,7 @@ void Extraction::take_account_of_inertia(const Moduli& moduli) {
 }
 
 // Where the deformation or the asymmetry is lost in the scatter by pixels, the modulus could be any above some value.
-void Extraction::set_aside_unresolved(const Moduli& moduli) {
+void Extraction::mark_unresolved(const Moduli& moduli) {
   for (std::size_t i = 0; i < moduli.states.size(); ++i) {
     if (!has_modulus(moduli.states[i]) || moduli.standard_error_kPa[i] <= max_relative_standard_error * moduli.kPa[i])
       continue;
@@ -245,7 +245,7 @@ void Extraction::set_aside_unresolved(const Moduli& moduli) {
   }
 }
 
-void Extraction::shut_out(std::size_t first) {
+void Extraction::apply_gates(std::size_t first) {
   Columns& c = columns_;
   c.inside.resize(c.states.size());
   gates_.apply(features_, first, c.inside);
@@ -260,7 +260,7 @@ void Extraction::shut_out(std::size_t first) {
 
 void Extraction::take_modulus(std::size_t i) {
   moduli_.push_back(columns_.modulus[i]);
-  if (table().is_own()) standard_errors_.push_back(static_cast<float>(columns_.standard_error[i]));
+  if (table().is_rheocyte_table()) standard_errors_.push_back(static_cast<float>(columns_.standard_error[i]));
   if (!other_table_ || !has_modulus(columns_.other_states[i])) return;
   log_ratios_ += std::log(columns_.other_modulus[i] / columns_.modulus[i]);
   ++compared_;

@@ -32,8 +32,8 @@ class Extraction {
   const EventShapes& event_shapes() const { return event_shapes_; }
   /// What is told of each event.
   ColumnsOf<EventBlock> columns() const {
-    return event_columns(
-        {table_.is_own(), event_shapes_.is_known(), event_shapes_.has_asymmetry(), event_shapes_.elongated_by()});
+    return event_columns({table_.is_rheocyte_table(), event_shapes_.is_known(), event_shapes_.has_asymmetry(),
+                          event_shapes_.elongated_by()});
   }
   /// From now on blocks hold the features of the outlines, too, where contours or masks are read.
   void measure_outlines() { event_shapes_.measure_outlines(settings_.pixel_size_um); }
@@ -65,9 +65,9 @@ class Extraction {
     std::span<double> kPa, standard_error_kPa;
     std::span<ModulusState> states;
   };
-  void take_account_of_inertia(const Moduli& moduli);
-  static void set_aside_unresolved(const Moduli& moduli);
-  void shut_out(std::size_t first);
+  void add_inertia_error(const Moduli& moduli);
+  static void mark_unresolved(const Moduli& moduli);
+  void apply_gates(std::size_t first);
   void take_modulus(std::size_t i);
   void count_inertial(double viscosity_mPas);
   void compute_shapes(std::size_t first, const MeasuredEvents& events);

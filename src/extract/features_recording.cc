@@ -71,8 +71,8 @@ class OutlineReader {
 
 }  // namespace
 
-WholeFile features_file(const fs::path& place) {
-  return WholeFile(place, [place] { check_companion(place); });
+AtomicFile features_file(const fs::path& place) {
+  return AtomicFile(place, [place] { check_companion(place); });
 }
 
 FeaturesSummary features_of_recording(const fs::path& file, const fs::path& place, const fs::path& scratch,

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "measurement/contour_features.h"
+#include "store/atomic_file.h"
 #include "store/progress.h"
-#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -15,7 +15,7 @@ struct FeaturesSummary {
 };
 
 /// The companion of a recording while it is written; UserError if a file stands there that is not ours.
-WholeFile features_file(const std::filesystem::path& place);
+AtomicFile features_file(const std::filesystem::path& place);
 
 /// Computes all of outline_features(), and of tilt_features() as far as userdef0 to userdef9 are free, block by block.
 /// `place` is where the companion will stand, `scratch` where it is written; the pixel size (um) is that of the

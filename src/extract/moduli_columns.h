@@ -3,7 +3,7 @@
 #include <span>
 
 #include "extract/elongation_columns.h"
-#include "infer/several_moduli.h"
+#include "infer/bulk_cortex_fit.h"
 #include "infer/shape_excess.h"
 
 namespace rheocyte {

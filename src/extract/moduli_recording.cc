@@ -248,9 +248,9 @@ class Fits {
 
 ModuliSummary moduli_of_recording(const std::filesystem::path& path, const ModuliOptions& options,
                                   const ModuliTable& table, ModuliConsumer& consumer,
-                                  const TellProgress& tell_progress) {
+                                  const TellProgress& report_progress) {
   Recording recording(path);
-  EventPass pass(recording, tell_progress);
+  EventPass pass(recording, report_progress);
   Fits fits(recording, options, table, pass.goes_on());
   fits.survey(recording, options);
   consumer.begin(recording, fits.remarks(options));

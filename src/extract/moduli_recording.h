@@ -29,7 +29,7 @@ class ModuliConsumer {
 /// is wrong with the recording, which must have contours or masks, and of the consumer.
 ModuliSummary moduli_of_recording(const std::filesystem::path& recording, const ModuliOptions& options,
                                   const ModuliTable& table, ModuliConsumer& consumer,
-                                  const TellProgress& tell_progress);
+                                  const TellProgress& report_progress);
 
 /// The text table.
 class ModuliText : public ModuliConsumer {

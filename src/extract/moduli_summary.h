@@ -8,8 +8,8 @@
 
 #include "extract/axial_summary.h"
 #include "extract/extract_summary.h"
+#include "infer/bulk_cortex_fit.h"
 #include "infer/median_cell.h"
-#include "infer/several_moduli.h"
 
 namespace rheocyte {
 

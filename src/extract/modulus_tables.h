@@ -62,7 +62,7 @@ class ModulusTables {
   bool are_square() const { return !given_ && section_ == Section::square; }
 
   /// True if rheocyte's own tables are used, of which areas are corrected and errors known.
-  bool own() const { return !given_ || tables_.front().map->is_own(); }
+  bool own() const { return !given_ || tables_.front().map->is_rheocyte_table(); }
 
  private:
   struct Table {

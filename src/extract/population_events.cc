@@ -135,12 +135,12 @@ class StoredReader {
 
 template <class Reader>
 PopulationEvents events_by(Recording& recording, const MeasuringOptions& options, StiffnessMeasure by,
-                           const TellProgress& tell_progress) {
+                           const TellProgress& report_progress) {
   PopulationEvents all;
   all.recorded = recording.events();
   all.warnings = recording.remarks();
   all.made_of = recording.metadata().text(made_of_key).value_or("");
-  EventPass pass(recording, tell_progress);
+  EventPass pass(recording, report_progress);
   Reader reader(recording, options, by, all);
   pass.in_blocks(population_block, [&](std::size_t first, std::size_t count) { reader.take(first, count); });
   if (const auto outside = reader.outside_temperature())
@@ -151,9 +151,9 @@ PopulationEvents events_by(Recording& recording, const MeasuringOptions& options
 }  // namespace
 
 PopulationEvents read_population_events(const std::filesystem::path& file, const MeasuringOptions& options,
-                                        StiffnessMeasure by, const TellProgress& tell_progress) {
+                                        StiffnessMeasure by, const TellProgress& report_progress) {
   Recording recording(file);
-  if (ShapeSource::has_outlines(recording)) return events_by<OutlinedReader>(recording, options, by, tell_progress);
+  if (ShapeSource::has_outlines(recording)) return events_by<OutlinedReader>(recording, options, by, report_progress);
   if (by == StiffnessMeasure::asymmetry)
     refuse_path(
         file,
@@ -164,7 +164,7 @@ PopulationEvents read_population_events(const std::filesystem::path& file, const
         file,
         "has neither contours nor masks nor inertia ratios (inert_ratio_cvx), so nobody knows how elongated its "
         "cells are; E of a population cannot be told from it.");
-  return events_by<StoredReader>(recording, options, by, tell_progress);
+  return events_by<StoredReader>(recording, options, by, report_progress);
 }
 
 }  // namespace rheocyte

@@ -60,6 +60,6 @@ struct PopulationEvents {
 /// Of those events inside the gates of which everything is a number. UserError for what is wrong with the recording;
 /// for the asymmetry it must have contours or masks, else these or inertia ratios.
 PopulationEvents read_population_events(const std::filesystem::path& recording, const MeasuringOptions& options,
-                                        StiffnessMeasure by, const TellProgress& tell_progress);
+                                        StiffnessMeasure by, const TellProgress& report_progress);
 
 }  // namespace rheocyte

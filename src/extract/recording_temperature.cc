@@ -135,7 +135,7 @@ class Search {
     const auto stored = metadata.number("setup:temperature");
     if (!stored) {
       if (const auto text = metadata.text("setup:temperature"))
-        notes_.push_back(fmt::format("setup:temperature is \"{}\", which is no number.", one_line(*text, 40)));
+        notes_.push_back(fmt::format("setup:temperature is \"{}\", which is not a number.", one_line(*text, 40)));
       return std::nullopt;
     }
     if (is_possible_temperature(*stored)) {

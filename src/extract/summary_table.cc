@@ -88,7 +88,7 @@ void add_to_summary(const fs::path& file, std::span<const SummaryLine> lines) {
   for (auto& line : named) line.recording = name_in_summary(line.recording, folder);
   const Claim alone = wait_for_folder(folder);
   check_place_of_summary(file);
-  write_own_file(file, summary_table(named, content_of(file)), mark, Foreign::keep);
+  replace_own_file(file, summary_table(named, content_of(file)), mark, Foreign::keep);
 }
 
 }  // namespace rheocyte

@@ -47,7 +47,7 @@ bool is_plausible(const ShapeVector& shape, double channel_width_um) {
 
 }  // namespace
 
-CombinedMoments::CombinedMoments(const SeveralModuli& moduli, const Sight& sight, double pixel_size_um)
+CombinedMoments::CombinedMoments(const BulkCortexFit& moduli, const Sight& sight, double pixel_size_um)
     : moduli_(moduli),
       sight_(sight),
       pixel_size_um_(pixel_size_um),
@@ -351,7 +351,7 @@ CombinedVector start_from(const ModuliEstimate& median, const ScaleFactors& scal
 
 }  // namespace
 
-CombinedPopulation fit_combined_population(const SeveralModuli& moduli, const Sight& sight, double pixel_size_um,
+CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const Sight& sight, double pixel_size_um,
                                            std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) {
   const MeasuredCell median = median_of(cells);
   Sight at_median = sight;

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "infer/bulk_cortex_fit.h"
 #include "infer/combined_law.h"
 #include "infer/rendered_errors.h"
 #include "infer/seen_cells.h"
-#include "infer/several_moduli.h"
 #include "population/fit_moments.h"
 
 namespace rheocyte {
@@ -18,7 +18,7 @@ namespace rheocyte {
 class CombinedMoments : public MomentModel {
  public:
   /// The viscosity of the sight's flow is that of the median event. The table must outlive it.
-  CombinedMoments(const SeveralModuli& moduli, const Sight& sight, double pixel_size_um);
+  CombinedMoments(const BulkCortexFit& moduli, const Sight& sight, double pixel_size_um);
 
   Moments at(const Eigen::VectorXd& parameters) const override { return slopes_or_not(parameters, false).there; }
   MomentSlopes slopes(const Eigen::VectorXd& parameters) const override { return slopes_or_not(parameters, true); }
@@ -77,7 +77,7 @@ class CombinedMoments : public MomentModel {
   static std::vector<Node> nodes();
   static Node drawn_node(std::uint64_t seed, std::uint64_t number);
 
-  const SeveralModuli& moduli_;
+  const BulkCortexFit& moduli_;
   Sight sight_;
   double pixel_size_um_, wall_stress_kPa_;
   ScaleFactors scale_;
@@ -101,7 +101,7 @@ struct CombinedPopulation {
 
 /// Not found: no cell of the table is like the median one, or the events do not tell the parameters. Shapes in pixels
 /// and finite, in flows that differ from the sight's in the viscosity alone.
-CombinedPopulation fit_combined_population(const SeveralModuli& moduli, const Sight& sight, double pixel_size_um,
+CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const Sight& sight, double pixel_size_um,
                                            std::span<const MeasuredCell> cells, const std::function<void()>& goes_on);
 
 }  // namespace rheocyte

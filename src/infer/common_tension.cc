@@ -30,7 +30,7 @@ class TensionProfile {
  public:
   /// The cells that are in the table at the tension that most of them have; where they are with a tension of their own
   /// is not asked, because it would choose among them by that.
-  TensionProfile(const SeveralModuli& moduli, std::span<const SeenCell> cells, const std::function<void()>& goes_on)
+  TensionProfile(const BulkCortexFit& moduli, std::span<const SeenCell> cells, const std::function<void()>& goes_on)
       : moduli_(moduli), goes_on_(goes_on) {
     std::vector<Free> all;
     for (const SeenCell& cell : cells) {
@@ -79,7 +79,7 @@ class TensionProfile {
     CellCoordinates cell;
   };
 
-  const SeveralModuli& moduli_;
+  const BulkCortexFit& moduli_;
   const std::function<void()>& goes_on_;
   double limit_ = soft_limit;
   std::vector<Free> cells_;
@@ -144,7 +144,7 @@ void CommonTension::widen(double error_Pa) {
   upper_Pa = value_Pa + half_width_Pa;
 }
 
-CommonTension common_tension(const SeveralModuli& moduli, std::span<const SeenCell> cells,
+CommonTension common_tension(const BulkCortexFit& moduli, std::span<const SeenCell> cells,
                              const std::function<void()>& goes_on) {
   TensionProfile profile(moduli, cells, goes_on);
   CommonTension found;

@@ -25,6 +25,6 @@ struct CommonTension {
 /// fit it best at this tension. The share of each in the sum is bounded: a few that are no cells of the model hardly
 /// move it. `goes_on` is called from one to the next.
 CommonTension common_tension(
-    const SeveralModuli& moduli, std::span<const SeenCell> cells, const std::function<void()>& goes_on = [] {});
+    const BulkCortexFit& moduli, std::span<const SeenCell> cells, const std::function<void()>& goes_on = [] {});
 
 }  // namespace rheocyte

@@ -32,14 +32,14 @@ double variance_by_pixels(const GridAnswer& answer, const SmoothEvents& smooth, 
 
 ModulusState state_of(const GridAnswer& answer) {
   switch (answer.reason) {
-    case NoAnswer::none: return answer.regularised ? ModulusState::regularised : ModulusState::valid;
-    case NoAnswer::invalid: return ModulusState::no_data;
-    case NoAnswer::too_small: return ModulusState::too_small;
-    case NoAnswer::too_large: return ModulusState::too_large;
-    case NoAnswer::too_stiff: return ModulusState::too_stiff;
-    case NoAnswer::too_soft: return ModulusState::too_soft;
-    case NoAnswer::unstable: return ModulusState::unstable;
-    case NoAnswer::unresolved: return ModulusState::unresolved;
+    case OutOfTable::none: return answer.regularised ? ModulusState::regularised : ModulusState::valid;
+    case OutOfTable::invalid: return ModulusState::no_data;
+    case OutOfTable::too_small: return ModulusState::too_small;
+    case OutOfTable::too_large: return ModulusState::too_large;
+    case OutOfTable::too_stiff: return ModulusState::too_stiff;
+    case OutOfTable::too_soft: return ModulusState::too_soft;
+    case OutOfTable::unstable: return ModulusState::unstable;
+    case OutOfTable::unresolved: return ModulusState::unresolved;
   }
   return ModulusState::no_data;
 }
@@ -83,12 +83,12 @@ void GridMap::estimate_block(const MeasuringConditions& conditions, const Measur
   modulus.head(rows) = modulus.head(rows).exp();
   for (std::size_t i = 0; i < count; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const bool has = answers[i].reason == NoAnswer::none && std::isfinite(block.viscosity_mPas[i]);
+    const bool has = answers[i].reason == OutOfTable::none && std::isfinite(block.viscosity_mPas[i]);
     const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : no_value;
     const double variance = answers[i].error * answers[i].error + variance_by_pixels(answers[i], smooth, k);
     estimates.modulus_kPa[i] = value;
     estimates.standard_error_kPa[i] = value * std::sqrt(variance);
-    estimates.state[i] = answers[i].reason == NoAnswer::none && !has ? ModulusState::no_data : state_of(answers[i]);
+    estimates.state[i] = answers[i].reason == OutOfTable::none && !has ? ModulusState::no_data : state_of(answers[i]);
   }
 }
 
@@ -110,7 +110,7 @@ ModulusMap::Interval GridMap::deformations(double area_um2) const {
 
 double GridMap::modulus_kPa(double area_um2, double deformation) const {
   const GridAnswer answer = grid_.answer(area_um2, deformation);
-  return answer.reason == NoAnswer::none && !answer.regularised ? std::exp(answer.log_stiffness) : no_value;
+  return answer.reason == OutOfTable::none && !answer.regularised ? std::exp(answer.log_stiffness) : no_value;
 }
 
 PlanePoint GridMap::seen_through_pixels(const PlanePoint& cell, double pixel_size_um) const {

@@ -14,7 +14,7 @@ class GridMap : public ModulusMap {
   /// UserError if the grid's stiffness is not Young's modulus.
   explicit GridMap(GridContent grid);
 
-  bool is_own() const override { return true; }
+  bool is_rheocyte_table() const override { return true; }
   const ShapeMap* shapes() const override { return shapes_.get(); }
   /// The standard error comes from the scatter by pixels and the table's error (eq:standard-error).
   void estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,

@@ -15,7 +15,7 @@ MedianCell::Features array_of(const ShapeVector& shape) {
 
 }  // namespace
 
-MedianCell median_cell(const SeveralModuli& moduli, const SeenCell& cell, const AxialTension& tension) {
+MedianCell median_cell(const BulkCortexFit& moduli, const SeenCell& cell, const AxialTension& tension) {
   MedianCell found;
   found.cells = cell.cells;
   if (found.cells < MedianCell::min_cells) return found;

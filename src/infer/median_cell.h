@@ -28,6 +28,6 @@ struct MedianCell {
 
 /// The median of the cells, fitted with the errors of one picture. The axial tension is fitted, too, unless `tension`
 /// tells it.
-MedianCell median_cell(const SeveralModuli& moduli, const SeenCell& cell, const AxialTension& tension);
+MedianCell median_cell(const BulkCortexFit& moduli, const SeenCell& cell, const AxialTension& tension);
 
 }  // namespace rheocyte

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "infer/several_moduli.h"
+#include "infer/bulk_cortex_fit.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte {

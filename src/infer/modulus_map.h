@@ -44,7 +44,7 @@ class ModulusMap {
   const TableOrigin& origin() const { return origin_; }
   /// Whether it is one of rheocyte's own grids: for these areas are corrected for pixels, too, and errors are known.
   /// Published tables are used as the programs of the field do.
-  virtual bool is_own() const = 0;
+  virtual bool is_rheocyte_table() const = 0;
   /// What its cells look like; null if it does not know.
   virtual const ShapeMap* shapes() const { return nullptr; }
 

@@ -38,7 +38,7 @@ class PublishedMap : public ModulusMap {
   /// UserError if the table's points cannot be triangulated. Of a table of volumes only events have moduli.
   explicit PublishedMap(PublishedTable table);
 
-  bool is_own() const override { return false; }
+  bool is_rheocyte_table() const override { return false; }
   /// A single viscosity may stand for all events.
   void estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
                 const EstimatedModuli& moduli) const override;

@@ -16,7 +16,7 @@ std::unique_ptr<const ModulusMap> read_modulus_map(const std::filesystem::path& 
 /// UserError if the file cannot be read or is no sound grid.
 GridContent read_grid(const std::filesystem::path& file);
 
-/// What a grid is for, without reading its numbers; nothing if the file is no grid.
+/// What a grid is for, without reading its numbers; nothing if the file is not a grid.
 std::optional<GridHead> read_grid_head(const std::filesystem::path& grid_file);
 
 }  // namespace rheocyte

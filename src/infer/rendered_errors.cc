@@ -131,7 +131,7 @@ SeenShape with_section(const ShapeErrors& pixels, const ShapeVector& measured, c
 
 }  // namespace
 
-std::optional<SeenShape> seen_shape(const SeveralModuli& moduli, const RenderedErrors& errors,
+std::optional<SeenShape> seen_shape(const BulkCortexFit& moduli, const RenderedErrors& errors,
                                     const ShapeVector& measured, const Sight& sight, const AxialTension& tension,
                                     double pictures) {
   constexpr int rounds = 2;  // the bias hardly depends on the cell: a third one changes nothing that matters
@@ -149,7 +149,7 @@ std::optional<SeenShape> seen_shape(const SeveralModuli& moduli, const RenderedE
   return seen_at(errors.of(cell), cell);
 }
 
-ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
+ModuliEstimate fit_pixels(const BulkCortexFit& moduli, const RenderedErrors& errors, const ShapeVector& measured,
                           const Sight& sight, const AxialTension& tension) {
   const auto seen = seen_shape(moduli, errors, measured, sight, tension);
   if (!seen) return {};

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "infer/several_moduli.h"
+#include "infer/bulk_cortex_fit.h"
 #include "infer/square_law.h"
 #include "table/combined_interpolation.h"
 
@@ -59,12 +59,12 @@ struct Sight {
 };
 /// What is added is that at the nearest cell of the table, the axial tension being known so well; the noise of pixels
 /// is that of the mean of so many pictures. Nothing where a feature is not a number.
-std::optional<SeenShape> seen_shape(const SeveralModuli& moduli, const RenderedErrors& errors,
+std::optional<SeenShape> seen_shape(const BulkCortexFit& moduli, const RenderedErrors& errors,
                                     const ShapeVector& measured, const Sight& sight, const AxialTension& tension,
                                     double pictures = 1);
 
 /// The moduli of a cell in pixels.
-ModuliEstimate fit_pixels(const SeveralModuli& moduli, const RenderedErrors& errors, const ShapeVector& measured,
+ModuliEstimate fit_pixels(const BulkCortexFit& moduli, const RenderedErrors& errors, const ShapeVector& measured,
                           const Sight& sight, const AxialTension& tension = {});
 
 }  // namespace rheocyte

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/channel_flow.h"
-#include "infer/several_moduli.h"
+#include "infer/bulk_cortex_fit.h"
 
 namespace rheocyte {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "infer/several_moduli.h"
+#include "infer/bulk_cortex_fit.h"
 
 namespace rheocyte {
 

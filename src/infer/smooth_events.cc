@@ -16,7 +16,7 @@ void remove_pixels(const MeasuringConditions& conditions, const ChannelFlow& tab
   std::ranges::copy(block.size, smooth.log_measured_area.data());
   std::ranges::copy(block.deformation, smooth.deformation.data());
   for (EventColumn* column : {&smooth.log_measured_area, &smooth.deformation})
-    column->head(rows) += column->head(rows) - column->head(rows);  // infinity is no number either
+    column->head(rows) += column->head(rows) - column->head(rows);  // infinity is not a number either
   smooth.log_measured_area.head(rows) = smooth.log_measured_area.head(rows).log();
   smooth.log_area.head(rows) =
       smooth.log_measured_area.head(rows) + std::log(scale_factors(conditions.flow, table).area);

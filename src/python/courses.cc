@@ -10,10 +10,10 @@
 #include "extract/time_course_table.h"
 #include "extract/virtual_cells.h"
 #include "python/bindings.h"
-#include "python/contained_reading.h"
 #include "python/interruptible.h"
+#include "python/isolated_reading.h"
+#include "store/atomic_file.h"
 #include "store/build_info.h"
-#include "store/whole_file.h"
 #include "synth/virtual_recording.h"
 
 namespace rheocyte {
@@ -33,12 +33,12 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
     const DynamicTable table = read_dynamic_table(dynamic_table_or_shipped(place));
     CourseTable courses(table, options.section);
     for (std::size_t i = 0; i < recordings.size(); ++i) {
-      const auto work = [&](const TellProgress& tell_progress) {
+      const auto work = [&](const TellProgress& report_progress) {
         return read_course_events(recordings[i], measuring, [&](double share) {
-          tell_progress((double(i) + share) / double(recordings.size()));
+          report_progress((double(i) + share) / double(recordings.size()));
         });
       };
-      const auto events = read_contained(recordings[i], measuring, work, progress, stop);
+      const auto events = read_isolated(recordings[i], measuring, work, progress, stop);
       if (stop) return {};
       courses.add(events, recordings[i].string(), contraction_um[i]);
     }
@@ -61,7 +61,7 @@ std::size_t synth(const std::string& text, const std::string& name, const std::v
   struct Stopped {};
   return interruptible([&](const std::atomic<bool>& stop) -> std::size_t {
     const auto shapes = virtual_cells(spec, std::filesystem::path(name).parent_path());
-    WholeFile file(place);
+    AtomicFile file(place);
     try {
       const auto made = write_virtual_recording(spec, *shapes, provenance, file.scratch(), [&](double share) {
         tell(progress, share);

@@ -9,9 +9,9 @@
 #include "extract/event_pass.h"
 #include "extract/extraction.h"
 #include "python/bindings.h"
-#include "python/contained_reading.h"
 #include "python/gathered_columns.h"
 #include "python/interruptible.h"
+#include "python/isolated_reading.h"
 
 namespace rheocyte {
 
@@ -20,10 +20,10 @@ namespace py = pybind11;
 namespace {
 
 GatheredEvents extracted(const std::filesystem::path& file, const ExtractOptions& options, const SharedColumns& memory,
-                         const TellProgress& tell_progress) {
+                         const TellProgress& report_progress) {
   const ModulusTables tables(options.table, options.section);
   Recording recording(file);
-  EventPass pass(recording, tell_progress);
+  EventPass pass(recording, report_progress);
   Extraction extraction(recording, options, tables);
   GatheredColumns<EventBlock> events(extraction.columns());
   pass.in_blocks(extraction.block(),
@@ -36,9 +36,11 @@ GatheredEvents extracted(const std::filesystem::path& file, const ExtractOptions
 py::tuple extract(const std::filesystem::path& file, const ExtractOptions& options, const PythonProgress& progress) {
   check_options(options);
   const SharedColumns memory;
-  const auto work = [&](const TellProgress& tell_progress) { return extracted(file, options, memory, tell_progress); };
+  const auto work = [&](const TellProgress& report_progress) {
+    return extracted(file, options, memory, report_progress);
+  };
   return interruptible([&](const std::atomic<bool>& stop) {
-           return read_contained(file, options.measuring, work, progress, stop);
+           return read_isolated(file, options.measuring, work, progress, stop);
          })
       .to_python(memory);
 }

@@ -7,8 +7,8 @@
 #include "extract/population_json.h"
 #include "extract/population_tables.h"
 #include "python/bindings.h"
-#include "python/contained_reading.h"
 #include "python/interruptible.h"
+#include "python/isolated_reading.h"
 #include "store/stop_signal.h"
 
 namespace rheocyte {
@@ -40,11 +40,11 @@ py::tuple population(const NamedRecordings& named, const PopulationOptions& opti
     for (std::size_t c = 0; c < conditions.size(); ++c)
       for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j, ++done) {
         const auto& file = conditions[c].recordings[j];
-        const auto work = [&](const TellProgress& tell_progress) {
+        const auto work = [&](const TellProgress& report_progress) {
           return read_population_events(file, options.measuring, by,
-                                        [&](double share) { tell_progress((double(done) + share) / double(all)); });
+                                        [&](double share) { report_progress((double(done) + share) / double(all)); });
         };
-        const PopulationEvents events = read_contained(file, options.measuring, work, progress, stop);
+        const PopulationEvents events = read_isolated(file, options.measuring, work, progress, stop);
         if (stop) return {};
         try {
           analysis.add(c, j, events, [&stop] {

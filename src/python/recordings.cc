@@ -8,9 +8,9 @@
 
 #include "extract/moduli_recording.h"
 #include "python/bindings.h"
-#include "python/contained_reading.h"
 #include "python/gathered_columns.h"
 #include "python/interruptible.h"
+#include "python/isolated_reading.h"
 
 namespace rheocyte {
 
@@ -35,12 +35,12 @@ py::tuple moduli(const std::filesystem::path& recording, const ModuliOptions& op
   const SharedColumns memory;
   return interruptible([&](const std::atomic<bool>& stop) {
            const ModuliTable table(options);
-           const auto work = [&](const TellProgress& tell_progress) -> GatheredEvents {
+           const auto work = [&](const TellProgress& report_progress) -> GatheredEvents {
              GatheredModuli gathered;
-             const auto summary = moduli_of_recording(recording, options, table, gathered, tell_progress);
+             const auto summary = moduli_of_recording(recording, options, table, gathered, report_progress);
              return {gathered.events.events(), gathered.events.write(memory), gathered.settings, summary.warnings};
            };
-           return read_contained(recording, options.measuring, work, progress, stop);
+           return read_isolated(recording, options.measuring, work, progress, stop);
          })
       .to_python(memory);
 }

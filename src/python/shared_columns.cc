@@ -11,7 +11,7 @@
 #include <new>
 #include <system_error>
 
-#include "python/contained_reading.h"
+#include "python/isolated_reading.h"
 
 namespace rheocyte {
 

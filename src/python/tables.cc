@@ -15,9 +15,9 @@
 #include "extract/modulus_tables.h"
 #include "extract/shipped_tables.h"
 #include "infer/isoelasticity_lines.h"
+#include "infer/map_as_lut.h"
 #include "infer/read_modulus_map.h"
 #include "infer/shape_map.h"
-#include "infer/text_of_map.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/buffer.h"
@@ -154,7 +154,7 @@ void write_texts(const HeldTable& table, const std::string& rows, const std::str
 // Its first line tells whether an older file is one of ours.
 void write_dclab_plugin(const std::string& program, const std::string& file) {
   const py::gil_scoped_release without_interpreter;
-  write_own_file(file, program + data_of_dclab_plugin(), program.substr(0, program.find('\n')), Foreign::keep);
+  replace_own_file(file, program + data_of_dclab_plugin(), program.substr(0, program.find('\n')), Foreign::keep);
 }
 
 py::dict origin(const HeldTable& table) {
@@ -169,7 +169,7 @@ py::dict origin(const HeldTable& table) {
   d["viscosity_mPas"] = o.flow.viscosity_mPas;
   d["flow_exponent"] = o.flow.exponent;
   d["description"] = o.description();
-  d["is_own"] = table.map->is_own();
+  d["is_own"] = table.map->is_rheocyte_table();
   return d;
 }
 

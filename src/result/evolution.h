@@ -90,7 +90,7 @@ class Evolution {
  private:
   void follow() {
     try {
-      result_.state = follow_in_time(result_.problem, run_, observer(), nullptr, limits_);
+      result_.state = transient(result_.problem, run_, observer(), nullptr, limits_);
       judge_end(result_, record_, limits_);
       refuse_unfinite_numbers(result_);
     } catch (...) {

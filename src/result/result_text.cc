@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "case/scales.h"
-#include "result/counted.h"
+#include "result/plural.h"
 #include "result/result.h"
 #include "store/build_info.h"
 
@@ -164,8 +164,8 @@ std::string summary(const Result& result, const std::string& folder) {
     text += line("estimated error", "not known", "of the deformation");
   if (in_time && state.outcome.status == Status::converged) text += fmt::format("  {}\n", state.outcome.message);
   text += line("time", fmt::format("{:.2f} s", state.statistics.total_s),
-               fmt::format("{}, {}, {} unknowns", counted(state.statistics.continuation_steps, "step"),
-                           counted(state.statistics.newton_iterations, "Newton iteration"), state.statistics.unknowns));
+               fmt::format("{}, {}, {} unknowns", plural(state.statistics.continuation_steps, "step"),
+                           plural(state.statistics.newton_iterations, "Newton iteration"), state.statistics.unknowns));
   return text + fmt::format("  {:<18} {}\n", "folder", folder);
 }
 

@@ -11,7 +11,7 @@
 #include "case/problem.h"
 #include "numeric/no_value.h"
 #include "result/field.h"
-#include "solve/follow_in_time.h"
+#include "solve/transient.h"
 
 namespace rheocyte {
 

@@ -24,7 +24,7 @@ class MovingDuct final : public MovingOf<DuctDiscrete, MovingDuctSystem> {
   }
   void stretch_sphere(double stretch, VectorXd& unknowns) const override {
     const double across = 1 / std::sqrt(stretch), factors[] = {stretch, across, across};
-    const double held = space().node_points()[space().held_node()](0);
+    const double held = space().node_points()[space().fixed_node()](0);
     for (int i = 0; i < 3 * space().nodes().count; ++i) {
       const int c = i % 3, u = space().displacement(i / 3, c);
       if (u >= 0) unknowns(u) = (factors[c] - 1) * (space().node_points()[i / 3](c) - (c == 0 ? held : 0));

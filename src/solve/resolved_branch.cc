@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "solve/near_problem.h"
 #include "solve/surface_stability.h"
+#include "solve/warm_start.h"
 
 namespace rheocyte {
 

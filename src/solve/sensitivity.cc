@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "solve/near_problem.h"
+#include "solve/warm_start.h"
 
 namespace rheocyte {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "solve/branch_ends.h"
 #include "solve/equilibrium_offset.h"
-#include "solve/near_problem.h"
 #include "solve/resolved_branch.h"
 #include "solve/sensitivity.h"
 #include "solve/surface_stability.h"
+#include "solve/warm_start.h"
 
 namespace rheocyte {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "case/refuse_path.h"
+#include "store/atomic_file.h"
 #include "store/system_files.h"
-#include "store/whole_file.h"
 
 namespace rheocyte {
 

@@ -4,16 +4,16 @@
 
 namespace rheocyte {
 
-void WorkReply::run_contained(const std::filesystem::path& file, const std::function<void(const TellProgress&)>& work,
-                              Containment limits) const {
+void WorkReply::run_isolated(const std::filesystem::path& file, const std::function<void(const TellProgress&)>& work,
+                             Isolation limits) const {
   limits.is_wanted = [this] { return is_wanted(); };
-  const auto contained = [&](const TellProgress& tell) {
+  const auto isolated = [&](const TellProgress& tell) {
     work(tell);
     return std::string();
   };
-  const ContainedEnd end = run_contained_bytes(contained, limits, [this](double done) { tell_progress(done); });
-  if (end.kind == ContainedEnd::Kind::stopped) throw UserError("Nobody waits any more for what was asked.");
-  if (end.kind != ContainedEnd::Kind::finished) throw UserError(sentence_for(file, end, limits.patience_s));
+  const IsolatedEnd end = run_isolated_bytes(isolated, limits, [this](double done) { report_progress(done); });
+  if (end.kind == IsolatedEnd::Kind::stopped) throw UserError("Nobody waits any more for what was asked.");
+  if (end.kind != IsolatedEnd::Kind::finished) throw UserError(sentence_for(file, end, limits.patience_s));
 }
 
 std::string HostedWork::all(const TellProgress& on_progress) {

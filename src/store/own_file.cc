@@ -6,8 +6,8 @@
 #include <system_error>
 
 #include "case/refuse_path.h"
+#include "store/atomic_file.h"
 #include "store/read_file.h"
-#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -32,14 +32,14 @@ void check_replaceable(const fs::path& path, std::string_view mark, Foreign fore
                   : "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
 }
 
-void write_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, Foreign foreign) {
+void replace_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, Foreign foreign) {
   std::error_code error;
   const fs::path path = fs::weakly_canonical(fs::absolute(wanted), error);  // a link stays a link
   if (error) refuse_path(wanted, fmt::format("cannot write there ({}).", error.message()));
   check_replaceable(path, mark, foreign);
   fs::create_directories(path.parent_path(), error);
   if (error) refuse_path(wanted, fmt::format("cannot make its folder ({}).", error.message()));
-  if (const int failed = write_whole_file(path, content))
+  if (const int failed = write_atomically(path, content))
     refuse_path(wanted, fmt::format("cannot be written ({}); an older file is left as it was.",
                                     std::generic_category().message(failed)));
 }

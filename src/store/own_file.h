@@ -24,6 +24,6 @@ void check_replaceable(const std::filesystem::path&, std::string_view mark, Fore
 /// Writes `content` beside the wanted place and renames it; makes the parent folders. An existing file is replaced if
 /// it begins with `mark`, the words with which all files of this kind from rheocyte begin, or as `foreign` says.
 /// UserError, and an older file is left as it was.
-void write_own_file(const std::filesystem::path&, std::string_view content, std::string_view mark, Foreign foreign);
+void replace_own_file(const std::filesystem::path&, std::string_view content, std::string_view mark, Foreign foreign);
 
 }  // namespace rheocyte

@@ -1,4 +1,4 @@
-// Reading files that others have made: never waits for what is no file (a pipe, a terminal), and never more than is
+// Reading files that others have made: never waits for what is not a file (a pipe, a terminal), and never more than is
 // wanted.
 #pragma once
 #include <cstddef>

@@ -10,11 +10,11 @@
 #include <system_error>
 
 #include "case/refuse_path.h"
-#include "store/foreign_files.h"
+#include "store/atomic_file.h"
 #include "store/read_file.h"
 #include "store/renames.h"
 #include "store/system_files.h"
-#include "store/whole_file.h"
+#include "store/user_files.h"
 
 namespace rheocyte {
 
@@ -118,7 +118,7 @@ std::vector<Scratch> interrupted_results(const fs::path& folder) {
 ResultFolder::ResultFolder(const fs::path& folder) : folder_(resolved(folder)) {
   check_replaceable(folder_);
   for (const auto& scratch : left_over_folders(folder_))
-    if (!has_checkpoints(scratch.path) && !has_foreign_files(scratch.path, own_files)) remove_scratch(scratch);
+    if (!has_checkpoints(scratch.path) && !has_user_files(scratch.path, own_files)) remove_scratch(scratch);
   scratch_ = make_scratch(folder_);
 }
 
@@ -136,17 +136,17 @@ void ResultFolder::publish() {
     if (entry.is_regular_file()) keep_on_disk(entry.path());
   check_replaceable(folder_);  // the world may have changed during the computation
   // First of all, so that no moment exists in which they stand under the hidden name alone.
-  link_foreign_files(folder_, scratch, own_files);
+  link_user_files(folder_, scratch, own_files);
   keep_on_disk(scratch);
   const Claim old = claim_on(folder_);  // soon under the hidden name, but no left-over yet
   swap_in(scratch, folder_);
   keep_on_disk(folder_.parent_path());
   // What cannot be moved stays in the old folder under its scratch name: better a left-over than a lost file.
-  if (!fs::exists(scratch) || move_foreign_files(scratch, folder_, own_files, Twice::moved_replaces))
+  if (!fs::exists(scratch) || move_user_files(scratch, folder_, own_files, Twice::moved_replaces))
     remove_scratch(scratch_);
   scratch_ = {};
   for (const auto& left_over : left_over_folders(folder_))
-    if (move_foreign_files(left_over.path, folder_, own_files, Twice::both_stay)) remove_scratch(left_over);
+    if (move_user_files(left_over.path, folder_, own_files, Twice::both_stay)) remove_scratch(left_over);
 }
 
 }  // namespace rheocyte

@@ -1,4 +1,4 @@
-// Of builds whose program is no file: what comes with it lies where the variable says, or in the sources.
+// Of builds whose program is not a file: what comes with it lies where the variable says, or in the sources.
 #include <cstdlib>
 
 #include "store/supplied_folder.h"

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "case/refuse_path.h"
+#include "store/atomic_file.h"
 #include "store/read_file.h"
 #include "store/scratch.h"
-#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -44,7 +44,7 @@ Claim locked(const fs::path& path, IfHeld if_held) {
 }
 
 void write_whole(const fs::path& path, std::string_view content) {
-  if (const int failed = write_whole_file(path, content))
+  if (const int failed = write_atomically(path, content))
     refuse_path(path,
                 fmt::format("cannot be written ({}); what is finished is kept, start again with the same command.",
                             words_for(failed)));

@@ -42,7 +42,7 @@ enum class Word : char {
 };
 
 constexpr std::size_t longest_piece = std::size_t{1} << 16U;  // packets of this size always fit
-constexpr int patience_ms = 100'000;  // longer than that of contained work, which tells of its end itself
+constexpr int patience_ms = 100'000;  // longer than that of isolated work, which tells of its end itself
 
 bool send_message(int socket, Word word, std::string_view text) {
   std::string packet(1, static_cast<char>(word));
@@ -188,7 +188,7 @@ void WorkReply::give(std::string_view piece) const {
   if (!send_pieces(socket_, Word::piece, piece)) ::_exit(1);
 }
 
-void WorkReply::tell_progress(double fraction) const {
+void WorkReply::report_progress(double fraction) const {
   if (!send_message(socket_, Word::progress, {reinterpret_cast<const char*>(&fraction), sizeof fraction})) ::_exit(1);
 }
 

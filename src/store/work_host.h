@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "store/contained.h"
+#include "store/isolated.h"
 #include "store/progress.h"
 #include "store/scratch.h"
 
@@ -22,7 +22,7 @@ class WorkReply {
 
   /// The next piece of the answer, handed on as pieces of at most 64 KiB; waits as long as they are not taken.
   void give(std::string_view piece) const;
-  void tell_progress(double fraction) const;
+  void report_progress(double fraction) const;
   /// Whether somebody still waits for the answer.
   bool is_wanted() const;
   /// For work that stays: what was given so far is a whole answer.
@@ -38,10 +38,10 @@ class WorkReply {
     return *std::static_pointer_cast<State>(kept_);
   }
 
-  /// What may break its process, in another one (run_contained_bytes): it gives pieces itself and tells its progress.
+  /// What may break its process, in another one (run_isolated_bytes): it gives pieces itself and tells its progress.
   /// `file` is what it reads, for the sentence. UserError.
-  void run_contained(const std::filesystem::path& file, const std::function<void(const TellProgress&)>& work,
-                     Containment limits = {}) const;
+  void run_isolated(const std::filesystem::path& file, const std::function<void(const TellProgress&)>& work,
+                    Isolation limits = {}) const;
 
  private:
   int socket_;

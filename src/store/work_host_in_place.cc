@@ -85,7 +85,7 @@ void do_now(int number) {
 
 void WorkReply::give(std::string_view piece) const { tasks().at(socket_).pieces.emplace_back(piece); }
 
-void WorkReply::tell_progress(double fraction) const {
+void WorkReply::report_progress(double fraction) const {
   const auto* const listener = tasks().at(socket_).on_progress;
   if (listener && *listener) (*listener)(fraction);
 }

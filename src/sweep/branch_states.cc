@@ -24,7 +24,7 @@ double factorisation_seconds_of(TubeDiscrete& discrete) { return discrete.system
 
 }  // namespace
 
-BranchStates::BranchStates(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop)
+BranchStates::BranchStates(const TableSpec& spec, const SweepPoint& place, const std::atomic<bool>* stop)
     : spec_(spec), place_(place), axial_ratio_(place.axial_ratio) {
   static_assert(resolutions.size() == levels);
   place_.axial_ratio = 0;
@@ -100,7 +100,7 @@ BranchStates::Way BranchStates::enter_round() {
 
 BranchStates::Way BranchStates::draw_out(const BranchNode& round) {
   const auto problem_at = [this](double share) {
-    BranchPlace place = place_;
+    SweepPoint place = place_;
     place.axial_ratio = share * axial_ratio_;
     return problem_of(case_at(spec_, place, first_stiffness_));
   };

@@ -28,7 +28,7 @@ struct BranchNode {
 /// Finds states; how far apart they are is up to the caller.
 class BranchStates {
  public:
-  BranchStates(const TableSpec&, const BranchPlace&, const std::atomic<bool>* stop);
+  BranchStates(const TableSpec&, const SweepPoint&, const std::atomic<bool>* stop);
 
   double stiffness(double u) const;
   double log_progress(const BranchNode& node) const;
@@ -74,7 +74,7 @@ class BranchStates {
   void count(int iterations);
 
   TableSpec spec_;
-  BranchPlace place_;
+  SweepPoint place_;
   double axial_ratio_;  ///< that is wanted; the place's own is the one that is reached
   NewtonOptions newton_;
   double first_stiffness_ = 1;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "case/scales.h"
-#include "solve/follow_in_time.h"
+#include "solve/transient.h"
 
 namespace rheocyte {
 
@@ -81,7 +81,7 @@ CellCourse follow_course(const DynamicSpec& spec, const DynamicCell& cell, const
     seen.push_back({frame.position, row_of(frame, sphere_area)});
     least_margin = std::min(least_margin, frame.state.stability_margin);
   };
-  const StationaryState end = follow_in_time(problem, run, {.frame = note, .step = {}}, nullptr, stop);
+  const StationaryState end = transient(problem, run, {.frame = note, .step = {}}, nullptr, stop);
   CellCourse course{cell, judged(end.outcome.status, {.stability_margin = least_margin}), end.outcome.message, {}};
   if (course.status != end.outcome.status) course.message += told_of_margin(least_margin, problem);
   if (course.status == Status::converged) course.value = at_places(seen, run, spec.places);

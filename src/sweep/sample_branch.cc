@@ -12,7 +12,7 @@ namespace rheocyte {
 namespace {
 
 /// Steps of the samples in ln stiffness.
-constexpr double first_step = 0.25, first_held_step = 0.08, max_step = 0.9, min_step = 2e-3;
+constexpr double first_step = 0.25, first_regularised_step = 0.08, max_step = 0.9, min_step = 2e-3;
 /// So many states in a row may fail to be accurate before a branch is given up; each is nearer than the one before.
 constexpr int max_unsampled = 4;
 /// Of the step that the last interval would have allowed: towards its end a branch needs ever smaller ones.
@@ -35,7 +35,7 @@ BranchEnd end_after(Status failure) {
 
 class BranchSampler {
  public:
-  BranchSampler(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop)
+  BranchSampler(const TableSpec& spec, const SweepPoint& place, const std::atomic<bool>* stop)
       : spec_(spec), place_(place), stop_(stop), states_(spec, place, stop) {}
 
   /// From the nearly undeformed sphere.
@@ -50,7 +50,8 @@ class BranchSampler {
     const auto start = std::chrono::steady_clock::now();
     BranchStates::Way way = states_.enter();
     if (way.status == Status::converged) way = states_.advance(way.last, std::log(states_.stiffness(0) / stiffness));
-    return finish(way.status == Status::converged ? follow(way.last, first_held_step) : end_of(way.status), start);
+    return finish(way.status == Status::converged ? follow(way.last, first_regularised_step) : end_of(way.status),
+                  start);
   }
 
  private:
@@ -188,7 +189,7 @@ class BranchSampler {
   }
 
   TableSpec spec_;
-  BranchPlace place_;
+  SweepPoint place_;
   const std::atomic<bool>* stop_;
   BranchStates states_;
   std::vector<BranchNode> nodes_;
@@ -196,16 +197,17 @@ class BranchSampler {
 
 }  // namespace
 
-SampledBranch sample_branch(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop) {
+SampledBranch sample_branch(const TableSpec& spec, const SweepPoint& place, const std::atomic<bool>* stop) {
   return BranchSampler(spec, place, stop).from_sphere();
 }
 
-SampledBranch sample_held_branch(const TableSpec& spec, const SampledBranch& own, const std::atomic<bool>* stop) {
+SampledBranch sample_regularised_branch(const TableSpec& spec, const SampledBranch& own,
+                                        const std::atomic<bool>* stop) {
   constexpr double overlap = 1.25;  // of the stiffness
-  if (!can_be_held(spec, own)) return {};
+  if (!can_be_regularised(spec, own)) return {};
   const double stiffness = std::min(overlap * own.stiffness.back(), own.stiffness.front());
-  const BranchPlace place{own.radius_um, own.cortex_share, own.tension_ratio, own.axial_ratio};
-  SampledBranch branch = BranchSampler(held_spec(spec), place, stop).from_stiffness(stiffness);
+  const SweepPoint place{own.radius_um, own.cortex_share, own.tension_ratio, own.axial_ratio};
+  SampledBranch branch = BranchSampler(regularised_spec(spec), place, stop).from_stiffness(stiffness);
   branch.bending_kBT = spec.bending_beyond_kBT;
   return branch;
 }

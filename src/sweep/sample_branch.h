@@ -9,10 +9,11 @@
 namespace rheocyte {
 
 /// The case's own branch, from the least deformation to the greatest one or to the branch's end.
-SampledBranch sample_branch(const TableSpec&, const BranchPlace& place, const std::atomic<bool>* stop = nullptr);
+SampledBranch sample_branch(const TableSpec&, const SweepPoint& place, const std::atomic<bool>* stop = nullptr);
 
 /// Goes on where `own` ended because its bare surface lost stability: the same cell with the bending stiffness of the
 /// spec, from a state before the end on, so that both overlap. Empty if there is nothing to go on from.
-SampledBranch sample_held_branch(const TableSpec&, const SampledBranch& own, const std::atomic<bool>* stop = nullptr);
+SampledBranch sample_regularised_branch(const TableSpec&, const SampledBranch& own,
+                                        const std::atomic<bool>* stop = nullptr);
 
 }  // namespace rheocyte

@@ -38,7 +38,7 @@ SamplingWay way_of(const TableSpec& spec) {
 
 }  // namespace
 
-SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& place, const std::atomic<bool>* stop) {
+SampledBranch sample_square_branch(const TableSpec& spec, const SweepPoint& place, const std::atomic<bool>* stop) {
   const auto start = std::chrono::steady_clock::now();
   // Any stiffness: that of the liquid's stress makes the first states of the branch stiffer by a factor of 10 to 100.
   const Scales scales = scales_of(case_at(spec, place, 1));
@@ -46,7 +46,7 @@ SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& pla
   const SamplingWay way = way_of(spec);
   const auto problem_at = [&](double compliance) {
     // The elongation comes first, the flow's part after it.
-    BranchPlace on_the_way = place;
+    SweepPoint on_the_way = place;
     on_the_way.axial_ratio *= std::min(compliance / way.first_compliance, 1.0);
     return problem_of(case_at(spec, on_the_way, stiffness / compliance));
   };
@@ -76,10 +76,10 @@ SampledBranch sample_square_branch(const TableSpec& spec, const BranchPlace& pla
   return branch;
 }
 
-SampledBranch sample_held_square_branch(const TableSpec& spec, const BranchPlace& place,
-                                        const std::atomic<bool>* stop) {
-  SampledBranch branch = sample_square_branch(held_spec(spec), place, stop);
-  if (!branch.empty()) branch.bending_kBT = held_bending_kBT(spec, place.radius_um, branch.stiffness.back());
+SampledBranch sample_regularised_square_branch(const TableSpec& spec, const SweepPoint& place,
+                                               const std::atomic<bool>* stop) {
+  SampledBranch branch = sample_square_branch(regularised_spec(spec), place, stop);
+  if (!branch.empty()) branch.bending_kBT = regularising_bending_kBT(spec, place.radius_um, branch.stiffness.back());
   return branch;
 }
 

@@ -14,11 +14,11 @@ int piece_of(const BranchTask& task) { return 2 * task.place + int(task.held); }
 
 BranchTask task_of_piece(int piece) { return {piece / 2, piece % 2 == 1}; }
 
-SampledBranch sample_task(const TableSpec& spec, const BranchPlace& place, bool held, const SampledBranch* bare,
+SampledBranch sample_task(const TableSpec& spec, const SweepPoint& place, bool held, const SampledBranch* bare,
                           const std::atomic<bool>& stop) {
   if (spec.is_square())
-    return held ? sample_held_square_branch(spec, place, &stop) : sample_square_branch(spec, place, &stop);
-  return held ? sample_held_branch(spec, *bare, &stop) : sample_branch(spec, place, &stop);
+    return held ? sample_regularised_square_branch(spec, place, &stop) : sample_square_branch(spec, place, &stop);
+  return held ? sample_regularised_branch(spec, *bare, &stop) : sample_branch(spec, place, &stop);
 }
 
 std::vector<int> TableWork::missing() const {

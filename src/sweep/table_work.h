@@ -9,7 +9,7 @@ namespace rheocyte {
 BranchTask task_of_piece(int piece);
 
 /// Samples a branch of a table. That of a held surface goes on from the bare one (`bare`), save in a square channel.
-SampledBranch sample_task(const TableSpec&, const BranchPlace&, bool held, const SampledBranch* bare,
+SampledBranch sample_task(const TableSpec&, const SweepPoint&, bool held, const SampledBranch* bare,
                           const std::atomic<bool>& stop);
 
 class TableWork final : public SharedWork {

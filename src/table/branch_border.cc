@@ -15,16 +15,16 @@ constexpr int points_per_column = 8;
 /// Where a branch ends.
 struct End {
   LogBranch::Point point;
-  NoAnswer beyond;
+  OutOfTable beyond;
 };
 
 End end_of(const LogBranch& branch, double greatest) {
   const double s = branch.crossing([&](const LogBranch::Point& p) { return p.log_deformation - greatest; });
-  if (std::isfinite(s)) return {{branch.at(s).log_area, greatest}, NoAnswer::too_soft};
+  if (std::isfinite(s)) return {{branch.at(s).log_area, greatest}, OutOfTable::too_soft};
   const BranchEnd& why = branch.branch().end;
   // The last state meets the greatest deformation within some per cent in a square channel.
-  if (why.status == Status::covered) return {branch.last(), NoAnswer::too_soft};
-  return {branch.last(), why.is_physical() ? NoAnswer::unstable : NoAnswer::unresolved};
+  if (why.status == Status::covered) return {branch.last(), OutOfTable::too_soft};
+  return {branch.last(), why.is_physical() ? OutOfTable::unstable : OutOfTable::unresolved};
 }
 
 // Without those that were not followed to their end: one to three of them between two that were.
@@ -33,7 +33,7 @@ std::vector<End> ends_of(std::span<const LogBranch> branches, double greatest) {
   std::vector<End> kept, gap;
   for (const auto& branch : branches) {
     const End end = end_of(branch, greatest);
-    if (end.beyond == NoAnswer::unresolved) {
+    if (end.beyond == OutOfTable::unresolved) {
       gap.push_back(end);
       continue;
     }
@@ -67,7 +67,7 @@ class EndPolygon {
     return !ends_.empty() && log_area >= ends_.front().point.log_area && log_area <= ends_.back().point.log_area;
   }
 
-  NoAnswer beyond(double log_area) const {
+  OutOfTable beyond(double log_area) const {
     const End* nearest = &ends_.front();
     for (const End& end : ends_)
       if (std::abs(end.point.log_area - log_area) < std::abs(nearest->point.log_area - log_area)) nearest = &end;
@@ -130,7 +130,7 @@ Border upper_border(std::span<const LogBranch> branches, const TableSpec& spec, 
     }
     border.height.push_back(sum / weights);
     const bool is_highest = border.height.back() > greatest - 1e-9;
-    border.beyond.push_back(is_highest ? NoAnswer::too_soft : polygon.beyond(columns.at(c)));
+    border.beyond.push_back(is_highest ? OutOfTable::too_soft : polygon.beyond(columns.at(c)));
   }
   return border;
 }

@@ -44,8 +44,8 @@ class LogBranch {
 
 /// ln(deformation) by column.
 struct Border {
-  std::vector<double> height;    ///< -infinity where the branches have nothing
-  std::vector<NoAnswer> beyond;  ///< why there is nothing above
+  std::vector<double> height;      ///< -infinity where the branches have nothing
+  std::vector<OutOfTable> beyond;  ///< why there is nothing above
 };
 
 /// The columns of a grid.

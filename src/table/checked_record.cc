@@ -59,7 +59,7 @@ std::string sealed_record(const RecordKind& kind, const std::string& spec_hash, 
 
 OpenedRecord opened_record(const RecordKind& kind, std::string_view bytes) {
   const json outer = json_of(bytes);
-  if (outer.at("kind") != kind.kind) throw DamagedRecord{fmt::format("it is no {}", kind.kind)};
+  if (outer.at("kind") != kind.kind) throw DamagedRecord{fmt::format("it is not a {}", kind.kind)};
   if (outer.at("format") != kind.format)
     throw DamagedRecord{fmt::format("it was written by another build, in format {} and not {}",
                                     outer.at("format").dump(), kind.format)};

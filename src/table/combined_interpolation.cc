@@ -114,7 +114,7 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_of(const CombinedBranc
 }
 
 CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable& table,
-                                                             const BranchPlace& wanted) const {
+                                                             const SweepPoint& wanted) const {
   const auto is_it = [&](const CombinedBranch& branch) {
     const auto& place = branch.place;
     return place.radius_um == wanted.radius_um && place.cortex_share == wanted.cortex_share &&
@@ -129,8 +129,8 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable
 }
 
 CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
-    : radii_(distinct(table, [](const BranchPlace& place) { return place.radius_um; })),
-      shares_(distinct(table, [](const BranchPlace& place) { return place.cortex_share; })),
+    : radii_(distinct(table, [](const SweepPoint& place) { return place.radius_um; })),
+      shares_(distinct(table, [](const SweepPoint& place) { return place.cortex_share; })),
       ratios_(table.spec.tension_ratios),
       axial_ratios_(table.spec.is_elongated() ? table.spec.axial_ratios : std::vector{0.0}) {
   if (radii_.size() < 2 || shares_.size() < 2)

@@ -77,7 +77,7 @@ class CombinedInterpolation {
   /// The power of the progress with which a quantity grows at first; what is left varies little.
   double growth(int row) const;
   Curve curve_of(const CombinedBranch& branch) const;
-  Curve curve_at(const CombinedTable& table, const BranchPlace& place) const;
+  Curve curve_at(const CombinedTable& table, const SweepPoint& place) const;
   /// A sheet has one tension of the cortex and one axial ratio.
   int sheet_of(int axial, int ratio) const { return axial * int(ratios_.size()) + ratio; }
   const Curve& curve(int sheet, int share, int radius) const;

@@ -151,7 +151,7 @@ class CombinedReader {
 
   /// Without the axial ratio, which stands apart.
   void take_row(const std::vector<double>& row, double axial, std::vector<CombinedBranch>& branches) {
-    const auto is_of = [&](const BranchPlace& place) {
+    const auto is_of = [&](const SweepPoint& place) {
       return place.radius_um == row[0] && place.cortex_share == row[1] && place.tension_ratio == row[2] &&
              place.axial_ratio == axial;
     };

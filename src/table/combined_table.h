@@ -18,7 +18,7 @@ namespace rheocyte {
 std::vector<std::string> feature_names();
 
 struct CombinedBranch {
-  BranchPlace place;
+  SweepPoint place;
   std::vector<double> stiffness_kPa;  ///< S = E + E2D / r0, falling
   Eigen::MatrixXd value;              ///< samples x features
   Eigen::MatrixXd slope;              ///< d(value)/d(ln S)

@@ -23,7 +23,7 @@ constexpr int number_of(ElongatedMeasure measure) { return int(measure); }
 /// The states that were computed. All branches have equally many.
 struct ElongatedContent {
   TableOrigin origin;
-  std::vector<double> radii_um, axial_ratios;  ///< ascending; of the sphere, and as in BranchPlace
+  std::vector<double> radii_um, axial_ratios;  ///< ascending; of the sphere, and as in SweepPoint
   Elongation elongation = Elongation::by_tension;
   int states = 0;
   /// By radius, within it by axial ratio, within that from stiff to soft.

@@ -228,8 +228,8 @@ std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<
                                                std::string_view version, const GridResolution& resolution) {
   std::vector<LogBranch> own, held;
   for (const auto& radius : by_radius(branches)) {
-    if (radius.own() && radius.own()->samples() > 1) own.emplace_back(*radius.own());
-    if (radius.beyond() && radius.beyond()->samples() > 1) held.emplace_back(*radius.beyond());
+    if (radius.bare() && radius.bare()->samples() > 1) own.emplace_back(*radius.bare());
+    if (radius.regularised() && radius.regularised()->samples() > 1) held.emplace_back(*radius.regularised());
   }
   if (own.size() < 2) return {};
   const double first = std::log(spec.min_area_um2), last = std::log(spec.max_area_um2);
@@ -239,10 +239,10 @@ std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<
   const auto bare = PatchMaker(own, columns).patch(least, border, resolution.rows, 0, columns.count);
   if (!bare) return {};
   GridContent grid{origin_of(spec, version), columns.first, columns.step, columns.count, {*bare}};
-  if (spec.wants_held() && held.size() > 1) {
+  if (spec.wants_regularised() && held.size() > 1) {
     auto above = PatchMaker(held, columns)
-                     .patch(border.height, upper_border(held, spec, columns), resolution.held_rows, bare->first_column,
-                            bare->first_column + bare->columns);
+                     .patch(border.height, upper_border(held, spec, columns), resolution.regularised_rows,
+                            bare->first_column, bare->first_column + bare->columns);
     if (above) {
       above->regularised = true;
       add_step_to_error(*bare, *above);

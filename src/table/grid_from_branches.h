@@ -11,7 +11,7 @@
 namespace rheocyte {
 
 struct GridResolution {
-  int columns = 128, rows = 112, held_rows = 40;  ///< held: of the patch that bending holds smooth
+  int columns = 128, rows = 112, regularised_rows = 40;  ///< held: of the patch that bending holds smooth
 };
 
 /// Lines of equal height between the borders cross every branch; through their crossings run polynomials in ln(area).

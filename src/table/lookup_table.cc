@@ -13,10 +13,10 @@ namespace rheocyte {
 
 namespace {
 
-bool ends_early(const RadiusBranches& radius) { return radius.own() && radius.own()->end.status != Status::covered; }
+bool ends_early(const RadiusBranches& radius) { return radius.bare() && radius.bare()->end.status != Status::covered; }
 
 TableRow end_row(const RadiusBranches& radius) {
-  TableRow row = row_at(radius, point_at(*radius.own(), radius.own()->stiffness.back()));
+  TableRow row = row_at(radius, point_at(*radius.bare(), radius.bare()->stiffness.back()));
   row.is_end = true;
   return row;
 }
@@ -25,7 +25,7 @@ std::vector<TableRow> rows_at(const TableSpec& spec, const RadiusBranches& radiu
   std::vector<TableRow> rows;
   for (const double level : levels) {
     const auto state = radius.at_deformation(level);
-    if (!state || (state->regularised && !spec.wants_held())) continue;
+    if (!state || (state->regularised && !spec.wants_regularised())) continue;
     rows.push_back(row_at(radius, *state));
     rows.back().value(int(Measure::deformation)) = level;
   }
@@ -58,7 +58,7 @@ void add_regularisation(nlohmann::ordered_json& metadata, const LookupTable& tab
   for (const auto& radius : table.radii) {
     const bool goes_on = std::ranges::any_of(
         table.rows, [&](const TableRow& row) { return row.radius_um == radius.radius_um() && row.state.regularised; });
-    if (!goes_on || !radius.own()) continue;
+    if (!goes_on || !radius.bare()) continue;
     const TableRow row = end_row(radius);
     area.push_back(row.at(Measure::area_um2));
     deformation.push_back(row.at(Measure::deformation));
@@ -89,10 +89,10 @@ std::vector<LutPoint> points_by_area(const LookupTable& table) {
   const TableSpec& spec = table.spec;
   std::vector<LutPoint> points;
   for (const auto& [area, level] : text_places(spec))
-    if (const auto answer = table.between.by_area(area, level); answer.reason == NoAnswer::none)
+    if (const auto answer = table.between.by_area(area, level); answer.reason == OutOfTable::none)
       points.push_back({{area, level, answer.stiffness}, answer.regularised});
   for (const auto& row : table.rows)
-    if (row.is_end && !spec.wants_held())
+    if (row.is_end && !spec.wants_regularised())
       points.push_back({{row.at(Measure::area_um2), row.at(Measure::deformation), row.state.stiffness}, false});
   return points;
 }
@@ -103,7 +103,7 @@ std::string csv_text(std::string_view text) {
   return quoted + "\"";
 }
 
-std::string held_bending_text(const TableSpec& spec) {
+std::string regularising_bending_text(const TableSpec& spec) {
   if (spec.bending_beyond_ratio == 0) return fmt::format("{:g} kBT", spec.bending_beyond_kBT);
   return fmt::format("{:g} {}", spec.bending_beyond_ratio, spec.sweeps_cortex() ? "E2D r0^2" : "E r0^3");
 }
@@ -135,10 +135,10 @@ std::vector<double> deformation_levels(const TableSpec& spec) {
   return levels;
 }
 
-std::vector<TextPlace> text_places(const TableSpec& spec) {
+std::vector<LutNode> text_places(const TableSpec& spec) {
   const double first = std::sqrt(spec.min_area_um2), last = std::sqrt(spec.max_area_um2);
   const auto levels = deformation_levels(spec);
-  std::vector<TextPlace> places;
+  std::vector<LutNode> places;
   for (int i = 0; i < spec.radii; ++i) {
     const double root = first + (last - first) * i / (spec.radii - 1);
     const double area = std::clamp(root * root, spec.min_area_um2, spec.max_area_um2);
@@ -169,7 +169,7 @@ TableText empty_text(const TableSpec& spec, const std::string& program, bool has
   if (has_regularised) {
     text.comments.push_back(
         "Beyond the curve regularised_beyond_* the bare surface is unstable; the rows there have a");
-    text.comments.push_back(fmt::format("bending stiffness of {}.", held_bending_text(spec)));
+    text.comments.push_back(fmt::format("bending stiffness of {}.", regularising_bending_text(spec)));
   }
   text.comments.emplace_back();
   text.metadata = table_metadata(spec, program);
@@ -201,8 +201,9 @@ std::string full_table_csv(const LookupTable& table) {
   for (const auto& row : table.rows) {
     text += fmt::format("{},{}", row.radius_um, row.state.stiffness);
     for (const double value : row.value) text += fmt::format(",{}", value);
-    const double bending = row.state.regularised ? held_bending_kBT(table.spec, row.radius_um, row.state.stiffness)
-                                                 : table.spec.base.cell.cortex.bending_kBT;
+    const double bending = row.state.regularised
+                               ? regularising_bending_kBT(table.spec, row.radius_um, row.state.stiffness)
+                               : table.spec.base.cell.cortex.bending_kBT;
     text += fmt::format(",{},{},{},{:d},{:d}\n", row.state.error, row.stiffness_error, bending, row.state.regularised,
                         row.is_end);
   }
@@ -216,7 +217,7 @@ std::string end_of_branch_csv(const LookupTable& table) {
   for (const auto& radius : table.radii) {
     if (!ends_early(radius)) continue;
     const TableRow row = end_row(radius);
-    const auto& end = radius.own()->end;
+    const auto& end = radius.bare()->end;
     text += fmt::format("{},{},{},{},{},{},{},{}\n", row.radius_um, row.state.stiffness, row.at(Measure::area_um2),
                         row.at(Measure::deformation), row.at(Measure::volume_um3),
                         row.at(Measure::min_meridional_stretch), name(end.status), csv_text(end.message));
@@ -228,14 +229,14 @@ std::string regularisation_csv(const LookupTable& table) {
   std::string text = fmt::format("radius_um,{},area_um2,bending_kBT,deformation,deformation_held,relative_change\n",
                                  stiffness_column(table.spec));
   for (const auto& radius : table.radii) {
-    const SampledBranch *bare = radius.own(), *held = radius.beyond();
+    const SampledBranch *bare = radius.bare(), *held = radius.regularised();
     for (int i = 0; bare && held && i < held->samples(); ++i) {
       const double stiffness = held->stiffness[std::size_t(i)];
       if (stiffness > bare->stiffness.front() || stiffness < bare->stiffness.back()) continue;
       const double d = interpolate(*bare, Measure::deformation, stiffness), with = held->at(i, Measure::deformation);
       text += fmt::format("{},{},{},{},{},{},{:.3g}\n", radius.radius_um(), stiffness,
                           interpolate(*bare, Measure::area_um2, stiffness),
-                          held_bending_kBT(table.spec, radius.radius_um(), stiffness), d, with, with / d - 1);
+                          regularising_bending_kBT(table.spec, radius.radius_um(), stiffness), d, with, with / d - 1);
     }
   }
   return text;
@@ -252,7 +253,7 @@ std::vector<TableFile> table_files(const LookupTable& table, std::span<const dou
       {fmt::format("table_{}.csv", id), full_table_csv(table)},
       {"end-of-branch.csv", end_of_branch_csv(table)},
       {"spec.toml", to_toml(table.spec)}};
-  if (table.spec.wants_held()) files.push_back({"regularisation.csv", regularisation_csv(table)});
+  if (table.spec.wants_regularised()) files.push_back({"regularisation.csv", regularisation_csv(table)});
   return files;
 }
 

@@ -44,7 +44,7 @@ bool is_inside(const TableSpec& spec, const TableRow& row);
 std::vector<double> deformation_levels(const TableSpec& spec);
 
 /// Area (um^2) and deformation.
-struct TextPlace {
+struct LutNode {
   double area_um2, deformation;
 };
 
@@ -52,7 +52,7 @@ struct TextPlace {
 /// by equal steps of the root, at the same deformations in every other of them and halfway between in the rest.
 /// Programs put triangles between the points: upright columns keep these well-shaped at small deformations, and
 /// staggered ones leave no diagonal to rounding.
-std::vector<TextPlace> text_places(const TableSpec&);
+std::vector<LutNode> text_places(const TableSpec&);
 
 /// The rows inside the ranges of the spec, and the end of each bare branch. Regularised states are left out unless the
 /// spec asks for them. The branches must outlive the table; equal branches in any order give equal tables.

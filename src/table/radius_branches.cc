@@ -7,42 +7,44 @@ namespace rheocyte {
 
 RadiusBranches::RadiusBranches(const SampledBranch& first) : radius_um_(first.radius_um) { add(first); }
 
-void RadiusBranches::add(const SampledBranch& branch) { (branch.bending_kBT > 0 ? beyond_ : own_) = &branch; }
+void RadiusBranches::add(const SampledBranch& branch) { (branch.bending_kBT > 0 ? regularised_ : bare_) = &branch; }
 
 BranchPoint RadiusBranches::stiffest() const {
-  const SampledBranch& branch = own_ ? *own_ : *beyond_;
+  const SampledBranch& branch = bare_ ? *bare_ : *regularised_;
   return point_at(branch, branch.stiffness.front());
 }
 
 BranchPoint RadiusBranches::softest() const {
-  if (beyond_ && is_beyond(beyond_->stiffness.back(), beyond_->at(beyond_->samples() - 1, Measure::deformation)))
-    return point_at(*beyond_, beyond_->stiffness.back());
-  return point_at(*own_, own_->stiffness.back());
+  if (regularised_ &&
+      is_beyond(regularised_->stiffness.back(), regularised_->at(regularised_->samples() - 1, Measure::deformation)))
+    return point_at(*regularised_, regularised_->stiffness.back());
+  return point_at(*bare_, bare_->stiffness.back());
 }
 
 bool RadiusBranches::is_beyond(double stiffness, double deformation) const {
-  return !own_ ||
-         (stiffness < own_->stiffness.back() && deformation > own_->at(own_->samples() - 1, Measure::deformation));
+  return !bare_ ||
+         (stiffness < bare_->stiffness.back() && deformation > bare_->at(bare_->samples() - 1, Measure::deformation));
 }
 
 std::optional<BranchPoint> RadiusBranches::at_deformation(double deformation) const {
-  if (own_) {
-    const double stiffness = stiffness_at(*own_, Measure::deformation, deformation);
-    if (std::isfinite(stiffness)) return point_at(*own_, stiffness);
+  if (bare_) {
+    const double stiffness = stiffness_at(*bare_, Measure::deformation, deformation);
+    if (std::isfinite(stiffness)) return point_at(*bare_, stiffness);
   }
-  if (!beyond_) return {};
-  const double stiffness = stiffness_at(*beyond_, Measure::deformation, deformation);
+  if (!regularised_) return {};
+  const double stiffness = stiffness_at(*regularised_, Measure::deformation, deformation);
   if (!std::isfinite(stiffness) || !is_beyond(stiffness, deformation)) return {};
-  return point_at(*beyond_, stiffness);
+  return point_at(*regularised_, stiffness);
 }
 
 std::optional<BranchPoint> RadiusBranches::at_stiffness(double stiffness) const {
   const auto holds = [&](const SampledBranch* branch) {
     return branch && stiffness <= branch->stiffness.front() && stiffness >= branch->stiffness.back();
   };
-  if (holds(own_)) return point_at(*own_, stiffness);
-  if (!holds(beyond_) || !is_beyond(stiffness, interpolate(*beyond_, Measure::deformation, stiffness))) return {};
-  return point_at(*beyond_, stiffness);
+  if (holds(bare_)) return point_at(*bare_, stiffness);
+  if (!holds(regularised_) || !is_beyond(stiffness, interpolate(*regularised_, Measure::deformation, stiffness)))
+    return {};
+  return point_at(*regularised_, stiffness);
 }
 
 std::vector<RadiusBranches> by_radius(std::span<const SampledBranch> branches) {

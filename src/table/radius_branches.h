@@ -27,8 +27,8 @@ class RadiusBranches {
   void add(const SampledBranch& branch);
 
   double radius_um() const { return radius_um_; }
-  const SampledBranch* own() const { return own_; }
-  const SampledBranch* beyond() const { return beyond_; }
+  const SampledBranch* bare() const { return bare_; }
+  const SampledBranch* regularised() const { return regularised_; }
 
   /// The stiffest and the softest state, over both branches.
   BranchPoint stiffest() const;
@@ -42,8 +42,8 @@ class RadiusBranches {
   bool is_beyond(double stiffness, double deformation) const;
 
   double radius_um_;
-  const SampledBranch* own_ = nullptr;
-  const SampledBranch* beyond_ = nullptr;
+  const SampledBranch* bare_ = nullptr;
+  const SampledBranch* regularised_ = nullptr;
 };
 
 /// By radius, ascending; radii without any sample are left out.

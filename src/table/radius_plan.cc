@@ -24,8 +24,8 @@ std::vector<int> first_places(int count) {
 
 }  // namespace
 
-bool can_be_held(const TableSpec& spec, const SampledBranch& own) {
-  return spec.wants_held() && !own.empty() && own.end.status == Status::surface_unstable;
+bool can_be_regularised(const TableSpec& spec, const SampledBranch& own) {
+  return spec.wants_regularised() && !own.empty() && own.end.status == Status::surface_unstable;
 }
 
 RadiusPlan::RadiusPlan(const TableSpec& spec, Records records)
@@ -39,7 +39,7 @@ RadiusPlan::Branch RadiusPlan::branch(const BranchTask& task) const {
 bool RadiusPlan::update() {
   if (complete_) return true;
   missing_.clear();
-  const bool own = settle(false), held = !spec_.wants_held() || settle(true);
+  const bool own = settle(false), held = !spec_.wants_regularised() || settle(true);
   return complete_ = own && held;
 }
 
@@ -59,11 +59,11 @@ std::vector<int> RadiusPlan::places_at_first() const {
 }
 
 /// In a square channel polynomials run through the branches of all radii: all are held as soon as one needs it.
-std::optional<bool> RadiusPlan::wants_held(int place) const {
+std::optional<bool> RadiusPlan::wants_regularised(int place) const {
   bool knows_all = true;
   for (const int other : spec_.is_square() ? places_at_first() : std::vector{place}) {
     const Branch own = branch({other, false});
-    if (own && can_be_held(spec_, *own)) return true;
+    if (own && can_be_regularised(spec_, *own)) return true;
     knows_all = knows_all && own;
   }
   if (!knows_all) return {};
@@ -74,7 +74,7 @@ bool RadiusPlan::find(const std::vector<int>& places, bool held, Nodes& nodes) {
   bool has_all = true;
   for (const int place : places) {
     const BranchTask task{place, held};
-    const std::optional<bool> wanted = held ? wants_held(place) : true;
+    const std::optional<bool> wanted = held ? wants_regularised(place) : true;
     Branch found = branch(task);
     if (!found && wanted == false) found = std::make_shared<SampledBranch>();
     if (!found) found = records_(task);

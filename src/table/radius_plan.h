@@ -19,7 +19,7 @@ struct BranchTask {
 };
 
 /// Whether the spec wants more where `own` ended: its bare surface lost stability there.
-bool can_be_held(const TableSpec&, const SampledBranch& own);
+bool can_be_regularised(const TableSpec&, const SampledBranch& own);
 
 /// First some radii, denser towards both ends; then, round by round, those in the middle of neighbours between which
 /// polynomials are not accurate. The choice depends on finished records alone: whoever takes part makes the same one.
@@ -46,14 +46,14 @@ class RadiusPlan {
   bool settle(bool held);
   std::vector<int> places_at_first() const;
   /// Whether the held branch of a place is wanted; nothing while that is not known.
-  std::optional<bool> wants_held(int place) const;
+  std::optional<bool> wants_regularised(int place) const;
   /// Adds the branches of some places to the nodes; false if some are missing.
   bool find(const std::vector<int>& places, bool held, Nodes& nodes);
   /// The places that are computed next; none once the branches between the nodes are known.
   std::vector<int> next_places(const Nodes& nodes, bool held);
 
   TableSpec spec_;
-  std::vector<BranchPlace> places_;
+  std::vector<SweepPoint> places_;
   Records records_;
   std::map<BranchTask, Branch> known_;  ///< computed or interpolated
   std::vector<BranchTask> missing_;

@@ -4,9 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "numeric/hermite.h"
-#include "table/node_slopes.h"
-
 namespace rheocyte {
 
 namespace {
@@ -15,9 +12,7 @@ constexpr bool is_odd(int k) { return k % 2 == 1; }
 
 }  // namespace
 
-ShapeGrid::ShapeGrid(ShapeNodes nodes) : nodes_(std::move(nodes)) {
-  lower_slope_ = node_slopes(nodes_.lower);
-  upper_slope_ = node_slopes(nodes_.upper);
+ShapeGrid::ShapeGrid(ShapeNodes nodes) : nodes_(std::move(nodes)), grid_(nodes_.lower, nodes_.upper, nodes_.rows) {
   std::vector<double> excess = nodes_.inertia_ratio;
   for (double& value : excess) value -= 1;
   inertia_ratio_ = field(excess, false);
@@ -27,7 +22,7 @@ ShapeGrid::ShapeGrid(ShapeNodes nodes) : nodes_(std::move(nodes)) {
   }
 }
 
-ShapeGrid::Field ShapeGrid::field(std::span<const double> values, bool odd) const {
+CurvedGrid::Field ShapeGrid::field(std::span<const double> values, bool odd) const {
   const auto rows = std::size_t(nodes_.rows), columns = std::size_t(nodes_.columns);
   assert(values.size() == rows * columns);
   std::vector<double> scaled(values.begin(), values.end());
@@ -37,31 +32,17 @@ ShapeGrid::Field ShapeGrid::field(std::span<const double> values, bool odd) cons
       const double log_deformation = (1 - share) * nodes_.lower[c] + share * nodes_.upper[c];
       scaled[c * rows + row] *= std::exp((odd ? -0.5 : -1) * log_deformation);
     }
-  const auto by_row = slopes_by_row(scaled, rows), by_column = slopes_by_column(scaled, rows),
-             by_both = slopes_by_column(by_row, rows);
-  Field made;
-  for (std::size_t i = 0; i < scaled.size(); ++i) made.push_back({scaled[i], by_column[i], by_row[i], by_both[i]});
-  return made;
+  return grid_.field(scaled);
 }
 
-ShapeGrid::Scaled ShapeGrid::scaled(const Field& field, double log_area, double deformation) const {
-  const double last_column = nodes_.columns - 1, last_row = nodes_.rows - 1;
-  const double place = std::clamp((log_area - nodes_.min_log_area) / nodes_.column_step, 0.0, last_column);
-  if (std::isnan(place) || std::isnan(deformation)) return {std::nan(""), std::nan("")};
-  const int column = std::min(int(place), nodes_.columns - 2);
-  const HermiteWeights across = hermite(place - column);
-  const auto c = std::size_t(column);
-  const auto edge = [&](const std::vector<double>& value, const std::vector<double>& slope) {
-    return across(value[c], value[c + 1], slope[c], slope[c + 1]);
-  };
-  const double lower = edge(nodes_.lower, lower_slope_), upper = edge(nodes_.upper, upper_slope_);
-  const double height = std::clamp((std::log(deformation) - lower) / (upper - lower) * last_row, 0.0, last_row);
-  const int row = std::min(int(height), nodes_.rows - 2);
-  const HermiteWeights up = hermite(height - row);
-  const Node *const a = &field[c * std::size_t(nodes_.rows) + std::size_t(row)], *const b = a + nodes_.rows;
-  const auto along = [&](const Node* n) { return up(n[0].value, n[1].value, n[0].by_row, n[1].by_row); };
-  const auto slope = [&](const Node* n) { return up(n[0].by_column, n[1].by_column, n[0].by_both, n[1].by_both); };
-  return {across(along(a), along(b), slope(a), slope(b)), std::min(deformation, std::exp(upper))};
+ShapeGrid::Scaled ShapeGrid::scaled(const CurvedGrid::Field& field, double log_area, double deformation) const {
+  const double last = nodes_.columns - 1;
+  const double column = std::clamp((log_area - nodes_.min_log_area) / nodes_.column_step, 0.0, last);
+  if (std::isnan(column) || std::isnan(deformation)) return {std::nan(""), std::nan("")};
+  const int before = std::min(int(column), nodes_.columns - 2);
+  CurvedGrid::Place place = grid_.between_columns(before, column - before);
+  grid_.set_height(place, std::clamp(std::log(deformation), place.lower, place.upper));
+  return {grid_.value(field, place), std::min(deformation, std::exp(place.upper))};
 }
 
 bool ShapeGrid::has_area(double log_area) const {

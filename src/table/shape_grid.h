@@ -6,6 +6,7 @@
 
 #include "shape/outline_shape.h"
 #include "shape/radius_modes.h"
+#include "table/curved_grid.h"
 
 namespace rheocyte {
 
@@ -37,21 +38,17 @@ class ShapeGrid {
   std::array<double, mode_count> modes(double log_area, double deformation) const;
 
  private:
-  struct Node {
-    double value, by_column, by_row, by_both;
-  };
-  using Field = std::vector<Node>;
-  Field field(std::span<const double> values, bool is_odd) const;
+  CurvedGrid::Field field(std::span<const double> values, bool is_odd) const;
   /// A field at the table's cell nearest to these, and the deformation of that.
   struct Scaled {
     double value, deformation;
   };
-  Scaled scaled(const Field& field, double log_area, double deformation) const;
+  Scaled scaled(const CurvedGrid::Field& field, double log_area, double deformation) const;
 
   ShapeNodes nodes_;
-  std::vector<double> lower_slope_, upper_slope_;
-  Field inertia_ratio_;
-  std::array<Field, std::tuple_size_v<RadiusModes>> modes_;
+  CurvedGrid grid_;
+  CurvedGrid::Field inertia_ratio_;
+  std::array<CurvedGrid::Field, std::tuple_size_v<RadiusModes>> modes_;
 };
 
 }  // namespace rheocyte

@@ -28,10 +28,10 @@ struct RadiusState {
 std::vector<RadiusState> states_at(std::span<const RadiusBranches> radii, double deformation) {
   std::vector<RadiusState> states;
   for (const auto& radius : radii) {
-    if (!radius.own()) continue;
-    const double stiffness = stiffness_at(*radius.own(), Measure::deformation, deformation);
+    if (!radius.bare()) continue;
+    const double stiffness = stiffness_at(*radius.bare(), Measure::deformation, deformation);
     if (!std::isfinite(stiffness)) continue;
-    const Eigen::VectorXd value = interpolate(*radius.own(), stiffness);
+    const Eigen::VectorXd value = interpolate(*radius.bare(), stiffness);
     RadiusState state{std::log(value(int(Measure::area_um2))), value(int(inertia_ratio)), {}};
     for (std::size_t k = 0; k < shape_mode_count; ++k) state.modes[k] = value(int(first_mode) + int(k));
     states.push_back(state);
@@ -74,7 +74,7 @@ double edge_at(const GridPatch& patch, const std::vector<double>& edge, double c
 double common_end(std::span<const RadiusBranches> radii) {
   std::vector<double> ends;
   for (const auto& radius : radii)
-    if (radius.own()) ends.push_back(std::log(radius.own()->at(radius.own()->samples() - 1, Measure::deformation)));
+    if (radius.bare()) ends.push_back(std::log(radius.bare()->at(radius.bare()->samples() - 1, Measure::deformation)));
   if (ends.size() < 2) return -std::numeric_limits<double>::infinity();
   std::ranges::sort(ends, std::greater<>());
   constexpr double rounding = 1e-9;

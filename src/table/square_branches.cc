@@ -56,7 +56,7 @@ class ReferenceStiffness {
     if (std::abs(flow.exponent - tube->origin.flow.exponent) > max_exponent_difference ||
         tube->origin.section != Section::tube || tube->origin.is_shell)
       throw UserError(
-          fmt::format("table.tube_table = {}: is no table of solids in the tube in a liquid of exponent {:.4g}, "
+          fmt::format("table.tube_table = {}: is not a table of solids in the tube in a liquid of exponent {:.4g}, "
                       "as the spec is for; name another one, or leave it out.",
                       tube->origin.identifier, flow.exponent));
     const ScaleFactors factors = scale_factors(tube->origin.flow, flow);

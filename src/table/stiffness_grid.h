@@ -7,7 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "table/no_answer.h"
+#include "table/curved_grid.h"
+#include "table/out_of_table.h"
 #include "table/shape_grid.h"
 #include "table/table_origin.h"
 
@@ -21,7 +22,7 @@ struct GridPatch {
   std::vector<double> lower, upper;   ///< ln(deformation) of the first and the last row
   std::vector<double> log_stiffness;  ///< at the nodes
   std::vector<double> error;          ///< relative, of the stiffness, at the nodes
-  std::vector<double> beyond;         ///< why there is nothing above the last row: a NoAnswer as a number
+  std::vector<double> beyond;         ///< why there is nothing above the last row: a OutOfTable as a number
 };
 
 /// All that a file of a grid holds.
@@ -37,7 +38,7 @@ struct GridAnswer {
   double log_stiffness = 0;                        ///< ln(kPa) or ln(mN/m)
   double by_log_area = 0, by_log_deformation = 0;  ///< its derivatives
   double error = 0;                                ///< estimated, relative, as in StiffnessAnswer
-  NoAnswer reason = NoAnswer::none;                ///< if there is one, the numbers mean nothing
+  OutOfTable reason = OutOfTable::none;            ///< if there is one, the numbers mean nothing
   bool regularised = false;
 };
 
@@ -66,22 +67,17 @@ class StiffnessGrid {
   std::optional<Range> smooth_range(double area_um2) const;
 
  private:
-  struct alignas(32) Node {
-    std::array<double, 4> values;  ///< value, its slopes by the column and by the row, and by both
-  };
-  struct Edge {
-    double value, by_column;
-  };
   struct Patch {
+    explicit Patch(const GridPatch&);
+
     bool regularised;
-    int first_column, columns, rows;
-    std::vector<Node> nodes;
-    std::vector<Edge> lower, upper;
-    std::vector<double> cell_error;
-    std::vector<NoAnswer> beyond;
+    int first_column;
+    CurvedGrid grid;
+    CurvedGrid::Field log_stiffness;
+    std::vector<double> cell_error;  ///< by the first of a cell's four nodes
+    std::vector<OutOfTable> beyond;
   };
   struct Place;
-  static Patch ready(const GridPatch& patch);
   Place place_of(double log_area, double log_deformation) const;
   double value_at(const Place&) const;
   void answer_at(const Place&, GridAnswer& answer) const;

@@ -98,7 +98,7 @@ GridPatch patch_of(const json& record, int columns) {
   patch.upper = logarithms(record, "upper", wide);
   patch.log_stiffness = logarithms(record, "log_stiffness", all);
   patch.error = numbers_between(record, "error", all, 0, max_error);
-  patch.beyond = numbers_between(record, "beyond", wide, 0, static_cast<double>(NoAnswer::unresolved));
+  patch.beyond = numbers_between(record, "beyond", wide, 0, static_cast<double>(OutOfTable::unresolved));
   for (std::size_t c = 0; c < wide; ++c) check_record(patch.upper[c] > patch.lower[c], "a column has no height");
   return patch;
 }

@@ -21,7 +21,7 @@ constexpr double min_share_of_sphere = 0.9;
 constexpr double beyond_wall = 1.05;
 
 // A share of 0 or 1 leaves nothing of the other one: not even a modulus of zero.
-void set_moduli(Case& c, const BranchPlace& place, double stiffness) {
+void set_moduli(Case& c, const SweepPoint& place, double stiffness) {
   const double bulk = (1 - place.cortex_share) * stiffness, cortex = place.cortex_share * stiffness * place.radius_um;
   c.cell.bulk.young_modulus_kPa.reset();
   c.cell.cortex.modulus_mN_per_m.reset();
@@ -40,7 +40,7 @@ void set_moduli(Case& c, const BranchPlace& place, double stiffness) {
   }
 }
 
-double bending_kBT(const TableSpec& spec, const BranchPlace& place, double stiffness) {
+double bending_kBT(const TableSpec& spec, const SweepPoint& place, double stiffness) {
   const double radius = place.radius_um * 1e-6;
   const double modulus = 1e3 * (spec.sweeps_cortex() ? stiffness / place.radius_um : stiffness);
   return spec.bending_ratio * modulus * radius * radius * radius / thermal_energy_J;
@@ -78,8 +78,8 @@ double radius_coordinate(double radius_ratio) { return -std::log(beyond_wall - r
 
 double radius_ratio_at(double radius_coordinate) { return beyond_wall - std::exp(-radius_coordinate); }
 
-std::vector<BranchPlace> sweep_places(const TableSpec& spec) {
-  std::vector<BranchPlace> places;
+std::vector<SweepPoint> sweep_places(const TableSpec& spec) {
+  std::vector<SweepPoint> places;
   const auto radii = spec.is_square() ? computed_radii_um(spec) : sweep_radii_um(spec);
   const auto add = [&](double share, double ratio, double axial) {
     for (const double radius : radii) places.push_back({radius, share, ratio, axial});
@@ -93,7 +93,7 @@ std::vector<BranchPlace> sweep_places(const TableSpec& spec) {
   return places;
 }
 
-Case case_at(const TableSpec& spec, const BranchPlace& place, double stiffness) {
+Case case_at(const TableSpec& spec, const SweepPoint& place, double stiffness) {
   Case c = spec.base;
   c.cell.radius_um = place.radius_um;
   if (spec.is_combined())
@@ -109,14 +109,14 @@ Case case_at(const TableSpec& spec, const BranchPlace& place, double stiffness) 
   return c;
 }
 
-TableSpec held_spec(TableSpec spec) {
+TableSpec regularised_spec(TableSpec spec) {
   if (spec.bending_beyond_kBT > 0) spec.base.cell.cortex.bending_kBT = spec.bending_beyond_kBT;
   if (spec.bending_beyond_ratio > 0) spec.bending_ratio = spec.bending_beyond_ratio;
   return spec;
 }
 
-double held_bending_kBT(const TableSpec& spec, double radius_um, double stiffness) {
-  return case_at(held_spec(spec), {radius_um}, stiffness).cell.cortex.bending_kBT;
+double regularising_bending_kBT(const TableSpec& spec, double radius_um, double stiffness) {
+  return case_at(regularised_spec(spec), {radius_um}, stiffness).cell.cortex.bending_kBT;
 }
 
 }  // namespace rheocyte

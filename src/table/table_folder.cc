@@ -26,7 +26,7 @@ std::string mark_of_earlier_builds(const std::string& spec_hash) {
   return fmt::format("rheocyte {} table, spec {}\n", version, spec_hash);
 }
 
-bool is_cell_of(const BranchPlace& place, const SampledBranch& branch) {
+bool is_cell_of(const SweepPoint& place, const SampledBranch& branch) {
   return std::abs(branch.radius_um - place.radius_um) < 1e-9 * place.radius_um &&
          branch.cortex_share == place.cortex_share && branch.tension_ratio == place.tension_ratio &&
          branch.axial_ratio == place.axial_ratio;
@@ -56,7 +56,7 @@ std::string TableFolder::layout() const {
   std::string text = branch_record_format() + "\n";
   for (int i = 0; i < branches(); ++i) {
     text += fmt::format("{} {:.6g} {:.6g} {:.6g}{}", record(i, false), place(i).radius_um, place(i).cortex_share,
-                        place(i).tension_ratio, spec_.wants_held() ? " held" : "");
+                        place(i).tension_ratio, spec_.wants_regularised() ? " held" : "");
     text += spec_.is_elongated() ? fmt::format(" axial {:.6g}\n", place(i).axial_ratio) : "\n";
   }
   return text;
@@ -95,7 +95,7 @@ int TableFolder::done() const {
   if (update_plan()) return branches();
   int count = 0;
   for (int i = 0; i < branches(); ++i)
-    count += plan_.branch({i, false}) && (!spec_.wants_held() || plan_.branch({i, true}));
+    count += plan_.branch({i, false}) && (!spec_.wants_regularised() || plan_.branch({i, true}));
   return std::min(count, branches() - 1);
 }
 
@@ -132,7 +132,7 @@ std::vector<SampledBranch> TableFolder::read_all() const {
   std::vector<SampledBranch> all;
   for (int i = 0; i < branches(); ++i) {
     all.push_back(branch(i, false));
-    if (!spec_.wants_held()) continue;
+    if (!spec_.wants_regularised()) continue;
     SampledBranch held = branch(i, true);
     if (!held.empty() || has(i, true)) all.push_back(std::move(held));
   }
@@ -157,10 +157,10 @@ std::vector<SampledBranch> TableFolder::all_branches() const {
   const auto tube_table = tube();
   const GridContent* reference = tube_table ? &*tube_table : nullptr;
   const auto is_own = [](const SampledBranch& branch) { return branch.bending_kBT == 0; };
-  const auto first_held = std::stable_partition(branches.begin(), branches.end(), is_own);
-  auto all = square_branches(spec_, {branches.begin(), first_held}, reference);
-  if (can_lie_between({first_held, branches.end()}))
-    std::ranges::move(square_branches(spec_, {first_held, branches.end()}, reference), std::back_inserter(all));
+  const auto first_regularised = std::stable_partition(branches.begin(), branches.end(), is_own);
+  auto all = square_branches(spec_, {branches.begin(), first_regularised}, reference);
+  if (can_lie_between({first_regularised, branches.end()}))
+    std::ranges::move(square_branches(spec_, {first_regularised, branches.end()}, reference), std::back_inserter(all));
   return all;
 }
 

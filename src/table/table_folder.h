@@ -27,7 +27,7 @@ class TableFolder {
 
   /// Of the table; not all of them are computed (radius_plan.h).
   int branches() const { return int(places_.size()); }
-  const BranchPlace& place(int i) const { return places_[i]; }
+  const SweepPoint& place(int i) const { return places_[i]; }
 
   /// Before work goes on: reads every record that is there. UserError naming the first one that cannot be used, and how
   /// many there are; otherwise programs that want other records are refused from now on.
@@ -68,7 +68,7 @@ class TableFolder {
 
   TableSpec spec_;
   std::string hash_;
-  std::vector<BranchPlace> places_;
+  std::vector<SweepPoint> places_;
   WorkFolder folder_;
   mutable std::mutex plan_mutex_;
   mutable RadiusPlan plan_;

@@ -14,20 +14,20 @@ namespace {
 
 constexpr int max_radius_stencil = 6;
 
-StiffnessAnswer no_answer(NoAnswer reason) { return {no_value, no_value, false, reason}; }
+StiffnessAnswer out_of_table(OutOfTable reason) { return {no_value, no_value, false, reason}; }
 
 }  // namespace
 
-std::string_view name_of(NoAnswer reason) {
+std::string_view name_of(OutOfTable reason) {
   switch (reason) {
-    case NoAnswer::none: return "";
-    case NoAnswer::invalid: return "invalid";
-    case NoAnswer::too_small: return "too-small";
-    case NoAnswer::too_large: return "too-large";
-    case NoAnswer::too_stiff: return "too-stiff";
-    case NoAnswer::too_soft: return "too-soft";
-    case NoAnswer::unstable: return "unstable";
-    case NoAnswer::unresolved: return "unresolved";
+    case OutOfTable::none: return "";
+    case OutOfTable::invalid: return "invalid";
+    case OutOfTable::too_small: return "too-small";
+    case OutOfTable::too_large: return "too-large";
+    case OutOfTable::too_stiff: return "too-stiff";
+    case OutOfTable::too_soft: return "too-soft";
+    case OutOfTable::unstable: return "unstable";
+    case OutOfTable::unresolved: return "unresolved";
   }
   return "";
 }
@@ -39,18 +39,18 @@ class TableInterpolation::Query {
       : table_(table), abscissa_(abscissa), size_(size), deformation_(deformation) {}
 
   StiffnessAnswer answer() const {
-    if (const auto reason = outside(); reason != NoAnswer::none) return no_answer(reason);
+    if (const auto reason = outside(); reason != OutOfTable::none) return out_of_table(reason);
     // The circle or sphere of this size is a good guess of the radius.
     const auto guess = std::ranges::upper_bound(table_.radii_, sphere_radius(), {}, &RadiusBranches::radius_um);
     const int last = count() - 1;
     int below = std::clamp(int(guess - table_.radii_.begin()) - 1, 0, last - 1);
     while (below > 0 && size_near(below) > size_) --below;
     while (below < last - 1 && size_near(below + 1) < size_) ++below;
-    if (size_near(below) > size_) return no_answer(NoAnswer::too_small);
-    if (size_near(below + 1) < size_) return no_answer(NoAnswer::too_large);
+    if (size_near(below) > size_) return out_of_table(OutOfTable::too_small);
+    if (size_near(below + 1) < size_) return out_of_table(OutOfTable::too_large);
     const auto first = node(below), second = node(below + 1);
-    if (!first) return no_answer(missing(below));
-    if (!second) return no_answer(missing(below + 1));
+    if (!first) return out_of_table(missing(below));
+    if (!second) return out_of_table(missing(below + 1));
     return between(below, *first, *second);
   }
 
@@ -69,16 +69,16 @@ class TableInterpolation::Query {
                                        : std::cbrt(0.75 * size_ / std::numbers::pi);
   }
 
-  NoAnswer outside() const {
+  OutOfTable outside() const {
     const TableSpec& spec = table_.spec_;
     if (!(size_ > 0 && deformation_ > 0 && std::isfinite(size_) && std::isfinite(deformation_)))
-      return NoAnswer::invalid;
-    if (count() < 2) return NoAnswer::unresolved;
-    if (abscissa_ == Abscissa::area && size_ < spec.min_area_um2) return NoAnswer::too_small;
-    if (abscissa_ == Abscissa::area && size_ > spec.max_area_um2) return NoAnswer::too_large;
-    if (deformation_ < spec.min_deformation) return NoAnswer::too_stiff;
-    if (deformation_ > spec.max_deformation) return NoAnswer::too_soft;
-    return NoAnswer::none;
+      return OutOfTable::invalid;
+    if (count() < 2) return OutOfTable::unresolved;
+    if (abscissa_ == Abscissa::area && size_ < spec.min_area_um2) return OutOfTable::too_small;
+    if (abscissa_ == Abscissa::area && size_ > spec.max_area_um2) return OutOfTable::too_large;
+    if (deformation_ < spec.min_deformation) return OutOfTable::too_stiff;
+    if (deformation_ > spec.max_deformation) return OutOfTable::too_soft;
+    return OutOfTable::none;
   }
 
   std::optional<Node> node(int i) const {
@@ -94,10 +94,10 @@ class TableInterpolation::Query {
     return (deformation_ > softest.measure(Measure::deformation) ? softest : stiffest).measure(size_measure());
   }
 
-  NoAnswer missing(int i) const {
-    const auto* own = radius(i).own();
+  OutOfTable missing(int i) const {
+    const auto* own = radius(i).bare();
     const bool is_beyond = own && deformation_ > own->at(own->samples() - 1, Measure::deformation);
-    return is_beyond && own->end.is_physical() ? NoAnswer::unstable : NoAnswer::unresolved;
+    return is_beyond && own->end.is_physical() ? OutOfTable::unstable : OutOfTable::unresolved;
   }
 
   // Neighbours of the two nodes, as many on both sides as there are; beside two states of one kind only of that kind,
@@ -126,7 +126,7 @@ class TableInterpolation::Query {
     const double value = std::clamp(best.value, low, high);
     const double states = std::max(stiffness_error(first.state), stiffness_error(second.state));
     return {std::exp(value), states + std::abs(value - best.value + best.change),
-            first.state.regularised || second.state.regularised, NoAnswer::none};
+            first.state.regularised || second.state.regularised, OutOfTable::none};
   }
 
   const TableInterpolation& table_;
@@ -136,9 +136,9 @@ class TableInterpolation::Query {
 
 TableInterpolation::TableInterpolation(const TableSpec& spec, std::span<const SampledBranch> branches)
     : spec_(spec), radii_(by_radius(branches)) {
-  if (spec.wants_held()) return;
-  std::erase_if(radii_, [](const RadiusBranches& radius) { return !radius.own(); });
-  for (auto& radius : radii_) radius = RadiusBranches(*radius.own());
+  if (spec.wants_regularised()) return;
+  std::erase_if(radii_, [](const RadiusBranches& radius) { return !radius.bare(); });
+  for (auto& radius : radii_) radius = RadiusBranches(*radius.bare());
 }
 
 StiffnessAnswer TableInterpolation::by_area(double area_um2, double deformation) const {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "table/no_answer.h"
+#include "table/out_of_table.h"
 #include "table/radius_branches.h"
 #include "table/table_spec.h"
 #include "table/table_text.h"
@@ -14,7 +14,7 @@ struct StiffnessAnswer {
   double stiffness;  ///< NaN without an answer
   double error;      ///< estimated, relative: of the solver's states and of the interpolation between the radii
   bool regularised = false;
-  NoAnswer reason = NoAnswer::none;
+  OutOfTable reason = OutOfTable::none;
 };
 
 /// A query takes from each neighbouring radius the state with the wanted deformation and puts a polynomial in ln(size)

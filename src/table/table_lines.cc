@@ -56,7 +56,7 @@ std::vector<TableRow> line_at(const LookupTable& table, double stiffness) {
   std::vector<TableRow> line;
   for (const auto& radius : table.radii) {
     const auto state = radius.at_stiffness(stiffness);
-    if (!state || (state->regularised && !table.spec.wants_held())) continue;
+    if (!state || (state->regularised && !table.spec.wants_regularised())) continue;
     TableRow row = row_at(radius, *state);
     if (is_inside(table.spec, row)) line.push_back(std::move(row));
   }

@@ -133,7 +133,7 @@ void check_identifier(const std::string& identifier, const KeyReading& keys) {
   constexpr std::string_view key = "table.identifier";
   const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '-'; };
   if (identifier.empty() || identifier.size() > longest_identifier || !std::ranges::all_of(identifier, is_plain))
-    keys.refuse(key, fmt::format("{} is no name of a table; take 1 to {} letters, digits and hyphens.",
+    keys.refuse(key, fmt::format("{} is not a name of a table; take 1 to {} letters, digits and hyphens.",
                                  keys.stated(key), longest_identifier));
   for (const auto foreign : foreign_identifiers)
     if (edit_distance(identifier, foreign) == 0)
@@ -219,8 +219,8 @@ void check_liquid(const Case& c, const KeyReading& keys) {
 }
 
 // Any cell of the sweep, so that the base is a complete case.
-BranchPlace middle_of(const TableSpec& spec) {
-  BranchPlace place{unit_length_um(spec.base) / 2};
+SweepPoint middle_of(const TableSpec& spec) {
+  SweepPoint place{unit_length_um(spec.base) / 2};
   if (spec.is_combined()) place = {place.radius_um, 0.5, spec.tension_ratios.front()};
   return place;
 }

@@ -18,7 +18,7 @@ inline constexpr std::string_view combined_stiffness = "combined";
 enum class Elongation { by_tension, by_rest_shape };
 
 /// The cells of one branch; share and tension of the cortex have a meaning for combined cells only.
-struct BranchPlace {
+struct SweepPoint {
   double radius_um = 0;      ///< of the sphere at rest
   double cortex_share = 0;   ///< (E2D / r0) / S
   double tension_ratio = 0;  ///< gamma / E2D
@@ -55,7 +55,7 @@ struct TableSpec {
   bool sweeps_cortex() const { return stiffness_key == "cell.cortex.modulus_mN_per_m"; }
   bool is_elongated() const { return !axial_ratios.empty(); }
   bool is_square() const { return base.channel.section == Section::square; }
-  bool wants_held() const { return bending_beyond_kBT > 0 || bending_beyond_ratio > 0; }
+  bool wants_regularised() const { return bending_beyond_kBT > 0 || bending_beyond_ratio > 0; }
 };
 
 /// Reads a spec: the keys of a case and those of the section [table]. UserError as read_case.
@@ -79,14 +79,14 @@ double radius_ratio_at(double radius_coordinate);
 
 /// All branches of the sweep: radius by radius within each share, share by share within each tension of the cortex, and
 /// that within each axial tension. Cells without a cortex have no tension of it: they stand once, with the first one.
-std::vector<BranchPlace> sweep_places(const TableSpec&);
+std::vector<SweepPoint> sweep_places(const TableSpec&);
 
 /// The case of one cell of the table.
-Case case_at(const TableSpec&, const BranchPlace& place, double stiffness);
+Case case_at(const TableSpec&, const SweepPoint& place, double stiffness);
 
 /// The same cells, all with the bending stiffness that holds their surface.
-TableSpec held_spec(TableSpec);
+TableSpec regularised_spec(TableSpec);
 /// Bending stiffness of such a cell.
-double held_bending_kBT(const TableSpec&, double radius_um, double stiffness);
+double regularising_bending_kBT(const TableSpec&, double radius_um, double stiffness);
 
 }  // namespace rheocyte

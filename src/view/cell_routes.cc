@@ -18,10 +18,10 @@
 #include "serve/json_member.h"
 #include "store/base64.h"
 #include "store/stop_signal.h"
+#include "view/case_from_json.h"
 #include "view/evolve_route.h"
 #include "view/plane_lines.h"
 #include "view/state_json.h"
-#include "view/stated_case.h"
 
 namespace rheocyte {
 
@@ -75,7 +75,7 @@ std::vector<std::string_view> asked_gradients(const Case& c, const std::string& 
 }
 
 Answer state(SolverThreads& threads, const Request& request) {
-  Result result = stationary(stated_case(request.json(), request.asked("accuracy")));
+  Result result = stationary(case_from_json(request.json(), request.asked("accuracy")));
   const auto gradients = asked_gradients(result.input, request.asked("gradient"));
   solve(threads, request, [&](Session& session, const std::atomic<bool>& stop) {
     result = solve_with_gradients(result.input, gradients, [&](const Problem& problem, std::span<ProblemLine> lines) {
@@ -110,13 +110,13 @@ Answer read_text(const Request& request) {
 }
 
 std::filesystem::path export_case(const Json& wish, const Request&, ExportFolder& folder) {
-  return folder.write(text_member(wish, "name", "case.toml"), to_toml(stated_case(object_member(wish, "case"))));
+  return folder.write(text_member(wish, "name", "case.toml"), to_toml(case_from_json(object_member(wish, "case"))));
 }
 
 /// The folder that `rheocyte solve` writes; solved from nothing, so that all its digits are the same.
 std::filesystem::path export_result(SolverThreads& threads, const Json& wish, const Request& request,
                                     ExportFolder& folder) {
-  Result result = stationary(stated_case(object_member(wish, "case")));
+  Result result = stationary(case_from_json(object_member(wish, "case")));
   ExportPlace place = folder.claim(text_member(wish, "name", "result"), ExportKind::folder);
   solve(threads, request,
         [&](Session&, const std::atomic<bool>& stop) { result.state = solve_stationary(result.problem, {}, &stop); });
@@ -143,7 +143,7 @@ std::filesystem::path export_picture(const Json& wish, const Request&, ExportFol
 void add_cell_routes(Router& router, Exports& exports, SolverThreads& threads) {
   router.add("POST", "/api/state", [&threads](const Request& request) { return state(threads, request); });
   router.add("POST", "/api/case/text",
-             [](const Request& request) { return json_answer(case_as_text(stated_case(request.json()))); });
+             [](const Request& request) { return json_answer(case_as_text(case_from_json(request.json()))); });
   router.add("POST", "/api/case/read", read_text);
   add_evolve_route(router);
   add_plane_lines_route(router);

@@ -6,7 +6,7 @@
 #include "case/write_case.h"
 #include "extract/moduli_columns.h"
 #include "view/event_json.h"
-#include "view/fitted_cell.h"
+#include "view/model_outline.h"
 
 namespace rheocyte {
 
@@ -66,9 +66,9 @@ Json CombinedCells::case_of(const ModuliEstimate& estimate, double viscosity_mPa
   flow.viscosity_mPas = viscosity_mPas;
   flow.exponent = table_.simulated.exponent;
   const double length = scale_factors(table_.simulated, flow).length;
-  const BranchPlace place{length * std::exp(coordinate(estimate, CellCoordinate::log_radius)),
-                          coordinate(estimate, CellCoordinate::cortex_share),
-                          coordinate(estimate, CellCoordinate::tension_ratio)};
+  const SweepPoint place{length * std::exp(coordinate(estimate, CellCoordinate::log_radius)),
+                         coordinate(estimate, CellCoordinate::cortex_share),
+                         coordinate(estimate, CellCoordinate::tension_ratio)};
   const Json cell = to_json(case_at(table_.content.spec, place, estimate.stiffness_kPa));
   Json in_flow = flow_json(flow);
   if (table_.between.is_elongated()) in_flow["axial_tension_Pa"] = estimate.axial_tension_Pa;

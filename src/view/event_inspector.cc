@@ -17,7 +17,7 @@
 #include "shape/outline_shape.h"
 #include "view/combined_cells.h"
 #include "view/event_json.h"
-#include "view/fitted_cell.h"
+#include "view/model_outline.h"
 #include "view/page_words.h"
 #include "view/recording_columns.h"
 
@@ -85,7 +85,7 @@ Eigen::MatrixX2d laid_over(Eigen::MatrixX2d model, const OutlineShape& measured)
   return model;
 }
 
-Json model_json(const FittedCell& cell, const Eigen::MatrixX2d& outline, int direction, const std::string& table) {
+Json model_json(const ModelOutline& cell, const Eigen::MatrixX2d& outline, int direction, const std::string& table) {
   const OutlineShape measured = outline_shape(outline);
   const Eigen::MatrixX2d model = with_front(cell.outline, direction);
   const ShapeResidual residual(model, outline_shape(model).mean_radius);
@@ -108,7 +108,7 @@ Json model_json(const FittedCell& cell, const Eigen::MatrixX2d& outline, int dir
 
 /// The live solver's case of this cell; section and liquid are those of the table, with the viscosity that it had for
 /// the event.
-Json case_json(const FittedCell& cell, const TableOrigin& origin, ChannelFlow flow, double young_modulus_kPa) {
+Json case_json(const ModelOutline& cell, const TableOrigin& origin, ChannelFlow flow, double young_modulus_kPa) {
   flow.exponent = origin.flow.exponent;
   Json bulk{{"young_modulus_kPa", young_modulus_kPa}};
   if (const auto end = origin.model.find(" solid"); end != std::string::npos) bulk["law"] = origin.model.substr(0, end);
@@ -122,7 +122,7 @@ void add_fit(const Extraction& extraction, const EventBlock& block, const Modulu
   const MeasuringConditions& conditions = extraction.settings().conditions;
   const ShapeMap* const map = tables.shapes(conditions.flow.exponent);
   if (!has_modulus(block.state[0])) return;
-  const auto cell = map ? fitted_cell(*map, conditions, block.area_um2[0], block.deformation[0]) : std::nullopt;
+  const auto cell = map ? model_outline(*map, conditions, block.area_um2[0], block.deformation[0]) : std::nullopt;
   if (!cell) {
     j["sentence"] = "No table here says what the model's cell looks like.";
     return;

@@ -13,8 +13,8 @@
 #include "case/json_guard.h"
 #include "result/evolution.h"
 #include "serve/json_member.h"
+#include "view/case_from_json.h"
 #include "view/state_json.h"
-#include "view/stated_case.h"
 
 namespace rheocyte {
 
@@ -132,7 +132,7 @@ class Evolutions {
 };
 
 Answer evolve(Evolutions& evolutions, const Request& request) {
-  const Case c = stated_case(request.json());
+  const Case c = case_from_json(request.json());
   if (c.time.scheme == TimeScheme::stationary)
     throw Refused(
         400, "time",

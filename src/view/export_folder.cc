@@ -10,8 +10,8 @@
 
 #include "case/user_error.h"
 #include "serve/json_member.h"
+#include "store/atomic_file.h"
 #include "store/scratch.h"
-#include "store/whole_file.h"
 
 namespace rheocyte {
 
@@ -75,7 +75,7 @@ void ExportFolder::check(const fs::path& path, ExportKind kind) const {
 
 fs::path ExportFolder::write(std::string_view name, std::string_view content) {
   ExportPlace place = claim(name);
-  if (const int failed = write_whole_file(place.scratch(), content)) refuse_to_write(place.path(), failed);
+  if (const int failed = write_atomically(place.scratch(), content)) refuse_to_write(place.path(), failed);
   place.publish();
   return place.path();
 }

@@ -133,7 +133,7 @@ std::optional<std::vector<std::size_t>> gate_in(const Json& request) {
 
 /// Moduli of bulk and cortex beside the others, where a combined table is among the items: its lines and features are
 /// added to the report, or why there are none.
-void add_several_moduli(const Json& request, const ExtractOptions& options, const TellProgress& tell, Json& report) {
+void add_bulk_cortex_fit(const Json& request, const ExtractOptions& options, const TellProgress& tell, Json& report) {
   const fs::path folder = path_in(request, "combined"), target = path_in(request, "several");
   if (folder.empty() || target.empty()) return;
   try {
@@ -176,45 +176,45 @@ void compute_moduli(const Json& request, const WorkReply& reply) {
     Json report = moduli_report(file, extract_recording(file, files, options, tables, tell_first));
     report["features"] = Json::array();
     for (const auto& column : computed_columns(Recording(files.companion()))) report["features"].push_back(column.name);
-    add_several_moduli(request, options, tell_second, report);
+    add_bulk_cortex_fit(request, options, tell_second, report);
     report.update(basins);
     reply.give(json_text(report));
   };
-  reply.run_contained(file, work, {.patience_s = options.measuring.patience_s.value_or(default_patience_s)});
+  reply.run_isolated(file, work, {.patience_s = options.measuring.patience_s.value_or(default_patience_s)});
   files.publish();
   if (const fs::path place = path_in(request, "events_of_gate"); !place.empty()) {
-    WholeFile target(place);
+    AtomicFile target(place);
     copy_events_of_gate(output.events, target.scratch(), options.measuring.gates.events.value());
     target.publish();
   }
 }
 
-using Contained = void (*)(const Json&, const WorkReply&, const TellProgress&);
+using Isolated = void (*)(const Json&, const WorkReply&, const TellProgress&);
 struct Named {
   const char* name;
-  Contained work;
-  Containment limits = {};
+  Isolated work;
+  Isolation limits = {};
 };
 /// Who waits for the next question is silent: the one who asks loses patience with an answer.
-const Containment stays{.patience_s = 1e9};
+const Isolation stays{.patience_s = 1e9};
 /// Between two signs of life there is the fit of a whole recording.
-const Containment fits{.patience_s = 600};
-const Named contained_work[]{{"describe", describe},
-                             {"names", list_columns},
-                             {"columns", give_columns},
-                             {"inspect", inspect_events, stays},
-                             {"picture", give_picture},
-                             {"lines", give_lines},
-                             {"population", compute_population, fits}};
+const Isolation fits{.patience_s = 600};
+const Named isolated_work[]{{"describe", describe},
+                            {"names", list_columns},
+                            {"columns", give_columns},
+                            {"inspect", inspect_events, stays},
+                            {"picture", give_picture},
+                            {"lines", give_lines},
+                            {"population", compute_population, fits}};
 
 }  // namespace
 
 void do_item_work(const std::string& text, const WorkReply& reply) {
   const Json request = parse_sound_json(text);
   const std::string wanted = request.value("do", "");
-  for (const auto& [name, work, limits] : contained_work)
+  for (const auto& [name, work, limits] : isolated_work)
     if (wanted == name)
-      return reply.run_contained(
+      return reply.run_isolated(
           path_in(request, "file"), [&, do_work = work](const TellProgress& tell) { do_work(request, reply, tell); },
           limits);
   if (wanted == "moduli") return compute_moduli(request, reply);

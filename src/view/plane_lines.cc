@@ -7,7 +7,7 @@
 
 #include "case/json_guard.h"
 #include "extract/plot_lines.h"
-#include "view/stated_case.h"
+#include "view/case_from_json.h"
 
 namespace rheocyte {
 
@@ -61,7 +61,7 @@ void add_plane_lines_route(Router& router) {
   router.add("GET", "/api/lines", [lines](const Request& request) {
     const Json tree = parse_sound_json(request.asked("case"));
     if (!tree.is_object()) throw Refused(400, "input", "The query needs the case as JSON: case={...}.");
-    return json_answer(lines->of(stated_case(tree)));
+    return json_answer(lines->of(case_from_json(tree)));
   });
 }
 

@@ -12,8 +12,8 @@
 
 #include "store/thread.h"
 #include "store/work_host.h"
+#include "view/inspector_pool.h"
 #include "view/item_places.h"
-#include "view/kept_inspectors.h"
 
 namespace rheocyte {
 

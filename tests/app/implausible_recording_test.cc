@@ -96,8 +96,8 @@ TEST_F(Implausible, TextsThatAreNoNumbersAreShownAsTheyAre) {
   stored("imaging:pixel size", "0,34");
   expect_refusal("imaging:pixel size is \"0,34\", which is not a positive number; give it with --pixel-size-um");
   stored("setup:temperature", "23,5");
-  expect_refusal("setup:temperature is \"23,5\", which is no number. Give --temperature");
-  moduli("setup:temperature is \"23,5\", which is no number.", {"--temperature-if-missing", "23"});
+  expect_refusal("setup:temperature is \"23,5\", which is not a number. Give --temperature");
+  moduli("setup:temperature is \"23,5\", which is not a number.", {"--temperature-if-missing", "23"});
   for (const char* option : {"--temperature", "--temperature-if-missing"})
     expect_refusal(std::string(option) + " 23,5: give degrees Celsius", {option, "23,5"});
 }

@@ -192,7 +192,7 @@ TEST_F(PopulationCommand, WhatCellsWithACortexCannotBeAskedIsASentence) {
   refused({"--model", "jelly"}, "--model");
   refused({"--section", "tube"}, "--section is for --model cortex");
   refused({"--model", "cortex", "--table", "HE-3D-el-26"},
-          "--table HE-3D-el-26: it is no table of cells with bulk and cortex; with the program comes HC-2D-EL-26");
+          "--table HE-3D-el-26: it is not a table of cells with bulk and cortex; with the program comes HC-2D-EL-26");
 }
 
 TEST_F(PopulationCommand, TheSameInputGivesTheSameBytesForAnyNumberOfThreads) {

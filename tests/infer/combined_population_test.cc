@@ -45,7 +45,7 @@ class CombinedPopulationTest : public ::testing::Test {
 
   CombinedInterpolation between_{table()};
   ChannelFlow simulated_ = channel_flow_of(table().spec.base);
-  SeveralModuli moduli_{between_, simulated_, {features_of_contour(7), true, 0}};
+  BulkCortexFit moduli_{between_, simulated_, {features_of_contour(7), true, 0}};
   Sight sight_{{20, 0.04, 15, simulated_.exponent}, Section::tube, 1};
 };
 

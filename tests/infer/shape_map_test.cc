@@ -49,7 +49,7 @@ TEST_F(ShapeMapOf, SmallCellsNeedMoreExcessToBeFlaggedBecausePixelsScatterThem) 
 TEST_F(ShapeMapOf, WithoutNumbersOrOutsideTheAreasNothingIsSaid) {
   EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, 0.03, NAN).excess));
   EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, NAN, 0.03, 1.1).excess));
-  EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, 0.03, INFINITY).excess)) << "infinity is no number";
+  EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, 0.03, INFINITY).excess)) << "infinity is not a number";
   for (const double infinite : {INFINITY, -INFINITY})
     EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, infinite, 1.1).excess)) << infinite;
   EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 10, 0.03, 1.1).excess));

@@ -17,7 +17,7 @@ namespace rheocyte::number_from_chars_test {
 namespace {
 
 struct Read {
-  double value = 0.25;  // of a text that is no number
+  double value = 0.25;  // of a text that is not a number
   long length = 0;
   std::errc error = {};
 };

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "shape/curve.h"
-#include "solve/follow_in_time.h"
 #include "solve/stationary.h"
+#include "solve/transient.h"
 
 namespace rheocyte {
 
@@ -100,8 +100,8 @@ StationaryState solve_stationary(const Problem& problem, const ProgressCallback&
 }
 
 /// In time nothing fails on demand: one state, no step.
-StationaryState follow_in_time(const Problem& problem, const TimeRun&, const TimeObserver&, const TimeStart*,
-                               const WorkLimits& limits) {
+StationaryState transient(const Problem& problem, const TimeRun&, const TimeObserver&, const TimeStart*,
+                          const WorkLimits& limits) {
   return solve_stationary(problem, {}, limits);
 }
 

@@ -9,9 +9,9 @@
 #include "fem/observe.h"
 #include "laws/developed_flow.h"
 #include "shape/measures.h"
-#include "solve/follow_in_time.h"
 #include "solve/rigid_start.h"
 #include "solve/time_stepper.h"
+#include "solve/transient.h"
 
 namespace rheocyte::channel_entry_test {
 namespace {
@@ -164,11 +164,11 @@ TEST(ChannelEntry, EndsAndOutputsByPlaceAreMet) {
   TimeRun run{HUGE_VAL, 1, 1e-3, 3};
   run.end_position = 2.5;
   run.outputs_by_place = true;
-  ASSERT_EQ(follow_in_time(problem, run, {see, {}}).outcome.status, Status::converged);
+  ASSERT_EQ(transient(problem, run, {see, {}}).outcome.status, Status::converged);
   ASSERT_EQ(places.size(), 4u);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(places[i], std::min(1.0 * i, 2.5), 1e-9);
   const double end = times.back();
-  ASSERT_EQ(follow_in_time(problem, {end, 1e9, 1e-3, 3}, {see, {}}).outcome.status, Status::converged);
+  ASSERT_EQ(transient(problem, {end, 1e9, 1e-3, 3}, {see, {}}).outcome.status, Status::converged);
   EXPECT_NEAR(places.back(), 2.5, 1e-6);
 }
 
@@ -177,7 +177,7 @@ TEST(ChannelEntry, ARunEndsWhenTheCellHasSettledBehindTheWalls) {
   Problem problem = entering_cell();
   double end = 0, position = 0;
   const auto see = [&](const TimePoint& point, const TimeState&) { end = point.time, position = point.position; };
-  const StationaryState state = follow_in_time(problem, {500, 1e9, 1e-3, 3}, {{}, see});
+  const StationaryState state = transient(problem, {500, 1e9, 1e-3, 3}, {{}, see});
   ASSERT_EQ(state.outcome.status, Status::converged);
   EXPECT_LT(end, 400);
   EXPECT_GT(position, 8);
@@ -193,7 +193,7 @@ TEST(ChannelEntry, AStretchedStandardLinearSolidIsFollowedWhileItsWavesFade) {
   problem.bulk.branch_modulus = 2 * problem.bulk.shear_modulus;
   problem.bulk.viscosity = 7;
   problem.start_stretch = 1.2;
-  EXPECT_EQ(follow_in_time(problem, {0.6, 1e9, 1e-5, 5}, {}).outcome.status, Status::converged);
+  EXPECT_EQ(transient(problem, {0.6, 1e9, 1e-5, 5}, {}).outcome.status, Status::converged);
 }
 
 TEST(ChannelEntry, ACellPassesAWallOf45Degrees) {
@@ -203,7 +203,7 @@ TEST(ChannelEntry, ACellPassesAWallOf45Degrees) {
   const double stationary = solve_stationary(straight).shape.deformation;
   for (const WallTable& wall : {WallTable{{4, 5}, {2, 1}}, WallTable{{4, 8}, {5, 1}}}) {
     problem.wall = wall;
-    const StationaryState end = follow_in_time(problem, {1e3, 1e9, 1e-4, 4}, {});
+    const StationaryState end = transient(problem, {1e3, 1e9, 1e-4, 4}, {});
     ASSERT_EQ(end.outcome.status, Status::converged) << end.outcome.message;
     EXPECT_NEAR(end.shape.deformation / stationary, 1, 1e-3);
   }
@@ -215,7 +215,7 @@ TEST(ChannelEntry, ARunToCompareWithThatDoesNotArriveIsTold) {
   TimeRun run{0.4, 0.4, 1e-4, 3};
   run.estimates_error = true;
   const TimeObserver stopper{[&](const TimeFrame& frame) { stop = frame.time > 0; }, {}};
-  const StationaryState state = follow_in_time(entering_cell(), run, stopper, nullptr, &stop);
+  const StationaryState state = transient(entering_cell(), run, stopper, nullptr, &stop);
   EXPECT_EQ(state.outcome.status, Status::converged);
   EXPECT_EQ(state.comparison, Status::stopped);
   EXPECT_TRUE(std::isnan(state.estimated_error));
@@ -233,7 +233,7 @@ TEST(ChannelEntry, AFailedRunKeepsItsLastGoodStateAndItsHistory) {
   int steps = 0;
   double position = 0;
   const auto count = [&](const TimePoint& point, const TimeState&) { ++steps, position = point.position; };
-  const StationaryState end = follow_in_time(problem, {60, 1e9, 1e-3, 3}, {{}, count});
+  const StationaryState end = transient(problem, {60, 1e9, 1e-3, 3}, {{}, count});
   EXPECT_NE(end.outcome.status, Status::converged);
   EXPECT_NE(end.outcome.message.find("the last good state is kept"), std::string::npos) << end.outcome.message;
   EXPECT_GT(steps, 5);

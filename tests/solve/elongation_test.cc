@@ -8,8 +8,8 @@
 
 #include "case/read_case.h"
 #include "case/scales.h"
-#include "solve/follow_in_time.h"
 #include "solve/session.h"
+#include "solve/transient.h"
 
 namespace rheocyte::elongation_test {
 namespace {

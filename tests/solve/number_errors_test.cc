@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "cases.h"
-#include "solve/follow_in_time.h"
 #include "solve/stationary.h"
+#include "solve/transient.h"
 
 namespace rheocyte::number_errors_test {
 namespace {
@@ -73,9 +73,9 @@ TEST(NumberErrors, InTimeAreTheChangesToACoarserMesh) {
   problem.bulk.viscosity = 1;
   TimeRun run{0.5, 0.5, 1e-7, 4};
   run.estimates_error = true;
-  const StationaryState state = follow_in_time(problem, run, {});
+  const StationaryState state = transient(problem, run, {});
   run.degree = 6;
-  const StationaryState fine = follow_in_time(problem, run, {});
+  const StationaryState fine = transient(problem, run, {});
   expect_honest(state, fine, 5);
 }
 

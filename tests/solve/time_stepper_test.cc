@@ -7,9 +7,9 @@
 #include "cases.h"
 #include "fem/observe.h"
 #include "shape/measures.h"
-#include "solve/follow_in_time.h"
 #include "solve/stationary.h"
 #include "solve/time_resolution.h"
+#include "solve/transient.h"
 
 namespace rheocyte::time_stepper_test {
 namespace {
@@ -146,7 +146,7 @@ TEST(TimeStepper, AGivenPressureDropStaysWhatItIs) {
     EXPECT_NEAR(point.state.pressure_drop / (8 * 2 * min_half_length(problem.radius_ratio)), 1, 1e-6);
     rate = point.state.flow_rate;
   };
-  const StationaryState end = follow_in_time(problem, run, {{}, observe});
+  const StationaryState end = transient(problem, run, {{}, observe});
   ASSERT_EQ(end.outcome.status, Status::converged);
   EXPECT_GT(max_acceleration, 0.1);
   const StationaryState stationary = solve_stationary(problem);
@@ -166,7 +166,7 @@ TEST(TimeStepper, ACellThatHasSettledEndsItsRun) {
       time = point.time;
       ++steps;
     };
-    const StationaryState end = follow_in_time(problem, {1e6, 1e9, 1e-5, 6}, {{}, observe});
+    const StationaryState end = transient(problem, {1e6, 1e9, 1e-5, 6}, {{}, observe});
     ASSERT_EQ(end.outcome.status, Status::converged);
     EXPECT_NE(end.outcome.message.find("until it had settled"), std::string::npos) << end.outcome.message;
     EXPECT_LT(time, 2e4);
@@ -286,11 +286,11 @@ TEST(TimeStepper, ARunThatHasNotSettledStatesTheErrorOfItsMesh) {
   // At 60 us on a coarse mesh: the stated error holds the distance from a fine one, and is not ten times as large.
   TimeRun run{60 / unit_us, 1e9, 1e-5, 3};
   run.estimates_error = true;
-  const StationaryState coarse = follow_in_time(moving_cell(0), run, {});
+  const StationaryState coarse = transient(moving_cell(0), run, {});
   ASSERT_EQ(coarse.outcome.status, Status::converged);
   run.degree = 7;
   run.estimates_error = false;
-  const StationaryState fine = follow_in_time(moving_cell(0), run, {});
+  const StationaryState fine = transient(moving_cell(0), run, {});
   EXPECT_TRUE(std::isnan(fine.estimated_error));
   const double distance = std::abs(coarse.shape.deformation / fine.shape.deformation - 1);
   EXPECT_LT(distance, coarse.estimated_error);
@@ -304,7 +304,7 @@ TEST(TimeStepper, AStandardLinearSolidEndsAsItsSpringAlone) {
   Problem problem = moving_cell(1);
   problem.bulk.branch_modulus = 2 * problem.bulk.shear_modulus;
   problem.bulk.viscosity = 20;
-  const StationaryState end = follow_in_time(problem, {1e4, 1e9, 1e-4, 5}, {});
+  const StationaryState end = transient(problem, {1e4, 1e9, 1e-4, 5}, {});
   ASSERT_EQ(end.outcome.status, Status::converged);
   EXPECT_NEAR(end.shape.deformation / solve_stationary(problem).shape.deformation, 1, 1e-3);
 }

@@ -43,7 +43,7 @@ void expect_sentence(HostedWork work, const std::string& words) {
 TEST(WorkHost, AnswersEachOfManyThreadsWithWhatItAskedFor) {
   const WorkHost host([](const std::string& request, const WorkReply& reply) {
     reply.give(request);
-    reply.tell_progress(0.5);
+    reply.report_progress(0.5);
     reply.give("!");
   });
   std::vector<std::thread> threads;
@@ -89,7 +89,7 @@ TEST(WorkHost, TellsWhyWorkHasFailed) {
     if (request == "user") throw UserError("the file is red");
     if (request == "own") throw std::logic_error("a bug");
     if (request == "die") ::_exit(7);
-    reply.run_contained("cells.rtdc", [&](const TellProgress&) {
+    reply.run_isolated("cells.rtdc", [&](const TellProgress&) {
       reply.give("half of the answer");
       std::raise(SIGSEGV);
     });
@@ -118,12 +118,12 @@ TEST(WorkHost, ALimitOfTheSystemThatTheWorkHasMetIsOneForWhoeverAsked) {
   EXPECT_EQ(limit_of("memory"), memory_does_not_suffice);
 }
 
-TEST(WorkHost, StopsContainedWorkForWhichNobodyWaits) {
+TEST(WorkHost, StopsIsolatedWorkForWhichNobodyWaits) {
   fs::path folder;
   std::string seen;
   {
     const WorkHost host([](const std::string&, const WorkReply& reply) {
-      reply.run_contained("cells.rtdc", [&](const TellProgress&) {
+      reply.run_isolated("cells.rtdc", [&](const TellProgress&) {
         reply.give(std::to_string(::getpid()));
         for (;;) ::pause();
       });
@@ -142,7 +142,7 @@ TEST(WorkHost, StopsContainedWorkForWhichNobodyWaits) {
 
 TEST(WorkHost, HasWorkThatStaysUntilNobodyAsksAnyMore) {
   const WorkHost host([](const std::string& request, const WorkReply& reply) {
-    reply.run_contained("cells.rtdc", [&](const TellProgress&) {
+    reply.run_isolated("cells.rtdc", [&](const TellProgress&) {
       int asked = 0;
       while (const auto next = reply.next_request()) {
         reply.give(request + *next + std::to_string(++asked) + " " + std::to_string(::getpid()));
@@ -165,7 +165,7 @@ TEST(WorkHost, HasWorkThatStaysUntilNobodyAsksAnyMore) {
 
 TEST(WorkHost, EndsAReaderFromAnotherThread) {
   const WorkHost host([](const std::string&, const WorkReply& reply) {
-    reply.run_contained("cells.rtdc", [](const TellProgress&) {
+    reply.run_isolated("cells.rtdc", [](const TellProgress&) {
       for (;;) ::pause();
     });
   });

@@ -61,7 +61,7 @@ TEST(SampleBranch, AnElongatedBranchIsThatOfDirectSolves) {
       spec("[cell.bulk]\nlaw = \"neo-hookean\"\n[cell.cortex]\nlaw = \"neo-hookean-reference\"\nbending_kBT = 3e4\n",
            "cortex_share = [0, 0.5]\ntension_ratio = [0.25]\naxial_ratio = [-0.1, 0, 0.2, 0.4]\naccuracy = 2e-3\n"
            "max_deformation = 0.012\nmin_deformation = 1e-3\n");
-  const BranchPlace place{6.7, 0.5, 0.25, 0.4};
+  const SweepPoint place{6.7, 0.5, 0.25, 0.4};
   const SampledBranch branch = sample_branch(table, place);
   EXPECT_EQ(branch.end.status, Status::covered) << branch.end.message;
   ASSERT_GT(branch.samples(), 4);
@@ -104,7 +104,7 @@ TEST(SampleBranch, BeyondTheBareSurfaceBendingGoesOn) {
   const TableSpec table = spec("[cell.bulk]\nlaw = \"neo-hookean\"\n", "bending_beyond_kBT = 1e4\n");
   const SampledBranch bare = sample_branch(table, {6});
   EXPECT_EQ(bare.end.status, Status::surface_unstable);
-  const SampledBranch held = sample_held_branch(table, bare);
+  const SampledBranch held = sample_regularised_branch(table, bare);
   ASSERT_FALSE(held.empty()) << held.end.message;
   EXPECT_EQ(held.bending_kBT, 1e4);
   EXPECT_GT(held.stiffness.front(), bare.stiffness.back());
@@ -117,7 +117,7 @@ TEST(SampleBranch, BeyondTheBareSurfaceBendingGoesOn) {
 TEST(SampleBranch, NothingIsHeldWhereNothingIsUnstable) {
   // A branch that leaves the table's range, and a spec that asks for no bending.
   const TableSpec covered = spec(linear_solid, "max_deformation = 0.01\nbending_beyond_kBT = 1e4\n");
-  EXPECT_TRUE(sample_held_branch(covered, sample_branch(covered, {6})).empty());
+  EXPECT_TRUE(sample_regularised_branch(covered, sample_branch(covered, {6})).empty());
 }
 
 TEST(SampleBranch, TheSameBranchHasTheSameBits) {

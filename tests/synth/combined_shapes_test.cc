@@ -20,7 +20,7 @@ CombinedShapes invented_shapes(const SimulatedCells& cells) {
   return {spec, std::move(branches), cells};
 }
 
-VirtualCell cell_of(const BranchPlace& place, double S) {
+VirtualCell cell_of(const SweepPoint& place, double S) {
   const double cortex = place.cortex_share * S * place.radius_um;
   return {place.radius_um, (1 - place.cortex_share) * S, 15, cortex, place.tension_ratio * cortex};
 }
@@ -33,8 +33,8 @@ class Combined : public testing::Test {
 
 TEST_F(Combined, ShapesLieBetweenTheBranches) {
   // The table's interpolation leaves up to 3e-3 of the deformation, see table_test; outlines are as near as areas.
-  for (const BranchPlace& place :
-       {BranchPlace{6.3, 0.4, 0.15}, {7.1, 0.06, 0.2}, {5.2, 0.93, 0.02}, {7, 0, 0}, {6.6, 1, 0.3}})
+  for (const SweepPoint& place :
+       {SweepPoint{6.3, 0.4, 0.15}, {7.1, 0.06, 0.2}, {5.2, 0.93, 0.02}, {7, 0, 0}, {6.6, 1, 0.3}})
     for (const double S : {1.5, 2.5}) {
       const auto found = shapes_.shape(cell_of(place, S));
       ASSERT_TRUE(std::holds_alternative<CellShape>(found)) << place.radius_um << " " << place.cortex_share;

@@ -135,7 +135,7 @@ TEST_F(Interpolation, TheWeightsOfTheBranchesAreThoseOfTheState) {
     const CellCoordinates cell = random_cell();
     double sum = 0, log_radius = 0, share = 0;
     for (const auto& [branch, weight] : between_.weights(cell)) {
-      const BranchPlace& place = table.branches.at(std::size_t(branch)).place;
+      const SweepPoint& place = table.branches.at(std::size_t(branch)).place;
       sum += weight;
       log_radius += weight * std::log(place.radius_um);
       share += weight * place.cortex_share;
@@ -192,7 +192,7 @@ TEST(ElongatedTable, BetweenTheBranchesItIsTheInventedCell) {
     const CellCoordinates cell = random_elongated_cell(between, engine);
     const CombinedState state = between.at(cell);
     EXPECT_TRUE(state.inside);
-    const BranchPlace place{std::exp(cell(0)), cell(1), cell(3), cell(4)};
+    const SweepPoint place{std::exp(cell(0)), cell(1), cell(3), cell(4)};
     const ShapeVector exact = invented_elongated_features(place, std::exp(state.value(log_stiffness_row)));
     EXPECT_NEAR(std::log(exact(int(ShapeFeature::first_mode) + 1)), cell(2), 2e-3) << cell.transpose();
     EXPECT_NEAR(state.value(log_area_row), exact(0), 5e-4);
@@ -248,7 +248,7 @@ TEST(CombinedSpec, WhatDoesNotGoTogetherIsRefused) {
   refuse({"table.cortex_share=[0, 2]"}, "table.cortex_share contains 2, which is outside its range");
   refuse({"table.cortex_share=[0.5, 0]"}, "must ascend");
   refuse({"table.cortex_share=[0.5]"}, "at least two shares");
-  refuse({"table.cortex_share=0.5"}, "is no list of numbers");
+  refuse({"table.cortex_share=0.5"}, "is not a list of numbers");
   refuse({"table.stiffness=cell.bulk.young_modulus_kPa"}, "does not go with table.cortex_share");
   refuse({"cell.bulk.law=none"}, "needs a law of the bulk and one of the cortex");
   refuse({"cell.bulk.young_modulus_kPa=3"}, "because a table sweeps it");

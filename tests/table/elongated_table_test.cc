@@ -96,7 +96,7 @@ TableSpec spec_with(const std::string& keys, const char* section = "square") {
 TEST(TableSpecOfElongatedCells, MayBeLongAtRestInPlaceOfUnderATension) {
   const std::string ratios = "axial_ratio = [-0.1, 0, 0.1, 0.25]\n";
   const TableSpec pulled = spec_with(ratios), rested = spec_with(ratios + "elongated_by = \"rest-shape\"");
-  const BranchPlace place{.radius_um = 6, .axial_ratio = 0.25};
+  const SweepPoint place{.radius_um = 6, .axial_ratio = 0.25};
   const Case under_tension = case_at(pulled, place, 2), at_rest = case_at(rested, place, 2);
   EXPECT_NEAR(under_tension.flow.axial_tension_Pa, 500, 1e-9);
   EXPECT_EQ(under_tension.cell.rest_aspect, 1);

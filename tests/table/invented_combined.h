@@ -8,7 +8,7 @@
 namespace rheocyte::test {
 
 /// The outline of a cell in um. The cortex lifts the third mode and lowers the second, the tension changes the fourth.
-inline Eigen::MatrixX2d invented_outline(const BranchPlace& place, double stiffness) {
+inline Eigen::MatrixX2d invented_outline(const SweepPoint& place, double stiffness) {
   const auto& [radius, share, ratio, axial] = place;
   const double a = 0.3 * std::pow(radius / 8, 1.5) / stiffness, tension = share * ratio;
   std::array<double, mode_count> modes{};
@@ -20,13 +20,13 @@ inline Eigen::MatrixX2d invented_outline(const BranchPlace& place, double stiffn
 }
 
 /// ln(area), deformation, Lambda1 / Lambda2, modes.
-inline ShapeVector invented_features(const BranchPlace& place, double stiffness) {
+inline ShapeVector invented_features(const SweepPoint& place, double stiffness) {
   return shape_vector(outline_shape(invented_outline(place, stiffness)));
 }
 
 /// States of which the stiffness falls from `stiffest` to this share of it; `features_of` a place and a stiffness.
 template <class Features>
-CombinedBranch invented_branch_of(const BranchPlace& place, int samples, double stiffest, double softest_share,
+CombinedBranch invented_branch_of(const SweepPoint& place, int samples, double stiffest, double softest_share,
                                   const Features& features_of) {
   CombinedBranch branch{
       place, {}, Eigen::MatrixXd(samples, feature_count), Eigen::MatrixXd(samples, feature_count), {}};
@@ -46,12 +46,12 @@ CombinedBranch invented_branch_of(const BranchPlace& place, int samples, double 
   return branch;
 }
 
-inline CombinedBranch invented_combined_branch(const BranchPlace& place, int samples = 16) {
+inline CombinedBranch invented_combined_branch(const SweepPoint& place, int samples = 16) {
   return invented_branch_of(place, samples, 12 * std::pow(place.radius_um / 8, 1.5), 1.0 / 20, invented_features);
 }
 
 /// The same states as a sweep gives them: contours from pole to pole, and no modes.
-inline SampledBranch invented_combined_samples(const BranchPlace& place, int samples = 16) {
+inline SampledBranch invented_combined_samples(const SweepPoint& place, int samples = 16) {
   const CombinedBranch features = invented_combined_branch(place, samples);
   SampledBranch branch;
   branch.radius_um = place.radius_um;

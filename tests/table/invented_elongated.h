@@ -35,7 +35,7 @@ inline double invented_softest(double radius_um, double axial_ratio) {
 inline std::vector<SampledBranch> invented_elongated_branches() {
   const TableSpec spec = invented_elongated_spec();
   std::vector<SampledBranch> branches;
-  for (const BranchPlace& place : sweep_places(spec)) {
+  for (const SweepPoint& place : sweep_places(spec)) {
     SampledBranch branch;
     branch.radius_um = place.radius_um;
     branch.axial_ratio = place.axial_ratio;

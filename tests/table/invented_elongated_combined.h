@@ -10,7 +10,7 @@
 namespace rheocyte::test {
 
 /// The outline of a cell in um: that of the flow, drawn out.
-inline Eigen::MatrixX2d invented_elongated_outline(const BranchPlace& place, double stiffness) {
+inline Eigen::MatrixX2d invented_elongated_outline(const SweepPoint& place, double stiffness) {
   const auto& [radius, share, ratio, axial] = place;
   const double a = 0.3 * std::pow(radius / 8, 1.5) / stiffness, tension = share * ratio;
   std::array<double, mode_count> modes{};
@@ -26,7 +26,7 @@ inline Eigen::MatrixX2d invented_elongated_outline(const BranchPlace& place, dou
   return outline;
 }
 
-inline ShapeVector invented_elongated_features(const BranchPlace& place, double stiffness) {
+inline ShapeVector invented_elongated_features(const SweepPoint& place, double stiffness) {
   return shape_vector(outline_shape(invented_elongated_outline(place, stiffness)));
 }
 
@@ -50,7 +50,7 @@ max_area_um2 = 220
 radii = 5
 )";
 
-inline CombinedBranch invented_elongated_branch(const BranchPlace& place) {
+inline CombinedBranch invented_elongated_branch(const SweepPoint& place) {
   return invented_branch_of(place, 12, 10 * std::pow(place.radius_um / 8, 1.5), 0.12, invented_elongated_features);
 }
 

@@ -32,7 +32,7 @@ TEST(StiffnessGrid, IsTheClosedFormOfASmoothTable) {
   double greatest = 0;
   for (const auto& [area, d] : random_queries(spec, 3000)) {
     const auto answer = grid.answer(area, d);
-    ASSERT_EQ(answer.reason, NoAnswer::none) << area << " " << d;
+    ASSERT_EQ(answer.reason, OutOfTable::none) << area << " " << d;
     EXPECT_FALSE(answer.regularised);
     greatest = std::max(greatest, std::abs(std::exp(answer.log_stiffness) / invented_modulus(area, d) - 1));
     EXPECT_GT(answer.error, 4e-5) << "that of the states: half of 1e-4, because d ~ E^-2";
@@ -52,7 +52,7 @@ TEST(StiffnessGrid, DerivativesAreThoseOfTheValues) {
     const auto right = value(step, 0), left = value(-step, 0), up = value(0, step), down = value(0, -step);
     bool inside = true;
     for (const auto& answer : {here, right, left, up, down})
-      inside = inside && answer.reason == NoAnswer::none && answer.regularised == here.regularised;
+      inside = inside && answer.reason == OutOfTable::none && answer.regularised == here.regularised;
     if (!inside) continue;
     ++compared;
     EXPECT_NEAR(here.by_log_area, (right.log_stiffness - left.log_stiffness) / (2 * step), 1e-6);
@@ -87,7 +87,7 @@ TEST(StiffnessGrid, EndsAtTheInstabilityOrGoesOnWithBending) {
   for (const auto& [area, d] : random_queries(with, 3000)) {
     const auto one = bare.answer(area, d), other = held.answer(area, d);
     const auto exact = between.by_area(area, d);
-    if (one.reason == NoAnswer::none) {
+    if (one.reason == OutOfTable::none) {
       // Lines of the grid bend with the border, a little more than the branches resolve.
       EXPECT_NEAR(std::exp(one.log_stiffness) / invented_modulus(area, d), 1, 5e-5) << area << " " << d;
       EXPECT_FALSE(other.regularised);
@@ -95,8 +95,8 @@ TEST(StiffnessGrid, EndsAtTheInstabilityOrGoesOnWithBending) {
     }
     EXPECT_EQ(name_of(one.reason), "unstable") << area << " " << d;
     ++unstable;
-    lost += exact.reason == NoAnswer::none;
-    if (other.reason != NoAnswer::none) continue;
+    lost += exact.reason == OutOfTable::none;
+    if (other.reason != OutOfTable::none) continue;
     EXPECT_TRUE(other.regularised);
     // Bending of 1e4 k_B T lowers these deformations by 1e-3, the stiffness by about as much.
     EXPECT_NEAR(std::exp(other.log_stiffness) / invented_modulus(area, d), 1, 1.5e-3);
@@ -118,7 +118,7 @@ TEST(StiffnessGrid, JaggedEndsMakeNoWrongNumbers) {
   int held = 0;
   for (const auto& [area, d] : random_queries(spec, 20000)) {
     const auto answer = grid.answer(area, d);
-    if (answer.reason != NoAnswer::none) continue;
+    if (answer.reason != OutOfTable::none) continue;
     held += answer.regularised;
     const double off = std::abs(std::exp(answer.log_stiffness) / invented_modulus(area, d) - 1);
     EXPECT_LT(off, 0.02) << area << " " << d << " " << answer.regularised;
@@ -165,7 +165,7 @@ TEST(StiffnessGrid, AFewRadiiMakeACoarseGridAndOneMakesNone) {
   const StiffnessGrid grid(make_stiffness_grid(spec, branches, "test").value());
   for (const auto& [area, d] : random_queries(spec, 200)) {
     const auto answer = grid.answer(area, d);
-    if (answer.reason != NoAnswer::none) continue;
+    if (answer.reason != OutOfTable::none) continue;
     const double off = std::abs(std::exp(answer.log_stiffness) / invented_modulus(area, d) - 1);
     EXPECT_LT(off, 1e-2);
     EXPECT_LT(off, 3 * answer.error) << "a coarse table says that it is coarse";
@@ -191,7 +191,7 @@ TEST(StiffnessGrid, IsTheSameFromItsFile) {
   for (const auto& [area, d] : random_queries(spec, 100)) {
     const auto a = one.answer(area, d), b = other.answer(area, d);
     EXPECT_EQ(a.reason, b.reason);
-    EXPECT_TRUE(a.log_stiffness == b.log_stiffness || a.reason != NoAnswer::none);
+    EXPECT_TRUE(a.log_stiffness == b.log_stiffness || a.reason != OutOfTable::none);
   }
 }
 
@@ -227,7 +227,7 @@ TEST(StiffnessGrid, ADamagedFileIsRefused) {
     EXPECT_NE(refusal(damaged).find("grid.cbor: this grid of a table cannot be used"), std::string::npos) << at;
     EXPECT_NE(refusal(bytes.substr(0, at)).find("cannot be used"), std::string::npos) << at;
   }
-  EXPECT_NE(refusal(to_bytes(invented_branch(7), "0123456789abcdef")).find("it is no rheocyte grid"),
+  EXPECT_NE(refusal(to_bytes(invented_branch(7), "0123456789abcdef")).find("it is not a rheocyte grid"),
             std::string::npos);
 }
 

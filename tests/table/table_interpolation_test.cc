@@ -30,7 +30,7 @@ TEST(TableInterpolation, IsExactBetweenTheBranchesOfASmoothTable) {
   int within = 0;
   for (const auto& [area, d] : random_queries(spec, 2000)) {
     const auto answer = table.by_area(area, d);
-    ASSERT_EQ(answer.reason, NoAnswer::none) << area << " " << d;
+    ASSERT_EQ(answer.reason, OutOfTable::none) << area << " " << d;
     errors.push_back(std::abs(answer.stiffness / invented_modulus(area, d) - 1));
     within += errors.back() <= answer.error;
     EXPECT_GT(answer.error, 4e-5);  // that of the states: half of 1e-4, because d ~ E^-2
@@ -95,10 +95,10 @@ TEST(TableInterpolation, BeyondTheEndOfTheBranchesTheSurfaceIsUnstable) {
   int unstable = 0;
   for (const auto& [area, d] : random_queries(with, 2000)) {
     const auto one = bare.by_area(area, d), other = regularised.by_area(area, d);
-    ASSERT_EQ(other.reason, NoAnswer::none) << area << " " << d;
+    ASSERT_EQ(other.reason, OutOfTable::none) << area << " " << d;
     // Bending of 1e4 k_B T lowers these deformations by 1e-3, the stiffness by about as much.
     EXPECT_NEAR(other.stiffness / invented_modulus(area, d), 1, other.regularised ? 1.5e-3 : 2e-5);
-    if (one.reason == NoAnswer::none) {
+    if (one.reason == OutOfTable::none) {
       EXPECT_FALSE(one.regularised);
       continue;
     }

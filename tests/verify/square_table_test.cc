@@ -46,7 +46,7 @@ void expect_modulus(const StiffnessGrid& table, const Cell& cell) {
   ASSERT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
   const double um = 1e6 * scales_of(c).length_m;
   const GridAnswer answer = table.answer(um * um * state.shape.area, state.shape.deformation);
-  ASSERT_EQ(answer.reason, NoAnswer::none) << cell.radius_um;
+  ASSERT_EQ(answer.reason, OutOfTable::none) << cell.radius_um;
   EXPECT_EQ(answer.regularised, cell.bending_ratio > 0);
   // The stated error, and that of the state itself, which the modulus sees by half.
   EXPECT_NEAR(std::exp(answer.log_stiffness) / cell.young_modulus_kPa, 1, answer.error + state.estimated_error / 2)

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "laboratory.h"
-#include "solve/follow_in_time.h"
+#include "solve/transient.h"
 
 namespace rheocyte::time_end_states_test {
 namespace {
@@ -49,7 +49,7 @@ void expect_stationary_end(const MovingCell& cell, double mesh_accuracy = 1e-3) 
   ASSERT_EQ(stationary.outcome.status, Status::converged) << stationary.outcome.message;
   TimeRun run{1e4, 1e9, 1e-4};
   run.mesh_accuracy = mesh_accuracy;
-  const StationaryState end = follow_in_time(moving, run, {});
+  const StationaryState end = transient(moving, run, {});
   ASSERT_EQ(end.outcome.status, Status::converged) << end.outcome.message;
   EXPECT_NE(end.outcome.message.find("until it had settled"), std::string::npos) << end.outcome.message;
   const double distance = end.shape.deformation / stationary.shape.deformation - 1;

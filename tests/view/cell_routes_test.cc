@@ -16,8 +16,8 @@
 #include "solve/stationary.h"
 #include "store/base64.h"
 #include "store/own_file.h"
+#include "view/case_from_json.h"
 #include "view/state_json.h"
-#include "view/stated_case.h"
 #include "view/view_session.h"
 
 namespace rheocyte::cell_routes_test {
@@ -73,7 +73,7 @@ std::vector<float> floats(const Json& text) {
 
 TEST_F(CellRoutes, AStateFromNothingHasAllDigitsOfTheSolver) {
   for (const double modulus : {2.5, 8.0}) {
-    const Case c = stated_case(cell(modulus));
+    const Case c = case_from_json(cell(modulus));
     Result result{c, scales_of(c), problem_of(c), solve_stationary(problem_of(c))};
     const Json wanted = Json::parse(to_json(result).dump()), got = json("/api/state", cell(modulus));
     for (const auto& measure : state_measures) EXPECT_EQ(got[measure.name], wanted[measure.name]) << measure.name;
@@ -151,7 +151,7 @@ TEST_F(CellRoutes, TheCommandOfACaseHoldsTheCase) {
 }
 
 TEST(ShownState, FieldsWithoutBase64AreTheSameBytes) {
-  const Case c = stated_case(cell());
+  const Case c = case_from_json(cell());
   const ShownState shown({c, scales_of(c), problem_of(c), solve_stationary(problem_of(c))});
   std::string body;
   shown.give_fields([&](std::string_view piece) {
@@ -343,7 +343,7 @@ TEST_F(CellRoutes, AnExportedResultHasTheFilesAndDigitsOfSolve) {
       json("/api/export", {{"what", "result"}, {"case", cell()}, {"name", "cell"}})["file"].get<std::string>();
   for (const char* file : {"case.toml", "contour.csv", "fields.vtu", "result.json"})
     EXPECT_TRUE(fs::exists(result / file)) << file;
-  const Case c = stated_case(cell());
+  const Case c = case_from_json(cell());
   const Json written = Json::parse(std::ifstream(result / "result.json"));
   const StationaryState state = solve_stationary(problem_of(c));
   EXPECT_EQ(written["deformation"].get<double>(), state.shape.deformation);

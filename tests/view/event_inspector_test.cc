@@ -18,7 +18,7 @@
 #include "measurement/recording_writer.h"
 #include "measurement/reference_files.h"
 #include "shape/outline_shape.h"
-#include "view/fitted_cell.h"
+#include "view/model_outline.h"
 #include "view/recording_columns.h"
 #include "view/recording_moduli.h"
 #include "virtual_cells.h"
@@ -242,27 +242,27 @@ TEST(EventInspector, SaysWhatModuliSaysByACombinedTable) {
   }
 }
 
-TEST(FittedCell, HasTheAreaTheCentroidAndTheVolumeOfItsSphere) {
+TEST(ModelOutline, HasTheAreaTheCentroidAndTheVolumeOfItsSphere) {
   for (const Section section : {Section::tube, Section::square}) {
     const ModulusTables tables("", section);
     const ShapeMap& map = *tables.shapes(1);
     const MeasuringConditions conditions{map.origin().flow, 0, true};
-    const auto round = fitted_cell(map, conditions, 80, 1e-4);
+    const auto round = model_outline(map, conditions, 80, 1e-4);
     ASSERT_TRUE(round);
     // To first order in the deformation a nearly round cell is a sphere.
     EXPECT_NEAR(round->radius_um, std::sqrt(80 / std::numbers::pi), 2e-3);
-    const auto cell = fitted_cell(map, conditions, 80, 0.05);
+    const auto cell = model_outline(map, conditions, 80, 0.05);
     ASSERT_TRUE(cell);
     const OutlineShape shape = outline_shape(cell->outline);
     EXPECT_NEAR(shape.area, 80, 0.2) << "180 points, and modes beyond c7";
     EXPECT_NEAR(shape.x, 0, 1e-9);
     EXPECT_NEAR(shape.deformation, 0.05, 3e-3) << "4 to 6 % are in modes beyond c7";
-    EXPECT_FALSE(fitted_cell(map, conditions, 80, -0.01));
-    EXPECT_FALSE(fitted_cell(map, conditions, NAN, 0.05));
+    EXPECT_FALSE(model_outline(map, conditions, 80, -0.01));
+    EXPECT_FALSE(model_outline(map, conditions, NAN, 0.05));
   }
 }
 
-TEST(FittedCell, HasAVolumeOfRevolution) {
+TEST(ModelOutline, HasAVolumeOfRevolution) {
   constexpr int points = 2000;
   Eigen::MatrixX2d ellipse(points, 2);
   for (int i = 0; i < points; ++i) {

@@ -1,4 +1,4 @@
-#include "infer/text_of_map.h"
+#include "infer/map_as_lut.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ namespace rheocyte {
 namespace {
 
 TableSpec spec_of(const ModulusMap& map) {
-  if (!map.is_own())
+  if (!map.is_rheocyte_table())
     throw UserError(fmt::format("{}: is a text table itself; its grid would be needed, grid_*.cbor beside it.",
                                 map.origin().identifier));
   return parse_table_spec(map.origin().spec, map.origin().identifier, {});
@@ -30,7 +30,7 @@ struct Answers {
 };
 
 // In the channel of the table.
-Answers answers_at(const ModulusMap& map, std::span<const TextPlace> places) {
+Answers answers_at(const ModulusMap& map, std::span<const LutNode> places) {
   std::vector<double> area, deformation;
   for (const auto& place : places) {
     area.push_back(place.area_um2);
@@ -45,8 +45,8 @@ Answers answers_at(const ModulusMap& map, std::span<const TextPlace> places) {
 }
 
 // The last smooth states, by growing area.
-std::vector<TextPlace> smooth_ends(const ModulusMap& map, const TableSpec& spec) {
-  std::vector<TextPlace> ends;
+std::vector<LutNode> smooth_ends(const ModulusMap& map, const TableSpec& spec) {
+  std::vector<LutNode> ends;
   for (const auto& [area, lowest] : text_places(spec)) {
     if (!ends.empty() && ends.back().area_um2 == area) continue;
     const double end = map.deformations(area).upper;
@@ -55,7 +55,7 @@ std::vector<TextPlace> smooth_ends(const ModulusMap& map, const TableSpec& spec)
   return ends;
 }
 
-void add_smooth_ends(TableText& text, std::span<const TextPlace> ends) {
+void add_smooth_ends(TableText& text, std::span<const LutNode> ends) {
   auto area = nlohmann::ordered_json::array(), deformation = area;
   for (const auto& end : ends) {
     area.push_back(end.area_um2);
@@ -75,7 +75,7 @@ std::vector<double> levels_of_lines(const ModulusMap& map) {
 
 }  // namespace
 
-TableText text_of_map(const ModulusMap& map) {
+TableText map_as_lut(const ModulusMap& map) {
   const TableSpec spec = spec_of(map);
   const auto places = text_places(spec);
   const Answers answers = answers_at(map, places);
@@ -103,8 +103,8 @@ TableText lines_of_map(const ModulusMap& map) {
 }
 
 void write_texts_of_map(const ModulusMap& map, const std::filesystem::path& rows, const std::filesystem::path& lines) {
-  write_own_file(rows, to_text(text_of_map(map)), table_mark, Foreign::keep);
-  write_own_file(lines, to_text(lines_of_map(map)), table_mark, Foreign::keep);
+  replace_own_file(rows, to_text(map_as_lut(map)), table_mark, Foreign::keep);
+  replace_own_file(lines, to_text(lines_of_map(map)), table_mark, Foreign::keep);
 }
 
 }  // namespace rheocyte

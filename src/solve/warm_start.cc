@@ -1,4 +1,4 @@
-#include "solve/near_problem.h"
+#include "solve/warm_start.h"
 
 #include <algorithm>
 #include <cmath>

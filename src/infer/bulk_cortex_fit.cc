@@ -1,4 +1,4 @@
-#include "infer/several_moduli.h"
+#include "infer/bulk_cortex_fit.h"
 
 #include <ceres/tiny_solver.h>
 #include <fmt/format.h>
@@ -105,13 +105,13 @@ std::vector<int> features_of_contour(int last) {
   return features;
 }
 
-SeveralModuli::SeveralModuli(const CombinedInterpolation& table, const ChannelFlow& simulated, FitOptions options)
+BulkCortexFit::BulkCortexFit(const CombinedInterpolation& table, const ChannelFlow& simulated, FitOptions options)
     : table_(table), simulated_(simulated), options_(std::move(options)) {
   options_.free_tension = options_.free_tension && table.tension_ratios().size() > 1;
   if (table.tension_ratios().size() == 1) options_.tension_ratio = table.tension_ratios().front();
 }
 
-ModuliMisfit SeveralModuli::misfit(const MeasuredShape& measured, const ChannelFlow& flow,
+ModuliMisfit BulkCortexFit::misfit(const MeasuredShape& measured, const ChannelFlow& flow,
                                    const AxialTension& tension) const {
   MeasuredShape shape = measured;
   const ScaleFactors scale = scale_factors(simulated_, flow);
@@ -124,7 +124,7 @@ ModuliMisfit SeveralModuli::misfit(const MeasuredShape& measured, const ChannelF
           {tension.value_Pa / scale.modulus, std::max(tension.error_Pa / scale.modulus, least_error)}};
 }
 
-ShapeVector SeveralModuli::shape_of(const CellCoordinates& cell, const ChannelFlow& flow) const {
+ShapeVector BulkCortexFit::shape_of(const CellCoordinates& cell, const ChannelFlow& flow) const {
   const CombinedState state = table_.at(cell);
   ShapeVector shape;
   for (int feature = 0; feature < feature_count; ++feature) shape(feature) = state.value(row_of(feature));
@@ -132,15 +132,15 @@ ShapeVector SeveralModuli::shape_of(const CellCoordinates& cell, const ChannelFl
   return shape;
 }
 
-int SeveralModuli::freedom() const { return int(options_.features.size()) - (options_.free_tension ? 4 : 3); }
+int BulkCortexFit::freedom() const { return int(options_.features.size()) - (options_.free_tension ? 4 : 3); }
 
-double SeveralModuli::axial_tension_Pa(const CellCoordinates& cell, const ChannelFlow& flow) const {
+double BulkCortexFit::axial_tension_Pa(const CellCoordinates& cell, const ChannelFlow& flow) const {
   return 1e3 * cell(x_axial) * std::exp(table_.at(cell).value(log_stiffness_row)) *
          scale_factors(simulated_, flow).modulus;
 }
 
 // All coordinates free, then those that left the table's share and tension held at its border.
-SeveralModuli::Candidate SeveralModuli::minimum_from(ModuliMisfit& misfit, const CellCoordinates& start,
+BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const CellCoordinates& start,
                                                      Share share) const {
   std::vector<int> free{x_radius, x_progress};
   if (share == Share::fitted) free.push_back(x_share);
@@ -165,7 +165,7 @@ SeveralModuli::Candidate SeveralModuli::minimum_from(ModuliMisfit& misfit, const
   }
 }
 
-SeveralModuli::Candidate SeveralModuli::nearest(ModuliMisfit& misfit) const {
+BulkCortexFit::Candidate BulkCortexFit::nearest(ModuliMisfit& misfit) const {
   const CellBox& box = table_.box();
   CellCoordinates start = start_for(misfit.shape());
   std::vector<Candidate> minima;
@@ -176,7 +176,7 @@ SeveralModuli::Candidate SeveralModuli::nearest(ModuliMisfit& misfit) const {
   return *std::ranges::min_element(minima, {}, &Candidate::chi_squared);
 }
 
-std::optional<SeveralModuli::Candidate> SeveralModuli::nearest(const MeasuredShape& shape, const ChannelFlow& flow,
+std::optional<BulkCortexFit::Candidate> BulkCortexFit::nearest(const MeasuredShape& shape, const ChannelFlow& flow,
                                                                const AxialTension& tension,
                                                                const CellCoordinates* start) const {
   ModuliMisfit in_table = misfit(shape, flow, tension);
@@ -184,7 +184,7 @@ std::optional<SeveralModuli::Candidate> SeveralModuli::nearest(const MeasuredSha
   return start ? minimum_from(in_table, *start, Share::fitted) : nearest(in_table);
 }
 
-ModuliEstimate SeveralModuli::fit(const MeasuredShape& shape, const ChannelFlow& flow,
+ModuliEstimate BulkCortexFit::fit(const MeasuredShape& shape, const ChannelFlow& flow,
                                   const AxialTension& tension) const {
   ModuliMisfit in_table = misfit(shape, flow, tension);
   if (!in_table.shape().features.allFinite() || !in_table.is_usable()) return {};
@@ -199,7 +199,7 @@ ModuliEstimate SeveralModuli::fit(const MeasuredShape& shape, const ChannelFlow&
   return estimate;
 }
 
-CellCoordinates SeveralModuli::start_for(const MeasuredShape& shape) const {
+CellCoordinates BulkCortexFit::start_for(const MeasuredShape& shape) const {
   const CellBox& box = table_.box();
   CellCoordinates start = CellCoordinates::Zero();
   const auto feature = [&](int number) { return shape.features(number) - shape.errors.bias(number); };
@@ -216,7 +216,7 @@ CellCoordinates SeveralModuli::start_for(const MeasuredShape& shape) const {
 
 // The best cells of other shares of the cortex that fit nearly as well. The covariance alone does not see them where
 // the features depend on the share in a bent way.
-std::vector<SeveralModuli::Candidate> SeveralModuli::profile(ModuliMisfit& misfit, const Candidate& best) const {
+std::vector<BulkCortexFit::Candidate> BulkCortexFit::profile(ModuliMisfit& misfit, const Candidate& best) const {
   constexpr int places = 13;
   const CellBox& box = table_.box();
   std::vector<Candidate> alike;
@@ -229,7 +229,7 @@ std::vector<SeveralModuli::Candidate> SeveralModuli::profile(ModuliMisfit& misfi
   return alike;
 }
 
-void SeveralModuli::forget_what_others_deny(std::span<const Candidate> others, ModuliEstimate& e) const {
+void BulkCortexFit::forget_what_others_deny(std::span<const Candidate> others, ModuliEstimate& e) const {
   for (const Candidate& other : others) {
     const Eigen::Vector3d values = moduli_at(other.cell, table_.at(other.cell)).value;
     for (const Modulus m : all_moduli) {
@@ -239,7 +239,7 @@ void SeveralModuli::forget_what_others_deny(std::span<const Candidate> others, M
   }
 }
 
-SeveralModuli::Covariance SeveralModuli::covariance_at(const ModuliMisfit& misfit, const CellCoordinates& cell) const {
+BulkCortexFit::Covariance BulkCortexFit::covariance_at(const ModuliMisfit& misfit, const CellCoordinates& cell) const {
   Covariance information = misfit.information(cell);
   information.diagonal() += (prior_widths * widths(table_.box())).cwiseInverse().cwiseAbs2();
   std::vector<int> known;  // exactly
@@ -255,7 +255,7 @@ SeveralModuli::Covariance SeveralModuli::covariance_at(const ModuliMisfit& misfi
   return covariance;
 }
 
-ModuliEstimate SeveralModuli::estimate_of(ModuliMisfit& misfit, const Candidate& best) const {
+ModuliEstimate BulkCortexFit::estimate_of(ModuliMisfit& misfit, const Candidate& best) const {
   const CombinedState state = table_.at(best.cell.cwiseMax(table_.box().least).cwiseMin(table_.box().greatest));
   const Covariance covariance = covariance_at(misfit, best.cell);
   const auto error_of = [&](const CellCoordinates& gradient) { return std::sqrt(gradient.dot(covariance * gradient)); };

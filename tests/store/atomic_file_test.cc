@@ -1,5 +1,5 @@
 // A file is there whole or not at all, and what others have put there stays theirs.
-#include "store/whole_file.h"
+#include "store/atomic_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -12,17 +12,17 @@
 #include "case/user_error.h"
 #include "store/own_file.h"
 
-namespace rheocyte::whole_file_test {
+namespace rheocyte::atomic_file_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-class WholeFileTest : public testing::Test {
+class AtomicFileTest : public testing::Test {
  protected:
-  WholeFileTest() : folder_(scratch_beside(fs::temp_directory_path() / "whole-file-test")) {
+  AtomicFileTest() : folder_(scratch_beside(fs::temp_directory_path() / "whole-file-test")) {
     fs::create_directory(folder_);
   }
-  ~WholeFileTest() override { fs::remove_all(folder_); }
+  ~AtomicFileTest() override { fs::remove_all(folder_); }
 
   static std::string content(const fs::path& file) {
     std::ifstream stream(file);
@@ -37,18 +37,18 @@ class WholeFileTest : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(WholeFileTest, ReplacesAnOlderFileAndLeavesNothingElse) {
+TEST_F(AtomicFileTest, ReplacesAnOlderFileAndLeavesNothingElse) {
   for (const std::string text : {"first", "second"}) {
-    EXPECT_EQ(write_whole_file(folder_ / "a.txt", text), 0);
+    EXPECT_EQ(write_atomically(folder_ / "a.txt", text), 0);
     EXPECT_EQ(content(folder_ / "a.txt"), text);
   }
   EXPECT_EQ(names(), std::set<std::string>{"a.txt"});
 }
 
-TEST_F(WholeFileTest, WhatIsNotPublishedLeavesNoTrace) {
-  write_whole_file(folder_ / "a.txt", "old");
+TEST_F(AtomicFileTest, WhatIsNotPublishedLeavesNoTrace) {
+  write_atomically(folder_ / "a.txt", "old");
   {
-    const WholeFile file(folder_ / "a.txt");
+    const AtomicFile file(folder_ / "a.txt");
     std::ofstream(file.scratch()) << "half of the n";
     EXPECT_EQ(names().size(), 2U);
   }
@@ -56,8 +56,8 @@ TEST_F(WholeFileTest, WhatIsNotPublishedLeavesNoTrace) {
   EXPECT_EQ(content(folder_ / "a.txt"), "old");
 }
 
-TEST_F(WholeFileTest, PublishedItStandsInItsPlace) {
-  WholeFile file(folder_ / "a.txt");
+TEST_F(AtomicFileTest, PublishedItStandsInItsPlace) {
+  AtomicFile file(folder_ / "a.txt");
   std::ofstream(file.scratch()) << "new";
   EXPECT_FALSE(fs::exists(folder_ / "a.txt"));
   file.publish();
@@ -65,7 +65,7 @@ TEST_F(WholeFileTest, PublishedItStandsInItsPlace) {
   EXPECT_EQ(names().size(), 1U);
 }
 
-TEST_F(WholeFileTest, HiddenNamesDifferAndTellTheirPlace) {
+TEST_F(AtomicFileTest, HiddenNamesDifferAndTellTheirPlace) {
   const fs::path place = folder_ / "a.b.txt";
   const auto one = scratch_beside(place), other = scratch_beside(place);
   EXPECT_NE(one, other);
@@ -74,7 +74,7 @@ TEST_F(WholeFileTest, HiddenNamesDifferAndTellTheirPlace) {
     EXPECT_EQ(place_of(folder_ / name), folder_ / name);
 }
 
-TEST_F(WholeFileTest, WhatAKilledProcessHasLeftIsRemovedAndWhatIsInUseIsNot) {
+TEST_F(AtomicFileTest, WhatAKilledProcessHasLeftIsRemovedAndWhatIsInUseIsNot) {
   const fs::path other = scratch_beside(folder_ / "b.txt"), folder = scratch_beside(folder_ / "c");
   std::ofstream(other) << "half of the n";
   fs::create_symlink("a.txt", scratch_beside(folder_ / "d.txt"));
@@ -83,7 +83,7 @@ TEST_F(WholeFileTest, WhatAKilledProcessHasLeftIsRemovedAndWhatIsInUseIsNot) {
   const Scratch in_use = new_scratch_file(folder_ / "e.txt");
   EXPECT_FALSE(fs::exists(other));
   const pid_t child = ::fork();
-  if (child == 0) ::_exit(write_whole_file(folder_ / "a.txt", "new"));  // another process looks for left-overs anew
+  if (child == 0) ::_exit(write_atomically(folder_ / "a.txt", "new"));  // another process looks for left-overs anew
   int status = -1;
   ::waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
@@ -93,34 +93,34 @@ TEST_F(WholeFileTest, WhatAKilledProcessHasLeftIsRemovedAndWhatIsInUseIsNot) {
   EXPECT_EQ(names().size(), 5U);
 }
 
-TEST_F(WholeFileTest, WhatComesToItsPlaceMeanwhileIsKept) {
+TEST_F(AtomicFileTest, WhatComesToItsPlaceMeanwhileIsKept) {
   const fs::path place = folder_ / "a.txt";
-  WholeFile file(place, [&] { check_replaceable(place, "# mine", Foreign::keep); });
-  write_whole_file(place, "notes of somebody");
+  AtomicFile file(place, [&] { check_replaceable(place, "# mine", Foreign::keep); });
+  write_atomically(place, "notes of somebody");
   EXPECT_THROW(file.publish(), UserError);
   EXPECT_EQ(content(place), "notes of somebody");
 }
 
-TEST_F(WholeFileTest, ALinkStaysALink) {
-  write_whole_file(folder_ / "a.txt", "# mine: old");
+TEST_F(AtomicFileTest, ALinkStaysALink) {
+  write_atomically(folder_ / "a.txt", "# mine: old");
   fs::create_symlink(folder_ / "a.txt", folder_ / "link.txt");
-  write_own_file(folder_ / "link.txt", "# mine: new", "# mine", Foreign::keep);
+  replace_own_file(folder_ / "link.txt", "# mine: new", "# mine", Foreign::keep);
   EXPECT_TRUE(fs::is_symlink(folder_ / "link.txt"));
   EXPECT_EQ(content(folder_ / "a.txt"), "# mine: new");
 }
 
-TEST_F(WholeFileTest, FilesOfOthersAreKept) {
-  write_whole_file(folder_ / "a.txt", "notes of somebody");
-  EXPECT_THROW(write_own_file(folder_ / "a.txt", "# mine", "# mine", Foreign::keep), UserError);
+TEST_F(AtomicFileTest, FilesOfOthersAreKept) {
+  write_atomically(folder_ / "a.txt", "notes of somebody");
+  EXPECT_THROW(replace_own_file(folder_ / "a.txt", "# mine", "# mine", Foreign::keep), UserError);
   EXPECT_EQ(content(folder_ / "a.txt"), "notes of somebody");
-  write_own_file(folder_ / "a.txt", "# mine", "# mine", foreign(true));
+  replace_own_file(folder_ / "a.txt", "# mine", "# mine", foreign(true));
   EXPECT_EQ(content(folder_ / "a.txt"), "# mine");
 }
 
-TEST_F(WholeFileTest, AFolderThatIsMissingGivesASentence) {
-  EXPECT_THROW(WholeFile(folder_ / "missing/a.txt"), UserError);
-  EXPECT_EQ(write_whole_file(folder_ / "missing/a.txt", "x"), ENOENT);
+TEST_F(AtomicFileTest, AFolderThatIsMissingGivesASentence) {
+  EXPECT_THROW(AtomicFile(folder_ / "missing/a.txt"), UserError);
+  EXPECT_EQ(write_atomically(folder_ / "missing/a.txt", "x"), ENOENT);
 }
 
 }  // namespace
-}  // namespace rheocyte::whole_file_test
+}  // namespace rheocyte::atomic_file_test

@@ -10,14 +10,14 @@ namespace rheocyte {
 
 /// A file that does not stand in its place yet. It is written under a hidden name beside that place, which nobody can
 /// foresee; what is not published leaves no trace, and what a killed process leaves is removed by the next one.
-class WholeFile {
+class AtomicFile {
  public:
   /// Makes the empty file. `check` throws if what stands in the place must not be replaced; it is asked now and when
   /// the file is published. UserError.
-  explicit WholeFile(const std::filesystem::path& wanted, std::function<void()> check = {});
-  ~WholeFile();
-  WholeFile(WholeFile&&) noexcept = default;
-  WholeFile& operator=(WholeFile&&) = delete;
+  explicit AtomicFile(const std::filesystem::path& wanted, std::function<void()> check = {});
+  ~AtomicFile();
+  AtomicFile(AtomicFile&&) noexcept = default;
+  AtomicFile& operator=(AtomicFile&&) = delete;
 
   /// Where to write now.
   const std::filesystem::path& scratch() const { return scratch_.path; }
@@ -34,7 +34,7 @@ class WholeFile {
 };
 
 /// Writes `content` in the same way. Returns 0 or the number of the error (errno).
-int write_whole_file(const std::filesystem::path& wanted, std::string_view content);
+int write_atomically(const std::filesystem::path& wanted, std::string_view content);
 
 /// Writes a file into a folder that is published as a whole. Returns 0 or errno.
 int write_part(const std::filesystem::path& file, std::string_view content);

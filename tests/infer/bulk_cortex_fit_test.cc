@@ -1,4 +1,4 @@
-#include "infer/several_moduli.h"
+#include "infer/bulk_cortex_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "infer/slopes_between_cells.h"
 #include "measurement/shape_in_pixels.h"
 
-namespace rheocyte::several_moduli_test {
+namespace rheocyte::bulk_cortex_fit_test {
 namespace {
 
 using namespace test;
@@ -26,18 +26,18 @@ ShapeErrors fine_errors(double deviation = 1e-5) {
 
 /// E, E2D and tension of a cell of the invented table.
 struct Cell {
-  BranchPlace place;
+  SweepPoint place;
   double stiffness;
   double young() const { return (1 - place.cortex_share) * stiffness; }
   double cortex() const { return place.cortex_share * stiffness * place.radius_um; }
   double tension() const { return place.tension_ratio * cortex(); }
 };
 
-class SeveralModuliOf : public testing::Test {
+class BulkCortexFitOf : public testing::Test {
  protected:
-  SeveralModuliOf() : between_(whole_combined_table()), simulated_(channel_flow_of(whole_combined_table().spec.base)) {}
+  BulkCortexFitOf() : between_(whole_combined_table()), simulated_(channel_flow_of(whole_combined_table().spec.base)) {}
 
-  SeveralModuli estimator(std::vector<int> features, bool free_tension = false, double ratio = 0.15) const {
+  BulkCortexFit estimator(std::vector<int> features, bool free_tension = false, double ratio = 0.15) const {
     return {between_, simulated_, {std::move(features), free_tension, ratio}};
   }
 
@@ -55,7 +55,7 @@ class SeveralModuliOf : public testing::Test {
   std::mt19937 engine_{1};
 };
 
-TEST_F(SeveralModuliOf, AnExactShapeGivesTheModuliBack) {
+TEST_F(BulkCortexFitOf, AnExactShapeGivesTheModuliBack) {
   // By the two measures of the paper's figure 9 and the area, by the volume, and by the whole contour: the table's own
   // interpolation, 3e-3 in d, leaves 1.5 % of the moduli.
   for (int trial = 0; trial < 20; ++trial) {
@@ -76,7 +76,7 @@ TEST_F(SeveralModuliOf, AnExactShapeGivesTheModuliBack) {
   }
 }
 
-TEST_F(SeveralModuliOf, TheWholeContourGivesTheTensionToo) {
+TEST_F(BulkCortexFitOf, TheWholeContourGivesTheTensionToo) {
   // Three unknowns and a size from the area and five modes; the errors are those of the table.
   for (int trial = 0; trial < 20; ++trial) {
     Cell cell = random_cell(std::uniform_real_distribution(0.05, 0.25)(engine_));
@@ -90,7 +90,7 @@ TEST_F(SeveralModuliOf, TheWholeContourGivesTheTensionToo) {
   }
 }
 
-TEST_F(SeveralModuliOf, AnotherChannelScalesExactly) {
+TEST_F(BulkCortexFitOf, AnotherChannelScalesExactly) {
   // Twice as wide, three times the flow rate, half the viscosity: lengths double; E by 1.5 / 8, E2D and tension by 1.5
   // / 4.
   const Cell cell = random_cell(0.15);
@@ -104,7 +104,7 @@ TEST_F(SeveralModuliOf, AnotherChannelScalesExactly) {
   EXPECT_NEAR(wide.value(Modulus::tension) / narrow.value(Modulus::tension), 1.5 / 4, 1e-9);
 }
 
-TEST_F(SeveralModuliOf, FromPixelsTheTruthLiesInNineOfTenIntervals) {
+TEST_F(BulkCortexFitOf, FromPixelsTheTruthLiesInNineOfTenIntervals) {
   // 200 cells at 0.34 um and random positions: 90 % intervals hold 90 % +- 2.1 % (standard deviation of the count)
   // where errors are normal; the bias of pixels is that of the rendered errors.
   constexpr double pixel_um = 0.34;
@@ -127,7 +127,7 @@ TEST_F(SeveralModuliOf, FromPixelsTheTruthLiesInNineOfTenIntervals) {
   EXPECT_LT(cortex, 0.97 * cells);
 }
 
-TEST_F(SeveralModuliOf, WhatTheDataDoNotTellIsSaid) {
+TEST_F(BulkCortexFitOf, WhatTheDataDoNotTellIsSaid) {
   // A hardly deformed cell in pixels: E and E2D are unknown, the sentence says so.
   const Cell stiff{{7, 0.5, 0.15}, 4};
   MeasuredShape shape{invented_features(stiff.place, stiff.stiffness), fine_errors(0.005)};
@@ -136,7 +136,7 @@ TEST_F(SeveralModuliOf, WhatTheDataDoNotTellIsSaid) {
   EXPECT_NE(sentence(found).find("do not tell"), std::string::npos) << sentence(found);
 }
 
-TEST_F(SeveralModuliOf, ShapesThatNoCellHasAreSaid) {
+TEST_F(BulkCortexFitOf, ShapesThatNoCellHasAreSaid) {
   // Too large, not a number, and a contour that no cell of the table has.
   const Cell cell = random_cell(0.15);
   const MeasuredShape good{invented_features(cell.place, cell.stiffness), fine_errors(1e-3)};
@@ -174,7 +174,7 @@ class ElongatedCells : public testing::Test {
       return std::uniform_real_distribution(least, greatest)(engine_);
     };
     const double S = uniform(1.5, 2.2), in_table_kPa = 1e-3 * tension_Pa / 2;
-    const BranchPlace place{uniform(6.2, 7.2), uniform(0.35, 0.65), uniform(0.15, 0.35), in_table_kPa / S};
+    const SweepPoint place{uniform(6.2, 7.2), uniform(0.35, 0.65), uniform(0.15, 0.35), in_table_kPa / S};
     SeenCell seen{{invented_elongated_features(place, S), fine_errors(1e-3)}, simulated_};
     seen.flow.viscosity_mPas *= 2;
     std::normal_distribution normal;
@@ -191,7 +191,7 @@ class ElongatedCells : public testing::Test {
 
   CombinedInterpolation between_;
   ChannelFlow simulated_;
-  SeveralModuli moduli_;
+  BulkCortexFit moduli_;
   std::mt19937 engine_{5};
 };
 
@@ -271,7 +271,7 @@ TEST_F(ElongatedCells, SlopesBetweenCellsOfOneTensionAreThoseOfTheModel) {
     for (int i = 0; i < 30; ++i) {
       const double way = (i - 14.5) / 30, S = by_tension ? 1.8 : 1.8 * (1 + 0.3 * way);
       const double tension_kPa = by_tension ? 0.5 * (1 + 0.3 * way) : 0.5;
-      const BranchPlace place{6.7 * (1 + 0.02 * std::sin(7.0 * i)), 0.5, 0.25, tension_kPa / S};
+      const SweepPoint place{6.7 * (1 + 0.02 * std::sin(7.0 * i)), 0.5, 0.25, tension_kPa / S};
       cells.push_back(cell_modes(invented_elongated_features(place, S)));
     }
     return slopes_between(cells).value;
@@ -297,4 +297,4 @@ TEST_F(ElongatedCells, TheWallsShearStressIsThatOfTheTube) {
 }
 
 }  // namespace
-}  // namespace rheocyte::several_moduli_test
+}  // namespace rheocyte::bulk_cortex_fit_test

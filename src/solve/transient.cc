@@ -1,4 +1,4 @@
-#include "solve/follow_in_time.h"
+#include "solve/transient.h"
 
 #include <fmt/format.h>
 
@@ -346,8 +346,8 @@ std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run
 
 }  // namespace
 
-StationaryState follow_in_time(const Problem& problem, const TimeRun& run, const TimeObserver& observer,
-                               const TimeStart* from, const WorkLimits& limits) {
+StationaryState transient(const Problem& problem, const TimeRun& run, const TimeObserver& observer,
+                          const TimeStart* from, const WorkLimits& limits) {
   const Resolution resolution = from ? from->state.resolution : resolution_of(problem, run, limits);
   const bool estimates = run.estimates_error && !from;
   Deformations deformations;

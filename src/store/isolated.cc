@@ -1,4 +1,4 @@
-#include "store/contained.h"
+#include "store/isolated.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -31,7 +31,7 @@ namespace rheocyte {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Kind = ContainedEnd::Kind;
+using Kind = IsolatedEnd::Kind;
 
 enum class MessageKind : char { progress = 'p', result = 'r', user_error = 'u', own_error = 'o', no_memory = 'm' };
 
@@ -68,7 +68,7 @@ int pipe_to_parent = -1;
   ::_exit(0);
 }
 
-void limit(const Containment& limits) {
+void limit(const Isolation& limits) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their shadow memory needs terabytes of addresses
@@ -100,7 +100,7 @@ class SignalsHeldBack {
   sigset_t before_{};
 };
 
-[[noreturn]] void be_the_child(const std::function<std::string(const TellProgress&)>& work, const Containment& limits,
+[[noreturn]] void be_the_child(const std::function<std::string(const TellProgress&)>& work, const Isolation& limits,
                                int pipe, const SignalsHeldBack& signals) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // A terminal sends its signals to all processes. The parent answers them; a child that died of them would look like
@@ -134,9 +134,9 @@ class SignalsHeldBack {
 }  // namespace
 
 /// Puts messages together from what arrives in pieces.
-class ContainedInbox {
+class IsolatedInbox {
  public:
-  explicit ContainedInbox(const TellProgress& on_progress) : on_progress_(on_progress) {}
+  explicit IsolatedInbox(const TellProgress& on_progress) : on_progress_(on_progress) {}
 
   /// False at the end of the pipe.
   bool read_from(int pipe) {
@@ -151,7 +151,7 @@ class ContainedInbox {
   }
 
   bool has_end() const { return has_end_; }
-  const ContainedEnd& end() const { return end_; }
+  const IsolatedEnd& end() const { return end_; }
 
  private:
   bool take_message() {
@@ -178,14 +178,14 @@ class ContainedInbox {
 
   const TellProgress& on_progress_;
   std::string bytes_;
-  ContainedEnd end_;
+  IsolatedEnd end_;
   bool has_end_ = false;
 };
 
 namespace {
 
 // What the messages, the status and our own impatience say together.
-ContainedEnd conclude(const ContainedInbox& inbox, int status) {
+IsolatedEnd conclude(const IsolatedInbox& inbox, int status) {
   if (WIFEXITED(status) && inbox.has_end()) return inbox.end();
   // A breakdown after the result (when HDF5 closes) does not make the result good: files may be incomplete.
   if (WIFSIGNALED(status))
@@ -203,9 +203,9 @@ void kill_child(pid_t child) {
 }  // namespace
 
 /// A child and what has come from it.
-class ContainedPool::Run {
+class IsolatedPool::Run {
  public:
-  Run(const ContainedWork& work, Containment limits, TellProgress on_progress, OnEnd on_end)
+  Run(const IsolatedWork& work, Isolation limits, TellProgress on_progress, OnEnd on_end)
       : limits_(std::move(limits)), on_progress_(std::move(on_progress)), on_end_(std::move(on_end)) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw SystemLimit("open files", errno);
@@ -236,7 +236,7 @@ class ContainedPool::Run {
   int pause_ms() const { return limits_.is_wanted ? 50 : 200; }
 
   /// What has come, if there is anything, and whether it has to be given up. Its end, once it has come.
-  std::optional<ContainedEnd> look(bool has_come) {
+  std::optional<IsolatedEnd> look(bool has_come) {
     if (has_come) {
       last_word_ = Clock::now();
       if (!inbox_.read_from(pipe_)) return has_ended_ = true, conclude(inbox_, wait_for(child_));
@@ -246,35 +246,35 @@ class ContainedPool::Run {
     if (!hangs && !stops) return std::nullopt;
     kill_child(child_);
     has_ended_ = true;
-    return ContainedEnd{stops ? Kind::stopped : Kind::hung, {}};
+    return IsolatedEnd{stops ? Kind::stopped : Kind::hung, {}};
   }
-  void tell_end(ContainedEnd end) const { on_end_(std::move(end)); }
+  void tell_end(IsolatedEnd end) const { on_end_(std::move(end)); }
 
  private:
-  Containment limits_;
+  Isolation limits_;
   TellProgress on_progress_;
   OnEnd on_end_;
   pid_t child_ = -1;
   int pipe_ = -1;
-  ContainedInbox inbox_{on_progress_};
+  IsolatedInbox inbox_{on_progress_};
   Clock::time_point last_word_ = Clock::now();
   bool has_ended_ = false;
 };
 
-ContainedPool::ContainedPool(int at_once) : at_once_(at_once) {}
-ContainedPool::~ContainedPool() = default;
+IsolatedPool::IsolatedPool(int at_once) : at_once_(at_once) {}
+IsolatedPool::~IsolatedPool() = default;
 
-void ContainedPool::start(const ContainedWork& work, const Containment& limits, const TellProgress& on_progress,
-                          const OnEnd& on_end) {
+void IsolatedPool::start(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress,
+                         const OnEnd& on_end) {
   while (std::ssize(runs_) >= at_once_) look();
   runs_.push_back(std::make_unique<Run>(work, limits, on_progress, on_end));
 }
 
-void ContainedPool::wait_for_all() {
+void IsolatedPool::wait_for_all() {
   while (!runs_.empty()) look();
 }
 
-void ContainedPool::look() {
+void IsolatedPool::look() {
   std::vector<pollfd> wanted;
   int pause_ms = 200;
   for (const auto& run : runs_) {
@@ -282,7 +282,7 @@ void ContainedPool::look() {
     pause_ms = std::min(pause_ms, run->pause_ms());
   }
   const int ready = ::poll(wanted.data(), wanted.size(), pause_ms);
-  std::vector<std::pair<std::unique_ptr<Run>, ContainedEnd>> ended;
+  std::vector<std::pair<std::unique_ptr<Run>, IsolatedEnd>> ended;
   for (std::size_t i = wanted.size(); i-- > 0;) {
     const auto run = runs_.begin() + std::ptrdiff_t(i);
     auto end = (*run)->look(ready > 0 && wanted[i].revents != 0);
@@ -293,11 +293,10 @@ void ContainedPool::look() {
   for (auto& [run, end] : ended) run->tell_end(std::move(end));
 }
 
-ContainedEnd run_contained_bytes(const ContainedWork& work, const Containment& limits,
-                                 const TellProgress& on_progress) {
-  ContainedEnd result;
-  ContainedPool pool(1);
-  pool.start(work, limits, on_progress, [&](ContainedEnd end) { result = std::move(end); });
+IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress) {
+  IsolatedEnd result;
+  IsolatedPool pool(1);
+  pool.start(work, limits, on_progress, [&](IsolatedEnd end) { result = std::move(end); });
   pool.wait_for_all();
   return result;
 }

@@ -1,4 +1,4 @@
-#include "store/whole_file.h"
+#include "store/atomic_file.h"
 
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ int write_part(const fs::path& file, std::string_view content) {
   return failed ? failed : not_closed;
 }
 
-int write_whole_file(const fs::path& wanted, std::string_view content) {
+int write_atomically(const fs::path& wanted, std::string_view content) {
   const Scratch scratch = new_scratch_file(wanted);
   if (scratch.failed) return scratch.failed;
   int failed = write_all(scratch.claim, content);
@@ -54,21 +54,22 @@ int write_whole_file(const fs::path& wanted, std::string_view content) {
   return failed;
 }
 
-WholeFile::WholeFile(const fs::path& wanted, std::function<void()> check) : wanted_(wanted), check_(std::move(check)) {
+AtomicFile::AtomicFile(const fs::path& wanted, std::function<void()> check)
+    : wanted_(wanted), check_(std::move(check)) {
   this->check();
   scratch_ = new_scratch_file(wanted_);
   if (scratch_.failed) refuse(wanted_, "the file cannot be written", scratch_.failed);
 }
 
-WholeFile::~WholeFile() {
+AtomicFile::~AtomicFile() {
   if (scratch_.claim) remove_scratch(scratch_);
 }
 
-void WholeFile::check() const {
+void AtomicFile::check() const {
   if (check_) check_();
 }
 
-void WholeFile::publish() {
+void AtomicFile::publish() {
   std::error_code error;
   const bool is_new = !fs::exists(fs::symlink_status(wanted_, error));
   check();  // the world may have changed while the file was written

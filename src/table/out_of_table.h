@@ -5,7 +5,7 @@
 namespace rheocyte {
 
 /// Why a table has no answer.
-enum class NoAnswer {
+enum class OutOfTable {
   none,        ///< there is one
   invalid,     ///< a number that is not finite or not positive
   too_small,   ///< area or volume below the table's
@@ -16,6 +16,6 @@ enum class NoAnswer {
   unresolved,  ///< a gap between the branches: states that did not converge
 };
 /// "too-stiff" etc.; "" for none.
-std::string_view name_of(NoAnswer reason);
+std::string_view name_of(OutOfTable reason);
 
 }  // namespace rheocyte

@@ -53,7 +53,7 @@ struct TimeObserver {
 
 /// Follows the cell from the sphere, or from the state of an earlier run on the mesh of that. The result describes the
 /// last state; its `reached` is 1 as the moduli are the wanted ones throughout. Never throws for a numerical failure.
-StationaryState follow_in_time(const Problem&, const TimeRun&, const TimeObserver&, const TimeStart* from = nullptr,
-                               const WorkLimits& limits = {});
+StationaryState transient(const Problem&, const TimeRun&, const TimeObserver&, const TimeStart* from = nullptr,
+                          const WorkLimits& limits = {});
 
 }  // namespace rheocyte

@@ -1,4 +1,4 @@
-#include "view/fitted_cell.h"
+#include "view/model_outline.h"
 
 #include <array>
 #include <cmath>
@@ -17,15 +17,16 @@ Eigen::MatrixX2d outline_about_centroid(const std::array<double, mode_count>& mo
   return outline;
 }
 
-std::optional<FittedCell> fitted_cell(const ShapeMap& map, const MeasuringConditions& conditions, double area_um2,
-                                      double deformation, int points) {
+std::optional<ModelOutline> model_outline(const ShapeMap& map, const MeasuringConditions& conditions, double area_um2,
+                                          double deformation, int points) {
   SmoothEvents smooth;
   const std::array<double, 1> area{area_um2}, measured{deformation};
   remove_pixels(conditions, map.origin().flow, {area, measured, {}}, smooth);
   const double log_area = smooth.log_area[0], true_deformation = smooth.deformation[0];
   if (!std::isfinite(log_area) || !(true_deformation > 0)) return std::nullopt;
   const auto modes = map.shapes().modes(log_area, true_deformation);
-  FittedCell cell{std::exp(log_area) / scale_factors(conditions.flow, map.origin().flow).area, true_deformation, 0, {}};
+  ModelOutline cell{
+      std::exp(log_area) / scale_factors(conditions.flow, map.origin().flow).area, true_deformation, 0, {}};
   // Polygons of so many points are as good as the curve: 1e-5 of the radius.
   constexpr int fine = 1440;
   const Eigen::MatrixX2d curve = outline_of_modes(modes, cell.area_um2, fine);

@@ -8,7 +8,7 @@
 namespace rheocyte {
 
 /// A case as JSON, sections nested or names dotted, with another accuracy if one is asked for. KeyError.
-Case stated_case(const nlohmann::ordered_json& tree, const std::string& accuracy = {});
+Case case_from_json(const nlohmann::ordered_json& tree, const std::string& accuracy = {});
 
 /// The same cell so much stiffer that its state exists, where only a share of the wanted compliance was reached: all
 /// moduli, tension and bending stiffness by the same factor, in round numbers.

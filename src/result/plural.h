@@ -8,7 +8,7 @@
 namespace rheocyte {
 
 /// "1 step", "2 steps".
-inline std::string counted(int number, std::string_view thing) {
+inline std::string plural(int number, std::string_view thing) {
   return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
 }
 

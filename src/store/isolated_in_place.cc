@@ -3,8 +3,8 @@
 #include <new>
 
 #include "case/user_error.h"
-#include "store/contained.h"
 #include "store/in_place.h"
+#include "store/isolated.h"
 #include "store/stop_signal.h"
 
 namespace rheocyte {
@@ -21,21 +21,20 @@ std::recursive_mutex& turn_of_work() {
   return turn;
 }
 
-class ContainedPool::Run {};
+class IsolatedPool::Run {};
 
-ContainedPool::ContainedPool(int at_once) : at_once_(at_once) {}
-ContainedPool::~ContainedPool() = default;
+IsolatedPool::IsolatedPool(int at_once) : at_once_(at_once) {}
+IsolatedPool::~IsolatedPool() = default;
 
-void ContainedPool::start(const ContainedWork& work, const Containment& limits, const TellProgress& on_progress,
-                          const OnEnd& on_end) {
-  on_end(run_contained_bytes(work, limits, on_progress));
+void IsolatedPool::start(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress,
+                         const OnEnd& on_end) {
+  on_end(run_isolated_bytes(work, limits, on_progress));
 }
 
-void ContainedPool::wait_for_all() {}
+void IsolatedPool::wait_for_all() {}
 
-ContainedEnd run_contained_bytes(const ContainedWork& work, const Containment& limits,
-                                 const TellProgress& on_progress) {
-  using Kind = ContainedEnd::Kind;
+IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress) {
+  using Kind = IsolatedEnd::Kind;
   const auto tell = [&](double fraction) {
     on_progress(fraction);
     if (stop_wanted() || (limits.is_wanted && !limits.is_wanted())) throw Stopped();

@@ -80,9 +80,9 @@ std::vector<int> features_of_contour(int last = 6);
 class ModuliMisfit;
 
 /// The table's interpolation must outlive it.
-class SeveralModuli {
+class BulkCortexFit {
  public:
-  SeveralModuli(const CombinedInterpolation& table, const ChannelFlow& simulated, FitOptions options);
+  BulkCortexFit(const CombinedInterpolation& table, const ChannelFlow& simulated, FitOptions options);
 
   ModuliEstimate fit(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension = {}) const;
 

@@ -13,7 +13,7 @@
 
 #include "case/user_error.h"
 #include "extract/options.h"
-#include "store/contained.h"
+#include "store/isolated.h"
 
 namespace rheocyte {
 
@@ -30,18 +30,18 @@ inline void tell(const PythonProgress& progress, double share) {
 /// that reading needs.
 std::size_t taken_addresses();
 
-/// What work(tell_progress) returns in a child, as bytes (store/bytes.h); nothing if it was stopped. UserError for what
-/// is wrong with the file, and if HDF5 broke down on it or was silent for too long. What `progress` throws ends the
-/// work and comes through.
+/// What work(report_progress) returns in a child, as bytes (store/bytes.h); nothing if it was stopped. UserError for
+/// what is wrong with the file, and if HDF5 broke down on it or was silent for too long. What `progress` throws ends
+/// the work and comes through.
 template <class Work>
-auto read_contained(const std::filesystem::path& file, const MeasuringOptions& options, const Work& work,
-                    const PythonProgress& progress, const std::atomic<bool>& stop) {
+auto read_isolated(const std::filesystem::path& file, const MeasuringOptions& options, const Work& work,
+                   const PythonProgress& progress, const std::atomic<bool>& stop) {
   std::exception_ptr thrown;
-  Containment limits;
+  Isolation limits;
   limits.memory_bytes += taken_addresses();
   limits.patience_s = options.patience_s.value_or(default_patience_s);
   limits.is_wanted = [&] { return !stop && !thrown; };
-  auto done = run_contained(work, limits, [&](double share) {
+  auto done = run_isolated(work, limits, [&](double share) {
     if (thrown) return;
     try {
       tell(progress, share);
@@ -50,7 +50,7 @@ auto read_contained(const std::filesystem::path& file, const MeasuringOptions& o
     }
   });
   if (thrown) std::rethrow_exception(thrown);
-  if (done.end.kind == ContainedEnd::Kind::own_error) throw std::runtime_error(done.end.text);
+  if (done.end.kind == IsolatedEnd::Kind::own_error) throw std::runtime_error(done.end.text);
   if (!done.finished() && !done.stopped()) throw UserError(sentence_for(file, done.end, limits.patience_s));
   return std::move(done.result);
 }

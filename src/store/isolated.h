@@ -13,14 +13,14 @@
 
 namespace rheocyte {
 
-/// What the contained work may use.
-struct Containment {
+/// What the isolated work may use.
+struct Isolation {
   std::size_t memory_bytes = std::size_t{4} << 30U;
   double patience_s = 60;                ///< without a word of progress it counts as hanging
   std::function<bool()> is_wanted = {};  ///< asked several times a second; once it is false, the work is stopped
 };
 
-struct ContainedEnd {
+struct IsolatedEnd {
   enum class Kind {
     finished,
     user_error,  ///< `text` is the sentence
@@ -36,35 +36,34 @@ struct ContainedEnd {
 };
 
 template <class Result>
-struct Contained {
-  ContainedEnd end;
+struct Isolated {
+  IsolatedEnd end;
   Result result{};  ///< of work that has finished
 
-  bool finished() const { return end.kind == ContainedEnd::Kind::finished; }
-  bool stopped() const { return end.kind == ContainedEnd::Kind::stopped; }
+  bool finished() const { return end.kind == IsolatedEnd::Kind::finished; }
+  bool stopped() const { return end.kind == IsolatedEnd::Kind::stopped; }
 };
 
 /// What it returns comes back as the text of the end.
-using ContainedWork = std::function<std::string(const TellProgress&)>;
+using IsolatedWork = std::function<std::string(const TellProgress&)>;
 
-/// As run_contained; `text` of work that has finished is what it returned. SystemLimit if the system gives no process.
-ContainedEnd run_contained_bytes(const ContainedWork& work, const Containment& limits, const TellProgress& on_progress);
+/// As run_isolated; `text` of work that has finished is what it returned. SystemLimit if the system gives no process.
+IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress);
 
-/// Several works, each as by run_contained_bytes, some at once; what they tell and how they ended is told in the
+/// Several works, each as by run_isolated_bytes, some at once; what they tell and how they ended is told in the
 /// caller's thread, while it starts the next one or waits. Where there are no processes, one after another.
-class ContainedPool {
+class IsolatedPool {
  public:
-  using OnEnd = std::function<void(ContainedEnd)>;
+  using OnEnd = std::function<void(IsolatedEnd)>;
 
-  explicit ContainedPool(int at_once);
+  explicit IsolatedPool(int at_once);
   /// What still runs is ended.
-  ~ContainedPool();
-  ContainedPool(const ContainedPool&) = delete;
-  ContainedPool& operator=(const ContainedPool&) = delete;
+  ~IsolatedPool();
+  IsolatedPool(const IsolatedPool&) = delete;
+  IsolatedPool& operator=(const IsolatedPool&) = delete;
 
   /// Waits for a place. SystemLimit if the system gives no process.
-  void start(const ContainedWork& work, const Containment& limits, const TellProgress& on_progress,
-             const OnEnd& on_end);
+  void start(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress, const OnEnd& on_end);
   void wait_for_all();
 
  private:
@@ -77,14 +76,14 @@ class ContainedPool {
 
 /// The result of work that returned it as bytes.
 template <class Result>
-Contained<Result> contained_from(ContainedEnd end) {
-  Contained<Result> contained{std::move(end)};
-  if (!contained.finished()) return contained;
-  if (auto result = from_bytes<Result>(contained.end.text))
-    contained.result = std::move(*result);
+Isolated<Result> isolated_from(IsolatedEnd end) {
+  Isolated<Result> isolated{std::move(end)};
+  if (!isolated.finished()) return isolated;
+  if (auto result = from_bytes<Result>(isolated.end.text))
+    isolated.result = std::move(*result);
   else
-    contained.end = {ContainedEnd::Kind::own_error, "its result came back incomplete"};
-  return contained;
+    isolated.end = {IsolatedEnd::Kind::own_error, "its result came back incomplete"};
+  return isolated;
 }
 
 /// Forks, runs `work` in the child, where it may tell its progress, and returns what became of it; the result comes
@@ -93,13 +92,13 @@ Contained<Result> contained_from(ContainedEnd end) {
 /// the one that calls is there in the child: the work must not need what others may hold, such as an interpreter's
 /// lock.
 template <class Work>
-auto run_contained(const Work& work, const Containment& limits, const TellProgress& on_progress) {
+auto run_isolated(const Work& work, const Isolation& limits, const TellProgress& on_progress) {
   using Result = std::invoke_result_t<const Work&, const TellProgress&>;
-  const auto as_bytes = [&](const TellProgress& tell_progress) { return to_bytes(work(tell_progress)); };
-  return contained_from<Result>(run_contained_bytes(as_bytes, limits, on_progress));
+  const auto as_bytes = [&](const TellProgress& report_progress) { return to_bytes(work(report_progress)); };
+  return isolated_from<Result>(run_isolated_bytes(as_bytes, limits, on_progress));
 }
 
 /// What the user is told of a recording whose reading has not finished: one sentence.
-std::string sentence_for(const std::filesystem::path& recording, const ContainedEnd& end, double patience_s);
+std::string sentence_for(const std::filesystem::path& recording, const IsolatedEnd& end, double patience_s);
 
 }  // namespace rheocyte

@@ -11,7 +11,7 @@ struct TableText;
 
 /// The table on the rows of text_places(), and where it ends at its smooth branches, their ends. UserError if it is not
 /// one of rheocyte's own.
-TableText text_of_map(const ModulusMap& map);
+TableText map_as_lut(const ModulusMap& map);
 
 /// Isoelasticity lines of moduli that spread evenly, where the bare surface is smooth. UserError as above.
 TableText lines_of_map(const ModulusMap& map);

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include "case/user_error.h"
-#include "store/contained.h"
+#include "store/isolated.h"
 
 namespace rheocyte {
 
-std::string sentence_for(const std::filesystem::path& recording, const ContainedEnd& end, double patience_s) {
+std::string sentence_for(const std::filesystem::path& recording, const IsolatedEnd& end, double patience_s) {
   const std::string name = one_line(recording.string(), 300);
-  using Kind = ContainedEnd::Kind;
+  using Kind = IsolatedEnd::Kind;
   switch (end.kind) {
     case Kind::user_error: return end.text;
     case Kind::no_memory:

@@ -1,5 +1,5 @@
-// Whatever happens to contained work, its parent lives on and knows what it was.
-#include "store/contained.h"
+// Whatever happens to isolated work, its parent lives on and knows what it was.
+#include "store/isolated.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,28 +13,28 @@
 #include "case/user_error.h"
 #include "store/stop_signal.h"
 
-namespace rheocyte::contained_test {
+namespace rheocyte::isolated_test {
 namespace {
 
-using Kind = ContainedEnd::Kind;
+using Kind = IsolatedEnd::Kind;
 
-ContainedEnd end_of(const std::function<std::string(const TellProgress&)>& work, const Containment& limits = {}) {
-  return run_contained(work, limits, [](double) {}).end;
+IsolatedEnd end_of(const std::function<std::string(const TellProgress&)>& work, const Isolation& limits = {}) {
+  return run_isolated(work, limits, [](double) {}).end;
 }
 
-TEST(Contained, TheResultComesBackWhole) {
+TEST(Isolated, TheResultComesBackWhole) {
   const std::string text(300'000, 'x');  // more than a pipe holds
   const auto work = [&](const TellProgress&) { return std::vector<std::string>{text, "", "more"}; };
-  const auto done = run_contained(work, {}, [](double) {});
+  const auto done = run_isolated(work, {}, [](double) {});
   ASSERT_TRUE(done.finished());
   EXPECT_EQ(done.result, work({}));
 }
 
 /// Some at once, of which one breaks down and one throws; each end comes once, with what belongs to it.
-TEST(Contained, SeveralAtOnceEndEachByItself) {
+TEST(Isolated, SeveralAtOnceEndEachByItself) {
   std::vector<std::string> ends(8);
   std::vector<double> told(8, 0);
-  ContainedPool pool(3);
+  IsolatedPool pool(3);
   for (std::size_t i = 0; i < ends.size(); ++i) {
     pool.start(
         [i](const TellProgress& tell) -> std::string {
@@ -47,7 +47,7 @@ TEST(Contained, SeveralAtOnceEndEachByItself) {
           return std::string(100'000, char('a' + i));  // more than a pipe holds
         },
         {}, [&told, i](double fraction) { told[i] = fraction; },
-        [&ends, i](const ContainedEnd& end) {
+        [&ends, i](const IsolatedEnd& end) {
           EXPECT_TRUE(ends[i].empty());
           ends[i] = end.kind == Kind::broke_down ? "broken" : end.text;
         });
@@ -59,9 +59,9 @@ TEST(Contained, SeveralAtOnceEndEachByItself) {
   }
 }
 
-TEST(Contained, ProgressIsToldInOrder) {
+TEST(Isolated, ProgressIsToldInOrder) {
   std::vector<double> told;
-  run_contained(
+  run_isolated(
       [](const TellProgress& tell) {
         for (int i = 0; i < 100; ++i) tell(0.01 * i);
         return std::string();
@@ -71,7 +71,7 @@ TEST(Contained, ProgressIsToldInOrder) {
   EXPECT_EQ(told.back(), 0.99);
 }
 
-TEST(Contained, ErrorsComeBackAsWhatTheyAre) {
+TEST(Isolated, ErrorsComeBackAsWhatTheyAre) {
   const auto user = end_of([](const TellProgress&) -> std::string { throw UserError("a sentence."); });
   EXPECT_EQ(user.kind, Kind::user_error);
   EXPECT_EQ(user.text, "a sentence.");
@@ -80,7 +80,7 @@ TEST(Contained, ErrorsComeBackAsWhatTheyAre) {
   EXPECT_EQ(own.text, "oops");
 }
 
-TEST(Contained, ACrashIsNamed) {
+TEST(Isolated, ACrashIsNamed) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGFPE}) {
     const auto end = end_of([&](const TellProgress&) -> std::string {
       std::signal(signal, SIG_DFL);
@@ -92,11 +92,11 @@ TEST(Contained, ACrashIsNamed) {
   }
 }
 
-TEST(Contained, AProcessThatEndsWithoutAResultHasBrokenDown) {
+TEST(Isolated, AProcessThatEndsWithoutAResultHasBrokenDown) {
   EXPECT_EQ(end_of([](const TellProgress&) -> std::string { ::_exit(0); }).kind, Kind::broke_down);
 }
 
-TEST(Contained, SignalsToTheWholeProgramDoNotBreakTheWork) {
+TEST(Isolated, SignalsToTheWholeProgramDoNotBreakTheWork) {
   const auto end = end_of([](const TellProgress&) -> std::string {
     std::raise(SIGINT);
     std::raise(SIGTERM);
@@ -105,7 +105,7 @@ TEST(Contained, SignalsToTheWholeProgramDoNotBreakTheWork) {
   EXPECT_EQ(end.kind, Kind::finished);
 }
 
-TEST(Contained, AKillFromOutsideIsNoBreakdown) {
+TEST(Isolated, AKillFromOutsideIsNoBreakdown) {
   const auto end = end_of([](const TellProgress&) -> std::string {
     std::raise(SIGKILL);
     return "not reached";
@@ -125,11 +125,11 @@ TEST(Contained, AKillFromOutsideIsNoBreakdown) {
   std::_Exit(end.kind == Kind::stopped ? 0 : 1);
 }
 
-TEST(Contained, TwoSignalsInARowStopTheWorkAndTheParentLivesOnToTidyUp) {
+TEST(Isolated, TwoSignalsInARowStopTheWorkAndTheParentLivesOnToTidyUp) {
   EXPECT_EXIT(exit_as_stopped_by_two_signals(), testing::ExitedWithCode(0), "");
 }
 
-TEST(Contained, SilenceEndsAfterItsPatience) {
+TEST(Isolated, SilenceEndsAfterItsPatience) {
   const auto end = end_of(
       [](const TellProgress&) -> std::string {
         std::this_thread::sleep_for(std::chrono::seconds(60));
@@ -140,7 +140,7 @@ TEST(Contained, SilenceEndsAfterItsPatience) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need terabytes of addresses themselves
-TEST(Contained, MemoryBeyondTheLimitIsRefused) {
+TEST(Isolated, MemoryBeyondTheLimitIsRefused) {
   const auto end = end_of(
       [](const TellProgress&) -> std::string {
         const std::string large(std::size_t{1} << 30U, 'x');
@@ -152,4 +152,4 @@ TEST(Contained, MemoryBeyondTheLimitIsRefused) {
 #endif
 
 }  // namespace
-}  // namespace rheocyte::contained_test
+}  // namespace rheocyte::isolated_test

@@ -1,4 +1,4 @@
-#include "view/stated_case.h"
+#include "view/case_from_json.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -29,7 +29,7 @@ double number_in(const std::string& text) {
 
 }  // namespace
 
-Case stated_case(const nlohmann::ordered_json& tree, const std::string& accuracy) {
+Case case_from_json(const nlohmann::ordered_json& tree, const std::string& accuracy) {
   const std::string name = "case";
   std::vector<GivenKey> given = keys_in_json(tree, name);
   if (!accuracy.empty()) given.push_back({"numerics.accuracy", "accuracy", number_in(accuracy), true});

@@ -1,4 +1,4 @@
-#include "view/kept_inspectors.h"
+#include "view/inspector_pool.h"
 
 #include <algorithm>
 #include <array>

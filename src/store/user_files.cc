@@ -1,4 +1,4 @@
-#include "store/foreign_files.h"
+#include "store/user_files.h"
 
 #include <algorithm>
 #include <string>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<fs::path> foreign_names(const fs::path& folder, OwnNames own) {
+std::vector<fs::path> user_names(const fs::path& folder, OwnNames own) {
   std::vector<fs::path> names;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
@@ -34,27 +34,27 @@ bool is_same(const fs::path& one, const fs::path& other) {
 
 }  // namespace
 
-bool has_foreign_files(const fs::path& folder, OwnNames own) { return !foreign_names(folder, own).empty(); }
+bool has_user_files(const fs::path& folder, OwnNames own) { return !user_names(folder, own).empty(); }
 
-void link_foreign_files(const fs::path& from, const fs::path& to, OwnNames own) {
+void link_user_files(const fs::path& from, const fs::path& to, OwnNames own) {
   std::error_code error;
-  for (const auto& name : foreign_names(from, own)) {
+  for (const auto& name : user_names(from, own)) {
     if (!is_folder(from / name)) {
       link_file(from / name, to / name);
     } else if (fs::create_directory(to / name, from / name, error)) {
-      link_foreign_files(from / name, to / name, {});
+      link_user_files(from / name, to / name, {});
     }
   }
 }
 
-bool move_foreign_files(const fs::path& from, const fs::path& to, OwnNames own, Twice twice) {
+bool move_user_files(const fs::path& from, const fs::path& to, OwnNames own, Twice twice) {
   bool all = true;
-  for (const auto& name : foreign_names(from, own)) {
+  for (const auto& name : user_names(from, own)) {
     std::error_code error;
     const fs::path source = from / name, target = to / name;
     const auto there = fs::symlink_status(target, error);
     if (fs::exists(there) && is_folder(source) && fs::is_directory(there)) {
-      all = move_foreign_files(source, target, {}, twice) && all;
+      all = move_user_files(source, target, {}, twice) && all;
     } else if (!fs::exists(there) || twice == Twice::moved_replaces) {
       fs::rename(source, target, error);  // of two links to one file both stay
       all = all && !error;
