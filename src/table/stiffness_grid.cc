@@ -98,7 +98,7 @@ void StiffnessGrid::at_places(std::span<const double> log_area, std::span<const 
     for (std::size_t i = 0; i < count; ++i) {
       const Place& place = places[i] = place_of(log_area[first + i], log_deformation[first + i]);
       if (!place.patch) continue;
-      for (const Node* node : {place.nodes(), place.nodes() + place.patch->grid.rows()}) {
+      for (const CurvedGrid::Node* node : {place.nodes(), place.nodes() + place.patch->grid.rows()}) {
         __builtin_prefetch(node);
         __builtin_prefetch(node + 1);
       }
