@@ -38,8 +38,10 @@ class DuctStory:
 
     @property
     def offset(self):
-        """Place of the cell, (along the width, along the height)."""
-        return self.result["case"]["cell"].get("offset_um") or (0, 0)
+        """Place of the cell, (along the width, along the height): in time not that where it started."""
+        width, height = self.result["case"]["cell"].get("offset_um") or (0, 0)
+        place = self.result["offset_um"] if width or height else 0
+        return (0, place) if height else (place, 0)
 
 
 def read_story(folder):

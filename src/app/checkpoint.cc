@@ -24,7 +24,7 @@ template <>
 struct FieldsOf<TimeLevel> {
   template <class Self>
   static auto fields(Self& l) {
-    return std::tie(l.time, l.frame_acceleration, l.position, l.barycentre, l.outward, l.branch, l.unknowns,
+    return std::tie(l.time, l.frame_acceleration, l.position, l.barycentre, l.aside, l.outward, l.branch, l.unknowns,
                     l.velocities);
   }
 };
@@ -42,7 +42,7 @@ template <>
 struct FieldsOf<Motion> {
   template <class Self>
   static auto fields(Self& m) {
-    return std::tie(m.rate, m.unknowns, m.velocities, m.outward, m.branch);
+    return std::tie(m.rate, m.unknowns, m.velocities, m.outward, m.branch, m.turning);
   }
 };
 
@@ -50,7 +50,7 @@ template <>
 struct FieldsOf<KeptTangent> {
   template <class Self>
   static auto fields(Self& t) {
-    return std::tie(t.motion, t.axial_tension, t.outward, t.unknowns);
+    return std::tie(t.motion, t.axial_tension, t.aside, t.outward, t.unknowns);
   }
 };
 
@@ -200,12 +200,12 @@ TimeStart read_start(const fs::path& folder, const Case& c) {
   if (!have_the_same_section(c, other) || c.cell.radius_um != other.cell.radius_um ||
       c.time.degree.value_or(other.time.degree.value_or(0)) != other.time.degree.value_or(c.time.degree.value_or(0)) ||
       c.cell.viscoelasticity != other.cell.viscoelasticity || c.flow.drive != other.flow.drive ||
-      c.channel.length_um != other.channel.length_um)
-    refuse_path(
-        folder,
-        "is of another kind; cell.radius_um, the channel, flow.drive, cell.viscoelasticity and time.degree must be "
-        "those of "
-        "the start.");
+      c.channel.length_um != other.channel.length_um || c.cell.offset_um != other.cell.offset_um)
+    refuse_path(folder,
+                "is of another kind; cell.radius_um, cell.offset_um, the channel, flow.drive, cell.viscoelasticity and "
+                "time.degree must be "
+                "those of "
+                "the start.");
   const Scales now = scales_of(c), then = scales_of(other);
   return {read_checkpoint(folder, other).state,
           UnitChange{then.velocity_m_per_s / now.velocity_m_per_s, then.stress_Pa / now.stress_Pa}};

@@ -65,8 +65,9 @@ class Recorder {
     folder_.write("history.csv", history_csv(record_));
     folder_.write("outputs.csv", outputs_csv(record_));
     folder_.write("contours.csv", contours_csv(record_));
-    if (const std::string across = contours_across_csv(record_); !across.empty())
-      folder_.write("contours_across.csv", across);
+    for (const auto& [name, text] : {std::pair("contours_across.csv", contours_across_csv(record_)),
+                                     std::pair("contours_offset.csv", contours_offset_csv(record_))})
+      if (!text.empty()) folder_.write(name, text);
     if (!options_.no_output_fields) folder_.write("fields.pvd", field_collection(record_, fields_folder));
     if (const WallTable& wall = result_.problem.wall; !wall.is_straight())
       folder_.write("channel.csv", channel_csv(result_.problem, result_.scales));

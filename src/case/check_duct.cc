@@ -50,6 +50,21 @@ void check_inertia(const Case& c, const KeyReading& keys) {
                                told(keys, key, density), liquid, cell));
 }
 
+/// The material turns through the shape (docs/theory-time.md, eq:turning-in-time).
+void check_off_axis_in_time(const Case& c, const KeyReading& keys) {
+  if (is_centred(c.cell)) return;
+  const auto refuse = [&](std::string_view key, std::string_view reason) {
+    keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
+  };
+  if (c.cell.place == CellPlace::equilibrium)
+    refuse("cell.place", "is for stationary shapes; leave it out, and [time] shows how the cell drifts there");
+  if (c.numerics.accuracy_of.value_or(AccuracyOf::deformation) != AccuracyOf::deformation)
+    refuse("numerics.accuracy_of", "is for stationary shapes; leave it out");
+  if (c.cell.viscoelasticity.value_or(Viscoelasticity::kelvin_voigt) != Viscoelasticity::kelvin_voigt)
+    refuse("cell.viscoelasticity",
+           "has a memory, which is followed on the axis alone; leave it out, or cell.offset_um");
+}
+
 void check_duct_in_time(const Case& c, const KeyReading& keys) {
   const auto refuse = [&](std::string_view key, std::string_view reason) {
     keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
@@ -60,10 +75,7 @@ void check_duct_in_time(const Case& c, const KeyReading& keys) {
   if (c.flow.drive != Drive::rate)
     refuse(keys.has("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa",
            "is for tubes, or for stationary shapes, where the channel is a duct; give flow.rate_ul_per_s");
-  if (!is_centred(c.cell))
-    refuse("cell.offset_um",
-           "is off the axis, where cells in ducts are followed by their stationary shapes alone; "
-           "leave [time] out, or the offset");
+  check_off_axis_in_time(c, keys);
   if (c.cell.bulk.law == BulkLaw::none)
     refuse("cell.bulk.law",
            "makes a shell, which is followed in time in tubes alone; choose a law for the bulk, or "

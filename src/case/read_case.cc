@@ -132,7 +132,9 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
   if (c.cell.cortex.bending_kBT > 0)
     refuse("is for cells without bending stiffness; leave cell.cortex.bending_kBT out");
   const Extent extent = extent_of(c);
-  const double half = unit_length_um(c) * (offset[0] != 0 ? extent.width : extent.height);
+  const bool is_along_profile = offset[0] != 0 && has_profile(keys);
+  const double half = is_along_profile ? WallProfile(wall_radii_um(c)).radius(0)
+                                       : unit_length_um(c) * (offset[0] != 0 ? extent.width : extent.height);
   const double most = max_offset(half, c.cell.radius_um);
   if (std::abs(offset[0] + offset[1]) > most)
     refuse(fmt::format("is too near to the wall for cell.radius_um = {:g}; at most {:.4g} um are possible",

@@ -56,6 +56,7 @@ ElementState DuctFields::state_of(int e) const {
   const int n = int(nodes.size());
   ElementState state{self.liquid, MatrixXd(n, 3), MatrixXd::Zero(n, 3), MatrixXd::Zero(n, 3), {}, {}};
   for (int k = 0; k < n; ++k) state.rest.row(k) = space_.node_points()[nodes[k]].transpose();
+  state.rest.col(1).array() += space_.aside();
   if (self.moves) state.displacement = values_of(self.displacement, unknowns_).reshaped(n, 3);
   if (self.liquid) state.velocity = values_of(self.velocity, unknowns_).reshaped(n, 3);
   state.pressure = at_nodes(space_.reference().pressure.value * values_of(self.pressure, unknowns_));

@@ -9,6 +9,8 @@ namespace {
 
 /// Size of the core relative to the cell, and how far its faces bulge from the cube (0) to the ball (1).
 constexpr double core_size = 0.5, core_bulge = 0.55;
+/// Of the half width, from the axis: beyond it the spokes of front and rear lean to the cell.
+constexpr double max_middle = 0.85;
 
 /// The cube [-1, 1]^3 onto the unit ball.
 DuctPoint ball(const DuctPoint& c) {
@@ -23,7 +25,7 @@ DuctPoint ball(const DuctPoint& c) {
 
 DuctGeometry::DuctGeometry(const DuctShape& shape)
     : shape_(shape),
-      box_(disturbed_half_length(shape.radius, shape.extent)),
+      box_(shape.box > 0 ? shape.box : disturbed_half_length(shape.radius, shape.extent)),
       min_length_(shape.section == Section::tube ? min_half_length(shape.radius)
                                                  : min_half_length(shape.radius, shape.extent)),
       half_length_(std::max(min_length_, shape.length / 2)) {}
@@ -41,32 +43,50 @@ DuctPoint DuctGeometry::core(const DuctPoint& cube) const {
          DuctPoint(0, shape_.offset, 0);
 }
 
-DuctPoint DuctGeometry::box_side(const DuctPoint& cube) const {
-  // Denser spokes opposite the equator, where the gap is narrow: the nearer the wall, the more they cross it straight.
-  const double X = cube(0), Y = cube(1), Z = cube(2), centre_slope = 1 - 0.75 * shape_.radius * shape_.radius;
+// Denser spokes opposite the equator, where the gap is narrow: the nearer the wall, the more they cross it straight.
+double DuctGeometry::box_along(const DuctPoint& cube) const {
+  const double X = cube(0), centre_slope = 1 - 0.75 * shape_.radius * shape_.radius;
   const double x = box_ * (centre_slope * X + (1 - centre_slope) * X * X * X);
-  if (shape_.section == Section::tube) return {x, Y * std::sqrt(1 - Z * Z / 2), Z * std::sqrt(1 - Y * Y / 2)};
-  return {x, shape_.extent.width * Y, shape_.extent.height * Z};
+  if (shape_.edge == 0) return x;
+  // A wall that slants towards the cell is below it not far ahead.
+  const double at_edge = (1 + X) / 2 * (1 + std::copysign(cube(1), shape_.offset * cube(1))) / 2;
+  return x * (1 - (1 - shape_.edge / box_) * at_edge * at_edge);
+}
+
+Eigen::Vector2d DuctGeometry::box_across(const DuctPoint& cube, double stretch, double centre) const {
+  const double Y = cube(1), Z = cube(2);
+  if (shape_.section == Section::tube)
+    return stretch * Eigen::Vector2d(Y * std::sqrt(1 - Z * Z / 2), Z * std::sqrt(1 - Y * Y / 2));
+  const double width = shape_.extent.width * (shape_.narrows_in_height ? 1 : stretch),
+               height = shape_.extent.height * (shape_.narrows_in_height ? stretch : 1);
+  // The middle of front and rear is where the cell's own axis leaves it.
+  const double share = std::clamp(centre / width, -max_middle, max_middle);
+  return {width * (Y + share) / (1 + share * Y), height * Z};
 }
 
 DuctPoint DuctGeometry::map(Part part, const DuctPoint& cube, double outward) const {
   switch (part) {
     case Part::core: return core(cube);
     case Part::ring: return (1 - outward) * core(cube) + outward * surface(cube);
-    case Part::layers: return (1 - outward) * surface(cube) + outward * box_side(cube);
+    case Part::layers:
     case Part::end: {
-      DuctPoint x = box_side(cube);
-      x(0) *= 1 + outward * (half_length_ / box_ - 1);
-      return x;
+      const double x = part == Part::end ? std::lerp(box_along(cube), std::copysign(half_length_, cube(0)), outward)
+                                         : (1 - outward) * surface(cube)(0) + outward * box_along(cube);
+      const Eigen::Vector2d yz = across(part, cube, outward, 1, 0);
+      return {x, yz(0), yz(1)};
     }
   }
   return DuctPoint::Zero();
 }
 
-Eigen::Vector2d DuctGeometry::wall_share(Part part, const DuctPoint& cube, double outward) const {
-  if (part == Part::core || part == Part::ring) return {0, 0};
-  const DuctPoint side = box_side(cube);
-  return (part == Part::layers ? outward : 1) * Eigen::Vector2d(side(1), section() == Section::tube ? side(2) : 0);
+Eigen::Vector2d DuctGeometry::across(Part part, const DuctPoint& cube, double outward, double stretch,
+                                     double aside) const {
+  // At the ends of the duct the mesh does not follow the cell.
+  const double in_mesh = part == Part::end ? outward : 0;
+  const double centre = std::lerp(shape_.offset + aside, shape_.offset * stretch, in_mesh);
+  Eigen::Vector2d side = box_across(cube, stretch, centre);
+  side(0) -= aside;
+  return part == Part::end ? side : Eigen::Vector2d((1 - outward) * surface(cube).tail<2>() + outward * side);
 }
 
 bool DuctGeometry::is_wall(const DuctPoint& x) const {

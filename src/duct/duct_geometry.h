@@ -22,6 +22,10 @@ struct DuctShape {
   Extent extent = {};   ///< of a rectangle
   double length = 0;    ///< of the duct; 0: the shortest
   double offset = 0;    ///< of the cell's centre in y
+  /// Half-length of the box round the cell, and of its front edge at the wall that is nearer to a cell off the axis; 0:
+  /// as far as the cell disturbs the flow.
+  double box = 0, edge = 0;
+  bool narrows_in_height = false;  ///< a wall that is not straight: along z, else along y
 };
 
 class DuctGeometry {
@@ -34,9 +38,10 @@ class DuctGeometry {
   /// point of the cube's surface that it belongs to, in the core the point in the cube.
   DuctPoint map(Part, const DuctPoint& cube, double outward) const;
 
-  /// How far (y, z) of that point move when the wall does by its own half width, of a duct that is not straight
-  /// (docs/theory-time.md, eq:planar-wall): in a tube both ways across the flow, else along the width alone.
-  Eigen::Vector2d wall_share(Part, const DuctPoint& cube, double outward) const;
+  /// (y, z) of that point of the liquid, seen from the cell, in a duct that is not straight (docs/theory-time.md,
+  /// eq:planar-wall): where the wall's half width is `stretch` times that of the straight one, in a tube both ways
+  /// across the flow, else along the width alone; and with the cell `aside` of its place along y.
+  Eigen::Vector2d across(Part, const DuctPoint& cube, double outward, double stretch, double aside) const;
 
   bool is_wall(const DuctPoint&) const;
   const DuctShape& shape() const { return shape_; }
@@ -53,7 +58,9 @@ class DuctGeometry {
  private:
   DuctPoint surface(const DuctPoint& cube) const;
   DuctPoint core(const DuctPoint& cube) const;
-  DuctPoint box_side(const DuctPoint& cube) const;
+  /// x of a point of the box or the wall, and its place across the duct, where the cell is at `centre` along y.
+  double box_along(const DuctPoint& cube) const;
+  Eigen::Vector2d box_across(const DuctPoint& cube, double stretch, double centre) const;
 
   DuctShape shape_;
   double box_, min_length_, half_length_;

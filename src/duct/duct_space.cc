@@ -15,7 +15,7 @@ DuctSpace::DuctSpace(const DuctMesh& mesh, Interior interior, int degree)
       section_(mesh.geometry(), degree, mesh.symmetry(), mesh.subdivision().across),
       nodes_(mesh.number_nodes(degree)),
       points_(nodes_.count),
-      wall_shares_(nodes_.count, Eigen::Vector2d::Zero()) {
+      places_(nodes_.count) {
   const VectorXd& s = reference_.nodes_1d;
   const int n = degree + 1;
   for (int e = 0; e < int(mesh.elements().size()); ++e) {
@@ -24,9 +24,7 @@ DuctSpace::DuctSpace(const DuctMesh& mesh, Interior interior, int degree)
       const Eigen::Vector3d xi(s(k % n), s(k / n % n), s(k / (n * n)));
       const int node = nodes_.of_element[e][k];
       points_[node] = mesh.point(e, xi);
-      if (!self.in_cell())
-        wall_shares_[node] =
-            mesh.geometry().wall_share(self.part, self.on_cube(xi(0), xi(1), xi(2)), self.outward_at(xi(2)));
+      if (!self.in_cell()) places_[node] = {self.part, self.on_cube(xi(0), xi(1), xi(2)), self.outward_at(xi(2))};
     }
   }
   straight_points_ = points_;
@@ -62,9 +60,13 @@ VectorXd DuctSpace::wall_motion(const std::function<double(double)>& wall, const
   return outward;
 }
 
-void DuctSpace::move_nodes(const VectorXd& outward) {
-  for (int i = 0; i < nodes_.count; ++i)
-    points_[i].tail<2>() = straight_points_[i].tail<2>() + outward(i) * wall_shares_[i];
+void DuctSpace::move_nodes(const VectorXd& outward, double aside) {
+  aside_ = aside;
+  for (int i = 0; i < nodes_.count; ++i) {
+    const auto& [part, cube, way] = places_[i];
+    if (part == Part::layers || part == Part::end)
+      points_[i].tail<2>() = mesh_.geometry().across(part, cube, way, 1 + outward(i), aside);
+  }
   if (!open_inlet_ && !given_flow_) set_inflow(outward);
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     HexahedronUnknowns& self = elements_[e];
@@ -83,13 +85,17 @@ VectorXd DuctSpace::inflow_at(double stretch) const {
   }
   DuctShape wider = geometry.shape();
   wider.section = Section::rectangle;
-  wider.extent.width *= stretch;
+  (wider.narrows_in_height ? wider.extent.height : wider.extent.width) *= stretch;
+  if (!wider.narrows_in_height) wider.offset *= stretch;
   // Its nodes have the numbers of those of the straight section.
   const CrossSection inlet(DuctGeometry(wider), reference_.degree(), mesh_.symmetry(), mesh_.subdivision().across);
   return inlet.flow(in_units_of_rate(liquid_, 1 / stretch)).velocity / stretch;
 }
 
 void DuctSpace::set_inflow(const VectorXd& outward) {
+  const DuctShape& shape = mesh_.geometry().shape();
+  const bool is_tube = shape.section == Section::tube;
+  const int narrowing = shape.narrows_in_height ? 2 : 1;
   const double end = mesh_.geometry().half_length(), slope = inlet_slope(outward);
   VectorXd inflow;
   for (int i = 0; i < nodes_.count; ++i) {
@@ -97,7 +103,8 @@ void DuctSpace::set_inflow(const VectorXd& outward) {
     if (inflow.size() == 0) inflow = inflow_at(1 + outward(i));
     const double velocity = inflow(section_.node_at(straight_points_[i].tail<2>()));
     velocity_[3 * i].constant = velocity;
-    for (int c = 1; c < 3; ++c) velocity_[3 * i + c].constant = slope * velocity * wall_shares_[i](c - 1);
+    for (int c = 1; c < 3; ++c)
+      if (is_tube || c == narrowing) velocity_[3 * i + c].constant = slope * velocity * straight_points_[i](c);
   }
 }
 

@@ -58,9 +58,10 @@ class DuctSpace {
   /// Where the wall is not straight: its half width over that of the straight one, less 1, where the nodes are with
   /// these unknowns. By nodes.
   VectorXd wall_motion(const std::function<double(double)>& wall, const VectorXd& unknowns) const;
-  /// Moves the liquid's nodes from their places in the straight duct so far that the wall is there, and adapts the flow
-  /// through the inlet.
-  void move_nodes(const VectorXd& outward);
+  /// Moves the liquid's nodes from their places in the straight duct so far that the wall is there, with the cell
+  /// displaced along y by `aside`, and adapts the flow through the inlet.
+  void move_nodes(const VectorXd& outward, double aside = 0);
+  double aside() const { return aside_; }
 
   int unknowns() const { return unknowns_; }
   int cell_velocity() const { return cell_velocity_; }
@@ -111,7 +112,14 @@ class DuctSpace {
   CrossSection section_;
   NodeNumbers nodes_;
   std::vector<DuctPoint> points_, straight_points_;
-  std::vector<Eigen::Vector2d> wall_shares_;  ///< of the motion of the wall, that the nodes take over
+  /// Of the nodes of the liquid, where DuctGeometry has them.
+  struct LiquidPlace {
+    Part part = Part::core;
+    DuctPoint cube = DuctPoint::Zero();
+    double outward = 0;
+  };
+  std::vector<LiquidPlace> places_;
+  double aside_ = 0;
   std::vector<int> displacement_, pressure_;
   std::vector<Slot> velocity_;
   int unknowns_ = 0, cell_velocity_ = -1, inner_pressure_ = -1, drift_ = -1, spin_ = -1, fixed_node_ = -1,

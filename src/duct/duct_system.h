@@ -33,6 +33,8 @@ class DuctSystem : public AssembledSystem<float> {
  protected:
   /// What an element knows, with the pressures of the same unknowns.
   virtual const HexahedronUnknowns& unknowns_of(int element) const { return space_.elements()[element]; }
+  /// Of a cell off the axis: how its displacements change.
+  void set_motion_of_surface(const Motion& motion) { turning_.set_motion(motion); }
   /// Those of the ends, after the space has moved its nodes.
   void renew_end_loads();
 

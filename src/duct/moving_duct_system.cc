@@ -1,7 +1,9 @@
 #include "duct/moving_duct_system.h"
 
+#include <Eigen/LU>
 #include <cassert>
 
+#include "duct/duct_surface.h"
 #include "fem/element_quadrature.h"
 
 namespace rheocyte {
@@ -22,7 +24,7 @@ Tensor<double> from_components(const Components6& a) { return {a(0), a(1), a(2),
 
 MovingDuctSystem::MovingDuctSystem(const DuctSpace& space, double drop, bool bends)
     : DuctSystem(space, drop, bends), elements_(space.elements()) {
-  assert(!space.turns() && space.inner_pressure() < 0);
+  assert(space.inner_pressure() < 0);
   set_motion({0, VectorXd::Zero(space.unknowns()), {}});
 }
 
@@ -37,19 +39,47 @@ void MovingDuctSystem::set_motion(const Motion& motion) {
       set_history(e);
     }
   }
+  if (space().turns()) set_motion_of_surface(motion);
   if (motion_.branch.size() > 0) set_branch_history();
 }
 
-/// The liquid's velocity on the surface is the rate of the displacement; elsewhere it is as the space has it.
+/// The liquid's velocity on the surface is the rate of the displacement; elsewhere, and on a surface that turns, it is
+/// as the space has it.
 void MovingDuctSystem::move_surface(int e) {
   HexahedronUnknowns& self = elements_[e];
   self.velocity = space().elements()[e].velocity;
+  if (space().turns()) return;
   const auto& nodes = space().nodes().of_element[e];
   const int n = space().reference().nodes();
   for (int i = 0; i < 3 * n; ++i) {
     const int unknown = space().displacement(nodes[i % n], i / n);
     if (unknown >= 0) self.velocity[i] = {unknown, motion_.rate, motion_.unknowns(unknown)};
   }
+}
+
+/// Along the rotation of the undeformed ball.
+Eigen::MatrixX3d MovingDuctSystem::turning_velocity(int e) const {
+  const int n = space().reference().degree() + 1, all = n * n * n;
+  const MatrixXd slopes_1d = space().reference().lagrange_derivative(space().reference().nodes_1d);
+  const DuctPoint centre(0, space().mesh().geometry().shape().offset, 0);
+  const auto& nodes = space().nodes().of_element[e];
+  Eigen::MatrixX3d X(all, 3), x(all, 3), velocity(all, 3);
+  for (int i = 0; i < all; ++i) {
+    X.row(i) = (space().node_points()[nodes[i]] - centre).transpose();
+    x.row(i) = duct_point(space(), motion_.turning, nodes[i]).transpose();
+  }
+  for (int i = 0; i < all; ++i) {
+    Eigen::Matrix3d rest = Eigen::Matrix3d::Zero(), now = Eigen::Matrix3d::Zero();  // by the element's coordinates
+    for (int k = 0, stride = 1; k < 3; ++k, stride *= n) {
+      const int place = i / stride % n, first = i - place * stride;
+      for (int j = 0; j < n; ++j) {
+        rest.col(k) += slopes_1d(place, j) * X.row(first + j * stride).transpose();
+        now.col(k) += slopes_1d(place, j) * x.row(first + j * stride).transpose();
+      }
+    }
+    velocity.row(i) = (now * rest.inverse() * DuctPoint(-X(i, 1), X(i, 0), 0)).transpose();
+  }
+  return motion_.turning(space().spin()) * velocity;
 }
 
 void MovingDuctSystem::set_history(int e) {
@@ -60,6 +90,7 @@ void MovingDuctSystem::set_history(int e) {
     const int unknown = self.displacement[i].unknown;
     displacement(i % n, i / n) = unknown < 0 ? 0 : motion_.unknowns(unknown);
   }
+  if (motion_.turning.size() > 0) displacement += turning_velocity(e);
   self.rate = motion_.rate;
   self.history.assign(space().reference().points(), {});
   for (int k = 0; k < 3; ++k) {

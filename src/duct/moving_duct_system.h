@@ -6,8 +6,8 @@
 namespace rheocyte {
 
 /// Cell and liquid on their way: the counterpart of MovingSystem (fem/moving_system.h). The frame moves with the node
-/// of the cell that is held, v_cell is its velocity. The interior has to be elastic, the cell on the axis, the
-/// liquid's density zero.
+/// of the cell that is held, v_cell and, off the axis, the drift are its velocity. The interior has to be elastic, off
+/// the axis without a branch in series, the liquid's density zero.
 class MovingDuctSystem final : public DuctSystem {
  public:
   /// The space must outlive this object. Where its walls move, `set_motion` follows them.
@@ -24,6 +24,9 @@ class MovingDuctSystem final : public DuctSystem {
   const HexahedronUnknowns& unknowns_of(int element) const override { return elements_[element]; }
   void move_surface(int element);
   void set_history(int element);
+  /// Velocity with which the material passes through the nodes of an element of the cell (eq:turning-in-time), that of
+  /// the state to which the motion extrapolates.
+  Eigen::MatrixX3d turning_velocity(int element) const;
   void set_branch_history();
 
   Motion motion_;

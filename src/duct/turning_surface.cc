@@ -57,13 +57,19 @@ Eigen::MatrixX3d TurningSurface::velocity(const Face& face, const VectorXd& unkn
   return face.rate * x;
 }
 
+double TurningSurface::rate_of_displacement(int unknown, const VectorXd& unknowns) const {
+  return unknown < 0 || motion_.rate == 0 ? 0 : motion_.rate * unknowns(unknown) + motion_.unknowns(unknown);
+}
+
 void TurningSurface::add_residual(const VectorXd& unknowns, VectorXd& total) const {
   for (const Face& face : faces_) {
     const Eigen::MatrixX3d rate = velocity(face, unknowns);
     for (int k = 0; k < rate.rows(); ++k) {
       for (int c = 0; c < 3; ++c) {
         const int own = space_.velocity(face.nodes[k], c).unknown;
-        if (own >= 0) total(own) += face.share(k) * (unknowns(own) - unknowns(space_.spin()) * rate(k, c));
+        if (own < 0) continue;
+        const double changing = rate_of_displacement(space_.displacement(face.nodes[k], c), unknowns);
+        total(own) += face.share(k) * (unknowns(own) - unknowns(space_.spin()) * rate(k, c) - changing);
       }
     }
   }
@@ -82,6 +88,8 @@ void TurningSurface::add_tangent(int element, const VectorXd& unknowns, const st
       const int row = place[own];
       matrix(row, row) += float(face.share(k));
       matrix(row, place[space_.spin()]) -= float(face.share(k) * rate(k, c));
+      if (const int changing = space_.displacement(face.nodes[k], c); changing >= 0)
+        matrix(row, place[changing]) -= float(face.share(k) * motion_.rate);
       for (int j = 0; j < rate.rows(); ++j) {
         const int moved = space_.displacement(face.nodes[j], c);
         if (moved >= 0) matrix(row, place[moved]) -= float(face.share(k) * spin * face.rate(k, j));

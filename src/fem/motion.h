@@ -15,6 +15,9 @@ struct Motion {
   /// there.
   VectorXd outward = {};
   VectorXd branch = {};  ///< histories of the branch's metric (eq:branch); empty: there is none
+  /// Unknowns of a cell that turns, extrapolated to the end of the step: by these its material passes through the mesh
+  /// (eq:turning-in-time); empty: it does not.
+  VectorXd turning = {};
 };
 
 }  // namespace rheocyte

@@ -62,7 +62,7 @@ std::string told_of_surface(const TimeRecord& record, const Problem& problem) {
 
 /// The straight channel behind the cell's way, if all of the simulated one lies in it and the cell keeps a shape there.
 std::optional<Problem> straight_from_here(const Result& result, const TimeRecord& record) {
-  if (result.input.cell.viscoelasticity == Viscoelasticity::maxwell) return {};
+  if (result.input.cell.viscoelasticity == Viscoelasticity::maxwell || result.problem.offset != 0) return {};
   if (result.problem.wall.is_straight()) return result.problem;
   const double half_um = result.scales.length_um() * result.state.channel_length / 2;
   const double changes_um = result.scales.length_um() * last_change(result.problem.wall);

@@ -84,6 +84,11 @@ std::vector<Chapter> chapters() {
       {"contours_across.csv",
        "The same of a cell in a rectangle or a funnel in three dimensions, seen along the width:",
        {{"t_us", "time"}, {"x_um", "as in contour.csv"}, {"r_um", "likewise"}}},
+      {"contours_offset.csv",
+       "Of a case in time with a cell off the axis, its outlines in the plane of the offset, as in contour_offset.csv:",
+       {{"t_us", "time"},
+        {"x_um", "along the flow, from the barycentre"},
+        {"y_um", "along the offset, from the axis"}}},
       {"channel.csv",
        "The wall of a channel that is not straight:",
        {{"x_um", "along the channel, from the start of the cell"}, {"R_um", "radius; in a duct half its width"}}}};

@@ -134,16 +134,21 @@ ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
   }
   for (const auto& [name, surface] : frame.state.views)
     if (name == "across") result.across_um = um * surface.point;
+  result.offset_um = um * frame.state.offset_outline;
   return result;
 }
 
 namespace {
 
-std::string contours_text(const TimeRecord& record, Eigen::MatrixX2d ContourFrame::*points) {
-  std::string text = "t_us,x_um,r_um\n";
+/// Empty where there are none.
+std::string contours_text(const TimeRecord& record, Eigen::MatrixX2d ContourFrame::*points,
+                          std::string_view across = "r_um") {
+  if (record.frames.empty() || (record.frames.front().*points).rows() == 0) return {};
+  const double least = across == "r_um" ? 0 : -HUGE_VAL;
+  std::string text = fmt::format("t_us,x_um,{}\n", across);
   for (const ContourFrame& frame : record.frames)
     for (const auto& point : (frame.*points).rowwise())
-      text += fmt::format("{:.10g},{:.8g},{:.8g}\n", frame.t_us, point(0), std::max(point(1), 0.0));
+      text += fmt::format("{:.10g},{:.8g},{:.8g}\n", frame.t_us, point(0), std::max(point(1), least));
   return text;
 }
 
@@ -186,11 +191,14 @@ std::string outputs_csv(const TimeRecord& record) {
   return text + "\n";
 }
 
-std::string contours_csv(const TimeRecord& record) { return contours_text(record, &ContourFrame::point_um); }
+std::string contours_csv(const TimeRecord& record) {
+  return record.frames.empty() ? "t_us,x_um,r_um\n" : contours_text(record, &ContourFrame::point_um);
+}
 
-std::string contours_across_csv(const TimeRecord& record) {
-  const bool is_known = !record.frames.empty() && record.frames.front().across_um.rows() > 0;
-  return is_known ? contours_text(record, &ContourFrame::across_um) : "";
+std::string contours_across_csv(const TimeRecord& record) { return contours_text(record, &ContourFrame::across_um); }
+
+std::string contours_offset_csv(const TimeRecord& record) {
+  return contours_text(record, &ContourFrame::offset_um, "y_um");
 }
 
 std::string channel_csv(const Problem& problem, const Scales& scales) {

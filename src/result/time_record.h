@@ -29,11 +29,12 @@ struct ContourFrame {
   Eigen::MatrixX2d point_um;                                  ///< (x, r), front pole first
   std::array<double, history_measures.size()> measures = {};  ///< in the order of history_measures
   Eigen::MatrixX2d across_um = {};                            ///< the same seen along the width; empty: looks alike
+  Eigen::MatrixX2d offset_um = {};                            ///< outline in the plane of the offset; empty: centred
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& f) {
-    return std::tie(f.t_us, f.position_um, f.point_um, f.measures, f.across_um);
+    return std::tie(f.t_us, f.position_um, f.point_um, f.measures, f.across_um, f.offset_um);
   }
 };
 
@@ -82,6 +83,8 @@ std::span<const Field<TimeRecord, nlohmann::ordered_json>> time_fields();
 std::string contours_csv(const TimeRecord&);
 /// contours_across.csv: the same along the width; empty where the channel looks alike from there.
 std::string contours_across_csv(const TimeRecord&);
+/// contours_offset.csv: the outlines in the plane of the offset; empty on the axis.
+std::string contours_offset_csv(const TimeRecord&);
 
 /// channel.csv: x_um, R_um; the wall of a channel that is not straight, finely, from the start of the cell. In a duct
 /// half its width.

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "case/scales.h"
 #include "duct/cell_moments.h"
 #include "duct/duct_ends.h"
 #include "duct/duct_fields.h"
@@ -112,11 +113,18 @@ void read_turning(const DuctDiscrete& discrete, const VectorXd& unknowns, StateN
   if (!space.turns()) return;
   r.drift_velocity = unknowns(space.drift());
   r.spin = unknowns(space.spin());
-  r.offset = cell_moments(space, discrete.system().element(), unknowns).barycentre(1);
+  r.offset = cell_moments(space, discrete.system().element(), unknowns).barycentre(1) + space.aside();
   Polygon outline;
   const Eigen::MatrixX2d corners = duct_offset_outline(space, unknowns);
   outline.assign(std::vector<Eigen::Vector2d>(corners.rowwise().begin(), corners.rowwise().end()));
   r.tilt = outline_tilt(outline, hull_asymmetry(outline).sine_modes, 1);
+}
+
+/// A cell off the axis keeps about its share of a width that changes, and the mesh is that of the narrow part.
+double offset_in_mesh(const Problem& problem, double half_width) {
+  if (problem.wall.is_straight()) return problem.offset;
+  const double most = max_offset(half_width, problem.radius_ratio);
+  return std::clamp(problem.offset / WallProfile(problem.wall).radius(0), -most, most);
 }
 
 }  // namespace
@@ -127,8 +135,12 @@ DuctShape shape_of(const Problem& problem) {
   DuctShape shape{problem.section, problem.radius_ratio, problem.extent, problem.channel_length};
   if (!problem.wall.is_straight()) shape.length = std::max(shape.length, funnel_length);
   if (problem.offset == 0) return shape;
-  shape.offset = problem.offset;
-  if (problem.camera == Camera::side) std::swap(shape.extent.width, shape.extent.height);
+  // The mesh has the offset along y.
+  shape.narrows_in_height = problem.camera == Camera::side;
+  if (shape.narrows_in_height) std::swap(shape.extent.width, shape.extent.height);
+  shape.offset = shape.narrows_in_height ? problem.offset : offset_in_mesh(problem, shape.extent.width);
+  // Spokes to the edge of the box must not lead below the cell where the wall slants.
+  if (!problem.wall.is_straight()) shape.box = problem.radius_ratio + 0.4, shape.edge = 0.83 * problem.radius_ratio;
   return shape;
 }
 
@@ -138,9 +150,9 @@ Symmetry symmetry_of(const Problem& problem) {
 }
 
 DuctSubdivision subdivision_of(const Problem& problem) {
-  if (!problem.wall.is_straight()) return {.along = 4, .axial = 4};
-  if (problem.offset == 0) return {.along = elements_along(problem.radius_ratio)};
-  return {.along = 2, .across = 2};
+  const int axial = problem.wall.is_straight() ? DuctSubdivision{}.axial : 4;
+  if (problem.offset != 0) return {.along = 2, .axial = axial, .across = problem.wall.is_straight() ? 2 : 4};
+  return {.along = problem.wall.is_straight() ? elements_along(problem.radius_ratio) : 4, .axial = axial};
 }
 
 DuctDiscrete::DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree, Symmetry symmetry)
@@ -228,7 +240,7 @@ void DuctDiscrete::describe(const Problem& problem, const VectorXd& unknowns, St
   shift(-volume.barycentre, r.contour);
   if (space.turns()) {
     r.offset_outline = duct_offset_outline(space, unknowns);
-    r.offset_outline.col(0).array() -= volume.barycentre;
+    r.offset_outline.rowwise() += Eigen::RowVector2d(-volume.barycentre, space.aside());
   }
   static_cast<StateNumbers&>(r) = numbers(problem, unknowns);
   r.statistics.unknowns = space.unknowns();

@@ -23,6 +23,10 @@ class MovingDiscrete {
   virtual NonlinearSystem& system() = 0;
   virtual const NonlinearSystem& system() const = 0;
   virtual int cell_velocity() const = 0;
+  /// Velocity of a cell off the axis along its offset; -1: it is on the axis.
+  virtual int drift() const { return -1; }
+  /// How far it starts from its place in the mesh.
+  virtual double first_aside() const { return 0; }
   /// Displacements of the surface, each once or more often.
   virtual std::vector<int> surface_unknowns() const = 0;
 
@@ -35,7 +39,8 @@ class MovingDiscrete {
 
   /// How far the nodes have to move such that the wall is at `wall(x)`, in the units of WallTable, with these unknowns.
   virtual VectorXd wall_motion(const std::function<double(double)>& wall, const VectorXd& unknowns) const = 0;
-  virtual void move_nodes(const VectorXd& outward) = 0;
+  /// With the cell displaced along its offset by `aside` from its place in the mesh.
+  virtual void move_nodes(const VectorXd& outward, double aside) = 0;
 
   /// Place of the cell's barycentre in the frame.
   virtual double barycentre(const VectorXd& unknowns) const = 0;
@@ -44,7 +49,7 @@ class MovingDiscrete {
 };
 
 std::unique_ptr<MovingDiscrete> moving_tube(const Problem&, const Resolution&);
-/// Without inertia, on the axis; `Section::tube` in three dimensions, to compare.
+/// Without inertia; `Section::tube` in three dimensions, to compare.
 std::unique_ptr<MovingDiscrete> moving_duct(const Problem&, const Resolution&);
 /// Of the section.
 std::unique_ptr<MovingDiscrete> moving_discrete(const Problem&, const Resolution&);

@@ -7,15 +7,19 @@
 namespace rheocyte {
 namespace {
 
-/// A node near the cell's middle is held at its place.
+/// A node near the cell's middle is held at its place; off the axis the frame moves along the offset, too.
 class MovingDuct final : public MovingOf<DuctDiscrete, MovingDuctSystem> {
  public:
   MovingDuct(const Problem& problem, const Resolution& resolution)
       : MovingOf([&] { return DuctDiscrete(problem, subdivision_of(problem), resolution.degree); },
                  [&](const DuctDiscrete& discrete) {
                    return MovingDuctSystem(discrete.space(), discrete.system().drop(), problem.cortex.bending > 0);
-                 }) {}
+                 }),
+        first_aside_(problem.offset - space().mesh().geometry().shape().offset) {}
 
+  int drift() const override { return space().drift(); }
+  double first_aside() const override { return first_aside_; }
+  void move_nodes(const VectorXd& outward, double aside) override { discrete_.space().move_nodes(outward, aside); }
   std::vector<int> surface_unknowns() const override { return displacements_of(surface_faces(space()), 3); }
   VectorXd node_velocities(const VectorXd&) const override { return {}; }
 
@@ -30,6 +34,9 @@ class MovingDuct final : public MovingOf<DuctDiscrete, MovingDuctSystem> {
       if (u >= 0) unknowns(u) = (factors[c] - 1) * (space().node_points()[i / 3](c) - (c == 0 ? held : 0));
     }
   }
+
+ private:
+  double first_aside_;
 };
 
 }  // namespace

@@ -24,7 +24,6 @@ class MovingOf : public MovingDiscrete {
   VectorXd wall_motion(const std::function<double(double)>& wall, const VectorXd& unknowns) const final {
     return space().wall_motion(wall, unknowns);
   }
-  void move_nodes(const VectorXd& outward) final { discrete_.space().move_nodes(outward); }
 
  protected:
   template <class MakeDiscrete, class MakeSystem>
@@ -48,8 +47,9 @@ class MovingOf : public MovingDiscrete {
     return unknowns;
   }
 
- private:
   DiscreteKind discrete_;
+
+ private:
   System system_;
 };
 

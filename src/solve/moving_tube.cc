@@ -20,6 +20,7 @@ class MovingTube final : public MovingOf<TubeDiscrete, MovingSystem> {
   }
 
   double barycentre(const VectorXd&) const override { return 0; }
+  void move_nodes(const VectorXd& outward, double) override { discrete_.space().move_nodes(outward); }
   void stretch_sphere(double stretch, VectorXd& unknowns) const override {
     const double factors[] = {stretch, 1 / std::sqrt(stretch)};
     for (int i = 0; i < 2 * space().nodes().count; ++i) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solve/branch_ends.h"
+#include "solve/duct.h"
 #include "solve/resolved_branch.h"
 
 namespace rheocyte {
@@ -26,6 +27,7 @@ Resolution chosen(const Problem& problem, Resolution resolution) {
 Resolution resolution_in_time(const Problem& problem, double accuracy, const WorkLimits& limits) {
   Problem straight = problem;
   straight.wall = {};
+  straight.offset = shape_of(problem).offset;
   if (!problem.tension_profile.is_even()) axial_tension(straight) = problem.tension_profile.tension.back();
   straight.accuracy = share_of_reference * accuracy;
   if (problem.bulk.shear_modulus == 0 && problem.bulk.branch_modulus > 0) return usual_time_resolution_of(problem);

@@ -17,6 +17,8 @@ TimeState at_time_zero(const Space& space, int directions, const TimeState& stat
     if (const int u = space.displacement(node, c); u >= 0) level.unknowns(u) = old(u);
     if (const int u = space.velocity(node, c).unknown; u >= 0) level.unknowns(u) = units.velocity * old(u);
   }
+  if constexpr (requires { space.spin(); })
+    if (const int u = space.spin(); u >= 0) level.unknowns(u) = units.velocity * old(u);
   TimeState start;
   start.levels = {level};
   start.resolution = state.resolution;

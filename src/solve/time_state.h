@@ -16,6 +16,7 @@ struct TimeLevel {
   double frame_acceleration = 0;  ///< d(v_cell)/dt, in U^2/R
   double position = 0;            ///< of the frame along the channel, from the start of the cell, in R
   double barycentre = 0;          ///< of the cell in the frame; where it is held, 0
+  double aside = 0;               ///< of the frame along the cell's offset, from where the mesh has it
   Eigen::VectorXd outward = {};   ///< where a wall that is not straight moves the mesh's nodes; empty: straight
   Eigen::VectorXd branch = {};    ///< metric of the Maxwell branch (eq:branch); empty: there is none
 
@@ -27,7 +28,7 @@ struct TimeLevel {
 /// been refused. Unknowns empty: there are none.
 struct KeptTangent {
   Motion motion;
-  double axial_tension = 0;
+  double axial_tension = 0, aside = 0;
   Eigen::VectorXd outward, unknowns;
 };
 

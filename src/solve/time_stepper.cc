@@ -43,9 +43,10 @@ TimeStepper::TimeStepper(const Problem& problem, std::unique_ptr<MovingDiscrete>
 
 Status TimeStepper::start() {
   TimeLevel level;
-  if (wall_) {
+  level.aside = moving_->first_aside();
+  if (moves_mesh()) {
     const VectorXd sphere = 0 * moving_->system().sphere();
-    level.outward = meet_walls(0, sphere);
+    level.outward = meet_walls(level, sphere);
     moving_->set_motion({0, sphere, 0 * moving_->node_velocities(sphere), 0 * level.outward});
   }
   NewtonOptions options = options_.newton;
@@ -83,16 +84,17 @@ double TimeStepper::combine(const VectorXd& weights, double TimeLevel::*field) c
   return result;
 }
 
-VectorXd TimeStepper::meet_walls(double position, const VectorXd& unknowns) {
-  const auto wall = [&](double x) { return wall_->radius(position + x); };
+VectorXd TimeStepper::meet_walls(const TimeLevel& level, const VectorXd& unknowns) {
+  const auto wall = [&](double x) { return wall_ ? wall_->radius(level.position + x) : 1; };
   VectorXd outward = moving_->wall_motion(wall, unknowns);
-  moving_->move_nodes(outward);
+  moving_->move_nodes(outward, level.aside);
   return outward;
 }
 
 void TimeStepper::move_walls(double time) {
-  if (!wall_) return;
-  moving_->move_nodes(combine(weights_at(time), &TimeLevel::outward));
+  if (!moves_mesh()) return;
+  const VectorXd weights = weights_at(time);
+  moving_->move_nodes(combine(weights, &TimeLevel::outward), combine(weights, &TimeLevel::aside));
 }
 
 VectorXd TimeStepper::weights_at(double time) const {
@@ -108,12 +110,13 @@ TimeLevel TimeStepper::level_at(double time) const {
   level.unknowns = combine(weights, &TimeLevel::unknowns);
   level.position = combine(weights, &TimeLevel::position);
   level.barycentre = combine(weights, &TimeLevel::barycentre);
+  level.aside = combine(weights, &TimeLevel::aside);
   level.frame_acceleration = combine(weights, &TimeLevel::frame_acceleration);
   return level;
 }
 
-double TimeStepper::position_after(const BdfFormula& formula, double velocity) const {
-  return (velocity - combine(formula.weights, &TimeLevel::position)) / formula.rate;
+double TimeStepper::place_after(const BdfFormula& formula, double velocity, double TimeLevel::*place) const {
+  return (velocity - combine(formula.weights, place)) / formula.rate;
 }
 
 double TimeStepper::next_position(double time) const {
@@ -121,12 +124,12 @@ double TimeStepper::next_position(double time) const {
   const VectorXd weights = weights_at(time);
   double velocity = 0;
   for (int i = 0; i < weights.size(); ++i) velocity += weights(i) * state_.levels[i].unknowns(moving_->cell_velocity());
-  return position_after(bdf_formula(times(state_), state_.order, time), velocity) +
+  return place_after(bdf_formula(times(state_), state_.order, time), velocity, &TimeLevel::position) +
          combine(weights, &TimeLevel::barycentre);
 }
 
-double TimeStepper::surface_change(const VectorXd& difference) const {
-  double greatest = 0;
+double TimeStepper::surface_change(const VectorXd& difference, double rate) const {
+  double greatest = moving_->drift() < 0 ? 0 : std::abs(difference(moving_->drift())) / rate;
   for (const int unknown : surface_) greatest = std::max(greatest, std::abs(difference(unknown)));
   return greatest / problem_.radius_ratio / options_.accuracy;
 }
@@ -134,7 +137,7 @@ double TimeStepper::surface_change(const VectorXd& difference) const {
 void TimeStepper::renew_factors() {
   const KeptTangent& tangent = state_.tangent;
   if (system().has_factors() || tangent.unknowns.size() == 0) return;
-  if (wall_) moving_->move_nodes(tangent.outward);
+  if (moves_mesh()) moving_->move_nodes(tangent.outward, tangent.aside);
   moving_->set_motion(tangent.motion);
   axial_tension(media_) = tangent.axial_tension;
   moving_->system().linearise(media_, tangent.unknowns);
@@ -149,7 +152,7 @@ NewtonReport TimeStepper::solve(const Motion& motion, TimeLevel& level) {
   if (!system().has_factors()) {
     state_.tangent = {};
   } else if (report.factored_at.size() > 0) {
-    state_.tangent = {motion, axial_tension(media_), level.outward, report.factored_at};
+    state_.tangent = {motion, axial_tension(media_), level.aside, level.outward, report.factored_at};
   }
   return report;
 }
@@ -163,9 +166,11 @@ TimeStepper::Trial TimeStepper::attempt(double step, int order) {
   const int v = moving_->cell_velocity(), levels = std::min<int>(order + 1, int(past.size()));
   const VectorXd guess = extrapolate(levels, trial.level.time), weights = trial.formula.weights.head(order);
   Motion motion{trial.formula.rate, combine(weights, &TimeLevel::unknowns), combine(weights, &TimeLevel::velocities)};
-  trial.level.position = position_after(trial.formula, guess(v));
-  if (wall_) {
-    trial.level.outward = meet_walls(trial.level.position, guess);
+  trial.level.position = place_after(trial.formula, guess(v), &TimeLevel::position);
+  if (const int drift = moving_->drift(); drift >= 0)
+    trial.level.aside = place_after(trial.formula, guess(drift), &TimeLevel::aside), motion.turning = guess;
+  if (moves_mesh()) {
+    trial.level.outward = meet_walls(trial.level, guess);
     motion.outward = motion.rate * trial.level.outward + combine(weights, &TimeLevel::outward);
   }
   if (const AxialTensionTable& profile = problem_.tension_profile; !profile.is_even())
@@ -179,7 +184,7 @@ TimeStepper::Trial TimeStepper::attempt(double step, int order) {
   if (media_.bulk.branch_modulus > 0) trial.level.branch = moving_->branch_metric(media_.bulk, trial.level.unknowns);
   trial.level.frame_acceleration = motion.rate * trial.level.unknowns(v) + motion.unknowns(v);
   const double share = levels > order ? trial.formula.error_share : 0.5;  // the first step has nothing to compare with
-  trial.error = share * surface_change(trial.level.unknowns - guess);
+  trial.error = share * surface_change(trial.level.unknowns - guess, trial.formula.rate);
   return trial;
 }
 
@@ -188,7 +193,7 @@ StepErrors TimeStepper::errors(const Trial& trial, int order) const {
   const std::vector<double> past = times(state_);
   const auto error_at = [&](int other) {
     const double share = bdf_formula(past, other, trial.level.time).error_share;
-    return share * surface_change(trial.level.unknowns - extrapolate(other + 1, trial.level.time));
+    return share * surface_change(trial.level.unknowns - extrapolate(other + 1, trial.level.time), trial.formula.rate);
   };
   if (order > 1) result.below = error_at(order - 1);
   const bool settled = state_.steps_at_order > order && order < options_.max_order;

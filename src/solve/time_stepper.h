@@ -46,7 +46,8 @@ class TimeStepper final : public Stepper {
   /// With the factors that steps keep from one to the next, in a run that goes on from a state, too.
   NewtonReport solve(const Motion&, TimeLevel&);
   void renew_factors();
-  double surface_change(const VectorXd& difference) const;
+  /// Of the surface's positions, and of the cell's along its offset by a difference of its drift over the rate.
+  double surface_change(const VectorXd& difference, double rate) const;
   StepErrors errors(const Trial&, int order) const;
   void accept(const Trial&, int order);
   VectorXd extrapolate(int levels, double time) const;
@@ -54,10 +55,11 @@ class TimeStepper final : public Stepper {
   double combine(const VectorXd& weights, double TimeLevel::*field) const;
   /// Of the levels that the formula's polynomial goes through, at a time within the last or the next step.
   VectorXd weights_at(double time) const;
-  /// Of the cell after a step with the formula, its velocity extrapolated.
-  double position_after(const BdfFormula&, double velocity) const;
-  /// Where the walls move the nodes with the cell at `position`; moves them.
-  VectorXd meet_walls(double position, const VectorXd& unknowns);
+  /// Of the frame after a step with the formula, its velocity extrapolated.
+  double place_after(const BdfFormula&, double velocity, double TimeLevel::*place) const;
+  /// Where the walls move the nodes with the cell at a level's place; moves them.
+  VectorXd meet_walls(const TimeLevel& level, const VectorXd& unknowns);
+  bool moves_mesh() const { return wall_.has_value() || moving_->drift() >= 0; }
 
   TimeStepOptions options_;
   std::optional<WallProfile> wall_;  ///< of a channel that is not straight

@@ -67,6 +67,7 @@ bool has_settled(const Stepper& stepper) {
   // Steps that become as short as this, in the time gone, end a run that finds no more states: they show no rate.
   constexpr double share_left = 1e-4, share_of_noise = 1e-6, share_of_time = 1e-4;
   constexpr int intervals = 4;
+  if (stepper.problem().offset != 0) return false;  // it drifts as long as it is on its way
   const std::vector<TimeLevel>& levels = stepper.state().levels;
   if (levels.size() <= intervals || !stepper.has_passed_walls(levels[intervals])) return false;
   const double gone = stepper.system().largest_displacement(levels[0].unknowns);

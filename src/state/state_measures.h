@@ -130,10 +130,10 @@ inline constexpr StateMeasure state_measures[] = {
     {"drift_velocity_m_per_s",
      "velocity of a cell off the axis along its offset; negative: towards the axis where the "
      "offset is positive",
-     &StateNumbers::drift_velocity, AlsoIn::none, "for a cell on the axis"},
+     &StateNumbers::drift_velocity, AlsoIn::history, "for a cell on the axis"},
     {"rotation_rate_per_s", "angular velocity at which the material of a cell off the axis turns through its shape",
-     &StateNumbers::spin, AlsoIn::none, "for a cell on the axis"},
-    {"offset_um", "place of its barycentre off the axis", &StateNumbers::offset, AlsoIn::none,
+     &StateNumbers::spin, AlsoIn::history, "for a cell on the axis"},
+    {"offset_um", "place of its barycentre off the axis", &StateNumbers::offset, AlsoIn::history,
      "for a cell on the axis"},
     {"offset_error_um", "error of the place where it does not drift (cell.place = \"equilibrium\")",
      &StateNumbers::offset_error, AlsoIn::none, "for a given place, and on the axis"},
@@ -141,14 +141,14 @@ inline constexpr StateMeasure state_measures[] = {
      "sine mode s_2 of the radius of its outline in the plane of the offset about its centroid, over the mean radius: "
      "r = "
      "1 + sum c_k cos(k theta) + s_k sin(k theta), theta = 0 along the flow, 90 degrees along the offset",
-     &OutlineTilt::sine_mode_2, AlsoIn::none, "for a cell on the axis"},
+     &OutlineTilt::sine_mode_2, AlsoIn::history, "for a cell on the axis"},
     {"sine_mode_3", "its sine mode s_3", &OutlineTilt::sine_mode_3, AlsoIn::none, "for a cell on the axis"},
     {"sine_mode_4", "its sine mode s_4", &OutlineTilt::sine_mode_4, AlsoIn::none, "for a cell on the axis"},
     {"flank_slope",
      "slope dy/dx, y along the offset, of the line midway between both flanks of this outline, from 20 to 75 % of its "
      "length "
      "behind the nose; negative beside the axis (y > 0) where the nose points to it",
-     &OutlineTilt::flank_slope, AlsoIn::none, "for a cell on the axis"},
+     &OutlineTilt::flank_slope, AlsoIn::history, "for a cell on the axis"},
     {"mean_velocity_m_per_s", "flow rate over the area of the channel", &StateNumbers::flow_rate},
     {.name = "flow_rate_ul_per_s",
      .sentence = "flow rate through the channel; the given one unless the pressure drop is given",

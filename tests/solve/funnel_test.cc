@@ -45,7 +45,7 @@ struct RigidSphere {
     if (!problem.wall.is_straight()) {
       const WallProfile wall(problem.wall);
       const VectorXd outward = moving->wall_motion([&](double x) { return wall.radius(place + x); }, nothing);
-      moving->move_nodes(outward);
+      moving->move_nodes(outward, 0);
       moving->set_motion({0, nothing, {}, 0 * outward, {}});
     }
     EXPECT_EQ(flow_round_sphere(moving->system(), problem, {.tolerance = 1e-9}, unknowns), Status::converged);
