@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include "program.h"
@@ -18,15 +19,23 @@ using namespace rheocyte;
 
 constexpr int progress = int(CellCoordinate::log_progress), last_mode = 7;
 
-/// The state with this stiffness, which falls with the progress along a branch.
-CombinedState with_stiffness(const CombinedInterpolation& table, CellCoordinates cell, double log_stiffness) {
-  constexpr int halvings = 50;
-  double least = table.box().least(progress), greatest = table.box().greatest(progress);
-  for (int k = 0; k < halvings; ++k) {
-    cell(progress) = (least + greatest) / 2;
-    (table.at(cell).value(log_stiffness_row) > log_stiffness ? least : greatest) = cell(progress);
+/// The first state with this stiffness, which falls with the progress along a branch; nothing outside the table.
+std::optional<CombinedState> with_stiffness(const CombinedInterpolation& table, CellCoordinates cell,
+                                            double log_stiffness) {
+  constexpr int steps = 400, halvings = 40;
+  const double first = table.box().least(progress), step = (table.box().greatest(progress) - first) / steps;
+  const auto at = [&](double place) {
+    cell(progress) = place;
+    return table.at(cell);
+  };
+  const auto is_above = [&](double place) { return at(place).value(log_stiffness_row) > log_stiffness; };
+  for (int k = 0; k < steps; ++k) {
+    double least = first + k * step, greatest = least + step;
+    if (!at(least).inside || !at(greatest).inside || !is_above(least) || is_above(greatest)) continue;
+    for (int h = 0; h < halvings; ++h) (is_above((least + greatest) / 2) ? least : greatest) = (least + greatest) / 2;
+    return at(least);
   }
-  return table.at(cell);
+  return {};
 }
 
 std::string told(const CombinedState& state) {
@@ -46,9 +55,8 @@ int rheocyte::measure(int argc, char** argv) {
   while (std::cin >> radius >> young >> cortex >> ratio >> axial_Pa) {
     const double stiffness = young + cortex / radius;
     const CellCoordinates cell{std::log(radius), cortex / radius / stiffness, 0, ratio, 1e-3 * axial_Pa / stiffness};
-    const CombinedState state = with_stiffness(table, cell, std::log(stiffness));
-    const bool is_there = state.inside && std::abs(state.value(log_stiffness_row) - std::log(stiffness)) < 1e-6;
-    fmt::print("{}\n", is_there ? told(state) : "none");
+    const auto state = with_stiffness(table, cell, std::log(stiffness));
+    fmt::print("{}\n", state ? told(*state) : "none");
   }
   return 0;
 }

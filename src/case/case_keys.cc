@@ -104,8 +104,8 @@ const std::array table = {
         "radius of the unstressed, spherical cell, 0.05 .. 0.965 of the tube radius or of half the lesser width",
         Number{{0.01, 5000}}, required, {}, {}, "--radius-um"),
     KEY(cell.offset_um, "um",
-        "place of a cell off the axis of a duct, [along the width, along the height]; one of the two is 0, and the "
-        "camera looks along the other",
+        "place of a cell off the axis of a duct, [along the width, along the height], in time where it starts; one of "
+        "the two is 0, and the camera looks along the other",
         List{{-5000, 5000}}, absent, in_duct),
     KEY(cell.place, "",
         "where a cell off the axis is, given: at its offset; equilibrium: where it does not drift, sought from there "

@@ -127,6 +127,16 @@ double offset_in_mesh(const Problem& problem, double half_width) {
   return std::clamp(problem.offset / WallProfile(problem.wall).radius(0), -most, most);
 }
 
+/// Spokes to the edge of the box must not lead below the cell where the wall slants, but soft cells, which the funnel
+/// draws out, need a long box: by the share of the width at which a cell starts.
+void shorten_box(double share, DuctShape& shape) {
+  constexpr double least = 0.2, greatest = 0.5;
+  const double usual = disturbed_half_length(shape.radius, shape.extent), r0 = shape.radius,
+               way = std::clamp((std::abs(share) - least) / (greatest - least), 0.0, 1.0);
+  shape.box = std::lerp(usual, r0 + 0.4, way);
+  shape.edge = std::lerp(usual, 0.83 * r0, way);
+}
+
 }  // namespace
 
 DuctShape shape_of(const Problem& problem) {
@@ -139,8 +149,8 @@ DuctShape shape_of(const Problem& problem) {
   shape.narrows_in_height = problem.camera == Camera::side;
   if (shape.narrows_in_height) std::swap(shape.extent.width, shape.extent.height);
   shape.offset = shape.narrows_in_height ? problem.offset : offset_in_mesh(problem, shape.extent.width);
-  // Spokes to the edge of the box must not lead below the cell where the wall slants.
-  if (!problem.wall.is_straight()) shape.box = problem.radius_ratio + 0.4, shape.edge = 0.83 * problem.radius_ratio;
+  if (!problem.wall.is_straight() && !shape.narrows_in_height)
+    shorten_box(problem.offset / WallProfile(problem.wall).radius(0), shape);
   return shape;
 }
 

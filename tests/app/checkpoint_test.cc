@@ -24,8 +24,14 @@ Case some_case(const std::vector<std::string>& settings = {}) {
 Checkpoint some_checkpoint(double t_us = 12.5) {
   Checkpoint checkpoint;
   for (const double time : {0.3, 0.2}) {
-    TimeLevel level{time, Eigen::VectorXd::LinSpaced(7, 0, 1),    Eigen::VectorXd::LinSpaced(4, -1, 0.1), 0.7, 5.5,
-                    0.25, Eigen::VectorXd::LinSpaced(2, 0.3, 0.4)};
+    TimeLevel level{.time = time,
+                    .unknowns = Eigen::VectorXd::LinSpaced(7, 0, 1),
+                    .velocities = Eigen::VectorXd::LinSpaced(4, -1, 0.1),
+                    .frame_acceleration = 0.7,
+                    .position = 5.5,
+                    .barycentre = 0.25,
+                    .aside = -0.5,
+                    .outward = Eigen::VectorXd::LinSpaced(2, 0.3, 0.4)};
     checkpoint.state.levels.push_back(level);
   }
   checkpoint.state.order = 2;
@@ -71,6 +77,7 @@ TEST_F(Folder, GivesBackEveryBit) {
     EXPECT_EQ(read.state.levels[i].frame_acceleration, 0.7);
     EXPECT_EQ(read.state.levels[i].position, 5.5);
     EXPECT_EQ(read.state.levels[i].barycentre, 0.25);
+    EXPECT_EQ(read.state.levels[i].aside, -0.5);
     EXPECT_EQ(read.state.levels[i].outward, written.state.levels[i].outward);
   }
   EXPECT_EQ(read.state.next_step, 0.01);

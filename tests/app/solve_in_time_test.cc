@@ -229,6 +229,31 @@ TEST_F(InTime, AFunnelIntoASquareWritesBothViewsAndGoesOnWhenKilled) {
   EXPECT_NE(across, text("whole/contours.csv"));
 }
 
+TEST_F(InTime, ACellOffTheAxisOfAFunnelTellsItsPlaceAndGoesOnWhenKilled) {
+  Command command{{RHEOCYTE, "solve", std::string(EXAMPLES) + "/transit-off-axis.toml", "-o", at("whole"),
+                   "--no-picture", "--set", "time.degree=2", "--set", "time.output_every_um=1", "--set",
+                   "time.end_um=3", "--set", "channel.profile.x_um=[3, 8]", "--set",
+                   "channel.profile.width_um=[30, 20]", "--set", "cell.offset_um=[2, 0]"}};
+  const auto whole = run(command);
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const std::string outputs = text("whole/outputs.csv"), outlines = text("whole/contours_offset.csv");
+  for (const char* column :
+       {",drift_velocity_m_per_s", ",rotation_rate_per_s", ",offset_um", ",sine_mode_2", ",flank_slope"})
+    EXPECT_NE(outputs.find(column), std::string::npos) << outputs;
+  EXPECT_TRUE(outlines.starts_with("t_us,x_um,y_um\n0,6,2\n")) << outlines.substr(0, 60);
+  const double offset = nlohmann::json::parse(text("whole/result.json"))["offset_um"];
+  EXPECT_LT(offset, 2);
+  EXPECT_GT(offset, 1);
+  command.arguments[4] = at("killed");
+  command.signal = SIGKILL;
+  EXPECT_EQ(run(command).exit_code, 128 + SIGKILL);
+  command.signal = 0;
+  command.arguments.insert(command.arguments.end(), {"--continue", at("killed")});
+  ASSERT_EQ(run(command).exit_code, 0);
+  EXPECT_EQ(text("killed/history.csv"), text("whole/history.csv"));
+  EXPECT_EQ(text("killed/contours_offset.csv"), outlines);
+}
+
 TEST_F(InTime, ARunThatStopsTellsThatTheCellHasNoStationaryShape) {
   // The paper's cell with less than a third of its modulus is drawn out in the straight channel.
   const auto ended = run(solve("soft", {"--set", "cell.bulk.young_modulus_kPa=1", "--set", "time.end_us=2000"}));

@@ -9,9 +9,9 @@ namespace {
 TEST(BracketedRoot, FindsZerosToRoundingInFewSteps) {
   int calls = 0;
   const auto counted = [&](auto f) { return [&calls, f](double x) { return ++calls, f(x); }; };
-  EXPECT_NEAR(bracketed_root(plural([](double x) { return x * x - 2; }), 0, 2), std::sqrt(2.0), 1e-15);
-  EXPECT_NEAR(bracketed_root(plural([](double x) { return std::log(x) - 3; }), 1e-3, 1e5), std::exp(3.0), 1e-13);
-  EXPECT_NEAR(bracketed_root(plural([](double x) { return 10 - std::exp(x); }), 50, 0), std::log(10.0), 1e-15);
+  EXPECT_NEAR(bracketed_root(counted([](double x) { return x * x - 2; }), 0, 2), std::sqrt(2.0), 1e-15);
+  EXPECT_NEAR(bracketed_root(counted([](double x) { return std::log(x) - 3; }), 1e-3, 1e5), std::exp(3.0), 1e-13);
+  EXPECT_NEAR(bracketed_root(counted([](double x) { return 10 - std::exp(x); }), 50, 0), std::log(10.0), 1e-15);
   EXPECT_LT(calls, 60);
 }
 
