@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Where cells are that came into the funnel of a chip beside its axis, and what a camera sees of them there.
 
-    bench/centring.py [--program build/rheocyte] [--workers 2] [--degree 3] [--folder FOLDER]
+    bench/centring.py [--program build/rheocyte] [--workers 2] [--degree 3] [--folder FOLDER] [--moduli-kPa 1 2 4]
 
-Cells of 6 um and 1, 2 and 4 kPa, evenly distributed over the middle 64 um of the mouth of a planar funnel (100 to 20 um at 45
-degrees, 20 um high; 0.04 ul/s, 6 mPa s; nearer to the wall the mesh cannot follow them), are followed to 250 um behind it: their places off the axis, and c2, c3 and s2 of the outline in
-the plane of the funnel. Prints a line a cell, and of each modulus the rms place along the channel and the slope of s2 over
+Cells of 6 um and 1, 2 and 4 kPa, evenly distributed over the middle 64 um of the mouth of a planar funnel (100 to 20 um at
+45 degrees, 20 um high; 0.04 ul/s, 6 mPa s; nearer to the wall the mesh cannot follow them), are followed to 250 um behind it:
+their places off the axis, and c2, c3 and s2 of the outline in the plane of the funnel. Prints a line a cell, and of each modulus the rms place along the channel and the slope of s2 over
 the place. A minute a cell.
 """
 import argparse
@@ -84,10 +84,11 @@ def main():
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--degree", type=int, default=3)
     parser.add_argument("--folder", type=Path)
+    parser.add_argument("--moduli-kPa", type=float, nargs="+", default=MODULI_KPA)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(options.workers) as pool:
         folder = options.folder or Path(scratch)
-        jobs = {modulus: [pool.submit(followed, modulus, start, folder, options) for start in STARTS_UM] for modulus in MODULI_KPA}
+        jobs = {modulus: [pool.submit(followed, modulus, start, folder, options) for start in STARTS_UM] for modulus in options.moduli_kPa}
         for modulus, cells in jobs.items():
             report(modulus, [cell.result() for cell in cells])
 

@@ -23,7 +23,8 @@ void refuse_other_kind(const std::string& wanted, std::string_view kind, std::st
     if (other == kind || !table_files(tables_folder(), other).contains(wanted)) continue;
     std::string names;
     for (const auto& [name, file] : table_files(tables_folder(), kind)) names += (names.empty() ? "" : ", ") + name;
-    throw UserError(fmt::format("rheocyte: --table {}: it is not a {}; with the program comes {}.", wanted, noun, names));
+    throw UserError(
+        fmt::format("rheocyte: --table {}: it is not a {}; with the program comes {}.", wanted, noun, names));
   }
 }
 

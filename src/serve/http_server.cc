@@ -40,7 +40,8 @@ std::size_t most_connections() {
         fmt::format("rheocyte view: port {} of {} cannot be taken, another program may use it; give another "
                     "one with --port, or none for any that is free.",
                     place.port, host));
-  throw UserError(fmt::format("rheocyte view: --host {} is not an address of this machine ({}).", host, error.message()));
+  throw UserError(
+      fmt::format("rheocyte view: --host {} is not an address of this machine ({}).", host, error.message()));
 }
 
 }  // namespace

@@ -122,8 +122,9 @@ void check_dynamic_identifier(const DynamicSpec& spec, const KeyReading& keys) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
   };
   if (spec.identifier.empty() || spec.identifier.size() > 60 || !std::ranges::all_of(spec.identifier, is_plain))
-    keys.refuse("dynamic.identifier", fmt::format("{} is not a name of a table; take 1 to 60 letters, digits and hyphens.",
-                                                  keys.stated("dynamic.identifier")));
+    keys.refuse("dynamic.identifier",
+                fmt::format("{} is not a name of a table; take 1 to 60 letters, digits and hyphens.",
+                            keys.stated("dynamic.identifier")));
 }
 
 /// Digits of a number in a base behind the point, mirrored: evenly spread over (0, 1) (van der Corput).
