@@ -52,7 +52,7 @@ class _CellCortex:
 
 class _Cell:
     radius_um: float | None  # radius of the unstressed, spherical cell, 0.05 .. 0.965 of the tube radius or of half the lesser width
-    offset_um: list[float] | None  # place of a cell off the axis of a duct, [along the width, along the height]; one of the two is 0, and the camera looks along the other
+    offset_um: list[float] | None  # place of a cell off the axis of a duct, [along the width, along the height], in time where it starts; one of the two is 0, and the camera looks along the other
     place: Literal["given", "equilibrium"] | None  # where a cell off the axis is, given: at its offset; equilibrium: where it does not drift, sought from there along the drift
     rest_aspect: float | None  # length over width of the cell without stress, a spheroid along the flow with the volume of the sphere
     viscosity_mPas: float | None  # viscosity of the cell's interior; a stationary shape does not depend on it

@@ -59,8 +59,8 @@ Eigen::Vector2d DuctGeometry::box_across(const DuctPoint& cube, double stretch, 
     return stretch * Eigen::Vector2d(Y * std::sqrt(1 - Z * Z / 2), Z * std::sqrt(1 - Y * Y / 2));
   const double width = shape_.extent.width * (shape_.narrows_in_height ? 1 : stretch),
                height = shape_.extent.height * (shape_.narrows_in_height ? stretch : 1);
-  // The middle of front and rear is where the cell's own axis leaves it.
-  const double share = std::clamp(centre / width, -max_middle, max_middle);
+  // In a funnel the middle of front and rear is where the cell's own axis leaves it.
+  const double share = shape_.edge > 0 ? std::clamp(centre / width, -max_middle, max_middle) : 0;
   return {width * (Y + share) / (1 + share * Y), height * Z};
 }
 

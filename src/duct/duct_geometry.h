@@ -22,8 +22,8 @@ struct DuctShape {
   Extent extent = {};   ///< of a rectangle
   double length = 0;    ///< of the duct; 0: the shortest
   double offset = 0;    ///< of the cell's centre in y
-  /// Half-length of the box round the cell, and of its front edge at the wall that is nearer to a cell off the axis; 0:
-  /// as far as the cell disturbs the flow.
+  /// Half-length of the box round the cell, and of its front edge at the wall that is nearer to a cell off the axis of
+  /// a funnel; 0: as far as the cell disturbs the flow, and the channel is straight along y.
   double box = 0, edge = 0;
   bool narrows_in_height = false;  ///< a wall that is not straight: along z, else along y
 };

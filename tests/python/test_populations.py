@@ -117,7 +117,7 @@ def test_a_damaged_record_is_named(tmp_path):
     with pytest.raises(rheocyte.UserError, match="population.json cannot be read"):
         population_picture.read_record(tmp_path)
     (tmp_path / "population.json").write_text("{}")
-    with pytest.raises(rheocyte.UserError, match="no file of rheocyte population"):
+    with pytest.raises(rheocyte.UserError, match="not a file of rheocyte population"):
         population_picture.read_record(tmp_path)
 
 

@@ -105,7 +105,7 @@ TEST(DynamicTable, WhatItsSpecMustNotSayIsRefusedInASentence) {
   EXPECT_NE(refusal("time.end_us=100").find("must not be given"), std::string::npos);
   EXPECT_NE(refusal("dynamic.max_radius_um=4").find("is not below"), std::string::npos);
   EXPECT_NE(refusal("dynamic.max_radius_um=40").find("outside its range"), std::string::npos);
-  EXPECT_NE(refusal("dynamic.identifier=a b").find("no name of a table"), std::string::npos);
+  EXPECT_NE(refusal("dynamic.identifier=a b").find("not a name of a table"), std::string::npos);
   EXPECT_NE(refusal("cell.bulk.law=none"), "accepted");
   EXPECT_NE(refusal("channel.section=rectangle").find("computed in tubes and in the square channel"),
             std::string::npos);
