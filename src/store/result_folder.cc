@@ -22,11 +22,29 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 19> own_files{
-    "result.json",        "contour.csv",  "fields.vtu", "case.toml",   "picture.png",      "picture.svg",
-    "history.csv",        "contours.csv", "fields.pvd", "fields",      "checkpoint-1.bin", "checkpoint-2.bin",
-    "time.png",           "time.svg",     "time.gif",   "channel.csv", "outputs.csv",      "contours_across.csv",
-    "contours_offset.csv"};
+constexpr std::array<std::string_view, 23> own_files{"result.json",
+                                                     "contour.csv",
+                                                     "fields.vtu",
+                                                     "case.toml",
+                                                     "picture.png",
+                                                     "picture.svg",
+                                                     "history.csv",
+                                                     "contours.csv",
+                                                     "fields.pvd",
+                                                     "fields",
+                                                     "checkpoint-1.bin",
+                                                     "checkpoint-2.bin",
+                                                     "time.png",
+                                                     "time.svg",
+                                                     "time.gif",
+                                                     "channel.csv",
+                                                     "outputs.csv",
+                                                     "contours_across.csv",
+                                                     "contours_offset.csv",
+                                                     "contour_side.csv",
+                                                     "contour_diagonal.csv",
+                                                     "contour_across.csv",
+                                                     "contour_offset.csv"};
 constexpr std::array<const char*, 2> checkpoints{"checkpoint-1.bin", "checkpoint-2.bin"};
 
 std::string reason_of(int error_number) { return std::generic_category().message(error_number); }

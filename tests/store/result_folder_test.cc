@@ -66,6 +66,20 @@ TEST_F(ResultFolderTest, FilesOfTheUserAreKeptWithTheirFoldersAndLinks) {
   }
 }
 
+TEST_F(ResultFolderTest, OutlinesOfAnEarlierCellGoWithIt) {
+  {
+    ResultFolder folder(result());
+    folder.write("result.json", own_result);
+    for (const char* name : {"contour_side.csv", "contour_diagonal.csv", "contour_across.csv", "contour_offset.csv"})
+      folder.write(name, "of a cell in a duct");
+    folder.publish();
+  }
+  EXPECT_TRUE(fs::exists(result() / "contour_offset.csv"));
+  publish("of one in a tube");
+  for (const auto& entry : fs::directory_iterator(result()))
+    EXPECT_FALSE(entry.path().filename().string().starts_with("contour_")) << entry.path();
+}
+
 TEST_F(ResultFolderTest, LeftOversGoAndOthersFilesInThemComeBack) {
   publish("first");
   const auto half = left_over("contour.csv", "half"), old = left_over("notes.txt", "precious");
