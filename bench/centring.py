@@ -46,7 +46,7 @@ def followed(modulus_kPa, start_um, folder, options):
     result = folder / f"{modulus_kPa:g}-{start_um:g}"
     done = subprocess.run([options.program, "solve", EXAMPLE, "-o", result, "--no-picture", "--no-output-fields",
                            "--set", f"cell.offset_um=[{start_um}, 0]", "--set", f"cell.bulk.young_modulus_kPa={modulus_kPa}",
-                           "--set", f"time.degree={options.degree}"], capture_output=True, text=True)
+                           "--set", f"time.degree={options.degree}", "--set", f"time.end_um={FUNNEL_ENDS_UM + PLACES_UM[-1]}"], capture_output=True, text=True)
     if not (result / "outputs.csv").exists():
         print(f"{modulus_kPa} kPa from {start_um} um: {(done.stdout + done.stderr).strip().splitlines()[-1]}", flush=True)
         return {}
