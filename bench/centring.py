@@ -4,9 +4,9 @@
     bench/centring.py [--program build/rheocyte] [--workers 2] [--degree 3] [--folder FOLDER] [--moduli-kPa 1 2 4]
 
 Cells of 6 um and 1, 2 and 4 kPa, evenly distributed over the middle 64 um of the mouth of a planar funnel (100 to 20 um at
-45 degrees, 20 um high; 0.04 ul/s, 6 mPa s; nearer to the wall the mesh cannot follow them), are followed to 250 um behind it:
-their places off the axis, and c2, c3 and s2 of the outline in the plane of the funnel. Prints a line a cell, and of each modulus the rms place along the channel and the slope of s2 over
-the place. A minute a cell.
+45 degrees, 20 um high; 0.04 ul/s, 6 mPa s; nearer to the wall the mesh cannot follow them), are followed to 250 um behind
+it: their places off the axis, and c2, c3 and s2 of the outline in the plane of the funnel. Prints a line a cell, and of
+each modulus the rms place along the channel and the slope of s2 over the place. A minute a cell.
 """
 import argparse
 import csv
@@ -46,7 +46,8 @@ def followed(modulus_kPa, start_um, folder, options):
     result = folder / f"{modulus_kPa:g}-{start_um:g}"
     done = subprocess.run([options.program, "solve", EXAMPLE, "-o", result, "--no-picture", "--no-output-fields",
                            "--set", f"cell.offset_um=[{start_um}, 0]", "--set", f"cell.bulk.young_modulus_kPa={modulus_kPa}",
-                           "--set", f"time.degree={options.degree}", "--set", f"time.end_um={FUNNEL_ENDS_UM + PLACES_UM[-1]}"], capture_output=True, text=True)
+                           "--set", f"time.degree={options.degree}",
+                           "--set", f"time.end_um={FUNNEL_ENDS_UM + PLACES_UM[-1]}"], capture_output=True, text=True)
     if not (result / "outputs.csv").exists():
         print(f"{modulus_kPa} kPa from {start_um} um: {(done.stdout + done.stderr).strip().splitlines()[-1]}", flush=True)
         return {}
@@ -61,7 +62,8 @@ def followed(modulus_kPa, start_um, folder, options):
             outline = min(outlines, key=lambda time: abs(time - float(row["t_us"])))
             found[place] = (float(row["offset_um"]), *modes(np.array(outlines[outline])))
     print(f"{modulus_kPa} kPa from {start_um} um: " + "; ".join(
-        f"{place} um: y {y:.3f}, c2 {c2:.4f}, c3 {c3:.4f}, s2 {s2:.4f}" for place, (y, c2, c3, s2) in found.items()) + f"; followed to {reached:.0f} um", flush=True)
+        f"{place} um: y {y:.3f}, c2 {c2:.4f}, c3 {c3:.4f}, s2 {s2:.4f}" for place, (y, c2, c3, s2) in found.items())
+        + f"; followed to {reached:.0f} um", flush=True)
     return found
 
 

@@ -24,6 +24,15 @@ class InTime : public testing::Test {
     return command;
   }
   std::string text(const std::string& name) const { return content_of(folder_.path() / name); }
+  /// The command once more, with "killed" as the folder of its result: killed, and continued.
+  void kill_and_continue(Command command) const {
+    command.arguments[4] = at("killed");
+    command.signal = SIGKILL;
+    EXPECT_EQ(run(command).exit_code, 128 + SIGKILL);
+    command.signal = 0;
+    command.arguments.insert(command.arguments.end(), {"--continue", at("killed")});
+    ASSERT_EQ(run(command).exit_code, 0);
+  }
 
   TemporaryFolder folder_;
 };
@@ -203,9 +212,10 @@ TEST_F(InTime, AChannelEntryWritesTheWallAndKeepsWhatItHasWhenItFails) {
 TEST_F(InTime, AFunnelIntoASquareWritesBothViewsAndGoesOnWhenKilled) {
   // The wall goes from half of one width to half of the other; a killed run goes on with the factors that it kept, so
   // byte by byte as an undisturbed one.
-  Command command{{RHEOCYTE, "solve", std::string(EXAMPLES) + "/transit-square.toml", "-o", at("whole"), "--no-picture",
-                   "--set", "time.degree=2", "--set", "time.output_every_um=1", "--set", "time.end_um=4", "--set",
-                   "channel.profile.x_um=[3, 8]", "--set", "channel.profile.width_um=[30, 20]"}};
+  const Command command{{RHEOCYTE, "solve", std::string(EXAMPLES) + "/transit-square.toml", "-o", at("whole"),
+                         "--no-picture", "--set", "time.degree=2", "--set", "time.output_every_um=1", "--set",
+                         "time.end_um=4", "--set", "channel.profile.x_um=[3, 8]", "--set",
+                         "channel.profile.width_um=[30, 20]"}};
   const auto whole = run(command);
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
   const std::string outputs = text("whole/outputs.csv"), wall = text("whole/channel.csv");
@@ -214,12 +224,7 @@ TEST_F(InTime, AFunnelIntoASquareWritesBothViewsAndGoesOnWhenKilled) {
   EXPECT_NE(wall.find(",14.99999"), std::string::npos);
   EXPECT_TRUE(wall.ends_with(",10.000004\n")) << wall;
   EXPECT_EQ(nlohmann::json::parse(text("whole/result.json"))["time"]["ended_by"], "place");
-  command.arguments[4] = at("killed");
-  command.signal = SIGKILL;
-  EXPECT_EQ(run(command).exit_code, 128 + SIGKILL);
-  command.signal = 0;
-  command.arguments.insert(command.arguments.end(), {"--continue", at("killed")});
-  ASSERT_EQ(run(command).exit_code, 0);
+  ASSERT_NO_FATAL_FAILURE(kill_and_continue(command));
   EXPECT_EQ(text("killed/history.csv"), text("whole/history.csv"));
   EXPECT_EQ(text("killed/contours.csv"), text("whole/contours.csv"));
   // The outline seen along the width has the same outputs; in the funnel it is another one.
@@ -230,10 +235,10 @@ TEST_F(InTime, AFunnelIntoASquareWritesBothViewsAndGoesOnWhenKilled) {
 }
 
 TEST_F(InTime, ACellOffTheAxisOfAFunnelTellsItsPlaceAndGoesOnWhenKilled) {
-  Command command{{RHEOCYTE, "solve", std::string(EXAMPLES) + "/transit-off-axis.toml", "-o", at("whole"),
-                   "--no-picture", "--set", "time.degree=2", "--set", "time.output_every_um=1", "--set",
-                   "time.end_um=3", "--set", "channel.profile.x_um=[3, 8]", "--set",
-                   "channel.profile.width_um=[30, 20]", "--set", "cell.offset_um=[2, 0]"}};
+  const Command command{{RHEOCYTE, "solve", std::string(EXAMPLES) + "/transit-off-axis.toml", "-o", at("whole"),
+                         "--no-picture", "--set", "time.degree=2", "--set", "time.output_every_um=1", "--set",
+                         "time.end_um=3", "--set", "channel.profile.x_um=[3, 8]", "--set",
+                         "channel.profile.width_um=[30, 20]", "--set", "cell.offset_um=[2, 0]"}};
   const auto whole = run(command);
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
   const std::string outputs = text("whole/outputs.csv"), outlines = text("whole/contours_offset.csv");
@@ -244,12 +249,7 @@ TEST_F(InTime, ACellOffTheAxisOfAFunnelTellsItsPlaceAndGoesOnWhenKilled) {
   const double offset = nlohmann::json::parse(text("whole/result.json"))["offset_um"];
   EXPECT_LT(offset, 2);
   EXPECT_GT(offset, 1);
-  command.arguments[4] = at("killed");
-  command.signal = SIGKILL;
-  EXPECT_EQ(run(command).exit_code, 128 + SIGKILL);
-  command.signal = 0;
-  command.arguments.insert(command.arguments.end(), {"--continue", at("killed")});
-  ASSERT_EQ(run(command).exit_code, 0);
+  ASSERT_NO_FATAL_FAILURE(kill_and_continue(command));
   EXPECT_EQ(text("killed/history.csv"), text("whole/history.csv"));
   EXPECT_EQ(text("killed/contours_offset.csv"), outlines);
 }
