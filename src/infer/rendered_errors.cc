@@ -33,6 +33,18 @@ ShapeErrors rendered(const CombinedState& state, double pixel_size_um, int draws
   return errors_in_pixels(outline, pixel_size_um, draws, random);
 }
 
+/// Corners of the box lie beyond the table: the softest cell on the way there that it has, or the stiffest of all.
+CombinedState nearest_state(const CombinedInterpolation& table, CellCoordinates cell) {
+  constexpr double step = 0.05;
+  const double stiffest = table.box().least(progress_axis);
+  CombinedState state = table.at(cell);
+  while (!state.inside && cell(progress_axis) > stiffest) {
+    cell(progress_axis) = std::max(cell(progress_axis) - step, stiffest);
+    state = table.at(cell);
+  }
+  return state;
+}
+
 }  // namespace
 
 RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, int draws)
@@ -53,7 +65,7 @@ RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_
       if (n > 1) cell(axis) = node_place(axis, double(rest % n) / double(n - 1));
       rest /= n;
     }
-    errors_.push_back(rendered(table.at(cell), pixel_size_um, draws, number));
+    errors_.push_back(rendered(nearest_state(table, cell), pixel_size_um, draws, number));
   }
 }
 std::size_t RenderedErrors::count_of(const Nodes& nodes) {

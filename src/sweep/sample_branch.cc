@@ -124,9 +124,8 @@ class BranchSampler {
     return 24 * std::abs(log_progress(c) - cubic) / (h * h * (h + H) * (h + H));
   }
 
-  /// The largest step behind which cubic interpolation is accurate, by the fourth derivative of ln of the
-  /// progress. Where the
-  /// trapezoidal rule is far off, too: another branch was reached, or a fold is near.
+  /// The largest step behind which cubic interpolation is accurate, by the fourth derivative of ln of the progress.
+  /// Where the trapezoidal rule is far off, too: another branch was reached, or a fold is near.
   double allowed_step(const BranchNode& before, const BranchNode& next) {
     const double h = next.u - before.u, change = log_progress(next) - log_progress(before);
     const double trapezoid = h * (log_progress_slope(before) + log_progress_slope(next)) / 2;
@@ -154,10 +153,9 @@ class BranchSampler {
   std::optional<BranchEnd> leaves_range(const BranchNode& node) const {
     const bool is_large = !spec_.is_combined() && node.at(Measure::area_um2) > 1.02 * spec_.max_area_um2;
     // Of elongated cells, what the flow adds to the deformation by the tension.
-    const double without_flow = spec_.is_elongated() ? nodes_.front().at(Measure::deformation) : 0;
-    if (node.at(Measure::deformation) - without_flow > spec_.max_deformation || is_large)
-      return end_of(Status::covered);
-    if (node.at(Measure::deformation_raw) > spec_.max_deformation_raw) return end_of(Status::dented);
+    const auto by_flow = [&](Measure m) { return node.at(m) - (spec_.is_elongated() ? nodes_.front().at(m) : 0); };
+    if (by_flow(Measure::deformation) > spec_.max_deformation || is_large) return end_of(Status::covered);
+    if (by_flow(Measure::deformation_raw) > spec_.max_deformation_raw) return end_of(Status::dented);
     return std::nullopt;
   }
 

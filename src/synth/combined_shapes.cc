@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "numeric/roots.h"
-#include "table/progress.h"
 
 namespace rheocyte {
 
@@ -28,13 +27,10 @@ std::vector<SampledBranch> without_empty(std::vector<SampledBranch> branches) {
 }  // namespace
 
 CombinedShapes::CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches, const SimulatedCells& cells)
-    : branches_(without_empty(std::move(branches))),
-      between_(make_combined_table(spec, branches_)),
-      cells_(cells),
-      progress_(progress_of(spec)) {}
+    : branches_(without_empty(std::move(branches))), between_(make_combined_table(spec, branches_)), cells_(cells) {}
 
 CombinedShapes::CombinedShapes(const CombinedTable& table, const SimulatedCells& cells)
-    : between_(table), cells_(cells), progress_(progress_of(table.spec)) {}
+    : between_(table), cells_(cells) {}
 
 std::variant<CellShape, NoShape> CombinedShapes::shape(const VirtualCell& cell) const {
   const ScaleFactors scale = cells_.scale_for(cell);
@@ -90,14 +86,13 @@ CellShape CombinedShapes::by_modes(const CombinedState& state) const {
 }
 
 CellShape CombinedShapes::blended(const CellCoordinates& cell) const {
-  const double radius = std::exp(cell(x_radius)), progress = std::exp(cell(x_progress));
+  const double radius = std::exp(cell(x_radius));
   CellShape shape;
   shape.meridian = Eigen::MatrixX2d::Zero(branches_.front().contour.front().rows(), 2);
-  for (const auto& [number, weight] : between_.weights(cell)) {
+  for (const auto& [number, weight, stiffness_kPa] : between_.weights(cell)) {
     const SampledBranch& branch = branches_[std::size_t(number)];
-    const double within = std::clamp(progress, branch.at(0, progress_),  // but for rounding
-                                     branch.at(branch.samples() - 1, progress_));
-    const double scale = radius / branch.radius_um, stiffness = stiffness_at(branch, progress_, within);
+    const double stiffness = std::clamp(stiffness_kPa, branch.stiffness.back(), branch.stiffness.front());
+    const double scale = radius / branch.radius_um;
     shape.meridian += weight * scale * interpolate_contour(branch, stiffness);
     shape.volume_um3 += weight * scale * scale * scale * interpolate(branch, Measure::volume_um3, stiffness);
   }

@@ -37,7 +37,6 @@ class CombinedShapes : public CellShapes {
   std::vector<SampledBranch> branches_;  ///< in the order of the table's; empty: without contours
   CombinedInterpolation between_;
   SimulatedCells cells_;
-  Measure progress_;  ///< of the branches
 };
 
 }  // namespace rheocyte

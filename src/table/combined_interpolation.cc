@@ -63,8 +63,8 @@ std::vector<double> distinct(const CombinedTable& table, Value value) {
 /// A weighted sum of states with its derivatives.
 struct CombinedInterpolation::Sum {
   Row value = Row::Zero();
-  Eigen::Matrix<double, row_count, coordinate_count> gradient =
-      Eigen::Matrix<double, row_count, coordinate_count>::Zero();
+  Eigen::Matrix<double, inner_rows, coordinate_count> gradient =
+      Eigen::Matrix<double, inner_rows, coordinate_count>::Zero();
 
   void add(const Sum& term, double weight, double weight_slope, CellCoordinate along) {
     value += weight * term.value;
@@ -74,8 +74,9 @@ struct CombinedInterpolation::Sum {
 };
 
 // Stiffness, area and modes change with the square root of d to first order. With a tension along the flow the even
-// modes are those that it alone makes, and the flow adds odd ones, the stiffness being one over the third.
+// modes are those that it alone makes, and the flow adds odd ones.
 double CombinedInterpolation::growth(int row) const {
+  if (row == log_flow_row) return 0;
   if (row == log_stiffness_row) return is_elongated() ? 1 : 0.5;
   if (!is_elongated()) return row == deformation_row ? 1 : 0.5;
   const bool is_odd = row >= first_mode_row && row < deformation_row && (row - first_mode_row + min_mode) % 2 == 1;
@@ -84,28 +85,34 @@ double CombinedInterpolation::growth(int row) const {
 
 CombinedInterpolation::Curve CombinedInterpolation::curve_of(const CombinedBranch& branch) const {
   constexpr int mode_3 = int(ShapeFeature::first_mode) + 3 - min_mode;
-  const int progress = is_elongated() ? mode_3 : int(ShapeFeature::deformation);
+  const int measure = is_elongated() ? mode_3 : int(ShapeFeature::deformation);
   const double disc = std::numbers::pi * branch.place.radius_um * branch.place.radius_um;
+  // Of the stiffest cell: c_3 is in proportion to the compliance there.
+  const double mode_3_times_stiffness = branch.samples() > 0 ? branch.value(0, mode_3) * branch.stiffness_kPa[0] : 0;
   Curve curve;
   for (int i = 0; i < branch.samples(); ++i) {
     const auto value = branch.value.row(i), slope = branch.slope.row(i);
-    const double here = value(progress), place = std::log(here);
-    const double by_stiffness = slope(progress) / here;  // d(ln progress)/d(ln S)
-    if (!(by_stiffness < 0) || (!curve.place.empty() && place <= curve.place.back())) break;
+    const double stiffness = branch.stiffness_kPa[std::size_t(i)];
+    const double flow = value(measure), flow_slope = slope(measure) / flow;  // of the logarithm, over ln S
+    const double place = std::log(is_elongated() ? mode_3_times_stiffness / stiffness : flow);
+    const double place_slope = is_elongated() ? -1 : flow_slope;
+    if (!(flow > 0 && place_slope < 0) || (!curve.place.empty() && place <= curve.place.back())) break;
     Row g, g_slope;
     const auto scaled = [&](int row, double number, double number_slope) {
-      const double power = growth(row), unit = power == 0.5 ? std::sqrt(here) : power == 0 ? 1 : here;
+      const double unit = std::pow(flow, growth(row));
       g(row) = number / unit;
-      g_slope(row) = number_slope / (by_stiffness * unit) - power * g(row);
+      g_slope(row) = (number_slope / unit - growth(row) * flow_slope * g(row)) / place_slope;
     };
     const double area = value(int(ShapeFeature::area_um2));
-    g(log_stiffness_row) = std::log(branch.stiffness_kPa[std::size_t(i)]) + growth(log_stiffness_row) * place;
-    g_slope(log_stiffness_row) = 1 / by_stiffness + growth(log_stiffness_row);
+    g(log_stiffness_row) = std::log(stiffness) + growth(log_stiffness_row) * place;
+    g_slope(log_stiffness_row) = 1 / place_slope + growth(log_stiffness_row);
     scaled(log_area_row, std::log(area / disc), slope(int(ShapeFeature::area_um2)) / area);
     scaled(moment_ratio_row, value(int(ShapeFeature::moment_ratio)) - 1, slope(int(ShapeFeature::moment_ratio)));
     for (int k = 0; k < mode_count; ++k)
       scaled(first_mode_row + k, value(int(ShapeFeature::first_mode) + k), slope(int(ShapeFeature::first_mode) + k));
     scaled(deformation_row, value(int(ShapeFeature::deformation)), slope(int(ShapeFeature::deformation)));
+    g(log_flow_row) = std::log(flow) - place;
+    g_slope(log_flow_row) = flow_slope / place_slope - 1;
     curve.place.push_back(place);
     curve.value.push_back(g);
     curve.slope.push_back(g_slope);
@@ -177,6 +184,25 @@ bool CombinedInterpolation::axial_reaches(int axial, const CellCoordinates& cell
          (ratios_.size() == 1 || sheet_reaches(sheet_of(axial, below + 1), cell));
 }
 
+// Beyond its ends straight on.
+CombinedInterpolation::Sum CombinedInterpolation::along(const Curve& branch, double progress) {
+  Sum term;
+  if (branch.place.size() < 2 || !branch.reaches(progress)) {
+    const bool soft = progress > branch.place.front();
+    const auto end = soft ? branch.place.size() - 1 : 0;
+    term.value = branch.value[end] + (progress - branch.place[end]) * branch.slope[end];
+    term.gradient.col(x_progress) = branch.slope[end];
+    return term;
+  }
+  const auto k = std::size_t(interval_of(branch.place, progress));
+  const double h = branch.place[k + 1] - branch.place[k], t = (progress - branch.place[k]) / h;
+  const Row &a = branch.value[k], &b = branch.value[k + 1];
+  const Row slope_a = h * branch.slope[k], slope_b = h * branch.slope[k + 1];
+  term.value = hermite(t)(a, b, slope_a, slope_b);
+  term.gradient.col(x_progress) = hermite_slope(t)(a, b, slope_a, slope_b) / h;
+  return term;
+}
+
 CombinedInterpolation::Sum CombinedInterpolation::over_radii(int sheet, int share, const CellCoordinates& cell) const {
   const double progress = cell(x_progress), x = cell(x_radius);
   const auto window = window_of(log_radii_, x, [&](int i) { return curve(sheet, share, i).reaches(progress); });
@@ -185,22 +211,8 @@ CombinedInterpolation::Sum CombinedInterpolation::over_radii(int sheet, int shar
   for (int i = window.first; i < window.end; ++i) {
     const Curve& branch = curve(sheet, share, i);
     if (branch.place.empty()) continue;
-    Sum term;
-    if (branch.place.size() < 2 || !branch.reaches(progress)) {  // straight on from the end
-      const bool soft = progress > branch.place.front();
-      const auto end = soft ? branch.place.size() - 1 : 0;
-      term.value = branch.value[end] + (progress - branch.place[end]) * branch.slope[end];
-      term.gradient.col(x_progress) = branch.slope[end];
-    } else {
-      const auto k = std::size_t(interval_of(branch.place, progress));
-      const double h = branch.place[k + 1] - branch.place[k], t = (progress - branch.place[k]) / h;
-      const Row &a = branch.value[k], &b = branch.value[k + 1];
-      const Row slope_a = h * branch.slope[k], slope_b = h * branch.slope[k + 1];
-      term.value = hermite(t)(a, b, slope_a, slope_b);
-      term.gradient.col(x_progress) = hermite_slope(t)(a, b, slope_a, slope_b) / h;
-    }
     const auto w = std::size_t(i - window.first);
-    sum.add(term, weights.value[w], weights.slope[w], CellCoordinate::log_radius);
+    sum.add(along(branch, progress), weights.value[w], weights.slope[w], CellCoordinate::log_radius);
   }
   return sum;
 }
@@ -258,9 +270,15 @@ void CombinedInterpolation::add_weights(int sheet, double factor, const CellCoor
   for (int j = sheets.first; j < sheets.end; ++j) {
     const auto radii = window_of(log_radii_, x, [&](int k) { return curve(sheet, j, k).reaches(progress); });
     const auto of_radii = lagrange_weights(part(log_radii_, radii), x);
-    for (int k = radii.first; k < radii.end; ++k)
-      all.push_back({curve(sheet, j, k).branch, factor * of_shares.value[std::size_t(j - sheets.first)] *
-                                                    of_radii.value[std::size_t(k - radii.first)]});
+    for (int k = radii.first; k < radii.end; ++k) {
+      const Curve& branch = curve(sheet, j, k);
+      const double log_stiffness =
+          along(branch, progress).value(log_stiffness_row) - growth(log_stiffness_row) * progress;
+      all.push_back(
+          {branch.branch,
+           factor * of_shares.value[std::size_t(j - sheets.first)] * of_radii.value[std::size_t(k - radii.first)],
+           std::exp(log_stiffness)});
+    }
   }
 }
 
@@ -273,12 +291,14 @@ CombinedState CombinedInterpolation::at(const CellCoordinates& cell) const {
     sum.add(over_ratios(i, cell), weights.value[w], weights.slope[w], CellCoordinate::axial_ratio);
   }
   // Back from what hardly varies to what is asked for.
-  CombinedState state{sum.value, sum.gradient, is_inside(cell)};
+  CombinedState state{sum.value.head<row_count>(), sum.gradient.topRows<row_count>(), is_inside(cell)};
+  Eigen::RowVector<double, coordinate_count> by_flow = sum.gradient.row(log_flow_row);
+  by_flow(x_progress) += 1;
+  const double log_flow = sum.value(log_flow_row) + cell(x_progress);
   for (int row = log_area_row; row < row_count; ++row) {
-    const double power = growth(row), unit = std::exp(power * cell(x_progress));
+    const double power = growth(row), unit = std::exp(power * log_flow);
     state.value(row) *= unit;
-    state.gradient.row(row) *= unit;
-    state.gradient(row, x_progress) += power * state.value(row);
+    state.gradient.row(row) = unit * state.gradient.row(row) + power * state.value(row) * by_flow;
   }
   state.value(log_stiffness_row) -= growth(log_stiffness_row) * cell(x_progress);
   state.gradient(log_stiffness_row, x_progress) -= growth(log_stiffness_row);

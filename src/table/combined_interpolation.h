@@ -7,9 +7,10 @@
 
 namespace rheocyte {
 
-/// The coordinates of a cell. How far the flow has deformed it is one of them, not the stiffness: all branches reach
-/// the same deformations and turn back at none, and states of equal deformation change least from branch to branch. It
-/// is the deformation; of a table of elongated cells, which have one without flow, the third mode.
+/// The coordinates of a cell. One of them is its progress along a branch. It is the deformation: all branches reach the
+/// same deformations and turn back at none, and states of equal deformation change least from branch to branch. Of a
+/// table of elongated cells, which have a deformation without flow, it is the third mode that the cell would have if
+/// this grew in proportion to 1 / S all along the branch: where the tension is as great as S it does not.
 enum class CellCoordinate { log_radius, cortex_share, log_progress, tension_ratio, axial_ratio, count };
 inline constexpr int coordinate_count = int(CellCoordinate::count);
 using CellCoordinates = Eigen::Matrix<double, coordinate_count, 1>;
@@ -31,7 +32,7 @@ constexpr int row_of(int feature) {
 struct CombinedState {
   Eigen::Matrix<double, row_count, 1> value;
   Eigen::Matrix<double, row_count, coordinate_count> gradient;
-  bool inside = false;  ///< between branches that reach this deformation; else it is continued from the nearest ones
+  bool inside = false;  ///< between branches that reach this progress; else it is continued from the nearest ones
 };
 
 /// Range of the coordinates; the greatest progress is that of the branch that goes farthest.
@@ -43,6 +44,7 @@ struct CellBox {
 struct BranchWeight {
   int branch = 0;  ///< of CombinedTable::branches
   double weight = 0;
+  double stiffness_kPa = 0;  ///< of the branch at the state's progress
 };
 
 /// Cubics along the branches in ln of the progress, of quantities that hardly vary there; between the branches
@@ -53,8 +55,8 @@ class CombinedInterpolation {
   explicit CombinedInterpolation(const CombinedTable& table);
 
   CombinedState at(const CellCoordinates& cell) const;
-  /// The branches of which `at` makes a state, for whatever else is known of them at this deformation, which all of
-  /// them reach; weights sum to one. Empty outside the table.
+  /// The branches of which `at` makes a state, for whatever else is known of them at this progress, which all of them
+  /// reach; weights sum to one. Empty outside the table.
   std::vector<BranchWeight> weights(const CellCoordinates& cell) const;
   const CellBox& box() const { return box_; }
   const std::vector<double>& radii_um() const { return radii_; }
@@ -62,7 +64,10 @@ class CombinedInterpolation {
   bool is_elongated() const { return axial_ratios_.size() > 1; }
 
  private:
-  using Row = Eigen::Matrix<double, row_count, 1>;
+  /// Also what the flow makes of the cell, by which other rows are divided: ln of its deformation, of elongated cells
+  /// of the third mode, less ln of the progress.
+  static constexpr int log_flow_row = row_count, inner_rows = row_count + 1;
+  using Row = Eigen::Matrix<double, inner_rows, 1>;
   /// Scaled values and slopes over ln of the progress.
   struct Curve {
     int branch = -1;  ///< of the table; -1: none
@@ -74,7 +79,8 @@ class CombinedInterpolation {
   };
   struct Sum;
 
-  /// The power of the progress with which a quantity grows at first; what is left varies little.
+  /// The power of what the flow makes of the cell with which a row grows at first; what is left varies little. Of the
+  /// stiffness, that of one over the progress.
   double growth(int row) const;
   Curve curve_of(const CombinedBranch& branch) const;
   Curve curve_at(const CombinedTable& table, const SweepPoint& place) const;
@@ -83,6 +89,7 @@ class CombinedInterpolation {
   const Curve& curve(int sheet, int share, int radius) const;
   Sum over_ratios(int axial, const CellCoordinates& cell) const;
   Sum over_shares(int sheet, const CellCoordinates& cell) const;
+  static Sum along(const Curve& branch, double progress);
   Sum over_radii(int sheet, int share, const CellCoordinates& cell) const;
   void add_weights(int sheet, double factor, const CellCoordinates& cell, std::vector<BranchWeight>& all) const;
   bool reaches(int sheet, int share, const CellCoordinates& cell) const;

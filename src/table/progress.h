@@ -1,5 +1,5 @@
-// By which measure the states of a table tell how far the flow has deformed the cell: it rises from zero along a
-// branch.
+// By which measure the states of a table tell how far the flow has deformed the cell: steps along a branch, and what
+// errors are relative to, go by it.
 #pragma once
 #include "table/branch.h"
 #include "table/table_spec.h"

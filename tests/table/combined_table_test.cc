@@ -134,7 +134,7 @@ TEST_F(Interpolation, TheWeightsOfTheBranchesAreThoseOfTheState) {
   for (int trial = 0; trial < 20; ++trial) {
     const CellCoordinates cell = random_cell();
     double sum = 0, log_radius = 0, share = 0;
-    for (const auto& [branch, weight] : between_.weights(cell)) {
+    for (const auto& [branch, weight, stiffness] : between_.weights(cell)) {
       const SweepPoint& place = table.branches.at(std::size_t(branch)).place;
       sum += weight;
       log_radius += weight * std::log(place.radius_um);
@@ -184,8 +184,8 @@ CellCoordinates random_elongated_cell(const CombinedInterpolation& between, std:
 }
 
 TEST(ElongatedTable, BetweenTheBranchesItIsTheInventedCell) {
-  // By the third mode, at every tension: cubics through five radii, four shares and five axial ratios leave 2e-3 of the
-  // third mode at a stiffness, and 5e-4 in the others.
+  // The stiffness at a place along the branches leads to a cell of this third mode at every tension: cubics through
+  // five radii, four shares and five axial ratios leave 2e-3 of it, and 5e-4 in the others.
   const CombinedInterpolation between(whole_elongated_table());
   std::mt19937 engine(2);
   for (int trial = 0; trial < 50; ++trial) {
@@ -194,7 +194,8 @@ TEST(ElongatedTable, BetweenTheBranchesItIsTheInventedCell) {
     EXPECT_TRUE(state.inside);
     const SweepPoint place{std::exp(cell(0)), cell(1), cell(3), cell(4)};
     const ShapeVector exact = invented_elongated_features(place, std::exp(state.value(log_stiffness_row)));
-    EXPECT_NEAR(std::log(exact(int(ShapeFeature::first_mode) + 1)), cell(2), 2e-3) << cell.transpose();
+    EXPECT_NEAR(state.value(first_mode_row + 1) / exact(int(ShapeFeature::first_mode) + 1), 1, 2e-3)
+        << cell.transpose();
     EXPECT_NEAR(state.value(log_area_row), exact(0), 5e-4);
     EXPECT_NEAR(state.value(deformation_row), exact(1), 5e-4);
     for (int f = 2; f < feature_count; ++f) EXPECT_NEAR(state.value(f), exact(f), 5e-4) << f;
