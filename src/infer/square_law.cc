@@ -34,7 +34,7 @@ constexpr double left_of_odd_modes = 0.3;
 
 bool is_odd_mode(int feature) {
   const int k = feature - int(ShapeFeature::first_mode) + min_mode;
-  return k > min_mode && k % 2 == 1;
+  return k > min_mode && order_of_mode(k) == 1;
 }
 
 /// Products of up to three of them.

@@ -12,6 +12,9 @@ namespace rheocyte {
 
 /// Modes k = min_mode .. max_mode; the first one vanishes about the centroid but for second order.
 inline constexpr int min_mode = 2, max_mode = 12, mode_count = max_mode - min_mode + 1;
+/// The power of the compliance with which the flow makes a mode of a stiff round cell (docs/theory-tables.md): odd ones
+/// change their sign with the flow's.
+constexpr int order_of_mode(int k) { return k % 2 == 1 ? 1 : 2; }
 
 /// Of the convex hull of a closed polygon; moments and radius about its centroid (docs/theory-extract.md, eq:modes).
 struct OutlineShape {

@@ -79,8 +79,8 @@ double CombinedInterpolation::growth(int row) const {
   if (row == log_flow_row) return 0;
   if (row == log_stiffness_row) return is_elongated() ? 1 : 0.5;
   if (!is_elongated()) return row == deformation_row ? 1 : 0.5;
-  const bool is_odd = row >= first_mode_row && row < deformation_row && (row - first_mode_row + min_mode) % 2 == 1;
-  return is_odd ? 1 : 0;
+  const bool is_mode = row >= first_mode_row && row < deformation_row;
+  return is_mode && order_of_mode(row - first_mode_row + min_mode) == 1 ? 1 : 0;
 }
 
 CombinedInterpolation::Curve CombinedInterpolation::curve_of(const CombinedBranch& branch) const {

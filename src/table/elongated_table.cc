@@ -26,10 +26,10 @@ static_assert(measures.size() == std::size_t(elongated_measures));
 /// Nodes of the interpolation in each direction: cubics between them miss far less than the polynomials.
 constexpr int radius_nodes = 33, axial_nodes = 17, height_nodes = 17;
 
-/// Odd modes of the radius, which go with the compliance of stiff cells and change their sign with the flow's.
+/// Odd modes of the radius, which go with the compliance of stiff cells.
 bool is_odd_measure(int measure) {
   const int above = measure - number_of(ElongatedMeasure::mode_2);
-  return above > 0 && above % 2 == 1;
+  return above > 0 && order_of_mode(min_mode + above) == 1;
 }
 
 /// ln(1 / E) at the ends of the branches: a smooth surface over radius and axial ratio that no branch falls short of by

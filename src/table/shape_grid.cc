@@ -6,23 +6,17 @@
 
 namespace rheocyte {
 
-namespace {
-
-constexpr bool is_odd(int k) { return k % 2 == 1; }
-
-}  // namespace
-
 ShapeGrid::ShapeGrid(ShapeNodes nodes) : nodes_(std::move(nodes)), grid_(nodes_.lower, nodes_.upper, nodes_.rows) {
   std::vector<double> excess = nodes_.inertia_ratio;
   for (double& value : excess) value -= 1;
-  inertia_ratio_ = field(excess, false);
+  inertia_ratio_ = field(excess, 2);
   for (int k = first_radius_mode; k <= last_radius_mode; ++k) {
     const auto place = std::size_t(k - first_radius_mode);
-    modes_[place] = field(nodes_.modes[place], is_odd(k));
+    modes_[place] = field(nodes_.modes[place], order_of_mode(k));
   }
 }
 
-CurvedGrid::Field ShapeGrid::field(std::span<const double> values, bool odd) const {
+CurvedGrid::Field ShapeGrid::field(std::span<const double> values, int order) const {
   const auto rows = std::size_t(nodes_.rows), columns = std::size_t(nodes_.columns);
   assert(values.size() == rows * columns);
   std::vector<double> scaled(values.begin(), values.end());
@@ -30,7 +24,7 @@ CurvedGrid::Field ShapeGrid::field(std::span<const double> values, bool odd) con
     for (std::size_t row = 0; row < rows; ++row) {
       const double share = double(row) / double(rows - 1);
       const double log_deformation = (1 - share) * nodes_.lower[c] + share * nodes_.upper[c];
-      scaled[c * rows + row] *= std::exp((odd ? -0.5 : -1) * log_deformation);
+      scaled[c * rows + row] *= std::exp(-order * log_deformation / 2);
     }
   return grid_.field(scaled);
 }
@@ -60,7 +54,7 @@ double ShapeGrid::mode(int k, double log_area, double deformation) const {
   assert(k >= first_radius_mode && k <= last_radius_mode);
   if (deformation <= 0) return 0;
   const auto [value, near] = scaled(modes_[std::size_t(k - first_radius_mode)], log_area, deformation);
-  return value * (is_odd(k) ? std::sqrt(near) : near);
+  return value * std::pow(near, order_of_mode(k) / 2.0);
 }
 
 std::array<double, mode_count> ShapeGrid::modes(double log_area, double deformation) const {

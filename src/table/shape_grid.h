@@ -38,7 +38,7 @@ class ShapeGrid {
   std::array<double, mode_count> modes(double log_area, double deformation) const;
 
  private:
-  CurvedGrid::Field field(std::span<const double> values, bool is_odd) const;
+  CurvedGrid::Field field(std::span<const double> values, int order) const;  ///< order_of_mode
   /// A field at the table's cell nearest to these, and the deformation of that.
   struct Scaled {
     double value, deformation;

@@ -14,6 +14,7 @@
 #include "case/user_error.h"
 #include "numeric/dense_solve.h"
 #include "numeric/lagrange.h"
+#include "shape/outline_shape.h"
 
 namespace rheocyte {
 namespace {
@@ -41,7 +42,7 @@ Scaling scaling_of(int measure) {
   const std::string_view name = table_measures[std::size_t(measure)].name;
   if (name.starts_with("deformation")) return {0, 2};
   if (name.starts_with("moment_ratio") || name == "inertia_ratio") return {1, 2};
-  if (name.starts_with("mode_")) return {0, (name[5] - '0') % 2 == 0 ? 2 : 1};
+  if (name.starts_with("mode_")) return {0, order_of_mode(name[5] - '0')};
   return {};
 }
 
