@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How the shape of a cell in the square channel differs from that of the cell of the combined table: square_law.h.
 
-    bench/square_law.py FILE [--cells 2124] [--workers 2] [--law src/infer/square_changes.h]
+    bench/square_law.py FILE [--cells 2900] [--workers 2] [--law src/infer/square_changes.h]
 
 Random neo-Hookean cells with bulk, cortex and a tension of the liquid are solved in the square channel, with liquids of
 exponents from 0.5 to 1 and the bending stiffness of a thin cortex, and in the tube with the Newtonian liquid of the same
@@ -32,7 +32,9 @@ MODE_2, MODE_3 = FEATURES.index("mode_2"), FEATURES.index("mode_3")
 # Of the numbers of the law.
 RANGES = np.array([[0.40, 0.82], [-0.06, 0.42], [0, 0.12], [0, 1], [0, 0.85], [0, 0.5]])
 LEAST_MODE_3, GREATEST_MODE_3 = 0.006, 0.12
-STIFF_CELLS, ALL_CELLS = 874, 1601  # the rest are as those of real recordings
+STIFF_CELLS, ALL_CELLS = 874, 1601  # the others are as those of real recordings
+MORE_ELONGATED_FROM = 2124          # the rest are, too, under greater axial tensions
+GREATEST_TENSION = 0.85             # of the cortex over its modulus, in the table; cells beyond it do not count
 PATIENCE_S = 6  # of processor time; cells at the end of their branch take minutes
 
 
@@ -57,6 +59,9 @@ class Cell:
             self.radius, self.share, self.axial = random.uniform(0.55, 0.72), random.uniform(0.2, 0.75), random.uniform(0.1, 0.8)
             self.tension, self.exponent = random.uniform(0.2, 0.85), random.choice([1, random.uniform(0.55, 0.75)], p=[0.2, 0.8])
             self.stiffness = random.uniform(1.5, 4)
+        if number >= MORE_ELONGATED_FROM:
+            self.radius, self.share, self.axial = random.uniform(0.5, 0.76), random.uniform(0.15, 0.75), random.uniform(0, 1.4)
+            self.tension, self.stiffness = random.uniform(0.5, 1.6), random.uniform(0.5, 3)
 
     def case(self, section):
         stress = self.stiffness * WALL_STRESS_PA
@@ -231,7 +236,7 @@ def write_law(file, numbers, change, spread, correlation):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", type=Path)
-    parser.add_argument("--cells", type=int, default=2124)
+    parser.add_argument("--cells", type=int, default=2900)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--table", default="data/combined_HC-2D-EL-26.cbor")
     parser.add_argument("--states", default="build/combined_states")
@@ -239,7 +244,7 @@ def main():
     options = parser.parse_args()
     solve_cells(options.file, options.cells, options.workers)
     found = [json.loads(line) for line in options.file.read_text().splitlines()]
-    found = [one for one in found if "square" in one]
+    found = [one for one in found if "square" in one and Cell(one["number"]).tension <= GREATEST_TENSION]
     report(found, options)
 
 

@@ -130,16 +130,20 @@ void tell_bounds(const MomentFit& fit, RecordingReport& r) {
                              std::pair(log_ratio_spread, "the spread of the tension of the cortex over E2D"),
                              std::pair(log_axial_spread, "the spread of the axial tension")};
   const double small_spread = std::log(0.05);
-  std::vector<std::string> at_bound;
+  std::vector<std::string> means, spreads;
   for (const auto& [parameter, name] : names) {
     const bool is_spread = parameter >= log_radius_spread;
     if (fit.at_bound[std::size_t(parameter)] && !(is_spread && fit.parameters(int(parameter)) < small_spread))
-      at_bound.emplace_back(name);
+      (is_spread ? spreads : means).emplace_back(name);
   }
-  if (!at_bound.empty())
+  const auto are = [](const std::vector<std::string>& several) { return several.size() > 1 ? "are" : "is"; };
+  if (!means.empty())
+    r.warnings.push_back(
+        fmt::format("{} {} at the end of the table, and cells beyond it may fit better; the intervals allow for them.",
+                    listed(means), are(means)));
+  if (!spreads.empty())
     r.warnings.push_back(fmt::format("{} {} at the bound of what is searched; the intervals take {} as known.",
-                                     listed(at_bound), at_bound.size() > 1 ? "are" : "is",
-                                     at_bound.size() > 1 ? "them" : "it"));
+                                     listed(spreads), are(spreads), spreads.size() > 1 ? "them" : "it"));
 }
 
 /// On which side of a range of the table the mean cell lies: -1, 0, 1.
@@ -222,7 +226,8 @@ std::string CombinedPopulations::systematic_errors(std::span<const RecordingRepo
       if (const QuantityEstimate* e = r.estimate(wanted.quantity)) greatest = std::max(greatest, e->common_error);
     if (greatest > 0) errors.push_back(fmt::format("{:.2g} % of {}", 100 * greatest, words_of(wanted.quantity).symbol));
   }
-  return "table and section " + (errors.empty() ? "as docs/verification.md has them" : joined(errors, ", ")) +
+  return "table, section and what they miss " +
+         (errors.empty() ? "as docs/verification.md has them" : joined(errors, ", ")) +
          "; pixels below the intervals; viscosity model as docs/verification.md has it";
 }
 

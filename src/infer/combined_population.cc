@@ -349,6 +349,12 @@ CombinedVector start_from(const ModuliEstimate& median, const ScaleFactors& scal
   return law.parameters();
 }
 
+/// What no cell of the table has: by how much the means are off beyond two standard errors of their own.
+VectorXd missed(const MomentFit& fit) {
+  const VectorXd error = (fit.measured.covariance.diagonal() / double(fit.events)).cwiseSqrt();
+  return ((fit.measured.mean - fit.fitted.mean).cwiseAbs() - 2 * error).cwiseMax(0);
+}
+
 }  // namespace
 
 CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const Sight& sight, double pixel_size_um,
@@ -381,10 +387,12 @@ CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const Si
   }
   if (!found.fit.is_found) return found;
   found.law = CombinedLaw::of(q);
-  found.common_covariance = found.fit.by_shift * model.common_covariance(q) * found.fit.by_shift.transpose();
   found.features = model.features();
   found.mean_cell = model.mean_cell(q);
   found.residual = found.fit.measured.mean - found.fit.fitted.mean;
+  MatrixXd common = model.common_covariance(q);
+  common.diagonal() += missed(found.fit).cwiseAbs2();
+  found.common_covariance = found.fit.by_shift * common * found.fit.by_shift.transpose();
   found.drawn = model.drawn(q, virtual_events);
   return found;
 }

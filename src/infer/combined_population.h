@@ -92,11 +92,12 @@ class CombinedMoments : public MomentModel {
 struct CombinedPopulation {
   MomentFit fit;  ///< `parameters` are a CombinedVector
   CombinedLaw law;
-  Eigen::MatrixXd common_covariance;  ///< of the parameters, by what all events have in common: table and section
-  std::vector<int> features;          ///< that were fitted, of ShapeFeature
-  Eigen::VectorXd residual;           ///< of their means, measured - fitted
-  CellCoordinates mean_cell;          ///< of the law, in the table, which may end before
-  std::vector<ShapeVector> drawn;     ///< virtual events of the law
+  Eigen::MatrixXd
+      common_covariance;  ///< of the parameters, by what all events have in common: table, section, and what these miss
+  std::vector<int> features;       ///< that were fitted, of ShapeFeature
+  Eigen::VectorXd residual;        ///< of their means, measured - fitted
+  CellCoordinates mean_cell;       ///< of the law, in the table, which may end before
+  std::vector<ShapeVector> drawn;  ///< virtual events of the law
 };
 
 /// Not found: no cell of the table is like the median one, or the events do not tell the parameters. Shapes in pixels

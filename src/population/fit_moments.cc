@@ -102,11 +102,13 @@ class MomentSearch {
       tell(e);
       found_.is_found = distance(e) < moment_tolerance || is_at_rest(before);
     }
+    if (found_.is_found) tell(equations(Held::with_means));
     return found_;
   }
 
  private:
   enum class Part { means, scatter };
+  enum class Held { without, with_means };
 
   std::vector<int> parameters_of(Part part) const {
     const int first = part == Part::means ? 0 : model_.means(),
@@ -205,11 +207,13 @@ class MomentSearch {
     MatrixXd matrix;  ///< minus its slopes by the parameters
   };
 
-  Equations equations() {
+  /// Means that are held at a bound are told as little as the others: the bound is the model's, not the cells'.
+  Equations equations(Held held = Held::without) {
     settings_.goes_on();
     Equations e;
     e.slopes = model_.slopes(found_.parameters);
     e.means = free_of(Part::means, e.slopes);
+    if (held == Held::with_means) e.means = parameters_of(Part::means);
     e.scatter = free_of(Part::scatter, e.slopes);
     e.free = e.means;
     e.free.insert(e.free.end(), e.scatter.begin(), e.scatter.end());
@@ -219,7 +223,18 @@ class MomentSearch {
     e.matrix.resize(n, n);
     e.matrix.topRows(m) = direction(Part::means, e.slopes, e.free).information.topRows(m);
     e.matrix.bottomRows(n - m) = direction(Part::scatter, e.slopes, e.free).information.bottomRows(n - m);
+    if (held == Held::with_means) add_prior(e);
     return e;
+  }
+
+  /// Of what is held: somewhere within its bounds.
+  void add_prior(Equations& e) const {
+    for (std::size_t k = 0; k < e.means.size(); ++k) {
+      const int a = e.means[k];
+      const double range = settings_.greatest(a) - settings_.least(a);
+      if (found_.at_bound[std::size_t(a)] && std::isfinite(range))
+        e.matrix(Eigen::Index(k), Eigen::Index(k)) += 1 / (double(found_.events) * range * range);
+    }
   }
 
   /// Of the end, in standard errors of the parameters as far as one event's information tells them.
@@ -255,7 +270,7 @@ class MomentSearch {
     for (Eigen::Index i = 0; i < events_.rows(); ++i) {
       if (found_.is_stranger[std::size_t(i)]) continue;
       const VectorXd measured = events_.row(i).transpose(), off = measured - found_.measured.mean;
-      score.head(m) = linear * (measured - e.slopes.there.mean);
+      score.head(m) = linear * off;
       for (Eigen::Index a = m; a < n; ++a) {
         const MatrixXd& q = quadratic[std::size_t(a - m)];
         score(a) = off.dot(q * off) - q.cwiseProduct(e.slopes.there.covariance).sum();

@@ -39,7 +39,7 @@ struct MomentSettings {
 struct MomentFit {
   bool is_found = false;  ///< else all of this is that of the last step
   Eigen::VectorXd parameters;
-  std::vector<bool> at_bound;  ///< such a parameter counts as known
+  std::vector<bool> at_bound;  ///< such a parameter of the scatter counts as known
   Eigen::MatrixXd covariance;  ///< of the parameters, by the scatter of the events, whatever their law is
   Eigen::MatrixXd by_shift;    ///< slopes of the parameters by a shift of the measures that all events have in common
   double misfit = 0;           ///< of the means: chi squared, with the common errors

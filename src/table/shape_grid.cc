@@ -54,7 +54,7 @@ double ShapeGrid::mode(int k, double log_area, double deformation) const {
   assert(k >= first_radius_mode && k <= last_radius_mode);
   if (deformation <= 0) return 0;
   const auto [value, near] = scaled(modes_[std::size_t(k - first_radius_mode)], log_area, deformation);
-  return value * std::pow(near, order_of_mode(k) / 2.0);
+  return value * (order_of_mode(k) == 1 ? std::sqrt(near) : near);
 }
 
 std::array<double, mode_count> ShapeGrid::modes(double log_area, double deformation) const {
