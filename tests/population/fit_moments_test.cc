@@ -138,5 +138,19 @@ TEST(FitMoments, WhatNothingScattersIsAtItsBound) {
   EXPECT_EQ(fit.covariance(3, 3), 0);
 }
 
+TEST(FitMoments, AMeanAtItsBoundIsNotKnownForThat) {
+  // The bound is the model's. What depends on this mean is told about as well as if there were no bound, not better.
+  const ThreeMeasures model(0.3);
+  const MatrixXd events = model.events(500, 11, 1, 2, 0.2, 0.15);
+  MomentSettings bounded = settings();
+  bounded.greatest(1) = 1.97;
+  const MomentFit without = fit_moments(model, events, start, settings()),
+                  fit = fit_moments(model, events, start, bounded);
+  ASSERT_TRUE(without.is_found && fit.is_found);
+  EXPECT_TRUE(fit.at_bound[1]);
+  EXPECT_EQ(fit.parameters(1), 1.97);
+  for (const int a : {0, 1}) EXPECT_NEAR(fit.covariance(a, a) / without.covariance(a, a), 1, 0.3) << a;
+}
+
 }  // namespace
 }  // namespace rheocyte::fit_moments_test

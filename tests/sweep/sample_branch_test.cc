@@ -60,7 +60,7 @@ TEST(SampleBranch, AnElongatedBranchIsThatOfDirectSolves) {
   const TableSpec table =
       spec("[cell.bulk]\nlaw = \"neo-hookean\"\n[cell.cortex]\nlaw = \"neo-hookean-reference\"\nbending_kBT = 3e4\n",
            "cortex_share = [0, 0.5]\ntension_ratio = [0.25]\naxial_ratio = [-0.1, 0, 0.2, 0.4]\naccuracy = 2e-3\n"
-           "max_deformation = 0.012\nmin_deformation = 1e-3\n");
+           "max_deformation = 0.012\nmax_deformation_raw = 0.015\nmin_deformation = 1e-3\n");
   const SweepPoint place{6.7, 0.5, 0.25, 0.4};
   const SampledBranch branch = sample_branch(table, place);
   EXPECT_EQ(branch.end.status, Status::covered) << branch.end.message;
@@ -69,6 +69,7 @@ TEST(SampleBranch, AnElongatedBranchIsThatOfDirectSolves) {
   EXPECT_LT(branch.at(0, Measure::mode_3), 0.01);
   EXPECT_NEAR(elongation(branch.samples() - 1), elongation(0), 0.05) << "the tension goes with the stiffness";
   EXPECT_GT(elongation(0), 0.15);
+  EXPECT_GT(branch.at(0, Measure::deformation_raw), 0.015) << "by the tension alone, which makes no dents";
   for (const int i : {branch.samples() / 2, branch.samples() - 1}) {
     const double S = std::sqrt(branch.stiffness[std::size_t(i) - 1] * branch.stiffness[std::size_t(i)]);
     Problem problem = problem_of(case_at(table, place, S));
