@@ -23,7 +23,7 @@ constexpr double least_slope_of_stiffness = -0.1;
 constexpr std::size_t pictures_of_event = 10, fewest_pictures = 10'000, most_pictures = 40'000;
 constexpr int pictures_of_cell = 8;
 /// Of what the law of the square leaves of single cells, what two cells of one population have in common
-/// (bench/square_law.py: 0.3 and 0.1 of cells that are within and about two and more of its spreads from one another).
+/// (bench/square_law.py: 0.4 and 0.07 of cells that are within and about two and more of its spreads from one another).
 constexpr double variance_in_common = 0.2;
 constexpr std::size_t virtual_events = 5'000;
 constexpr int turns_of_beginning = 3, turns_of_round = 20, rounds_of_pictures = 3, pictures_of_median = 2'000;
