@@ -390,7 +390,7 @@ info = {
                         "too stiff, 5 too soft, 6 unstable, 7 unresolved; with a modulus: 8 regularised, 10 inertial. "
                         "Shape excess: inertia ratio less that of the table's cell. Medium, viscosity, its model and "
                         "temperature follow the settings of the Young's modulus; the look-up table chosen there does "
-                        "not count, unless it is one of rheocyte's.",
+                        "not count, unless it is one of those inside this file (HE-3D-26, HE-3D-MC049-26, ...).",
     "feature names": list(FEATURES),
     "feature labels": ["Young's modulus (rheocyte) [kPa]", "Standard error of Young's modulus (rheocyte) [kPa]",
                        "State of Young's modulus (rheocyte)", "Excess of the inertia ratio (rheocyte)"],

@@ -123,7 +123,8 @@ def _polygons(polygons, name):
     names = [path(file, name) for file in files]
     for file in names:
         if not file.endswith(".poly"):
-            raise UserError(f"{name}: {file} is not a file of polygon filters (.poly).")
+            hint = " Export those of a session of DCscope there as .poly." if file.endswith(".so2") else ""
+            raise UserError(f"{name}: {file} is not a file of polygon filters (.poly).{hint}")
     return names
 
 

@@ -30,10 +30,7 @@ ResultFolderGuard::~ResultFolderGuard() {
 
 void check_is_there(const fs::path& recording) {
   std::error_code error;
-  if (fs::status(recording, error).type() != fs::file_type::not_found) return;
-  if (recording.string().find("://") != std::string::npos)
-    refuse_path(recording, "is an address on a network; download the recording and give the file.");
-  refuse_path(recording, "there is no such file.");
+  if (fs::status(recording, error).type() == fs::file_type::not_found) refuse_missing(recording);
 }
 
 int jobs_at_once(const BatchOptions& options) {

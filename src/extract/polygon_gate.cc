@@ -43,6 +43,8 @@ PolygonGate::Axis PolygonGate::axis_of(const std::string& name) {
 }
 
 PolygonGate::PolygonGate(const std::string& text) {
+  if (text.ends_with(".so2"))
+    refuse_polygon(text, "is a session of DCscope; export its polygon filters there as .poly");
   const auto sign = text.find('='), comma = text.find(',');
   if (sign == std::string::npos || comma >= sign) refuse_polygon(text, "give two features and the corners");
   x_ = axis_of(text.substr(0, comma));

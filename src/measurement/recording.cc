@@ -45,7 +45,7 @@ void refuse_other_kinds(const fs::path& file) {
 Hdf5Handle open_file(const fs::path& file) {
   std::error_code error;
   const auto status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) refuse_path(file, "there is no such file.");
+  if (status.type() == fs::file_type::not_found) refuse_missing(file);
   if (!fs::is_regular_file(status)) refuse_path(file, "is not a file; give an .rtdc recording.");
   prepare_hdf5();
   const Hdf5Handle access(::H5Pcreate(H5P_FILE_ACCESS));

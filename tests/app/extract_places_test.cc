@@ -106,6 +106,9 @@ TEST_F(ExtractPlaces, ForARecordingThatIsNotThereNothingIsMade) {
   EXPECT_EQ(address.exit_code, 2);
   EXPECT_NE(address.err.find("is an address on a network; download the recording"), std::string::npos) << address.err;
   EXPECT_FALSE(fs::exists(folder_ / "https:"));
+  const auto kept_one = test::run({{RHEOCYTE, "extract", "https:/host/a/b"}, {}, -1, folder_ / ""});
+  EXPECT_NE(kept_one.err.find("is an address on a network"), std::string::npos) << kept_one.err;
+  expect_refusal({path("M0.rtdc"), "--polygon", "all.so2"}, "is a session of DCscope; export its polygon filters");
   EXPECT_FALSE(fs::exists(folder_ / "rheocyte_summary.tsv"));
 }
 

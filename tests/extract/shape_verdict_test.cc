@@ -81,6 +81,17 @@ ShapeVerdict elongated_verdict(double mode_4, double mode_5, double excess = 0.2
   return verdict;
 }
 
+TEST(ShapeVerdict, CellsOfAnotherTableHaveAModulusAndNoTension) {
+  ShapeVerdict v = elongated_verdict(0.002, -0.003);
+  v.other = {"LE-2D-26", "linear solids in the tube", {0.002, 0.001}, 1.04, 1.048};
+  ASSERT_EQ(v.fit(), ShapeVerdict::Fit::other_table);
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
+  EXPECT_GT(v.recommended_kPa().common_error, 0.027 * 2.5);
+  const std::string text = v.recommended_text();
+  EXPECT_NE(text.find("but linear solids in the tube"), std::string::npos) << text;
+  EXPECT_EQ(text.find("tension"), std::string::npos) << text;
+}
+
 TEST(ShapeVerdict, TheModulusOfElongatedCellsIsToldAndRecommended) {
   const ShapeVerdict v = elongated_verdict(0.002, -0.003);
   EXPECT_NEAR(v.modulus_ratio, 0.4, 1e-6);  // kept in single precision

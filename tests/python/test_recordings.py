@@ -244,6 +244,7 @@ def test_a_temperature_fills_what_is_missing(tmp_path):
     ({"viscosity_mPas": 5, "medium": "water"}, "viscosity_mPas and medium contradict"),
     ({"temperature": 296}, "temperature 296"), ({"min": {"bright": 1}}, "for which min gives a limit"),
     ({"polygon": {("a", "b"): [(1, 2)]}}, r"three corners at least\.$"), ({"polygon": "filters.txt"}, "not a file of polygon"),
+    ({"polygon": "all.so2"}, "of a session of DCscope there as .poly"),
     ({"polygon": "nowhere.poly"}, "nowhere.poly: cannot be read")])
 def test_what_is_said_names_arguments_not_options(arguments, sentence, tmp_path):
     rheocyte.synth(CELLS, tmp_path / "cells.rtdc", recording__cells=20)
