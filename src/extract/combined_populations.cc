@@ -96,6 +96,8 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string_view are(const std::vector<std::string>& words) { return words.size() > 1 ? "are" : "is"; }
+
 void tell(const CombinedPopulation& found, CombinedReport& combined, RecordingReport& r) {
   combined.not_told = not_told_apart(found);
   std::vector<std::string> told, unknown;
@@ -115,7 +117,7 @@ void tell(const CombinedPopulation& found, CombinedReport& combined, RecordingRe
                                      combined.not_told, told.empty() ? "nothing" : listed(told)));
   if (!unknown.empty())
     r.warnings.push_back(fmt::format("{} {} not told: known to no better than {:.0f} %{}", listed(unknown),
-                                     unknown.size() > 1 ? "are" : "is", 100 * most_relative_error,
+                                     are(unknown), 100 * most_relative_error,
                                      more_events_help ? "; more events help." : " by the table."));
   r.log_radius = found.law.mean(0);
   r.radius_spread = found.law.spread(0);
@@ -136,7 +138,6 @@ void tell_bounds(const MomentFit& fit, RecordingReport& r) {
     if (fit.at_bound[std::size_t(parameter)] && !(is_spread && fit.parameters(int(parameter)) < small_spread))
       (is_spread ? spreads : means).emplace_back(name);
   }
-  const auto are = [](const std::vector<std::string>& several) { return several.size() > 1 ? "are" : "is"; };
   if (!means.empty())
     r.warnings.push_back(
         fmt::format("{} {} at the end of the table, and cells beyond it may fit better; the intervals allow for them.",

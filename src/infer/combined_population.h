@@ -92,8 +92,8 @@ class CombinedMoments : public MomentModel {
 struct CombinedPopulation {
   MomentFit fit;  ///< `parameters` are a CombinedVector
   CombinedLaw law;
-  Eigen::MatrixXd
-      common_covariance;  ///< of the parameters, by what all events have in common: table, section, and what these miss
+  /// Of the parameters, by what all events have in common: table, section, and what these miss.
+  Eigen::MatrixXd common_covariance;
   std::vector<int> features;       ///< that were fitted, of ShapeFeature
   Eigen::VectorXd residual;        ///< of their means, measured - fitted
   CellCoordinates mean_cell;       ///< of the law, in the table, which may end before

@@ -37,12 +37,9 @@ ShapeErrors rendered(const CombinedState& state, double pixel_size_um, int draws
 CombinedState nearest_state(const CombinedInterpolation& table, CellCoordinates cell) {
   constexpr double step = 0.05;
   const double stiffest = table.box().least(progress_axis);
-  CombinedState state = table.at(cell);
-  while (!state.inside && cell(progress_axis) > stiffest) {
+  while (!table.is_inside(cell) && cell(progress_axis) > stiffest)
     cell(progress_axis) = std::max(cell(progress_axis) - step, stiffest);
-    state = table.at(cell);
-  }
-  return state;
+  return table.at(cell);
 }
 
 }  // namespace

@@ -22,9 +22,8 @@ std::string sentence_for(const std::filesystem::path& recording, const IsolatedE
                          one_line(end.text, 100));
     case Kind::broke_down:
       return fmt::format(
-          "{}: the HDF5 library broke down while reading it ({}); most likely it is damaged: copy it once more from "
-          "where "
-          "it was recorded, and if that changes nothing, please report it.",
+          "{}: the HDF5 library broke down while reading it ({}); most likely it is damaged: copy it once "
+          "more from where it was recorded, and if that changes nothing, please report it.",
           name, one_line(end.text, 100));
     default:
       return fmt::format("{}: an error of the program itself, please report it: {}", name, one_line(end.text, 300));

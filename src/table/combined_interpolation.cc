@@ -76,7 +76,6 @@ struct CombinedInterpolation::Sum {
 // Stiffness, area and modes change with the square root of d to first order. With a tension along the flow the even
 // modes are those that it alone makes, and the flow adds odd ones.
 double CombinedInterpolation::growth(int row) const {
-  if (row == log_flow_row) return 0;
   if (row == log_stiffness_row) return is_elongated() ? 1 : 0.5;
   if (!is_elongated()) return row == deformation_row ? 1 : 0.5;
   const bool is_mode = row >= first_mode_row && row < deformation_row;

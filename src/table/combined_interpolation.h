@@ -58,6 +58,7 @@ class CombinedInterpolation {
   /// The branches of which `at` makes a state, for whatever else is known of them at this progress, which all of them
   /// reach; weights sum to one. Empty outside the table.
   std::vector<BranchWeight> weights(const CellCoordinates& cell) const;
+  bool is_inside(const CellCoordinates& cell) const;
   const CellBox& box() const { return box_; }
   const std::vector<double>& radii_um() const { return radii_; }
   const std::vector<double>& tension_ratios() const { return ratios_; }
@@ -96,7 +97,6 @@ class CombinedInterpolation {
   /// With the two shares beside the cell's; with the two tensions of the cortex, too.
   bool sheet_reaches(int sheet, const CellCoordinates& cell) const;
   bool axial_reaches(int axial, const CellCoordinates& cell) const;
-  bool is_inside(const CellCoordinates& cell) const;
 
   std::vector<double> radii_, log_radii_, shares_, ratios_, axial_ratios_;  ///< of the sheets; one axial ratio: zero
   std::vector<Curve> curves_;  ///< radius by radius, share by share, sheet by sheet
