@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "numeric/quantile.h"
+#include "random_cells.h"
 #include "solve/resolved_branch.h"
 #include "solve/session.h"
 #include "solve/stationary.h"
@@ -148,28 +149,6 @@ void check_estimates(int count, unsigned seed) {
              *std::ranges::max_element(shares));
 }
 
-/// Of all kinds on the axis, to the softest.
-Problem random_problem(std::mt19937& random) {
-  std::uniform_real_distribution<double> uniform(0, 1);
-  Problem problem;
-  problem.section = Section::square;
-  problem.radius_ratio = 0.2 + 0.7 * uniform(random);
-  const BulkLaw law = std::array{linear, neo_hookean, mooney}[std::size_t(3 * uniform(random))];
-  const bool is_newtonian = uniform(random) < 0.5;
-  if (!is_newtonian) problem.liquid = {.law = LiquidLaw::power_law, .exponent = 0.6};
-  const double d = 2e-4 * std::pow(400, uniform(random));
-  const double modulus = std::sqrt((is_newtonian ? 3 : 1) * std::pow(problem.radius_ratio, 2.1) / d);
-  problem.bulk = {.law = law, .shear_modulus = modulus};
-  const double kind = uniform(random), stiffness = modulus * problem.radius_ratio;
-  if (kind < 0.25) {
-    problem.bulk.axial_tension = 0.3 * modulus * uniform(random);
-  } else if (kind < 0.5) {
-    problem.cortex = {.law = CortexLaw::linear, .modulus = 2 * stiffness * uniform(random)};
-    problem.cortex.tension = 0.3 * stiffness * uniform(random);
-  }
-  return problem;
-}
-
 void check_first_estimates(int count, unsigned seed) {
   constexpr double not_reached = 1e-12;
   constexpr int last_degree = 6;
@@ -177,7 +156,7 @@ void check_first_estimates(int count, unsigned seed) {
   fmt::print("| r0/h | n | d | margin | change of d | change of the margin | stated | true error |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   while (count > 0) {
-    Problem problem = random_problem(random);
+    Problem problem = bench::random_solid(Section::square, random);
     problem.accuracy = not_reached;
     Geometry geometry = solver_geometry(problem);
     geometry.rungs.front().last_degree = last_degree;

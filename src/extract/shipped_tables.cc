@@ -17,15 +17,23 @@ namespace {
 
 fs::path tables_folder() { return supplied_folder("RHEOCYTE_TABLES", "../share/rheocyte/tables", data_folder); }
 
-/// A name that is that of a table of another kind.
-void refuse_other_kind(const std::string& wanted, std::string_view kind, std::string_view noun) {
-  for (const std::string_view other : {"grid", "elongated", "combined", "dynamic"}) {
-    if (other == kind || !table_files(tables_folder(), other).contains(wanted)) continue;
-    std::string names;
-    for (const auto& [name, file] : table_files(tables_folder(), kind)) names += (names.empty() ? "" : ", ") + name;
-    throw UserError(
-        fmt::format("rheocyte: --table {}: it is not a {}; with the program comes {}.", wanted, noun, names));
-  }
+std::string names_of(const std::map<std::string, fs::path>& tables) {
+  std::string names;
+  for (const auto& [name, file] : tables) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+/// A name that is no table of this kind.
+[[noreturn]] void refuse(const std::string& wanted, std::string_view kind, std::string_view noun) {
+  const std::string place = fmt::format("rheocyte: --table {}: ", one_line(wanted, 200));
+  const std::string names = names_of(table_files(tables_folder(), kind));
+  for (const std::string_view other : {"grid", "elongated", "combined", "dynamic"})
+    if (other != kind && table_files(tables_folder(), other).contains(wanted))
+      throw UserError(fmt::format("{}it is not a {}; with the program comes {}.", place, noun, names));
+  throw UserError(fmt::format(
+      "{}there is neither such a file nor such a folder. With the program comes {}; any other {} is made first, by "
+      "`rheocyte table`, which takes from two minutes to two hours (docs/tables.md).",
+      place, names, noun));
 }
 
 fs::path wanted_or_shipped(const fs::path& wanted, std::string_view kind, std::string_view noun) {
@@ -37,9 +45,8 @@ fs::path wanted_or_shipped(const fs::path& wanted, std::string_view kind, std::s
         "rheocyte: the {} that comes with the program is missing in {}; install the program again, or give --table.",
         noun, tables_folder().string()));
   const auto found = wanted.empty() ? shipped.begin() : shipped.find(wanted.string());
-  if (found != shipped.end()) return found->second;
-  refuse_other_kind(wanted.string(), kind, noun);
-  return wanted;
+  if (found == shipped.end()) refuse(wanted.string(), kind, noun);
+  return found->second;
 }
 
 }  // namespace

@@ -35,12 +35,14 @@ void Ladder::add(ResolvedState state, const StateNumbers& of_state) {
   std::vector<double> deformations;
   for (const StateNumbers& rung : numbers) deformations.push_back(rung.shape.deformation);
   estimated_error = estimate_error(deformations, rule);
-  if (numbers.size() != 2) return;
-  const auto change = [this](auto of) { return std::abs(of(numbers[1]) - of(numbers[0])); };
-  const double by_inertia = change([](const StateNumbers&n) { return n.shape.inertia_ratio; }),
-               by_margin = change([](const StateNumbers&n) { return n.stability_margin; });
-  if (rule.share_of_inertia > 0)
-    estimated_error = std::max(estimated_error, rule.share_of_inertia * by_inertia / std::max(deformation(), 1e-300));
+  if (numbers.size() < 2) return;
+  const StateNumbers &last = numbers.back(), &before = numbers[numbers.size() - 2];
+  const double size = std::max(deformation(), 1e-300);
+  estimated_error = std::max(estimated_error, rule.share_of_outline * change_of_outline(before, last) / size);
+  if (numbers.size() > 2) return;
+  const double by_inertia = std::abs(last.shape.inertia_ratio - before.shape.inertia_ratio),
+               by_margin = std::abs(last.stability_margin - before.stability_margin);
+  if (rule.share_of_inertia > 0) estimated_error = std::max(estimated_error, rule.share_of_inertia * by_inertia / size);
   if (rule.share_of_margin > 0) estimated_error = std::max(estimated_error, rule.share_of_margin * by_margin);
 }
 

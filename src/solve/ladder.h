@@ -29,7 +29,8 @@ struct ErrorRule {
   double share_of_inertia = 0;  ///< nor below this share of the change of the inertia ratio: two seldom do at once
   double share_of_margin = 0;   ///< nor below this share of the change of the stability margin: where the surface nears
                                 ///< its limit deformations agree long before they are right
-  double min_share_of_two = 0;  ///< the same for other numbers, relative
+  double share_of_outline = 0;  ///< nor, in any change, below this share of the root mean square change of the
+                                ///< outline's modes
 };
 
 /// Error of the last of some values of the deformation on ever finer resolutions, relative to it
@@ -51,7 +52,7 @@ struct Ladder {
   void add(ResolvedState, const StateNumbers&);
   double deformation() const { return numbers.back().shape.deformation; }
   /// Of all numbers of the last rung, each in its unit.
-  StateNumbers errors() const { return errors_of_last(numbers, estimated_error, rule.min_share_of_two); }
+  StateNumbers errors() const { return errors_of_last(numbers, estimated_error); }
   /// Of the last rung, as it is stated and judged, of what the problem wants accurately: of the deformation, relative
   /// to the floor where it is below that; or of the motion.
   double stated_error(const Problem&) const;

@@ -6,6 +6,42 @@
 #include <vector>
 
 namespace rheocyte {
+namespace {
+
+double size_of(const StateMeasure& measure, double value) { return measure.is_departure() ? 1 : std::abs(value); }
+
+/// How much changes from the last but one of some states to the last one.
+struct LastChange {
+  double outline;     ///< as in change_of_outline
+  double points = 0;  ///< the greatest relative change of a number at single points
+
+  explicit LastChange(std::span<const StateNumbers> rungs) {
+    const StateNumbers &last = rungs.back(), &before = rungs[rungs.size() - 2];
+    outline = change_of_outline(before, last);
+    for (const StateMeasure& measure : state_measures) {
+      const double change = std::abs(measure.value(last) - measure.value(before));
+      const double size = size_of(measure, measure.value(last));
+      if (measure.settles_with == SettlesWith::points && change > 0 && size > 0)
+        points = std::max(points, change / size);
+    }
+  }
+};
+
+/// The factors are those of random cells of all kinds (docs/verification.md, "The stated error of every number").
+double error_with_others(const StateMeasure& measure, std::span<const double> values, const LastChange& change) {
+  constexpr double of_pressures = 2, of_points = 3, of_greatest_at_points = 0.5;
+  const double error = error_of_last(values), size = size_of(measure, values.back());
+  if (error == 0) return 0;  // given, or a limit that is not passed
+  switch (measure.settles_with) {
+    case SettlesWith::itself: return error;
+    case SettlesWith::points: return std::max(of_points * error, of_greatest_at_points * size * change.points);
+    case SettlesWith::pressure: return std::max(of_pressures * error, size * change.outline);
+    case SettlesWith::outline: break;
+  }
+  return std::max(error, size * change.outline);
+}
+
+}  // namespace
 
 double error_of_last(std::span<const double> values, double share_of_change_before) {
   const std::size_t n = values.size();
@@ -18,23 +54,27 @@ double error_of_last(std::span<const double> values, double share_of_change_befo
   return std::max(share * std::abs(change), share_of_change_before * std::abs(before));
 }
 
+double change_of_outline(const StateNumbers& before, const StateNumbers& after) {
+  const RadiusModes &a = before.shape.modes_raw, &b = after.shape.modes_raw;
+  double squares = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) squares += std::pow(b[k] - a[k], 2);
+  return std::sqrt(squares / double(a.size()));
+}
+
 StateNumbers unknown_numbers() {
   StateNumbers numbers;
   for (const StateMeasure& measure : state_measures) measure.of(numbers) = no_value;
   return numbers;
 }
 
-StateNumbers errors_of_last(std::span<const StateNumbers> rungs, double error_of_deformation, double least_of_two) {
-  constexpr double share_of_rounding = 1e-12;
+StateNumbers errors_of_last(std::span<const StateNumbers> rungs, double error_of_deformation) {
   StateNumbers errors = unknown_numbers();
   if (rungs.size() < 2) return errors;
+  const LastChange change(rungs);
   for (const StateMeasure& measure : state_measures) {
     std::vector<double> values;
     for (const StateNumbers& rung : rungs) values.push_back(measure.value(rung));
-    double error = error_of_last(values);
-    const double size = std::abs(values.back());
-    if (rungs.size() == 2 && error > share_of_rounding * size) error = std::max(error, least_of_two * size);
-    measure.of(errors) = error;
+    measure.of(errors) = error_with_others(measure, values, change);
   }
   errors.shape.deformation = error_of_deformation * std::abs(rungs.back().shape.deformation);
   return errors;

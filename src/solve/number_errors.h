@@ -11,13 +11,17 @@ namespace rheocyte {
 /// values twice their difference. In the number's unit; infinite for a single value.
 double error_of_last(std::span<const double> values, double share_of_change_before = 0.5);
 
+/// Root mean square change of the modes of the outline's radius.
+double change_of_outline(const StateNumbers&, const StateNumbers&);
+
 /// Numbers of which none is known.
 StateNumbers unknown_numbers();
 
 /// Errors of the numbers of the last of some states of a cell on ever finer resolutions, each in its number's unit;
-/// that of the deformation, relative, is known. Two values may agree by chance: of a number that changes at all the
-/// relative error is then this one at least. Not a number where there is no number, or no error is known.
-StateNumbers errors_of_last(std::span<const StateNumbers>, double error_of_deformation, double least_of_two = 0);
+/// that of the deformation, relative, is known. Two resolutions may agree in one number by chance, but hardly in all: no
+/// error is below the change of the outline, nor, of a number at single points, far below the greatest change of such
+/// (docs/theory.md, eq:number-errors). Not a number where there is no number, or no error is known.
+StateNumbers errors_of_last(std::span<const StateNumbers>, double error_of_deformation);
 
 /// Magnitudes of the differences, number by number.
 StateNumbers distance(const StateNumbers&, const StateNumbers&);

@@ -45,6 +45,10 @@ struct StateNumbers {
 /// The files beside result.json in which a measure is a column.
 enum class AlsoIn { none, tables, history, both };
 
+/// How a number settles on ever finer resolutions: with the outline as a whole, with the pressure in the liquid, with
+/// the surface or the liquid at single points, which are right later, or by itself alone, being given or conserved.
+enum class SettlesWith { outline, pressure, points, itself };
+
 /// A mode of the outline's radius.
 struct ShapeMode {
   RadiusModes ShapeMeasures::*modes;
@@ -58,10 +62,15 @@ struct StateMeasure {
   std::variant<double StateNumbers::*, double ShapeMeasures::*, ShapeMode, double OutlineTilt::*> member;
   AlsoIn columns = AlsoIn::none;     ///< a column of tables must be smooth along a branch
   std::string_view null_where = {};  ///< where there is no such number; elsewhere it is finite
-  double factor = 1;                 ///< of the unit of the number in powers of R, U and S
+  SettlesWith settles_with = SettlesWith::outline;
 
   constexpr bool in_tables() const { return columns == AlsoIn::tables || columns == AlsoIn::both; }
   constexpr bool in_history() const { return columns == AlsoIn::history || columns == AlsoIn::both; }
+  /// Of the outline from a circle; it may be next to nothing.
+  constexpr bool is_departure() const {
+    return std::holds_alternative<ShapeMode>(member) || std::holds_alternative<double OutlineTilt::*>(member) ||
+           name.starts_with("deformation");
+  }
   /// Where the number stands, to be read or to be set.
   template <class Numbers>
   constexpr auto& of(Numbers& numbers) const {
@@ -73,7 +82,7 @@ struct StateMeasure {
   }
   constexpr double value(const StateNumbers& numbers) const { return of(numbers); }
   constexpr double physical(const StateNumbers& numbers, const Scales& scales) const {
-    return value(numbers) * factor * dimensionless_one(unit_of(name), scales);
+    return value(numbers) * dimensionless_one(unit_of(name), scales);
   }
 };
 
@@ -93,12 +102,18 @@ inline constexpr StateMeasure state_measures[] = {
     {"area_raw_um2", "area within the contour", &ShapeMeasures::area_raw, AlsoIn::tables},
     {"perimeter_um", "perimeter of the convex hull", &ShapeMeasures::perimeter, AlsoIn::tables},
     {"perimeter_raw_um", "perimeter of the contour", &ShapeMeasures::perimeter_raw},
-    {"volume_um3", "volume of the cell, in a tube the body of revolution of the contour", &ShapeMeasures::volume,
-     AlsoIn::both},
+    {.name = "volume_um3",
+     .sentence = "volume of the cell, in a tube the body of revolution of the contour",
+     .member = &ShapeMeasures::volume,
+     .columns = AlsoIn::both,
+     .settles_with = SettlesWith::itself},
     {"volume_of_revolution_um3", "volume of the body of revolution of the contour, which programs compute from images",
      &StateNumbers::volume_of_revolution},
-    {"relative_volume_change", "change of the volume since the sphere at rest; the cell is incompressible",
-     &StateNumbers::relative_volume_change, AlsoIn::history},
+    {.name = "relative_volume_change",
+     .sentence = "change of the volume since the sphere at rest; the cell is incompressible",
+     .member = &StateNumbers::relative_volume_change,
+     .columns = AlsoIn::history,
+     .settles_with = SettlesWith::itself},
     {"moment_ratio",
      "ratio of the second moments of area of the convex hull, across the flow over along it; below 1: elongated along "
      "the flow",
@@ -135,8 +150,11 @@ inline constexpr StateMeasure state_measures[] = {
      &StateNumbers::spin, AlsoIn::history, "for a cell on the axis"},
     {"offset_um", "place of its barycentre off the axis", &StateNumbers::offset, AlsoIn::history,
      "for a cell on the axis"},
-    {"offset_error_um", "error of the place where it does not drift (cell.place = \"equilibrium\")",
-     &StateNumbers::offset_error, AlsoIn::none, "for a given place, and on the axis"},
+    {.name = "offset_error_um",
+     .sentence = "error of the place where it does not drift (cell.place = \"equilibrium\")",
+     .member = &StateNumbers::offset_error,
+     .null_where = "for a given place, and on the axis",
+     .settles_with = SettlesWith::itself},
     {"sine_mode_2",
      "sine mode s_2 of the radius of its outline in the plane of the offset about its centroid, over the mean radius: "
      "r = "
@@ -149,42 +167,73 @@ inline constexpr StateMeasure state_measures[] = {
      "length "
      "behind the nose; negative beside the axis (y > 0) where the nose points to it",
      &OutlineTilt::flank_slope, AlsoIn::history, "for a cell on the axis"},
-    {"mean_velocity_m_per_s", "flow rate over the area of the channel", &StateNumbers::flow_rate},
+    {.name = "mean_velocity_m_per_s",
+     .sentence = "flow rate over the area of the channel",
+     .member = &StateNumbers::flow_rate,
+     .settles_with = SettlesWith::itself},
     {.name = "flow_rate_ul_per_s",
      .sentence = "flow rate through the channel; the given one unless the pressure drop is given",
      .member = &StateNumbers::volume_flow,
-     .columns = AlsoIn::history},
-    {"pressure_drop_Pa", "pressure drop over the simulated length of the channel", &StateNumbers::pressure_drop,
-     AlsoIn::history},
-    {"additional_pressure_drop_Pa", "the part of it that is due to the cell", &StateNumbers::additional_pressure_drop,
-     AlsoIn::tables, "in a channel that is not straight"},
-    {"inner_pressure_Pa", "pressure in a pure shell, that of the undisturbed flow at the cell being 0",
-     &StateNumbers::inner_pressure, AlsoIn::none, "where the interior is elastic"},
-    {"simulated_length_um", "length of the simulated channel, over which pressure_drop_Pa is",
-     &StateNumbers::channel_length},
-    {"tube_radius_um", "radius of the tube that stands for the channel, the least one if it varies",
-     &StateNumbers::tube_radius, AlsoIn::none, "where the channel is computed in three dimensions"},
+     .columns = AlsoIn::history,
+     .settles_with = SettlesWith::itself},
+    {.name = "pressure_drop_Pa",
+     .sentence = "pressure drop over the simulated length of the channel",
+     .member = &StateNumbers::pressure_drop,
+     .columns = AlsoIn::history,
+     .settles_with = SettlesWith::pressure},
+    {.name = "additional_pressure_drop_Pa",
+     .sentence = "the part of it that is due to the cell",
+     .member = &StateNumbers::additional_pressure_drop,
+     .columns = AlsoIn::tables,
+     .null_where = "in a channel that is not straight",
+     .settles_with = SettlesWith::pressure},
+    {.name = "inner_pressure_Pa",
+     .sentence = "pressure in a pure shell, that of the undisturbed flow at the cell being 0",
+     .member = &StateNumbers::inner_pressure,
+     .null_where = "where the interior is elastic",
+     .settles_with = SettlesWith::pressure},
+    {.name = "simulated_length_um",
+     .sentence = "length of the simulated channel, over which pressure_drop_Pa is",
+     .member = &StateNumbers::channel_length,
+     .settles_with = SettlesWith::itself},
+    {.name = "tube_radius_um",
+     .sentence = "radius of the tube that stands for the channel, the least one if it varies",
+     .member = &StateNumbers::tube_radius,
+     .null_where = "where the channel is computed in three dimensions",
+     .settles_with = SettlesWith::itself},
     {"reynolds",
      "density x cell velocity x tube radius / viscosity, which is the liquid's at the shear rate mean velocity / tube "
      "radius; in a duct with half the lesser width as the radius",
      &StateNumbers::reynolds},
-    {"shear_rate_max_per_s",
-     "greatest shear rate sqrt(2 D:D) of the liquid beside the cell, between the planes across the channel through its "
-     "poles, cell and wall included",
-     &StateNumbers::shear_rate_max},
-    {"least_meridional_stretch",
-     "least stretch of the surface along the meridian, in a square channel in any direction",
-     &StateNumbers::min_meridional_stretch, AlsoIn::tables},
-    {"biot_ratio",
-     "least ratio of meridional (in a square channel the least) to normal stretch of the surface; a bare surface "
-     "wrinkles below 0.2956",
-     &StateNumbers::biot_ratio},
-    {"stability_margin",
-     "distance of the surface from short wrinkles: 1 for the sphere or where bending stiffness or tension hold the "
-     "surface, 0 at the limit",
-     &StateNumbers::stability_margin, AlsoIn::both},
-    {"least_tension_mN_per_m", "least meridional tension of the surface; a shell wrinkles where it is negative",
-     &StateNumbers::min_tension, AlsoIn::history}};
+    {.name = "shear_rate_max_per_s",
+     .sentence = "greatest shear rate sqrt(2 D:D) of the liquid beside the cell, between the planes across the channel "
+                 "through its "
+                 "poles, cell and wall included",
+     .member = &StateNumbers::shear_rate_max,
+     .settles_with = SettlesWith::points},
+    {.name = "least_meridional_stretch",
+     .sentence = "least stretch of the surface along the meridian, in a square channel in any direction",
+     .member = &StateNumbers::min_meridional_stretch,
+     .columns = AlsoIn::tables,
+     .settles_with = SettlesWith::points},
+    {.name = "biot_ratio",
+     .sentence =
+         "least ratio of meridional (in a square channel the least) to normal stretch of the surface; a bare surface "
+         "wrinkles below 0.2956",
+     .member = &StateNumbers::biot_ratio,
+     .settles_with = SettlesWith::points},
+    {.name = "stability_margin",
+     .sentence =
+         "distance of the surface from short wrinkles: 1 for the sphere or where bending stiffness or tension hold the "
+         "surface, 0 at the limit",
+     .member = &StateNumbers::stability_margin,
+     .columns = AlsoIn::both,
+     .settles_with = SettlesWith::points},
+    {.name = "least_tension_mN_per_m",
+     .sentence = "least meridional tension of the surface; a shell wrinkles where it is negative",
+     .member = &StateNumbers::min_tension,
+     .columns = AlsoIn::history,
+     .settles_with = SettlesWith::points}};
 
 /// Those that are columns of a file, in their order.
 template <bool (StateMeasure::*is_column)() const>

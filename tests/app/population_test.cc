@@ -193,6 +193,9 @@ TEST_F(PopulationCommand, WhatCellsWithACortexCannotBeAskedIsASentence) {
   refused({"--section", "tube"}, "--section is for --model cortex");
   refused({"--model", "cortex", "--table", "HE-3D-el-26"},
           "--table HE-3D-el-26: it is not a table of cells with bulk and cortex; with the program comes HC-2D-EL-26");
+  refused({"--model", "cortex", "--table", "HC-2D-26"},
+          "--table HC-2D-26: there is neither such a file nor such a folder. With the program comes HC-2D-EL-26; any "
+          "other table of cells with bulk and cortex is made first, by `rheocyte table`, which takes");
 }
 
 TEST_F(PopulationCommand, TheSameInputGivesTheSameBytesForAnyNumberOfThreads) {

@@ -1,0 +1,172 @@
+// How honest and how sharp the stated error of every number of a state is: random cells of all kinds at wanted
+// accuracies of 1e-2 to 1e-4, each against its state on the finest resolution.
+//
+//     build/bench_number_errors tube|square|off-axis [COUNT [SEED]]          a summary, number by number
+//     build/bench_number_errors values tube|square|off-axis [COUNT [SEED]]   a row for each number of each state, with
+//     its value on each resolution
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "numeric/quantile.h"
+#include "program.h"
+#include "random_cells.h"
+#include "solve/resolved_branch.h"
+#include "state/state_measures.h"
+
+namespace {
+
+using namespace rheocyte;
+
+constexpr double wanted_accuracies[] = {1e-2, 1e-3, 1e-4};
+/// Differences below this share of a number are rounding and the tolerance of Newton's method.
+constexpr double share_of_rounding = 3e-9;
+
+/// A number of one state, and what it is on the finest resolution.
+struct Compared {
+  int cell;
+  double accuracy;
+  const StateMeasure* measure;
+  std::vector<double> values;  ///< coarse to fine
+  double stated, finest, error_of_finest;
+
+  double true_error() const { return std::abs(values.back() - finest); }
+  double size() const { return std::max(std::abs(finest), std::abs(values.back())); }
+};
+
+Problem random_problem(std::string_view where, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Problem problem = bench::random_solid(where == "tube" ? Section::tube : Section::square, random);
+  const double kind = uniform(random), stiffness = problem.bulk.shear_modulus * problem.radius_ratio;
+  if (where == "off-axis") {
+    problem.offset = (0.9 - problem.radius_ratio) * uniform(random);
+    if (problem.offset <= 0.01) problem.offset = 0.05;
+  } else if (kind < 0.15) {
+    problem.bulk = {.law = BulkLaw::none};
+    problem.cortex = {CortexLaw::neo_hookean, 2 * stiffness, 0.3 * stiffness};
+  } else if (kind < 0.3) {
+    problem.cortex.bending = 0.002 * stiffness * problem.radius_ratio * problem.radius_ratio;
+  } else if (kind < 0.45) {
+    problem.bulk.rest_stretch = 1 + 0.1 * uniform(random);
+  } else if (kind < 0.6) {
+    problem.liquid.reynolds = 0.5 * uniform(random);
+  }
+  return problem;
+}
+
+/// The resolutions that a wanted accuracy takes, in a duct to a degree at most; none where there is no such cell.
+Ladder climbed(Problem problem, double accuracy, int last_degree = 0) {
+  problem.accuracy = accuracy;
+  Geometry geometry = solver_geometry(problem);
+  if (last_degree > 0) geometry.rungs.back().last_degree = last_degree;
+  ResolvedBranch branch(problem, geometry);
+  ResolvedState state = branch.follow();
+  Ladder ladder{geometry.errors};
+  if (state.status == Status::converged) branch.climb(state, ladder);
+  if (std::ssize(ladder.rungs) < 2 || ladder.rungs.back().branch.parameter < 1) return {};
+  return ladder;
+}
+
+int degree_of(const Ladder& ladder) { return ladder.rungs.back().discrete->resolution().degree; }
+
+/// Of a tube at an accuracy that only rounding limits, of a duct one degree above the others.
+Ladder finest(const Problem& problem, int degree) {
+  if (!is_duct(problem.section)) return climbed(problem, 1e-8);
+  Ladder ladder = climbed(problem, 1e-12, degree);
+  return !ladder.rungs.empty() && degree_of(ladder) == degree ? ladder : Ladder{};
+}
+
+std::vector<Compared> compared(int cell, const Problem& problem) {
+  std::vector<Compared> all;
+  std::vector<std::pair<double, Ladder>> ladders;
+  int degree = 6;
+  for (const double accuracy : wanted_accuracies) {
+    if (is_duct(problem.section) && accuracy < 5e-4) continue;
+    Ladder ladder = climbed(problem, accuracy);
+    if (ladder.rungs.empty()) return {};
+    degree = std::max(degree, degree_of(ladder) + 1);
+    ladders.emplace_back(accuracy, std::move(ladder));
+  }
+  const Ladder fine = finest(problem, degree);
+  if (fine.rungs.empty()) return {};
+  const StateNumbers fine_errors = fine.errors();
+  for (const auto& [accuracy, ladder] : ladders) {
+    const StateNumbers errors = ladder.errors();
+    for (const StateMeasure& measure : state_measures) {
+      if (std::isnan(measure.value(fine.numbers.back()))) continue;
+      Compared number{cell,
+                      accuracy,
+                      &measure,
+                      {},
+                      measure.value(errors),
+                      measure.value(fine.numbers.back()),
+                      measure.value(fine_errors)};
+      for (const StateNumbers& rung : ladder.numbers) number.values.push_back(measure.value(rung));
+      all.push_back(std::move(number));
+    }
+  }
+  return all;
+}
+
+void print(const Compared& number) {
+  fmt::print("{},{:g},{},{:.3e},{:.10g},{:.3e},{:.10g}\n", number.cell, number.accuracy, number.measure->name,
+             number.stated, number.finest, number.error_of_finest, fmt::join(number.values, ","));
+  std::fflush(stdout);
+}
+
+/// Of the states whose true error the finest one tells: what it states itself, several times its true error, is at most
+/// one and a half times the difference.
+void print_summary(const std::vector<Compared>& all) {
+  fmt::print("| number | told | stated / true, median | true / stated, 95 % | at most | above 1 | above 1.5 |\n");
+  fmt::print("|---|---|---|---|---|---|---|\n");
+  for (const StateMeasure& measure : state_measures) {
+    std::vector<double> ratios, sharpness;
+    int above_1 = 0, above_1_5 = 0;
+    for (const Compared& number : all) {
+      const double error = number.true_error();
+      if (number.measure != &measure || error <= share_of_rounding * number.size()) continue;
+      if (number.error_of_finest > 1.5 * error) continue;
+      ratios.push_back(error / number.stated);
+      sharpness.push_back(number.stated / error);
+      above_1 += ratios.back() > 1;
+      above_1_5 += ratios.back() > 1.5;
+    }
+    if (ratios.empty()) continue;
+    fmt::print("| {} | {} | {:.1f} | {:.2f} | {:.2f} | {} | {} |\n", measure.name, ratios.size(), median_of(sharpness),
+               quantile(ratios, 0.95), *std::ranges::max_element(ratios), above_1, above_1_5);
+  }
+}
+
+}  // namespace
+
+int rheocyte::measure(int count, char** words) {
+  std::vector<std::string_view> given(words + 1, words + count);
+  const bool wants_values = !given.empty() && given.front() == "values";
+  if (wants_values) given.erase(given.begin());
+  if (given.empty()) {
+    fmt::print(stderr, "bench_number_errors [values] tube|square|off-axis [COUNT [SEED]]\n");
+    return 2;
+  }
+  const auto number = [&](std::size_t i, int otherwise) {
+    return i < given.size() ? std::atoi(given[i].data()) : otherwise;
+  };
+  std::mt19937 random(unsigned(number(2, 1)));
+  std::vector<Compared> all;
+  for (int cell = 0; cell < number(1, 20);) {
+    const std::vector<Compared> numbers = compared(cell, random_problem(given.front(), random));
+    if (numbers.empty()) continue;  // beyond the end of its branch
+    ++cell;
+    if (wants_values) std::ranges::for_each(numbers, print);
+    all.insert(all.end(), numbers.begin(), numbers.end());
+  }
+  if (!wants_values) print_summary(all);
+  return 0;
+}
