@@ -122,27 +122,40 @@ void print(const Compared& number) {
   std::fflush(stdout);
 }
 
-/// Of the states whose true error the finest one tells: what it states itself, several times its true error, is at most
-/// one and a half times the difference.
+/// Of some numbers how their errors compare with what was stated.
+struct Honesty {
+  std::vector<double> true_over_stated;
+
+  /// What the finest state states itself, several times its true error, is at most one and a half times the difference:
+  /// else it does not tell the true error.
+  void add(const Compared& number) {
+    const double error = number.true_error();
+    if (error <= share_of_rounding * number.size() || number.error_of_finest > 1.5 * error) return;
+    true_over_stated.push_back(error / number.stated);
+  }
+  std::ptrdiff_t above(double limit) const {
+    return std::ranges::count_if(true_over_stated, [&](double ratio) { return ratio > limit; });
+  }
+  void print(std::string_view name) const {
+    if (true_over_stated.empty()) return;
+    fmt::print("| {} | {} | {:.1f} | {:.2f} | {:.2f} | {} | {} |\n", name, true_over_stated.size(),
+               1 / quantile(true_over_stated, 0.5), quantile(true_over_stated, 0.95),
+               *std::ranges::max_element(true_over_stated), above(1), above(1.5));
+  }
+};
+
 void print_summary(const std::vector<Compared>& all) {
   fmt::print("| number | told | stated / true, median | true / stated, 95 % | at most | above 1 | above 1.5 |\n");
   fmt::print("|---|---|---|---|---|---|---|\n");
+  Honesty of_all;
+  for (const Compared& number : all) of_all.add(number);
   for (const StateMeasure& measure : state_measures) {
-    std::vector<double> ratios, sharpness;
-    int above_1 = 0, above_1_5 = 0;
-    for (const Compared& number : all) {
-      const double error = number.true_error();
-      if (number.measure != &measure || error <= share_of_rounding * number.size()) continue;
-      if (number.error_of_finest > 1.5 * error) continue;
-      ratios.push_back(error / number.stated);
-      sharpness.push_back(number.stated / error);
-      above_1 += ratios.back() > 1;
-      above_1_5 += ratios.back() > 1.5;
-    }
-    if (ratios.empty()) continue;
-    fmt::print("| {} | {} | {:.1f} | {:.2f} | {:.2f} | {} | {} |\n", measure.name, ratios.size(), median_of(sharpness),
-               quantile(ratios, 0.95), *std::ranges::max_element(ratios), above_1, above_1_5);
+    Honesty of_this;
+    for (const Compared& number : all)
+      if (number.measure == &measure) of_this.add(number);
+    of_this.print(measure.name);
   }
+  of_all.print("all");
 }
 
 }  // namespace

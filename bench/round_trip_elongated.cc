@@ -1,10 +1,10 @@
 // How well moduli of elongated cells come back: round_trip_elongated FILE [CELLS [PLACES [SEED [COMPUTED MEASURED]]]]
 //
-// FILE: a table of elongated cells. With COMPUTED and MEASURED, grids of cells without elongation in its liquid and in
-// another one, the cells are in that other liquid. Cells of random size, stiffness and elongation, by an axial tension
-// or by their shape at rest, are solved in the square channel, drawn into masks of pixels at random places, and
-// estimated by modes and by the inertia ratio. None is a node of the table; half of them are not even cells of its
-// model.
+// FILE: a table of elongated cells, whose liquid is that of the cells. With COMPUTED and MEASURED, grids of cells
+// without elongation in its liquid and in another one, the cells are in that other liquid. Cells of random size,
+// stiffness and elongation, by an axial tension or by their shape at rest, are solved in the square channel, drawn into
+// masks of pixels at random places, and estimated by modes and by the inertia ratio. None is a node of the table; half
+// of them are not even cells of its model.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -112,7 +112,7 @@ int rheocyte::measure(int argc, char** argv) {
   std::unique_ptr<const ModulusMap> computed, measured;
   if (argc > 6) computed = read_modulus_map(argv[5]), measured = read_modulus_map(argv[6]);
   const ElongatedLiquid liquid(solids, computed.get(), measured.get());
-  const double exponent = measured ? measured->origin().flow.exponent : 1;
+  const double exponent = (measured ? measured->origin() : solids.origin()).flow.exponent;
   const int count = argc > 2 ? std::atoi(argv[2]) : 40, places = argc > 3 ? std::atoi(argv[3]) : 80;
   CellRandom random(argc > 4 ? std::uint64_t(std::atoi(argv[4])) : 1, 0, Purpose::place);
   std::map<std::string, Score> scores;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "case/joined.h"
 #include "case/nearest_name.h"
 #include "case/user_error.h"
 #include "extract/shipped_tables.h"
@@ -88,12 +90,8 @@ fs::path find_table(const std::string& wanted, const std::string& asked_by) {
   auto tables = shipped_tables();
   tables.merge(installed_tables());
   if (const auto found = tables.find(wanted); found != tables.end()) return found->second;
-  std::vector<std::string_view> names;
-  std::string all;
-  for (const auto& [name, file] : tables) {
-    names.push_back(name);
-    all += (all.empty() ? "" : ", ") + name;
-  }
+  const auto keys = std::views::keys(tables);
+  const std::vector<std::string_view> names(keys.begin(), keys.end());
   const std::string place = fmt::format("rheocyte: {} {}: there is neither such a file nor such a table{}", asked_by,
                                         one_line(wanted, 200), did_you_mean(wanted, names));
   const bool has_published =
@@ -104,7 +102,7 @@ fs::path find_table(const std::string& wanted, const std::string& asked_by) {
           : " Published tables such as LE-2D-FEM-19 come with dclab (pip install dclab), which was looked for in "
             "PYTHONPATH, VIRTUAL_ENV, CONDA_PREFIX, beside the python3 of the PATH, in ~/.local, /usr/local and /usr.";
   throw UserError(names.empty() ? place + ". Give the path of a table." + published
-                                : fmt::format("{} (there are {}).{}", place, all, published));
+                                : fmt::format("{} (there are {}).{}", place, joined(names, ", "), published));
 }
 
 }  // namespace rheocyte

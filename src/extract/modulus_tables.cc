@@ -142,8 +142,8 @@ std::optional<ElongatedFile> elongated_file(double flow_exponent) {
   std::optional<ElongatedFile> best;
   for (const auto& [identifier, file] : shipped_elongated_tables()) {
     const auto head = grid_head(first_bytes(file, grid_head_bytes).value_or(""));
-    if (!head || (misfit(head->flow_exponent) > flow_exponent_tolerance && head->flow_exponent != 1)) continue;
-    if (!best || misfit(head->flow_exponent) < misfit(best->flow_exponent)) best = {file, head->flow_exponent};
+    if (head && (!best || misfit(head->flow_exponent) < misfit(best->flow_exponent)))
+      best = {file, head->flow_exponent};
   }
   return best;
 }

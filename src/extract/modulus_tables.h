@@ -20,7 +20,7 @@ struct ElongatedFile {
   std::filesystem::path file;
   double flow_exponent;
 };
-/// That of the nearest liquid; where none is near enough the Newtonian one.
+/// That of the nearest liquid; none where none comes with the program.
 std::optional<ElongatedFile> elongated_file(double flow_exponent);
 
 /// The table of elongated cells that the user names: a file elongated_*.cbor, a folder of `rheocyte table` with one, or
@@ -49,7 +49,7 @@ class ModulusTables {
   const ShapeMap* shapes(double flow_exponent) const;
 
   /// Of cells that are drawn out along the flow, in the square channel: the table that comes with the program for this
-  /// liquid, or that of a Newtonian one changed to it; null in the tube, and where there is none.
+  /// liquid, or that of the nearest one changed to it; null in the tube, and where there is none.
   const ElongatedLiquid* elongated(double flow_exponent) const;
 
   /// Of all that can be used.

@@ -87,7 +87,7 @@ Settings gate_settings(GateOptions& gates) {
                                    "logarithm; or a file of polygon filters of DCscope or dclab")))};
 }
 
-Settings joined(Settings first, Settings second) {
+Settings together(Settings first, Settings second) {
   first.insert(first.end(), std::make_move_iterator(second.begin()), std::make_move_iterator(second.end()));
   return first;
 }
@@ -123,7 +123,7 @@ Settings settings_of(MeasuringOptions& m) {
              setting("channel_width_um", "Channel width", &m.channel_width_um, "width of the channel", otherwise)),
       of_key(case_key("flow.rate_ul_per_s"), setting("flow_rate_ul_s", "Flow rate", &m.flow_rate_ul_s, "", otherwise)),
       pixel_size(m.pixel_size_um)};
-  settings = joined(joined(std::move(settings), liquid_settings(m)), gate_settings(m.gates));
+  settings = together(together(std::move(settings), liquid_settings(m)), gate_settings(m.gates));
   settings.push_back(patience(m.patience_s));
   return settings;
 }
@@ -141,14 +141,14 @@ Settings table_settings(std::string& table, std::optional<Section>& section) {
 }
 
 Settings settings_of(ExtractOptions& o) {
-  return joined(joined(table_settings(o.table, o.section), settings_of(o.measuring)),
-                {formerly("pixelation", setting("no_pixelation", "No pixelation", &o.no_pixelation,
-                                                "correct nothing for the pixels")),
-                 formerly("correct_area", setting("no_area_correction", "No area correction", &o.no_area_correction,
-                                                  "do not correct areas for the pixels; published tables never do")),
-                 formerly("asymmetry", setting("no_asymmetry", "No asymmetry", &o.no_asymmetry,
-                                               "do not read contours and masks for the modulus from the asymmetry of "
-                                               "the outlines; faster"))});
+  return together(together(table_settings(o.table, o.section), settings_of(o.measuring)),
+                  {formerly("pixelation", setting("no_pixelation", "No pixelation", &o.no_pixelation,
+                                                  "correct nothing for the pixels")),
+                   formerly("correct_area", setting("no_area_correction", "No area correction", &o.no_area_correction,
+                                                    "do not correct areas for the pixels; published tables never do")),
+                   formerly("asymmetry", setting("no_asymmetry", "No asymmetry", &o.no_asymmetry,
+                                                 "do not read contours and masks for the modulus from the asymmetry of "
+                                                 "the outlines; faster"))});
 }
 
 Settings settings_of(ModuliOptions& o) {
@@ -157,8 +157,8 @@ Settings settings_of(ModuliOptions& o) {
                                    "tension of the liquid along the flow, which elongates the cells, 0 = none",
                                    "it is found for each recording, if the table has elongated cells"));
   tension.former_option = "--axial-tension";
-  return joined(
-      joined({seen_section(o.section)}, settings_of(o.measuring)),
+  return together(
+      together({seen_section(o.section)}, settings_of(o.measuring)),
       {setting("fit_tension", "Fit tension", &o.fit_tension,
                "the tension of the cortex, too, by a table with several of them; tables of elongated cells always do"),
        tension,
@@ -166,7 +166,7 @@ Settings settings_of(ModuliOptions& o) {
                "by area, deformation and Lambda1/Lambda2, the measures of the paper's figure 9")});
 }
 
-Settings settings_of(TimeCourseOptions& o) { return joined({seen_section(o.section)}, settings_of(o.measuring)); }
+Settings settings_of(TimeCourseOptions& o) { return together({seen_section(o.section)}, settings_of(o.measuring)); }
 
 Settings settings_of(PopulationOptions& o) {
   Setting between = setting("between_recordings", "Between recordings", &o.between_recordings,
@@ -175,7 +175,7 @@ Settings settings_of(PopulationOptions& o) {
   between.range = {0, 2};
   Setting jobs = setting("jobs", "Jobs", &o.jobs, "threads; the numbers do not depend on them", "all processor cores");
   jobs.range = {1, 1024};
-  return joined(
+  return together(
       {of_type(
            "MODEL", {"solid", "cortex"},
            setting("model", "Cells", &o.model,

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <ranges>
 #include <system_error>
 
+#include "case/joined.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
 #include "store/supplied_folder.h"
@@ -17,16 +19,11 @@ namespace {
 
 fs::path tables_folder() { return supplied_folder("RHEOCYTE_TABLES", "../share/rheocyte/tables", data_folder); }
 
-std::string names_of(const std::map<std::string, fs::path>& tables) {
-  std::string names;
-  for (const auto& [name, file] : tables) names += (names.empty() ? "" : ", ") + name;
-  return names;
-}
-
 /// A name that is no table of this kind.
 [[noreturn]] void refuse(const std::string& wanted, std::string_view kind, std::string_view noun) {
   const std::string place = fmt::format("rheocyte: --table {}: ", one_line(wanted, 200));
-  const std::string names = names_of(table_files(tables_folder(), kind));
+  const auto tables = table_files(tables_folder(), kind);
+  const std::string names = joined(tables | std::views::keys, ", ");
   for (const std::string_view other : {"grid", "elongated", "combined", "dynamic"})
     if (other != kind && table_files(tables_folder(), other).contains(wanted))
       throw UserError(fmt::format("{}it is not a {}; with the program comes {}.", place, noun, names));
