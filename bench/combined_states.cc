@@ -17,7 +17,7 @@ namespace {
 
 using namespace rheocyte;
 
-constexpr int progress = int(CellCoordinate::log_progress), last_mode = 7;
+constexpr int progress = x_progress, last_mode = 7;
 
 /// The first state with this stiffness, which falls with the progress along a branch; nothing outside the table.
 std::optional<CombinedState> with_stiffness(const CombinedInterpolation& table, CellCoordinates cell,

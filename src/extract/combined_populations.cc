@@ -148,14 +148,14 @@ void tell_bounds(const MomentFit& fit, RecordingReport& r) {
 }
 
 /// On which side of a range of the table the mean cell lies: -1, 0, 1.
-int beyond(const CombinedPopulation& found, const CellBox& box, CellCoordinate coordinate) {
-  const int c = int(coordinate);
+int beyond(const CombinedPopulation& found, const CellBox& box, int coordinate) {
+  const int c = coordinate;
   return found.mean_cell(c) > box.greatest(c) ? 1 : found.mean_cell(c) < box.least(c) ? -1 : 0;
 }
 
 /// Of cells of other sizes than those of the table; else empty.
 std::string why_not_in_table(const CombinedPopulation& found, const CombinedInterpolation& table, double length_scale) {
-  const int by_size = beyond(found, table.box(), CellCoordinate::log_radius);
+  const int by_size = beyond(found, table.box(), x_radius);
   if (by_size == 0) return {};
   return fmt::format(
       "its cells, of {:.3g} um, are {} than those of the table, which has {:.3g} to {:.3g} um in this channel.",
@@ -165,10 +165,10 @@ std::string why_not_in_table(const CombinedPopulation& found, const CombinedInte
 
 /// Beyond its other ends the shapes of the table go straight on.
 void tell_continued(const CombinedPopulation& found, const CellBox& box, RecordingReport& r) {
-  if (const int soft = beyond(found, box, CellCoordinate::log_progress); soft != 0)
+  if (const int soft = beyond(found, box, x_progress); soft != 0)
     r.warnings.push_back(fmt::format("the mean cell is {} than those of the table, which is continued to it.",
                                      soft > 0 ? "softer" : "stiffer"));
-  if (const int drawn = beyond(found, box, CellCoordinate::axial_ratio); drawn != 0)
+  if (const int drawn = beyond(found, box, x_axial); drawn != 0)
     r.warnings.push_back(
         fmt::format("the axial tension over E + E2D/r0 is {} than in the table, which is continued to it.",
                     drawn > 0 ? "greater" : "less"));

@@ -83,6 +83,7 @@ ordered_json median_cell_of(const MedianCell& m) {
           {"axial_tension_error_Pa", m.axial_tension_error_Pa},
           {"chi_squared", m.chi_squared},
           {"degrees_of_freedom", m.freedom},
+          {"at_end_of_table", m.is_at_end},
           {"features", features_of_median(m)}};
 }
 

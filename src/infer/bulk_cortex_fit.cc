@@ -16,9 +16,6 @@ namespace rheocyte {
 
 namespace {
 
-constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
-              x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio),
-              x_axial = int(CellCoordinate::axial_ratio);
 /// Cells whose misfits differ by less cannot be distinguished at 90 %.
 constexpr double same_chi_squared = 2.7;
 /// What is known before: an error of so many widths of the table's range. Keeps covariances finite.

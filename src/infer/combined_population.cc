@@ -96,19 +96,16 @@ Eigen::Matrix<double, CombinedMoments::varying, combined_parameters> CombinedMom
 
 CellCoordinates CombinedMoments::place_in_table(const Numbers& numbers, double log_progress) const {
   CellCoordinates cell;
-  cell(int(CellCoordinate::log_radius)) = numbers(0) - std::log(scale_.length);
-  cell(int(CellCoordinate::cortex_share)) = numbers(2);
-  cell(int(CellCoordinate::log_progress)) = log_progress;
-  cell(int(CellCoordinate::tension_ratio)) = numbers(3);
-  cell(int(CellCoordinate::axial_ratio)) = numbers(4) / std::exp(numbers(1));
+  cell(x_radius) = numbers(0) - std::log(scale_.length);
+  cell(x_share) = numbers(2);
+  cell(x_progress) = log_progress;
+  cell(x_ratio) = numbers(3);
+  cell(x_axial) = numbers(4) / std::exp(numbers(1));
   return cell;
 }
 
 /// Of the cell of the table with these numbers; how far the flow deforms it is found by Newton's method.
 CombinedMoments::Shape CombinedMoments::shape_in_tube(const Numbers& numbers, double first) const {
-  constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
-                x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio),
-                x_axial = int(CellCoordinate::axial_ratio);
   const double log_stiffness = numbers(1) - std::log(scale_.modulus);
   CellCoordinates cell = place_in_table(numbers, first);
   const double axial = cell(x_axial);
@@ -152,7 +149,7 @@ CombinedMoments::Shape CombinedMoments::shape_in_tube(const Numbers& numbers, do
 CombinedMoments::Progress CombinedMoments::progress(const CombinedLaw& law) const {
   const CellBox& box = moduli_.table().box();
   const Numbers mean = numbers(law, nodes_[0]);
-  const Shape there = shape_in_tube(mean, (box.least + box.greatest)(int(CellCoordinate::log_progress)) / 2);
+  const Shape there = shape_in_tube(mean, (box.least + box.greatest)(x_progress) / 2);
   return {there.progress, there.progress_by_number, mean};
 }
 
@@ -324,7 +321,7 @@ MomentSettings moment_settings(const CombinedInterpolation& table, const std::fu
   const auto within = [&](CombinedParameter p, double least, double greatest) {
     settings.least(int(p)) = least, settings.greatest(int(p)) = greatest;
   };
-  constexpr int share = int(CellCoordinate::cortex_share), ratio = int(CellCoordinate::tension_ratio);
+  constexpr int share = x_share, ratio = x_ratio;
   within(cortex_share, box.least(share), box.greatest(share));
   within(tension_ratio, box.least(ratio), box.greatest(ratio));
   within(axial_tension, 0, HUGE_VAL);
@@ -340,8 +337,7 @@ MomentSettings moment_settings(const CombinedInterpolation& table, const std::fu
 CombinedVector start_from(const ModuliEstimate& median, const ScaleFactors& scale, double wall_stress_Pa) {
   constexpr double share = 0.4, ratio = 0.3;  // from others the search comes to the same end
   CombinedLaw law;
-  law.mean << median.cell(int(CellCoordinate::log_radius)) + std::log(scale.length), std::log(median.stiffness_kPa),
-      share;
+  law.mean << median.cell(x_radius) + std::log(scale.length), std::log(median.stiffness_kPa), share;
   law.tension_ratio = ratio;
   law.axial_tension = median.axial_tension_Pa / wall_stress_Pa;
   law.axial_spread = 0.1, law.ratio_spread = 0.1;

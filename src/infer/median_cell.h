@@ -22,12 +22,13 @@ struct MedianCell {
   double axial_tension_Pa = no_value, axial_tension_error_Pa = no_value;
   double chi_squared = no_value;
   int freedom = 0;
+  bool is_at_end = false;  ///< of the table, beyond which other cells may fit better
   ModuliStatus status = ModuliStatus::no_data;
   static constexpr std::size_t min_cells = 5;
 };
 
 /// The median of the cells, fitted with the errors of one picture. The axial tension is fitted, too, unless `tension`
-/// tells it.
+/// tells it. Errors of its numbers grow with the square root of chi2 over its degrees of freedom where that exceeds 1.
 MedianCell median_cell(const BulkCortexFit& moduli, const SeenCell& cell, const AxialTension& tension);
 
 }  // namespace rheocyte

@@ -12,7 +12,6 @@ namespace {
 
 /// Beyond the table the features go straight on, and each of so many widths counts as one standard error.
 constexpr double fence_widths = 0.2;
-constexpr int x_log_radius = int(CellCoordinate::log_radius), x_of_axial = int(CellCoordinate::axial_ratio);
 
 }  // namespace
 
@@ -68,9 +67,9 @@ Eigen::VectorXd ModuliMisfit::evaluate(const CellCoordinates& cell, Jacobian& ja
   const CellCoordinates by_cell = state.gradient.row(log_stiffness_row).transpose();
   const double stiffness_Pa = 1e3 * std::exp(state.value(log_stiffness_row) + by_cell.dot(beyond));
   const Eigen::Index last = n + coordinate_count;
-  residual(last) = (cell(x_of_axial) * stiffness_Pa - tension_.value_Pa) / tension_.error_Pa;
+  residual(last) = (cell(x_axial) * stiffness_Pa - tension_.value_Pa) / tension_.error_Pa;
   jacobian.row(last) =
-      stiffness_Pa / tension_.error_Pa * (CellCoordinates::Unit(x_of_axial) + cell(x_of_axial) * by_cell).transpose();
+      stiffness_Pa / tension_.error_Pa * (CellCoordinates::Unit(x_axial) + cell(x_axial) * by_cell).transpose();
   return residual;
 }
 
@@ -83,7 +82,7 @@ Eigen::Matrix<double, coordinate_count, coordinate_count> ModuliMisfit::informat
 
 ModuliMisfit::Feature ModuliMisfit::feature(int number, const CellCoordinates& cell, const CombinedState& state) const {
   if (number == int(ShapeFeature::area_um2) && shape_.size_is_volume)
-    return {std::log(4 * std::numbers::pi / 3) + 3 * cell(x_log_radius), 3 * CellCoordinates::Unit(x_log_radius)};
+    return {std::log(4 * std::numbers::pi / 3) + 3 * cell(x_radius), 3 * CellCoordinates::Unit(x_radius)};
   return {state.value(row_of(number)), state.gradient.row(row_of(number)).transpose()};
 }
 

@@ -19,7 +19,7 @@ constexpr double min_deformation = 1e-3;
 // Of elongated cells, not all of which go farther.
 constexpr double min_mode_3 = 0.005, max_mode_3 = 0.125;
 constexpr int outline_points = 400, draws_of_one_cell = 300;
-constexpr int progress_axis = int(CellCoordinate::log_progress);
+constexpr int progress_axis = x_progress;
 
 std::array<double, mode_count> modes_of(const CombinedState& state) {
   std::array<double, mode_count> modes{};
@@ -124,13 +124,13 @@ SeenShape with_section(const ShapeErrors& pixels, const ShapeVector& measured, c
   if (sight.section == Section::tube || !measured.allFinite()) return seen;
   constexpr int mode_2 = int(ShapeFeature::first_mode), mode_3 = mode_2 + 1;
   const ShapeVector smooth = measured - added.bias;
-  const double share = cell(int(CellCoordinate::cortex_share));
+  const double share = cell(x_share);
   const ShapeErrors by_square = change_by_square(
       {.radius = std::exp(smooth(int(ShapeFeature::area_um2)) / 2) * 2 * std::numbers::inv_sqrtpi / sight.flow.width_um,
        .mode_2 = smooth(mode_2),
        .mode_3 = smooth(mode_3),
        .cortex_share = share,
-       .cortex_tension = share * cell(int(CellCoordinate::tension_ratio)),
+       .cortex_tension = share * cell(x_ratio),
        .thinning = table_exponent - sight.flow.exponent});
   added.bias += by_square.bias;
   added.covariance += by_square.covariance * sight.error_factor * sight.error_factor;

@@ -40,8 +40,7 @@ Regression regression(const std::vector<CellModes>& cells, std::size_t mode) {
 
 /// d(c_3, c_4, c_5)/d(c_2) along a direction in which the area and one more quantity stay.
 ModeSlopes slopes_along(const CombinedState& state, const CellCoordinates& held) {
-  constexpr std::array<int, 3> moved{int(CellCoordinate::log_radius), int(CellCoordinate::log_progress),
-                                     int(CellCoordinate::axial_ratio)};
+  constexpr std::array<int, 3> moved{x_radius, x_progress, x_axial};
   Eigen::Vector3d area, other;
   for (int i = 0; i < 3; ++i) {
     area(i) = state.gradient(log_area_row, moved[std::size_t(i)]);
@@ -82,8 +81,7 @@ PredictedSlopes predicted_slopes(const CombinedInterpolation& table, const CellC
   const CombinedState state = table.at(cell);
   const CellCoordinates stiffness = state.gradient.row(log_stiffness_row).transpose();
   // T = axial ratio times stiffness.
-  const CellCoordinates tension =
-      CellCoordinates::Unit(int(CellCoordinate::axial_ratio)) + cell(int(CellCoordinate::axial_ratio)) * stiffness;
+  const CellCoordinates tension = CellCoordinates::Unit(x_axial) + cell(x_axial) * stiffness;
   return {slopes_along(state, tension), slopes_along(state, stiffness)};
 }
 

@@ -13,10 +13,6 @@ namespace rheocyte {
 
 namespace {
 
-constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
-              x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio),
-              x_axial = int(CellCoordinate::axial_ratio);
-
 constexpr int points_of_outline = 720;
 
 std::vector<SampledBranch> without_empty(std::vector<SampledBranch> branches) {

@@ -20,10 +20,6 @@ namespace {
 /// Where a dent appears, the hull's features bend at another deformation in each branch: higher degrees do worse.
 constexpr int max_combined_stencil = 4;
 
-constexpr int x_radius = int(CellCoordinate::log_radius), x_share = int(CellCoordinate::cortex_share),
-              x_progress = int(CellCoordinate::log_progress), x_ratio = int(CellCoordinate::tension_ratio),
-              x_axial = int(CellCoordinate::axial_ratio);
-
 /// The interval of ascending nodes that holds x, or the nearest one.
 int interval_of(std::span<const double> nodes, double x) {
   const auto above = std::ranges::upper_bound(nodes, x);
@@ -66,10 +62,10 @@ struct CombinedInterpolation::Sum {
   Eigen::Matrix<double, inner_rows, coordinate_count> gradient =
       Eigen::Matrix<double, inner_rows, coordinate_count>::Zero();
 
-  void add(const Sum& term, double weight, double weight_slope, CellCoordinate along) {
+  void add(const Sum& term, double weight, double weight_slope, int along) {
     value += weight * term.value;
     gradient += weight * term.gradient;
-    gradient.col(int(along)) += weight_slope * term.value;
+    gradient.col(along) += weight_slope * term.value;
   }
 };
 
@@ -211,7 +207,7 @@ CombinedInterpolation::Sum CombinedInterpolation::over_radii(int sheet, int shar
     const Curve& branch = curve(sheet, share, i);
     if (branch.place.empty()) continue;
     const auto w = std::size_t(i - window.first);
-    sum.add(along(branch, progress), weights.value[w], weights.slope[w], CellCoordinate::log_radius);
+    sum.add(along(branch, progress), weights.value[w], weights.slope[w], x_radius);
   }
   return sum;
 }
@@ -223,7 +219,7 @@ CombinedInterpolation::Sum CombinedInterpolation::over_shares(int sheet, const C
   Sum sum;
   for (int j = window.first; j < window.end; ++j) {
     const auto w = std::size_t(j - window.first);
-    sum.add(over_radii(sheet, j, cell), weights.value[w], weights.slope[w], CellCoordinate::cortex_share);
+    sum.add(over_radii(sheet, j, cell), weights.value[w], weights.slope[w], x_share);
   }
   return sum;
 }
@@ -234,7 +230,7 @@ CombinedInterpolation::Sum CombinedInterpolation::over_ratios(int axial, const C
   Sum sum;
   for (int i = window.first; i < window.end; ++i) {
     const auto w = std::size_t(i - window.first);
-    sum.add(over_shares(sheet_of(axial, i), cell), weights.value[w], weights.slope[w], CellCoordinate::tension_ratio);
+    sum.add(over_shares(sheet_of(axial, i), cell), weights.value[w], weights.slope[w], x_ratio);
   }
   return sum;
 }
@@ -287,7 +283,7 @@ CombinedState CombinedInterpolation::at(const CellCoordinates& cell) const {
   Sum sum;
   for (int i = axial.first; i < axial.end; ++i) {
     const auto w = std::size_t(i - axial.first);
-    sum.add(over_ratios(i, cell), weights.value[w], weights.slope[w], CellCoordinate::axial_ratio);
+    sum.add(over_ratios(i, cell), weights.value[w], weights.slope[w], x_axial);
   }
   // Back from what hardly varies to what is asked for.
   CombinedState state{sum.value.head<row_count>(), sum.gradient.topRows<row_count>(), is_inside(cell)};

@@ -11,8 +11,11 @@ namespace rheocyte {
 /// same deformations and turn back at none, and states of equal deformation change least from branch to branch. Of a
 /// table of elongated cells, which have a deformation without flow, it is the third mode that the cell would have if
 /// this grew in proportion to 1 / S all along the branch: where the tension is as great as S it does not.
-enum class CellCoordinate { log_radius, cortex_share, log_progress, tension_ratio, axial_ratio, count };
-inline constexpr int coordinate_count = int(CellCoordinate::count);
+inline constexpr int x_radius = 0,                ///< ln(r0 / um)
+    x_share = 1,                                  ///< of the cortex in S
+    x_progress = 2,                               ///< its logarithm
+    x_ratio = 3,                                  ///< tension of the cortex over its modulus
+    x_axial = 4, coordinate_count = x_axial + 1;  ///< axial tension over S
 using CellCoordinates = Eigen::Matrix<double, coordinate_count, 1>;
 
 /// Rows of what is interpolated: ln(S / kPa), ln(area / um2), Lambda1 / Lambda2, the modes and the deformation.

@@ -96,7 +96,7 @@ class Interpolation : public testing::Test {
     CellCoordinates cell;
     for (int i = 0; i < coordinate_count; ++i)
       cell(i) = std::uniform_real_distribution(between_.box().least(i), between_.box().greatest(i))(engine_);
-    cell(int(CellCoordinate::log_progress)) = std::uniform_real_distribution(std::log(2e-3), std::log(0.05))(engine_);
+    cell(x_progress) = std::uniform_real_distribution(std::log(2e-3), std::log(0.05))(engine_);
     return cell;
   }
 };
@@ -150,11 +150,11 @@ TEST_F(Interpolation, TheWeightsOfTheBranchesAreThoseOfTheState) {
 TEST_F(Interpolation, ACellBeyondTheBranchesIsSaid) {
   // Softer than all, larger than all; the values go on nevertheless.
   CellCoordinates cell = random_cell();
-  cell(int(CellCoordinate::log_progress)) = std::log(0.5);
+  cell(x_progress) = std::log(0.5);
   EXPECT_FALSE(between_.at(cell).inside);
   EXPECT_TRUE(between_.at(cell).value.allFinite());
   cell = random_cell();
-  cell(int(CellCoordinate::log_radius)) = std::log(15.0);
+  cell(x_radius) = std::log(15.0);
   EXPECT_FALSE(between_.at(cell).inside);
 }
 
@@ -179,7 +179,7 @@ CellCoordinates random_elongated_cell(const CombinedInterpolation& between, std:
   CellCoordinates cell;
   for (int i = 0; i < coordinate_count; ++i)
     cell(i) = std::uniform_real_distribution(between.box().least(i), between.box().greatest(i))(engine);
-  cell(int(CellCoordinate::log_progress)) = std::uniform_real_distribution(std::log(0.02), std::log(0.05))(engine);
+  cell(x_progress) = std::uniform_real_distribution(std::log(0.02), std::log(0.05))(engine);
   return cell;
 }
 
