@@ -8,6 +8,7 @@
 #include "../table/invented_combined.h"
 #include "../table/invented_elongated_combined.h"
 #include "infer/common_tension.h"
+#include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
 #include "infer/slopes_between_cells.h"
 #include "measurement/shape_in_pixels.h"
@@ -285,6 +286,28 @@ TEST_F(ElongatedCells, SlopesBetweenCellsOfOneTensionAreThoseOfTheModel) {
     EXPECT_NEAR(by_stiffness[k], predicted.by_stiffness[k], 0.03) << k;
     EXPECT_NEAR(by_tension[k], predicted.by_tension[k], 0.03) << k;
   }
+}
+
+TEST_F(ElongatedCells, ErrorsOfTheMedianCellAllowForWhatTheModelLeaves) {
+  // An outline that no cell has, by fifty standard errors of a mode: its chi2 goes into the errors. A cell in the
+  // middle of the table is not at its end, and one beyond the greatest share is.
+  auto [seen, stiffness] = random_cell(1000, 0);
+  seen.cells = 100;
+  const MedianCell fits = median_cell(moduli_, seen, AxialTension::unknown());
+  EXPECT_LT(fits.chi_squared, fits.freedom);
+  EXPECT_FALSE(fits.is_at_end);
+  const int last_mode = int(ShapeFeature::first_mode) + 7 - min_mode;
+  SeenCell odd = seen;
+  odd.shape.features(last_mode) += 50 * std::sqrt(odd.shape.errors.covariance(last_mode, last_mode));
+  const MedianCell found = median_cell(moduli_, odd, AxialTension::unknown());
+  const ModuliEstimate narrow = moduli_.fit(odd.shape, odd.flow, AxialTension::unknown());
+  ASSERT_GT(found.chi_squared, 4 * found.freedom);
+  const double widening = std::sqrt(found.chi_squared / found.freedom);
+  EXPECT_NEAR(found.axial_tension_error_Pa / narrow.axial_tension_error_Pa, widening, 1e-9);
+  EXPECT_NEAR(found.stiffness_error_kPa / narrow.stiffness_error_kPa, widening, 1e-9);
+  SeenCell beyond = seen;
+  beyond.shape.features = invented_elongated_features({6.7, 0.95, 0.25, 0.5 / 1.8}, 1.8);
+  EXPECT_TRUE(median_cell(moduli_, beyond, AxialTension::unknown()).is_at_end);
 }
 
 TEST_F(ElongatedCells, TheWallsShearStressIsThatOfTheTube) {
