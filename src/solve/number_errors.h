@@ -18,9 +18,9 @@ double change_of_outline(const StateNumbers&, const StateNumbers&);
 StateNumbers unknown_numbers();
 
 /// Errors of the numbers of the last of some states of a cell on ever finer resolutions, each in its number's unit;
-/// that of the deformation, relative, is known. Two resolutions may agree in one number by chance, but hardly in all: no
-/// error is below the change of the outline, nor, of a number at single points, far below the greatest change of such
-/// (docs/theory.md, eq:number-errors). Not a number where there is no number, or no error is known.
+/// that of the deformation, relative, is known. Two resolutions may agree in one number by chance, but hardly in all:
+/// no error is below the change of the outline, nor, of a number at single points, far below the greatest change of
+/// such (docs/theory.md, eq:number-errors). Not a number where there is no number, or no error is known.
 StateNumbers errors_of_last(std::span<const StateNumbers>, double error_of_deformation);
 
 /// Magnitudes of the differences, number by number.

@@ -37,16 +37,14 @@ enum class MessageKind : char { progress = 'p', result = 'r', user_error = 'u', 
 
 struct Header {
   MessageKind message = MessageKind::progress;
-  std::uint32_t length = 0;
+  std::uint64_t length = 0;
 };
-
-constexpr std::uint32_t longest_message = 1 << 24;
 
 void send(int pipe, MessageKind message, const void* data, std::size_t length) {
   std::string bytes(sizeof(Header) + length, '\0');
   Header header{};
   header.message = message;
-  header.length = static_cast<std::uint32_t>(length);
+  header.length = length;
   std::memcpy(bytes.data(), &header, sizeof header);
   std::memcpy(bytes.data() + sizeof header, data, length);
   for (std::size_t done = 0; done < bytes.size();) {
@@ -136,7 +134,9 @@ class SignalsHeldBack {
 /// Puts messages together from what arrives in pieces.
 class IsolatedInbox {
  public:
-  explicit IsolatedInbox(const TellProgress& on_progress) : on_progress_(on_progress) {}
+  /// `longest`: of a message in bytes; a child that broke down may announce anything.
+  IsolatedInbox(const TellProgress& on_progress, std::uint64_t longest)
+      : on_progress_(on_progress), longest_(longest) {}
 
   /// False at the end of the pipe.
   bool read_from(int pipe) {
@@ -158,7 +158,7 @@ class IsolatedInbox {
     Header header{};
     if (bytes_.size() < sizeof header) return false;
     std::memcpy(&header, bytes_.data(), sizeof header);
-    if (header.length > longest_message || bytes_.size() < sizeof header + header.length) return false;
+    if (header.length > longest_ || bytes_.size() < sizeof header + header.length) return false;
     const std::string text = bytes_.substr(sizeof header, header.length);
     bytes_.erase(0, sizeof header + header.length);
     if (header.message == MessageKind::progress) {
@@ -177,6 +177,7 @@ class IsolatedInbox {
   }
 
   const TellProgress& on_progress_;
+  std::uint64_t longest_;
   std::string bytes_;
   IsolatedEnd end_;
   bool has_end_ = false;
@@ -256,7 +257,7 @@ class IsolatedPool::Run {
   OnEnd on_end_;
   pid_t child_ = -1;
   int pipe_ = -1;
-  IsolatedInbox inbox_{on_progress_};
+  IsolatedInbox inbox_{on_progress_, limits_.memory_bytes};
   Clock::time_point last_word_ = Clock::now();
   bool has_ended_ = false;
 };

@@ -23,7 +23,7 @@ IsolatedEnd end_of(const std::function<std::string(const TellProgress&)>& work, 
 }
 
 TEST(Isolated, TheResultComesBackWhole) {
-  const std::string text(300'000, 'x');  // more than a pipe holds
+  const std::string text(50'000'000, 'x');  // as of the numbers of half a million events
   const auto work = [&](const TellProgress&) { return std::vector<std::string>{text, "", "more"}; };
   const auto done = run_isolated(work, {}, [](double) {});
   ASSERT_TRUE(done.finished());
