@@ -51,6 +51,15 @@ std::string file_like_an_option(int argc, char** argv) {
   return {};
 }
 
+// What is wrong with a number that was not understood.
+std::string decimal_comma_in(const CLI::ParseError& error) {
+  const std::string_view text = error.what();
+  const auto comma = text.find(',');
+  if (error.get_name() != "ConversionError" || comma == std::string_view::npos || comma + 1 == text.size()) return {};
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  return comma > 0 && is_digit(text[comma - 1]) && is_digit(text[comma + 1]) ? "; decimals follow a point" : "";
+}
+
 int report(const std::string& sentence, int exit_code) {
   tell(one_line(sentence, 1000));
   return exit_code;
@@ -66,7 +75,8 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code)
   } catch (const CLI::Success& wish) {  // --help, --version
     return with_output(app.exit(wish));
   } catch (const CLI::ParseError& error) {
-    return report(fmt::format("rheocyte: {}{} (see `rheocyte --help`)", error.what(), file_like_an_option(argc, argv)),
+    return report(fmt::format("rheocyte: {}{}{} (see `rheocyte --help`)", error.what(), decimal_comma_in(error),
+                              file_like_an_option(argc, argv)),
                   exit_user_error);
   } catch (const StoppedBySignal&) {
     return exit_stopped();

@@ -54,7 +54,8 @@ void report(const SynthOptions& options, const VirtualRecording& r) {
                     options.output.string(), r.events, 100 * r.mean_area_error, r.mean_deformation_error));
   for (std::size_t k = 0; k < r.missing.size(); ++k)
     if (r.missing[k] > 0)
-      tell(fmt::format("{} of {} cells are left out: {}.", r.missing[k], r.cells, names_of_missing_shapes[k]));
+      tell(fmt::format("{} of {} {} are left out: {}.", r.missing[k], r.pictures, noun_of_missing(r),
+                       names_of_missing_shapes[k]));
 }
 
 [[noreturn]] void refuse(const IsolatedEnd& end) {

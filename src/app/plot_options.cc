@@ -53,7 +53,8 @@ void check(const PlotOptions& options) {
     throw UserError(fmt::format("rheocyte: --levels: give at most {} moduli.", max_number_of_levels));
   for (const double level : options.levels_kPa)
     if (!(level > 0 && std::isfinite(level)))
-      throw UserError("rheocyte: --levels must be positive moduli (kPa), separated by commas.");
+      throw UserError(
+          "rheocyte: --levels must be positive moduli (kPa), separated by commas; decimals follow a point.");
 }
 
 void choose_shapes(PlotOptions& options) {

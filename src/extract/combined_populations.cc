@@ -148,8 +148,7 @@ void tell_bounds(const MomentFit& fit, RecordingReport& r) {
 }
 
 /// On which side of a range of the table the mean cell lies: -1, 0, 1.
-int beyond(const CombinedPopulation& found, const CellBox& box, int coordinate) {
-  const int c = coordinate;
+int beyond(const CombinedPopulation& found, const CellBox& box, int c) {
   return found.mean_cell(c) > box.greatest(c) ? 1 : found.mean_cell(c) < box.least(c) ? -1 : 0;
 }
 

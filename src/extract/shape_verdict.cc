@@ -81,6 +81,14 @@ std::string text_of(const FittingTable& table) {
                      table.expected_inertia_ratio, table.excess.value, table.excess.error, moduli, table.identifier);
 }
 
+std::string text_on_rounder(const std::string& cells, const std::string& numbers) {
+  return fmt::format(
+      "the cells are rounder than {} and than the cells of any other table of the program ({}), as cells of another "
+      "law "
+      "or with a cortex may be; Young's moduli from deformation are not theirs, see docs/real-cells.md.",
+      cells, numbers);
+}
+
 std::string text_on_elongated(const ShapeVerdict& v, const std::string& cells, const std::string& numbers) {
   // Where both are known the asymmetry must give more.
   const std::string meaning =
@@ -216,10 +224,12 @@ double ShapeVerdict::elongated_percent() const {
 
 ShapeVerdict::Fit ShapeVerdict::fit() const {
   if (judged < fewest_for_a_verdict || !std::isfinite(excess.value)) return Fit::unknown;
-  if (excess.value < max_excess_of_the_model(excess)) return Fit::model;
+  const double distance = std::abs(excess.value);
+  if (distance < max_excess_of_the_model(excess)) return Fit::model;
   if (!other.identifier.empty()) return Fit::other_table;
-  // Few events may lie above by chance.
-  return excess.value < std::max(still_doubtful, of_the_model + 2 * excess.error) ? Fit::doubtful : Fit::elongated;
+  // Few events may lie off by chance.
+  if (distance < std::max(still_doubtful, of_the_model + 2 * excess.error)) return Fit::doubtful;
+  return excess.value < 0 ? Fit::rounder : Fit::elongated;
 }
 
 std::string ShapeVerdict::text() const {
@@ -237,6 +247,7 @@ std::string ShapeVerdict::text() const {
       return fmt::format("the shapes are not those of {} ({}) but {}", cells, numbers, text_of(other));
     case Fit::doubtful:
       return fmt::format("whether the shapes are those of the model{} is doubtful ({}).", law, numbers);
+    case Fit::rounder: return text_on_rounder(cells, numbers);
     case Fit::elongated: break;
   }
   return text_on_elongated(*this, cells, numbers);
@@ -293,10 +304,10 @@ std::string ShapeVerdict::recommended_text() const {
         "table {} is theirs.",
         report_text(recommended_kPa(), "by the table of elongated cells"), other.cells, other.identifier);
   return fmt::format(
-      "{}: the cells are longer than the flow alone would make them, which a tension of {:.4g} +- {:.2g} Pa along the "
+      "{}: the cells are {} than the flow alone would make them, which a tension of {:.4g} +- {:.2g} Pa along the "
       "flow does.",
-      report_text(recommended_kPa(), "by the table of elongated cells"), axial_tension_Pa.value,
-      axial_tension_Pa.error);
+      report_text(recommended_kPa(), "by the table of elongated cells"), excess.value < 0 ? "rounder" : "longer",
+      axial_tension_Pa.value, axial_tension_Pa.error);
 }
 
 std::string ShapeVerdict::trend_text() const {

@@ -99,7 +99,7 @@ struct ShapeVerdict {
 
   double elongated_percent() const;
   /// Whether the shapes are those of the model.
-  enum class Fit { unknown, model, other_table, doubtful, elongated };
+  enum class Fit { unknown, model, other_table, doubtful, elongated, rounder };
   Fit fit() const;
   /// In one sentence.
   std::string text() const;

@@ -54,6 +54,8 @@ std::map<std::string, fs::path> shipped_elongated_tables() { return table_files(
 
 std::map<std::string, fs::path> shipped_combined_tables() { return table_files(tables_folder(), "combined"); }
 
+std::map<std::string, fs::path> shipped_dynamic_tables() { return table_files(tables_folder(), "dynamic"); }
+
 fs::path combined_table_or_shipped(const fs::path& wanted) {
   return wanted_or_shipped(wanted, "combined", "table of cells with bulk and cortex");
 }

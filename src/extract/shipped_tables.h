@@ -14,6 +14,8 @@ std::map<std::string, std::filesystem::path> shipped_tables();
 std::map<std::string, std::filesystem::path> shipped_elongated_tables();
 /// Likewise the files combined_<identifier>.cbor of cells with bulk and cortex.
 std::map<std::string, std::filesystem::path> shipped_combined_tables();
+/// Likewise the files dynamic_<identifier>.cbor of cells on their way.
+std::map<std::string, std::filesystem::path> shipped_dynamic_tables();
 
 /// The wanted table, by its place or its identifier, and where none is wanted the one that comes with the program: of
 /// cells with bulk and cortex, and of cells on their way. UserError if it is missing.

@@ -89,7 +89,7 @@ Columns of_elongation() {
 
 Columns of_verdict() {
   using V = ShapeVerdict;
-  constexpr std::array fits{"unknown", "model", "other-table", "doubtful", "elongated"};
+  constexpr std::array fits{"unknown", "model", "other-table", "doubtful", "elongated", "rounder"};
   return {{"shapes", of_shapes([=](const V& v) { return fits.at(static_cast<std::size_t>(v.fit())); })},
           {"shapes_of_model", of_shapes(&V::model)},
           {"fitting_table", of_shapes([](const V& v) { return v.other.identifier; })},

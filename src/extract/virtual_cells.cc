@@ -19,6 +19,7 @@ double flow_exponent(const SynthSpec& spec) {
 
 fs::path found_table(const SynthSpec& spec, const fs::path& folder) {
   if (spec.table.empty()) {
+    if (spec.is_on_its_way()) return dynamic_table_or_shipped({});
     if (spec.kind == CellKind::combined) return combined_table_or_shipped({});
     const auto elongated = spec.axial_tension_Pa ? elongated_file(flow_exponent(spec)) : std::nullopt;
     return elongated ? elongated->file : ModulusTables("").file(flow_exponent(spec));
@@ -29,6 +30,7 @@ fs::path found_table(const SynthSpec& spec, const fs::path& folder) {
   auto shipped = shipped_tables();
   shipped.merge(shipped_elongated_tables());
   shipped.merge(shipped_combined_tables());
+  shipped.merge(shipped_dynamic_tables());
   const auto found = shipped.find(spec.table.string());
   return found == shipped.end() ? beside : found->second;
 }

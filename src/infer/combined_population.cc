@@ -321,9 +321,8 @@ MomentSettings moment_settings(const CombinedInterpolation& table, const std::fu
   const auto within = [&](CombinedParameter p, double least, double greatest) {
     settings.least(int(p)) = least, settings.greatest(int(p)) = greatest;
   };
-  constexpr int share = x_share, ratio = x_ratio;
-  within(cortex_share, box.least(share), box.greatest(share));
-  within(tension_ratio, box.least(ratio), box.greatest(ratio));
+  within(cortex_share, box.least(x_share), box.greatest(x_share));
+  within(tension_ratio, box.least(x_ratio), box.greatest(x_ratio));
   within(axial_tension, 0, HUGE_VAL);
   within(log_radius_spread, std::log(0.003), 0);
   within(log_stiffness_spread, std::log(0.01), std::log(0.5));

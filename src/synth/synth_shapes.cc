@@ -112,6 +112,7 @@ std::unique_ptr<CellShapes> shapes_of_grid(SynthSpec& spec) {
   const std::string file_name = spec.table.filename().string();
   if (file_name.starts_with("elongated_")) return shapes_of_elongated(spec, spec.table);
   if (file_name.starts_with("combined_")) return shapes_of_combined_file(spec);
+  if (file_name.starts_with("dynamic_")) return shapes_of_dynamic_table(spec);
   GridContent grid = grid_from_bytes(content_of_file(spec.table, largest_grid), name);
   if (grid.origin.is_shell || spec.kind != CellKind::solid)
     refuse_path(spec.table,

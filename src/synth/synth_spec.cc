@@ -55,8 +55,10 @@ void check_shapes(SynthSpec& spec, const KeyReading& keys) {
                                        "recording.places_um.",
                                        viscosity));
   if (!spec.table.empty()) return;
-  if (spec.is_on_its_way())
-    keys.refuse("recording.places_um", "recording.places_um needs shapes.table, the folder of a dynamic table.");
+  if (spec.is_on_its_way() && spec.analytical)
+    keys.refuse("recording.places_um",
+                "recording.places_um and shapes.model = \"analytical\" contradict each other: the analytical model has "
+                "stationary cells only.");
   if (spec.kind == CellKind::combined && spec.analytical)
     keys.refuse("shapes.model",
                 "cell.kind = \"combined\" and shapes.model = \"analytical\" contradict each other: the analytical "

@@ -112,6 +112,7 @@ class VirtualCamera {
   }
 
   void see(const VirtualCell& cell, const Picture& picture, Block& block) {
+    ++result_.pictures;
     auto found = shapes_.shape(cell);
     if (const auto* const reason = std::get_if<NoShape>(&found)) return count(*reason);
     const auto& shape = std::get<CellShape>(found);
@@ -287,6 +288,10 @@ std::string reasons(const VirtualRecording& result) {
 
 }  // namespace
 
+std::string_view noun_of_missing(const VirtualRecording& result) {
+  return result.pictures == result.cells ? "cells" : "pictures of cells";
+}
+
 VirtualRecording write_virtual_recording(const SynthSpec& spec, const CellShapes& shapes,
                                          const RecordingProvenance& provenance, const std::filesystem::path& path,
                                          const std::function<void(double)>& on_progress) {
@@ -305,8 +310,8 @@ VirtualRecording write_virtual_recording(const SynthSpec& spec, const CellShapes
   }
   write_block(block, spec.image_size(), file);
   if (result.events == 0)
-    throw UserError(fmt::format("None of the {} cells can be recorded: {}; the shapes come from the {}.", cells,
-                                reasons(result), shapes.description()));
+    throw UserError(fmt::format("None of the {} {} can be recorded: {}; the shapes come from the {}.", result.pictures,
+                                noun_of_missing(result), reasons(result), shapes.description()));
   result.mean_area_error /= static_cast<double>(result.events);
   result.mean_deformation_error /= static_cast<double>(result.events);
   describe_truth(spec, shapes, result, file);

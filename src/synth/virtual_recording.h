@@ -12,11 +12,15 @@
 namespace rheocyte {
 
 struct VirtualRecording {
-  std::size_t cells = 0, events = 0;                                  ///< drawn, and recorded
-  std::array<std::size_t, names_of_missing_shapes.size()> missing{};  ///< by NoShape
+  std::size_t cells = 0;                 ///< drawn
+  std::size_t pictures = 0, events = 0;  ///< of them, a cell on its way at each of its places; and recorded ones
+  std::array<std::size_t, names_of_missing_shapes.size()> missing{};  ///< pictures by NoShape
   double mean_area_error = 0;                                         ///< of the events: measured area / true area - 1
   double mean_deformation_error = 0;                                  ///< measured - true deformation
 };
+
+/// What is left out, of how many: "cells", or "pictures" of cells at several places.
+std::string_view noun_of_missing(const VirtualRecording&);
 
 /// What else the file tells.
 struct RecordingProvenance {

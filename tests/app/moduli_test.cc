@@ -290,7 +290,7 @@ TEST_F(ModuliCommand, WhatCannotBeUsedIsRefused) {
   // One sentence and exit code 2: no table, bad values, options that only `rheocyte extract` can follow, a file of the
   // user's in the place of the result.
   const std::string folder = table_folder().string();
-  expect_refusal({(folder_.path() / "none").string()}, "there is no table");
+  expect_refusal({(folder_.path() / "none").string()}, "there is neither such a file nor such a folder");
   expect_refusal({folder, "--viscosity-mPas", "-1"}, "--viscosity-mPas -1 is outside its range");
   expect_refusal({folder, "--pixel-size-um", "0"}, "--pixel-size-um 0 is outside its range");
   for (const std::string option : {"--no-pixelation", "--no-area-correction", "--no-tsv"})

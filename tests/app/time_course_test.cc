@@ -139,8 +139,14 @@ TEST_F(TimeCourseCommand, WhatDoesNotTellAViscosityIsRefusedInASentence) {
 }
 
 TEST_F(TimeCourseCommand, CellsOnTheirWayNeedADynamicTableWithPlacesAndViscosity) {
-  write_file(folder_.path() / "cells.toml", population.substr(0, population.find("[shapes]")));
-  expect_sentence(synth(), "recording.places_um needs shapes.table");
+  // Without shapes.table that of the program is taken, which is to be had by its name, too.
+  const std::string cells = population.substr(0, population.find("[shapes]"));
+  write_file(folder_.path() / "cells.toml", cells);
+  EXPECT_EQ(synth({"--set", "recording.cells=5"}).exit_code, 0);
+  EXPECT_EQ(synth({"--set", "recording.cells=5", "--set", "shapes.table=HE-chip-26"}).exit_code, 0);
+  expect_sentence(synth({"--set", "cell.radius_um.mean=2"}), "None of the 320 pictures of cells can be recorded: 320 ");
+  expect_sentence(synth({"--set", "shapes.model=analytical"}),
+                  "recording.places_um and shapes.model = \"analytical\" contradict each other");
   std::string without_places = population;
   without_places.erase(without_places.find("places_um"), std::string("places_um = [15, 60, 140, 290]\n").size());
   write_file(folder_.path() / "cells.toml", without_places);

@@ -26,6 +26,19 @@ ShapeVerdict verdict_of(double excess, double growth = 0, double length_um = 60,
   return tally.verdict();
 }
 
+TEST(ShapeVerdict, CellsRounderThanTheTablesAreNotThoseOfTheModel) {
+  EXPECT_EQ(verdict_of(-0.005).fit(), ShapeVerdict::Fit::model);
+  EXPECT_EQ(verdict_of(-0.035).fit(), ShapeVerdict::Fit::doubtful);
+  ShapeVerdict v = verdict_of(-0.086);
+  v.model = "linear solids in the tube";
+  EXPECT_EQ(v.fit(), ShapeVerdict::Fit::rounder);
+  EXPECT_NE(v.text().find("rounder than linear solids in the tube and than"), std::string::npos) << v.text();
+  EXPECT_NE(v.recommended(), ShapeVerdict::Modulus::by_deformation);
+  v.other = {"HE-3D-26", "neo-Hookean solids in the square channel", {0.002, 0.001}, 1.02, 0.95};
+  EXPECT_EQ(v.fit(), ShapeVerdict::Fit::other_table);
+  EXPECT_NE(v.text().find("5.0 % too low, take the table HE-3D-26"), std::string::npos) << v.text();
+}
+
 TEST(ShapeVerdict, NamesTheThreeCases) {
   EXPECT_EQ(verdict_of(0.005).fit(), ShapeVerdict::Fit::model);
   EXPECT_NE(verdict_of(0.005).text().find("the shapes are those of the model"), std::string::npos);

@@ -26,6 +26,8 @@ TEST(CommandLine, MistakesAreNamed) {
   expect_refusal({"solve", good_case, "-o", "x", "--jsn"}, "--jsn");
   expect_refusal({"help", "cass"}, "cass");
   expect_refusal({"picture", "/nowhere"}, "no result.json");
+  expect_refusal({"extract", "a.rtdc", "--pixel-size-um", "0,34"}, "decimals follow a point");
+  expect_refusal({"plot", "a.rtdc", "--levels", "0,5"}, "decimals follow a point");
 }
 
 TEST(CommandLine, WrongSettingsAreNamedWithTheirSource) {

@@ -8,11 +8,14 @@ import { featuresOf, gateOptions, gatesWithoutOption } from './gates';
 import { replacedTemperatures } from './origin';
 import { endModuli, moduli, runModuli } from './moduli';
 import { SettingFields } from './SettingFields';
-import { declared, fieldsOf } from './settings';
+import { declared, fieldsOf, typing } from './settings';
 
-/** What a typed temperature does to recordings that have one of their own. */
+/** What a typed temperature does to recordings that have one of their own. Said while it is typed: a press on a button ends
+ * the typing, and the button must not move away under the pointer. */
 function Replaced() {
-  const typed = useStore(moduliSettings).temperature ?? '';
+  const taken = useStore(moduliSettings).temperature ?? '';
+  const now = useStore(typing);
+  const typed = now?.name === 'temperature' ? now.text : taken;
   const all = recordings(useStore(items)).filter((item) => item.state === 'ready');
   const sentence = replacedTemperatures(typed, all);
   return sentence === '' ? null : <p class="caution">{sentence}</p>;

@@ -3,7 +3,7 @@ import type { Setting } from '../api';
 import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
 import { items, moduliSettings } from './model';
-import { labelOf, on, typeIn } from './settings';
+import { labelOf, on, typeIn, typing } from './settings';
 
 interface FieldProps {
   of: Setting;
@@ -38,6 +38,7 @@ function Text({ of, typed }: FieldProps) {
         placeholder="automatic"
         list={list}
         take={(text) => typeIn(of.name, text)}
+        watch={(text) => typing.set(text === null ? null : { name: of.name, text })}
       />
       {list && (
         <datalist id={list}>

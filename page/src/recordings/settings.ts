@@ -14,6 +14,8 @@ export const fieldsOf = (settings: Setting[]): Setting[] => settings.filter(({ k
 export const labelOf = ({ label, unit }: Setting): string => (unit === '' ? label : `${label}, ${unitText(unit)}`);
 
 export const on = 'true';
+/** What is typed and not taken yet. */
+export const typing = store<{ name: string; text: string } | null>(null);
 export const typeIn = (name: string, text: string): void => moduliSettings.update((all) => ({ ...all, [name]: text }));
 
 function valueOf(kind: Setting['kind'] | undefined, text: string): unknown {

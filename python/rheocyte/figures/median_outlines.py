@@ -61,6 +61,7 @@ def draw(figure, cells):
             text = (f"E {cell['young_modulus_kPa']:.2g} kPa, E2D {cell['cortex_modulus_mN_per_m']:.2g} mN/m\n"
                     f"T {cell['axial_tension_Pa']:.0f} ± {cell['axial_tension_error_Pa']:.0f} Pa\n"
                     f"χ² {cell['chi_squared']:.2g} at {cell['degrees_of_freedom']}"
-                    + {"poor-fit": ": a poor fit", "outside-table": ", beyond the table"}.get(cell["status"], ""))
+                    + {"poor-fit": ": a poor fit", "outside-table": ", beyond the table"}.get(cell["status"], "")
+                    + ("\nat the end of the table" if cell["at_end_of_table"] else ""))
         axes.set_title(f"{letter}   {name[:24]}\n{cell['cells']} cells", fontsize=6, loc="left")
         axes.text(0.5, -0.02, text, fontsize=5.5, ha="center", va="top", transform=axes.transAxes)
