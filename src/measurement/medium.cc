@@ -52,15 +52,16 @@ struct NameParts {
 
 bool is_in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
-/// The number at this place if "%" follows, and then what is behind it.
+/// The number at this place if "%" or "wt%" follows, and then what is behind it.
 std::optional<std::pair<double, std::string_view>> percentage_at(std::string_view text) {
   double number = 0;
   const auto [end, error] = number_from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);
   if (error != std::errc{}) return std::nullopt;
-  const auto sign = std::string_view(end, text.data() + text.size()).find_first_not_of(" _\t");
-  const auto rest = text.substr(static_cast<std::size_t>(end - text.data()));
-  if (sign == std::string_view::npos || rest[sign] != '%') return std::nullopt;
-  return std::pair(number, rest.substr(sign + 1));
+  auto rest = text.substr(static_cast<std::size_t>(end - text.data()));
+  rest.remove_prefix(std::min(rest.find_first_not_of(" _\t"), rest.size()));
+  if (rest.starts_with("wt")) rest.remove_prefix(2);
+  if (!rest.starts_with('%')) return std::nullopt;
+  return std::pair(number, rest.substr(1));
 }
 
 NameParts parts_of(std::string_view name) {
@@ -124,6 +125,7 @@ std::string near_medium(std::string_view name) {
   constexpr double farthest = 1.5;  // as a ratio
   const NameParts parts = parts_of(name);
   if (parts.percentages.empty()) return did_you_mean(name, words);
+  if (!is_a_solution(parts)) return "";  // of another polymer
   const double percent = parts.percentages.front();
   const Concentration& nearest = nearest_concentration(percent);
   if (!(std::abs(std::log(percent / nearest.percent)) < std::log(farthest))) return "";

@@ -122,6 +122,8 @@ TEST(Viscosity, AnUnknownSolutionIsNearTheOneOfTheNearestPercentage) {
   EXPECT_EQ(near_medium("0.62% MC-PBS"), ", did you mean 0.59% MC-PBS?");
   EXPECT_EQ(near_medium("0.52 % MC-PBS"), ", did you mean 0.49% MC-PBS?");
   EXPECT_EQ(near_medium("0.9% MC"), ", did you mean 0.83% MC-PBS?");
+  EXPECT_EQ(near_medium("alginate 0.6%"), "") << "another polymer";
+  EXPECT_EQ(medium_of_name("0.49 wt% MC-PBS"), Medium::methyl_cellulose_049);
   EXPECT_EQ(near_medium("10% MC-PBS"), "");
   EXPECT_EQ(near_medium("Cellcarier"), ", did you mean CellCarrier?");
   EXPECT_EQ(near_medium("ketchup"), "");
