@@ -12,18 +12,22 @@ double size_of(const StateMeasure& measure, double value) { return measure.is_de
 
 /// How much changes from the last but one of some states to the last one.
 struct LastChange {
-  double outline;     ///< as in change_of_outline
+  double outline;     ///< as in change_of_outline, or a share of that of the surface's stretch at single points
   double points = 0;  ///< the greatest relative change of a number at single points
 
   explicit LastChange(std::span<const StateNumbers> rungs) {
     const StateNumbers &last = rungs.back(), &before = rungs[rungs.size() - 2];
-    outline = change_of_outline(before, last);
+    double stretch = 0;
     for (const StateMeasure& measure : state_measures) {
       const double change = std::abs(measure.value(last) - measure.value(before));
       const double size = size_of(measure, measure.value(last));
-      if (measure.settles_with == SettlesWith::points && change > 0 && size > 0)
-        points = std::max(points, change / size);
+      if (measure.settles_with != SettlesWith::points || !(change > 0 && size > 0)) continue;
+      points = std::max(points, change / size);
+      if (unit_of(measure.name).dimension == no_unit.dimension) stretch = std::max(stretch, change / size);
     }
+    // Outlines may agree by chance; the stretch at one point, which is right later, hardly does then, too.
+    constexpr double share_of_stretch = 1e-3;
+    outline = std::max(change_of_outline(before, last), share_of_stretch * stretch);
   }
 };
 

@@ -66,10 +66,10 @@ struct StateMeasure {
 
   constexpr bool in_tables() const { return columns == AlsoIn::tables || columns == AlsoIn::both; }
   constexpr bool in_history() const { return columns == AlsoIn::history || columns == AlsoIn::both; }
-  /// Of the outline from a circle; it may be next to nothing.
+  /// Of the outline from a circle, or of the surface from its limit; it may be next to nothing.
   constexpr bool is_departure() const {
     return std::holds_alternative<ShapeMode>(member) || std::holds_alternative<double OutlineTilt::*>(member) ||
-           name.starts_with("deformation");
+           name.starts_with("deformation") || name == "stability_margin";
   }
   /// Where the number stands, to be read or to be set.
   template <class Numbers>
