@@ -83,6 +83,7 @@ void check_companion(const fs::path& place) {
     return programs && programs->find("rheocyte ") != std::string::npos;
   };
   const auto looked = run_isolated(is_ours, {}, [](double) {});
+  if (looked.end.kind == IsolatedEnd::Kind::user_error) throw UserError(looked.end.text);
   if (!looked.stopped() && !(looked.finished() && looked.result))
     refuse_to_replace(place, "was not written by rheocyte");
 }

@@ -2,17 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <utility>
 
 #include "case/refuse_path.h"
 #include "store/atomic_file.h"
 #include "store/system_files.h"
+#include "store/system_limit.h"
 
 namespace rheocyte {
 
 FileWriter::FileWriter(const std::filesystem::path& file, std::string advice)
     : path_(file), advice_(std::move(advice)), file_(open_stream(file)) {
-  if (!file_) refuse();
+  if (file_) return;
+  check_open_files(errno);
+  refuse();
 }
 
 FileWriter::~FileWriter() {

@@ -9,6 +9,7 @@
 
 #include "case/refuse_path.h"
 #include "store/system_files.h"
+#include "store/system_limit.h"
 
 namespace rheocyte {
 
@@ -32,6 +33,7 @@ std::optional<std::string> read_some(const OpenFile& opened, std::size_t most) {
 
 std::optional<std::string> first_bytes(const std::filesystem::path& path, std::size_t most) {
   const OpenFile opened = open_to_read(path);
+  check_open_files(opened.failed);
   if (!opened.facts.is_file) return std::nullopt;
   return read_some(opened, most);
 }
@@ -41,6 +43,7 @@ std::string content_of_file(const std::filesystem::path& path, std::size_t most)
     refuse_path(path, fmt::format("cannot be read ({}).", std::generic_category().message(reason)));
   };
   const OpenFile opened = open_to_read(path);
+  check_open_files(opened.failed);
   if (opened.failed) refuse_with(opened.failed);
   if (!opened.facts.is_file) refuse_path(path, "is not a regular file.");
   if (opened.facts.size > most)

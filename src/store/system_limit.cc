@@ -21,4 +21,8 @@ SystemLimit::SystemLimit(std::string_view what, int reason)
     : UserError(fmt::format("The system gives no more {} ({}); {}.", what, std::generic_category().message(reason),
                             way_out(reason))) {}
 
+void check_open_files(int reason) {
+  if (reason == EMFILE || reason == ENFILE) throw SystemLimit("open files", reason);
+}
+
 }  // namespace rheocyte

@@ -19,4 +19,7 @@ class SystemLimit final : public UserError {
   explicit SystemLimit(const std::string& sentence) : UserError(sentence) {}
 };
 
+/// SystemLimit if a file could not be opened because the process, or the system, has too many open; `reason` is errno.
+void check_open_files(int reason);
+
 }  // namespace rheocyte

@@ -42,6 +42,28 @@ TEST(Limits, WithoutMemoryForAPictureThereIsAWarning) {
   EXPECT_NE(ended.err.find("the pictures need 400 MB of memory"), std::string::npos) << ended.err;
 }
 
+TEST(Limits, TooFewOpenFilesAreNamedAndNoPermissionOrDiskIsAccused) {
+  // What the program needs itself comes on top of standard input, output and error.
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "virtual.rtdc").string();
+  ASSERT_EQ(
+      in_shell("", "synth " EXAMPLES "/recordings/virtual-cells.toml -o " + file + " --quiet --set recording.cells=5")
+          .exit_code,
+      0);
+  int refused = 0;
+  for (int most = 6; most < 12; ++most) {
+    const Ended ended = in_shell("ulimit -n " + std::to_string(most) + "; ",
+                                 "extract " + file + " --quiet -o " + folder.path().string());
+    if (ended.exit_code == 0 || ended.exit_code == 127) continue;  // enough; not even enough to be loaded
+    ++refused;
+    EXPECT_EQ(ended.exit_code, 2) << most;
+    EXPECT_NE(ended.err.find("(ulimit -n)"), std::string::npos) << most << ": " << ended.err;
+    EXPECT_EQ(ended.err.find("permissions"), std::string::npos) << most << ": " << ended.err;
+    EXPECT_EQ(ended.err.find("disk"), std::string::npos) << most << ": " << ended.err;
+  }
+  EXPECT_GE(refused, 1);
+}
+
 TEST(Limits, ASmallStackIsLiftedOrNamed) {
   expect_sentence(in_shell("ulimit -s 64; ", "help case"), "the stack is limited to 64 kB");
   EXPECT_EQ(in_shell("ulimit -S -s 64; ", "solve --check " + good_case).exit_code, 0);
