@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rheocyte {
 
@@ -16,6 +17,14 @@ std::string joined(const Items& items, std::string_view separator) {
     text += fmt::format("{}", item);
   }
   return text;
+}
+
+/// The keys of a map of names, in their order; the map must outlive them.
+template <class Map>
+std::vector<std::string_view> names_in(const Map& map) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : map) names.emplace_back(name);
+  return names;
 }
 
 }  // namespace rheocyte

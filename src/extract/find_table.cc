@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -90,8 +89,7 @@ fs::path find_table(const std::string& wanted, const std::string& asked_by) {
   auto tables = shipped_tables();
   tables.merge(installed_tables());
   if (const auto found = tables.find(wanted); found != tables.end()) return found->second;
-  const auto keys = std::views::keys(tables);
-  const std::vector<std::string_view> names(keys.begin(), keys.end());
+  const auto names = names_in(tables);
   const std::string place = fmt::format("rheocyte: {} {}: there is neither such a file nor such a table{}", asked_by,
                                         one_line(wanted, 200), did_you_mean(wanted, names));
   const bool has_published =

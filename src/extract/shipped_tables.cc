@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <ranges>
 #include <system_error>
 
 #include "case/joined.h"
@@ -23,7 +22,7 @@ fs::path tables_folder() { return supplied_folder("RHEOCYTE_TABLES", "../share/r
 [[noreturn]] void refuse(const std::string& wanted, std::string_view kind, std::string_view noun) {
   const std::string place = fmt::format("rheocyte: --table {}: ", one_line(wanted, 200));
   const auto tables = table_files(tables_folder(), kind);
-  const std::string names = joined(tables | std::views::keys, ", ");
+  const std::string names = joined(names_in(tables), ", ");
   for (const std::string_view other : {"grid", "elongated", "combined", "dynamic"})
     if (other != kind && table_files(tables_folder(), other).contains(wanted))
       throw UserError(fmt::format("{}it is not a {}; with the program comes {}.", place, noun, names));
