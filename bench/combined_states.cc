@@ -17,15 +17,15 @@ namespace {
 
 using namespace rheocyte;
 
-constexpr int progress = x_progress, last_mode = 7;
+constexpr int last_mode = 7;
 
 /// The first state with this stiffness, which falls with the progress along a branch; nothing outside the table.
 std::optional<CombinedState> with_stiffness(const CombinedInterpolation& table, CellCoordinates cell,
                                             double log_stiffness) {
   constexpr int steps = 400, halvings = 40;
-  const double first = table.box().least(progress), step = (table.box().greatest(progress) - first) / steps;
+  const double first = table.box().least(x_progress), step = (table.box().greatest(x_progress) - first) / steps;
   const auto at = [&](double place) {
-    cell(progress) = place;
+    cell(x_progress) = place;
     return table.at(cell);
   };
   const auto is_above = [&](double place) { return at(place).value(log_stiffness_row) > log_stiffness; };

@@ -23,7 +23,6 @@
 
 #include "numeric/quantile.h"
 #include "random_cells.h"
-#include "solve/resolved_branch.h"
 #include "solve/session.h"
 #include "solve/stationary.h"
 
@@ -156,15 +155,10 @@ void check_first_estimates(int count, unsigned seed) {
   fmt::print("| r0/h | n | d | margin | change of d | change of the margin | stated | true error |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   while (count > 0) {
-    Problem problem = bench::random_solid(Section::square, random);
-    problem.accuracy = not_reached;
-    Geometry geometry = solver_geometry(problem);
-    geometry.rungs.front().last_degree = last_degree;
-    ResolvedBranch branch(problem, geometry);
-    ResolvedState state = branch.follow();
-    Ladder ladder{geometry.errors}, first{geometry.errors};
-    if (state.status != Status::converged) continue;  // beyond the end of its branch
-    branch.climb(state, ladder);
+    const Problem problem = bench::random_solid(Section::square, random);
+    const Ladder ladder = bench::climbed(problem, not_reached, last_degree);
+    if (ladder.rungs.empty()) continue;  // beyond the end of its branch
+    Ladder first{ladder.rule};
     if (ladder.rungs.front().discrete->resolution().degree != 3 || std::ssize(ladder.rungs) <= last_degree - 3)
       continue;
     for (const std::size_t rung : {0, 1}) first.add(ladder.rungs[rung], ladder.numbers[rung]);

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <random>
 #include <string>
 #include <string_view>
@@ -62,25 +61,12 @@ Problem random_problem(std::string_view where, std::mt19937& random) {
   return problem;
 }
 
-/// The resolutions that a wanted accuracy takes, in a duct to a degree at most; none where there is no such cell.
-Ladder climbed(Problem problem, double accuracy, int last_degree = 0) {
-  problem.accuracy = accuracy;
-  Geometry geometry = solver_geometry(problem);
-  if (last_degree > 0) geometry.rungs.back().last_degree = last_degree;
-  ResolvedBranch branch(problem, geometry);
-  ResolvedState state = branch.follow();
-  Ladder ladder{geometry.errors};
-  if (state.status == Status::converged) branch.climb(state, ladder);
-  if (std::ssize(ladder.rungs) < 2 || ladder.rungs.back().branch.parameter < 1) return {};
-  return ladder;
-}
-
 int degree_of(const Ladder& ladder) { return ladder.rungs.back().discrete->resolution().degree; }
 
 /// Of a tube at an accuracy that only rounding limits, of a duct one degree above the others.
 Ladder finest(const Problem& problem, int degree) {
-  if (!is_duct(problem.section)) return climbed(problem, 1e-8);
-  Ladder ladder = climbed(problem, 1e-12, degree);
+  if (!is_duct(problem.section)) return bench::climbed(problem, 1e-8);
+  Ladder ladder = bench::climbed(problem, 1e-12, degree);
   return !ladder.rungs.empty() && degree_of(ladder) == degree ? ladder : Ladder{};
 }
 
@@ -90,7 +76,7 @@ std::vector<Compared> compared(int cell, const Problem& problem) {
   int degree = 6;
   for (const double accuracy : wanted_accuracies) {
     if (is_duct(problem.section) && accuracy < 5e-4) continue;
-    Ladder ladder = climbed(problem, accuracy);
+    Ladder ladder = bench::climbed(problem, accuracy);
     if (ladder.rungs.empty()) return {};
     degree = std::max(degree, degree_of(ladder) + 1);
     ladders.emplace_back(accuracy, std::move(ladder));

@@ -1,10 +1,12 @@
-// Random cells of all kinds, from stiff ones to such as are near the end of their branch.
+// Random cells of all kinds, from stiff ones to such as are near the end of their branch, and their states at ever
+// finer resolutions.
 #pragma once
 #include <array>
 #include <cmath>
 #include <random>
 
 #include "case/problem.h"
+#include "solve/resolved_branch.h"
 
 namespace rheocyte::bench {
 
@@ -30,6 +32,19 @@ inline Problem random_solid(Section section, std::mt19937& random) {
     problem.cortex.tension = 0.3 * stiffness * uniform(random);
   }
   return problem;
+}
+
+/// The resolutions that a wanted accuracy takes, in a duct to a degree at most; none where there is no such cell.
+inline Ladder climbed(Problem problem, double accuracy, int last_degree = 0) {
+  problem.accuracy = accuracy;
+  Geometry geometry = solver_geometry(problem);
+  if (last_degree > 0) geometry.rungs.back().last_degree = last_degree;
+  ResolvedBranch branch(problem, geometry);
+  ResolvedState state = branch.follow();
+  Ladder ladder{geometry.errors};
+  if (state.status == Status::converged) branch.climb(state, ladder);
+  if (std::ssize(ladder.rungs) < 2 || ladder.rungs.back().branch.parameter < 1) return {};
+  return ladder;
 }
 
 }  // namespace rheocyte::bench

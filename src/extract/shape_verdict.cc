@@ -81,23 +81,19 @@ std::string text_of(const FittingTable& table) {
                      table.expected_inertia_ratio, table.excess.value, table.excess.error, moduli, table.identifier);
 }
 
-std::string text_on_rounder(const std::string& cells, const std::string& numbers) {
-  return fmt::format(
-      "the cells are rounder than {} and than the cells of any other table of the program ({}), as cells of another "
-      "law "
-      "or with a cortex may be; Young's moduli from deformation are not theirs, see docs/real-cells.md.",
-      cells, numbers);
-}
-
-std::string text_on_elongated(const ShapeVerdict& v, const std::string& cells, const std::string& numbers) {
-  // Where both are known the asymmetry must give more.
-  const std::string meaning =
-      v.modulus_ratio >= 1 ? "; yet Young's moduli from deformation are not below those of elongated cells: are pixel "
-                             "size and channel right?"
-                           : "; Young's moduli from deformation are too low, see docs/real-cells.md.";
-  return fmt::format(
-      "the cells are elongated along the flow more than {} and than the cells of any other table of the program ({}){}",
-      cells, numbers, meaning);
+/// Of cells that are longer or rounder than those of all tables.
+std::string text_on_strangers(const ShapeVerdict& v, const std::string& cells, const std::string& numbers) {
+  const bool is_rounder = v.excess.value < 0;
+  // Where both moduli of elongated cells are known the asymmetry must give more.
+  const std::string_view meaning =
+      is_rounder ? ", as cells of another law or with a cortex may be; Young's moduli from deformation are not theirs, "
+                   "see docs/real-cells.md."
+      : v.modulus_ratio >= 1
+          ? "; yet Young's moduli from deformation are not below those of elongated cells: are pixel "
+            "size and channel right?"
+          : "; Young's moduli from deformation are too low, see docs/real-cells.md.";
+  return fmt::format("the cells are {} than {} and than the cells of any other table of the program ({}){}",
+                     is_rounder ? "rounder" : "elongated along the flow more", cells, numbers, meaning);
 }
 
 std::string elongated_text(const ShapeVerdict& v) {
@@ -247,10 +243,10 @@ std::string ShapeVerdict::text() const {
       return fmt::format("the shapes are not those of {} ({}) but {}", cells, numbers, text_of(other));
     case Fit::doubtful:
       return fmt::format("whether the shapes are those of the model{} is doubtful ({}).", law, numbers);
-    case Fit::rounder: return text_on_rounder(cells, numbers);
+    case Fit::rounder:
     case Fit::elongated: break;
   }
-  return text_on_elongated(*this, cells, numbers);
+  return text_on_strangers(*this, cells, numbers);
 }
 
 bool ShapeVerdict::has_cortex_shapes() const {

@@ -19,7 +19,6 @@ constexpr double min_deformation = 1e-3;
 // Of elongated cells, not all of which go farther.
 constexpr double min_mode_3 = 0.005, max_mode_3 = 0.125;
 constexpr int outline_points = 400, draws_of_one_cell = 300;
-constexpr int progress_axis = x_progress;
 
 std::array<double, mode_count> modes_of(const CombinedState& state) {
   std::array<double, mode_count> modes{};
@@ -36,9 +35,9 @@ ShapeErrors rendered(const CombinedState& state, double pixel_size_um, int draws
 /// Corners of the box lie beyond the table: the softest cell on the way there that it has, or the stiffest of all.
 CombinedState nearest_state(const CombinedInterpolation& table, CellCoordinates cell) {
   constexpr double step = 0.05;
-  const double stiffest = table.box().least(progress_axis);
-  while (!table.is_inside(cell) && cell(progress_axis) > stiffest)
-    cell(progress_axis) = std::max(cell(progress_axis) - step, stiffest);
+  const double stiffest = table.box().least(x_progress);
+  while (!table.is_inside(cell) && cell(x_progress) > stiffest)
+    cell(x_progress) = std::max(cell(x_progress) - step, stiffest);
   return table.at(cell);
 }
 
@@ -48,10 +47,10 @@ RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_
     : table_(table), pixel_size_um_(pixel_size_um), box_(table.box()), is_over_mode_3_(table.is_elongated()) {
   if (is_over_mode_3_) {
     nodes_ = {4, 3, 5, 1, 4};
-    box_.least(progress_axis) = std::max(box_.least(progress_axis), std::log(min_mode_3));
-    box_.greatest(progress_axis) = std::min(box_.greatest(progress_axis), std::log(max_mode_3));
+    box_.least(x_progress) = std::max(box_.least(x_progress), std::log(min_mode_3));
+    box_.greatest(x_progress) = std::min(box_.greatest(x_progress), std::log(max_mode_3));
   } else {
-    box_.least(progress_axis) = std::max(box_.least(progress_axis), std::log(min_deformation));
+    box_.least(x_progress) = std::max(box_.least(x_progress), std::log(min_deformation));
   }
   const std::size_t count = count_of(nodes_);
   for (std::uint64_t number = 0; errors_.size() < count; ++number) {
@@ -70,12 +69,12 @@ std::size_t RenderedErrors::count_of(const Nodes& nodes) {
 }
 
 double RenderedErrors::scale(int axis, double coordinate) const {
-  return axis == progress_axis && is_over_mode_3_ ? std::exp(coordinate) : coordinate;
+  return axis == x_progress && is_over_mode_3_ ? std::exp(coordinate) : coordinate;
 }
 
 double RenderedErrors::node_place(int axis, double share) const {
   const double scaled = std::lerp(scale(axis, box_.least(axis)), scale(axis, box_.greatest(axis)), share);
-  return axis == progress_axis && is_over_mode_3_ ? std::log(scaled) : scaled;
+  return axis == x_progress && is_over_mode_3_ ? std::log(scaled) : scaled;
 }
 
 ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {

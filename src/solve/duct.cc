@@ -316,11 +316,12 @@ Geometry duct_geometry(const Problem& problem) {
   duct.begins_with_way = true;
   duct.adds_lower_change = true;
   duct.errors = {.share_of_change_before = 0.1, .min_of_two = 6e-4};
-  if (problem.offset == 0)
+  if (problem.offset == 0) {
     duct.errors.share_of_first_change = 0.7;
-  else
+    if (problem.liquid.law != LiquidLaw::newtonian) duct.errors.share_of_margin = 0.08;
+  } else {
     duct.errors.share_of_outline = 0.2;
-  if (problem.offset == 0 && problem.liquid.law != LiquidLaw::newtonian) duct.errors.share_of_margin = 0.08;
+  }
   return duct;
 }
 

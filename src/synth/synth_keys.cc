@@ -142,8 +142,7 @@ Keys shape_keys() {
            "folder of a table by `rheocyte table`, seen from the spec, a dynamic one with "
            "recording.places_um; or a table of the program, by its name or file. Without it that by which "
            "`rheocyte extract` reads the moduli of solids in this liquid, `rheocyte moduli` those of combined cells, "
-           "or "
-           "`rheocyte time-course` those of cells at recording.places_um",
+           "or `rheocyte time-course` those of cells at recording.places_um",
            Word{}, absent, by_table}),
       key<&Spec::max_deformation>(
           renamed({"shapes.max_deformation", "",
