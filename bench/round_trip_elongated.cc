@@ -61,15 +61,17 @@ Case case_of(const Drawn& cell, double exponent) {
 }
 
 struct Score {
-  std::vector<double> bias;  ///< medians of the cells, %
+  std::vector<double> bias;                 ///< medians of the cells, %
+  std::vector<double> elongation, tension;  ///< medians of the cells less the truth; tensions over Young's modulus
   int seen = 0, told = 0, covered = 0, within = 0;
 };
 
 void take(const ElongatedLiquid& solids, double exponent, ElongatedBy by, const std::vector<ShapeVector>& seen,
-          double truth, Score& score) {
+          const Drawn& cell, Score& score) {
+  const double truth = cell.modulus_kPa;
   const std::size_t n = seen.size();
   std::vector<double> area, deformation, first, second, fourth, fifth, viscosity(n, viscosity_mPas), modulus(n),
-      error(n), elongation(n), elongation_error(n), tension(n), tension_error(n), told;
+      error(n), elongation(n), elongation_error(n), tension(n), tension_error(n), told, elongations, tensions;
   std::vector<ModulusState> states(n);
   std::vector<ElongatedCell> cells(n);
   for (const ShapeVector& v : seen) {
@@ -89,10 +91,21 @@ void take(const ElongatedLiquid& solids, double exponent, ElongatedBy by, const 
     if (!has_modulus(states[i])) continue;
     ++score.told;
     told.push_back(modulus[i]);
+    elongations.push_back(elongation[i]);
+    tensions.push_back(tension[i]);
     score.covered += std::abs(modulus[i] - truth) < 1.6449 * error[i];
     score.within += std::abs(modulus[i] - truth) < error[i];
   }
-  if (told.size() > n / 2) score.bias.push_back(100 * (quantile(told, 0.5) / truth - 1));
+  if (told.size() <= n / 2) return;
+  score.bias.push_back(100 * (quantile(told, 0.5) / truth - 1));
+  score.elongation.push_back(quantile(elongations, 0.5) - cell.elongation);
+  score.tension.push_back(1e-3 * quantile(tensions, 0.5) / truth - ratio_of(cell.elongation));
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / double(values.size()));
 }
 
 void tell(const char* name, const Score& s) {
@@ -102,6 +115,10 @@ void tell(const char* name, const Score& s) {
       "in the 90 % interval {:.1f} %, in the 68 % interval {:.1f} %\n",
       name, s.bias.size(), quantile(s.bias, 0.5), quantile(s.bias, 0.05), quantile(s.bias, 0.95),
       100.0 * s.told / s.seen, 100.0 * s.covered / s.told, 100.0 * s.within / s.told);
+  fmt::print(
+      "  medians of elongation and of tension / E less the truth: {:+.4f}, {:+.4f}; root mean square {:.4f}, {:.4f}\n",
+      quantile(s.elongation, 0.5), quantile(s.tension, 0.5), root_mean_square(s.elongation),
+      root_mean_square(s.tension));
 }
 
 }  // namespace
@@ -128,8 +145,8 @@ int rheocyte::measure(int argc, char** argv) {
     for (int place = 0; place < places; ++place)
       seen.push_back(features_in_pixels(outline, pixel_um, {random.uniform() - 0.5, random.uniform() - 0.5}));
     const char* kind = cell.at_rest ? "shape at rest" : "tension";
-    take(liquid, exponent, ElongatedBy::modes, seen, cell.modulus_kPa, scores[fmt::format("modes, {}", kind)]);
-    take(liquid, exponent, ElongatedBy::inertia, seen, cell.modulus_kPa, scores[fmt::format("inertia, {}", kind)]);
+    take(liquid, exponent, ElongatedBy::modes, seen, cell, scores[fmt::format("modes, {}", kind)]);
+    take(liquid, exponent, ElongatedBy::inertia, seen, cell, scores[fmt::format("inertia, {}", kind)]);
   }
   for (const auto& [name, score] : scores) tell(name.c_str(), score);
   return 0;

@@ -13,10 +13,10 @@ readonly memory_per_job_MB=2048
 
 step_number=0
 
-# begin_step <sentence>: the caller sets step_count.
+# begin_step <sentence>: the caller sets step_count. Says how long the script has run by then.
 begin_step() {
   step_number=$((step_number + 1))
-  printf '\n==> [%d/%d] %s\n' "$step_number" "${step_count:?}" "$1"
+  printf '\n==> [%d/%d] %s (after %d min %02d s)\n' "$step_number" "${step_count:?}" "$1" $((SECONDS / 60)) $((SECONDS % 60))
 }
 
 fail() {

@@ -23,4 +23,9 @@ inline double common_error_of_elongated(ElongatedBy by, double reynolds) {
   return std::hypot(left, modulus_per_reynolds * reynolds);
 }
 
+/// The same of the elongation by the axial tension, and of that tension over Young's modulus, in cells that a tension
+/// draws out (bench/round_trip_elongated).
+inline double common_error_of_elongation() { return 0.005; }
+inline double common_error_of_tension_ratio(ElongatedBy by) { return by == ElongatedBy::modes ? 0.004 : 0.01; }
+
 }  // namespace rheocyte

@@ -101,6 +101,25 @@ void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events)
     if (std::isnan(e.modulus_kPa[i])) e.forget(i);
 }
 
+namespace {
+
+/// What the medians have in common with those of other recordings, beside the scatter of the events.
+void add_common_errors(ExtractSummary& s) {
+  ChannelFlow flow = s.conditions.flow;
+  flow.viscosity_mPas = s.mean_viscosity_mPas;
+  const double reynolds = reynolds_number(buffer_density_kg_per_m3, flow);
+  const double common = common_error_by_deformation(s.median_standard_error_kPa / s.modulus_kPa.median, reynolds);
+  s.shapes.by_deformation_kPa = {s.modulus_kPa.median, s.modulus_kPa.median_error, common * s.modulus_kPa.median};
+  const ElongatedBy by = s.shapes.elongated_by;
+  s.shapes.elongated_common_error = common_error_of_elongated(by, reynolds);
+  if (s.shapes.with_elongation == 0) return;
+  s.shapes.elongation.common_error = common_error_of_elongation();
+  const double modulus_Pa = 1e3 * s.shapes.elongated_kPa.median;
+  s.shapes.axial_tension_Pa.common_error = common_error_of_tension_ratio(by) * modulus_Pa;
+}
+
+}  // namespace
+
 ExtractSummary Extraction::summary() {
   ExtractSummary s = summary_;
   s.labels = labels_of(recording_.metadata());
@@ -125,12 +144,7 @@ ExtractSummary Extraction::summary() {
   if (const ShapeMap* const map = event_shapes_.map()) s.shapes.model = map->origin().cells();
   s.shapes.made_of = made_of();
   s.shapes.elongated_by = event_shapes_.elongated_by().value_or(ElongatedBy::modes);
-  ChannelFlow flow = settings_.conditions.flow;
-  flow.viscosity_mPas = s.mean_viscosity_mPas;
-  const double reynolds = reynolds_number(buffer_density_kg_per_m3, flow);
-  s.shapes.elongated_common_error = common_error_of_elongated(s.shapes.elongated_by, reynolds);
-  const double common = common_error_by_deformation(s.median_standard_error_kPa / s.modulus_kPa.median, reynolds);
-  s.shapes.by_deformation_kPa = {s.modulus_kPa.median, s.modulus_kPa.median_error, common * s.modulus_kPa.median};
+  add_common_errors(s);
   if (s.shapes.fit() != ShapeVerdict::Fit::unknown && s.shapes.fit() != ShapeVerdict::Fit::model)
     s.shapes.other = fitting_table(tables_, settings_.conditions, shape_tally_.judged());
   s.warnings = recording_.remarks();

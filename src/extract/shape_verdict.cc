@@ -96,30 +96,34 @@ std::string text_on_strangers(const ShapeVerdict& v, const std::string& cells, c
                      is_rounder ? "rounder" : "elongated along the flow more", cells, numbers, meaning);
 }
 
+std::string text_with_errors(const Median& median) {
+  std::string text = fmt::format("{:.4g}", median.value);
+  for (const double error : {median.error, median.common_error})
+    if (std::isfinite(error)) text += fmt::format(" +- {:.2g}", error);
+  return text;
+}
+
 std::string elongated_text(const ShapeVerdict& v) {
   return fmt::format(
       "E by {} of {} event{} as of cells that the liquid draws out: median {} kPa (quartiles {:.4g} to {:.4g}); "
-      "elongation {:.3f} +- {:.3f}, axial tension {:.4g} +- {:.3g} Pa",
+      "elongation {}, axial tension {} Pa{}",
       v.elongated_by == ElongatedBy::modes ? "the outlines" : "deformation and inertia ratio", v.with_elongation,
       v.with_elongation == 1 ? "" : "s", median_text(v.elongated_kPa), v.elongated_kPa.first_quartile,
-      v.elongated_kPa.third_quartile, v.elongation.value, v.elongation.error, v.axial_tension_Pa.value,
-      v.axial_tension_Pa.error);
+      v.elongated_kPa.third_quartile, text_with_errors(v.elongation), text_with_errors(v.axial_tension_Pa),
+      std::isfinite(v.elongation.common_error) ? " (errors by the scatter of the events, and by pixels and table)"
+                                               : "");
 }
 
 /// With the errors that are known, and what they are.
-std::string report_text(const MedianModulus& modulus, std::string_view from) {
-  std::string number = fmt::format("{:.4g}", modulus.value), meaning;
-  if (std::isfinite(modulus.error)) {
-    number += fmt::format(" +- {:.2g}", modulus.error);
+std::string report_text(const Median& modulus, std::string_view from) {
+  std::string_view meaning;
+  if (std::isfinite(modulus.common_error))
+    meaning =
+        "; errors by the scatter of the events, and by pixels, table and inertia, which they share; those of "
+        "viscosity, flow rate and pixel size come on top";
+  else if (std::isfinite(modulus.error))
     meaning = "; the error is by the scatter of the events alone";
-    if (std::isfinite(modulus.common_error)) {
-      number += fmt::format(" +- {:.2g}", modulus.common_error);
-      meaning =
-          "; errors by the scatter of the events, and by pixels, table and inertia, which they share; those of "
-          "viscosity, flow rate and pixel size come on top";
-    }
-  }
-  return fmt::format("report E = {} kPa (median, {}{})", number, from, meaning);
+  return fmt::format("report E = {} kPa (median, {}{})", text_with_errors(modulus), from, meaning);
 }
 
 }  // namespace
@@ -264,7 +268,7 @@ ShapeVerdict::Modulus ShapeVerdict::recommended() const {
   return Modulus::elongated;
 }
 
-MedianModulus ShapeVerdict::recommended_kPa() const {
+Median ShapeVerdict::recommended_kPa() const {
   switch (recommended()) {
     case Modulus::none: return {};
     case Modulus::by_deformation: return by_deformation_kPa;
@@ -300,10 +304,9 @@ std::string ShapeVerdict::recommended_text() const {
         "table {} is theirs.",
         report_text(recommended_kPa(), "by the table of elongated cells"), other.cells, other.identifier);
   return fmt::format(
-      "{}: the cells are {} than the flow alone would make them, which a tension of {:.4g} +- {:.2g} Pa along the "
-      "flow does.",
+      "{}: the cells are {} than the flow alone would make them, which a tension of {} Pa along the flow does.",
       report_text(recommended_kPa(), "by the table of elongated cells"), excess.value < 0 ? "rounder" : "longer",
-      axial_tension_Pa.value, axial_tension_Pa.error);
+      text_with_errors(axial_tension_Pa));
 }
 
 std::string ShapeVerdict::trend_text() const {

@@ -19,18 +19,13 @@ namespace rheocyte {
 /// Median and its standard error, 1.25 robust sigma / sqrt(n); NaN without values.
 struct Median {
   double value = no_value, error = no_value;
+  double common_error = no_value;  ///< by what all events share (common_errors.h), where that is known
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.value, s.error);
+    return std::tie(s.value, s.error, s.common_error);
   }
-};
-
-/// The median Young's modulus of a recording (kPa) and its standard errors: by the scatter of the events, and by what
-/// they have in common. NaN where there is none.
-struct MedianModulus {
-  double value = no_value, error = no_value, common_error = no_value;
 };
 
 /// How a feature changes along the channel.
@@ -76,8 +71,8 @@ struct ShapeVerdict {
   double seen_um = 0;  ///< along the channel, 5 % to 95 % of the events; NaN without pos_x
   Trend inertia_ratio_trend, deformation_trend, asymmetry_trend;
   Trend mode_4_trend;
-  int direction = 0;                 ///< in which the cells move: along +x or -x; 0 if that is unknown
-  MedianModulus by_deformation_kPa;  ///< from area and deformation
+  int direction = 0;          ///< in which the cells move: along +x or -x; 0 if that is unknown
+  Median by_deformation_kPa;  ///< Young's modulus from area and deformation
   ElongatedBy elongated_by = ElongatedBy::modes;
   Distribution elongated_kPa;                ///< Young's moduli by the table of elongated cells
   double elongated_common_error = no_value;  ///< of their median, relative (common_errors.h)
@@ -108,7 +103,7 @@ struct ShapeVerdict {
   /// Which number is to be reported, and why; nothing without one.
   enum class Modulus { none, by_deformation, elongated };
   Modulus recommended() const;
-  MedianModulus recommended_kPa() const;
+  Median recommended_kPa() const;
   std::string recommended_text() const;
   /// "settled", "still changing", or why that is unknown, with numbers; of an asymmetry that changes, whether cells
   /// that approach the axis explain it.

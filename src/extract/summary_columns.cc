@@ -81,8 +81,10 @@ Columns of_elongation() {
       {"deformation_over_elongated_modulus", of_shapes(&V::modulus_ratio)},
       {"elongation_median", of_shapes([](const V& v) { return v.elongation.value; })},
       {"elongation_median_error", of_shapes([](const V& v) { return v.elongation.error; })},
+      {"elongation_common_error", of_shapes([](const V& v) { return v.elongation.common_error; })},
       {"axial_tension_median_Pa", of_shapes([](const V& v) { return v.axial_tension_Pa.value; })},
       {"axial_tension_median_error_Pa", of_shapes([](const V& v) { return v.axial_tension_Pa.error; })},
+      {"axial_tension_common_error_Pa", of_shapes([](const V& v) { return v.axial_tension_Pa.common_error; })},
       {"mode_4_beyond_solids", of_shapes([](const V& v) { return v.cortex_mode_4.value; })},
       {"mode_5_beyond_solids", of_shapes([](const V& v) { return v.cortex_mode_5.value; })}};
 }

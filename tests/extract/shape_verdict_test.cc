@@ -105,6 +105,15 @@ TEST(ShapeVerdict, CellsOfAnotherTableHaveAModulusAndNoTension) {
   EXPECT_EQ(text.find("tension"), std::string::npos) << text;
 }
 
+TEST(ShapeVerdict, ElongationAndTensionAreToldWithBothErrorsAsTheModulusIs) {
+  ShapeVerdict v = elongated_verdict(0.002, -0.003);
+  v.elongation.common_error = 0.005;
+  v.axial_tension_Pa.common_error = 10;
+  const std::string told = shape_lines(v).at(2);
+  EXPECT_NE(told.find("elongation 1.2 +- 0 +- 0.005, axial tension 250 +- 0 +- 10 Pa"), std::string::npos) << told;
+  EXPECT_NE(v.recommended_text().find("a tension of 250 +- 0 +- 10 Pa along the flow"), std::string::npos);
+}
+
 TEST(ShapeVerdict, TheModulusOfElongatedCellsIsToldAndRecommended) {
   const ShapeVerdict v = elongated_verdict(0.002, -0.003);
   EXPECT_NEAR(v.modulus_ratio, 0.4, 1e-6);  // kept in single precision
@@ -125,7 +134,7 @@ TEST(ShapeVerdict, MoreEventsMakeTheErrorByScatterSmallerAndNotWhatTheyHaveInCom
     v.elongated_kPa = distribution_of(moduli);
     return v.recommended_kPa();
   };
-  const MedianModulus few = recommended(100), many = recommended(10000);
+  const Median few = recommended(100), many = recommended(10000);
   // Quartiles of sin lie at +-0.7071.
   EXPECT_NEAR(many.error, 1.25 * 0.5 * 0.7071 / 0.6745 / 100, 1e-4);
   EXPECT_NEAR(few.error / many.error, 10, 0.5);
