@@ -11,10 +11,11 @@ namespace rheocyte {
 namespace {
 
 /// Of the changes' linear systems, relative to their right-hand sides.
-constexpr double wanted_residual = 1e-6;
+constexpr double wanted_residual = 1e-7;
 constexpr int max_passes = 8;
-/// Greatest change of an unknown for these systems: bending is far from linear over more.
-constexpr double small_change = 1e-7;
+/// Greatest change of an unknown for these systems: with smaller ones rounding tells, with larger ones bending is far
+/// from linear.
+constexpr double small_change = 2e-6;
 
 /// Then systems differ in the media that they are given alone.
 bool have_same_mesh_and_inflow(const Problem& a, const Problem& b) {

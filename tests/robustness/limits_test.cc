@@ -22,9 +22,11 @@ TEST(Limits, TooLittleMemoryIsASentence) {
   int refused = 0;
   // Small steps: what fails last in a solve, a matrix or the stack, changes with each of them.
   for (int kB = 500000; kB > 26000; kB -= kB > 44000 ? kB / 5 : 250) {
-    const auto ended =
-        in_shell("ulimit -v " + std::to_string(kB) + "; ", "solve " + good_case + " --no-picture --quiet -o " + result);
+    const std::string limit = "ulimit -v " + std::to_string(kB) + "; ";
+    const auto ended = in_shell(limit, "solve " + good_case + " --no-picture --quiet -o " + result);
     if (ended.exit_code == 0 || ended.exit_code == 127) continue;  // enough; not even enough to be loaded
+    // Libraries that HDF5 needs may crash while they start, before the program does.
+    if (ended.exit_code > 127 && in_shell(limit, "--version").exit_code == ended.exit_code) continue;
     ++refused;
     expect_sentence(ended, "the memory does not suffice", 1);
   }
