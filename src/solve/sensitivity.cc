@@ -1,7 +1,7 @@
 #include "solve/sensitivity.h"
 
-#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -11,11 +11,11 @@ namespace rheocyte {
 namespace {
 
 /// Of the changes' linear systems, relative to their right-hand sides.
-constexpr double wanted_residual = 1e-7;
-constexpr int max_passes = 8;
-/// Greatest change of an unknown for these systems: with smaller ones rounding tells, with larger ones bending is far
-/// from linear.
-constexpr double small_change = 2e-6;
+constexpr double wanted_residual = 1e-6;
+constexpr int max_refinements = 3;
+/// Greatest change of an unknown for these systems. With smaller ones rounding tells in the forces of bending, with
+/// larger ones that they are not linear.
+constexpr double small_change = 2e-4;
 
 /// Then systems differ in the media that they are given alone.
 bool have_same_mesh_and_inflow(const Problem& a, const Problem& b) {
@@ -43,16 +43,18 @@ class Equations {
 
 MatrixXd columns_of(const MatrixXd& matrix, const std::vector<int>& chosen) { return matrix(Eigen::all, chosen); }
 
-std::vector<int> columns_longer_than(double length, const MatrixXd& matrix) {
+std::vector<int> columns_that_are_not_zero(const MatrixXd& matrix) {
   std::vector<int> chosen;
   for (int j = 0; j < matrix.cols(); ++j)
-    if (matrix.col(j).norm() > length) chosen.push_back(j);
+    if ((matrix.col(j).array() != 0).any()) chosen.push_back(j);
   return chosen;
 }
 
-void append(const MatrixXd& more, MatrixXd& matrix) {
-  matrix.conservativeResize(more.rows(), matrix.cols() + more.cols());
-  matrix.rightCols(more.cols()) = more;
+/// A sum of columns in which none hides what another one lacks.
+VectorXd sum_of_columns(const MatrixXd& matrix) {
+  VectorXd weights(matrix.cols());
+  for (int j = 0; j < weights.size(); ++j) weights(j) = 1.5 + std::cos(j);
+  return matrix * weights;
 }
 
 /// K V, by central differences of the residual.
@@ -66,40 +68,32 @@ MatrixXd tangent_times(const Equations& equations, const VectorXd& unknowns, con
   return product;
 }
 
-/// K V = rhs, of columns of length 1. The factors are those of a state nearby, and of a few digits; so each pass adds
-/// directions that they give, of which the combinations with the least residuals are taken, all columns together.
-/// Nothing where that does not lead to the solution.
-std::optional<MatrixXd> combined_solution(const Equations& equations, const VectorXd& unknowns, const MatrixXd& rhs) {
+/// K V = rhs, of columns of length 1, with the factors of this very state: those at hand are of a state nearby, and
+/// would take more substitutions than new ones cost. Bending leaves them a few digits. Nothing where that does not lead
+/// to the solution.
+std::optional<MatrixXd> refined_solution(const Equations& equations, const VectorXd& unknowns, const MatrixXd& rhs) {
   NonlinearSystem& system = equations.discrete().system();
-  MatrixXd directions(rhs.rows(), 0), images(rhs.rows(), 0), left = rhs;
-  for (int pass = 0; pass < max_passes; ++pass) {
-    const MatrixXd more = system.solve_columns(columns_of(left, columns_longer_than(wanted_residual, left)));
-    if (!more.allFinite() || (more.array() == 0).colwise().all().any()) return std::nullopt;
-    append(more, directions);
-    append(tangent_times(equations, unknowns, more), images);
-    if (!images.allFinite()) return std::nullopt;
-    const MatrixXd shares = images.householderQr().solve(rhs);
-    left = rhs - images * shares;
-    if (columns_longer_than(wanted_residual, left).empty()) return directions * shares;
+  system.linearise(equations.media(), unknowns);
+  if (!system.has_factors()) return std::nullopt;
+  MatrixXd V = system.solve_columns(rhs);
+  const VectorXd wanted = sum_of_columns(rhs);
+  for (int refinements = 0; V.allFinite(); ++refinements) {
+    if ((wanted - tangent_times(equations, unknowns, sum_of_columns(V))).norm() < wanted_residual) return V;
+    if (refinements == max_refinements) break;
+    V += system.solve_columns(rhs - tangent_times(equations, unknowns, V));
   }
   return std::nullopt;
 }
 
-/// The same of any columns, with factors of this very state where those at hand do not do.
+/// The same of any columns.
 std::optional<MatrixXd> solved_tangent(const Equations& equations, const VectorXd& unknowns, const MatrixXd& rhs) {
-  const Eigen::RowVectorXd sizes = rhs.colwise().norm();
-  const std::vector<int> some = columns_longer_than(0, rhs);  // what has no effect at all changes nothing
+  const std::vector<int> some = columns_that_are_not_zero(rhs);  // what has no effect at all changes nothing
   MatrixXd V = MatrixXd::Zero(rhs.rows(), rhs.cols());
   if (some.empty()) return V;
-  const MatrixXd unit = columns_of(rhs, some).colwise().normalized();
-  NonlinearSystem& system = equations.discrete().system();
-  auto solution = system.has_factors() ? combined_solution(equations, unknowns, unit) : std::nullopt;
-  if (!solution) {
-    system.linearise(equations.media(), unknowns);
-    if (system.has_factors()) solution = combined_solution(equations, unknowns, unit);
-  }
+  const MatrixXd chosen = columns_of(rhs, some);
+  const auto solution = refined_solution(equations, unknowns, chosen.colwise().normalized());
   if (!solution) return std::nullopt;
-  for (std::size_t j = 0; j < some.size(); ++j) V.col(some[j]) = sizes(some[j]) * solution->col(Eigen::Index(j));
+  V(Eigen::all, some) = *solution * chosen.colwise().norm().asDiagonal();
   return V;
 }
 
