@@ -29,7 +29,7 @@ def evolve(case=None, *, threads=None, **overrides):
 class State:
     """A cell at an output: t_us, position_um, contour (array (n, 2) of x and r in um), deformation, area_um2, ...
 
-    The numbers have the names of result.json.
+    The numbers have the names of result.json. outlines: in a duct "across" and, off the axis, "offset", as Result.outlines.
     """
 
     def __init__(self, numbers):

@@ -2,6 +2,7 @@
 #pragma once
 #include <pybind11/numpy.h>
 
+#include <Eigen/Core>
 #include <span>
 #include <utility>
 #include <vector>
@@ -42,6 +43,14 @@ pybind11::array_t<double> array_of_points(const Points& points, double Points::v
     rows(row, 1) = point.*y;
     ++row;
   }
+  return array;
+}
+
+inline pybind11::array_t<double> array_of_points(const Eigen::MatrixX2d& points) {
+  pybind11::array_t<double> array({static_cast<pybind11::ssize_t>(points.rows()), pybind11::ssize_t{2}});
+  auto rows = array.mutable_unchecked<2>();
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    for (int c = 0; c < 2; ++c) rows(i, c) = points(i, c);
   return array;
 }
 

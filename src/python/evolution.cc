@@ -19,14 +19,6 @@ namespace py = pybind11;
 
 namespace {
 
-py::array_t<double> rows_of(const Eigen::MatrixX2d& points) {
-  py::array_t<double> array({static_cast<py::ssize_t>(points.rows()), py::ssize_t{2}});
-  auto rows = array.mutable_unchecked<2>();
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    for (int c = 0; c < 2; ++c) rows(i, c) = points(i, c);
-  return array;
-}
-
 /// What is told of a time of output.
 struct SeenFrame {
   ContourFrame contour;
@@ -91,7 +83,11 @@ class PythonEvolution {
   py::dict described(const SeenFrame& frame) const {
     py::dict d;
     d["t_us"] = frame.contour.t_us;
-    d["contour"] = rows_of(frame.contour.point_um);
+    d["contour"] = array_of_points(frame.contour.point_um);
+    py::dict outlines;
+    if (frame.contour.across_um.rows() > 0) outlines["across"] = array_of_points(frame.contour.across_um);
+    if (frame.contour.offset_um.rows() > 0) outlines["offset"] = array_of_points(frame.contour.offset_um);
+    d["outlines"] = outlines;
     d["position_um"] = frame.contour.position_um;
     for (const auto& measure : state_measures)
       d[py::str(measure.name)] = measure.physical(frame.numbers, evolution_->result().scales);

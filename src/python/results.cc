@@ -12,24 +12,13 @@ namespace py = pybind11;
 
 std::string json_text(const Result& result) { return json_line(to_json(result)); }
 
-namespace {
-
-/// Of the surface's points; the first one of a piece is the last one of the piece before.
-std::vector<Eigen::Index> surface_rows(const Result& result) {
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < result.state.surface.point.rows(); ++i)
-    if (i == 0 || i % SurfaceProfile::points_per_piece != 0) rows.push_back(i);
-  return rows;
-}
-
-}  // namespace
-
 py::dict surface_columns(const Result& result) {
   py::dict columns;
   for (const auto& field : contour_fields()) {
     std::vector<double> values;
     const double unit = dimensionless_one(unit_of(field.name), result.scales);
-    for (const auto i : surface_rows(result)) values.push_back(field.value({result.state.surface, i}) * unit);
+    for (const auto i : result.state.surface.distinct_rows())
+      values.push_back(field.value({result.state.surface, i}) * unit);
     columns[py::str(field.name)] = array_of(std::move(values));
   }
   return columns;
@@ -37,12 +26,23 @@ py::dict surface_columns(const Result& result) {
 
 namespace {
 
+/// Of a cell in a duct, by the names of the files contour_*.csv.
+py::dict outlines(const Result& result) {
+  py::dict outlines;
+  const double um = result.scales.length_um();
+  for (const auto& [name, surface] : result.state.views)
+    outlines[py::str(name)] = array_of_points(um * surface.point(surface.distinct_rows(), Eigen::all));
+  if (const Eigen::MatrixX2d& closed = result.state.offset_outline; closed.rows() > 0)
+    outlines["offset"] = array_of_points(um * closed);
+  return outlines;
+}
+
 py::dict surface_gradient(const Result& result, std::size_t gradient) {
   const Eigen::MatrixXd& slopes = result.gradients.at(gradient).surface;
   py::dict columns;
   for (Eigen::Index j = 0; j < slopes.cols(); ++j) {
     std::vector<double> values;
-    for (const auto i : surface_rows(result)) values.push_back(slopes(i, j));
+    for (const auto i : result.state.surface.distinct_rows()) values.push_back(slopes(i, j));
     columns[py::str(contour_fields()[std::size_t(j)].name)] = array_of(std::move(values));
   }
   return columns;
@@ -54,6 +54,7 @@ void bind_results(py::module_& module) {
   py::class_<Result>(module, "Result")
       .def("json", [](const Result& r) { return json_text(r); })
       .def("surface", &surface_columns)
+      .def("outlines", &outlines)
       .def("surface_gradient", &surface_gradient)
       .def("has_state", [](const Result& r) { return bool(r.state.write_fields); })
       .def("write_fields",

@@ -127,13 +127,10 @@ std::string contour_csv(const SurfaceProfile& surface, const Scales& scales) {
     text += '\n';
   };
   add_row([](const auto& field) { return std::string(field.name); });
-  for (Eigen::Index i = 0; i < surface.point.rows(); ++i) {
-    // The first point of a piece is the last one of the piece before.
-    if (i > 0 && i % SurfaceProfile::points_per_piece == 0) continue;
+  for (const Eigen::Index i : surface.distinct_rows())
     add_row([&](const auto& field) {
       return fmt::format("{:.10g}", field.value({surface, i}) * dimensionless_one(unit_of(field.name), scales));
     });
-  }
   return text;
 }
 

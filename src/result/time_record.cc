@@ -133,7 +133,7 @@ ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
     row += piece.rows() - 1;
   }
   for (const auto& [name, surface] : frame.state.views)
-    if (name == "across") result.across_um = um * surface.point;
+    if (name == "across") result.across_um = um * surface.point(surface.distinct_rows(), Eigen::all);
   result.offset_um = um * frame.state.offset_outline;
   return result;
 }

@@ -55,6 +55,9 @@ struct SurfaceProfile {
   Eigen::MatrixX2d stretch;
   Eigen::MatrixX2d tension;    ///< principal Cauchy tensions of the cortex, surface tension included, in S R
   Eigen::MatrixX2d curvature;  ///< in 1/R; both 1/a for a sphere of radius a
+
+  /// Of its points, each once: the first one of a piece is the last one of the piece before.
+  std::vector<Eigen::Index> distinct_rows() const;
 };
 
 /// What one sees of a cell in a duct from one of the directions of its symmetry.
