@@ -87,7 +87,7 @@ class Result:
     result.case            the case as a dictionary; `problem` is the Case itself
     result.contour         meridian, array (n, 2): x along the channel from the barycentre, r >= 0 from the axis, in um,
                            from the front pole to the rear one
-    result.outlines        of a cell in a duct, what else is seen of it: from the side, along the diagonal, off the axis
+    result.outlines        of a cell in a duct, what else is seen of it: from the side, along the diagonal; off the axis
     result.surface         columns of contour.csv by their names: stretches, tensions (mN/m), curvatures (1/um)
     result.gradient        derivatives by keys of the case, of solve(..., gradient=[...]):
                            result.gradient["cell.radius_um"]["deformation"] is in 1/um; None where there is none
@@ -163,9 +163,9 @@ class Result:
     def outlines(self):
         """Of a cell in a duct, dictionary of arrays (n, 2) in um, x from the barycentre along the flow; empty in a tube.
 
-        "side", and "diagonal" (square) or "across" (rectangle, funnel: seen along the width): halves as `contour`, from the
-        front pole to the rear one. "offset", of a cell off the axis: the closed convex outline in the plane of its offset,
-        y from the axis along the offset.
+        On the axis "side", and "diagonal" (square) or "across" (rectangle, funnel: seen along the width): halves as `contour`,
+        from the front pole to the rear one. Off the axis "offset": the closed convex outline in the plane of the offset, y
+        from the axis along the offset.
         """
         return self._native.outlines()
 
