@@ -23,6 +23,10 @@ bool has_free_tension(const ModuliOptions& options, const ModuliTable& table) {
   return options.fit_tension || table.between.is_elongated();
 }
 
+/// Of modes of a table between its branches, beside which the noise of one picture is large, but not that of means
+/// (docs/verification.md, sec. 7).
+constexpr double error_of_table = 1e-3;
+
 bool is_neo_hookean(const Cell& cell) {
   return cell.bulk.law == BulkLaw::neo_hookean &&
          (cell.cortex.law == CortexLaw::neo_hookean || cell.cortex.law == CortexLaw::neo_hookean_reference);
@@ -73,6 +77,7 @@ EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& o
     : flow_(settings.conditions.flow),
       section_(seen_in),
       section_error_factor_(table.section_error_factor()),
+      pixel_size_um_(settings.pixel_size_um),
       pixels_(table.between, settings.pixel_size_um * table.simulated.width_um / flow_.width_um),
       moduli_(table.between, table.simulated,
               {features_of(options, table), has_free_tension(options, table), table.between.tension_ratios().front()}),
@@ -91,12 +96,24 @@ std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, dou
   return SeenCell{seen->shape, measured.flow, measured.cells};
 }
 
+Eigen::VectorXd EventModuli::bend_of_means(std::span<const MeasuredCell> cells,
+                                           const std::function<void()>& goes_on) const {
+  const CombinedPopulation population =
+      fit_combined_population(moduli_, sight(median_of(cells).flow), pixel_size_um_, cells, goes_on);
+  return population.fit.is_found ? population.bend : Eigen::VectorXd();
+}
+
 CommonTension EventModuli::common_tension(std::span<const MeasuredCell> cells,
                                           const std::function<void()>& goes_on) const {
   std::vector<SeenCell> groups;
-  for (const MeasuredCell& group : means_by_size(cells)) {
+  const Eigen::VectorXd bend = bend_of_means(cells, goes_on);
+  for (MeasuredCell& group : means_by_size(cells)) {
     goes_on();
-    if (const auto seen = seen_cell(group, double(group.cells))) groups.push_back(*seen);
+    for (Eigen::Index k = 0; k < bend.size(); ++k) group.shape(moduli_.features()[std::size_t(k)]) -= bend(k);
+    const auto seen = seen_cell(group, double(group.cells));
+    if (!seen) continue;
+    groups.push_back(*seen);
+    groups.back().shape.errors.covariance.diagonal().array() += error_of_table * error_of_table;
   }
   CommonTension found = rheocyte::common_tension(moduli_, groups, goes_on);
   if (found.is_found() && section_ == Section::square) found.widen(section_error_of_tension_Pa(cells));

@@ -4,6 +4,7 @@
 #include "extract/moduli_summary.h"
 #include "extract/square_section.h"
 #include "infer/bulk_cortex_fit.h"
+#include "infer/combined_population.h"
 #include "infer/common_tension.h"
 #include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
@@ -59,6 +60,8 @@ class EventModuli {
  private:
   /// With the noise of the mean of so many pictures. Nothing without a shape.
   std::optional<SeenCell> seen_cell(const MeasuredCell& measured, double pictures) const;
+  /// By how much the mean features of these cells are not those of their mean cell; empty if that is not known.
+  Eigen::VectorXd bend_of_means(std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) const;
   /// Standard error that what the law of the square channel leaves makes of the tension of the median cell.
   double section_error_of_tension_Pa(std::span<const MeasuredCell> cells) const;
 
@@ -66,7 +69,7 @@ class EventModuli {
 
   ChannelFlow flow_;
   Section section_;
-  double section_error_factor_;
+  double section_error_factor_, pixel_size_um_;
   RenderedErrors pixels_;
   BulkCortexFit moduli_;
   AxialTension tension_;

@@ -185,7 +185,10 @@ ModuliEstimate BulkCortexFit::fit(const MeasuredShape& shape, const ChannelFlow&
                                   const AxialTension& tension) const {
   ModuliMisfit in_table = misfit(shape, flow, tension);
   if (!in_table.shape().features.allFinite() || !in_table.is_usable()) return {};
-  ModuliEstimate estimate = estimate_of(in_table, nearest(in_table));
+  // All cells have the tension in common: no single one moves it, but its error is one of theirs.
+  const bool is_uncertain = tension.error_Pa > 0 && std::isfinite(tension.error_Pa);
+  ModuliMisfit at_value = is_uncertain ? misfit(shape, flow, {tension.value_Pa, 0}) : in_table;
+  ModuliEstimate estimate = estimate_of(in_table, nearest(at_value));
   const ScaleFactors scale = scale_factors(simulated_, flow);
   const Eigen::Vector3d factor(scale.modulus, scale.cortex_modulus, scale.cortex_modulus);
   estimate.modulus = estimate.modulus.cwiseProduct(factor);

@@ -279,6 +279,12 @@ VectorXd CombinedMoments::by_log_viscosity(const CombinedVector& parameters) con
   return -slopes(parameters).by_parameter[int(CombinedParameter::log_stiffness)].mean;
 }
 
+VectorXd CombinedMoments::bend(const CombinedVector& parameters) const {
+  const CombinedLaw law = CombinedLaw::of(parameters);
+  const ShapeVector of_mean_cell = shape(law, nodes_[0], progress(law)).value + pixels_.middle.bias;
+  return at(parameters).mean - of_mean_cell(features());
+}
+
 CellCoordinates CombinedMoments::mean_cell(const CombinedVector& parameters) const {
   const CombinedLaw law = CombinedLaw::of(parameters);
   const Progress of_mean = progress(law);
@@ -383,6 +389,7 @@ CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const Si
   if (!found.fit.is_found) return found;
   found.law = CombinedLaw::of(q);
   found.features = model.features();
+  found.bend = model.bend(q);
   found.mean_cell = model.mean_cell(q);
   found.residual = found.fit.measured.mean - found.fit.fitted.mean;
   MatrixXd common = model.common_covariance(q);

@@ -28,6 +28,8 @@ class CombinedMoments : public MomentModel {
   bool render(const CombinedVector& parameters, std::size_t pictures);
   /// Slopes of the mean features by ln of the viscosity of the liquid, whose tension goes with the wall's shear stress.
   Eigen::VectorXd by_log_viscosity(const CombinedVector& parameters) const;
+  /// By how much the mean features of cells that differ are not those of the mean cell.
+  Eigen::VectorXd bend(const CombinedVector& parameters) const;
   /// The mean cell of a law, in the table.
   CellCoordinates mean_cell(const CombinedVector& parameters) const;
   /// What the table, and in the square channel the law that brings it there, leaves and all events have in common.
@@ -96,6 +98,7 @@ struct CombinedPopulation {
   Eigen::MatrixXd common_covariance;
   std::vector<int> features;       ///< that were fitted, of ShapeFeature
   Eigen::VectorXd residual;        ///< of their means, measured - fitted
+  Eigen::VectorXd bend;            ///< of the law, see CombinedMoments
   CellCoordinates mean_cell;       ///< of the law, in the table, which may end before
   std::vector<ShapeVector> drawn;  ///< virtual events of the law
 };

@@ -20,8 +20,8 @@ constexpr double resolution = 1e-3;
 constexpr double difference = 0.2;
 
 /// Relative standard error of what all cells of a recording have in common: tensions of virtual recordings in pixels of
-/// 0.34 um are off by 5 % in the mean square (docs/verification.md, sec. 7).
-constexpr double common_error = 0.05;
+/// 0.34 um are off by 2.5 % in the mean square (docs/verification.md, sec. 7).
+constexpr double common_error = 0.025;
 /// Fewer groups tell no scatter.
 constexpr std::size_t fewest_groups = 3;
 
@@ -156,9 +156,11 @@ CommonTension common_tension(const BulkCortexFit& moduli, std::span<const SeenCe
   const double n = double(profile.groups());
   const double error_Pa = error_of_minimum(profile, value_Pa, sum, difference * unit);
   const double of_scatter_Pa = error_Pa * student_95(n - 1);
-  const double half_width_Pa = std::hypot(of_scatter_Pa, normal_95 * common_error * value_Pa);
   found.value_Pa = value_Pa;
   found.misfit = sum / (n * std::max(moduli.freedom(), 1));
+  // What the model leaves of the shapes is no scatter, but it is an error of the tension.
+  const double common_Pa = common_error * std::sqrt(std::max(found.misfit, 1.0)) * value_Pa;
+  const double half_width_Pa = std::hypot(of_scatter_Pa, normal_95 * common_Pa);
   found.lower_Pa = value_Pa - half_width_Pa;
   found.upper_Pa = value_Pa + half_width_Pa;
   return found;

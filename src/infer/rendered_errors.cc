@@ -18,7 +18,7 @@ namespace {
 constexpr double min_deformation = 1e-3;
 // Of elongated cells, not all of which go farther.
 constexpr double min_mode_3 = 0.005, max_mode_3 = 0.125;
-constexpr int outline_points = 400, draws_of_one_cell = 300;
+constexpr int outline_points = 400, draws_of_one_cell = 300, draws_of_mean = 500;
 
 std::array<double, mode_count> modes_of(const CombinedState& state) {
   std::array<double, mode_count> modes{};
@@ -31,6 +31,10 @@ ShapeErrors rendered(const CombinedState& state, double pixel_size_um, int draws
   const auto outline = outline_of_modes(modes_of(state), std::exp(state.value(log_area_row)), outline_points);
   return errors_in_pixels(outline, pixel_size_um, draws, random);
 }
+
+/// Random numbers of its own for each cell: what is left of the mean over the places is not the same for all cells of a
+/// recording. By seven digits, so that they do not depend on the last ones of a machine's logarithm.
+std::uint32_t number_of(double log_area) { return std::bit_cast<std::uint32_t>(float(log_area)); }
 
 /// Corners of the box lie beyond the table: the softest cell on the way there that it has, or the stiffest of all.
 CombinedState nearest_state(const CombinedInterpolation& table, CellCoordinates cell) {
@@ -107,10 +111,17 @@ ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
 
 ShapeErrors RenderedErrors::of(const CellCoordinates& cell) const {
   const CombinedState state = table_.at(cell);
-  // Random numbers of its own: what is left of the mean over the places is not the same for all cells of a recording.
-  // By seven digits, so that they do not depend on the last ones of a machine's logarithm.
-  const auto number = std::bit_cast<std::uint32_t>(float(state.value(log_area_row)));
-  return state.inside ? rendered(state, pixel_size_um_, draws_of_one_cell, number) : at(cell);
+  return state.inside ? rendered(state, pixel_size_um_, draws_of_one_cell, number_of(state.value(log_area_row)))
+                      : at(cell);
+}
+
+ShapeErrors RenderedErrors::of_outline(const ShapeVector& shape) const {
+  std::array<double, mode_count> modes{};
+  for (int k = 0; k < mode_count; ++k) modes[std::size_t(k)] = shape(int(ShapeFeature::first_mode) + k);
+  const double log_area = shape(int(ShapeFeature::area_um2));
+  CellRandom random(1, number_of(log_area), Purpose::picture);
+  return errors_in_pixels(outline_of_modes(modes, std::exp(log_area), outline_points), pixel_size_um_, draws_of_mean,
+                          random);
 }
 
 namespace {
@@ -154,7 +165,15 @@ std::optional<SeenShape> seen_shape(const BulkCortexFit& moduli, const RenderedE
     if (!nearest) return {};
     cell = nearest->cell;
   }
-  return seen_at(errors.of(cell), cell);
+  ShapeErrors pixels = errors.of(cell);
+  const double log_length = std::log(scale_factors(moduli.simulated(), sight.flow).length);
+  // The mean of several pictures is nearly smooth itself, and need not have the shape of a cell of the table.
+  for (int round = 0; round < rounds && pictures > 1; ++round) {
+    ShapeVector smooth = measured - pixels.bias;
+    smooth(int(ShapeFeature::area_um2)) -= 2 * log_length;
+    pixels = errors.of_outline(smooth);
+  }
+  return seen_at(pixels, cell);
 }
 
 ModuliEstimate fit_pixels(const BulkCortexFit& moduli, const RenderedErrors& errors, const ShapeVector& measured,

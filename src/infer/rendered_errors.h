@@ -28,6 +28,8 @@ class RenderedErrors {
   ShapeErrors at(const CellCoordinates& cell) const;
   /// Of this very cell, which takes some milliseconds; of one outside the table as above.
   ShapeErrors of(const CellCoordinates& cell) const;
+  /// Of a smooth outline in the table's channel, which takes some milliseconds.
+  ShapeErrors of_outline(const ShapeVector& shape) const;
   CellCoordinates middle() const { return (box_.least + box_.greatest) / 2; }
 
  private:
@@ -58,7 +60,8 @@ struct Sight {
   double error_factor = 1;  ///< by how much more the law of the square channel leaves of cells of these laws
 };
 /// What is added is that at the nearest cell of the table, the axial tension being known so well; the noise of pixels
-/// is that of the mean of so many pictures. Nothing where a feature is not a number.
+/// is that of the mean of so many pictures, and of several their errors are those of their own outline. Nothing where a
+/// feature is not a number.
 std::optional<SeenShape> seen_shape(const BulkCortexFit& moduli, const RenderedErrors& errors,
                                     const ShapeVector& measured, const Sight& sight, const AxialTension& tension,
                                     double pictures = 1);

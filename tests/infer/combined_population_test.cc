@@ -80,6 +80,24 @@ TEST_F(CombinedPopulationTest, NodesHaveTheMomentsOfManyCells) {
   for (Eigen::Index k = 0; k < mean.size(); ++k) EXPECT_NEAR(mean(k), nodes.mean(k), 3.5 * error(k) + 2e-5) << k;
 }
 
+TEST_F(CombinedPopulationTest, MeansOfDifferentCellsAreBentAwayFromTheMeanCell) {
+  const CombinedMoments model(moduli_, sight_, pixel_um);
+  CombinedLaw law = usual_law();
+  constexpr std::size_t cells = 20'000;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(Eigen::Index(model.features().size()));
+  for (const ShapeVector& shape : model.drawn_smooth(law.parameters(), cells, 1))
+    mean += shape(model.features()) / double(cells);
+  const Eigen::VectorXd bend = model.bend(law.parameters());
+  const Eigen::VectorXd error = (model.at(law.parameters()).covariance.diagonal() / double(cells)).cwiseSqrt();
+  law.root *= 1e-6, law.ratio_spread *= 1e-6, law.axial_spread *= 1e-6;
+  const Eigen::VectorXd of_mean_cell = model.drawn_smooth(law.parameters(), 1, 1).front()(model.features());
+  for (Eigen::Index k = 0; k < mean.size(); ++k) {
+    EXPECT_NEAR(mean(k) - of_mean_cell(k), bend(k), 3.5 * error(k) + 2e-5) << k;
+    EXPECT_NEAR(model.bend(law.parameters())(k), 0, 1e-8) << k;
+  }
+  EXPECT_GT(std::abs(bend(1)), 1e-3) << "c2 goes with T/S, whose mean is not that of S";
+}
+
 TEST_F(CombinedPopulationTest, BulkCortexAndTensionsComeBackFromPictures) {
   const CombinedLaw law = usual_law();
   const auto cells = pictures(law, 600, 3);
