@@ -281,8 +281,7 @@ VectorXd CombinedMoments::by_log_viscosity(const CombinedVector& parameters) con
 
 VectorXd CombinedMoments::bend(const CombinedVector& parameters) const {
   const CombinedLaw law = CombinedLaw::of(parameters);
-  const ShapeVector of_mean_cell = shape(law, nodes_[0], progress(law)).value + pixels_.middle.bias;
-  return at(parameters).mean - of_mean_cell(features());
+  return at(parameters).mean - (shape(law, nodes_[0], progress(law)).value + pixels_.middle.bias)(features());
 }
 
 CellCoordinates CombinedMoments::mean_cell(const CombinedVector& parameters) const {
@@ -351,9 +350,9 @@ CombinedVector start_from(const ModuliEstimate& median, const ScaleFactors& scal
 }
 
 /// What no cell of the table has: by how much the means are off beyond two standard errors of their own.
-VectorXd missed(const MomentFit& fit) {
+VectorXd missed(const MomentFit& fit, const VectorXd& residual) {
   const VectorXd error = (fit.measured.covariance.diagonal() / double(fit.events)).cwiseSqrt();
-  return ((fit.measured.mean - fit.fitted.mean).cwiseAbs() - 2 * error).cwiseMax(0);
+  return (residual.cwiseAbs() - 2 * error).cwiseMax(0);
 }
 
 }  // namespace
@@ -361,8 +360,7 @@ VectorXd missed(const MomentFit& fit) {
 CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const Sight& sight, double pixel_size_um,
                                            std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) {
   const MeasuredCell median = median_of(cells);
-  Sight at_median = sight;
-  at_median.flow.viscosity_mPas = median.flow.viscosity_mPas;
+  Sight at_median{median.flow, sight.section, sight.error_factor};
   CombinedMoments model(moduli, at_median, pixel_size_um);
   const ShapeErrors of_median_outline = pixels_of(median.shape, pixel_size_um);
   model.take_pixels(of_median_outline);
@@ -393,7 +391,7 @@ CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const Si
   found.mean_cell = model.mean_cell(q);
   found.residual = found.fit.measured.mean - found.fit.fitted.mean;
   MatrixXd common = model.common_covariance(q);
-  common.diagonal() += missed(found.fit).cwiseAbs2();
+  common.diagonal() += missed(found.fit, found.residual).cwiseAbs2();
   found.common_covariance = found.fit.by_shift * common * found.fit.by_shift.transpose();
   found.drawn = model.drawn(q, virtual_events);
   return found;

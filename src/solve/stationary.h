@@ -57,7 +57,12 @@ struct SurfaceProfile {
   Eigen::MatrixX2d curvature;  ///< in 1/R; both 1/a for a sphere of radius a
 
   /// Of its points, each once: the first one of a piece is the last one of the piece before.
-  std::vector<Eigen::Index> distinct_rows() const;
+  std::vector<Eigen::Index> distinct_rows() const {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index i = 0; i < point.rows(); ++i)
+      if (i == 0 || i % points_per_piece != 0) rows.push_back(i);
+    return rows;
+  }
 };
 
 /// What one sees of a cell in a duct from one of the directions of its symmetry.
