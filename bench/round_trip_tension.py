@@ -49,17 +49,17 @@ class Recording:
         self.file.unlink(missing_ok=True)
         self.program = arguments.program
         run = subprocess.run([self.program, "synth", spec, "-o", self.file, "--quiet"], capture_output=True, text=True, check=False)
-        self.is_drawn = run.returncode == 0
-        self.left_out = 1 - len(self.columns_of_truth()) / arguments.cells if self.is_drawn else 1
+        self.truth = self.stiffness_of_cells() if run.returncode == 0 else []
+        self.left_out = 1 - len(self.truth) / arguments.cells
 
-    def columns_of_truth(self):
-        """E (kPa), E2D (mN/m) and r0 (um) of each cell."""
+    def stiffness_of_cells(self):
+        """E + E2D / r0 (kPa) of each cell."""
         import h5py
         import hdf5plugin  # noqa: F401 (zstd)
 
         with h5py.File(self.file) as file:
             events = file["events"]
-            return list(zip(events["userdef2"][:], events["userdef7"][:], events["userdef1"][:]))
+            return list(events["userdef2"][:] + events["userdef7"][:] / events["userdef1"][:])
 
     def found(self):
         """Axial tension and its 90 % interval (Pa), median of E + E2D/r0 (kPa); nothing without a tension."""
@@ -100,7 +100,7 @@ def main():
             print(f"{recording.axial:.0f} Pa: no tension is found", flush=True)
             continue
         tension, lower, upper, stiffness = answer
-        truth = statistics.median(young + cortex / radius for young, cortex, radius in recording.columns_of_truth())
+        truth = statistics.median(recording.truth)
         tensions.append(100 * (tension / recording.axial - 1))
         stiffnesses.append(100 * (stiffness / truth - 1))
         held += lower <= recording.axial <= upper

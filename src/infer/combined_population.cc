@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int outline_points_of_population = 400, newton_steps_to_progress = 30;
+constexpr int newton_steps_to_progress = 30;
 /// Beyond the table's soft and stiff end shapes go straight on, so far in ln of the progress.
 constexpr double beyond_soft_end = 0.5, beyond_stiff_end = 3;
 /// A slope of ln of the stiffness by ln of the progress that is never exceeded.
@@ -30,12 +30,6 @@ constexpr int turns_of_beginning = 3, turns_of_round = 20, rounds_of_pictures = 
 
 CellCoordinates held(const CellCoordinates& cell, const CellBox& box) {
   return cell.cwiseMax(box.least).cwiseMin(box.greatest);
-}
-
-Eigen::MatrixX2d outline_of(const ShapeVector& shape) {
-  std::array<double, mode_count> modes{};
-  for (int m = 0; m < mode_count; ++m) modes[std::size_t(m)] = shape(int(ShapeFeature::first_mode) + m);
-  return outline_of_modes(modes, std::exp(shape(int(ShapeFeature::area_um2))), outline_points_of_population);
 }
 
 /// Far beyond the table shapes that go straight on are none.

@@ -116,12 +116,14 @@ ShapeErrors RenderedErrors::of(const CellCoordinates& cell) const {
 }
 
 ShapeErrors RenderedErrors::of_outline(const ShapeVector& shape) const {
+  CellRandom random(1, number_of(shape(int(ShapeFeature::area_um2))), Purpose::picture);
+  return errors_in_pixels(outline_of(shape), pixel_size_um_, draws_of_mean, random);
+}
+
+Eigen::MatrixX2d outline_of(const ShapeVector& smooth) {
   std::array<double, mode_count> modes{};
-  for (int k = 0; k < mode_count; ++k) modes[std::size_t(k)] = shape(int(ShapeFeature::first_mode) + k);
-  const double log_area = shape(int(ShapeFeature::area_um2));
-  CellRandom random(1, number_of(log_area), Purpose::picture);
-  return errors_in_pixels(outline_of_modes(modes, std::exp(log_area), outline_points), pixel_size_um_, draws_of_mean,
-                          random);
+  for (int m = 0; m < mode_count; ++m) modes[std::size_t(m)] = smooth(int(ShapeFeature::first_mode) + m);
+  return outline_of_modes(modes, std::exp(smooth(int(ShapeFeature::area_um2))), outline_points);
 }
 
 namespace {

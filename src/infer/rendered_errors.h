@@ -48,6 +48,9 @@ class RenderedErrors {
   std::vector<ShapeErrors> errors_;
 };
 
+/// Of the area and the modes of a shape without pixels.
+Eigen::MatrixX2d outline_of(const ShapeVector& smooth);
+
 /// A shape with what pixels and the square channel add to it.
 struct SeenShape {
   MeasuredShape shape;
