@@ -85,6 +85,7 @@ export interface FieldsText {
   region: string;
   values: Record<string, string>;
   surface?: FieldsHead['surface'];
+  surface3d?: { xyz_um: string; index: string };
   wall?: Outline;
 }
 
@@ -111,15 +112,25 @@ export interface Result {
 export interface State extends Result {
   contour: Outline;
   hull: Outline;
-  contours?: { side: Outline; diagonal?: Outline };
+  contours?: Contours;
+}
+
+/** In ducts: seen along the height, and along the diagonal (square) or the width. */
+export interface Contours {
+  side: Outline;
+  diagonal?: Outline;
+  across?: Outline;
 }
 
 export interface TimeStep {
   time_s: number;
   x_um: number;
   deformation: number;
+  /** in a duct that is not alike along height and width: seen along the width */
+  deformation_across?: number;
   velocity_m_per_s: number;
   contour: Outline;
+  contours?: Contours;
   progress: number;
   /** of some steps, where there are many */
   fields?: FieldsText;

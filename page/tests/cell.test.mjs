@@ -198,6 +198,26 @@ test('A case in time is followed and played along its time line', { skip }, () =
     await page.getByRole('button', { name: 'Pause' }).waitFor();
   }));
 
+test('A cell on its way through the funnel of a chip is seen by both cameras and in three dimensions', { skip }, async () => {
+  const way = { 'channel.section': 'square', 'channel.profile.x_um': '3,8', 'channel.profile.width_um': '30,20', 'flow.rate_ul_per_s': 0.04 };
+  const liquid = { 'flow.viscosity_mPas': 15, 'flow.density_kg_per_m3': 0, 'cell.viscosity_mPas': 15, 'cell.density_kg_per_m3': 0 };
+  const cell = { 'cell.radius_um': 6, 'cell.bulk.young_modulus_kPa': 8 };
+  const time = { 'time.scheme': 'monolithic', 'time.end_um': 1, 'time.output_every_um': 1, 'time.degree': 2, 'time.accuracy': 0.01 };
+  const { page, failures, end } = await openCell();
+  try {
+    await page.evaluate((query) => (location.hash = `cell?${query}`), new URLSearchParams({ ...way, ...liquid, ...cell, ...time }).toString());
+    await page.getByRole('button', { name: 'Follow the cell in time' }).click();
+    await page.getByRole('button', { name: 'Close' }).waitFor();
+    assert.deepEqual(await page.locator('.seen-from').allTextContents(), ['From above', 'From the side']);
+    assert.equal(await page.locator('.channel path.contour').count(), 2);
+    await page.getByLabel('3D').check();
+    await page.locator('.solid canvas').waitFor();
+    assert.deepEqual(failures, []);
+  } finally {
+    await end();
+  }
+});
+
 test('The picture is saved as SVG with its colours, legends and numbers', { skip }, () =>
   withCell(async ({ page, target }) => {
     const sent = page.waitForRequest((request) => request.url().endsWith('/api/export'));

@@ -6,7 +6,7 @@ import { loadModule } from './load_module.mjs';
 import { inPage } from './prepared_page.mjs';
 import * as recordings from './recordings_page.mjs';
 
-const { held, stageOf, halfFrame, wholePicture, xOf, yOf } = await loadModule('cell/frame.ts');
+const { held, stageOf, pixelFrame, wholePicture, xOf, yOf } = await loadModule('cell/frame.ts');
 
 const tablets = [[820, 1180], [1180, 820]].map(([width, height]) => ({ viewport: { width, height }, hasTouch: true, isMobile: true }));
 const upright = tablets[0];
@@ -56,7 +56,7 @@ test('What two fingers hold in the picture of the cell stays under them, and no 
   assert.equal(lens.zoom, 2.5);
   const place = [stage.middle_um + (300 - 400) / stage.scale, (stage.axis - 150) / stage.scale];
   assert.ok(Math.abs(xOf(seen, place[0]) - 340) < 1e-9 && Math.abs(yOf(seen, place[1]) - 170) < 1e-9);
-  assert.ok(halfFrame(seen, 1).height <= 400);
+  assert.ok(pixelFrame(seen, 1, false).height <= 400);
   assert.deepEqual(stageOf(800, 400, 10.94, fields, held(seen, lens, to, { ...to, distance: 1 })), stage);
 });
 

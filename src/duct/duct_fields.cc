@@ -78,7 +78,8 @@ ElementState DuctFields::state_of(int e) const {
 /// The whole surface: all images of the part that was computed.
 void DuctFields::add_surface(SampledFields& s) const {
   const int per_edge = surface_divisions + 1;
-  const Eigen::MatrixX3d part = um_ * duct_surface(space_, unknowns_, per_edge).point;
+  Eigen::MatrixX3d part = um_ * duct_surface(space_, unknowns_, per_edge).point;
+  part.col(1).array() += um_ * space_.aside();
   const Eigen::Index points = part.rows(), faces = points / (per_edge * per_edge);
   std::vector<std::uint32_t> triangles;
   for (Eigen::Index f = 0; f < faces; ++f)

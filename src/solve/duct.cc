@@ -260,7 +260,6 @@ void DuctDiscrete::describe(const Problem& problem, const VectorXd& unknowns, St
   r.write_fields = [shared = space_, media, unknowns](const std::string& path, const Scales& scales) {
     return write_fields(DuctFields(*shared, media, unknowns, scales), path);
   };
-  if (space.turns()) return;  // pictures show halves of planes through the axis
   r.sample_fields = [shared = space_, media, unknowns, camera = problem.camera, barycentre = volume.barycentre](
                         const Scales& scales, int points) {
     SampledFields fields = DuctFields(*shared, media, unknowns, scales).sample(camera, points);

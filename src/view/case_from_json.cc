@@ -34,11 +34,7 @@ Case case_from_json(const nlohmann::ordered_json& tree, const std::string& accur
   std::vector<GivenKey> given = keys_in_json(tree, name);
   if (!accuracy.empty()) given.push_back({"numerics.accuracy", "accuracy", number_in(accuracy), true});
   KeyReading keys(key_list(case_keys()), std::move(given), name, "case");
-  Case c = complete_case(keys);
-  constexpr std::string_view off_axis = "cell.offset_um";
-  if (!is_centred(c.cell))
-    keys.refuse(off_axis, keys.stated(off_axis) + " is computed by rheocyte solve; the view shows cells on the axis.");
-  return c;
+  return complete_case(keys);
 }
 
 Case nearest_existing(Case c, double reached) {

@@ -87,16 +87,16 @@ class EvolutionLines {
     const Result& result = so_far.result();
     const Scales& scales = result.scales;
     const TimeRun& run = so_far.run();
-    std::string line =
-        json_line({{"time_s", scales.time_s() * frame.time},
-                   {"x_um", so_far.record().frames.back().position_um},
-                   {"deformation", frame.state.shape.deformation},
-                   {"velocity_m_per_s", scales.velocity_m_per_s * frame.state.cell_velocity},
-                   {"progress", std::isfinite(run.end) ? frame.time / run.end : frame.position / run.end_position},
-                   {"contour", outline_json(frame.state.contour, scales.length_um())}});
-    if (has_fields(so_far))
-      add_member(line, "fields",
-                 ShownState({result.input, scales, result.problem, frame.state}).fields(points_in_frame));
+    const ShownState shown({result.input, scales, result.problem, frame.state});
+    Json json{{"time_s", scales.time_s() * frame.time},
+              {"x_um", so_far.record().frames.back().position_um},
+              {"deformation", frame.state.shape.deformation},
+              {"velocity_m_per_s", scales.velocity_m_per_s * frame.state.cell_velocity},
+              {"progress", std::isfinite(run.end) ? frame.time / run.end : frame.position / run.end_position}};
+    if (std::isfinite(frame.state.deformation_across)) json["deformation_across"] = frame.state.deformation_across;
+    json.update(shown.outlines());
+    std::string line = json_line(json);
+    if (has_fields(so_far)) add_member(line, "fields", shown.fields(points_in_frame));
     return line + "\n";
   }
 
@@ -137,9 +137,6 @@ Answer evolve(Evolutions& evolutions, const Request& request) {
     throw Refused(
         400, "time",
         "The case has neither time.end_us nor time.end_um; give one, and cell.viscosity_mPas, or ask /api/state.");
-  if (is_duct(c.channel.section))
-    throw Refused(400, "time",
-                  "The view follows cells in tubes alone; leave channel.section out, or take `rheocyte solve`.");
   Answer answer;
   answer.type = "application/x-ndjson";
   answer.give_pieces = [evolution = evolutions.begin(c, request), client = request.client](const TakePiece& take) {

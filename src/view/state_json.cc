@@ -39,6 +39,12 @@ Eigen::MatrixX2d closed(const std::vector<Eigen::MatrixX2d>& pieces) {
   return outline;
 }
 
+Eigen::MatrixX2d closed_polygon(const Eigen::MatrixX2d& corners) {
+  Eigen::MatrixX2d outline(corners.rows() + 1, 2);
+  outline << corners, corners.row(0);
+  return outline;
+}
+
 Eigen::MatrixX2d outline_of(const Contour& contour) {
   const Eigen::VectorXd at = Eigen::VectorXd::LinSpaced(points_per_piece, 0, 1);
   std::vector<Eigen::MatrixX2d> pieces;
@@ -106,9 +112,17 @@ Json tensions(const Result& result, double origin) {
   return json;
 }
 
+/// Whether the plane of the offset of a cell off the axis is that of the channel's height.
+bool is_offset_in_height(const Result& result) {
+  const std::vector<double>& offset = result.input.cell.offset_um;
+  return offset.size() == 2 && offset[1] != 0;
+}
+
 /// Distance of the wall from the axis in the plane in which the fields are shown, in R.
-double wall_distance(const Problem& problem) {
+double wall_distance(const Result& result) {
+  const Problem& problem = result.problem;
   if (!is_duct(problem.section)) return 1;
+  if (problem.offset != 0) return is_offset_in_height(result) ? problem.extent.height : problem.extent.width;
   const Camera shown = nearest_mirror(symmetry_of(problem.section), problem.camera);
   if (shown == Camera::diagonal) return std::numbers::sqrt2;
   return shown == Camera::side ? problem.extent.width : problem.extent.height;
@@ -117,31 +131,37 @@ double wall_distance(const Problem& problem) {
 /// In the plane that the camera looks at.
 Json wall(const Result& result, double origin) {
   const double um = result.scales.length_um(), half = result.state.channel_length / 2;
-  const double r = um * wall_distance(result.problem);
+  const double r = um * wall_distance(result);
   return {{"x_um", {um * (-half - origin), um * (half - origin)}}, {"r_um", {r, r}}};
+}
+
+/// The mesh has the offset along its second axis, the channel its height along the third.
+void turn_to_height(auto& point) {
+  point.col(1).swap(point.col(2));
+  point.col(1) *= -1;
 }
 
 }  // namespace
 
-Json outline_json(const Contour& contour, double um) {
-  const Eigen::MatrixX2d outline = outline_of(contour);
-  return curve(outline, um, centroid(outline));
-}
-
 ShownState::ShownState(Result result) : result_(std::move(result)), um_(result_.scales.length_um()) {
   if (result_.state.contour.pieces.empty()) return;
-  outline_ = outline_of(result_.state.contour);
+  outline_ = is_off_axis() ? closed_polygon(result_.state.offset_outline) : outline_of(result_.state.contour);
   origin_ = centroid(outline_);
+}
+
+Json ShownState::outlines() const {
+  Json json{{"contour", curve(outline_, um_, origin_)}};
+  for (const auto& [name, surface] : result_.state.views)
+    json["contours"][name] = curve(closed({surface.point}), um_, origin_);
+  return json;
 }
 
 Json ShownState::numbers() const {
   Json json = to_json(result_);
   if (outline_.rows() == 0) return json;
-  json["contour"] = curve(outline_, um_, origin_);
-  const auto hull = hull_of(result_.state.contour);
+  json.update(outlines());
+  const auto hull = is_off_axis() ? std::nullopt : hull_of(result_.state.contour);
   json["hull"] = hull ? curve(*hull, um_, origin_) : Json(nullptr);
-  for (const auto& [name, surface] : result_.state.views)
-    json["contours"][name] = curve(closed({surface.point}), um_, origin_);
   return json;
 }
 
@@ -161,8 +181,9 @@ ShownState::Fields::Fields(const ShownState& shown, int points)
       speed(sampled.velocity_m_per_s.rowwise().norm()),
       about{{"points", sampled.point_um.rows()},
             {"triangles", sampled.triangles.size() / 3},
-            {"surface", tensions(shown.result_, shown.origin_)},
             {"wall", wall(shown.result_, shown.origin_)}} {
+  if (!shown.is_off_axis()) about["surface"] = tensions(shown.result_, shown.origin_);
+  if (is_offset_in_height(shown.result_)) turn_to_height(sampled.surface_um);
   const auto shift = float(shown.um_ * shown.origin_);
   sampled.point_um.col(0).array() -= shift;
   if (sampled.surface_um.rows() > 0) sampled.surface_um.col(0).array() -= shift;

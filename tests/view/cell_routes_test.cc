@@ -56,11 +56,18 @@ class CellRoutes : public testing::Test {
   SolverThreads threads_{2, std::size_t(32) << 20};
 };
 
-Json cell(double modulus = 4) {
-  return {{"channel", {{"width_um", 20}}},
-          {"flow", {{"rate_ul_per_s", 0.04}, {"viscosity_mPas", 15}}},
-          {"cell", {{"radius_um", 7}, {"bulk", {{"young_modulus_kPa", modulus}}}}},
-          {"numerics", {{"accuracy", 1e-3}}}};
+/// The lines of an answer that comes in pieces.
+std::vector<Json> lines_of(const Answer& answer) {
+  if (!answer.give_pieces) throw std::runtime_error(answer.body);
+  std::string text;
+  answer.give_pieces([&](std::string_view piece) {
+    text += piece;
+    return true;
+  });
+  std::istringstream lines(text);
+  std::vector<Json> all;
+  for (std::string line; std::getline(lines, line);) all.push_back(Json::parse(line));
+  return all;
 }
 
 std::vector<float> floats(const Json& text) {
@@ -69,6 +76,37 @@ std::vector<float> floats(const Json& text) {
   std::vector<float> numbers(bytes.size() / sizeof(float));
   std::memcpy(numbers.data(), bytes.data(), bytes.size());
   return numbers;
+}
+
+/// The least of one component of vectors one after another.
+float least(const std::vector<float>& numbers, std::size_t components, std::size_t component) {
+  float found = HUGE_VALF;
+  for (std::size_t i = component; i < numbers.size(); i += components) found = std::min(found, numbers[i]);
+  return found;
+}
+
+/// The first micrometres of a way through a planar funnel.
+Json in_funnel(const std::vector<double>& offset_um) {
+  const double viscosity_mPas = 15;
+  return {{"channel",
+           {{"section", "square"},
+            {"camera_degree", offset_um[0] == 0 ? 0 : 90},
+            {"profile", {{"x_um", {3, 8}}, {"width_um", {30, 20}}}}}},
+          {"flow", {{"rate_ul_per_s", 0.04}, {"viscosity_mPas", viscosity_mPas}, {"density_kg_per_m3", 0}}},
+          {"cell",
+           {{"radius_um", 6},
+            {"offset_um", offset_um},
+            {"viscosity_mPas", viscosity_mPas},
+            {"density_kg_per_m3", 0},
+            {"bulk", {{"young_modulus_kPa", 8}}}}},
+          {"time", {{"end_um", 1}, {"output_every_um", 1}, {"degree", 2}, {"accuracy", 1e-2}}}};
+}
+
+Json cell(double modulus = 4) {
+  return {{"channel", {{"width_um", 20}}},
+          {"flow", {{"rate_ul_per_s", 0.04}, {"viscosity_mPas", 15}}},
+          {"cell", {{"radius_um", 7}, {"bulk", {{"young_modulus_kPa", modulus}}}}},
+          {"numerics", {{"accuracy", 1e-3}}}};
 }
 
 TEST_F(CellRoutes, AStateFromNothingHasAllDigitsOfTheSolver) {
@@ -240,10 +278,6 @@ TEST_F(CellRoutes, AWrongCaseIsRefusedWithItsKey) {
   wrong["flow"]["viscosity_mPas"] = true;
   EXPECT_EQ(json("/api/state", wrong)["key"], "flow.viscosity_mPas");
   EXPECT_EQ(router_.answer({.method = "POST", .path = "/api/state", .body = "[1,"}).status, 400);
-  Json off_axis = cell();
-  off_axis["channel"]["section"] = "square";
-  off_axis["cell"]["offset_um"] = {0, 1};
-  EXPECT_EQ(json("/api/state", off_axis)["key"], "cell.offset_um");
   Json in_time = cell();
   in_time["time"]["end_us"] = 100;
   in_time["cell"]["viscosity_mPas"] = 15;
@@ -268,17 +302,8 @@ TEST_F(CellRoutes, AWayInTimeComesLineByLine) {
   Json in_time = cell(8);
   in_time["time"] = {{"end_us", 40}, {"output_every_us", 10}, {"degree", 4}, {"accuracy", 1e-4}};
   in_time["cell"]["viscosity_mPas"] = 15;
-  const Answer answer = post("/api/evolve", in_time, {{"fields", "1"}});
-  ASSERT_TRUE(answer.give_pieces) << answer.body;
-  std::string text;
-  answer.give_pieces([&](std::string_view piece) {
-    text += piece;
-    return true;
-  });
-  std::istringstream lines(text);
-  std::vector<Json> steps;
-  for (std::string line; std::getline(lines, line);) steps.push_back(Json::parse(line));
-  ASSERT_EQ(steps.size(), 6u) << text;
+  const std::vector<Json> steps = lines_of(post("/api/evolve", in_time, {{"fields", "1"}}));
+  ASSERT_EQ(steps.size(), 6u);
   for (int i = 0; i < 5; ++i) {
     EXPECT_NEAR(steps[i]["time_s"].get<double>(), i * 1e-5, 1e-12);
     EXPECT_TRUE(steps[i]["velocity_m_per_s"].is_number()) << i;
@@ -293,6 +318,40 @@ TEST_F(CellRoutes, AWayInTimeComesLineByLine) {
   EXPECT_EQ(steps[4]["deformation"], steps[5]["result"]["deformation"]);
   EXPECT_EQ(steps[5]["result"]["time"]["frames"], 5);
   EXPECT_EQ(post("/api/evolve", cell()).status, 400);
+}
+
+TEST_F(CellRoutes, ThroughAFunnelIntoASquareBothCamerasSeeTheCell) {
+  const Json first = lines_of(post("/api/evolve", in_funnel({0, 0}), {{"fields", "1"}})).front();
+  ASSERT_TRUE(first.contains("contours")) << first;
+  EXPECT_EQ(first["contours"]["side"]["x_um"].size(), first["contours"]["across"]["x_um"].size());
+  EXPECT_TRUE(first["deformation_across"].is_number());
+  EXPECT_GE(least(floats(first["fields"]["xy_um"]), 2, 1), -1e-4) << "the upper half";
+  EXPECT_FALSE(first["fields"]["surface3d"]["index"].get<std::string>().empty());
+}
+
+TEST_F(CellRoutes, ACellOffTheAxisIsShownInThePlaneOfItsOffset) {
+  const Json first = lines_of(post("/api/evolve", in_funnel({3, 0}), {{"fields", "1"}})).front();
+  const std::vector<double> r_um = first["contour"]["r_um"];
+  EXPECT_NEAR(0.5 * (std::ranges::max(r_um) + std::ranges::min(r_um)), 3, 0.01);
+  const std::vector<float> points = floats(first["fields"]["xy_um"]);
+  EXPECT_LT(least(points, 2, 1), -14) << "both sides of the axis";
+  const std::vector<float> surface = floats(first["fields"]["surface3d"]["xyz_um"]);
+  EXPECT_NEAR(least(surface, 3, 1), 3 - 6, 0.05);
+  EXPECT_NEAR(least(surface, 3, 2), -6, 0.05);
+}
+
+TEST_F(CellRoutes, AnOffsetInHeightIsOneInTheWholeSurfaceToo) {
+  Json off_axis = cell(40);
+  off_axis["channel"]["section"] = "square";
+  off_axis["cell"]["radius_um"] = 5;
+  off_axis["cell"]["offset_um"] = {0, 2};
+  const Json state = json("/api/state", off_axis, {{"fields", "1"}, {"accuracy", "1e-1"}});
+  ASSERT_TRUE(state.contains("fields")) << state;
+  EXPECT_TRUE(state["hull"].is_null());
+  EXPECT_FALSE(state["fields"].contains("surface"));
+  const std::vector<float> surface = floats(state["fields"]["surface3d"]["xyz_um"]);
+  EXPECT_NEAR(least(surface, 3, 1), -5, 0.1);
+  EXPECT_NEAR(least(surface, 3, 2), 2 - 5, 0.3);
 }
 
 TEST_F(CellRoutes, ExportsGoIntoTheFolderAndOverNothingForeign) {

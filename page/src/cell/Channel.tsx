@@ -4,7 +4,7 @@ import type { Fields } from '../draw/fields';
 import { coverPixels, paintPixels, type Cover, type Paint } from '../draw/raster';
 import { theme } from '../shell/theme';
 import { useStore } from '../shell/store';
-import { halfFrame, stageOf, type Lens, type Stage } from './frame';
+import { pixelFrame, stageOf, type Lens, type Stage } from './frame';
 import { Lines } from './Lines';
 import type { Looks } from './looks';
 import { useProbe } from './probe';
@@ -36,9 +36,9 @@ function useSize(): [{ current: HTMLDivElement | null }, { width: number; height
   return [box, size];
 }
 
-/** Paints the upper half and mirrors it. */
+/** Paints what the fields have, and mirrors it where that is the upper half alone. */
 function paint(canvas: HTMLCanvasElement, stage: Stage, fields: Fields, paints: (Paint | null)[]): void {
-  const frame = halfFrame(stage, density());
+  const frame = pixelFrame(stage, density(), fields.whole);
   canvas.width = frame.width;
   canvas.height = Math.round(stage.height * density());
   const context = canvas.getContext('2d')!;
@@ -48,6 +48,7 @@ function paint(canvas: HTMLCanvasElement, stage: Stage, fields: Fields, paints: 
   const axis = Math.round(stage.axis * density());
   const low = Math.round(frame.low_um * frame.pixels_per_um);
   context.putImageData(image, 0, axis - low - frame.height);
+  if (fields.whole) return;
   pixels.reverse();
   for (let row = 0; row < frame.height; ++row) pixels.subarray(row * frame.width, (row + 1) * frame.width).reverse();
   context.putImageData(image, 0, axis + low);
@@ -56,7 +57,7 @@ function paint(canvas: HTMLCanvasElement, stage: Stage, fields: Fields, paints: 
 /** Which triangle covers which pixel: found out when a value is asked for, and then kept. */
 function coverOnDemand(stage: Stage, fields: Fields): () => Cover {
   let cover: Cover | null = null;
-  return () => (cover ??= coverPixels(fields, halfFrame(stage, density())));
+  return () => (cover ??= coverPixels(fields, pixelFrame(stage, density(), fields.whole)));
 }
 
 /** The same stage as long as its numbers are the same: what depends on it alone need not be drawn again. */
@@ -109,6 +110,7 @@ export function Channel({ scene, looks, stale }: ChannelProps) {
       <canvas ref={canvas} aria-hidden="true" />
       {stage && <Lines stage={stage} scene={scene} looks={looks} theme={shownTheme} mark={probe.mark} />}
       {stage && probe.readout}
+      {scene.title && <p class="seen-from">{scene.title}</p>}
       {lens[0].zoom > 1 && (
         <button class="show-all" onPointerDown={(event) => event.stopPropagation()} onClick={gestures.showAll}>
           Show all

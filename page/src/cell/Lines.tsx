@@ -32,13 +32,13 @@ function Walls({ stage, scene }: { stage: Stage; scene: Scene }) {
   );
 }
 
-/** The lower half is the upper one, mirrored at the axis. */
+/** Where the fields are of the upper half alone, the lower one is that, mirrored at the axis. */
 const mirrored = (stage: Stage) => `matrix(1 0 0 -1 0 ${2 * stage.axis})`;
 
 function Stream({ stage, fields, radius_um }: { stage: Stage; fields: Fields; radius_um: number }) {
   const found = useMemo(() => streamlines(fields, ...stage.whole_um, radius_um), [fields, ...stage.whole_um, radius_um]);
   const paths = found.map(({ points }) => pathOf(stage, { x_um: points.map(([x]) => x), r_um: points.map(([, r]) => r) }, false)).join('');
-  const half = (
+  const drawn = (
     <>
       <path d={paths} />
       {found.map(
@@ -58,8 +58,8 @@ function Stream({ stage, fields, radius_um }: { stage: Stage; fields: Fields; ra
   );
   return (
     <g fill="none" stroke={overMap} stroke-opacity={0.42} stroke-width={1}>
-      <g>{half}</g>
-      <g transform={mirrored(stage)}>{cloneElement(half, {})}</g>
+      <g>{drawn}</g>
+      {!fields.whole && <g transform={mirrored(stage)}>{cloneElement(drawn, {})}</g>}
     </g>
   );
 }
@@ -101,6 +101,9 @@ function Tension({ stage, surface }: { stage: Stage; surface: NonNullable<Fields
   );
 }
 
+/** Height of the middle of an outline, which a cell off the axis has beside it. */
+const middleOf = ({ r_um }: Outline) => (r_um.some((r) => r < 0) ? (Math.min(...r_um) + Math.max(...r_um)) / 2 : 0);
+
 function Cell({ stage, scene, looks, theme }: LinesProps) {
   const { contour, hull } = scene;
   const surface = scene.fields?.surface;
@@ -109,8 +112,8 @@ function Cell({ stage, scene, looks, theme }: LinesProps) {
     <g fill="none" stroke={overMap}>
       {looks.undeformed && (
         <circle
-          cx={xOf(stage, scene.place_um)}
-          cy={stage.axis}
+          cx={xOf(stage, 0)}
+          cy={yOf(stage, contour ? middleOf(contour) : 0)}
           r={scene.undeformed_um * stage.scale}
           stroke-width={1.5}
           stroke-dasharray="2 4"

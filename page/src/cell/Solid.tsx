@@ -1,18 +1,18 @@
 // The shape in three dimensions of a cell in a duct; three.js is loaded when it is first shown.
 import { useEffect, useRef, useState } from 'preact/hooks';
+import type { Case } from '../api';
 import type { Fields } from '../draw/fields';
 import { theme } from '../shell/theme';
 import { useStore } from '../shell/store';
-import type { Solved } from './model';
 import type { SolidView } from './solid3d';
 
 interface SolidProps {
   solid: NonNullable<Fields['surface3d']>;
-  solved: Solved;
+  of: Case;
   stale: boolean;
 }
 
-export function Solid({ solid, solved, stale }: SolidProps) {
+export function Solid({ solid, of, stale }: SolidProps) {
   const box = useRef<HTMLDivElement | null>(null);
   const [view, setView] = useState<SolidView | null>(null);
   const [failure, setFailure] = useState<string | null>(null);
@@ -32,11 +32,11 @@ export function Solid({ solid, solved, stale }: SolidProps) {
     };
   }, []);
   useEffect(() => {
-    const width_um = Number(solved.of['channel.width_um'] ?? 20);
-    const height_um = Number(solved.of['channel.height_um'] ?? width_um);
-    const camera_degree = Number(solved.of['channel.camera_degree'] ?? (solved.of['channel.camera'] === 'diagonal' ? 45 : 0));
+    const width_um = Number(of['channel.width_um'] ?? 20);
+    const height_um = Number(of['channel.height_um'] ?? width_um);
+    const camera_degree = Number(of['channel.camera_degree'] ?? (of['channel.camera'] === 'diagonal' ? 45 : 0));
     view?.show({ ...solid, width_um, height_um, camera_degree });
-  }, [view, solid, solved, shownTheme]);
+  }, [view, solid, of, shownTheme]);
   return (
     <div
       ref={box}

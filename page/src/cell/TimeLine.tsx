@@ -30,16 +30,20 @@ function Player({ now }: { now: Run }) {
   );
 }
 
-/** The deformation over time, with the step that is shown. */
+/** The deformation over time, in some ducts dashed what is seen along the width, with the step that is shown. */
 function Trace({ now }: { now: Run }) {
   const { steps, shown } = now;
   if (steps.length < 2) return null;
   const end = steps[steps.length - 1].time_s || 1;
-  const high = Math.max(...steps.map((step) => step.deformation)) || 1;
-  const at = (k: number) => `${((400 * steps[k].time_s) / end).toFixed(1)} ${(38 - (34 * steps[k].deformation) / high).toFixed(1)}`;
+  const high = Math.max(...steps.flatMap((step) => [step.deformation, step.deformation_across ?? 0])) || 1;
+  const at = (k: number, value = steps[k].deformation) => `${((400 * steps[k].time_s) / end).toFixed(1)} ${(38 - (34 * value) / high).toFixed(1)}`;
+  const across = steps.flatMap(({ deformation_across: value }, k) => (value === undefined ? [] : [at(k, value)]));
   return (
     <svg class="time-trace" viewBox="0 0 400 40" preserveAspectRatio="none" aria-hidden="true">
       <path d={`M${steps.map((_, k) => at(k)).join('L')}`} fill="none" stroke="var(--accent)" stroke-width={1.5} vector-effect="non-scaling-stroke" />
+      {across.length > 1 && (
+        <path d={`M${across.join('L')}`} fill="none" stroke="var(--accent)" stroke-dasharray="4 3" stroke-width={1.5} vector-effect="non-scaling-stroke" />
+      )}
       <path d={`M${at(shown).split(' ')[0]} 0V40`} stroke="var(--ink)" vector-effect="non-scaling-stroke" />
     </svg>
   );

@@ -1,9 +1,10 @@
 // The middle: the picture, its colour bars and switches, and what the page says when a state does not exist.
 import { useMemo } from 'preact/hooks';
-import type { Outline } from '../api';
+import type { Case, TimeStep } from '../api';
 import { fieldsOfText, type Fields } from '../draw/fields';
 import { Progress, useLasting } from '../shell/Progress';
 import { useStore } from '../shell/store';
+import { halfOfStraight, sightsOf, titleOfAside } from './cameras';
 import { Channel } from './Channel';
 import { ColorBar, TensionBar } from './ColorBar';
 import { tensionRange } from './Lines';
@@ -14,32 +15,29 @@ import { Solid } from './Solid';
 import { run } from './time';
 import { TimeLine } from './TimeLine';
 
-const tubeRadius = (solved: model.Solved) => solved.state.tube_radius_um ?? 0.547 * Number(solved.of['channel.width_um'] ?? 20);
-
-/** Half the height of the picture: the tube's radius, or half of what the camera sees of a duct across the flow. */
-function wallOf(solved: model.Solved): number {
-  if ((solved.of['channel.section'] ?? 'tube') === 'tube') return tubeRadius(solved);
-  const turned = solved.of['channel.section'] === 'rectangle' && Number(solved.of['channel.camera_degree'] ?? 0) > 45;
-  return 0.5 * Number(solved.of[turned ? 'channel.height_um' : 'channel.width_um'] ?? 20);
-}
-
 export type Painted = ReturnType<typeof paintsOf>;
 const nothing: Painted = { legends: [null, null], paints: [null, null] };
 
 function sceneOf(solved: model.Solved, painted: Painted): Scene {
   return {
+    title: titleOfAside(solved.of),
     fields: solved.fields,
     paints: painted.paints,
     contour: solved.state.contour,
     hull: solved.state.hull,
     undeformed_um: Number(solved.of['cell.radius_um']),
-    radius_um: wallOf(solved),
-    place_um: 0,
+    radius_um: halfOfStraight(solved.of, solved.state.tube_radius_um),
     revision: solved.revision,
   };
 }
 
-function useScene(): [Scene | null, Painted] {
+interface Shown {
+  scenes: Scene[];
+  painted: Painted;
+  solid: Fields['surface3d'];
+}
+
+function useShown(): Shown {
   const solved = useStore(model.solved);
   const values = useStore(model.values);
   const now = useStore(looks);
@@ -48,37 +46,23 @@ function useScene(): [Scene | null, Painted] {
   const stepFields = useMemo(() => (step?.fields ? fieldsOfText(step.fields) : null), [step]);
   const fields = step ? stepFields : (solved?.fields ?? null);
   const painted = useMemo(() => (fields ? paintsOf(fields, now) : nothing), [fields, now]);
-  const scene = useMemo((): Scene | null => {
-    if (step) return timeScene({ ...step, fields }, painted, values, solved);
-    return solved && sceneOf(solved, painted);
+  const scenes = useMemo((): Scene[] => {
+    if (step) return timeScenes(step, fields, painted, values, solved);
+    return solved ? [sceneOf(solved, painted)] : [];
   }, [step, fields, solved, painted, values]);
-  return [scene, painted];
+  return { scenes, painted, solid: fields?.surface3d ?? null };
 }
 
-interface ShownStep {
-  contour: Outline;
-  x_um: number;
-  fields: Fields | null;
-}
-
-/** Where there are many steps, some have a contour alone; the channel is that of the case. */
-function timeScene({ contour, x_um, fields }: ShownStep, painted: Painted, values: Record<string, unknown>, solved: model.Solved | null): Scene {
-  const profile = values['channel.profile.R_um'] as number[] | undefined;
-  const places = values['channel.profile.x_um'] as number[] | undefined;
-  const width = Number(values['channel.width_um'] ?? 20);
-  const radius_um = profile ? Math.max(...profile) : Number(values['channel.radius_um'] ?? 0.547 * width);
-  const wall = profile && places ? { x_um: places.map((x) => x - x_um), r_um: profile } : undefined;
-  return {
-    fields,
-    paints: painted.paints,
-    contour,
+/** Of each camera. Where there are many steps, some have a contour alone; the fields are those of the first camera. */
+function timeScenes(step: TimeStep, fields: Fields | null, painted: Painted, values: Case, solved: model.Solved | null): Scene[] {
+  return sightsOf(values, step).map((sight, k) => ({
+    ...sight,
+    fields: k === 0 ? fields : null,
+    paints: k === 0 ? painted.paints : nothing.paints,
     hull: null,
     undeformed_um: Number(values['cell.radius_um']),
-    radius_um,
-    place_um: 0,
     revision: solved?.revision ?? 0,
-    wall,
-  };
+  }));
 }
 
 function Switch({ name, title, now }: { name: keyof Looks; title: string; now: Looks }) {
@@ -120,16 +104,24 @@ export function View() {
   const now = useStore(looks);
   const refusal = useStore(model.refused);
   const solved = useStore(model.solved);
-  const [scene, { legends }] = useScene();
-  const solid = solved?.fields?.surface3d ?? null;
+  const values = useStore(model.values);
+  const {
+    scenes,
+    painted: { legends },
+    solid,
+  } = useShown();
   const tension = useMemo(() => tensionRange(solved?.fields?.surface), [solved?.fields]);
   const stale = refusal !== null;
   const empty = solved?.fields ? 'not in this cell' : '';
   return (
     <section class="view" aria-label="The cell in its channel">
-      <div class="stage">
-        {scene && (now.solid && solid ? <Solid solid={solid} solved={solved!} stale={stale} /> : <Channel scene={scene} looks={now} stale={stale} />)}
-        {!scene && <p class="waiting">The first state is being solved.</p>}
+      <div class={scenes.length > 1 && !(now.solid && solid) ? 'stage two' : 'stage'}>
+        {now.solid && solid ? (
+          <Solid solid={solid} of={values} stale={stale} />
+        ) : (
+          scenes.map((scene) => <Channel key={scene.title} scene={scene} looks={now} stale={stale} />)
+        )}
+        {scenes.length === 0 && <p class="waiting">The first state is being solved.</p>}
         <Refused />
         <div class="working">
           <Working />

@@ -1,6 +1,6 @@
 // Where things stand in the picture of the channel: um to pixels, walls, scale bar, what is seen.
 import type { Outline } from '../api';
-import type { Fields } from '../draw/fields';
+import { extentOf, type Fields } from '../draw/fields';
 import type { Grip } from '../draw/fingers';
 import type { Frame } from '../draw/raster';
 import { roundStep } from '../draw/numbers';
@@ -66,26 +66,16 @@ export function held(stage: Stage, lens: Lens, from: Grip, to: Grip): Lens {
   return { zoom, x_um: x_um - (to.middle[0] - stage.width / 2) / scale, r_um: r_um + (to.middle[1] - stage.height / 2) / scale };
 }
 
-function extentOf(fields: Fields): [number, number] {
-  let low = Infinity;
-  let high = -Infinity;
-  for (let k = 0; k < fields.places.length; k += 2) {
-    if (fields.places[k] < low) low = fields.places[k];
-    if (fields.places[k] > high) high = fields.places[k];
-  }
-  return [low, high];
-}
-
 export const xOf = (stage: Stage, x_um: number) => stage.width / 2 + (x_um - stage.middle_um) * stage.scale;
 export const yOf = (stage: Stage, r_um: number) => stage.axis - r_um * stage.scale;
 export const leftOf = (stage: Stage) => stage.middle_um - stage.width / 2 / stage.scale;
 export const rightOf = (stage: Stage) => stage.middle_um + stage.width / 2 / stage.scale;
 
-/** Pixels of the upper half, at the screen's density: as far as they, or their mirror images, are in sight. */
-export function halfFrame(stage: Stage, density: number): Frame {
+/** Pixels at the screen's density: of all that is in sight, or of the upper half as far as it, or its mirror image, is. */
+export function pixelFrame(stage: Stage, density: number, whole: boolean): Frame {
   const [above, below] = [stage.axis / stage.scale, (stage.axis - stage.height) / stage.scale];
-  const low_um = Math.max(0, below, -above);
-  const high_um = Math.min(stage.radius_um, Math.max(above, -below));
+  const low_um = whole ? below : Math.max(0, below, -above);
+  const high_um = whole ? above : Math.max(above, -below);
   return {
     width: Math.round(stage.width * density),
     height: Math.max(1, Math.ceil((high_um - low_um) * stage.scale * density)),

@@ -1,9 +1,11 @@
-// The fields of an answer as arrays: a triangle mesh of the half plane and values at its points.
+// The fields of an answer as arrays: a triangle mesh of the half plane, or of the whole one, and values at its points.
 import type { EncodedFields, FieldsHead, FieldsText } from '../api';
 
 export interface Fields {
   /** x, r of each point, um */
   places: Float32Array;
+  /** both sides of the axis: what is below is not the mirror image of what is above */
+  whole: boolean;
   triangles: Uint32Array;
   /** per point: 0 liquid, 1 cell */
   region: Uint8Array;
@@ -11,6 +13,11 @@ export interface Fields {
   surface: FieldsHead['surface'];
   wall: FieldsHead['wall'];
   surface3d: { places: Float32Array; triangles: Uint32Array } | null;
+}
+
+function areOfBothSides(places: Float32Array): boolean {
+  for (let k = 1; k < places.length; k += 2) if (places[k] < -1e-3) return true;
+  return false;
 }
 
 export function decodeFields({ head, bytes }: EncodedFields): Fields {
@@ -24,8 +31,10 @@ export function decodeFields({ head, bytes }: EncodedFields): Fields {
   }
   const values = [...found].filter(([name]) => name.startsWith('values/')).map(([name, array]) => [name.slice(7), array]);
   const solid = found.get('surface3d/xyz_um') as Float32Array | undefined;
+  const places = found.get('xy_um') as Float32Array;
   return {
-    places: found.get('xy_um') as Float32Array,
+    places,
+    whole: areOfBothSides(places),
     triangles: found.get('index') as Uint32Array,
     region: found.get('region') as Uint8Array,
     values: Object.fromEntries(values) as Record<string, Float32Array>,
@@ -42,16 +51,31 @@ function bytesOf(base64: string): ArrayBuffer {
   return bytes.buffer;
 }
 
-export function fieldsOfText({ xy_um, index, region, values, surface, wall }: FieldsText): Fields {
+export function fieldsOfText({ xy_um, index, region, values, surface, wall, surface3d }: FieldsText): Fields {
+  const places = new Float32Array(bytesOf(xy_um));
   return {
-    places: new Float32Array(bytesOf(xy_um)),
+    places,
+    whole: areOfBothSides(places),
     triangles: new Uint32Array(bytesOf(index)),
     region: new Uint8Array(bytesOf(region)),
     values: Object.fromEntries(Object.entries(values).map(([name, text]) => [name, new Float32Array(bytesOf(text))])),
     surface,
     wall,
-    surface3d: null,
+    surface3d: surface3d
+      ? { places: new Float32Array(bytesOf(surface3d.xyz_um)), triangles: new Uint32Array(bytesOf(surface3d.index)) }
+      : null,
   };
+}
+
+/** The ends of the mesh along the channel, um. */
+export function extentOf({ places }: Fields): [number, number] {
+  let low = Infinity;
+  let high = -Infinity;
+  for (let k = 0; k < places.length; k += 2) {
+    if (places[k] < low) low = places[k];
+    if (places[k] > high) high = places[k];
+  }
+  return [low, high];
 }
 
 /** One number per point; a vector field gives its length. Null for a name that is not there. */

@@ -1,4 +1,4 @@
-// Which triangle of a mesh covers which pixel of the upper half of the picture; from it colours and values anywhere.
+// Which triangle of a mesh covers which pixel of the picture, or of its upper half; from it colours and values anywhere.
 // Runs at each movement of a slider: plain loops over arrays, nothing is allocated inside.
 import type { ColorMap } from './colormap';
 import type { Fields } from './fields';
@@ -119,7 +119,7 @@ export interface Paint {
   high: number;
 }
 
-/** Colours of the half picture; liquid and cell have a paint of their own, null leaves the ground. */
+/** Colours of the pixels of a frame; liquid and cell have a paint of their own, null leaves the ground. */
 export function paintPixels(fields: Fields, frame: Frame, paints: (Paint | null)[], pixels: Uint32Array): void {
   const placed = placePoints(fields, frame);
   const plane: Plane = { at: 0, x: 0, y: 0 };
@@ -163,27 +163,31 @@ export function sampleRegion(fields: Fields, cover: Cover, values: Float32Array,
   return samples;
 }
 
-/** The triangle at a place, r mirrored at the axis; -1 outside. */
-function triangleAt({ frame, triangle }: Cover, x_um: number, r_um: number): number {
+/** Where the fields of a place are: mirrored at the axis, unless they are of both sides. */
+const heightIn = (fields: Fields, r_um: number) => (fields.whole ? r_um : Math.max(Math.abs(r_um), 1e-9));
+
+/** The triangle at a place; -1 outside. */
+function triangleAt({ frame, triangle }: Cover, x_um: number, height_um: number): number {
   const column = Math.floor((x_um - frame.left_um) * frame.pixels_per_um);
-  const row = Math.floor(rowOf(frame, Math.max(Math.abs(r_um), 1e-9)));
+  const row = Math.floor(rowOf(frame, height_um));
   const inside = column >= 0 && column < frame.width && row >= 0 && row < frame.height;
   return inside ? triangle[row * frame.width + column] : -1;
 }
 
 /** Value of a field at a place, from the triangle there; null outside. */
 export function valueAt(fields: Fields, cover: Cover, values: Float32Array, x_um: number, r_um: number): number | null {
-  const id = triangleAt(cover, x_um, r_um);
+  const height_um = heightIn(fields, r_um);
+  const id = triangleAt(cover, x_um, height_um);
   if (id < 0) return null;
   const plane: Plane = { at: 0, x: 0, y: 0 };
   putPlane(plane, fields, cover, values, id);
   const { frame } = cover;
   const x = (x_um - frame.left_um) * frame.pixels_per_um;
-  return plane.at + plane.x * x + plane.y * rowOf(frame, Math.abs(r_um));
+  return plane.at + plane.x * x + plane.y * rowOf(frame, height_um);
 }
 
 /** 0 in the liquid, 1 in the cell, null outside. */
 export function regionAt(fields: Fields, cover: Cover, x_um: number, r_um: number): number | null {
-  const id = triangleAt(cover, x_um, r_um);
+  const id = triangleAt(cover, x_um, heightIn(fields, r_um));
   return id < 0 ? null : fields.region[fields.triangles[3 * id]];
 }

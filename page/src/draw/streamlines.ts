@@ -1,5 +1,5 @@
 // Streamlines of the velocity relative to the cell, followed on a coarse grid of it.
-import type { Fields } from './fields';
+import { extentOf, type Fields } from './fields';
 import { coverPixels, sampleRegion, type Cover, type Frame } from './raster';
 
 interface Grid {
@@ -45,7 +45,7 @@ function velocityGrid(fields: Fields, frame: Frame): Grid | null {
 function look(grid: Grid, x: number, r: number): boolean {
   const { frame, inside, way } = grid;
   const column = (x - frame.left_um) * frame.pixels_per_um - 0.5;
-  const row = frame.height - r * frame.pixels_per_um - 0.5;
+  const row = frame.height - (r - frame.low_um) * frame.pixels_per_um - 0.5;
   const i = Math.min(frame.width - 2, Math.floor(column));
   const j = Math.min(frame.height - 2, Math.floor(row));
   if (i < 0 || j < 0 || column > frame.width - 0.5) return false;
@@ -66,14 +66,21 @@ function look(grid: Grid, x: number, r: number): boolean {
   return weight > 0.4 && speed > 0;
 }
 
+/** Radians: what winds round and round beside a cell off the axis would be a blot. */
+const mostTurns = 2.2 * Math.PI;
+
 function follow(grid: Grid, start: [number, number], sense: 1 | -1): [number, number][] {
   const step = (0.8 * sense) / grid.frame.pixels_per_um;
   const line: [number, number][] = [start];
   let [x, r] = start;
-  for (let k = 0; k < 1000; ++k) {
+  let [turned, u, v] = [0, 0, 0];
+  for (let k = 0; k < 1000 && Math.abs(turned) < mostTurns; ++k) {
     if (!look(grid, x, r) || !look(grid, x + 0.5 * step * grid.way[0], r + 0.5 * step * grid.way[1])) break;
+    turned += Math.atan2(u * grid.way[1] - v * grid.way[0], u * grid.way[0] + v * grid.way[1]);
+    [u, v] = grid.way;
     x += step * grid.way[0];
-    r = Math.abs(r + step * grid.way[1]);
+    r += step * grid.way[1];
+    if (grid.frame.low_um === 0) r = Math.abs(r);
     if (k % 3 === 2) line.push([x, r]);
   }
   return line;
@@ -83,7 +90,8 @@ function follow(grid: Grid, start: [number, number], sense: 1 | -1): [number, nu
 function seeds(frame: Frame, radius_um: number): [number, number][] {
   const right = frame.left_um + frame.width / frame.pixels_per_um;
   const margin = 2 / frame.pixels_per_um;
-  const across = [0.06, 0.19, 0.32, 0.45, 0.56, 0.72, 0.83, 0.94].map((share) => share * radius_um);
+  const above = [0.06, 0.19, 0.32, 0.45, 0.56, 0.72, 0.83, 0.94].map((share) => share * radius_um);
+  const across = frame.low_um < 0 ? [...above, ...above.map((r) => -r)] : above;
   return [frame.left_um + margin, right - margin].flatMap((x) => across.map((r): [number, number] => [x, r]));
 }
 
@@ -100,11 +108,14 @@ function withArrow(points: [number, number][], way: 1 | -1): Streamline {
   return { points, arrow: { x: points[k][0], r: points[k][1], angle } };
 }
 
-/** Streamlines of the upper half between two places along the channel. */
-export function streamlines(fields: Fields, from_um: number, to_um: number, radius_um: number): Streamline[] {
+/** Streamlines between two places along the channel: of the upper half, if the fields are of it alone. */
+export function streamlines(fields: Fields, left_um: number, right_um: number, radius_um: number): Streamline[] {
+  const ends_um = extentOf(fields);
+  const [from_um, to_um] = [Math.max(left_um, ends_um[0]), Math.min(right_um, ends_um[1])];
   const pixels_per_um = 1 / spacing_um(radius_um);
   const size = (length: number) => Math.max(2, Math.round(length * pixels_per_um));
-  const frame = { width: size(to_um - from_um), height: size(radius_um), left_um: from_um, low_um: 0, pixels_per_um };
+  const low_um = fields.whole ? -radius_um : 0;
+  const frame = { width: size(to_um - from_um), height: size(radius_um - low_um), left_um: from_um, low_um, pixels_per_um };
   const grid = velocityGrid(fields, frame);
   if (!grid) return [];
   const middle = 0.5 * (from_um + to_um);
