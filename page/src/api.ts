@@ -128,6 +128,8 @@ export interface TimeStep {
   deformation: number;
   /** in a duct that is not alike along height and width: seen along the width */
   deformation_across?: number;
+  /** of a cell off the axis, where it is now */
+  offset_um?: number;
   velocity_m_per_s: number;
   contour: Outline;
   contours?: Contours;

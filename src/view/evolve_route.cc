@@ -94,6 +94,7 @@ class EvolutionLines {
               {"velocity_m_per_s", scales.velocity_m_per_s * frame.state.cell_velocity},
               {"progress", std::isfinite(run.end) ? frame.time / run.end : frame.position / run.end_position}};
     if (std::isfinite(frame.state.deformation_across)) json["deformation_across"] = frame.state.deformation_across;
+    if (frame.state.offset_outline.rows() > 0) json["offset_um"] = scales.length_um() * frame.state.offset;
     json.update(shown.outlines());
     std::string line = json_line(json);
     if (has_fields(so_far)) add_member(line, "fields", shown.fields(points_in_frame));

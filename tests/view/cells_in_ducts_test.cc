@@ -60,6 +60,7 @@ TEST_F(CellsInDucts, ACellOffTheAxisIsShownInThePlaneOfItsOffset) {
   const Json first = lines_of(post("/api/evolve", in_funnel({3, 0}), {{"fields", "1"}})).front();
   const std::vector<double> r_um = first["contour"]["r_um"];
   EXPECT_NEAR(0.5 * (std::ranges::max(r_um) + std::ranges::min(r_um)), 3, 0.01);
+  EXPECT_NEAR(first["offset_um"].get<double>(), 3, 0.01);
   const std::vector<float> points = floats(first["fields"]["xy_um"]);
   EXPECT_LT(least(points, 2, 1), -14) << "both sides of the axis";
   const std::vector<float> surface = floats(first["fields"]["surface3d"]["xyz_um"]);

@@ -1,4 +1,5 @@
 // The numbers at the right, each with its estimated error. Places stay where they are while the digits change.
+import type { TimeStep } from '../api';
 import { significant } from '../draw/numbers';
 import { useStore } from '../shell/store';
 import { Influences } from './Influences';
@@ -29,6 +30,31 @@ function rowsOf(solved: model.Solved): Row[] {
     { title: 'Area', value: significant(state.area_um2, 5), unit: 'µm²', error: error('area_um2') },
     { title: 'Cell velocity', value: significant(state.cell_velocity_m_per_s), unit: 'm/s', error: error('cell_velocity_m_per_s') },
     { title: 'Pressure drop', value: significant(state.pressure_drop_Pa), unit: 'Pa', error: error('pressure_drop_Pa') },
+    ...asideRows(solved),
+  ];
+}
+
+/** Of a cell off the axis: where it is and whither it drifts. */
+function asideRows({ state }: model.Solved): Row[] {
+  const { offset_um: offset, drift_velocity_m_per_s: drift, errors } = state;
+  if (typeof offset !== 'number') return [];
+  const rows: Row[] = [{ title: 'Off the axis', value: significant(offset), unit: 'µm', error: errors.offset_um ? power(errors.offset_um) : null }];
+  if (typeof drift === 'number') {
+    const error = errors.drift_velocity_m_per_s;
+    rows.push({ title: 'Drift', value: significant(drift), unit: 'm/s', error: error ? power(error) : null });
+  }
+  return rows;
+}
+
+function stepRows({ deformation, deformation_across, offset_um, time_s, x_um, velocity_m_per_s }: TimeStep): Row[] {
+  const row = (title: string, value: string, unit = '') => ({ title, value, unit, error: null });
+  return [
+    { ...row('Deformation', deformation.toFixed(5)), lead: true },
+    ...(deformation_across === undefined ? [] : [row('Along the width', deformation_across.toFixed(5))]),
+    row('Time', (1e6 * time_s).toFixed(1), 'µs'),
+    row('Place', x_um.toFixed(2), 'µm'),
+    ...(offset_um === undefined ? [] : [row('Off the axis', offset_um.toFixed(2), 'µm')]),
+    row('Cell velocity', significant(velocity_m_per_s), 'm/s'),
   ];
 }
 
@@ -86,15 +112,9 @@ export function Numbers() {
   const time = useStore(run);
   const step = time?.steps[time.shown];
   if (step) {
-    const rows: Row[] = [
-      { title: 'Deformation', value: step.deformation.toFixed(5), unit: '', error: null, lead: true },
-      { title: 'Time', value: (1e6 * step.time_s).toFixed(1), unit: 'µs', error: null },
-      { title: 'Place', value: step.x_um.toFixed(2), unit: 'µm', error: null },
-      { title: 'Cell velocity', value: significant(step.velocity_m_per_s), unit: 'm/s', error: null },
-    ];
     return (
       <dl class="numbers">
-        {rows.map((row) => (
+        {stepRows(step).map((row) => (
           <Measure key={row.title} row={row} />
         ))}
       </dl>
