@@ -12,7 +12,7 @@ from rheocyte.time_picture import read_contours
 
 RADIUS_UM, HEIGHT_UM, WIDE_UM = 6.0, 20.0, 100.0
 FUNNEL_UM = (30.0, 70.0)  # from the start of the cell, at 45 degrees
-CELLS = {2.0: "#c22f1d", 4.0: colours.INK, 8.0: "#2f6fa8"}  # modulus in kPa: colour
+CELLS = {2.5: "#c22f1d", 4.0: colours.INK, 8.0: "#2f6fa8"}  # modulus in kPa: colour
 SHOWN_UM = (12.0, 168.0)  # of the way
 PLACES_UM = [20.0, 40.0, 55.0, 70.0, 85.0, 105.0, 130.0, 155.0]  # of the outlines
 ABOVE, ACROSS = "deformation_side", "deformation_across"
