@@ -39,7 +39,7 @@ class PassingFolder {
   }
   PassingFolder(const PassingFolder&) = delete;
   PassingFolder& operator=(const PassingFolder&) = delete;
-  std::string operator/(const char* name) const { return path_text(path_ / name); }
+  std::string operator/(const char* name) const { return path_text(path_ / to_path(name)); }
 
  private:
   fs::path path_;
