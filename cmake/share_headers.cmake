@@ -16,9 +16,6 @@ function(share_headers name)
   else()
     add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cc)
   endif()
-  if(WIN32)
-    list(PREPEND header ${CMAKE_SOURCE_DIR}/src/store/utf8_paths.h)
-  endif()
   target_precompile_headers(${name} PRIVATE ${header} ${CMAKE_SOURCE_DIR}/src/numeric/compiled_products.h <fmt/format.h>
                             <algorithm> <cmath> <filesystem> <fstream> <functional> <map> <numbers> <optional> <random>
                             <span> <sstream> <string> <variant> <vector>)

@@ -64,7 +64,7 @@ if(RHEOCYTE_STATIC_HDF5_LIBRARY AND RHEOCYTE_SZIP_LIBRARY AND RHEOCYTE_ZLIB_LIBR
     set(hdf5_of_programs ${static_hdf5})
   endif()
 endif()
-if(WIN32 OR NOT RHEOCYTE_PROCESSES)  # static libraries alone
+if(CMAKE_CROSSCOMPILING OR NOT RHEOCYTE_PROCESSES)  # static libraries alone
   target_link_libraries(rheocyte::shared_hdf5 INTERFACE ${RHEOCYTE_ZLIB_LIBRARY} $<$<BOOL:${WIN32}>:shlwapi>)
 endif()
 set(is_program "$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>")
@@ -88,7 +88,7 @@ if(RHEOCYTE_SOLVER AND RHEOCYTE_PROCESSES)
   endif()
 endif()
 
-if(WIN32)  # the user's own, in the PATH
+if(WIN32 OR CMAKE_CROSSCOMPILING)  # the user's own, in the PATH
   return()
 endif()
 # Debian's interpreter first: another python3 that stands earlier in PATH often lacks the packages.

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "app/cli.h"
 #include "app/key_option.h"
 #include "case/case_keys.h"
 #include "case/scales.h"

@@ -10,6 +10,7 @@
 #include "case/read_case.h"
 #include "case/refuse_path.h"
 #include "case/scales.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "numeric/fingerprint.h"
@@ -98,7 +99,7 @@ class CheckpointSearch {
   void look_into(Scratch place) {
     std::optional<Checkpoint> best;
     for (const int slot : {1, 2}) {
-      const fs::path file = place.path / checkpoint_file(slot);
+      const fs::path file = place.path / to_path(checkpoint_file(slot));
       const auto content = content_of(file);
       if (!content) continue;
       try {

@@ -3,15 +3,16 @@
 // for.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
 #include "app/analytic_cell.h"
 #include "app/analytic_table.h"
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/key_option.h"
 #include "case/case_keys.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "store/own_file.h"
 #include "store/standard_output.h"
@@ -78,7 +79,7 @@ void add_cell_command(CLI::App& analytic) {
 void run_table(AnalyticTableOptions& options, TextFile (*make)(const AnalyticTableInput&)) {
   complete(options.input.conditions);
   const TextFile file = make(options.input);
-  const auto path = options.folder / file.name;
+  const auto path = options.folder / to_path(file.name);
   replace_own_file(path, file.content, table_mark, foreign(options.force));
   print(fmt::format("{}: {} rows\n", path.string(), file.rows));
 }

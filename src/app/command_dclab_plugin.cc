@@ -1,11 +1,11 @@
 // `rheocyte dclab-plugin`
 // Prints a program text of the Python package and, behind it, the tables.
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdio>
 #include <string>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "case/refuse_path.h"
 #include "case/user_error.h"

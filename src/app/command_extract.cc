@@ -3,9 +3,9 @@
 // recording could not be used, 3 if one has no event with a modulus, 128 + signal.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/extract_options.h"
 #include "app/recording_batch.h"

@@ -2,12 +2,12 @@
 // The process becomes the Python program that solves and draws; `exit_code` is set only if that cannot be started.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "store/child_process.h"

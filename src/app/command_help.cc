@@ -2,13 +2,13 @@
 // It prints to standard output.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "case/key_reference.h"
 #include "result/result_reference.h"

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <new>
 #include <system_error>
 #include <vector>
 
+#include "app/cli.h"
 #include "app/exit_codes.h"
 #include "case/nearest_name.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
@@ -46,7 +47,7 @@ int with_output(int exit_code) {
 std::string file_like_an_option(int argc, char** argv) {
   std::error_code error;
   for (int i = 1; i < argc; ++i)
-    if (argv[i][0] == '-' && std::filesystem::is_regular_file(argv[i], error))
+    if (argv[i][0] == '-' && std::filesystem::is_regular_file(to_path(argv[i]), error))
       return fmt::format("; the file {0} is given as ./{0}", one_line(argv[i], 200));
   return {};
 }

@@ -1,9 +1,9 @@
 // `rheocyte moduli`: E, E2D and tension of the cells in recordings.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/extract_options.h"
 #include "app/recording_batch.h"

@@ -2,10 +2,10 @@
 // `exit_code` 1 if the picture cannot be drawn.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "case/user_error.h"

@@ -1,9 +1,9 @@
 // `rheocyte plan`: which channel, flow rate and medium, and how many cells and sessions a difference takes.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "extract/experiment_plan.h"
 #include "store/own_file.h"

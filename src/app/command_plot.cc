@@ -3,15 +3,16 @@
 // fails, 2 if a recording could not be used (no picture then), 128 + signal.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <memory>
 #include <system_error>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/plot_options.h"
 #include "case/json_guard.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "extract/plot_lines.h"
 #include "extract/plot_panel.h"
@@ -59,7 +60,7 @@ class Plot {
     json panels = json::array();
     for (const auto& recording : options_.inputs) {
       const auto name = fmt::format("events-{}", panels.size());
-      const auto read = read_panel(recording, folder_.path() / name);
+      const auto read = read_panel(recording, folder_.path() / to_path(name));
       if (read.stopped()) return exit_stopped();
       if (!read.finished())
         throw UserError(sentence_for(recording, read.end, options_.measuring.patience_s.value_or(default_patience_s)));

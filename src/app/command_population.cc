@@ -1,14 +1,15 @@
 // `rheocyte population [SPEC.toml]`: the mechanics of the cells of recordings, and whether conditions differ.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/extract_options.h"
 #include "app/recording_batch.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "extract/population_json.h"
 #include "extract/population_spec.h"
@@ -37,7 +38,7 @@ PopulationEvents read(const fs::path& recording, const PopulationOptions& option
 }
 
 fs::path events_file(const fs::path& folder, const RecordingReport& r, const PopulationReport& report) {
-  return folder / fmt::format("events_{}_{}.tsv", report.conditions[r.condition].name, r.session + 1);
+  return folder / to_path(fmt::format("events_{}_{}.tsv", report.conditions[r.condition].name, r.session + 1));
 }
 
 /// What an earlier run has left there and this one may not write anew.

@@ -3,13 +3,13 @@
 // program, the text files themselves.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/key_option.h"
 #include "case/case_keys.h"

@@ -1,7 +1,7 @@
 // `rheocyte solve CASE -o DIR`
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/solve_case.h"
 #include "case/user_error.h"

@@ -2,12 +2,12 @@
 // The file appears whole or not at all. `exit_code`: 0, 2 for the user's errors, 128 + signal.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <new>
 #include <system_error>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "case/case_text.h"

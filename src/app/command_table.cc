@@ -1,13 +1,13 @@
 // `rheocyte table`: a whole look-up table from a spec, stationary or dynamic.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "case/case_text.h"

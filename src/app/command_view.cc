@@ -1,7 +1,7 @@
 // `rheocyte view [PATHS...]`
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/cli.h"
 #include "app/commands.h"
 #include "view/view.h"
 

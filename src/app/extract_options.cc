@@ -1,9 +1,9 @@
 #include "app/extract_options.h"
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <utility>
 
+#include "app/cli.h"
 #include "app/key_option.h"
 #include "extract/recording_settings.h"
 

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
+#include "app/cli.h"
 #include "case/user_error.h"
 #include "store/standard_error.h"
 

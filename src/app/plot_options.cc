@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "app/cli.h"
 #include "app/extract_options.h"
 #include "case/refuse_path.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "extract/recording_list.h"
 #include "extract/recording_settings.h"
@@ -96,7 +97,7 @@ fs::path picture_stem(const PlotOptions& options) {
   fs::path stem = options.output;
   if (stem.empty()) {
     const fs::path& first = options.inputs.front();
-    return first.parent_path() / (first.stem().string() + "_rheocyte");
+    return first.parent_path() / to_path(first.stem().string() + "_rheocyte");
   }
   if (stem.extension() == ".png" || stem.extension() == ".svg") stem.replace_extension();
   if (!stem.has_filename() || fs::is_directory(stem))

@@ -1,6 +1,6 @@
 // The program that the user calls.
-#include <CLI/CLI.hpp>
 
+#include "app/cli.h"
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"

@@ -10,6 +10,7 @@
 #include "app/checkpoint.h"
 #include "app/finish_result.h"
 #include "case/scales.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "result/judge_end.h"
 #include "result/plural.h"
@@ -43,7 +44,7 @@ class Recorder {
     last_state_ = from.checkpoint.state;
     if (options_.no_output_fields) return;
     for (std::size_t i = 0; i < record.frames.size(); ++i) {
-      const fs::path file = fs::path(fields_folder) / field_file(i);
+      const fs::path file = fs::path(fields_folder) / to_path(field_file(i));
       std::error_code error;
       fs::copy_file(from.folder / file, folder_.scratch() / file, error);
       if (error)
@@ -75,7 +76,7 @@ class Recorder {
 
  private:
   void add(const TimeFrame& frame) {
-    const fs::path file = folder_.scratch() / fields_folder / field_file(record_.frames.size());
+    const fs::path file = folder_.scratch() / fields_folder / to_path(field_file(record_.frames.size()));
     if (!options_.no_output_fields) write_field_file(frame.state.write_fields, result_.scales, file, options_.folder);
     record_.frames.push_back(contour_frame(frame, result_.scales));
   }

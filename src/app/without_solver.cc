@@ -1,8 +1,7 @@
 // What stands for the commands that need the solver in a program that was built without it (RHEOCYTE_SOLVER=OFF).
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
+#include "app/cli.h"
 #include "app/commands.h"
 #include "case/user_error.h"
 #include "result/result_reference.h"

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "case/spread.h"
+#include "case/to_path.h"
 
 namespace rheocyte {
 
@@ -132,6 +133,8 @@ void store(Member& member, const Value& value) {
     member = static_cast<Member>(std::get<double>(value));
   } else if constexpr (std::is_same_v<Member, std::vector<double>> || std::is_same_v<Member, Spread>) {
     member = std::get<Member>(value);
+  } else if constexpr (std::is_same_v<Member, std::filesystem::path>) {
+    member = to_path(std::get<std::string>(value));
   } else {
     member = std::get<std::string>(value);
   }

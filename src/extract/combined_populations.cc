@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "case/joined.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -18,7 +19,7 @@ constexpr double least_spreads_from_end = 2, most_relative_error = 0.25;
 
 ModuliOptions moduli_options(const PopulationOptions& options) {
   ModuliOptions moduli;
-  moduli.table = options.table;
+  moduli.table = to_path(options.table);
   return moduli;
 }
 

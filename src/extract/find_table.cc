@@ -11,6 +11,7 @@
 
 #include "case/joined.h"
 #include "case/nearest_name.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "extract/shipped_tables.h"
 #include "store/environment.h"
@@ -45,10 +46,10 @@ void add_packages_of_python(std::vector<fs::path>& folders) {
 
 std::vector<fs::path> package_folders() {
   std::vector<fs::path> folders = folders_in("PYTHONPATH");
-  add_packages_of(environment("VIRTUAL_ENV"), folders);
-  add_packages_of(environment("CONDA_PREFIX"), folders);
+  add_packages_of(to_path(environment("VIRTUAL_ENV")), folders);
+  add_packages_of(to_path(environment("CONDA_PREFIX")), folders);
   add_packages_of_python(folders);
-  if (const fs::path home = environment("HOME"); !home.empty()) add_packages_of(home / ".local", folders);
+  if (const fs::path home = to_path(environment("HOME")); !home.empty()) add_packages_of(home / ".local", folders);
   add_packages_of("/usr/local", folders);
   add_packages_of("/usr", folders);
   return folders;
@@ -85,7 +86,7 @@ std::map<std::string, fs::path> installed_tables() {
 
 fs::path find_table(const std::string& wanted, const std::string& asked_by) {
   std::error_code error;
-  if (fs::exists(wanted, error)) return wanted;
+  if (fs::path file = to_path(wanted); fs::exists(file, error)) return file;
   auto tables = shipped_tables();
   tables.merge(installed_tables());
   if (const auto found = tables.find(wanted); found != tables.end()) return found->second;

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "extract/find_table.h"
 #include "extract/shipped_tables.h"
@@ -150,7 +151,7 @@ std::optional<ElongatedFile> elongated_file(double flow_exponent) {
 
 ElongatedContent given_elongated_table(const std::string& name) {
   namespace fs = std::filesystem;
-  fs::path file = name;
+  fs::path file = to_path(name);
   std::error_code error;
   const auto shipped = shipped_elongated_tables();
   if (const auto found = shipped.find(name); found != shipped.end()) file = found->second;

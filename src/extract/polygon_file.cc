@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "case/refuse_path.h"
+#include "case/to_path.h"
 #include "numeric/no_value.h"
 #include "numeric/number_from_chars.h"
 #include "store/read_file.h"
@@ -120,7 +121,7 @@ std::vector<PolygonGate> polygons_of_file(const fs::path& file) {
 }  // namespace
 
 std::vector<PolygonGate> polygon_gates(const std::string& text) {
-  if (is_polygon_file(text)) return polygons_of_file(text);
+  if (is_polygon_file(text)) return polygons_of_file(to_path(text));
   std::vector<PolygonGate> gates;
   gates.emplace_back(text);
   return gates;

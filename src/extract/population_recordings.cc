@@ -9,6 +9,7 @@
 #include <set>
 
 #include "case/refuse_path.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "numeric/quantile.h"
 
@@ -31,7 +32,7 @@ PopulationCondition condition_of(const std::string& text) {
   PopulationCondition condition{text.substr(0, sign), {}};
   for (std::size_t first = sign + 1; first <= text.size();) {
     const std::size_t last = std::min(text.find(',', first), text.size());
-    if (last > first) condition.recordings.emplace_back(text.substr(first, last - first));
+    if (last > first) condition.recordings.push_back(to_path(text.substr(first, last - first)));
     first = last + 1;
   }
   return condition;

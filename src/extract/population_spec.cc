@@ -6,6 +6,7 @@
 #include <string>
 
 #include "case/case_text.h"
+#include "case/to_path.h"
 #include "case/toml_json.h"
 #include "case/user_error.h"
 #include "extract/recording_settings.h"
@@ -24,7 +25,7 @@ PopulationCondition condition_in(const std::string& name, const Json& recordings
     if (!list.is_array() || !recording.is_string())
       throw UserError(fmt::format("the condition {} must be a list of recordings, such as [\"A1.rtdc\", \"A2.rtdc\"].",
                                   one_line(name, 60)));
-    condition.recordings.push_back(folder / recording.get<std::string>());
+    condition.recordings.push_back(folder / to_path(recording.get<std::string>()));
   }
   return condition;
 }

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "case/refuse_path.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -69,7 +70,7 @@ std::vector<Found> found_by(const BatchOptions& options, std::vector<fs::path>& 
 
 fs::path results_of(const Found& found, const BatchOptions& options, const std::string& before_name) {
   const fs::path folder = options.folder.empty() ? found.recording.parent_path() : options.folder / found.below;
-  return (folder / (before_name + found.recording.stem().string())).lexically_normal();
+  return (folder / to_path(before_name + found.recording.stem().string())).lexically_normal();
 }
 
 std::string name_of_folder(const fs::path& recording) { return in_full(recording).parent_path().filename().string(); }
@@ -121,7 +122,7 @@ std::vector<fs::path> without_companions_of_others(const std::vector<fs::path>& 
     const std::string stem = file.stem().string();
     return !is_companion(file) ||
            !given.contains(
-               in_full(file.parent_path() / (stem.substr(0, stem.size() - companion_suffix.size()) + ".rtdc")));
+               in_full(file.parent_path() / to_path(stem.substr(0, stem.size() - companion_suffix.size()) + ".rtdc")));
   });
   return kept;
 }

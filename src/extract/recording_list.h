@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "case/to_path.h"
 #include "extract/options.h"
 
 namespace rheocyte {
@@ -13,7 +14,7 @@ struct RecordingTask {
   std::filesystem::path results;  ///< folder and name of its results, to which each file adds an ending
 
   /// With an ending such as "_rheocyte.rtdc".
-  std::filesystem::path result(const std::string& ending) const { return results.string() + ending; }
+  std::filesystem::path result(const std::string& ending) const { return to_path(results.string() + ending); }
 };
 
 struct RecordingList {

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "case/json_guard.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "measurement/any_bytes.h"
 #include "numeric/md5.h"
@@ -122,7 +123,7 @@ std::vector<fs::path> basin_files(const BasinDefinition& basin, const fs::path& 
   for (const auto& path : basin.paths)
     for (const auto& place : {path, with_slashes(path), file_name_in(path)}) {
       std::error_code error;
-      const fs::path candidate = referring_file.parent_path() / place;  // an absolute path stays itself
+      const fs::path candidate = referring_file.parent_path() / to_path(place);  // an absolute path stays itself
       if (fs::is_regular_file(candidate, error) && std::ranges::find(files, candidate) == files.end())
         files.push_back(candidate);
     }

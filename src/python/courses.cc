@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "case/to_path.h"
 #include "extract/shipped_tables.h"
 #include "extract/time_course_table.h"
 #include "extract/virtual_cells.h"
@@ -60,7 +61,7 @@ std::size_t synth(const std::string& text, const std::string& name, const std::v
   const RecordingProvenance provenance{std::string("rheocyte ") + version, text};
   struct Stopped {};
   return interruptible([&](const std::atomic<bool>& stop) -> std::size_t {
-    const auto shapes = virtual_cells(spec, std::filesystem::path(name).parent_path());
+    const auto shapes = virtual_cells(spec, to_path(name).parent_path());
     AtomicFile file(place);
     try {
       const auto made = write_virtual_recording(spec, *shapes, provenance, file.scratch(), [&](double share) {

@@ -13,6 +13,7 @@
 
 #include "case/user_error.h"
 #include "extract/options.h"
+#include "python/shared_memory.h"
 #include "store/isolated.h"
 
 namespace rheocyte {
@@ -25,10 +26,6 @@ inline void tell(const PythonProgress& progress, double share) {
   const pybind11::gil_scoped_acquire acquired;
   (*progress)(share);
 }
-
-/// Addresses that this process has taken, in bytes: what libraries of others have reserved does not count as memory
-/// that reading needs.
-std::size_t taken_addresses();
 
 /// What work(report_progress) returns in a child, as bytes (store/bytes.h); nothing if it was stopped. UserError for
 /// what is wrong with the file, and if HDF5 broke down on it or was silent for too long. What `progress` throws ends

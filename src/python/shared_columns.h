@@ -8,6 +8,8 @@
 #include <tuple>
 #include <vector>
 
+#include "python/shared_memory.h"
+
 namespace rheocyte {
 
 /// One that was written; whole numbers of one byte, or 64-bit ones.
@@ -23,14 +25,9 @@ struct SharedColumn {
   }
 };
 
+/// Constructing it throws std::system_error if there is no memory to share.
 class SharedColumns {
  public:
-  /// std::system_error if there is no memory to share.
-  SharedColumns();
-  ~SharedColumns();
-  SharedColumns(const SharedColumns&) = delete;
-  SharedColumns& operator=(const SharedColumns&) = delete;
-
   /// In the child: behind what was written before.
   void write(std::span<const double> column) const;
   void write(std::span<const std::int8_t> column) const;
@@ -40,8 +37,7 @@ class SharedColumns {
   pybind11::tuple arrays(const std::vector<SharedColumn>& columns, std::size_t length) const;
 
  private:
-  void append(const void* data, std::size_t size) const;
-  int descriptor_;
+  SharedMemory memory_;
 };
 
 }  // namespace rheocyte

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,10 +9,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <utility>
 
 #include "store/last_line.h"
+#include "store/process_start.h"
 #include "store/stop_signal.h"
 
 namespace rheocyte {
@@ -29,7 +28,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 
 // What becomes of the new process between fork and exec: only calls that are safe there.
 [[noreturn]] void become(char* const* arguments, int input, int output, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGUSR1);
+  end_with_parent(SIGUSR1);
   if (::getppid() != parent) ::_exit(1);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
   // Away from 0, 1 and 2 first: they are ours if we were started without standard input or output.
@@ -39,7 +38,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   ::dup2(output, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
   ::execvp(arguments[0], arguments);
-  ::dprintf(STDERR_FILENO, "%s: %s\n", arguments[0], ::strerrordesc_np(errno));
+  ::dprintf(STDERR_FILENO, "%s: %s\n", arguments[0], error_text(errno));
   ::_exit(127);
 }
 
@@ -50,7 +49,7 @@ void close(int& descriptor) {
 // A program that has ended already does not read: that is told by its end, not by a signal here.
 void send(int socket, std::string_view text) {
   while (!text.empty()) {
-    const ssize_t count = ::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
+    const ssize_t count = ::send(socket, text.data(), text.size(), without_signal);
     if (count < 0 && errno != EINTR) return;
     if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
   }
@@ -95,8 +94,8 @@ struct ChildProcess::Running {
 ChildProcess::ChildProcess(std::vector<std::string> arguments) : running_(std::make_unique<Running>()) {
   const auto pointers = pointers_to(arguments);
   int inputs[2], outputs[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, inputs) != 0) return;
-  if (::pipe2(outputs, O_CLOEXEC) == 0) {
+  if (make_sockets(inputs) != 0) return;
+  if (make_pipe(outputs) == 0) {
     const pid_t parent = ::getpid();
     running_->child = ::fork();
     if (running_->child == 0) become(pointers.data(), inputs[0], outputs[1], parent);

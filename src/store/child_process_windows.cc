@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "case/to_path.h"
 #include "store/child_process.h"
 #include "store/environment.h"
 #include "store/last_line.h"
@@ -36,7 +37,7 @@ std::wstring command_line_of(const std::vector<std::string>& arguments) {
 
 /// Where a shell would find it; Windows itself would look into the current folder before.
 std::filesystem::path program_of(const std::vector<std::string>& arguments) {
-  std::filesystem::path program(arguments[0]);
+  std::filesystem::path program = to_path(arguments[0]);
   return program.has_parent_path() ? program : program_in_path(arguments[0]);
 }
 

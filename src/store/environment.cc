@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 
+#include "case/to_path.h"
+
 namespace rheocyte {
 
 namespace fs = std::filesystem;
@@ -20,7 +22,7 @@ fs::path prefix_of_program(const fs::path& program) { return program.parent_path
 
 fs::path program_in_path(const std::string& name) {
   for (const auto& folder : folders_in("PATH"))
-    if (fs::path program = folder / name; ::access(program.c_str(), X_OK) == 0) return program;
+    if (fs::path program = folder / to_path(name); ::access(program.c_str(), X_OK) == 0) return program;
   return {};
 }
 

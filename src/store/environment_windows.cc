@@ -1,5 +1,6 @@
 #include <windows.h>
 
+#include "case/to_path.h"
 #include "store/environment.h"
 #include "store/windows_errors.h"
 
@@ -18,7 +19,7 @@ std::string environment(const char* variable) {
 fs::path program_in_path(const std::string& name) {
   std::error_code error;
   for (const auto& folder : folders_in("PATH"))
-    if (fs::path program = folder / (name + ".exe"); fs::is_regular_file(program, error)) return program;
+    if (fs::path program = folder / to_path(name + ".exe"); fs::is_regular_file(program, error)) return program;
   return {};
 }
 

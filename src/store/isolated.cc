@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,6 +22,7 @@
 
 #include "case/user_error.h"
 #include "store/child_process.h"
+#include "store/process_start.h"
 #include "store/stop_signal.h"
 #include "store/system_limit.h"
 
@@ -100,7 +100,7 @@ class SignalsHeldBack {
 
 [[noreturn]] void be_the_child(const std::function<std::string(const TellProgress&)>& work, const Isolation& limits,
                                int pipe, const SignalsHeldBack& signals) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  end_with_parent(SIGKILL);
   // A terminal sends its signals to all processes. The parent answers them; a child that died of them would look like
   // one that broke down.
   for (const int signal : stopping_signals) std::signal(signal, SIG_IGN);
@@ -209,7 +209,7 @@ class IsolatedPool::Run {
   Run(const IsolatedWork& work, Isolation limits, TellProgress on_progress, OnEnd on_end)
       : limits_(std::move(limits)), on_progress_(std::move(on_progress)), on_end_(std::move(on_end)) {
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) throw SystemLimit("open files", errno);
+    if (make_pipe(ends) != 0) throw SystemLimit("open files", errno);
     std::fflush(nullptr);
     const SignalsHeldBack signals;
     child_ = ::fork();

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "case/to_path.h"
 #include "store/renames.h"
 
 namespace rheocyte {
@@ -16,7 +17,7 @@ int rename_to_new(const fs::path& from, const fs::path& to) {
 }
 
 int exchange_names(const fs::path& one, const fs::path& other) {
-  const fs::path aside = one.string() + ".aside";
+  const fs::path aside = to_path(one.string() + ".aside");
   const bool done = ::rename(other.c_str(), aside.c_str()) == 0 && ::rename(one.c_str(), other.c_str()) == 0 &&
                     ::rename(aside.c_str(), one.c_str()) == 0;
   return done ? 0 : errno;

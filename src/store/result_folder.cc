@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "case/refuse_path.h"
+#include "case/to_path.h"
 #include "store/atomic_file.h"
 #include "store/read_file.h"
 #include "store/renames.h"
@@ -144,7 +145,7 @@ ResultFolder::ResultFolder(const fs::path& folder) : folder_(resolved(folder)) {
 ResultFolder::~ResultFolder() { remove_scratch(scratch_); }
 
 void ResultFolder::write(const std::string& file_name, std::string_view content) const {
-  if (const int failed = write_part(scratch_.path / file_name, content))
+  if (const int failed = write_part(scratch_.path / to_path(file_name), content))
     refuse_path(folder_,
                 fmt::format("cannot write {} ({}); an older result is left as it was.", file_name, reason_of(failed)));
 }

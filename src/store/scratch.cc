@@ -10,6 +10,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "case/to_path.h"
 #include "numeric/fingerprint.h"
 #include "store/system_files.h"
 
@@ -57,8 +58,8 @@ Scratch new_scratch(const fs::path& wanted, Claiming (*make)(const fs::path&)) {
 fs::path scratch_beside(const fs::path& wanted) {
   std::random_device random;  // the system's, not a series from a seed
   const auto number = std::uint64_t{random()} << 32U | random();
-  return wanted.parent_path() / fmt::format(".{:.200}{}{}{:0{}x}", wanted.filename().string(), infix, this_machine(),
-                                            number & 0xffff'ffff'ffffU, random_digits);
+  return wanted.parent_path() / to_path(fmt::format(".{:.200}{}{}{:0{}x}", wanted.filename().string(), infix,
+                                                    this_machine(), number & 0xffff'ffff'ffffU, random_digits));
 }
 
 fs::path place_of(const fs::path& scratch) {
@@ -69,7 +70,7 @@ fs::path place_of(const fs::path& scratch) {
   // Versions up to 0.2 wrote the random digits alone.
   const bool is_hidden =
       is_digits(digits) && (digits.size() == random_digits || digits.size() == machine_digits + random_digits);
-  return is_hidden ? scratch.parent_path() / name.substr(1, end - 1) : scratch;
+  return is_hidden ? scratch.parent_path() / to_path(name.substr(1, end - 1)) : scratch;
 }
 
 void remove_left_over_files(const fs::path& folder) {

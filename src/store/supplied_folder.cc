@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "case/to_path.h"
+
 namespace rheocyte {
 
 std::filesystem::path program_folder() {
@@ -24,14 +26,14 @@ std::filesystem::path own_folder() {
                                RTLD_DL_LINKMAP) != 0;
   if (!found || entry == nullptr || *entry->l_name == '\0') return program_folder();
   std::error_code error;
-  return std::filesystem::weakly_canonical(entry->l_name, error).parent_path();
+  return std::filesystem::weakly_canonical(to_path(entry->l_name), error).parent_path();
 }
 
 }  // namespace
 
 std::filesystem::path supplied_folder(const char* variable, const std::filesystem::path& installed,
                                       const std::filesystem::path& source) {
-  if (const char* given = std::getenv(variable)) return given;
+  if (const char* given = std::getenv(variable)) return to_path(given);
   const std::filesystem::path place = own_folder() / installed;
   std::error_code error;
   return std::filesystem::exists(place, error) ? place : source;

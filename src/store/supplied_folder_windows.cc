@@ -3,9 +3,9 @@
 #include <string>
 #include <system_error>
 
+#include "case/to_path.h"
 #include "store/environment.h"
 #include "store/supplied_folder.h"
-#include "store/utf8_paths.h"
 
 namespace rheocyte {
 
@@ -19,7 +19,7 @@ fs::path program_folder() {
 
 /// The program stands beside the folder `share`, not in a folder beside it.
 fs::path supplied_folder(const char* variable, const fs::path& installed, const fs::path& source) {
-  if (const std::string given = environment(variable); !given.empty()) return given;
+  if (const std::string given = environment(variable); !given.empty()) return to_path(given);
   const fs::path place = program_folder() / installed.lexically_relative("..");
   std::error_code error;
   return fs::exists(place, error) ? place : source;

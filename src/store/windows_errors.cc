@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "case/to_path.h"
+
 namespace rheocyte {
 
 int last_error() {
@@ -26,9 +28,12 @@ int last_error() {
   return condition.category() == std::generic_category() && condition.value() != 0 ? condition.value() : EIO;
 }
 
-std::wstring wide(const std::string& utf8) { return std::filesystem::path(utf8).wstring(); }
+std::wstring wide(const std::string& utf8) { return to_path(utf8).wstring(); }
 
-std::string narrow(const wchar_t* text) { return std::filesystem::path(text).string(); }
+std::string narrow(const wchar_t* text) {
+  const std::u8string utf8 = std::filesystem::path(text).u8string();
+  return {utf8.begin(), utf8.end()};
+}
 
 void pause_ms(int milliseconds) { ::Sleep(static_cast<DWORD>(milliseconds)); }
 

@@ -1,9 +1,6 @@
 // Numbers of errors as POSIX has them (errno), and texts as Windows has them.
 #pragma once
-#include <filesystem>
 #include <string>
-
-#include "store/utf8_paths.h"
 
 namespace rheocyte {
 

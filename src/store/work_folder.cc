@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "case/refuse_path.h"
+#include "case/to_path.h"
 #include "store/atomic_file.h"
 #include "store/read_file.h"
 #include "store/scratch.h"
@@ -84,7 +85,7 @@ void WorkFolder::begin() const {
     refuse_path(folder_, "holds other files; give a new or empty folder with -o.");
   const Claim alone = locked(folder_ / beginning, IfHeld::wait);
   if (is_begun()) return;
-  fs::create_directories(folder_ / wanted_.pieces, error);
+  fs::create_directories(pieces(), error);
   if (error) refuse_path(folder_, fmt::format("cannot be made ({}).", error.message()));
   write_whole(folder_ / spec_file, wanted_.spec);
   write_whole(folder_ / mark_file, wanted_.mark);
@@ -106,15 +107,15 @@ void WorkFolder::take_over() const {
 }
 
 void WorkFolder::publish(const std::string& name, std::string_view content) const {
-  write_whole(folder_ / name, content);
+  write_whole(folder_ / to_path(name), content);
 }
 
 void WorkFolder::tidy() const {
   std::error_code error;
-  for (const auto& place : {folder_ / wanted_.pieces, folder_})
+  for (const auto& place : {pieces(), folder_})
     for (const auto& entry : fs::directory_iterator(place, error))
       if (entry.path().extension() == ".claim") fs::remove(entry.path(), error);
-  for (const auto& place : {folder_ / wanted_.pieces, folder_}) remove_left_over_files(place);
+  for (const auto& place : {pieces(), folder_}) remove_left_over_files(place);
 }
 
 }  // namespace rheocyte

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "case/to_path.h"
 #include "store/claim.h"
 
 namespace rheocyte {
@@ -25,7 +26,7 @@ class WorkFolder {
 
   const std::filesystem::path& path() const { return folder_; }
   /// The file of a record, for sentences.
-  std::filesystem::path record(const std::string& name) const { return folder_ / wanted_.pieces / name; }
+  std::filesystem::path record(const std::string& name) const { return pieces() / to_path(name); }
 
   /// Nothing while another process holds it. UserError if the file system knows no locks.
   Claim claim(const std::string& piece) const;
@@ -46,6 +47,8 @@ class WorkFolder {
   bool is_begun() const;
   bool holds_the_spec() const;
   void begin() const;
+
+  std::filesystem::path pieces() const { return folder_ / to_path(wanted_.pieces); }
 
   std::filesystem::path folder_;
   WantedWork wanted_;

@@ -8,6 +8,7 @@
 #include "case/case_text.h"
 #include "case/joined.h"
 #include "case/refuse_path.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "store/read_file.h"
 #include "synth/analytic_shapes.h"
@@ -140,7 +141,7 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   spec.made_of = cells_of(folder.spec().base);
   if (folder.spec().is_combined()) return shapes_of_combined_table(spec, folder);
   if (folder.spec().is_elongated()) {
-    const fs::path file = spec.table / elongated_file_name(folder.spec().identifier);
+    const fs::path file = spec.table / to_path(elongated_file_name(folder.spec().identifier));
     if (!fs::exists(file, error)) refuse_path(spec.table, "is not finished; let `rheocyte table` go on.");
     return shapes_of_elongated(spec, file);
   }

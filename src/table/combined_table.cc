@@ -7,6 +7,7 @@
 #include <span>
 
 #include "case/joined.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "numeric/number_from_chars.h"
 #include "store/read_file.h"
@@ -249,7 +250,7 @@ CombinedTable read_combined_table(const std::filesystem::path& folder) {
   const TableSpec spec = read_table_spec(folder / "spec.toml");
   if (!spec.is_combined())
     refuse("its cells differ in one modulus only; several moduli need a table with table.cortex_share.");
-  const auto path = folder / combined_table_name(spec);
+  const auto path = folder / to_path(combined_table_name(spec));
   if (!std::filesystem::exists(path, error))
     refuse(fmt::format("there is no {}; let `rheocyte table` finish it.", combined_table_name(spec)));
   return parse_combined_table(spec, content_of_file(path, largest), path.string());

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "serve/json_member.h"
 #include "store/atomic_file.h"
@@ -24,8 +25,8 @@ constexpr int most_exports = 4;
 
 bool is_file_name(std::string_view name) {
   const auto is_odd = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
-  return !name.empty() && name.size() <= longest_name && name.front() != '.' && fs::path(name).filename() == name &&
-         std::ranges::none_of(name, is_odd);
+  return !name.empty() && name.size() <= longest_name && name.front() != '.' &&
+         to_path(name).filename() == to_path(name) && std::ranges::none_of(name, is_odd);
 }
 
 bool is_same_and_unchanged(const FileFacts& a, const FileFacts& b) {
@@ -56,7 +57,7 @@ ExportPlace ExportFolder::claim(std::string_view name, ExportKind kind) {
                   fmt::format("{} is not a name for a file: give one without folders that does not begin "
                               "with a point.",
                               one_line(name, 60)));
-  return {*this, (folder_ / name).lexically_normal(), kind};
+  return {*this, (folder_ / to_path(name)).lexically_normal(), kind};
 }
 
 void ExportFolder::check(const fs::path& path, ExportKind kind) const {

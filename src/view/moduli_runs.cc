@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "case/json_guard.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "serve/http.h"
 #include "store/file_version.h"
@@ -59,7 +60,7 @@ void ModuliRuns::Run::end(Json said, const std::string& failure) {
   state = failure.empty() ? "ready" : "failed";
   error = failure;
   if (failure.empty()) done = 1;
-  for (const Json& file : said.value("basins", Json::array())) files.emplace_back(file.get<std::string>());
+  for (const Json& file : said.value("basins", Json::array())) files.push_back(to_path(file.get<std::string>()));
   version += said.value("version_of_basins", std::string());
   for (const char* key : {"basins", "version_of_basins"}) said.erase(key);
   report = std::move(said);
@@ -84,10 +85,10 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options, const Cl
   if (!combined.empty()) run->command_several = moduli_command(moduli_options(options, combined), found.place.path);
   take_out(item);
   const std::scoped_lock lock(mutex_);
-  const fs::path stem = items_.host().folder() / fmt::format("item-{}-{}", item, ++started_);
-  run->files = {found.place.path, options.table, combined};
-  run->companion = stem.string() + "_rheocyte.rtdc";
-  if (!combined.empty()) run->several = stem.string() + "_moduli.rtdc";
+  const fs::path stem = items_.host().folder() / to_path(fmt::format("item-{}-{}", item, ++started_));
+  run->files = {found.place.path, to_path(options.table), combined};
+  run->companion = to_path(stem.string() + "_rheocyte.rtdc");
+  if (!combined.empty()) run->several = to_path(stem.string() + "_moduli.rtdc");
   const Json request{{"do", "moduli"},
                      {"file", path_text(found.place.path)},
                      {"settings", run->settings},

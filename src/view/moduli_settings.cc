@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "extract/polygon_file.h"
 #include "extract/recording_settings.h"
@@ -59,7 +60,7 @@ ModuliOptions moduli_options(const ExtractOptions& options, const std::filesyste
 }
 
 Json all_settings(ExtractOptions options) {
-  options.table = path_text(options.table);
+  options.table = path_text(to_path(options.table));
   return given_settings(settings_of(options));
 }
 

@@ -1,5 +1,6 @@
 #include "view/path_text.h"
 
+#include "case/to_path.h"
 #include "case/utf8.h"
 
 namespace rheocyte {
@@ -56,7 +57,7 @@ std::filesystem::path path_of_text(std::string_view text) {
                      : text[at];
     at += is_byte ? escape_length : 1;
   }
-  return bytes;
+  return to_path(bytes);
 }
 
 }  // namespace rheocyte

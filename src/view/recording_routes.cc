@@ -8,6 +8,7 @@
 
 #include "case/json_guard.h"
 #include "case/split.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "store/file_version.h"
 #include "view/moduli_runs.h"
@@ -27,7 +28,7 @@ class PassingFolder {
  public:
   explicit PassingFolder(const WorkHost& host) {
     static std::atomic<int> made{0};
-    path_ = host.folder() / ("export-" + std::to_string(++made));
+    path_ = host.folder() / to_path("export-" + std::to_string(++made));
     std::error_code error;
     if (!fs::create_directory(path_, error))
       throw UserError("No folder for temporary files can be made; is the disk full?");
@@ -38,7 +39,7 @@ class PassingFolder {
   }
   PassingFolder(const PassingFolder&) = delete;
   PassingFolder& operator=(const PassingFolder&) = delete;
-  std::string operator/(const char* name) const { return path_text(path_ / name); }
+  std::string operator/(const char* name) const { return path_text(path_ / to_path(name)); }
 
  private:
   fs::path path_;

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "case/json_guard.h"
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "extract/modulus_tables.h"
 #include "serve/http.h"
@@ -32,7 +33,7 @@ std::string label_in(const Json& labels, const char* name, const std::string& be
 void take_basins(ViewItems::Item& item) {
   if (!item.description.contains("basins")) return;
   for (const Json& file : item.description["basins"]) {
-    item.files.emplace_back(file.get<std::string>());
+    item.files.push_back(to_path(file.get<std::string>()));
     item.version += file_version(item.files.back());
   }
   item.description.erase("basins");

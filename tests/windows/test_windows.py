@@ -1,5 +1,6 @@
 """The program for Windows under wine against that of this machine: the same files, numbers and sentences; and what Windows
-alone has. python3 -m unittest, in this folder; skips where there is no wine, or no program (tools/windows)."""
+alone has. python3 -m unittest, in this folder; skips where there is no wine, or no program (tools/windows). All kinds of files
+have names with umlauts: each path from a text must be made as case/to_path.h does it."""
 
 import json
 import os
@@ -57,6 +58,7 @@ class OnBoth(unittest.TestCase):
         cls.here, cls.there = cls.place / "native", cls.place / "windows"
         for folder in (cls.here, cls.there):
             shutil.copytree(TOP / "examples", folder / "examples")
+            shutil.copy(TOP / "examples/tables/first-table.toml", folder / "Tafel für mich.toml")
 
     @classmethod
     def tearDownClass(cls):
@@ -81,7 +83,7 @@ class TestCells(OnBoth):
         """Thirty cells have the same states, outlines and fields."""
         for number, (name, changes) in enumerate(CELLS):
             with self.subTest(name=name, changes=changes):
-                out = f"cell-{number}"
+                out = f"Größe-{number}"
                 self.both("solve", f"examples/{name}.toml", *setting(changes), "-o", out, "--no-picture", "--quiet")
                 differences = Differences(WITHIN_TOLERANCE.get(name, STATES))
                 differences.files(self.here / out, self.there / out)
@@ -90,14 +92,14 @@ class TestCells(OnBoth):
     def test_closed_results(self):
         """The analytical model, scaled tables, and plans agree to the limit of double precision."""
         differences = Differences(CLOSED)
-        calls = [["analytic", "cell", "--radius-um", "6", "--young-modulus-kPa", "5", "-o", "contour.csv", "--json"],
-                 ["analytic", "cell", "--radius-um", "6", "--cortex-modulus-mN-m", "20", "-o", "shell.csv", "--json"],
-                 ["scale", "LE-2D-26", "-o", "scaled.txt", "--channel-width-um", "30", "--inexact"],
-                 ["scale", "HE-3D-26", "-o", "lines.txt", "--lines"]]
+        calls = [["analytic", "cell", "--radius-um", "6", "--young-modulus-kPa", "5", "-o", "Umriß.csv", "--json"],
+                 ["analytic", "cell", "--radius-um", "6", "--cortex-modulus-mN-m", "20", "-o", "Hülle.csv", "--json"],
+                 ["scale", "LE-2D-26", "-o", "größer.txt", "--channel-width-um", "30", "--inexact"],
+                 ["scale", "HE-3D-26", "-o", "Linien-ü.txt", "--lines"]]
         for words in calls:
             ours, theirs = self.both(*words)
             differences.table(words[0], ours.stdout.decode(), theirs.stdout.decode())
-        for name in ("contour.csv", "shell.csv", "scaled.txt", "lines.txt"):
+        for name in ("Umriß.csv", "Hülle.csv", "größer.txt", "Linien-ü.txt"):
             differences.file(name, self.here / name, self.there / name)
         self.assert_same(differences)
 
@@ -119,18 +121,18 @@ class TestRecordings(OnBoth):
     def setUpClass(cls):
         super().setUpClass()
         for number, changes in enumerate(RECORDINGS):
-            out = f"r{number}.rtdc"
+            out = f"Prüfung-{number}.rtdc"
             made = cls.native.call("synth", "examples/recordings/virtual-cells.toml", "-o", out, *setting(changes), "--set",
                                    "recording.cells=150", cwd=cls.here)
             assert made.returncode == 0, made.stderr.decode()
             shutil.copy(cls.here / out, cls.there)
-        cls.all = [f"r{number}.rtdc" for number in range(len(RECORDINGS))]
+        cls.all = [f"Prüfung-{number}.rtdc" for number in range(len(RECORDINGS))]
 
     def test_synth(self):
         """Virtual recordings have the same cells and outlines."""
         differences = Differences(CLOSED)
         for number, changes in enumerate(RECORDINGS):
-            out = f"synth-{number}.rtdc"
+            out = f"künstlich-{number}.rtdc"
             self.both("synth", "examples/recordings/virtual-cells.toml", "-o", out, *setting(changes), "--set",
                       "recording.cells=40")
             for folder in (self.here, self.there):
@@ -143,30 +145,30 @@ class TestRecordings(OnBoth):
         """Moduli by tables of the square and the tube, features, populations: the same numbers and sentences."""
         calls = {"square": ["extract", *self.all], "tube": ["extract", *self.all, "--section", "tube"],
                  "features": ["features", *self.all],
-                 "population": ["population", "--condition", "a=r0.rtdc,r1.rtdc", "--condition", "b=r6.rtdc,r8.rtdc",
-                                "--no-picture"]}
+                 "population": ["population", "--condition", "ä=Prüfung-0.rtdc,Prüfung-1.rtdc", "--condition",
+                                "ö=Prüfung-6.rtdc,Prüfung-8.rtdc", "--no-picture"]}
         differences = Differences(CLOSED)
         for name, words in calls.items():
             with self.subTest(name):
-                ours, theirs = self.both(*words, "-o", name)
+                ours, theirs = self.both(*words, "-o", f"{name}-ä")
                 differences.table(name, ours.stdout.decode(), theirs.stdout.decode())
                 differences.table(f"{name}, errors", ours.stderr.decode(), theirs.stderr.decode())
-                differences.files(self.here / name, self.there / name)
+                differences.files(self.here / f"{name}-ä", self.there / f"{name}-ä")
         self.assert_same(differences)
 
     def test_moduli_of_bulk_and_cortex(self):
         """Moduli from outlines differ by less than a third of their errors: what pixels do to a cell is drawn by random numbers
         that the last digit of its area chooses."""
-        self.both("moduli", *self.all[:3], "-o", "moduli")
+        self.both("moduli", *self.all[:3], "-o", "Module-ä")
         for name in self.all[:3]:
-            ours, theirs = (json.loads((folder / "moduli" / name.replace(".rtdc", "_moduli.json")).read_text())
+            ours, theirs = (json.loads((folder / "Module-ä" / name.replace(".rtdc", "_moduli.json")).read_text())
                             for folder in (self.here, self.there))
             one, other = ours["stiffness_kPa"], theirs["stiffness_kPa"]
             self.assertLess(abs(one["median"] - other["median"]), one["median_error"] / 3)
 
     def test_companion(self):
         """Both write one companion file, of the same size but for what two versions of HDF5 write differently."""
-        self.both("extract", "r0.rtdc", "-o", "companion")
+        self.both("extract", "Prüfung-0.rtdc", "-o", "companion")
         names = [file.name for file in (self.here / "companion").glob("*.rtdc")]
         self.assertEqual(len(names), 1)
         for name in names:
@@ -179,21 +181,21 @@ class TestRecordings(OnBoth):
         folder.mkdir()
         shutil.copy(TOP / "data" / "dynamic_HE-chip-26.cbor", folder)
         shutil.copy(TOP / "examples/tables/dynamic-chip.toml", folder / "spec.toml")
-        words = ["synth", "examples/recordings/virtual-cells.toml", "-o", "way.rtdc", *setting([
+        words = ["synth", "examples/recordings/virtual-cells.toml", "-o", "Läufe.rtdc", *setting([
             "recording.cells=30", "recording.places_um=[20, 60, 120, 200, 300]", "cell.viscosity_mPas=1000",
             f"shapes.table={folder}", "cell.bulk.young_modulus_kPa.mean=0.8"])]
         made = self.native.call(*words, cwd=self.here)
         if made.returncode != 0:
             self.fail(made.stderr.decode())
-        shutil.copy(self.here / "way.rtdc", self.there)
-        self.both("time-course", "way.rtdc", "--contraction-um", "0", "-o", "cells.tsv")
+        shutil.copy(self.here / "Läufe.rtdc", self.there)
+        self.both("time-course", "Läufe.rtdc", "--contraction-um", "0", "-o", "Zellen-ü.tsv")
         differences = Differences(CLOSED)
-        differences.file("cells.tsv", self.here / "cells.tsv", self.there / "cells.tsv")
+        differences.file("Zellen-ü.tsv", self.here / "Zellen-ü.tsv", self.there / "Zellen-ü.tsv")
         self.assert_same(differences)
 
 
 class TestTables(OnBoth):
-    SMALL = ["table", "examples/tables/first-table.toml", "--no-picture", *setting(
+    SMALL = ["table", "Tafel für mich.toml", "--no-picture", *setting(
         ["table.radii=4", "table.rows_per_radius=20", "table.accuracy=1e-2"])]
 
     def same_tables(self, one, other, limit=STATES):
@@ -207,8 +209,8 @@ class TestTables(OnBoth):
 
     def test_table(self):
         """A table by several threads has the same rows."""
-        self.both(*self.SMALL, "-o", "table", "--jobs", "3")
-        self.same_tables(self.here / "table", self.there / "table", NEARLY_UNSTABLE)
+        self.both(*self.SMALL, "-o", "Täfelchen", "--jobs", "3")
+        self.same_tables(self.here / "Täfelchen", self.there / "Täfelchen", NEARLY_UNSTABLE)
 
     def test_killed_table_goes_on(self):
         """What a killed call has finished is kept, and the table is the same as without the kill."""
@@ -335,17 +337,17 @@ class TestView(OnBoth):
 
     def test_view(self):
         """The view answers on states, events, pictures and moduli as it does here."""
-        made = self.native.call("synth", "examples/recordings/virtual-cells.toml", "-o", "cells.rtdc", "--set",
+        made = self.native.call("synth", "examples/recordings/virtual-cells.toml", "-o", "Zellen-ö.rtdc", "--set",
                                 "recording.cells=50", cwd=self.here)
         self.assertEqual(made.returncode, 0, made.stderr)
-        shutil.copy(self.here / "cells.rtdc", self.there)
+        shutil.copy(self.here / "Zellen-ö.rtdc", self.there)
         shown = self.native.call("solve", "examples/paper-cell.toml", "--check", "--json", "--set", "numerics.accuracy=1e-2",
                                  cwd=self.here)
         case = json.loads(shown.stdout)["case"]
         item = "/api/items/0"
         requests = [("/api/state", case), (f"{item}/events?features=area_um,deform", None),
                     (f"{item}/events/3", None), (f"{item}/events/3/image", None), ("/api/features", None), ("/", None)]
-        words = ["view", "--no-browser", "cells.rtdc"]
+        words = ["view", "--no-browser", "Zellen-ö.rtdc"]
         answers = []
         for start, folder in ((self.native.start, self.here), (self.wine.start, self.there)):
             process = start(*words, cwd=folder)
