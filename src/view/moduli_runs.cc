@@ -13,6 +13,7 @@
 #include "case/user_error.h"
 #include "serve/http.h"
 #include "store/file_version.h"
+#include "store/system_limit.h"
 #include "store/thread.h"
 #include "view/moduli_settings.h"
 #include "view/page_words.h"
@@ -83,7 +84,6 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options, const Cl
   const fs::path combined = items_.combined();
   if (!combined.empty()) run->command_several = moduli_command(moduli_options(options, combined), found.place.path);
   take_out(item);
-  const std::scoped_lock lock(mutex_);
   const fs::path stem = items_.host().folder() / fmt::format("item-{}-{}", item, ++started_);
   run->files = {found.place.path, options.table, combined};
   run->companion = stem.string() + "_rheocyte.rtdc";
@@ -97,10 +97,19 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options, const Cl
                      {"keep", true}};
   // A client whose request was answered with a thread begun waits for nothing.
   const Client* const waits = has_threads ? nullptr : client;
-  run->thread =
-      Thread([this, &run = *run, request, waits](const std::stop_token& stop) { compute(run, request, stop, waits); },
-             small_stack);
-  runs_[item] = run;
+  // Before it begins: without threads its state is asked for while it is made.
+  {
+    const std::scoped_lock lock(mutex_);
+    runs_[item] = run;
+  }
+  try {
+    run->thread =
+        Thread([this, &run = *run, request, waits](const std::stop_token& stop) { compute(run, request, stop, waits); },
+               small_stack);
+  } catch (const SystemLimit&) {
+    take_out(item);
+    throw;
+  }
 }
 
 void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& stop, const Client* client) {
