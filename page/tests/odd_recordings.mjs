@@ -22,7 +22,7 @@ const names = ['Zellen \u00e4\u00f6\u00fc \u00df.rtdc', 'no ending', 'two  blank
 /** Their paths; the last one is sound. */
 export async function oddRecordings(folder) {
   await mkdir(folder);
-  const sound = join(folder, 'source of all');
+  const sound = join(folder, 'source of all.rtdc');
   await synthesise(sound, ['recording.cells=30', 'recording.seed=12']);
   const bytes = await readFile(sound);
   const contents = [

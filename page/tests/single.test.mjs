@@ -9,7 +9,7 @@ import { fileURLToPath } from 'node:url';
 import { moveSlider, shownDeformation } from './cell_page.mjs';
 import { synthesise } from './prepared.mjs';
 import { computeModuli, drawn } from './recordings_page.mjs';
-import { answer, answered, exported, give, inPage, run, scratch, skip } from './single_page.mjs';
+import { answer, answered, computed, exported, give, inPage, run, scratch, skip } from './single_page.mjs';
 import { program } from './target.mjs';
 
 const example = (name) => fileURLToPath(new URL(`../../examples/${name}.toml`, import.meta.url));
@@ -126,7 +126,7 @@ test('Moduli that are stopped take none with them that were computed before', { 
     await synthesise(many, ['recording.cells=3000', 'recording.seed=8', 'recording.pictures="none"']);
     await give(page, few, many);
     await drawn(page);
-    await answered(page, '/api/items/0/moduli', {});
+    assert.equal((await computed(page, 0)).state, 'ready');
     const [status] = await answer(page, '/api/items/1/moduli', { method: 'POST', body: {} });
     assert.equal(status, 202);
     assert.equal((await answer(page, '/api/items/1/moduli', { method: 'DELETE' }))[1].state, 'none');

@@ -9,7 +9,7 @@ import { after, before } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { promisify } from 'node:util';
 import { openWindow, skip as noPage } from './browser.mjs';
-import { settled } from './cell_page.mjs';
+import { settled, until } from './cell_page.mjs';
 
 const file = fileURLToPath(new URL('../../build/rheocyte.html', import.meta.url));
 export const address = pathToFileURL(file).href;
@@ -47,6 +47,17 @@ export const answer = (page, path, { method = 'GET', body } = {}) =>
 /** The content alone, of GET or of POST. */
 export const answered = async (page, path, body) =>
   (await answer(page, path, body === undefined ? {} : { method: 'POST', body }))[1];
+
+/** The state of the moduli of an item after they have been computed; null if the program broke down meanwhile. */
+export async function computed(page, item) {
+  const path = `/api/items/${item}/moduli`;
+  let state = await answered(page, path, {}).catch(() => null);
+  await until(async () => {
+    if (state?.state === 'running') state = await answered(page, path).catch(() => null);
+    return state?.state !== 'running';
+  });
+  return state;
+}
 
 export async function give(page, ...files) {
   await page.getByRole('button', { name: 'Recordings', exact: true }).click();

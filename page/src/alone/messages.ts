@@ -40,8 +40,8 @@ export type FromWorker =
   | { kind: 'head'; id: number; status: number; headers: Record<string, string> }
   | { kind: 'piece'; id: number; piece: Uint8Array }
   | { kind: 'end'; id: number; saved?: Saved }
-  /** What GET of the same address would answer while it is computed: how far that has come. */
-  | { kind: 'state'; id: number; state: string }
+  /** A sign of life; `state` is what GET of the same address would answer meanwhile: how far it has come. */
+  | { kind: 'works'; id: number; state?: string }
   /** The file of this place among those given together is read now. */
   | { kind: 'opens'; id: number; place: number }
   /** The number of the item that it has become, if it is one; why it cannot be opened, or nothing. */

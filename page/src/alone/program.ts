@@ -26,8 +26,11 @@ interface Job {
 const patience_ms = 2000, patience_with_files_ms = 10_000;
 const lost = 'Stopped; moduli that were computed before must be computed again.';
 
-/** So long may a file be opened without a sign of life; a damaged one may keep HDF5 busy for ever. */
-const opening_patience_ms = 60_000;
+/** So long may a file be read without a sign of life; a damaged one may keep HDF5 busy for ever. */
+const silence_ms = 60_000;
+const hasBroken = (name: string) => `Reading ${name} broke the program down; it was started again without that file.`;
+const isSilent = (name: string) =>
+  `Nothing could be read of ${name} for ${silence_ms / 1000} s; the program was started again without that file.`;
 const json = { 'Content-Type': 'application/json' };
 const isSession = ({ name }: File) => name.endsWith('.toml');
 const aborted = () => new DOMException('', 'AbortError');
@@ -59,7 +62,8 @@ export class ProgramInPage implements Program {
   private itemFiles = new Map<number, File>();
   /** What was changed of items, to be said again to the next worker. */
   private changes = new Map<string, string>();
-  private opening = 0;
+  /** The timer that ends reading without a sign of life. */
+  private silence = 0;
 
   constructor(
     private readonly parts: Parts,
@@ -156,6 +160,7 @@ export class ProgramInPage implements Program {
     const job = this.queue.shift();
     if (!job) return;
     this.running = job;
+    this.listen();
     const { id, method, target, body, files } = job;
     this.tell(files ? ({ kind: 'open', id, files } satisfies Open) : { kind: 'ask', id, method, target, body });
   }
@@ -170,10 +175,17 @@ export class ProgramInPage implements Program {
     if (!job || job.id !== message.id) return;
     if (message.kind === 'head') this.takeHead(job, message.status, message.headers);
     else if (message.kind === 'piece') this.takePiece(job, message.piece);
-    else if (message.kind === 'state') this.takeState(job, message.state);
-    else if (message.kind === 'opens') this.takeOpens(job, message.place);
+    else if (message.kind === 'works') this.takeState(job, message.state);
+    else if (message.kind === 'opens') job.place = message.place;
     else if (message.kind === 'opened') this.takeOpened(job, message.place, message.item, message.sentence);
     else this.end(job, message.saved);
+    this.listen();
+  }
+
+  /** To the worker, as long as it reads a file. */
+  private listen(): void {
+    window.clearTimeout(this.silence);
+    if (this.running && this.fileOf(this.running)) this.silence = window.setTimeout(() => this.restart('', isSilent), silence_ms);
   }
 
   private takeHead(job: Job, status: number, headers: Record<string, string>): void {
@@ -190,8 +202,8 @@ export class ProgramInPage implements Program {
   }
 
   /** As over HTTP what takes long is answered with its state, which is asked for again until it has ended. */
-  private takeState(job: Job, state: string): void {
-    if (job.isLeft) return;
+  private takeState(job: Job, state: string | undefined): void {
+    if (job.isLeft || state === undefined) return;
     job.state = state;
     job.answered(new Response(state, { status: 202, headers: json }));
     const asks = ({ method, target }: Job) => method === 'GET' && target === job.target;
@@ -199,14 +211,7 @@ export class ProgramInPage implements Program {
     this.queue = this.queue.filter((waiting) => !asks(waiting));
   }
 
-  private takeOpens(job: Job, place: number): void {
-    job.place = place;
-    const end = () => this.restart('', `did not end within ${opening_patience_ms / 1000} s; the program`);
-    this.opening = window.setTimeout(end, opening_patience_ms);
-  }
-
   private takeOpened(job: Job, place: number, item: number | null, sentence: string): void {
-    window.clearTimeout(this.opening);
     if (item !== null) this.itemFiles.set(item, job.files![place]);
     if (sentence !== '') job.sentences.push(sentence);
   }
@@ -223,8 +228,8 @@ export class ProgramInPage implements Program {
     this.next();
   }
 
-  /** The worker has broken down; `what` reading a file has done. */
-  private restart(reason: string, what = 'broke the program down; it'): void {
+  /** The worker has broken down, or is silent. */
+  private restart(reason: string, sentence = hasBroken): void {
     if (!this.isReady) {
       this.worker.terminate();
       const sentence = cannotRun(reason);
@@ -236,9 +241,7 @@ export class ProgramInPage implements Program {
     // In its place stands a file without content: the others keep their numbers.
     this.given = this.given.map((files) => files.map((file) => (file === culprit ? new File([], file.name) : file)));
     this.begin(
-      culprit
-        ? `Reading ${culprit.name} ${what} was started again without that file.`
-        : 'The program broke down and was started again; please report what you did.',
+      culprit ? sentence(culprit.name) : 'The program broke down and was started again; please report what you did.',
     );
   }
 
@@ -251,8 +254,8 @@ export class ProgramInPage implements Program {
   /** Another worker with the same files takes the place of the one before, and answers what waits. */
   private begin(sentence: string | null): void {
     this.worker.terminate();
-    window.clearTimeout(this.opening);
     this.failRunning(sentence ?? 'Stopped.');
+    this.listen();
     const waiting = this.queue;
     this.queue = [];
     this.itemFiles.clear();

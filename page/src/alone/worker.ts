@@ -65,14 +65,15 @@ const isExport = (target: string) => target === '/api/export';
 /** While the program asks whether it should go on, messages are taken: without that it ends with its worker alone. */
 const canPause = pauses.Suspending !== undefined;
 
-const instantiate = (program: WebAssembly.Module) => (imports: WebAssembly.Imports, take: (instance: WebAssembly.Instance) => void) => {
+/** For the loader, which makes of the exports those that it calls. */
+type Take = (instance: WebAssembly.Instance) => WebAssembly.Exports;
+
+const instantiate = (program: WebAssembly.Module) => (imports: WebAssembly.Imports, take: Take) => {
   for (const part of Object.values(imports))
     for (const [key, value] of Object.entries(part))
       if (canPause && (value as { name?: string }).name === 'engine_is_wanted')
         part[key] = new pauses.Suspending!(value) as WebAssembly.ImportValue;
-  const instance = new WebAssembly.Instance(program, imports);
-  take(instance);
-  return instance.exports;
+  return take(new WebAssembly.Instance(program, imports));
 };
 
 function pausing(whole: Compute): Compute {
@@ -115,24 +116,25 @@ const look_every_ms = 100;
 /** Of work whose state can be asked for. */
 const hasState = /^\/api\/items\/\d+\/moduli$/;
 
-/** Asked by the program while it computes, as often as it likes: whether the page still waits. Tells how far it has come. */
+/** Asked by the program while it computes, as often as it likes: whether the page still waits. Tells that it works. */
 function isWanted(): boolean | Promise<boolean> {
   if (isLeft || isLooking || performance.now() - looked < look_every_ms) return !isLeft;
   looked = performance.now();
-  if (hasState.test(target)) tellState();
+  tell({ kind: 'works', id, state: hasState.test(target) ? state() : undefined });
   return canPause ? messageTaken().then(() => !isLeft) : true;
 }
 
 /** The program answers a question within the answer that it computes. */
-function tellState(): void {
+function state(): string | undefined {
   const outer = head;
   text = '';
   isLooking = true;
   engine.ccall('rheocyte_request', null, ['string', 'string', 'number', 'number'], ['GET', target, 0, 0]);
   isLooking = false;
-  if (head.status === 200) tell({ kind: 'state', id, state: text });
+  const found = head.status === 200 ? text : undefined;
   head = outer;
   text = '';
+  return found;
 }
 
 let isHeadSent = false;
